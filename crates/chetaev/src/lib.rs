@@ -1,0 +1,1 @@
+//! The workbench for analytical mechanics with nonholonomic constraints.

@@ -1,0 +1,1 @@
+//! Equations to numeric functions: the flat program and the interpreter.

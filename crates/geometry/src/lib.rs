@@ -1,0 +1,1 @@
+//! What can be concluded about a system without integrating it: integrability, distributions.

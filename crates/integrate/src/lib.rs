@@ -1,0 +1,1 @@
+//! Time stepping of numeric functions; never sees a symbol.

@@ -1,0 +1,1 @@
+//! What the variational principles say of a system.

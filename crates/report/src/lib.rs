@@ -1,0 +1,1 @@
+//! Renders plain data as one self-contained HTML page; knows no mechanics.

@@ -1,0 +1,1 @@
+//! A question asked of a model: run, compare, collect verdicts, render.

@@ -1,0 +1,1 @@
+//! Exact expressions: their calculus, zero testing and printing; owns Verdict. Knows nothing of mechanics.
