@@ -1,0 +1,1 @@
+//! Numbers: exact rationals, prime fields, balls.

@@ -1,0 +1,1 @@
+//! Sparse multivariate polynomials over the rationals and over prime fields.

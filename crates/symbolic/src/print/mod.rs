@@ -1,0 +1,1 @@
+//! Printers of expressions: text, LaTeX, MathML, SymPy.

@@ -1,0 +1,1 @@
+//! Expressions as people write them: lexer, syntax tree with spans, parser, lowering to the graph.

@@ -1,0 +1,1 @@
+//! Zero testing: exact normal form, modular proof, verified refutation.
