@@ -2,8 +2,24 @@
 //!
 //! Nothing here knows mechanics: symbols carry a name and an order of differentiation, and that is all.
 
+pub mod calculus;
+pub mod construct;
+mod digest;
+pub mod evaluate;
+pub mod functions;
+pub mod graph;
+pub mod linear;
+pub mod node;
 pub mod number;
 pub mod polynomial;
 pub mod print;
+pub mod rational;
+pub mod substitute;
 pub mod syntax;
+pub mod verdict;
 pub mod zero;
+
+pub use graph::Graph;
+pub use node::{Expr, Function, Node, Symbol};
+pub use rational::Rational;
+pub use verdict::Verdict;

@@ -1,0 +1,174 @@
+//! Numeric evaluation in double precision: the plain reference, one pass over the graph.
+
+use crate::graph::Graph;
+use crate::node::{Expr, Function, Node, Symbol};
+use crate::rational;
+use rustc_hash::FxHashMap;
+
+/// Why an expression has no double value at a point.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum EvaluateError {
+    /// A symbol was given no value.
+    #[error("no value for `{0}`")]
+    Unbound(String),
+    /// A linear solve met a singular matrix.
+    #[error("a linear system is singular at this point")]
+    Singular,
+}
+
+impl Graph {
+    /// Values of `roots` in double precision; `point` gives the symbols. Undefined operations give NaN or infinity.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] for an unbound symbol or a singular solve.
+    pub fn evaluate_f64(
+        &self,
+        roots: &[Expr],
+        point: &dyn Fn(Symbol) -> Option<f64>,
+    ) -> Result<Vec<f64>, EvaluateError> {
+        let mut scalar: FxHashMap<Expr, f64> = FxHashMap::default();
+        let mut vector: FxHashMap<Expr, Vec<f64>> = FxHashMap::default();
+        for e in self.reachable(roots) {
+            let value = match self.node(e) {
+                Node::Matrix { entries, .. } => {
+                    vector.insert(e, entries.iter().map(|a| scalar[a]).collect());
+                    continue;
+                }
+                Node::Solve { matrix, rhs } => {
+                    let mut a = vector[matrix].clone();
+                    let mut b: Vec<f64> = rhs.iter().map(|b| scalar[b]).collect();
+                    if !solve_dense(&mut a, &mut b) {
+                        return Err(EvaluateError::Singular);
+                    }
+                    vector.insert(e, b);
+                    continue;
+                }
+                Node::Entry { of, index } => vector[of][*index as usize],
+                Node::Symbol(symbol) => point(*symbol)
+                    .ok_or_else(|| EvaluateError::Unbound(self.symbol_text(*symbol)))?,
+                node => evaluate_node(node, &scalar),
+            };
+            scalar.insert(e, value);
+        }
+        Ok(roots.iter().map(|r| scalar[r]).collect())
+    }
+
+    /// `e^x`.
+    pub fn exp(&self, x: Expr) -> Expr {
+        self.apply(Function::Exp, &[x])
+    }
+}
+
+fn evaluate_node(node: &Node, scalar: &FxHashMap<Expr, f64>) -> f64 {
+    match node {
+        Node::Number(value) => rational::to_f64(value),
+        Node::Pi => std::f64::consts::PI,
+        Node::Sum { constant, terms } => {
+            let start = rational::to_f64(constant);
+            terms
+                .iter()
+                .fold(start, |sum, (t, c)| sum + rational::to_f64(c) * scalar[t])
+        }
+        Node::Product {
+            coefficient,
+            factors,
+        } => {
+            let start = rational::to_f64(coefficient);
+            factors.iter().fold(start, |product, f| product * scalar[f])
+        }
+        Node::Power { base, exponent } => power(scalar[base], scalar[exponent]),
+        Node::Apply {
+            function,
+            arguments,
+        } => match arguments[..] {
+            [y, x] => scalar[&y].atan2(scalar[&x]),
+            [x] => apply(*function, scalar[&x]),
+            _ => f64::NAN,
+        },
+        _ => f64::NAN,
+    }
+}
+
+/// `base ^ exponent` as the compiled program computes it: integer powers by multiplication, halves by square roots.
+pub fn power(base: f64, exponent: f64) -> f64 {
+    if exponent == exponent.trunc() && exponent.abs() <= 64.0 {
+        base.powi(exponent as i32)
+    } else if exponent == 0.5 {
+        base.sqrt()
+    } else if exponent == -0.5 {
+        1.0 / base.sqrt()
+    } else {
+        base.powf(exponent)
+    }
+}
+
+/// A function of one argument in double precision.
+pub fn apply(function: Function, x: f64) -> f64 {
+    use Function::*;
+    match function {
+        Sin => x.sin(),
+        Cos => x.cos(),
+        Tan => x.tan(),
+        Cot => 1.0 / x.tan(),
+        Sec => 1.0 / x.cos(),
+        Csc => 1.0 / x.sin(),
+        Asin => x.asin(),
+        Acos => x.acos(),
+        Atan => x.atan(),
+        Sinh => x.sinh(),
+        Cosh => x.cosh(),
+        Tanh => x.tanh(),
+        Asinh => x.asinh(),
+        Acosh => x.acosh(),
+        Atanh => x.atanh(),
+        Exp => x.exp(),
+        Log => x.ln(),
+        Abs => x.abs(),
+        Sign => {
+            if x > 0.0 {
+                1.0
+            } else if x < 0.0 {
+                -1.0
+            } else {
+                0.0
+            }
+        }
+        Atan2 => f64::NAN,
+    }
+}
+
+/// Solves `A x = b` in place by partial pivoting; `false` when a pivot vanishes.
+fn solve_dense(a: &mut [f64], b: &mut [f64]) -> bool {
+    let n = b.len();
+    for k in 0..n {
+        let mut pivot = k;
+        for i in k + 1..n {
+            if a[i * n + k].abs() > a[pivot * n + k].abs() {
+                pivot = i;
+            }
+        }
+        if a[pivot * n + k] == 0.0 {
+            return false;
+        }
+        if pivot != k {
+            for j in 0..n {
+                a.swap(k * n + j, pivot * n + j);
+            }
+            b.swap(k, pivot);
+        }
+        for i in k + 1..n {
+            let factor = a[i * n + k] / a[k * n + k];
+            if factor != 0.0 {
+                for j in k..n {
+                    a[i * n + j] -= factor * a[k * n + j];
+                }
+                b[i] -= factor * b[k];
+            }
+        }
+    }
+    for k in (0..n).rev() {
+        let sum: f64 = (k + 1..n).map(|j| a[k * n + j] * b[j]).sum();
+        b[k] = (b[k] - sum) / a[k * n + k];
+    }
+    true
+}

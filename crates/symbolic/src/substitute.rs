@@ -1,0 +1,155 @@
+//! Simultaneous substitution.
+
+use crate::graph::Graph;
+use crate::node::{Expr, Node};
+use rustc_hash::FxHashMap;
+
+impl Graph {
+    /// Replaces every occurrence of the keys (any expressions, all at once) by their values.
+    pub fn substitute(&self, e: Expr, replacements: &[(Expr, Expr)]) -> Expr {
+        self.substitute_all(&[e], replacements).swap_remove(0)
+    }
+
+    /// [`substitute`](Graph::substitute) in several expressions, shared parts rebuilt once.
+    pub fn substitute_all(&self, roots: &[Expr], replacements: &[(Expr, Expr)]) -> Vec<Expr> {
+        let mut image: FxHashMap<Expr, Expr> = FxHashMap::default();
+        let keys: FxHashMap<Expr, Expr> = replacements.iter().copied().collect();
+        let mut solved = SolveCache::default();
+        for e in self.reachable(roots) {
+            let value = match keys.get(&e) {
+                Some(&value) => value,
+                None => {
+                    let mut child = |c: Expr| image.get(&c).copied().unwrap_or(c);
+                    self.rebuild(e, &mut child, &mut solved)
+                }
+            };
+            if value != e {
+                image.insert(e, value);
+            }
+        }
+        roots
+            .iter()
+            .map(|r| image.get(r).copied().unwrap_or(*r))
+            .collect()
+    }
+
+    /// The node with its children replaced through `child`, in canonical form; the node itself when none changes.
+    ///
+    /// Components of one solve share their rebuilding through `solved`, which belongs to one substitution.
+    pub fn rebuild(
+        &self,
+        e: Expr,
+        child: &mut dyn FnMut(Expr) -> Expr,
+        solved: &mut SolveCache,
+    ) -> Expr {
+        if let Node::Entry { of, index } = self.node(e) {
+            return self.rebuild_entry(e, *of, *index, child, solved);
+        }
+        let mut changed = false;
+        self.node(e).for_each_child(|c| changed |= child(c) != c);
+        if !changed {
+            return e;
+        }
+        match self.node(e) {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => e,
+            Node::Sum { constant, terms } => {
+                let mut parts: Vec<Expr> = terms
+                    .iter()
+                    .map(|(t, c)| self.scale(c, child(*t)))
+                    .collect();
+                parts.push(self.number(constant.clone()));
+                self.add(&parts)
+            }
+            Node::Product {
+                coefficient,
+                factors,
+            } => {
+                let mut parts: Vec<Expr> = factors.iter().map(|&f| child(f)).collect();
+                parts.push(self.number(coefficient.clone()));
+                self.mul(&parts)
+            }
+            Node::Power { base, exponent } => self.pow(child(*base), child(*exponent)),
+            Node::Apply {
+                function,
+                arguments,
+            } => {
+                let arguments: Vec<Expr> = arguments.iter().map(|&a| child(a)).collect();
+                self.apply(*function, &arguments)
+            }
+            Node::Matrix {
+                rows,
+                columns,
+                entries,
+            } => {
+                let entries: Vec<Expr> = entries.iter().map(|&a| child(a)).collect();
+                self.matrix(*rows as usize, *columns as usize, &entries)
+                    .unwrap_or(e)
+            }
+            // A solve is rebuilt by its entries, which may come out simpler than a solve node.
+            Node::Solve { .. } | Node::Entry { .. } => e,
+        }
+    }
+
+    fn rebuild_entry(
+        &self,
+        e: Expr,
+        of: Expr,
+        index: u32,
+        child: &mut dyn FnMut(Expr) -> Expr,
+        solved: &mut SolveCache,
+    ) -> Expr {
+        let Node::Solve { matrix, rhs } = self.node(of) else {
+            return e;
+        };
+        let new_matrix = child(*matrix);
+        if !solved.0.contains_key(&of) {
+            let new_rhs: Vec<Expr> = rhs.iter().map(|&b| child(b)).collect();
+            let values = if new_matrix == *matrix && new_rhs[..] == rhs[..] {
+                None
+            } else {
+                let Node::Matrix { entries, .. } = self.node(new_matrix) else {
+                    return e;
+                };
+                // A matrix that became structurally singular stays a solve: evaluating it reports the singularity.
+                Some(match self.solve(entries, &new_rhs) {
+                    Ok(values) => values,
+                    Err(_) => self.solve_entries(new_matrix, &new_rhs),
+                })
+            };
+            solved.0.insert(of, values);
+        }
+        match solved.0.get(&of) {
+            Some(Some(values)) => values.get(index as usize).copied().unwrap_or(e),
+            _ => e,
+        }
+    }
+}
+
+/// Solves already rebuilt in one substitution; `None` for those that do not change.
+#[derive(Default)]
+pub struct SolveCache(FxHashMap<Expr, Option<Vec<Expr>>>);
+
+#[cfg(test)]
+mod tests {
+    use crate::Graph;
+
+    #[test]
+    fn substitution_is_simultaneous() {
+        let g = Graph::new();
+        let (x, y) = (g.symbol("x", 0), g.symbol("y", 0));
+        let e = g.add(&[x, g.mul(&[g.integer(2), y])]);
+        let swapped = g.substitute(e, &[(x, y), (y, x)]);
+        assert_eq!(swapped, g.add(&[y, g.mul(&[g.integer(2), x])]));
+    }
+
+    #[test]
+    fn solves_are_rebuilt() {
+        let g = Graph::new();
+        let [a, b, c, d, u, v] = ["a", "b", "c", "d", "u", "v"].map(|n| g.symbol(n, 0));
+        let x = g.solve(&[a, b, c, d], &[u, v]).unwrap();
+        let direct = g.solve(&[a, b, c, a], &[u, v]).unwrap();
+        assert_eq!(g.substitute(x[1], &[(d, a)]), direct[1]);
+        let triangular = g.substitute(x[0], &[(b, g.zero())]);
+        assert_eq!(triangular, g.div(u, a));
+    }
+}
