@@ -1,1 +1,10 @@
-//! Numbers: exact rationals, prime fields, balls.
+//! Numbers: prime fields for modular proofs, balls for verified enclosures, and the deterministic generator both draw from.
+//!
+//! Exact rationals are [`dashu_ratio::RBig`] throughout the crate. Floating-point numbers appear here only as *bounds*
+//! (degrees, heights, starting guesses), never as values a proof rests on.
+
+pub mod ball;
+pub mod modular_matrix;
+pub mod prime;
+pub mod prime_field;
+pub mod random;

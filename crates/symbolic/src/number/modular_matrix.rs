@@ -1,0 +1,189 @@
+//! Dense linear algebra over a prime field: one factorization serves every right-hand side.
+
+use super::prime_field::{PrimeField, Residue};
+
+/// The factors P A = L U of a nonsingular square matrix.
+#[derive(Clone, Debug)]
+pub struct Factorization {
+    size: usize,
+    /// L below the diagonal (its ones are not stored), U above it; row-major, rows permuted.
+    factors: Vec<Residue>,
+    /// Reciprocals of the pivots.
+    pivots: Vec<Residue>,
+    /// Row i of the factors is row `permutation[i]` of A.
+    permutation: Vec<usize>,
+}
+
+/// Factorizes the row-major `size` × `size` matrix; `None` if it is singular.
+pub fn factorize(
+    field: &PrimeField,
+    size: usize,
+    mut matrix: Vec<Residue>,
+) -> Option<Factorization> {
+    if matrix.len() != size * size {
+        return None;
+    }
+    let mut permutation: Vec<usize> = (0..size).collect();
+    let mut pivots = Vec::with_capacity(size);
+    for column in 0..size {
+        let pivot = (column..size).find(|&row| !matrix[row * size + column].is_zero())?;
+        swap_rows(&mut matrix, size, pivot, column);
+        permutation.swap(pivot, column);
+        let reciprocal = field.inv(matrix[column * size + column])?;
+        pivots.push(reciprocal);
+        eliminate(field, &mut matrix, size, column, column, reciprocal);
+    }
+    Some(Factorization {
+        size,
+        factors: matrix,
+        pivots,
+        permutation,
+    })
+}
+
+impl Factorization {
+    /// The solution of A x = b; `b` has as many entries as A has rows.
+    pub fn solve(&self, field: &PrimeField, rhs: &[Residue]) -> Vec<Residue> {
+        let n = self.size;
+        let mut x: Vec<Residue> = self.permutation.iter().map(|&row| rhs[row]).collect();
+        for row in 0..n {
+            for column in 0..row {
+                x[row] = field.sub(x[row], field.mul(self.factors[row * n + column], x[column]));
+            }
+        }
+        for row in (0..n).rev() {
+            for column in row + 1..n {
+                x[row] = field.sub(x[row], field.mul(self.factors[row * n + column], x[column]));
+            }
+            x[row] = field.mul(x[row], self.pivots[row]);
+        }
+        x
+    }
+}
+
+/// The rank of a row-major `rows` × `columns` matrix.
+pub fn rank(field: &PrimeField, rows: usize, columns: usize, matrix: &[Residue]) -> usize {
+    let mut work = matrix.to_vec();
+    let mut rank = 0;
+    for column in 0..columns {
+        let Some(pivot) = (rank..rows).find(|&row| !work[row * columns + column].is_zero()) else {
+            continue;
+        };
+        swap_rows(&mut work, columns, pivot, rank);
+        let Some(reciprocal) = field.inv(work[rank * columns + column]) else {
+            continue;
+        };
+        eliminate(field, &mut work, columns, rank, column, reciprocal);
+        rank += 1;
+    }
+    rank
+}
+
+/// Clears `column` below `row`, leaving the multipliers in its place.
+fn eliminate(
+    field: &PrimeField,
+    matrix: &mut [Residue],
+    width: usize,
+    row: usize,
+    column: usize,
+    reciprocal: Residue,
+) {
+    let (above, below) = matrix.split_at_mut((row + 1) * width);
+    let pivot_row = &above[row * width..];
+    for target in below.chunks_exact_mut(width) {
+        if target[column].is_zero() {
+            continue;
+        }
+        let factor = field.mul(target[column], reciprocal);
+        target[column] = factor;
+        for (entry, &pivot_entry) in target[column + 1..]
+            .iter_mut()
+            .zip(&pivot_row[column + 1..])
+        {
+            *entry = field.sub(*entry, field.mul(factor, pivot_entry));
+        }
+    }
+}
+
+fn swap_rows(matrix: &mut [Residue], width: usize, a: usize, b: usize) {
+    if a != b {
+        let (low, high) = (a.min(b), a.max(b));
+        let (first, second) = matrix.split_at_mut(high * width);
+        first[low * width..(low + 1) * width].swap_with_slice(&mut second[..width]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::random::Random;
+
+    fn field() -> PrimeField {
+        PrimeField::new((1 << 61) - 1).unwrap()
+    }
+
+    fn random_matrix(field: &PrimeField, entries: usize, seed: u64) -> Vec<Residue> {
+        let mut random = Random::new(seed);
+        (0..entries).map(|_| field.random(&mut random)).collect()
+    }
+
+    #[test]
+    fn solutions_satisfy_their_equations() {
+        let field = field();
+        for size in [1, 2, 5, 40, 200] {
+            let mut matrix = random_matrix(&field, size * size, size as u64);
+            matrix[0] = Residue::ZERO; // forces a row exchange
+            if size == 1 {
+                matrix[0] = field.from_u64(7);
+            }
+            let rhs = random_matrix(&field, size, 99);
+            let solution = factorize(&field, size, matrix.clone())
+                .unwrap()
+                .solve(&field, &rhs);
+            for row in 0..size {
+                let sum = (0..size).fold(Residue::ZERO, |sum, column| {
+                    field.add(
+                        sum,
+                        field.mul(matrix[row * size + column], solution[column]),
+                    )
+                });
+                assert_eq!(sum, rhs[row]);
+            }
+        }
+    }
+
+    #[test]
+    fn singular_matrices_are_refused_and_ranks_counted() {
+        let field = field();
+        let entries: Vec<Residue> = [1, 2, 3, 4, 5, 6, 7, 8, 9]
+            .iter()
+            .map(|&n| field.from_u64(n))
+            .collect();
+        assert!(factorize(&field, 3, entries.clone()).is_none());
+        assert_eq!(rank(&field, 3, 3, &entries), 2);
+        assert_eq!(rank(&field, 2, 3, &entries[..6]), 2);
+        assert_eq!(rank(&field, 3, 3, &[Residue::ZERO; 9]), 0);
+        assert!(
+            factorize(&field, 2, vec![Residue::ZERO; 3]).is_none(),
+            "not square"
+        );
+    }
+
+    #[test]
+    fn rank_of_a_product_of_thin_matrices() {
+        let field = field();
+        let (left, right) = (
+            random_matrix(&field, 8 * 3, 1),
+            random_matrix(&field, 3 * 6, 2),
+        );
+        let mut product = Vec::new();
+        for row in 0..8 {
+            for column in 0..6 {
+                product.push((0..3).fold(Residue::ZERO, |sum, k| {
+                    field.add(sum, field.mul(left[row * 3 + k], right[k * 6 + column]))
+                }));
+            }
+        }
+        assert_eq!(rank(&field, 8, 6, &product), 3);
+    }
+}
