@@ -69,7 +69,7 @@ impl Precision {
         };
         if low.mantissa.is_zero() || high.mantissa.is_zero() {
             let kept = if low.mantissa.is_zero() { high } else { low };
-            let radius = low.radius.add(high.radius);
+            let radius = low.radius.plus(high.radius);
             return Ball {
                 radius,
                 ..kept.clone()
@@ -100,9 +100,9 @@ impl Precision {
         } else {
             // |xy − x₀y₀| ≤ |x₀| r_y + |y₀| r_x + r_x r_y
             let (a, b) = (x.midpoint().magnitude(), y.midpoint().magnitude());
-            a.mul(y.radius)
-                .add(b.mul(x.radius))
-                .add(x.radius.mul(y.radius))
+            a.times(y.radius)
+                .plus(b.times(x.radius))
+                .plus(x.radius.times(y.radius))
         };
         let product = Ball {
             mantissa: &x.mantissa * &y.mantissa,
@@ -138,8 +138,8 @@ impl Precision {
         let reciprocal = reciprocal_bound(&least);
         let error = x
             .radius
-            .add(center.magnitude().mul(y.radius))
-            .mul(reciprocal);
+            .plus(center.magnitude().times(y.radius))
+            .times(reciprocal);
         center.widened(error).checked("a quotient")
     }
 
@@ -207,7 +207,7 @@ impl Precision {
             return Ok(center);
         }
         // |√x − √x₀| = |x − x₀| / (√x + √x₀) ≤ r / √x₀
-        let error = x.radius.mul(reciprocal_bound(&center.lower()));
+        let error = x.radius.times(reciprocal_bound(&center.lower()));
         center.widened(error).checked("a square root")
     }
 

@@ -94,7 +94,7 @@ impl Precision {
     fn scale_by_exp(&self, value: &Ball, radius: Magnitude) -> BallResult {
         // e^r − 1 ≤ 2r for r ≤ 1.
         if radius <= Magnitude::power_of_two(0) {
-            let error = value.magnitude().mul(radius.shift(1));
+            let error = value.magnitude().times(radius.shift(1));
             return Ok(value.clone().widened(error));
         }
         // e^r ≤ 2^(2⌈r⌉)
@@ -166,7 +166,7 @@ impl Precision {
         // |log x − log x₀| ≤ r / min x
         let error = x
             .radius()
-            .mul(super::arithmetic::reciprocal_bound(&x.lower()));
+            .times(super::arithmetic::reciprocal_bound(&x.lower()));
         log.widened(if x.is_exact() { Magnitude::ZERO } else { error })
             .rounded(self.bits())
             .checked("a logarithm")

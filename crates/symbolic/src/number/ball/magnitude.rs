@@ -48,7 +48,7 @@ impl Magnitude {
     }
 
     /// a + b or slightly more.
-    pub fn add(self, other: Self) -> Self {
+    pub fn plus(self, other: Self) -> Self {
         let (large, small) = if self.cmp(&other) == Ordering::Less {
             (other, self)
         } else {
@@ -63,7 +63,7 @@ impl Magnitude {
     }
 
     /// a·b or slightly more.
-    pub fn mul(self, other: Self) -> Self {
+    pub fn times(self, other: Self) -> Self {
         Self::round_up(
             self.mantissa * other.mantissa,
             self.exponent.saturating_add(other.exponent),
@@ -71,7 +71,7 @@ impl Magnitude {
     }
 
     /// a/b or slightly more, where `other` is taken as exact; `None` for b = 0.
-    pub fn div(self, other: Self) -> Option<Self> {
+    pub fn over(self, other: Self) -> Option<Self> {
         if other.is_zero() {
             return None;
         }
@@ -181,16 +181,16 @@ mod tests {
             let (u, v) = (exact(x), exact(y));
             assert!(u >= RBig::from(a.clone()) * RBig::from(2).pow(i as isize));
             for (bound, value) in [
-                (x.add(y), &u + &v),
-                (x.mul(y), &u * &v),
-                (x.div(y).unwrap(), &u / &v),
+                (x.plus(y), &u + &v),
+                (x.times(y), &u * &v),
+                (x.over(y).unwrap(), &u / &v),
             ] {
                 let bound = exact(bound);
                 assert!(bound >= value && bound <= value * &close);
             }
             assert_eq!(x.cmp(&y), u.cmp(&v));
         }
-        assert_eq!(Magnitude::ZERO.add(Magnitude::ZERO), Magnitude::ZERO);
-        assert_eq!(Magnitude::power_of_two(3).div(Magnitude::ZERO), None);
+        assert_eq!(Magnitude::ZERO.plus(Magnitude::ZERO), Magnitude::ZERO);
+        assert_eq!(Magnitude::power_of_two(3).over(Magnitude::ZERO), None);
     }
 }

@@ -103,7 +103,7 @@ impl Ball {
 
     /// The same midpoint with `extra` added to the radius.
     pub fn widened(mut self, extra: Magnitude) -> Self {
-        self.radius = self.radius.add(extra);
+        self.radius = self.radius.plus(extra);
         self
     }
 
@@ -127,7 +127,7 @@ impl Ball {
 
     /// An upper bound of |x| over the ball.
     pub fn magnitude(&self) -> Magnitude {
-        Magnitude::of(&self.mantissa, self.exponent).add(self.radius)
+        Magnitude::of(&self.mantissa, self.exponent).plus(self.radius)
     }
 
     /// An exact ball not above any point of the ball (its lower end, but for numbers of very different size).
@@ -151,7 +151,7 @@ impl Ball {
         if exponent < self.exponent - FAR {
             (radius, exponent) = (IBig::from(1), self.exponent - FAR);
         } else if exponent > self.exponent + FAR {
-            (radius, exponent) = self.magnitude().add(self.radius).parts();
+            (radius, exponent) = self.magnitude().plus(self.radius).parts();
             midpoint = Self::zero();
             midpoint.exponent = exponent;
         }
@@ -276,7 +276,7 @@ impl Ball {
         Self {
             mantissa: align(self) + align(other),
             exponent,
-            radius: self.radius.add(other.radius),
+            radius: self.radius.plus(other.radius),
         }
     }
 
@@ -300,7 +300,7 @@ impl Ball {
             self.mantissa >>= excess;
             self.exponent = self.exponent.saturating_add(excess as i64);
             if !exact {
-                self.radius = self.radius.add(Magnitude::power_of_two(self.exponent));
+                self.radius = self.radius.plus(Magnitude::power_of_two(self.exponent));
             }
         }
         self
@@ -317,7 +317,7 @@ impl Ball {
             // A tiny number is enclosed by a ball around 0.
             let radius = self
                 .magnitude()
-                .add(Magnitude::power_of_two(-EXPONENT_LIMIT));
+                .plus(Magnitude::power_of_two(-EXPONENT_LIMIT));
             return Ok(Self {
                 mantissa: IBig::ZERO,
                 exponent: 0,

@@ -303,7 +303,9 @@ fn hilbert_matrix_is_solved_and_a_singular_one_is_not() {
     let rhs = (0..size)
         .map(|i| p.rational(&(0..size).fold(RBig::ZERO, |sum, j| sum + entry(i, j))))
         .collect::<Vec<_>>();
-    let solution = solve(&p, size, matrix, &[rhs.clone()]).unwrap().remove(0);
+    let solution = solve(&p, size, matrix, std::slice::from_ref(&rhs))
+        .unwrap()
+        .remove(0);
     for x in &solution {
         assert!(
             x.contains(&Ball::integer(1)) && x.radius() < Magnitude::power_of_two(-60),
