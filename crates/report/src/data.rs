@@ -380,6 +380,7 @@ pub struct Stop {
 #[serde(default)]
 pub struct ChartSwitch {
     /// When.
+    #[serde(with = "crate::number::scalar")]
     pub time: f64,
     /// From what to what, and why.
     pub detail: String,

@@ -1,13 +1,43 @@
 //! Renders plain data as one self-contained HTML page; knows no mechanics.
+//!
+//! [`data`] says what a page can hold, [`render`] writes it. The page is one file without a
+//! request to anything outside: style, script, formulas and numbers are in it, and its content
+//! security policy forbids the rest. Every word a reader sees is either in the data or in the
+//! table of its [`Language`].
+//!
+//! ```
+//! use chetaev_report::{data::Report, render};
+//!
+//! let report = Report { title: "Skate <level>".into(), ..Report::default() };
+//! assert!(render(&report).contains("<h1>Skate &lt;level&gt;</h1>"));
+//! ```
 
+mod claims;
 pub mod data;
+mod digest;
+mod equations;
+mod html;
+mod mathml;
+mod motion;
 mod number;
+mod page;
+mod payload;
 mod scene;
+mod source;
+mod system;
+mod words;
 
 pub use data::Report;
+pub use words::Language;
 
-/// The page: one HTML file that makes no request to anything outside itself.
+/// The page in English.
 #[must_use]
 pub fn render(report: &Report) -> String {
-    report.title.clone()
+    render_in(report, Language::English)
+}
+
+/// The page, its own words in the given language; the words of the data stay as they are.
+#[must_use]
+pub fn render_in(report: &Report, language: Language) -> String {
+    page::page(report, language.words())
 }

@@ -1,4 +1,47 @@
-//! Numbers in JSON: what is not finite is written as `null` and read back as NaN.
+//! Numbers in JSON (what is not finite is written as `null` and read back as NaN) and in words.
+
+/// A number as people read it: at most six significant digits, `1.5 × 10⁻⁷` where it is far
+/// from one.
+pub(crate) fn readable(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
+        return "—".to_owned();
+    }
+    let scientific = format!("{value:.5e}");
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let text = if (-4..6).contains(&exponent) {
+        let decimals = usize::try_from(5 - exponent).unwrap_or(0);
+        trimmed(&format!("{value:.decimals$}"))
+    } else {
+        let exponent = exponent.to_string();
+        let raised: String = exponent.chars().map(superscript).collect();
+        format!("{} × 10{raised}", trimmed(mantissa))
+    };
+    text.replace('-', "−")
+}
+
+/// Without the zeros that end a fraction.
+fn trimmed(text: &str) -> String {
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text.to_owned()
+    }
+}
+
+fn superscript(c: char) -> char {
+    match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4'..='9' => char::from_u32('⁰' as u32 + (c as u32 - '0' as u32)).unwrap_or(c),
+        _ => '⁰',
+    }
+}
 
 /// A single number, for `#[serde(with = …)]`.
 pub(crate) mod scalar {
@@ -28,5 +71,26 @@ pub(crate) mod vector {
     pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
         let values = Vec::<Option<f64>>::deserialize(from)?;
         Ok(values.into_iter().map(|v| v.unwrap_or(f64::NAN)).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::readable;
+
+    #[test]
+    fn numbers_read_as_in_print() {
+        for (value, expected) in [
+            (0.0, "0"),
+            (-0.25, "−0.25"),
+            (100.0, "100"),
+            (1.2048374, "1.20484"),
+            (123456.0, "123456"),
+            (1.5e-7, "1.5 × 10⁻⁷"),
+            (-2e14, "−2 × 10¹⁴"),
+            (f64::NAN, "—"),
+        ] {
+            assert_eq!(readable(value), expected);
+        }
     }
 }

@@ -23,6 +23,8 @@ pub struct Animation {
     pub ground: bool,
     /// In three dimensions: first azimuth and elevation of the camera, in degrees.
     pub camera: Option<[f64; 2]>,
+    /// Unit of length, for the scale bar.
+    pub unit: Option<String>,
     /// What the picture shows, for readers who do not see it.
     pub description: Option<String>,
 }

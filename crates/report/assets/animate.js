@@ -1,0 +1,611 @@
+// The moving picture, drawn on a canvas: in the plane as it is, in space seen from a camera that
+// can be turned, without perspective, so that lengths compare.
+
+function setUpAnimation() {
+  const figure = find("#animation");
+  const scene = data.animation;
+  if (figure && scene?.times.length) new Player(figure, scene);
+  else if (data.trajectory?.times.length) clock.set(data.trajectory.times[0]);
+}
+
+/** The elements with their numbers, in one set of coordinates. */
+class Scene {
+  constructor(scene) {
+    this.spatial = scene.spatial;
+    this.dimension = scene.spatial ? 3 : 2;
+    this.times = numbers(scene.times);
+    this.ground = scene.spatial && scene.ground;
+    this.elements = scene.elements.map((element, i) => ({
+      ...element,
+      ...element.shape,
+      stride: data.strides[i],
+      values: numbers(element.values),
+    }));
+    this.bounds = scene.bounds ?? this.findBounds();
+    this.bodySize = this.findBodySize();
+  }
+
+  /** The numbers of an element at a time, between two frames in proportion. */
+  at(element, time) {
+    const { times } = this;
+    const next = Math.max(1, Math.min(times.length - 1, lowerBound(times, time)));
+    const here = Math.max(0, next - 1);
+    const span = times[next] - times[here];
+    const part = span > 0 ? Math.max(0, Math.min(1, (time - times[here]) / span)) : 0;
+    const { stride, values } = element;
+    const out = new Array(stride);
+    for (let j = 0; j < stride; j++) {
+      const a = values[here * stride + j];
+      out[j] = part === 0 ? a : a + (values[next * stride + j] - a) * part;
+    }
+    return out;
+  }
+
+  /** Points whose hull contains the element. */
+  hull(element, v) {
+    const d = this.dimension;
+    const center = v.slice(0, d);
+    const around = (radius) => [-1, 1].map((sign) => center.map((c) => c + sign * radius));
+    switch (element.kind) {
+      case "circle": return around(v.at(-1));
+      case "sphere": return around(v.at(-1));
+      case "wheel": return around(v.at(-2));
+      case "blade": return around(v.at(-1) / 2);
+      default: return Array.from({ length: Math.floor(v.length / d) }, (_, i) => v.slice(i * d, i * d + d));
+    }
+  }
+
+  findBounds() {
+    const bounds = Array.from({ length: this.dimension }, () => [Infinity, -Infinity]);
+    const step = Math.max(1, Math.floor(this.times.length / 400));
+    for (let frame = 0; frame < this.times.length; frame += step) {
+      for (const element of this.elements) {
+        for (const point of this.hull(element, this.at(element, this.times[frame]))) widen(bounds, point);
+      }
+    }
+    return bounds.map(([low, high]) => (low <= high ? [low, high] : [-1, 1]));
+  }
+
+  /** Extent of the body itself in the first frame, without paths and scaffolding. */
+  findBodySize() {
+    const bounds = this.bodyBounds(this.times[0]);
+    return Math.max(0, ...bounds.map(([low, high]) => high - low).filter(Number.isFinite));
+  }
+
+  bodyBounds(time) {
+    const bounds = Array.from({ length: this.dimension }, () => [Infinity, -Infinity]);
+    for (const element of this.elements) {
+      if (element.kind === "trail" || element.tint === "muted") continue;
+      for (const point of this.hull(element, this.at(element, time))) widen(bounds, point);
+    }
+    return bounds;
+  }
+
+  get size() { return Math.max(...this.bounds.map(([low, high]) => high - low), 1e-9); }
+}
+
+function widen(bounds, point) {
+  point.forEach((c, i) => {
+    if (!Number.isFinite(c)) return;
+    bounds[i][0] = Math.min(bounds[i][0], c);
+    bounds[i][1] = Math.max(bounds[i][1], c);
+  });
+}
+
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + (a[2] ?? 0) * (b[2] ?? 0);
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const scaled = (a, s) => a.map((c) => c * s);
+const plus = (a, b, s = 1) => a.map((c, i) => c + s * b[i]);
+const unit = (a) => { const size = Math.hypot(...a); return size > 0 ? scaled(a, 1 / size) : a; };
+
+/** Where points of the scene lie on the canvas. */
+class Camera {
+  constructor(scene, angles) {
+    this.scene = scene;
+    this.first = (angles ?? [-60, 25]).map((degrees) => degrees * Math.PI / 180);
+    this.reset();
+  }
+
+  reset() {
+    [this.azimuth, this.elevation] = this.first;
+    this.zoom = 1;
+    this.shift = [0, 0];
+  }
+
+  /** Prepares for a canvas of a size, looking at a target at a scale (pixels per length). */
+  aim(width, height, target, scale) {
+    this.center = [width / 2 + this.shift[0], height / 2 + this.shift[1]];
+    this.target = target;
+    this.scale = scale * this.zoom;
+    if (!this.scene.spatial) { [this.right, this.up, this.toward] = [[1, 0], [0, 1], [0, 0]]; return; }
+    const [sa, ca, se, ce] = [Math.sin(this.azimuth), Math.cos(this.azimuth), Math.sin(this.elevation), Math.cos(this.elevation)];
+    this.right = [-sa, ca, 0];
+    this.up = [-se * ca, -se * sa, ce];
+    this.toward = [ce * ca, ce * sa, se];
+  }
+
+  to(point) {
+    const p = plus(point, this.target, -1);
+    return [this.center[0] + this.scale * dot(p, this.right), this.center[1] - this.scale * dot(p, this.up)];
+  }
+
+  depth(point) { return dot(point, this.toward); }
+
+  /** The point of the plane picture under a place on the canvas. */
+  from([px, py]) {
+    return [this.target[0] + (px - this.center[0]) / this.scale, this.target[1] - (py - this.center[1]) / this.scale];
+  }
+
+  /** The scale at which the corners of a box fill the canvas. */
+  fit(width, height, bounds) {
+    const corners = [[]];
+    for (const [low, high] of bounds) {
+      for (const corner of corners.splice(0)) corners.push([...corner, low], [...corner, high]);
+    }
+    this.aim(width, height, bounds.map(([low, high]) => (low + high) / 2), 1);
+    const extent = (axis) => Math.max(...corners.map((c) => Math.abs(dot(plus(c, this.target, -1), axis)))) * 2;
+    const [w, h] = [extent(this.right), extent(this.up)];
+    return Math.min((width - 70) / Math.max(w, 1e-12), (height - 70) / Math.max(h, 1e-12));
+  }
+}
+
+class Player {
+  constructor(figure, spec) {
+    this.figure = figure;
+    this.spec = spec;
+    this.scene = new Scene(spec);
+    this.camera = new Camera(this.scene, spec.camera);
+    this.first = this.scene.times[0];
+    this.last = this.scene.times.at(-1);
+    this.build();
+    this.listen();
+    this.readColors();
+    clock.set(this.first);
+    this.begin();
+  }
+
+  build() {
+    this.stage = make("div", { class: "stage" });
+    this.figure.prepend(this.stage);
+    const label = this.spec.description ?? this.figure.getAttribute("aria-label");
+    this.canvas = make("canvas", { tabindex: 0, role: "img", "aria-label": label }, this.stage);
+    this.canvas.title = this.scene.spatial ? words.hintSpatial : words.hintPlanar;
+    const bar = make("div", { class: "controls" });
+    this.stage.after(bar);
+    this.playButton = make("button", { type: "button", class: "play" }, bar);
+    this.slider = make("input", {
+      type: "range", id: "time-slider", min: this.first, max: this.last, step: "any", value: this.first, "aria-label": words.time,
+    }, bar);
+    this.clockText = make("output", { for: "time-slider" }, bar);
+    const options = make("div", { class: "options" });
+    bar.after(options);
+    this.buildSpeed(options);
+    this.follow = this.option(options, words.follow, this.scene.bodySize > 0 && this.scene.bodySize < this.scene.size / 40);
+    this.repeat = this.option(options, words.repeat, false);
+    this.resetButton = make("button", { type: "button", class: "plain" }, options, words.resetView);
+    this.buildKey(options);
+    this.setPlaying(false);
+  }
+
+  option(parent, text, value) {
+    const label = make("label", {}, parent);
+    const box = make("input", { type: "checkbox" }, label);
+    box.checked = value;
+    label.append(` ${text}`);
+    return box;
+  }
+
+  /** Speeds about the one at which the motion takes some ten seconds. */
+  buildSpeed(parent) {
+    const label = make("label", {}, parent, `${words.speed} `);
+    this.speed = make("select", {}, label);
+    const duration = this.last - this.first;
+    const base = duration >= 3 && duration <= 25 ? 1 : roundSpeed(duration / 12);
+    const speeds = new Set([0.1, 0.2, 0.5, 1, 2, 5, 10].map((factor) => Number((factor * base).toPrecision(1))));
+    speeds.add(1);
+    for (const speed of [...speeds].sort((a, b) => a - b)) {
+      make("option", { value: speed }, this.speed, `× ${readable(speed)}`);
+    }
+    this.speed.value = String(base);
+  }
+
+  buildKey(parent) {
+    const named = this.scene.elements.filter((element) => element.name);
+    if (!named.length) return;
+    const key = make("ul", { class: "key" }, parent);
+    for (const element of named) {
+      const item = make("li", {}, key);
+      make("i", { class: `swatch tint-${element.tint}`, "aria-hidden": "true" }, item);
+      item.append(element.name);
+    }
+  }
+
+  /** The motion starts by itself once it is in view, unless the reader prefers stillness. */
+  begin() {
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
+    const observer = new IntersectionObserver((entries) => {
+      if (!entries.at(-1).isIntersecting) return;
+      observer.disconnect();
+      if (clock.time === this.first) this.setPlaying(true);
+    }, { threshold: 0.5 });
+    observer.observe(this.canvas);
+  }
+
+  listen() {
+    clock.listeners.push((time) => this.show(time));
+    themed.push(() => { this.readColors(); this.paint(); });
+    new ResizeObserver(() => this.resize()).observe(this.stage);
+    this.playButton.addEventListener("click", () => this.setPlaying(!this.playing));
+    this.slider.addEventListener("input", () => { this.setPlaying(false); clock.set(Number(this.slider.value)); });
+    this.follow.addEventListener("change", () => { this.camera.reset(); this.paint(); });
+    this.resetButton.addEventListener("click", () => this.resetView());
+    this.canvas.addEventListener("dblclick", () => this.resetView());
+    this.canvas.addEventListener("keydown", (event) => this.key(event));
+    this.canvas.addEventListener("wheel", (event) => {
+      if (!event.ctrlKey && document.activeElement !== this.canvas) return;
+      event.preventDefault();
+      this.zoomAbout([event.offsetX, event.offsetY], Math.exp(-Math.max(-1, Math.min(1, event.deltaY / 300))));
+    }, { passive: false });
+    this.listenToPointer();
+  }
+
+  listenToPointer() {
+    let last = null;
+    this.canvas.addEventListener("pointerdown", (event) => {
+      last = [event.clientX, event.clientY];
+      this.canvas.setPointerCapture(event.pointerId);
+    });
+    this.canvas.addEventListener("pointermove", (event) => {
+      if (!last) return;
+      const [dx, dy] = [event.clientX - last[0], event.clientY - last[1]];
+      last = [event.clientX, event.clientY];
+      const { camera } = this;
+      if (this.scene.spatial && !event.shiftKey) {
+        camera.azimuth -= dx / 120;
+        camera.elevation = Math.max(-0.2, Math.min(Math.PI / 2, camera.elevation + dy / 120));
+      } else camera.shift = plus(camera.shift, [dx, dy]);
+      this.paint();
+    });
+    for (const end of ["pointerup", "pointercancel"]) this.canvas.addEventListener(end, () => { last = null; });
+  }
+
+  zoomAbout(place, factor) {
+    const { camera } = this;
+    const from = plus(place, camera.center, -1);
+    camera.zoom *= factor;
+    camera.shift = plus(camera.shift, scaled(from, 1 - factor));
+    this.paint();
+  }
+
+  resetView() {
+    this.camera.reset();
+    this.paint();
+  }
+
+  key(event) {
+    const step = (this.last - this.first) / (event.shiftKey ? 20 : 200);
+    const to = (time) => { this.setPlaying(false); clock.set(Math.max(this.first, Math.min(this.last, time))); };
+    const middle = this.camera.center;
+    switch (event.key) {
+      case " ": this.setPlaying(!this.playing); break;
+      case "ArrowLeft": to(clock.time - step); break;
+      case "ArrowRight": to(clock.time + step); break;
+      case "Home": to(this.first); break;
+      case "End": to(this.last); break;
+      case "+": case "=": this.zoomAbout(middle, 1.3); break;
+      case "-": this.zoomAbout(middle, 1 / 1.3); break;
+      case "0": this.resetView(); break;
+      default: return;
+    }
+    event.preventDefault();
+  }
+
+  setPlaying(playing) {
+    this.playing = playing;
+    this.playButton.textContent = playing ? "❚❚" : "▶";
+    this.playButton.setAttribute("aria-label", playing ? words.pause : words.play);
+    this.playButton.title = playing ? words.pause : words.play;
+    if (!playing) return;
+    if (clock.time >= this.last) clock.set(this.first);
+    let before = null;
+    const advance = (now) => {
+      if (!this.playing) return;
+      // A page that was hidden does not jump.
+      const passed = before === null ? 0 : Math.min(0.1, (now - before) / 1000);
+      before = now;
+      let time = clock.time + passed * Number(this.speed.value);
+      if (time >= this.last) {
+        if (this.repeat.checked) time = this.first;
+        else { time = this.last; this.setPlaying(false); }
+      }
+      clock.set(time);
+      requestAnimationFrame(advance);
+    };
+    requestAnimationFrame(advance);
+  }
+
+  show(time) {
+    this.slider.value = time;
+    const timeUnit = data.trajectory?.timeUnit;
+    const decimals = Math.max(0, 2 - Math.floor(Math.log10(Math.max(this.last - this.first, 1e-9))));
+    this.clockText.textContent = `${time.toFixed(decimals).replace("-", "−")}${timeUnit ? ` ${timeUnit}` : ""}`;
+    this.slider.setAttribute("aria-valuetext", this.clockText.textContent);
+    this.paint();
+  }
+
+  resize() {
+    const width = this.stage.clientWidth;
+    const height = Math.round(Math.max(240, Math.min(460, width * 0.56)));
+    const ratio = devicePixelRatio || 1;
+    this.canvas.style.height = `${height}px`;
+    this.canvas.width = Math.round(width * ratio);
+    this.canvas.height = Math.round(height * ratio);
+    [this.width, this.height, this.ratio] = [width, height, ratio];
+    this.fitted = new Camera(this.scene, this.spec.camera).fit(width, height, this.scene.bounds);
+    this.paint();
+  }
+
+  /** The colors of the style sheet, as the browser resolves them. */
+  readColors() {
+    const probe = make("span", { hidden: "" }, this.figure);
+    this.colors = {};
+    for (const name of ["ink", "muted", "blue", "red", "green", "amber", "violet", "grid", "paper"]) {
+      probe.className = `tint-${name}`;
+      this.colors[name] = getComputedStyle(probe).color;
+    }
+    probe.remove();
+  }
+
+  // Drawing.
+
+  paint() {
+    if (!this.width) return;
+    const { canvas, camera, scene } = this;
+    const time = Number.isFinite(clock.time) ? clock.time : this.first;
+    const g = canvas.getContext("2d");
+    this.g = g;
+    g.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    g.clearRect(0, 0, this.width, this.height);
+    g.lineCap = g.lineJoin = "round";
+    this.aim(time);
+    this.paintGround();
+    const shapes = scene.elements.flatMap((element) => {
+      const v = scene.at(element, time);
+      return v.some(Number.isNaN) ? [] : [{ element, v, depth: this.depth(element, v) }];
+    });
+    if (scene.spatial) shapes.sort((a, b) => a.depth - b.depth);
+    for (const { element, v } of shapes) this.paintElement(element, v, time);
+    this.paintScale();
+    camera.last = time;
+  }
+
+  aim(time) {
+    const { camera, scene } = this;
+    let [bounds, scale] = [scene.bounds, this.fitted];
+    if (this.follow.checked && scene.bodySize > 0) {
+      const body = scene.bodyBounds(time);
+      if (body.every(([low, high]) => low <= high)) {
+        bounds = body;
+        scale = Math.min(this.width, this.height) / (scene.bodySize * 5);
+      }
+    }
+    camera.aim(this.width, this.height, bounds.map(([low, high]) => (low + high) / 2), scale);
+  }
+
+  /** Paths lie behind everything, labels before. */
+  depth(element, v) {
+    if (element.kind === "trail") return -Infinity;
+    if (element.kind === "label") return Infinity;
+    const points = this.scene.hull(element, v);
+    return points.reduce((sum, point) => sum + this.camera.depth(point), 0) / points.length;
+  }
+
+  /** A grid whose lines stay on round coordinates: of the picture's plane, or of the ground. */
+  paintGround() {
+    const { g, scene, camera } = this;
+    g.strokeStyle = this.colors.grid;
+    g.lineWidth = 1;
+    if (scene.spatial) {
+      if (scene.ground) this.paintFloor();
+      return;
+    }
+    const [a, b] = [camera.from([0, this.height]), camera.from([this.width, 0])];
+    this.gridStep = niceStep(0, 90 / camera.scale, 1);
+    g.beginPath();
+    for (let x = Math.ceil(a[0] / this.gridStep); x * this.gridStep < b[0]; x++) {
+      const px = camera.to([x * this.gridStep, 0])[0];
+      g.moveTo(px, 0);
+      g.lineTo(px, this.height);
+    }
+    for (let y = Math.ceil(a[1] / this.gridStep); y * this.gridStep < b[1]; y++) {
+      const py = camera.to([0, y * this.gridStep])[1];
+      g.moveTo(0, py);
+      g.lineTo(this.width, py);
+    }
+    g.stroke();
+  }
+
+  paintFloor() {
+    const { g, scene, camera } = this;
+    const step = niceStep(0, scene.size, 10);
+    const [x, y] = scene.bounds.slice(0, 2).map(([low, high]) => [Math.floor(low / step) - 1, Math.ceil(high / step) + 1]);
+    g.beginPath();
+    for (let i = x[0]; i <= x[1]; i++) this.trace([[i * step, y[0] * step, 0], [i * step, y[1] * step, 0]]);
+    for (let j = y[0]; j <= y[1]; j++) this.trace([[x[0] * step, j * step, 0], [x[1] * step, j * step, 0]]);
+    g.stroke();
+    this.gridStep = step;
+    camera.floor = step;
+  }
+
+  /** Adds a broken line to the path of the canvas; points that are not finite leave a gap. */
+  trace(points, close = false) {
+    const { g, camera } = this;
+    let isDown = false;
+    for (const point of points) {
+      const [x, y] = camera.to(point);
+      if (!Number.isFinite(x) || !Number.isFinite(y)) { isDown = false; continue; }
+      if (isDown) g.lineTo(x, y);
+      else g.moveTo(x, y);
+      isDown = true;
+    }
+    if (close) g.closePath();
+  }
+
+  line(points, { width = 2, close = false, fill = 0, alpha = 1 } = {}) {
+    const { g } = this;
+    g.beginPath();
+    this.trace(points, close);
+    if (fill > 0) { g.globalAlpha = fill; g.fill(); }
+    g.globalAlpha = alpha;
+    g.lineWidth = width;
+    g.stroke();
+    g.globalAlpha = 1;
+  }
+
+  paintElement(element, v, time) {
+    const { g, camera, scene } = this;
+    const d = scene.dimension;
+    g.strokeStyle = g.fillStyle = this.colors[element.tint] ?? this.colors.ink;
+    const [a, b] = [v.slice(0, d), v.slice(d, 2 * d)];
+    switch (element.kind) {
+      case "point": this.disc(camera.to(a), 4.5); break;
+      case "segment": this.line([a, b]); break;
+      case "arrow": this.arrow(a, b); break;
+      case "circle": this.line(this.ring(a, v.slice(d, -1), v.at(-1)).points, { close: true }); break;
+      case "sphere": this.sphere(camera.to(a), v.at(-1) * camera.scale); break;
+      case "wheel": this.wheel(a, v.slice(d, -2), v.at(-2), v.at(-1)); break;
+      case "blade": this.blade(a, v.slice(d, -1), v.at(-1)); break;
+      case "polyline": {
+        const points = Array.from({ length: element.points }, (_, i) => v.slice(i * d, i * d + d));
+        this.line(points, { close: element.closed, fill: element.filled ? 0.18 : 0 });
+        break;
+      }
+      case "trail": this.trail(element, time, a); break;
+      case "label": this.label(camera.to(a), element.text); break;
+    }
+  }
+
+  disc([x, y], radius) {
+    this.g.beginPath();
+    this.g.arc(x, y, radius, 0, 2 * Math.PI);
+    this.g.fill();
+  }
+
+  arrow(tail, tip) {
+    this.line([tail, tip]);
+    const [a, b] = [this.camera.to(tail), this.camera.to(tip)];
+    const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    if (length < 2) return;
+    const along = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
+    const head = Math.min(9, length / 2);
+    this.g.beginPath();
+    this.g.moveTo(...b);
+    for (const side of [-1, 1]) {
+      this.g.lineTo(b[0] - head * along[0] + side * head * 0.45 * along[1], b[1] - head * along[1] - side * head * 0.45 * along[0]);
+    }
+    this.g.fill();
+  }
+
+  /** Points of a circle with the two directions that span it. */
+  ring(center, axis, radius) {
+    let [e1, e2] = [[1, 0], [0, 1]];
+    if (this.scene.spatial) {
+      const n = unit(axis);
+      const level = cross([0, 0, 1], n);
+      e1 = Math.hypot(...level) > 1e-9 ? unit(level) : [1, 0, 0];
+      e2 = cross(n, e1);
+    }
+    const on = (angle) => plus(plus(center, e1, radius * Math.cos(angle)), e2, radius * Math.sin(angle));
+    return { on, points: Array.from({ length: 64 }, (_, i) => on(i * Math.PI / 32)) };
+  }
+
+  wheel(center, axis, radius, angle) {
+    const { on, points } = this.ring(center, axis, radius);
+    this.line(points, { close: true, fill: 0.16, width: 2.5 });
+    this.line([center, on(angle)], { width: 2.5 });
+    this.line([on(angle + Math.PI), center], { width: 1, alpha: 0.5 });
+    this.disc(this.camera.to(center), 3);
+  }
+
+  sphere([x, y], radius) {
+    const { g } = this;
+    const color = g.fillStyle;
+    const shade = g.createRadialGradient(x - radius * 0.35, y - radius * 0.4, radius * 0.1, x, y, radius);
+    shade.addColorStop(0, this.colors.paper);
+    shade.addColorStop(1, color);
+    g.beginPath();
+    g.arc(x, y, radius, 0, 2 * Math.PI);
+    g.globalAlpha = 0.75;
+    g.fillStyle = shade;
+    g.fill();
+    g.globalAlpha = 1;
+    g.lineWidth = 1.5;
+    g.stroke();
+    g.fillStyle = color;
+  }
+
+  blade(center, direction, length) {
+    const along = this.scene.spatial ? unit(direction) : [Math.cos(direction[0]), Math.sin(direction[0])];
+    this.line([plus(center, along, -length / 2), plus(center, along, length / 2)], { width: 5 });
+    this.g.fillStyle = this.colors.paper;
+    this.disc(this.camera.to(center), 1.5);
+  }
+
+  /** The whole path faintly, the part already run in full. */
+  trail(element, time, present) {
+    const { times } = this.scene;
+    const { stride, values } = element;
+    const step = Math.max(1, Math.ceil(times.length / 3000));
+    const [whole, past] = [[], []];
+    for (let i = 0; i < times.length; i += step) {
+      const point = [...values.subarray(i * stride, (i + 1) * stride)];
+      whole.push(point);
+      if (times[i] <= time) past.push(point);
+    }
+    past.push(present);
+    this.line(whole, { width: 1.2, alpha: 0.28 });
+    this.line(past, { width: 1.8, alpha: 0.9 });
+  }
+
+  label([x, y], text) {
+    this.g.font = `13px ${getComputedStyle(this.figure).fontFamily}`;
+    this.g.fillText(text, x + 8, y - 8);
+  }
+
+  /** A bar of one step of the grid with its length; in space also the three axes. */
+  paintScale() {
+    const { g, camera, scene } = this;
+    g.strokeStyle = g.fillStyle = this.colors.muted;
+    g.font = `12px ${getComputedStyle(document.body).fontFamily}`;
+    const step = scene.spatial ? niceStep(0, 70 / camera.scale, 1) : this.gridStep;
+    const [x, y, size] = [16, this.height - 14, step * camera.scale];
+    g.lineWidth = 2;
+    g.beginPath();
+    g.moveTo(x, y - 4);
+    g.lineTo(x, y);
+    g.lineTo(x + size, y);
+    g.lineTo(x + size, y - 4);
+    g.stroke();
+    g.fillText(`${readable(step)}${this.spec.unit ? ` ${this.spec.unit}` : ""}`, x + size + 8, y + 1);
+    if (!scene.spatial) return;
+    const corner = [this.width - 46, this.height - 40];
+    g.lineWidth = 1.5;
+    ["x", "y", "z"].forEach((name, i) => {
+      const axis = [0, 0, 0].map((_, j) => (i === j ? 1 : 0));
+      const tip = [corner[0] + 26 * dot(axis, camera.right), corner[1] - 26 * dot(axis, camera.up)];
+      g.beginPath();
+      g.moveTo(...corner);
+      g.lineTo(...tip);
+      g.stroke();
+      g.fillText(name, tip[0] + (tip[0] >= corner[0] ? 3 : -10), tip[1] + 3);
+    });
+  }
+}
+
+/** A speed of one digit near the given one. */
+function roundSpeed(speed) {
+  const power = 10 ** Math.floor(Math.log10(Math.max(speed, 1e-9)));
+  const factor = speed / power;
+  return Number((power * (factor < 1.5 ? 1 : factor < 3.5 ? 2 : factor < 7.5 ? 5 : 10)).toPrecision(1));
+}
+

@@ -1,0 +1,207 @@
+// The page: elements, numbers, the shared clock, theme, copying, claims, printing.
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const words = data.words;
+
+/** The first element that matches. */
+const find = (selector, root = document) => root.querySelector(selector);
+/** All elements that match. */
+const findAll = (selector, root = document) => [...root.querySelectorAll(selector)];
+
+/** A new HTML element; texts are set as text, never as markup. */
+function make(tag, attributes = {}, parent = null, text = null) {
+  return finish(document.createElement(tag), attributes, parent, text);
+}
+
+/** A new SVG element. */
+function draw(tag, attributes = {}, parent = null, text = null) {
+  return finish(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, parent, text);
+}
+
+function finish(element, attributes, parent, text) {
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  if (text !== null) element.textContent = text;
+  if (parent) parent.append(element);
+  return element;
+}
+
+/** A template of the table of words with its places filled in. */
+function fill(template, ...values) {
+  return template.replace(/\{\}/g, () => values.shift() ?? "");
+}
+
+/** Numbers of the data; what was not finite is NaN. */
+function numbers(values) {
+  return Float64Array.from(values, (value) => (value === null ? NaN : value));
+}
+
+const raised = (exponent) => String(exponent).replace(/./g, (c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻");
+
+/** A number as people read it. */
+function readable(value, digits = 6) {
+  if (!Number.isFinite(value)) return "—";
+  if (value === 0) return "0";
+  const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
+  const trim = (text) => (text.includes(".") ? text.replace(/\.?0+$/, "") : text);
+  const power = Number(exponent);
+  const text = power >= -4 && power < digits
+    ? trim(value.toFixed(Math.max(0, digits - 1 - power)))
+    : `${trim(mantissa)} × 10${raised(power)}`;
+  return text.replace("-", "−");
+}
+
+/** Round steps (1, 2, 5 times a power of ten) that cover an interval with about `count` parts. */
+function niceStep(low, high, count) {
+  const rough = (high - low) / Math.max(count, 1);
+  const power = 10 ** Math.floor(Math.log10(rough));
+  return power * ([1, 2, 5].find((factor) => factor * power >= rough * 0.999) ?? 10);
+}
+
+/** The time that the animation and the cursors of all plots share. */
+const clock = {
+  time: NaN,
+  listeners: [],
+  set(time) {
+    this.time = time;
+    for (const listener of this.listeners) listener(time);
+  },
+};
+
+/** What must be drawn again when the colors change. */
+const themed = [];
+
+function setUpTheme() {
+  const root = document.documentElement;
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const store = (value) => { try { localStorage.setItem("chetaev-theme", value); } catch { /* private mode */ } };
+  const stored = () => { try { return localStorage.getItem("chetaev-theme"); } catch { return null; } };
+  const repaint = () => themed.forEach((paint) => paint());
+  if (["light", "dark"].includes(stored())) root.dataset.theme = stored();
+  find("#theme").addEventListener("click", () => {
+    const isDark = root.dataset.theme ? root.dataset.theme === "dark" : dark.matches;
+    root.dataset.theme = isDark ? "light" : "dark";
+    store(root.dataset.theme);
+    repaint();
+  });
+  dark.addEventListener("change", repaint);
+}
+
+function setUpCopying() {
+  document.addEventListener("click", async (event) => {
+    const button = event.target.closest("[data-copy]");
+    if (!button) return;
+    const before = button.dataset.label ?? button.textContent;
+    button.dataset.label = before;
+    button.textContent = (await copy(button.dataset.copy)) ? words.copied : words.copyFailed;
+    setTimeout(() => { button.textContent = before; }, 1500);
+  });
+}
+
+/** Copies; where the clipboard is closed to the page (some browsers, for files), the old way. */
+async function copy(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    const area = make("textarea", { readonly: "", class: "offscreen" }, document.body);
+    area.value = text;
+    area.select();
+    const done = document.execCommand("copy");
+    area.remove();
+    return done;
+  }
+}
+
+function setUpClaims() {
+  const claims = findAll("details.claim");
+  const filters = findAll("[data-filter]");
+  const choose = (verdict) => {
+    for (const button of filters) button.setAttribute("aria-pressed", button.dataset.filter === verdict);
+    for (const claim of claims) claim.hidden = verdict !== "" && claim.dataset.verdict !== verdict;
+    for (const group of findAll(".claim-group")) group.hidden = !find(".claim:not([hidden])", group);
+  };
+  for (const button of filters) button.addEventListener("click", () => choose(button.dataset.filter));
+  const all = find("#expand-claims");
+  all?.addEventListener("click", () => {
+    const open = all.getAttribute("aria-pressed") !== "true";
+    for (const claim of claims) claim.open = open;
+    all.setAttribute("aria-pressed", open);
+    all.textContent = open ? words.collapse : words.expand;
+  });
+  const reveal = () => {
+    let id = location.hash.slice(1);
+    try { id = decodeURIComponent(id); } catch { /* shown as it is */ }
+    const target = document.getElementById(id);
+    if (target?.tagName !== "DETAILS") return;
+    if (target.hidden) choose("");
+    target.open = true;
+    target.scrollIntoView();
+  };
+  addEventListener("hashchange", reveal);
+  reveal();
+}
+
+/** Formulas wider than the page scroll; those that do can be reached with the keyboard. */
+function setUpFormulas() {
+  const boxes = findAll(".formula, .scroll, .listing");
+  const look = () => {
+    for (const box of boxes) {
+      if (box.scrollWidth > box.clientWidth + 1) box.tabIndex = 0;
+      else box.removeAttribute("tabindex");
+    }
+  };
+  addEventListener("resize", look);
+  look();
+}
+
+/** The entry of the contents for what is in view. */
+function setUpContents() {
+  const links = new Map(findAll("nav ol a").map((link) => [decodeURIComponent(link.hash.slice(1)), link]));
+  const targets = [...links.keys()].map((id) => document.getElementById(id)).filter(Boolean);
+  const mark = () => {
+    let current = targets[0];
+    for (const target of targets) if (target.getBoundingClientRect().top < innerHeight * 0.3) current = target;
+    for (const [id, link] of links) {
+      if (id === current?.id) link.setAttribute("aria-current", "true");
+      else link.removeAttribute("aria-current");
+    }
+  };
+  let waiting = false;
+  addEventListener("scroll", () => {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => { waiting = false; mark(); });
+  }, { passive: true });
+  mark();
+}
+
+/** Paper shows all evidence, in light colors. */
+function setUpPrinting() {
+  let opened = [];
+  let theme;
+  addEventListener("beforeprint", () => {
+    opened = findAll("details:not([open])");
+    for (const details of opened) details.open = true;
+    theme = document.documentElement.dataset.theme;
+    document.documentElement.dataset.theme = "light";
+    themed.forEach((paint) => paint());
+  });
+  addEventListener("afterprint", () => {
+    for (const details of opened) details.open = false;
+    if (theme) document.documentElement.dataset.theme = theme;
+    else delete document.documentElement.dataset.theme;
+    themed.forEach((paint) => paint());
+  });
+}
+
+function start() {
+  setUpTheme();
+  setUpCopying();
+  setUpClaims();
+  setUpFormulas();
+  setUpContents();
+  setUpPrinting();
+  setUpPlots();
+  setUpAnimation();
+}
+

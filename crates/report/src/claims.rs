@@ -1,0 +1,210 @@
+//! The claims: a tally by verdict, then every claim with its evidence.
+
+use crate::data::{Claim, Report, Verdict};
+use crate::equations::{definitions, equation_body};
+use crate::html::{fragment, Html};
+use crate::number::readable;
+use crate::words::{fill, look_up, Words};
+
+/// The section of all claims.
+pub(crate) fn section(html: &mut Html, report: &Report, words: &Words) {
+    if report.claims.is_empty() {
+        return;
+    }
+    html.raw("<section id=\"claims\" aria-labelledby=\"claims-title\">\n")
+        .wrap("<h2 id=\"claims-title\">", words.claims, "</h2>\n")
+        .wrap("<p class=\"lead\">", words.claims_lead, "</p>\n");
+    tally(html, &report.claims, words);
+    for (prefix, claims) in grouped(&report.claims) {
+        html.raw("<div class=\"claim-group\">\n<h3>");
+        match look_up(words.groups, &prefix) {
+            Some(title) => html.text(title),
+            None => html.text(prefix),
+        };
+        html.raw("</h3>\n");
+        for claim in claims {
+            one(html, claim, report, words);
+        }
+        html.raw("</div>\n");
+    }
+    html.raw("</section>\n");
+}
+
+/// Claims by the part of the id before the first dot, in the order of first appearance.
+fn grouped(claims: &[Claim]) -> Vec<(&str, Vec<&Claim>)> {
+    let mut groups: Vec<(&str, Vec<&Claim>)> = Vec::new();
+    for claim in claims {
+        let prefix = claim.claim.split('.').next().unwrap_or_default();
+        match groups.iter_mut().find(|(known, _)| *known == prefix) {
+            Some((_, members)) => members.push(claim),
+            None => groups.push((prefix, vec![claim])),
+        }
+    }
+    groups
+}
+
+/// How many claims have which verdict; with the script, buttons that filter.
+fn tally(html: &mut Html, claims: &[Claim], words: &Words) {
+    html.raw("<div class=\"tally\" role=\"group\"")
+        .attribute("aria-label", words.filter)
+        .raw(">\n<button type=\"button\" data-filter=\"\" aria-pressed=\"true\">")
+        .text(words.show_all)
+        .wrap(" <b>", claims.len(), "</b></button>\n");
+    for (verdict, count) in counts(claims) {
+        let Some(name) = look_up(&words.verdicts, &verdict) else {
+            continue;
+        };
+        html.raw("<button type=\"button\" aria-pressed=\"false\"")
+            .attribute("class", verdict.key())
+            .attribute("data-filter", verdict.key())
+            .attribute("title", name.meaning)
+            .wrap("><i aria-hidden=\"true\">", glyph(verdict), "</i>")
+            .text(name.name)
+            .wrap(" <b>", count, "</b></button>\n");
+    }
+    html.wrap(
+        "<button type=\"button\" class=\"plain\" id=\"expand-claims\" aria-pressed=\"false\">",
+        words.expand,
+        "</button>\n</div>\n",
+    );
+}
+
+/// The verdicts that occur with their numbers, in the order of the legend.
+pub(crate) fn counts(claims: &[Claim]) -> Vec<(Verdict, usize)> {
+    Verdict::ALL
+        .into_iter()
+        .map(|verdict| {
+            let count = claims.iter().filter(|c| c.verdict == verdict).count();
+            (verdict, count)
+        })
+        .filter(|(_, count)| *count > 0)
+        .collect()
+}
+
+/// A sign that tells the verdicts apart without color.
+fn glyph(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Proved => "✓",
+        Verdict::Numerical => "≈",
+        Verdict::Refuted => "✗",
+        Verdict::Conditional => "◐",
+        Verdict::NotApplicable => "–",
+        Verdict::Undecided => "?",
+    }
+}
+
+/// The verdict as a word with its sign.
+pub(crate) fn chip(html: &mut Html, verdict: Verdict, words: &Words) {
+    let Some(name) = look_up(&words.verdicts, &verdict) else {
+        return;
+    };
+    html.raw("<span")
+        .raw(" class=\"chip ")
+        .raw(verdict.key())
+        .raw("\"")
+        .attribute("title", name.meaning)
+        .wrap("><i aria-hidden=\"true\">", glyph(verdict), "</i>")
+        .wrap("<span>", name.name, "</span></span>");
+}
+
+/// A claim's id as a link to its place, with its verdict if it is on the page.
+pub(crate) fn reference(html: &mut Html, id: &str, report: &Report, words: &Words) {
+    match report.claims.iter().find(|claim| claim.id() == id) {
+        Some(claim) => {
+            html.raw("<a class=\"claim-reference\"")
+                .attribute("href", fragment(id))
+                .wrap("><code>", id, "</code></a> ");
+            chip(html, claim.verdict, words);
+        }
+        None => {
+            html.wrap("<code>", id, "</code>");
+        }
+    }
+}
+
+fn one(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
+    let id = claim.id();
+    html.raw("<details class=\"claim\"")
+        .attribute("id", &id)
+        .attribute("data-verdict", claim.verdict.key())
+        .raw(">\n<summary>");
+    chip(html, claim.verdict, words);
+    html.raw("<span class=\"statement\">");
+    if let Some(title) = &claim.title {
+        html.wrap("<strong>", title, "</strong> ");
+    }
+    html.wrap("<code class=\"id\">", &id, "</code>");
+    if claim
+        .expected
+        .is_some_and(|expected| expected != claim.verdict)
+    {
+        html.raw(" <span class=\"unexpected\">")
+            .text("!")
+            .raw("</span>");
+    }
+    html.wrap("<span class=\"detail\">", &claim.detail, "</span>")
+        .raw("</span></summary>\n<div class=\"evidence\">\n<dl>\n");
+    evidence(html, claim, report, words);
+    html.raw("</dl>\n");
+    for equation in &claim.formulas {
+        html.raw("<div class=\"equation\">");
+        equation_body(html, equation, None, words);
+        html.raw("</div>\n");
+        definitions(html, &equation.definitions, words);
+    }
+    html.raw("<p class=\"permalink\"><a")
+        .attribute("href", fragment(&id))
+        .wrap(">", words.link_to_claim, "</a></p>\n</div>\n</details>\n");
+}
+
+/// The rows of the evidence that are there.
+fn evidence(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
+    let condition = match claim.verdict {
+        Verdict::NotApplicable => words.failing_hypothesis,
+        _ => words.condition,
+    };
+    let seconds = claim
+        .seconds
+        .map(|seconds| fill(words.seconds, &[&readable(seconds)]));
+    let rows = [
+        (words.method, claim.method.clone()),
+        (words.on, claim.on.clone()),
+        (condition, claim.condition.clone()),
+        (words.error_bound, claim.error_bound.clone()),
+        (words.samples, claim.samples.map(|n| n.to_string())),
+        (words.seed, claim.seed.map(|n| n.to_string())),
+        (words.residual, claim.residual.clone()),
+        (words.expected, expectation(claim, words)),
+        (words.time_spent, seconds),
+    ];
+    for (label, value) in rows {
+        if let Some(value) = value {
+            html.wrap("<div><dt>", label, "</dt>")
+                .wrap("<dd>", value, "</dd></div>\n");
+        }
+    }
+    if let Some(counterexample) = &claim.counterexample {
+        html.wrap("<div class=\"wide\"><dt>", words.counterexample, "</dt>")
+            .wrap("<dd><pre>", counterexample, "</pre></dd></div>\n");
+    }
+    if !claim.requires.is_empty() {
+        html.wrap("<div class=\"wide\"><dt>", words.requires, "</dt><dd><ul>");
+        for id in &claim.requires {
+            html.raw("<li>");
+            reference(html, id, report, words);
+            html.raw("</li>");
+        }
+        html.raw("</ul></dd></div>\n");
+    }
+}
+
+fn expectation(claim: &Claim, words: &Words) -> Option<String> {
+    let expected = claim.expected?;
+    let template = if expected == claim.verdict {
+        words.as_expected
+    } else {
+        words.not_as_expected
+    };
+    let name = look_up(&words.verdicts, &expected)?.name;
+    Some(fill(template, &[name]))
+}

@@ -1,0 +1,182 @@
+//! The computed motion: places for the plots, statistics and drifts in tables.
+
+use crate::claims;
+use crate::data::{Report, SeriesGroup, Trajectory};
+use crate::html::Html;
+use crate::number::readable;
+use crate::payload::{label, Payload, PlotKind};
+use crate::system::facts;
+use crate::words::Words;
+
+/// The section of the motion.
+pub(crate) fn section(html: &mut Html, report: &Report, payload: &Payload<'_>, words: &Words) {
+    let Some(trajectory) = &report.trajectory else {
+        return;
+    };
+    html.raw("<section id=\"motion\" aria-labelledby=\"motion-title\">\n")
+        .wrap("<h2 id=\"motion-title\">", words.motion, "</h2>\n");
+    stop(html, trajectory, words);
+    if payload.plots(PlotKind::Time).next().is_some() {
+        html.wrap("<p class=\"hint\">", words.plots_hint, "</p>\n")
+            .wrap("<noscript><p>", words.no_script, "</p></noscript>\n");
+    }
+    plots(html, payload, PlotKind::Time);
+    if payload.plots(PlotKind::Portrait).next().is_some() {
+        html.wrap("<h3 id=\"portraits\">", words.portraits, "</h3>\n");
+        plots(html, payload, PlotKind::Portrait);
+    }
+    html.raw("<div class=\"columns\">\n");
+    drifts(html, trajectory, words);
+    if !trajectory.statistics.is_empty() {
+        html.wrap("<div><h3>", words.statistics, "</h3>\n");
+        facts(html, &trajectory.statistics, report, words);
+        html.raw("</div>\n");
+    }
+    html.raw("</div>\n");
+    switches(html, trajectory, words);
+    if !trajectory.files.is_empty() {
+        html.wrap("<p>", words.full_data, ":");
+        for file in &trajectory.files {
+            html.wrap(" <code>", file, "</code>");
+        }
+        html.raw("</p>\n");
+    }
+    html.raw("</section>\n");
+}
+
+/// The section of the further figures.
+pub(crate) fn figures(html: &mut Html, report: &Report, payload: &Payload<'_>, words: &Words) {
+    if report.figures.is_empty() {
+        return;
+    }
+    html.raw("<section id=\"figures\" aria-labelledby=\"figures-title\">\n")
+        .wrap(
+            "<h2 id=\"figures-title\">",
+            words.figures,
+            "</h2>\n<div class=\"plots\">\n",
+        );
+    for (figure, (index, _)) in report.figures.iter().zip(payload.plots(PlotKind::Figure)) {
+        html.raw("<figure class=\"plot\"")
+            .attribute("data-plot", index)
+            .wrap("><figcaption><h4>", &figure.title, "</h4>")
+            .paragraphs(&figure.explanation);
+        if let Some(claim) = &figure.claim {
+            html.wrap("<p>", words.proved_by, ": ");
+            claims::reference(html, claim, report, words);
+            html.raw("</p>");
+        }
+        html.raw("</figcaption></figure>\n");
+    }
+    html.raw("</div>\n</section>\n");
+}
+
+fn stop(html: &mut Html, trajectory: &Trajectory, words: &Words) {
+    let stop = &trajectory.stop;
+    match (stop.early, stop.expected) {
+        (true, false) => html
+            .wrap(
+                "<p class=\"notice\"><strong>",
+                words.stopped_early,
+                ".</strong> ",
+            )
+            .text(&stop.reason),
+        (true, true) => html
+            .wrap(
+                "<p class=\"stop\"><strong>",
+                words.stopped_expected,
+                ".</strong> ",
+            )
+            .text(&stop.reason),
+        (false, _) => html.wrap("<p class=\"stop\">", &stop.reason, ""),
+    };
+    html.raw("</p>\n");
+}
+
+/// A figure for each plot of a kind; the script draws into it.
+fn plots(html: &mut Html, payload: &Payload<'_>, kind: PlotKind) {
+    let open = match kind {
+        PlotKind::Portrait => "<div class=\"plots portraits\">\n",
+        _ => "<div class=\"plots\">\n",
+    };
+    html.raw(open);
+    for (index, plot) in payload.plots(kind) {
+        html.raw("<figure class=\"plot\"")
+            .attribute("data-plot", index)
+            .wrap(
+                "><figcaption><h4>",
+                &plot.title,
+                "</h4></figcaption></figure>\n",
+            );
+    }
+    html.raw("</div>\n");
+}
+
+/// The largest drift of each recorded one against its tolerance.
+fn drifts(html: &mut Html, trajectory: &Trajectory, words: &Words) {
+    let mut drifts = trajectory
+        .series
+        .iter()
+        .filter(|series| series.group == SeriesGroup::Drifts)
+        .peekable();
+    if drifts.peek().is_none() {
+        return;
+    }
+    html.wrap(
+        "<div><h3>",
+        words.drift_table,
+        "</h3>\n<div class=\"scroll\"><table>",
+    )
+    .wrap("<thead><tr><th>", words.quantity, "</th>")
+    .wrap("<th class=\"numeric\">", words.largest, "</th>")
+    .wrap(
+        "<th class=\"numeric\">",
+        words.tolerance,
+        "</th><th></th></tr></thead>\n<tbody>\n",
+    );
+    for series in drifts {
+        let magnitudes = series
+            .values
+            .iter()
+            .filter(|v| v.is_finite())
+            .map(|v| v.abs());
+        let largest = magnitudes.fold(0.0, f64::max);
+        html.wrap("<tr><td>", label(series), "</td>").wrap(
+            "<td class=\"numeric\">",
+            readable(largest),
+            "</td><td class=\"numeric\">",
+        );
+        match series.tolerance {
+            Some(tolerance) if largest <= tolerance => html.text(readable(tolerance)).wrap(
+                "</td><td class=\"within\">",
+                words.within,
+                "</td></tr>\n",
+            ),
+            Some(tolerance) => html.text(readable(tolerance)).wrap(
+                "</td><td class=\"exceeded\">",
+                words.exceeded,
+                "</td></tr>\n",
+            ),
+            None => html.raw("</td><td></td></tr>\n"),
+        };
+    }
+    html.raw("</tbody></table></div></div>\n");
+}
+
+fn switches(html: &mut Html, trajectory: &Trajectory, words: &Words) {
+    if trajectory.chart_switches.is_empty() {
+        return;
+    }
+    html.wrap(
+        "<h3>",
+        words.chart_switches,
+        "</h3>\n<ol class=\"switches\">\n",
+    );
+    for switch in &trajectory.chart_switches {
+        html.wrap("<li><span class=\"when\">t = ", readable(switch.time), "");
+        if let Some(unit) = &trajectory.time_unit {
+            html.wrap(" ", unit, "");
+        }
+        html.wrap("</span> ", &switch.detail, "</li>\n");
+    }
+    html.raw("</ol>\n");
+}

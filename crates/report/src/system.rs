@@ -1,0 +1,183 @@
+//! The system in words: description, facts, parameters, assumptions, initial state, sources.
+
+use crate::claims;
+use crate::data::{Fact, Origin, Report};
+use crate::equations::inline;
+use crate::html::Html;
+use crate::number::readable;
+use crate::words::{look_up, Words};
+
+/// The section that introduces the system.
+pub(crate) fn section(html: &mut Html, report: &Report, words: &Words) {
+    html.raw("<section id=\"system\" aria-labelledby=\"system-title\">\n")
+        .wrap("<h2 id=\"system-title\">", words.system, "</h2>\n")
+        .paragraphs(&report.description);
+    facts(html, &report.facts, report, words);
+    parameters(html, report, words);
+    html.raw("<div class=\"columns\">\n");
+    initial(html, report, words);
+    assumptions(html, report, words);
+    html.raw("</div>\n");
+    if !report.history.is_empty() {
+        html.wrap("<h3>", words.history, "</h3>\n")
+            .paragraphs(&report.history);
+    }
+    sources(html, report, words);
+    html.raw("</section>\n");
+}
+
+/// Whether the section has anything to say.
+pub(crate) fn is_present(report: &Report) -> bool {
+    !(report.description.is_empty()
+        && report.facts.is_empty()
+        && report.parameters.is_empty()
+        && report.initial.is_empty()
+        && report.assumptions.is_empty()
+        && report.history.is_empty()
+        && report.sources.is_empty())
+}
+
+/// Labelled values in a grid.
+pub(crate) fn facts(html: &mut Html, facts: &[Fact], report: &Report, words: &Words) {
+    if facts.is_empty() {
+        return;
+    }
+    html.raw("<dl class=\"facts\">\n");
+    for fact in facts {
+        html.wrap("<div><dt>", &fact.label, "");
+        if let Some(symbol) = &fact.symbol {
+            html.wrap(" <var>", symbol, "</var>");
+        }
+        html.wrap("</dt><dd>", &fact.value, "");
+        if let Some(note) = &fact.note {
+            html.wrap(" <small>", note, "</small>");
+        }
+        if let Some(claim) = &fact.claim {
+            html.raw(" <small>");
+            claims::reference(html, claim, report, words);
+            html.raw("</small>");
+        }
+        html.raw("</dd></div>\n");
+    }
+    html.raw("</dl>\n");
+}
+
+/// The table of parameters; a column appears where some parameter fills it.
+fn parameters(html: &mut Html, report: &Report, words: &Words) {
+    let rows = &report.parameters;
+    if rows.is_empty() {
+        return;
+    }
+    let has_range = rows.iter().any(|row| row.range.is_some());
+    let has_meaning = rows.iter().any(|row| row.description.is_some());
+    html.wrap(
+        "<h3>",
+        words.parameters,
+        "</h3>\n<div class=\"scroll\"><table>",
+    )
+    .wrap("<thead><tr><th>", words.parameter, "</th>")
+    .wrap("<th>", words.value, "</th>");
+    if has_range {
+        html.wrap("<th>", words.range, "</th>");
+    }
+    if has_meaning {
+        html.wrap("<th>", words.meaning, "</th>");
+    }
+    html.raw("</tr></thead>\n<tbody>\n");
+    for row in rows {
+        html.raw("<tr><td>");
+        inline(html, &row.name);
+        html.wrap("</td><td>", row.value.as_deref().unwrap_or("—"), "");
+        if let Some(unit) = &row.unit {
+            html.wrap(" <span class=\"unit\">", unit, "</span>");
+        }
+        html.raw("</td>");
+        if has_range {
+            html.wrap("<td>", row.range.as_deref().unwrap_or_default(), "</td>");
+        }
+        if has_meaning {
+            let meaning = row.description.as_deref().unwrap_or_default();
+            html.wrap("<td>", meaning, "</td>");
+        }
+        html.raw("</tr>\n");
+    }
+    html.raw("</tbody></table></div>\n");
+}
+
+fn initial(html: &mut Html, report: &Report, words: &Words) {
+    if report.initial.is_empty() {
+        return;
+    }
+    html.wrap(
+        "<div><h3>",
+        words.initial,
+        "</h3>\n<div class=\"scroll\"><table>",
+    )
+    .wrap("<thead><tr><th>", words.quantity, "</th>")
+    .wrap("<th>", words.value, "</th>")
+    .wrap("<th>", words.origin, "</th></tr></thead>\n<tbody>\n");
+    for row in &report.initial {
+        html.raw("<tr><td>");
+        inline(html, &row.name);
+        html.raw("</td><td>");
+        if let Some(stated) = &row.stated {
+            html.wrap("<code>", stated, "</code> = ");
+        }
+        html.text(readable(row.value));
+        if let Some(unit) = &row.unit {
+            html.wrap(" <span class=\"unit\">", unit, "</span>");
+        }
+        let class = match row.origin {
+            Origin::Given => "</td><td>",
+            Origin::Default => "</td><td class=\"quiet\">",
+            Origin::Projected => "</td><td class=\"projected\">",
+        };
+        let origin = look_up(&words.origins, &row.origin).unwrap_or_default();
+        html.wrap(class, origin, "</td></tr>\n");
+    }
+    html.raw("</tbody></table></div></div>\n");
+}
+
+fn assumptions(html: &mut Html, report: &Report, words: &Words) {
+    if report.assumptions.is_empty() {
+        return;
+    }
+    html.wrap(
+        "<div><h3>",
+        words.assumptions,
+        "</h3>\n<ul class=\"assumptions\">\n",
+    );
+    for assumption in &report.assumptions {
+        html.raw("<li>");
+        inline(html, &assumption.formula);
+        if let Some(note) = &assumption.note {
+            html.wrap(" <small>", note, "</small>");
+        }
+        html.raw("</li>\n");
+    }
+    html.raw("</ul></div>\n");
+}
+
+fn sources(html: &mut Html, report: &Report, words: &Words) {
+    if report.sources.is_empty() {
+        return;
+    }
+    html.wrap("<h3>", words.sources, "</h3>\n<ul class=\"sources\">\n");
+    for source in &report.sources {
+        html.wrap("<li>", &source.text, "");
+        if let Some(link) = &source.link {
+            let is_web = ["https://", "http://"]
+                .iter()
+                .any(|scheme| link.starts_with(scheme));
+            if is_web {
+                html.raw(" <a rel=\"noopener noreferrer\"")
+                    .attribute("href", link)
+                    .wrap(">", link, "</a>");
+            } else {
+                html.wrap(" <span>", link, "</span>");
+            }
+        }
+        html.raw("</li>\n");
+    }
+    html.raw("</ul>\n");
+}
