@@ -1,1 +1,42 @@
 //! Time stepping of numeric functions; never sees a symbol.
+//!
+//! [`integrate`] runs a [`System`] y' = F(t, y) from one time to another with a [`Method`] of the registry and
+//! returns a [`Solution`]: rows at the times asked for, events, statistics, notes, and the reason why the run ended.
+//! Ending early (an event, a singular state, a step limit, an interruption) is a value, [`Stop`], and keeps what the
+//! run has; an [`IntegrateError`] means that the run could not begin.
+//!
+//! - [`problem`]: what is integrated, and the hooks of a mechanical system (projection, change of chart, halt);
+//! - [`mod@method`] and [`methods`]: what a method is, and the methods;
+//! - [`control`]: error norms, tolerances, step-size control;
+//! - [`dense`]: the polynomial of each step; [`event`]: zero crossings located on it;
+//! - [`solution`]: results; [`mod@integrate`]: options and the loop;
+//!
+//! Everything is deterministic: no clock, no threads, no global state, fixed orders of summation.
+
+mod collapse;
+pub mod compensated;
+pub mod control;
+pub mod dense;
+mod error;
+pub mod event;
+pub mod integrate;
+mod locate;
+pub mod method;
+pub mod methods;
+mod output;
+pub mod problem;
+mod run;
+pub mod solution;
+pub mod stiffness;
+
+pub use control::ErrorControl;
+pub use dense::Trajectory;
+pub use error::IntegrateError;
+pub use event::{Direction, Event, EventKind, EventRecord};
+pub use integrate::{integrate, Options, Output, Progress, StepSize};
+pub use method::{method, Method, MethodCard};
+pub use problem::{
+    from_fn, try_from_fn, ChartChange, Control, EvaluationFailure, HaltReason, System,
+};
+pub use solution::{Note, Solution, Statistics, Stop};
+pub use stiffness::StiffnessPolicy;

@@ -1,0 +1,16 @@
+//! The methods, one file each. Adding one is a file and a line in [`METHODS`].
+
+mod dormand_prince_853;
+mod explicit_runge_kutta;
+mod runge_kutta_4;
+mod tsitouras_5;
+
+use crate::method::Method;
+
+pub use dormand_prince_853::DORMAND_PRINCE_853;
+pub use explicit_runge_kutta::{ErrorEstimate, ExplicitRungeKutta, Row, Tableau};
+pub use runge_kutta_4::RUNGE_KUTTA_4;
+pub use tsitouras_5::TSITOURAS_5;
+
+/// Every method, by preference.
+pub static METHODS: &[&dyn Method] = &[&DORMAND_PRINCE_853, &TSITOURAS_5, &RUNGE_KUTTA_4];

@@ -1,0 +1,477 @@
+//! The loop of a run: attempt, locate events, record, commit, call the hooks.
+//!
+//! Inside, an early end is `Err(Stop)`, so that `?` leads out of the loop; [`Run::run_to_end`] turns it into a value.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::Ordering;
+
+use crate::collapse::Collapse;
+use crate::compensated::Time;
+use crate::control::least_step;
+use crate::dense::{DenseStep, Trajectory};
+use crate::event::Event;
+use crate::integrate::{Options, Progress, StepSize};
+use crate::locate::Locator;
+use crate::method::{Attempt, State, Stepper};
+use crate::output::Schedule;
+use crate::problem::{Control, EvaluationFailure, System};
+use crate::solution::{Note, Solution, Statistics, Stop};
+use crate::stiffness::{Detector, StiffnessPolicy};
+
+/// Failed attempts are repeated with a step shorter by this factor.
+const RETRY: f64 = 0.25;
+
+/// One run at work. All storage is made before the first step; later only rows, events and notes grow.
+pub(crate) struct Run<'r, 'e, 'o> {
+    system: &'r mut dyn System,
+    events: &'r mut [Event<'e>],
+    options: Options<'o>,
+    schedule: Schedule,
+    span: (f64, f64),
+    direction: f64,
+    stepper: Box<dyn Stepper>,
+    locator: Locator,
+    /// Start of the present step.
+    now: State,
+    /// End of the present step.
+    next: State,
+    dense: DenseStep,
+    /// Whether `dense` holds the polynomial of the step from `now` to `next`.
+    dense_ready: bool,
+    /// Signed length of the next attempt.
+    h: f64,
+    /// The state was changed from outside: the stepper has to restart.
+    changed: bool,
+    /// Whether the system was already asked for another chart at this starting point.
+    repivoted: bool,
+    collapse: Collapse,
+    detector: Detector,
+    point: Vec<f64>,
+    before_hook: Vec<f64>,
+    factorizations_before: u64,
+    solution: Solution,
+}
+
+impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
+    pub(crate) fn new(
+        system: &'r mut dyn System,
+        span: (f64, f64),
+        y0: &[f64],
+        events: &'r mut [Event<'e>],
+        options: Options<'o>,
+        schedule: Schedule,
+    ) -> Self {
+        let n = y0.len();
+        let method = options.method;
+        let width = system.output_dimension();
+        for event in events.iter_mut() {
+            event.count = 0;
+        }
+        Run {
+            direction: if span.1 < span.0 { -1.0 } else { 1.0 },
+            stepper: method.stepper(n, &options.settings()),
+            locator: Locator::new(n, events.len(), &options),
+            now: State::exact(span.0, y0),
+            next: State::exact(span.0, y0),
+            dense: DenseStep::new(n),
+            dense_ready: false,
+            h: 0.0,
+            changed: false,
+            repivoted: false,
+            collapse: Collapse::new(span.0, y0),
+            detector: Detector::new(),
+            point: vec![0.0; n],
+            before_hook: vec![0.0; n],
+            factorizations_before: system.factorizations(),
+            solution: Solution {
+                method: method.card().name,
+                stop: Stop::Finished,
+                t: span.0,
+                state: y0.to_vec(),
+                times: Vec::new(),
+                width,
+                rows: Vec::new(),
+                events: Vec::new(),
+                chart_changes: Vec::new(),
+                notes: Vec::new(),
+                statistics: Statistics::default(),
+                trajectory: options.keep_trajectory.then(|| Trajectory::new(n)),
+            },
+            system,
+            events,
+            options,
+            schedule,
+            span,
+        }
+    }
+
+    /// Runs to the end, whatever it is.
+    pub(crate) fn run_to_end(mut self) -> Solution {
+        let mut outcome = self.begin();
+        while outcome.is_ok() {
+            outcome = self.advance();
+        }
+        let stop = outcome.err().unwrap_or(Stop::Finished);
+        self.finish(stop)
+    }
+
+    /// Records the initial state and prepares the method.
+    fn begin(&mut self) -> Result<(), Stop> {
+        if self.schedule.with_first() {
+            self.record_state(false)?;
+        } else {
+            self.record_scheduled_here()?;
+        }
+        let span = (self.span.1 - self.span.0).abs();
+        if span == 0.0 {
+            return Err(Stop::Finished);
+        }
+        let first = loop {
+            let start = self
+                .stepper
+                .start(self.system, &self.now, self.direction, span);
+            match start {
+                Ok(first) => break first,
+                Err(failure) if self.repivot(&failure)? => self.changed = false,
+                Err(failure) => return Err(self.failed_at_state(failure)),
+            }
+        };
+        self.h = self.direction
+            * match self.options.step {
+                StepSize::Fixed(h) => h,
+                StepSize::Adaptive { first: given, .. } => given.unwrap_or(first),
+            };
+        Ok(())
+    }
+
+    /// Makes one accepted step.
+    fn advance(&mut self) -> Result<(), Stop> {
+        self.check_limits()?;
+        if self.changed {
+            self.changed = false;
+            if let Err(failure) = self.stepper.restart(self.system, &self.now) {
+                return Err(self.failed_at_state(failure));
+            }
+        }
+        let attempt = self.attempt_until_accepted()?;
+        let ended_by = self.locate_events()?;
+        self.record_inside()?;
+        self.commit(&attempt, ended_by.is_some());
+        self.call_accepted_hook(ended_by)?;
+        self.record_end()?;
+        if let Some(stop) = ended_by {
+            return Err(stop);
+        }
+        if self.now.t.high == self.span.1 {
+            return Err(Stop::Finished);
+        }
+        self.watch_stiffness(&attempt)
+    }
+
+    fn check_limits(&mut self) -> Result<(), Stop> {
+        let t = self.now.t.high;
+        let steps = self.solution.statistics.steps;
+        let raised = self
+            .options
+            .interrupt
+            .is_some_and(|flag| flag.load(Ordering::Relaxed));
+        let progress = Progress {
+            t,
+            t_start: self.span.0,
+            t_end: self.span.1,
+            steps,
+        };
+        let broken = match &mut self.options.progress {
+            Some(callback) if steps > 0 => callback(progress) == ControlFlow::Break(()),
+            _ => false,
+        };
+        if raised || broken {
+            return Err(Stop::Interrupted { t });
+        }
+        if steps >= self.options.step_limit {
+            return Err(Stop::StepLimit {
+                t,
+                limit: self.options.step_limit,
+            });
+        }
+        Ok(())
+    }
+
+    /// Signed length of the next attempt, and whether it ends the span.
+    fn choose_step(&self) -> Result<(f64, bool), Stop> {
+        let remaining = self.now.t.until(self.span.1);
+        let most = match self.options.step {
+            StepSize::Adaptive {
+                most: Some(most), ..
+            } => most,
+            _ => f64::INFINITY,
+        };
+        let h = self.direction * self.h.abs().min(most);
+        // A last step of less than a hundredth is merged with the one before it; fixed steps only absorb rounding.
+        let stretch = match self.options.step {
+            StepSize::Fixed(_) => 1.0 + 1e-9,
+            StepSize::Adaptive { .. } => 1.01,
+        };
+        if stretch * h.abs() >= remaining.abs() && remaining.abs() <= stretch * most {
+            return Ok((remaining, true));
+        }
+        let span = (self.span.1 - self.span.0).abs();
+        if h.abs() < least_step(self.now.t.high, span) {
+            return Err(self.collapse.stop(&self.now, h));
+        }
+        Ok((h, false))
+    }
+
+    fn attempt_until_accepted(&mut self) -> Result<Attempt, Stop> {
+        loop {
+            let (h, last) = self.choose_step()?;
+            self.dense_ready = false;
+            match self
+                .stepper
+                .attempt(self.system, &self.now, h, &mut self.next)
+            {
+                Err(failure) => self.recover(h, failure)?,
+                Ok(attempt) if !attempt.accepted => {
+                    self.solution.statistics.rejected += 1;
+                    self.collapse.rejected(attempt.worst);
+                    self.h = attempt.next;
+                }
+                Ok(attempt) => {
+                    if last && attempt.h == h {
+                        self.next.t = Time::exact(self.span.1);
+                    }
+                    match self.prepare_dense() {
+                        Ok(()) => return Ok(attempt),
+                        Err(failure) => self.recover(h, failure)?,
+                    }
+                }
+            }
+        }
+    }
+
+    /// Makes the polynomial of the step if anybody will ask for it.
+    fn prepare_dense(&mut self) -> Result<(), EvaluationFailure> {
+        let inside = self
+            .schedule
+            .next()
+            .is_some_and(|s| self.next.t.until(s) * self.direction < 0.0);
+        if inside || self.options.keep_trajectory || !self.events.is_empty() {
+            self.stepper
+                .dense(self.system, &self.now, &self.next, &mut self.dense)?;
+            self.dense_ready = true;
+        }
+        Ok(())
+    }
+
+    /// After a failed evaluation inside a step of length h: another chart at its start, or a shorter step.
+    fn recover(&mut self, h: f64, failure: EvaluationFailure) -> Result<(), Stop> {
+        self.solution.statistics.failed += 1;
+        self.stepper.failed();
+        self.collapse.failed(failure);
+        if self.repivot(&failure)? {
+            self.changed = false;
+            return self
+                .stepper
+                .restart(self.system, &self.now)
+                .map_err(|failure| self.failed_at_state(failure));
+        }
+        if matches!(self.options.step, StepSize::Fixed(_)) {
+            return Err(self.failed_at_state(failure));
+        }
+        self.h = h * RETRY;
+        Ok(())
+    }
+
+    /// Asks the system for another chart, at most once per starting point; says whether anything was changed.
+    fn repivot(&mut self, failure: &EvaluationFailure) -> Result<bool, Stop> {
+        let curable = matches!(
+            failure,
+            EvaluationFailure::PivotDegraded { .. } | EvaluationFailure::Singular { .. }
+        );
+        if self.repivoted || !curable {
+            return Ok(false);
+        }
+        self.repivoted = true;
+        self.before_hook.copy_from_slice(&self.now.y);
+        let control = self.system.repivot(self.now.t.high, &mut self.now.y);
+        self.apply(control)?;
+        Ok(self.changed)
+    }
+
+    /// The stop for an evaluation that fails at the very state where the run stands.
+    fn failed_at_state(&self, failure: EvaluationFailure) -> Stop {
+        let t = self.now.t.high;
+        match failure {
+            EvaluationFailure::NotFinite { component } => Stop::NotFinite { t, component },
+            failure => Stop::Singular { t, failure },
+        }
+    }
+
+    /// Finds the events of the step. A terminal one cuts the step: `next` is then the state at the event.
+    fn locate_events(&mut self) -> Result<Option<Stop>, Stop> {
+        if self.events.is_empty() {
+            return Ok(None);
+        }
+        self.locator.locate(
+            self.system,
+            self.events,
+            (&self.now, &mut self.next, &self.dense),
+            self.span.1,
+            &mut self.solution,
+        )
+    }
+
+    /// Records the scheduled times strictly inside the step.
+    fn record_inside(&mut self) -> Result<(), Stop> {
+        while let Some(s) = self.schedule.next() {
+            if self.next.t.until(s) * self.direction >= 0.0 || !self.dense_ready {
+                break;
+            }
+            let mut point = std::mem::take(&mut self.point);
+            self.dense.at(s, &mut point);
+            let outcome = self.record(s, &point);
+            self.point = point;
+            outcome?;
+            self.schedule.advance();
+        }
+        Ok(())
+    }
+
+    /// Makes `next` the present state.
+    fn commit(&mut self, attempt: &Attempt, cut: bool) {
+        if let Some(trajectory) = &mut self.solution.trajectory {
+            let switches = u32::try_from(self.solution.chart_changes.len()).unwrap_or(u32::MAX);
+            trajectory.push(&self.dense, self.next.t.high, switches);
+        }
+        let step = self.now.t.until(self.next.t.high);
+        self.collapse.accepted(&self.now, &self.next, step);
+        std::mem::swap(&mut self.now, &mut self.next);
+        self.solution.statistics.steps += 1;
+        self.h = attempt.next;
+        self.repivoted = false;
+        if cut {
+            self.changed = true;
+        } else {
+            self.stepper.commit();
+        }
+    }
+
+    fn call_accepted_hook(&mut self, ended_by: Option<Stop>) -> Result<(), Stop> {
+        self.before_hook.copy_from_slice(&self.now.y);
+        let control = self.system.accepted(self.now.t.high, &mut self.now.y);
+        match self.apply(control) {
+            // A terminal event at the same state takes precedence over the hook.
+            Err(_) if ended_by.is_some() => Ok(()),
+            outcome => outcome,
+        }
+    }
+
+    /// Carries out what a hook reports, after it may have changed `now.y` from `before_hook`.
+    fn apply(&mut self, control: Control) -> Result<(), Stop> {
+        let t = self.now.t.high;
+        match control {
+            Control::Continue => return Ok(()),
+            Control::StateModified => self.solution.statistics.modifications += 1,
+            Control::ChartSwitched(change) => {
+                self.solution.statistics.chart_switches += 1;
+                self.solution.chart_changes.push((t, change));
+            }
+            Control::Stop(reason) => return Err(Stop::Halted { t, reason }),
+        }
+        self.changed = true;
+        // A component that the hook left alone keeps its compensation.
+        for i in 0..self.now.y.len() {
+            if self.now.y[i].to_bits() != self.before_hook[i].to_bits() {
+                self.now.carry[i] = 0.0;
+            }
+        }
+        Ok(())
+    }
+
+    /// Records the end of a step where it was asked for.
+    fn record_end(&mut self) -> Result<(), Stop> {
+        if self.schedule.every_step() {
+            self.record_state(false)
+        } else {
+            self.record_scheduled_here()
+        }
+    }
+
+    /// Records the present state once for each scheduled time that equals the present one.
+    fn record_scheduled_here(&mut self) -> Result<(), Stop> {
+        while self.schedule.next() == Some(self.now.t.high) {
+            self.record_state(false)?;
+            self.schedule.advance();
+        }
+        Ok(())
+    }
+
+    fn record_state(&mut self, unless_recorded: bool) -> Result<(), Stop> {
+        if unless_recorded && self.solution.times.last() == Some(&self.now.t.high) {
+            return Ok(());
+        }
+        let y = std::mem::take(&mut self.now.y);
+        let outcome = self.record(self.now.t.high, &y);
+        self.now.y = y;
+        outcome
+    }
+
+    fn record(&mut self, t: f64, y: &[f64]) -> Result<(), Stop> {
+        let start = self.solution.rows.len();
+        self.solution.rows.resize(start + self.solution.width, 0.0);
+        let outcome = self.system.output(t, y, &mut self.solution.rows[start..]);
+        match outcome {
+            Ok(()) => {
+                self.solution.times.push(t);
+                Ok(())
+            }
+            Err(failure) => {
+                self.solution.rows.truncate(start);
+                Err(Stop::Singular { t, failure })
+            }
+        }
+    }
+
+    fn watch_stiffness(&mut self, attempt: &Attempt) -> Result<(), Stop> {
+        if self.options.stiffness == StiffnessPolicy::Off || !self.detector.step(attempt.stiffness)
+        {
+            return Ok(());
+        }
+        let t = self.now.t.high;
+        let steps = self.solution.statistics.steps;
+        let steps_ahead = (self.now.t.until(self.span.1) / attempt.h).abs().ceil();
+        if !self.detector.noted {
+            self.detector.noted = true;
+            self.solution.notes.push(Note::Stiff {
+                t,
+                stability: attempt.stiffness.unwrap_or(1.0),
+                h: attempt.h.abs(),
+                steps_ahead,
+            });
+        }
+        match self.options.stiffness {
+            StiffnessPolicy::StopAfter(budget) if steps >= budget && steps_ahead > steps as f64 => {
+                Err(Stop::Stiff {
+                    t,
+                    steps,
+                    steps_ahead,
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn finish(mut self, stop: Stop) -> Solution {
+        if self.schedule.with_last() {
+            // The output may fail where the run failed; the state itself is kept in any case.
+            let _ = self.record_state(true);
+        }
+        let statistics = &mut self.solution.statistics;
+        statistics.evaluations = self.stepper.evaluations() + self.locator.evaluations();
+        statistics.factorizations = self.system.factorizations() - self.factorizations_before;
+        self.solution.t = self.now.t.high;
+        self.solution.state.copy_from_slice(&self.now.y);
+        self.solution.stop = stop;
+        self.solution
+    }
+}
