@@ -1,1 +1,17 @@
 //! A constrained system, the registry of claims, and the equations of motion that follow.
+
+pub mod card;
+pub mod characteristics;
+pub mod constraint;
+pub mod equations;
+pub mod formulations;
+pub mod sample;
+pub mod system;
+pub mod terms;
+
+pub use characteristics::{Characteristics, Manifold, Selection};
+pub use constraint::{Constraint, ConstraintKind};
+pub use equations::Equations;
+pub use formulations::{formulation, Basis, Formulation, FORMULATIONS};
+pub use system::{System, SystemError, SystemParts};
+pub use terms::MotionTerms;

@@ -1,0 +1,121 @@
+//! Constraints and their classification.
+
+use crate::system::{System, SystemError};
+use chetaev_symbolic::Expr;
+
+/// What kind of constraint, by how it is written (T1 §0).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConstraintKind {
+    /// `g(q, t) = 0`.
+    Holonomic,
+    /// Linear and homogeneous in the velocities.
+    Linear,
+    /// Linear in the velocities with a term free of them.
+    Affine,
+    /// Nonlinear in the velocities.
+    Nonlinear,
+    /// Contains accelerations or higher derivatives.
+    HigherOrder,
+}
+
+impl ConstraintKind {
+    /// The word used in output.
+    pub fn word(self) -> &'static str {
+        match self {
+            ConstraintKind::Holonomic => "holonomic",
+            ConstraintKind::Linear => "linear",
+            ConstraintKind::Affine => "affine",
+            ConstraintKind::Nonlinear => "nonlinear",
+            ConstraintKind::HigherOrder => "higher-order",
+        }
+    }
+}
+
+/// A constraint of a system, `stated = left - right`.
+#[derive(Clone, Debug)]
+pub struct Constraint {
+    /// The name in the model; the multiplier is `lambda_NAME`.
+    pub name: String,
+    /// left - right as written.
+    pub stated: Expr,
+    /// The constraint on the velocities: `stated` itself, or `D stated` for a holonomic one.
+    pub f: Expr,
+    /// The highest derivative that occurs in `stated`.
+    pub order: u32,
+    /// Classification by form.
+    pub kind: ConstraintKind,
+    /// Whether the time (or a control) occurs explicitly.
+    pub rheonomic: bool,
+    /// Whether ∂f/∂v is free of the velocities.
+    pub gradient_constant: bool,
+}
+
+impl Constraint {
+    /// Classifies `stated = 0` in `system`.
+    ///
+    /// # Errors
+    /// [`SystemError::NoCoordinateInConstraint`].
+    pub(crate) fn classify(
+        system: &System,
+        name: String,
+        stated: Expr,
+    ) -> Result<Constraint, SystemError> {
+        let g = &system.graph;
+        let order = g
+            .symbols_in(&[stated])
+            .into_iter()
+            .filter(|&s| system.coordinate_index(g.symbol_name(s)).is_some())
+            .map(|s| g.symbol_order(s))
+            .max();
+        let Some(order) = order else {
+            return Err(SystemError::NoCoordinateInConstraint { name });
+        };
+        let f = if order == 0 {
+            system.total_derivative(stated)
+        } else {
+            stated
+        };
+        let (kind, gradient_constant) = match order {
+            0 => (ConstraintKind::Holonomic, true),
+            1 => kind_in_velocities(system, f),
+            _ => (ConstraintKind::HigherOrder, false),
+        };
+        Ok(Constraint {
+            rheonomic: system.is_rheonomic(stated),
+            name,
+            stated,
+            f,
+            order,
+            kind,
+            gradient_constant,
+        })
+    }
+
+    /// Whether f is linear or affine in the velocities.
+    pub fn is_affine_in_velocities(&self) -> bool {
+        matches!(
+            self.kind,
+            ConstraintKind::Holonomic | ConstraintKind::Linear | ConstraintKind::Affine
+        )
+    }
+}
+
+/// Structural classification: a gradient free of velocities means affine.
+///
+/// A form that hides its linearity (`(x'^2 - x'^2) + x'`) is caught by canonical sums; one that hides it deeper counts
+/// as nonlinear, which is safe: the nonlinear theory contains the linear one.
+fn kind_in_velocities(system: &System, f: Expr) -> (ConstraintKind, bool) {
+    let g = &system.graph;
+    let velocities = system.velocity_symbols();
+    let gradient = g.gradient(f, &velocities);
+    let linear = gradient.iter().all(|&df| !g.contains_any(df, &velocities));
+    if !linear {
+        return (ConstraintKind::Nonlinear, false);
+    }
+    let at_rest: Vec<(Expr, Expr)> = system.coordinates.iter().map(|c| (c.v, g.zero())).collect();
+    if g.is_zero(g.substitute(f, &at_rest)) {
+        (ConstraintKind::Linear, true)
+    } else {
+        (ConstraintKind::Affine, true)
+    }
+}

@@ -1,0 +1,177 @@
+//! Deterministic sample states in double precision, for heuristic choices only: never evidence of a claim.
+
+use crate::system::{Relation, System};
+use crate::terms::MotionTerms;
+use chetaev_symbolic::{Expr, Symbol};
+use std::collections::BTreeMap;
+
+/// A tiny deterministic generator (splitmix64; Steele, Lea, Flood 2014).
+#[derive(Clone, Debug)]
+pub struct Generator(u64);
+
+impl Generator {
+    /// A generator with the given seed.
+    pub fn new(seed: u64) -> Generator {
+        Generator(seed)
+    }
+
+    /// The next 64 bits.
+    pub fn next_u64(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in [low, high).
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        let unit = (self.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+        low + unit * (high - low)
+    }
+}
+
+/// A state with values for every symbol of a system.
+pub type Point = BTreeMap<Symbol, f64>;
+
+/// Draws a state that satisfies the first-order constraints to rounding, within simple bounds of the assumptions;
+/// `None` when twenty draws fail.
+pub fn admissible_point(system: &System, terms: &MotionTerms, seed: u64) -> Option<Point> {
+    let mut generator = Generator::new(seed);
+    (0..20).find_map(|_| {
+        let mut point = free_point(system, terms, &mut generator)?;
+        project_velocities(system, terms, &mut point).then_some(point)
+    })
+}
+
+fn free_point(system: &System, terms: &MotionTerms, generator: &mut Generator) -> Option<Point> {
+    let g = &system.graph;
+    let mut point = Point::new();
+    let known: BTreeMap<Symbol, f64> = system
+        .parameters
+        .iter()
+        .filter_map(|p| {
+            let value = g.evaluate_f64(&[p.value?], &|_| None).ok()?;
+            Some((g.as_symbol(p.expr)?, value[0]))
+        })
+        .collect();
+    let mut roots: Vec<Expr> = terms.mass_matrix.concat();
+    roots.extend(terms.jacobian.concat());
+    roots.extend(&terms.force);
+    roots.extend(&terms.constraint_rate);
+    roots.extend(&terms.constraints);
+    roots.extend(system.coordinates.iter().flat_map(|c| [c.q, c.v]));
+    for symbol in g.symbols_in(&roots) {
+        let value = match known.get(&symbol) {
+            Some(&value) => value,
+            None => {
+                let is_parameter = system
+                    .parameters
+                    .iter()
+                    .any(|p| g.as_symbol(p.expr) == Some(symbol));
+                let (low, high) = bounds(
+                    system,
+                    symbol,
+                    if is_parameter {
+                        (0.5, 2.0)
+                    } else {
+                        (-1.3, 1.3)
+                    },
+                );
+                generator.between(low, high)
+            }
+        };
+        point.insert(symbol, value);
+    }
+    Some(point)
+}
+
+/// Bounds of a symbol that assumptions of the form `number < symbol < number` state.
+fn bounds(system: &System, symbol: Symbol, default: (f64, f64)) -> (f64, f64) {
+    let g = &system.graph;
+    let (mut low, mut high): (Option<f64>, Option<f64>) = (None, None);
+    let value = |e: Expr| g.evaluate_f64(&[e], &|_| None).ok().map(|v| v[0]);
+    for assumption in &system.assumptions {
+        if assumption.relation == Relation::NotEqual {
+            continue;
+        }
+        if g.as_symbol(assumption.right) == Some(symbol) {
+            low = match (low, value(assumption.left)) {
+                (Some(a), Some(b)) => Some(a.max(b)),
+                (a, b) => a.or(b),
+            };
+        }
+        if g.as_symbol(assumption.left) == Some(symbol) {
+            high = match (high, value(assumption.right)) {
+                (Some(a), Some(b)) => Some(a.min(b)),
+                (a, b) => a.or(b),
+            };
+        }
+    }
+    match (low, high) {
+        (None, None) => default,
+        (Some(low), None) => (low + 0.1, low + 0.1 + default.1.abs()),
+        (None, Some(high)) => (high - 0.1 - default.1.abs(), high - 0.1),
+        (Some(low), Some(high)) => (low + 0.05 * (high - low), high - 0.05 * (high - low)),
+    }
+}
+
+/// Newton steps of least norm on the velocities until every constraint is satisfied.
+fn project_velocities(system: &System, terms: &MotionTerms, point: &mut Point) -> bool {
+    let g = &system.graph;
+    if terms.constraints.is_empty() {
+        return true;
+    }
+    let n = system.n();
+    let mut roots = terms.constraints.clone();
+    roots.extend(terms.jacobian.concat());
+    for _ in 0..60 {
+        let Ok(values) = g.evaluate_f64(&roots, &|s| point.get(&s).copied()) else {
+            return false;
+        };
+        if !values.iter().all(|v| v.is_finite()) {
+            return false;
+        }
+        let (f, jacobian) = values.split_at(terms.constraints.len());
+        if f.iter().all(|x| x.abs() < 1e-11) {
+            return true;
+        }
+        let step = least_norm_step(jacobian, f, n);
+        for (c, dv) in system.coordinates.iter().zip(step) {
+            if let Some(v) = point.get_mut(&c.v_symbol) {
+                *v -= dv;
+            }
+        }
+    }
+    false
+}
+
+/// The least-norm solution of `J x = f` by modified Gram–Schmidt on the rows of J, dependent rows skipped.
+fn least_norm_step(jacobian: &[f64], f: &[f64], n: usize) -> Vec<f64> {
+    let mut basis: Vec<(Vec<f64>, f64)> = Vec::new();
+    for (row, &target) in jacobian.chunks(n).zip(f) {
+        let norm = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let mut direction = row.to_vec();
+        let mut value = target;
+        for (unit, component) in &basis {
+            let along: f64 = direction.iter().zip(unit).map(|(a, b)| a * b).sum();
+            direction
+                .iter_mut()
+                .zip(unit)
+                .for_each(|(a, b)| *a -= along * b);
+            value -= along * component;
+        }
+        let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if length > 1e-10 * norm.max(1e-300) {
+            direction.iter_mut().for_each(|x| *x /= length);
+            basis.push((direction, value / length));
+        }
+    }
+    let mut step = vec![0.0; n];
+    for (unit, component) in basis {
+        step.iter_mut()
+            .zip(unit)
+            .for_each(|(x, u)| *x += component * u);
+    }
+    step
+}

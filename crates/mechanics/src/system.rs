@@ -1,0 +1,397 @@
+//! A constrained mechanical system: coordinates, Lagrangian, generalized forces, constraints.
+//!
+//! Everything derived here is exact. Indices: `i, j` run over the `n` coordinates, `l` over the constraints.
+
+use crate::constraint::{Constraint, ConstraintKind};
+use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
+use std::sync::Arc;
+
+/// A generalized coordinate with its jet.
+#[derive(Clone, Debug)]
+pub struct Coordinate {
+    /// The name in the model, for example `phi`.
+    pub name: String,
+    /// q.
+    pub q: Expr,
+    /// q'.
+    pub v: Expr,
+    /// q''.
+    pub a: Expr,
+    /// The symbol of q.
+    pub q_symbol: Symbol,
+    /// The symbol of q'.
+    pub v_symbol: Symbol,
+    /// The symbol of q''.
+    pub a_symbol: Symbol,
+}
+
+impl Coordinate {
+    /// The coordinate called `name` in `graph`.
+    pub fn new(graph: &Graph, name: &str) -> Coordinate {
+        Coordinate {
+            name: name.to_string(),
+            q: graph.symbol(name, 0),
+            v: graph.symbol(name, 1),
+            a: graph.symbol(name, 2),
+            q_symbol: graph.intern_symbol(name, 0),
+            v_symbol: graph.intern_symbol(name, 1),
+            a_symbol: graph.intern_symbol(name, 2),
+        }
+    }
+}
+
+/// A parameter: a symbol that does not move.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// The name in the model.
+    pub name: String,
+    /// Its symbol as an expression.
+    pub expr: Expr,
+    /// Its exact value, an expression without free symbols; `None` for a purely symbolic parameter.
+    pub value: Option<Expr>,
+}
+
+/// A control u(t): prescribed in time, never varied.
+#[derive(Clone, Debug)]
+pub struct ControlFunction {
+    /// The name in the model.
+    pub name: String,
+    /// u as a function of t and parameters, where the model states it.
+    pub law: Option<Expr>,
+}
+
+/// A quasi-velocity stated by the user, linear in the velocities.
+#[derive(Clone, Debug)]
+pub struct QuasiVelocity {
+    /// The name in the model.
+    pub name: String,
+    /// Its definition in q, q', t.
+    pub definition: Expr,
+}
+
+/// How a sign or range is assumed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// `left < right`
+    Less,
+    /// `left <= right`
+    LessOrEqual,
+    /// `left != right`
+    NotEqual,
+}
+
+/// An assumption of the model, `left REL right`.
+#[derive(Clone, Debug)]
+pub struct Assumption {
+    /// The smaller side.
+    pub left: Expr,
+    /// The relation.
+    pub relation: Relation,
+    /// The larger side.
+    pub right: Expr,
+    /// As the model states it.
+    pub text: String,
+}
+
+/// The plain content of a system, before anything is derived.
+#[derive(Clone, Debug, Default)]
+pub struct SystemParts {
+    /// A name for people.
+    pub name: String,
+    /// Names of the coordinates, in order.
+    pub coordinates: Vec<String>,
+    /// Parameters with their exact values where known.
+    pub parameters: Vec<(String, Option<Expr>)>,
+    /// Controls with their laws where stated.
+    pub controls: Vec<(String, Option<Expr>)>,
+    /// Kinetic energy, when stated apart.
+    pub kinetic: Option<Expr>,
+    /// Potential V, when stated apart.
+    pub potential: Option<Expr>,
+    /// L.
+    pub lagrangian: Option<Expr>,
+    /// Generalized forces by coordinate name.
+    pub forces: Vec<(String, Expr)>,
+    /// Rayleigh's dissipation function R; the force is `-∂R/∂v`.
+    pub rayleigh: Option<Expr>,
+    /// Constraints as (name, left - right).
+    pub constraints: Vec<(String, Expr)>,
+    /// Velocities the user wants independent, by coordinate name.
+    pub independent: Vec<String>,
+    /// Quasi-velocities as (name, definition).
+    pub quasi_velocities: Vec<(String, Expr)>,
+    /// Assumptions.
+    pub assumptions: Vec<Assumption>,
+}
+
+/// Why plain content is no system.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SystemError {
+    /// No coordinates.
+    #[error("a system needs at least one coordinate")]
+    NoCoordinates,
+    /// No Lagrangian.
+    #[error("a system needs a Lagrangian: `L`, or `T` with or without `V`")]
+    NoLagrangian,
+    /// A name that is no coordinate.
+    #[error("`{name}` is no coordinate ({role})")]
+    UnknownCoordinate {
+        /// The name given.
+        name: String,
+        /// Where it was used.
+        role: &'static str,
+    },
+    /// A constraint without coordinates.
+    #[error("constraint `{name}` contains no coordinate, so it restricts nothing")]
+    NoCoordinateInConstraint {
+        /// The constraint.
+        name: String,
+    },
+    /// The Lagrangian contains accelerations.
+    #[error("the {what} contains `{symbol}`; only coordinates and velocities may occur in it")]
+    OrderTooHigh {
+        /// Lagrangian, force or dissipation function.
+        what: String,
+        /// The offending symbol.
+        symbol: String,
+    },
+}
+
+/// A constrained system.
+#[derive(Debug)]
+pub struct System {
+    /// The graph all expressions live in.
+    pub graph: Arc<Graph>,
+    /// A name for people.
+    pub name: String,
+    /// The `n` coordinates.
+    pub coordinates: Vec<Coordinate>,
+    /// The parameters.
+    pub parameters: Vec<Parameter>,
+    /// The controls.
+    pub controls: Vec<ControlFunction>,
+    /// Kinetic energy, when stated apart from V.
+    pub kinetic: Option<Expr>,
+    /// Potential V, when stated apart.
+    pub potential: Option<Expr>,
+    /// L(q, v, t).
+    pub lagrangian: Expr,
+    /// Generalized forces Qᵢ, those of Rayleigh's function included; one per coordinate.
+    pub forces: Vec<Expr>,
+    /// Rayleigh's dissipation function.
+    pub rayleigh: Option<Expr>,
+    /// All constraints as stated, redundant ones included.
+    pub constraints: Vec<Constraint>,
+    /// Coordinates whose velocities the user wants independent.
+    pub independent: Vec<usize>,
+    /// Quasi-velocities of the user.
+    pub quasi_velocities: Vec<QuasiVelocity>,
+    /// Assumptions of the model.
+    pub assumptions: Vec<Assumption>,
+}
+
+impl System {
+    /// Builds a system and classifies its constraints.
+    ///
+    /// # Errors
+    /// [`SystemError`] for the first inconsistency.
+    pub fn new(graph: Arc<Graph>, parts: SystemParts) -> Result<System, SystemError> {
+        if parts.coordinates.is_empty() {
+            return Err(SystemError::NoCoordinates);
+        }
+        let g = &*graph;
+        let coordinates: Vec<Coordinate> = parts
+            .coordinates
+            .iter()
+            .map(|name| Coordinate::new(g, name))
+            .collect();
+        let lagrangian = match (parts.lagrangian, parts.kinetic, parts.potential) {
+            (Some(l), _, _) => l,
+            (None, Some(t), Some(v)) => g.sub(t, v),
+            (None, Some(t), None) => t,
+            (None, None, _) => return Err(SystemError::NoLagrangian),
+        };
+        let index = |name: &str, role: &'static str| {
+            parts
+                .coordinates
+                .iter()
+                .position(|c| c == name)
+                .ok_or_else(|| SystemError::UnknownCoordinate {
+                    name: name.to_string(),
+                    role,
+                })
+        };
+        let mut forces = vec![g.zero(); coordinates.len()];
+        for (name, force) in &parts.forces {
+            let i = index(name, "generalized force")?;
+            forces[i] = g.add(&[forces[i], *force]);
+        }
+        if let Some(r) = parts.rayleigh {
+            for (force, coordinate) in forces.iter_mut().zip(&coordinates) {
+                *force = g.sub(*force, g.diff(r, coordinate.v_symbol));
+            }
+        }
+        let independent = parts
+            .independent
+            .iter()
+            .map(|name| index(name, "independent velocity"))
+            .collect::<Result<_, _>>()?;
+        let mut system = System {
+            name: parts.name,
+            parameters: parameters(g, parts.parameters),
+            controls: parts
+                .controls
+                .into_iter()
+                .map(|(name, law)| ControlFunction { name, law })
+                .collect(),
+            kinetic: parts.kinetic,
+            potential: parts.potential,
+            lagrangian,
+            forces,
+            rayleigh: parts.rayleigh,
+            constraints: Vec::new(),
+            independent,
+            quasi_velocities: parts
+                .quasi_velocities
+                .into_iter()
+                .map(|(name, definition)| QuasiVelocity { name, definition })
+                .collect(),
+            assumptions: parts.assumptions,
+            coordinates,
+            graph: graph.clone(),
+        };
+        system.check_orders()?;
+        for (name, stated) in parts.constraints {
+            let constraint = Constraint::classify(&system, name, stated)?;
+            system.constraints.push(constraint);
+        }
+        Ok(system)
+    }
+
+    fn check_orders(&self) -> Result<(), SystemError> {
+        let mut stated = vec![("Lagrangian".to_string(), self.lagrangian)];
+        stated.extend(
+            self.coordinates
+                .iter()
+                .zip(&self.forces)
+                .map(|(c, &q)| (format!("generalized force on `{}`", c.name), q)),
+        );
+        for (what, e) in stated {
+            for symbol in self.graph.symbols_in(&[e]) {
+                let moving = self
+                    .coordinate_index(self.graph.symbol_name(symbol))
+                    .is_some();
+                if moving && self.graph.symbol_order(symbol) > 1 {
+                    let symbol = self.graph.symbol_text(symbol);
+                    return Err(SystemError::OrderTooHigh { what, symbol });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// n, the number of coordinates.
+    pub fn n(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// The index of the coordinate called `name`.
+    pub fn coordinate_index(&self, name: &str) -> Option<usize> {
+        self.coordinates.iter().position(|c| c.name == name)
+    }
+
+    /// Whether the symbol called `name` moves: a coordinate or a control.
+    pub fn moves(&self, name: &str) -> bool {
+        self.coordinate_index(name).is_some() || self.controls.iter().any(|u| u.name == name)
+    }
+
+    /// The total time derivative D along the jets.
+    pub fn total_derivative(&self, e: Expr) -> Expr {
+        self.graph.total_derivative(e, &|name| self.moves(name))
+    }
+
+    /// The explicit time derivative ∂/∂t with q and all its derivatives frozen; controls count as time.
+    pub fn time_derivative(&self, e: Expr) -> Expr {
+        self.graph
+            .total_derivative(e, &|name| self.controls.iter().any(|u| u.name == name))
+    }
+
+    /// The symbols of q'.
+    pub fn velocity_symbols(&self) -> Vec<Symbol> {
+        self.coordinates.iter().map(|c| c.v_symbol).collect()
+    }
+
+    /// The symbols of q.
+    pub fn coordinate_symbols(&self) -> Vec<Symbol> {
+        self.coordinates.iter().map(|c| c.q_symbol).collect()
+    }
+
+    /// Whether `e` depends explicitly on the time (or on a control).
+    pub fn is_rheonomic(&self, e: Expr) -> bool {
+        let g = &self.graph;
+        !g.is_free_of(e, &|s| {
+            let name = g.symbol_name(s);
+            name == "t" || self.controls.iter().any(|u| u.name == name)
+        })
+    }
+
+    /// Constraints of order at most one: those that have equations of motion of the first-order theory.
+    pub fn first_order_constraints(&self) -> impl Iterator<Item = (usize, &Constraint)> {
+        self.constraints
+            .iter()
+            .enumerate()
+            .filter(|(_, c)| c.kind != ConstraintKind::HigherOrder)
+    }
+
+    /// Pairs (parameter, value) of all parameters with values, as a substitution.
+    pub fn parameter_values(&self) -> Vec<(Expr, Expr)> {
+        self.parameters
+            .iter()
+            .filter_map(|p| p.value.map(|value| (p.expr, value)))
+            .collect()
+    }
+
+    /// The value of a parameter when it is a rational number.
+    pub fn parameter_rational(&self, name: &str) -> Option<Rational> {
+        let parameter = self.parameters.iter().find(|p| p.name == name)?;
+        self.graph.as_number(parameter.value?).cloned()
+    }
+
+    /// The energy `H = Σ pᵢ vⁱ - L` as a function of (q, v, t).
+    pub fn energy(&self) -> Expr {
+        let g = &self.graph;
+        let mut parts: Vec<Expr> = self
+            .coordinates
+            .iter()
+            .map(|c| g.mul(&[g.diff(self.lagrangian, c.v_symbol), c.v]))
+            .collect();
+        parts.push(g.neg(self.lagrangian));
+        g.add(&parts)
+    }
+
+    /// Euler's operator with the sign of Lagrange's left side: `D(∂L/∂vⁱ) - ∂L/∂qⁱ` on the jet (q, v, a, t).
+    pub fn lagrange_left_sides(&self) -> Vec<Expr> {
+        let g = &self.graph;
+        self.coordinates
+            .iter()
+            .map(|c| {
+                let momentum = g.diff(self.lagrangian, c.v_symbol);
+                g.sub(
+                    self.total_derivative(momentum),
+                    g.diff(self.lagrangian, c.q_symbol),
+                )
+            })
+            .collect()
+    }
+}
+
+fn parameters(g: &Graph, stated: Vec<(String, Option<Expr>)>) -> Vec<Parameter> {
+    stated
+        .into_iter()
+        .map(|(name, value)| Parameter {
+            expr: g.symbol(&name, 0),
+            name,
+            value,
+        })
+        .collect()
+}
