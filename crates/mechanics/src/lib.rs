@@ -2,16 +2,20 @@
 
 pub mod card;
 pub mod characteristics;
+pub mod claims;
 pub mod constraint;
 pub mod equations;
 pub mod formulations;
+pub mod prover;
 pub mod sample;
 pub mod system;
 pub mod terms;
 
 pub use characteristics::{Characteristics, Manifold, Selection};
+pub use claims::{Claim, Context, Finding, Formula, Group, Prepared, Registry};
 pub use constraint::{Constraint, ConstraintKind};
 pub use equations::Equations;
 pub use formulations::{formulation, Basis, Formulation, FORMULATIONS};
+pub use prover::Prover;
 pub use system::{System, SystemError, SystemParts};
 pub use terms::MotionTerms;

@@ -1,0 +1,315 @@
+//! The registry of claims: what the product states about a system (claims.md).
+//!
+//! A claim is a value with an id, the ids of its hypotheses, and a rule to decide it. Crates above contribute their
+//! claims as slices; a [`Registry`] joins them, and hypotheses are resolved by id at run time, so that a formulation
+//! may require a verdict of the geometry without the crates knowing each other.
+
+pub mod formulation;
+pub mod model;
+
+use crate::characteristics::{self, Selection};
+use crate::prover::Prover;
+use crate::system::System;
+use crate::terms::MotionTerms;
+use chetaev_symbolic::{Expr, Verdict};
+use std::any::{Any, TypeId};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The groups that `--claims` selects, in the order they are decided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Group {
+    /// claims.md §1.
+    Model,
+    /// claims.md §2.
+    Formulations,
+    /// claims.md §8.
+    Motion,
+    /// claims.md §3–4.
+    Principles,
+    /// claims.md §6.
+    Integrals,
+}
+
+impl Group {
+    /// All groups, cheapest first.
+    pub const ALL: [Group; 5] = [
+        Group::Model,
+        Group::Formulations,
+        Group::Motion,
+        Group::Principles,
+        Group::Integrals,
+    ];
+
+    /// The word on the command line.
+    pub fn word(self) -> &'static str {
+        match self {
+            Group::Model => "model",
+            Group::Formulations => "formulations",
+            Group::Motion => "motion",
+            Group::Principles => "principles",
+            Group::Integrals => "integrals",
+        }
+    }
+}
+
+/// A formula shown with a verdict.
+#[derive(Clone, Debug)]
+pub struct Formula {
+    /// What it is.
+    pub caption: String,
+    /// Left side, when it is an equation.
+    pub left: Option<Expr>,
+    /// The expression, or the right side.
+    pub right: Expr,
+}
+
+/// A verdict with the formulas that support it.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    /// What is known.
+    pub verdict: Verdict,
+    /// Formulas to show.
+    pub formulas: Vec<Formula>,
+}
+
+impl From<Verdict> for Finding {
+    fn from(verdict: Verdict) -> Finding {
+        Finding {
+            verdict,
+            formulas: Vec::new(),
+        }
+    }
+}
+
+/// A statement about systems.
+pub trait Claim: Sync {
+    /// The stable id, without subject.
+    fn id(&self) -> &'static str;
+
+    /// Where it belongs.
+    fn group(&self) -> Group;
+
+    /// A short title for people.
+    fn title(&self) -> &'static str;
+
+    /// What is claimed, how it is decided, and what the verdicts mean: the page of `chetaev explain`.
+    fn explanation(&self) -> &'static str;
+
+    /// Ids (with subject) of the hypotheses: when one is refuted, the claim is not applicable.
+    fn requires(&self, subject: Option<&str>) -> Vec<String> {
+        let _ = subject;
+        Vec::new()
+    }
+
+    /// The subjects for this system; `[None]` for a claim about the system as a whole, empty when it does not exist.
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        let _ = cx;
+        vec![None]
+    }
+
+    /// Decides the claim; its hypotheses hold.
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding;
+}
+
+/// All claims known to a program.
+#[derive(Clone, Default)]
+pub struct Registry {
+    claims: Vec<&'static dyn Claim>,
+}
+
+impl std::fmt::Debug for Registry {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_list()
+            .entries(self.claims.iter().map(|c| c.id()))
+            .finish()
+    }
+}
+
+impl Registry {
+    /// Joins slices of claims.
+    pub fn new(slices: &[&[&'static dyn Claim]]) -> Registry {
+        Registry {
+            claims: slices.concat(),
+        }
+    }
+
+    /// All claims in order.
+    pub fn claims(&self) -> &[&'static dyn Claim] {
+        &self.claims
+    }
+
+    /// The claim with this id (without subject).
+    pub fn find(&self, id: &str) -> Option<&'static dyn Claim> {
+        self.claims.iter().copied().find(|c| c.id() == id)
+    }
+}
+
+/// The claims of this crate.
+pub static CLAIMS: &[&dyn Claim] = &[
+    &model::HessianRegular,
+    &model::ConstraintsIndependent,
+    &model::AccelerationsUnique,
+    &model::ConstraintsLinear,
+    &model::ConstraintsHomogeneous,
+    &model::ConstraintsScleronomic,
+    &model::Chaplygin,
+    &formulation::Equivalent,
+];
+
+/// Everything a claim may look at while it is decided. Results are kept by id, so each is decided once.
+pub struct Context<'a> {
+    /// The system.
+    pub system: &'a System,
+    /// Its terms.
+    pub terms: &'a MotionTerms,
+    /// Independent constraints and dependent velocities.
+    pub selection: &'a Selection,
+    /// Zero tests.
+    pub prover: Prover,
+    registry: &'a Registry,
+    decided: Mutex<BTreeMap<String, Arc<Finding>>>,
+    in_progress: Mutex<Vec<String>>,
+    extensions: BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>,
+}
+
+impl std::fmt::Debug for Context<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Context({})", self.system.name)
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// `id#subject`, or `id`.
+pub fn full_id(id: &str, subject: Option<&str>) -> String {
+    match subject {
+        Some(subject) => format!("{id}#{subject}"),
+        None => id.to_string(),
+    }
+}
+
+impl<'a> Context<'a> {
+    /// A context with nothing decided.
+    pub fn new(
+        system: &'a System,
+        terms: &'a MotionTerms,
+        selection: &'a Selection,
+        registry: &'a Registry,
+        prover: Prover,
+    ) -> Context<'a> {
+        Context {
+            system,
+            terms,
+            selection,
+            prover,
+            registry,
+            decided: Mutex::default(),
+            in_progress: Mutex::default(),
+            extensions: BTreeMap::new(),
+        }
+    }
+
+    /// Adds data of a higher layer (a computed motion, initial data), found again by its type.
+    #[must_use]
+    pub fn with<T: Any + Send + Sync>(mut self, data: Arc<T>) -> Context<'a> {
+        self.extensions.insert(TypeId::of::<T>(), data);
+        self
+    }
+
+    /// Data added by a higher layer.
+    pub fn extension<T: Any + Send + Sync>(&self) -> Option<Arc<T>> {
+        self.extensions
+            .get(&TypeId::of::<T>())
+            .and_then(|data| data.clone().downcast::<T>().ok())
+    }
+
+    /// The registry in use.
+    pub fn registry(&self) -> &Registry {
+        self.registry
+    }
+
+    /// Decides the claim `id#subject`, or recalls it. Unknown ids are undecided, never assumed.
+    pub fn finding(&self, full: &str) -> Arc<Finding> {
+        if let Some(found) = lock(&self.decided).get(full) {
+            return found.clone();
+        }
+        let (id, subject) = match full.split_once('#') {
+            Some((id, subject)) => (id, Some(subject)),
+            None => (full, None),
+        };
+        let Some(claim) = self.registry.find(id) else {
+            let verdict = Verdict::undecided(format!("the claim `{full}` is not registered"));
+            return Arc::new(verdict.into());
+        };
+        if lock(&self.in_progress).iter().any(|name| name == full) {
+            let verdict = Verdict::undecided(format!("the claim `{full}` requires itself"));
+            return Arc::new(verdict.into());
+        }
+        lock(&self.in_progress).push(full.to_string());
+        let finding = match self.failed_hypothesis(&claim.requires(subject)) {
+            Some(verdict) => verdict.into(),
+            None => claim.decide(self, subject),
+        };
+        lock(&self.in_progress).retain(|name| name != full);
+        let finding = Arc::new(finding);
+        lock(&self.decided).insert(full.to_string(), finding.clone());
+        finding
+    }
+
+    fn failed_hypothesis(&self, hypotheses: &[String]) -> Option<Verdict> {
+        hypotheses.iter().find_map(|hypothesis| {
+            let finding = self.finding(hypothesis);
+            match &finding.verdict {
+                Verdict::Refuted(_) | Verdict::NotApplicable { .. } => {
+                    Some(Verdict::not_applicable(
+                        hypothesis.clone(),
+                        format!(
+                            "`{hypothesis}` is {}: {}",
+                            finding.verdict.word(),
+                            finding.verdict.detail()
+                        ),
+                    ))
+                }
+                _ => None,
+            }
+        })
+    }
+
+    /// A phrase for proofs: under which assumptions of the model.
+    pub fn under_assumptions(&self) -> String {
+        if self.system.assumptions.is_empty() {
+            return String::new();
+        }
+        let texts: Vec<&str> = self
+            .system
+            .assumptions
+            .iter()
+            .map(|a| a.text.as_str())
+            .collect();
+        format!(", assuming {}", texts.join(", "))
+    }
+}
+
+/// Terms and selection of a system, owned: what a [`Context`] borrows.
+#[derive(Debug)]
+pub struct Prepared {
+    /// The terms.
+    pub terms: MotionTerms,
+    /// The selection.
+    pub selection: Selection,
+}
+
+impl Prepared {
+    /// Derives terms and chooses independent constraints and velocities.
+    ///
+    /// # Errors
+    /// When no admissible state exists.
+    pub fn new(system: &System) -> Result<Prepared, characteristics::CharacteristicsError> {
+        let terms = MotionTerms::new(system);
+        let selection = characteristics::select(system, &terms)?;
+        Ok(Prepared { terms, selection })
+    }
+}

@@ -1,0 +1,511 @@
+//! The claims of claims.md §1 that need no geometry: regularity and the form of the constraints.
+
+use super::{Claim, Context, Finding, Formula, Group};
+use crate::characteristics::Manifold;
+use crate::claims::formulation::manifold;
+use crate::sample;
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::{Expr, Rational, Verdict};
+
+/// `model.hessian-regular`.
+#[derive(Clone, Copy, Debug)]
+pub struct HessianRegular;
+
+impl Claim for HessianRegular {
+    fn id(&self) -> &'static str {
+        "model.hessian-regular"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The Lagrangian is regular"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The Hessian W = ∂²L/∂v∂v of the Lagrangian by the velocities has a determinant that is not identically zero. \
+         Then velocities can be expressed by momenta, and the formulations that need W⁻¹ apply. A singular W may still \
+         give unique accelerations once the constraints are used: that is `model.accelerations-unique`."
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let verdict = cx.prover.nonsingular(
+            cx.system,
+            &cx.terms.mass_matrix,
+            &Manifold::default(),
+            "det ∂²L/∂v∂v",
+        );
+        Finding {
+            verdict,
+            formulas: hessian_formula(cx).into_iter().collect(),
+        }
+    }
+}
+
+/// det W where it is short enough to read: a diagonal matrix, or one of two coordinates.
+fn hessian_formula(cx: &Context<'_>) -> Option<Formula> {
+    let (g, w) = (&cx.system.graph, &cx.terms.mass_matrix);
+    let n = w.len();
+    let diagonal = (0..n).all(|i| (0..n).all(|j| i == j || g.is_zero(w[i][j])));
+    let right = if diagonal {
+        let entries: Vec<Expr> = (0..n).map(|i| w[i][i]).collect();
+        g.mul(&entries)
+    } else if n == 2 {
+        g.sub(g.mul(&[w[0][0], w[1][1]]), g.mul(&[w[0][1], w[1][0]]))
+    } else {
+        return None;
+    };
+    Some(Formula {
+        caption: "det ∂²L/∂v∂v; where it vanishes the Lagrangian is singular".into(),
+        left: None,
+        right,
+    })
+}
+
+/// `model.constraints-independent`.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstraintsIndependent;
+
+impl Claim for ConstraintsIndependent {
+    fn id(&self) -> &'static str {
+        "model.constraints-independent"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The constraints are independent"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The Jacobian ∂f/∂v of the constraints by the velocities has rank r, the number of constraints, at almost every \
+         state that satisfies them. If not, the verdict names the constraints that follow from the others (they are left \
+         out, the motion does not change) or contradict them, or a constraint whose gradient vanishes wherever it holds, \
+         such as the square of another one."
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        if cx.terms.constraints.is_empty() {
+            return no_constraints().into();
+        }
+        let verdict = if cx.selection.rows.len() == cx.terms.constraints.len() {
+            cx.prover.nonsingular(
+                cx.system,
+                &dependent_block(cx),
+                &manifold(cx),
+                "the minor of ∂f/∂v by the dependent velocities",
+            )
+        } else {
+            redundancy(cx)
+        };
+        verdict.into()
+    }
+}
+
+/// J restricted to the selected rows and dependent columns.
+fn dependent_block(cx: &Context<'_>) -> Vec<Vec<Expr>> {
+    cx.selection
+        .rows
+        .iter()
+        .map(|&row| {
+            let jacobian = &cx.terms.jacobian[row];
+            cx.selection
+                .dependent
+                .iter()
+                .map(|&d| jacobian[d])
+                .collect()
+        })
+        .collect()
+}
+
+/// The rows left out depend on the others: f of a left-out row vanishes where the selected ones do.
+fn redundancy(cx: &Context<'_>) -> Verdict {
+    let dropped: Vec<usize> = (0..cx.terms.constraints.len())
+        .filter(|row| !cx.selection.rows.contains(row))
+        .collect();
+    let residuals: Vec<Expr> = dropped
+        .iter()
+        .map(|&row| cx.terms.constraints[row])
+        .collect();
+    let names: Vec<String> = dropped
+        .iter()
+        .map(|&row| {
+            format!(
+                "`{}`",
+                cx.system.constraints[cx.terms.constraint_index[row]].name
+            )
+        })
+        .collect();
+    let names = names.join(", ");
+    let follows = cx.prover.identity(
+        cx.system,
+        &residuals,
+        &manifold(cx),
+        "on the constraint manifold",
+    );
+    cx.prover
+        .dependent_rows(cx.system, follows, &names, cx.selection.rows.len())
+}
+
+/// `model.accelerations-unique`.
+#[derive(Clone, Copy, Debug)]
+pub struct AccelerationsUnique;
+
+impl Claim for AccelerationsUnique {
+    fn id(&self) -> &'static str {
+        "model.accelerations-unique"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "Accelerations and reactions are unique"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The bordered matrix [[W, fᵥᵀ], [fᵥ, 0]] of mass matrix and constraint gradients is nonsingular at almost every \
+         admissible state, redundant constraints removed. This, and not the regularity of W alone, is the condition for \
+         unique accelerations and multipliers."
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let verdict = cx.prover.nonsingular(
+            cx.system,
+            &bordered(cx),
+            &manifold(cx),
+            "the determinant of the bordered matrix [[W, fᵥᵀ], [fᵥ, 0]]",
+        );
+        verdict.into()
+    }
+}
+
+fn bordered(cx: &Context<'_>) -> Vec<Vec<Expr>> {
+    let (g, terms, rows) = (&cx.system.graph, cx.terms, &cx.selection.rows);
+    let n = cx.system.n();
+    let mut matrix = Vec::with_capacity(n + rows.len());
+    for i in 0..n {
+        let mut line = terms.mass_matrix[i].clone();
+        line.extend(rows.iter().map(|&row| terms.jacobian[row][i]));
+        matrix.push(line);
+    }
+    for &row in rows {
+        let mut line = terms.jacobian[row].clone();
+        line.extend(std::iter::repeat_n(g.zero(), rows.len()));
+        matrix.push(line);
+    }
+    matrix
+}
+
+fn no_constraints() -> Verdict {
+    Verdict::Proved(Proof::structural(
+        "everywhere",
+        "the system has no constraints",
+    ))
+}
+
+/// `model.constraints-linear`.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstraintsLinear;
+
+impl Claim for ConstraintsLinear {
+    fn id(&self) -> &'static str {
+        "model.constraints-linear"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The constraints are linear in the velocities"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "All second derivatives ∂²f/∂v∂v vanish identically: every constraint has the form a(q,t)·v + a₀(q,t) = 0. \
+         Affine constraints (a₀ ≠ 0) count as linear here; `model.constraints-homogeneous` tells them apart."
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        if cx.terms.constraints.is_empty() {
+            return no_constraints().into();
+        }
+        let g = &cx.system.graph;
+        let velocities = cx.system.velocity_symbols();
+        let residuals: Vec<Expr> = cx
+            .terms
+            .jacobian
+            .iter()
+            .flat_map(|row| g.jacobian(row, &velocities).concat())
+            .filter(|&e| !g.is_zero(e))
+            .collect();
+        cx.prover
+            .identity(
+                cx.system,
+                &residuals,
+                &Manifold::default(),
+                "identically in q, v, t",
+            )
+            .into()
+    }
+}
+
+/// `model.constraints-homogeneous`.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstraintsHomogeneous;
+
+impl Claim for ConstraintsHomogeneous {
+    fn id(&self) -> &'static str {
+        "model.constraints-homogeneous"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The constraints are homogeneous in the velocities"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "Euler's identity Σ vⁱ ∂f/∂vⁱ = d·f holds identically in the velocities for every constraint f, with a degree d \
+         of its own. Then the actual displacement is a virtual one, the reactions do no work, and energy is conserved \
+         when nothing else spoils it."
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        if cx.terms.constraints.is_empty() {
+            return no_constraints().into();
+        }
+        let g = &cx.system.graph;
+        let mut residuals = Vec::new();
+        let mut degrees = Vec::new();
+        for (row, &f) in cx.terms.constraints.iter().enumerate() {
+            let name = &cx.system.constraints[cx.terms.constraint_index[row]].name;
+            let products: Vec<Expr> = cx
+                .system
+                .coordinates
+                .iter()
+                .zip(&cx.terms.jacobian[row])
+                .map(|(c, &df)| g.mul(&[c.v, df]))
+                .collect();
+            let euler = g.add(&products);
+            let degree = guess_degree(cx, f, euler);
+            residuals.push(g.sub(euler, g.scale(&degree, f)));
+            degrees.push(format!("{degree} for `{name}`"));
+        }
+        let verdict = cx.prover.identity(
+            cx.system,
+            &residuals,
+            &Manifold::default(),
+            "identically in q, v, t",
+        );
+        with_detail(verdict, &format!("degree {}", degrees.join(", "))).into()
+    }
+}
+
+fn with_detail(verdict: Verdict, addition: &str) -> Verdict {
+    match verdict {
+        Verdict::Proved(mut proof) => {
+            proof.detail = format!("{addition}; {}", proof.detail);
+            Verdict::Proved(proof)
+        }
+        other => other,
+    }
+}
+
+/// The degree from one sampled state; a wrong guess only makes the identity fail. Tries small denominators.
+fn guess_degree(cx: &Context<'_>, f: Expr, euler: Expr) -> Rational {
+    let one = Rational::ONE;
+    let g = &cx.system.graph;
+    let mut generator = sample::Generator::new(11);
+    for _ in 0..20 {
+        let point: std::collections::BTreeMap<_, f64> = g
+            .symbols_in(&[f, euler])
+            .into_iter()
+            .map(|s| (s, generator.between(0.3, 1.7)))
+            .collect();
+        let Ok(values) = g.evaluate_f64(&[f, euler], &|s| point.get(&s).copied()) else {
+            continue;
+        };
+        let ratio = values[1] / values[0];
+        for denominator in 1..=6i64 {
+            let scaled = ratio * denominator as f64;
+            if (scaled - scaled.round()).abs() < 1e-7 && scaled.abs() < 1e6 {
+                let guess = chetaev_symbolic::rational::ratio(scaled.round() as i64, denominator);
+                return guess.unwrap_or(one);
+            }
+        }
+    }
+    one
+}
+
+/// `model.constraints-scleronomic`.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstraintsScleronomic;
+
+impl Claim for ConstraintsScleronomic {
+    fn id(&self) -> &'static str {
+        "model.constraints-scleronomic"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The constraints do not contain the time"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "∂f/∂t vanishes identically for every constraint; controls u(t) count as explicit time."
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        if cx.terms.constraints.is_empty() {
+            return no_constraints().into();
+        }
+        let residuals: Vec<Expr> = cx
+            .terms
+            .constraints
+            .iter()
+            .map(|&f| cx.system.time_derivative(f))
+            .filter(|&e| !cx.system.graph.is_zero(e))
+            .collect();
+        if residuals.is_empty() {
+            let proof = Proof::structural("identically", "no constraint contains the time");
+            return Verdict::Proved(proof).into();
+        }
+        cx.prover
+            .identity(
+                cx.system,
+                &residuals,
+                &Manifold::default(),
+                "identically in q, v, t",
+            )
+            .into()
+    }
+}
+
+/// `model.chaplygin`.
+#[derive(Clone, Copy, Debug)]
+pub struct Chaplygin;
+
+impl Claim for Chaplygin {
+    fn id(&self) -> &'static str {
+        "model.chaplygin"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The system is of Chaplygin's type"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "Neither the Lagrangian nor the solved constraints v_d = φ(q, v, t) depend on the dependent coordinates. Then \
+         Chaplygin's equations close in the independent coordinates. The property belongs to a choice of dependent \
+         coordinates; choices are tried until one fits, and the verdict names it."
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        if cx.terms.constraints.is_empty() {
+            Vec::new()
+        } else {
+            vec![None]
+        }
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let chosen = chaplygin_choice(cx);
+        let dependent = chosen.as_ref().unwrap_or(&cx.selection.dependent);
+        let names: Vec<&str> = dependent
+            .iter()
+            .map(|&d| cx.system.coordinates[d].name.as_str())
+            .collect();
+        let residuals = chaplygin_residuals(cx, dependent);
+        let verdict = if residuals.is_empty() {
+            let detail = format!(
+                "L and the constraints do not contain the dependent coordinates {}",
+                names.join(", ")
+            );
+            Verdict::Proved(Proof::structural("everywhere", detail))
+        } else {
+            cx.prover.identity(
+                cx.system,
+                &residuals,
+                &manifold(cx),
+                "on the constraint manifold",
+            )
+        };
+        verdict.into()
+    }
+}
+
+/// Derivatives that must vanish: of L by the dependent coordinates, and of φ (by the implicit function theorem, of f).
+fn chaplygin_residuals(cx: &Context<'_>, dependent: &[usize]) -> Vec<Expr> {
+    let g = &cx.system.graph;
+    let mut residuals = Vec::new();
+    for &d in dependent {
+        let symbol = cx.system.coordinates[d].q_symbol;
+        residuals.push(g.diff(cx.system.lagrangian, symbol));
+        for &row in &cx.selection.rows {
+            residuals.push(g.diff(cx.terms.constraints[row], symbol));
+        }
+    }
+    residuals.retain(|&e| !g.is_zero(e));
+    residuals
+}
+
+/// A choice of r coordinates that occur nowhere and whose velocities can be solved for at a sampled state.
+fn chaplygin_choice(cx: &Context<'_>) -> Option<Vec<usize>> {
+    let n = cx.system.n();
+    let absent: Vec<usize> = (0..n)
+        .filter(|&d| chaplygin_residuals(cx, &[d]).is_empty())
+        .collect();
+    let point = sample::admissible_point(cx.system, cx.terms, 5)?;
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    for &row in &cx.selection.rows {
+        let entries: Vec<Expr> = absent.iter().map(|&d| cx.terms.jacobian[row][d]).collect();
+        rows.push(
+            cx.system
+                .graph
+                .evaluate_f64(&entries, &|s| point.get(&s).copied())
+                .ok()?,
+        );
+    }
+    let columns = pivot_columns(rows)?;
+    Some(columns.into_iter().map(|c| absent[c]).collect())
+}
+
+/// One pivot column per row by elimination with row-wise largest pivot; `None` when the rank is short.
+fn pivot_columns(mut rows: Vec<Vec<f64>>) -> Option<Vec<usize>> {
+    let mut columns = Vec::new();
+    for i in 0..rows.len() {
+        let (column, value) = rows[i]
+            .iter()
+            .enumerate()
+            .map(|(j, x)| (j, x.abs()))
+            .max_by(|a, b| a.1.total_cmp(&b.1))?;
+        if value < 1e-9 {
+            return None;
+        }
+        columns.push(column);
+        for o in i + 1..rows.len() {
+            let factor = rows[o][column] / rows[i][column];
+            for j in 0..rows[o].len() {
+                let step = factor * rows[i][j];
+                rows[o][j] -= step;
+            }
+        }
+    }
+    columns.sort_unstable();
+    Some(columns)
+}
