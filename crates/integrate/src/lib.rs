@@ -25,6 +25,7 @@ pub mod method;
 pub mod methods;
 mod output;
 pub mod problem;
+mod roots;
 mod run;
 pub mod solution;
 pub mod stiffness;

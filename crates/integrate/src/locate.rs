@@ -1,34 +1,423 @@
-//! Search for the zeros of switching functions inside one step.
+//! Search for the zeros of switching functions inside one step (theory: sample the dense output, bracket, refine,
+//! repeat the step exactly to the zero).
+//!
+//! The side of zero on which a switching function was last seen is remembered from step to step, so that a zero
+//! that falls on the end of a step is found once and only once whatever the rounding.
 
+use crate::compensated::Time;
 use crate::dense::DenseStep;
-use crate::event::Event;
-use crate::integrate::Options;
-use crate::method::State;
-use crate::problem::System;
-use crate::solution::{Solution, Stop};
+use crate::event::{Direction, Event, EventKind, EventRecord};
+use crate::integrate::{Options, StepSize};
+use crate::method::{Method, State, Stepper, StepperSettings};
+use crate::problem::{EvaluationFailure, System};
+use crate::roots::{bracketed_zero, minimum};
+use crate::solution::{Note, Solution, Stop};
+
+/// Distance from the ends of a step (in units of its length) at which the slope of a switching function is sampled.
+const NEAR: f64 = 1e-5;
+
+/// Scaled times at which switching functions are sampled.
+const NODES: [f64; 11] = [
+    0.0,
+    NEAR,
+    0.125,
+    0.25,
+    0.375,
+    0.5,
+    0.625,
+    0.75,
+    0.875,
+    1.0 - NEAR,
+    1.0,
+];
+
+/// Zeros closer than this many units in the last place of t are one.
+const SAME: f64 = 10.0;
+
+/// What is remembered of one switching function between steps.
+#[derive(Debug, Clone, Copy)]
+struct Memory {
+    /// Sign last seen, 0 while it is unknown.
+    side: f64,
+    /// Value at the end of the last step, if the side is known.
+    end: f64,
+    /// Largest magnitude seen.
+    scale: f64,
+    last_zero: f64,
+    /// Its values are unknown at present; the note was written.
+    unknown: bool,
+}
+
+/// A zero found in the present step.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    theta: f64,
+    index: usize,
+    kind: EventKind,
+}
 
 /// Working storage of the search.
 pub(crate) struct Locator {
-    evaluations: u64,
+    method: &'static dyn Method,
+    settings: StepperSettings,
+    /// Makes the steps that end at an event; created with the first event.
+    stepper: Option<Box<dyn Stepper>>,
+    /// Relative accuracy of the trajectory, below which a touch and a crossing cannot be told apart.
+    resolution: f64,
+    memories: Vec<Memory>,
+    candidates: Vec<Candidate>,
+    y: Vec<f64>,
+    /// State at the event being refined.
+    state: State,
+}
+
+/// One step, as the search sees it.
+#[derive(Clone, Copy)]
+struct Step<'a> {
+    now: &'a State,
+    dense: &'a DenseStep,
+    /// End of the step; exactly the end of the span in the last one.
+    end: Time,
+    last: bool,
+}
+
+impl Step<'_> {
+    fn time(&self, theta: f64) -> f64 {
+        if theta == 1.0 {
+            self.end.high
+        } else {
+            self.now.t.plus(theta * self.dense.h).high
+        }
+    }
+
+    /// One unit in the last place of t, in units of the step.
+    fn ulp(&self) -> f64 {
+        f64::EPSILON * self.end.high.abs().max(self.now.t.high.abs()) / self.dense.h.abs()
+    }
 }
 
 impl Locator {
-    pub(crate) fn new(_n: usize, _events: usize, _options: &Options<'_>) -> Locator {
-        Locator { evaluations: 0 }
+    pub(crate) fn new(n: usize, events: usize, options: &Options<'_>) -> Locator {
+        let mut settings = options.settings();
+        settings.fixed = true;
+        settings.stiffness = false;
+        let resolution = match options.step {
+            StepSize::Fixed(_) => 1e-10,
+            StepSize::Adaptive { .. } => 10.0 * options.error.rtol + 100.0 * f64::EPSILON,
+        };
+        let memory = Memory {
+            side: 0.0,
+            end: 0.0,
+            scale: 0.0,
+            last_zero: f64::NAN,
+            unknown: false,
+        };
+        Locator {
+            method: options.method,
+            settings,
+            stepper: None,
+            resolution,
+            memories: vec![memory; events],
+            candidates: Vec::new(),
+            y: vec![0.0; n],
+            state: State::exact(0.0, &vec![0.0; n]),
+        }
     }
 
+    /// Evaluations made for steps that end at an event.
     pub(crate) fn evaluations(&self) -> u64 {
-        self.evaluations
+        self.stepper.as_ref().map_or(0, |s| s.evaluations())
     }
 
+    /// Finds and records the zeros in the step from `now` to `next`; a terminal one becomes the new `next`, and its
+    /// stop is returned.
     pub(crate) fn locate(
         &mut self,
-        _system: &mut dyn System,
-        _events: &mut [Event<'_>],
-        _step: (&State, &mut State, &DenseStep),
-        _t_end: f64,
-        _solution: &mut Solution,
+        system: &mut dyn System,
+        events: &mut [Event<'_>],
+        (now, next, dense): (&State, &mut State, &DenseStep),
+        t_end: f64,
+        solution: &mut Solution,
     ) -> Result<Option<Stop>, Stop> {
+        let step = Step {
+            now,
+            dense,
+            end: next.t,
+            last: next.t.high == t_end,
+        };
+        self.candidates.clear();
+        for (index, event) in events.iter_mut().enumerate() {
+            match self.search(system, event, index, step) {
+                Ok(()) => self.memories[index].unknown = false,
+                Err(failure) => self.forget(index, step, failure, solution),
+            }
+        }
+        let order =
+            |a: &Candidate, b: &Candidate| a.theta.total_cmp(&b.theta).then(a.index.cmp(&b.index));
+        self.candidates.sort_by(order);
+        let mut restarted = false;
+        for c in 0..self.candidates.len() {
+            let candidate = self.candidates[c];
+            let event = &mut events[candidate.index];
+            if !counts(event.direction, candidate.kind) {
+                continue;
+            }
+            self.refine(system, event, (step, next), candidate, &mut restarted);
+            if self.record(system, candidate, solution)? {
+                event.count += 1;
+                if event.count == event.stop_at {
+                    next.clone_from(&self.state);
+                    return Ok(Some(Stop::Event {
+                        t: next.t.high,
+                        index: candidate.index,
+                    }));
+                }
+            }
+        }
         Ok(None)
     }
+
+    /// A switching function has no value in this step: what was known of its side is worthless.
+    fn forget(
+        &mut self,
+        index: usize,
+        step: Step<'_>,
+        failure: EvaluationFailure,
+        solution: &mut Solution,
+    ) {
+        let memory = &mut self.memories[index];
+        memory.side = 0.0;
+        if !memory.unknown {
+            memory.unknown = true;
+            solution.notes.push(Note::EventUnknown {
+                t: step.now.t.high,
+                event: index,
+                failure,
+            });
+        }
+        self.candidates.retain(|c| c.index != index);
+    }
+
+    /// Finds the zeros of one switching function and updates what is remembered of it.
+    fn search(
+        &mut self,
+        system: &mut dyn System,
+        event: &mut Event<'_>,
+        index: usize,
+        step: Step<'_>,
+    ) -> Result<(), EvaluationFailure> {
+        let y = &mut self.y;
+        let mut value = |theta: f64| {
+            step.dense.at_theta(theta, y);
+            event.value(system, step.time(theta), y)
+        };
+        let mut memory = self.memories[index];
+        let mut values = [0.0; NODES.len()];
+        for (v, theta) in values.iter_mut().zip(NODES) {
+            *v = value(theta)?;
+            memory.scale = memory.scale.max(v.abs());
+        }
+        if memory.side == 0.0 {
+            // A value that is zero up to rounding at the start says nothing about the side.
+            let noise = 100.0 * f64::EPSILON * memory.scale;
+            match values.iter().find(|v| v.abs() > noise) {
+                Some(v) => memory.side = v.signum(),
+                None => return Ok(()),
+            }
+            for v in values.iter_mut().take_while(|v| v.abs() <= noise) {
+                *v = 0.0;
+            }
+        } else {
+            values[0] = memory.end;
+        }
+        let touch = self.resolution * memory.scale;
+        let accuracy = 4.0 * step.ulp();
+        // Last node at which the function was on the present side.
+        let mut from = 0;
+        for i in 1..NODES.len() {
+            if values[i] * memory.side < 0.0 {
+                let before = if values[from] == 0.0 {
+                    memory.side * f64::MIN_POSITIVE
+                } else {
+                    values[from]
+                };
+                let bracket = ((NODES[from], before), (NODES[i], values[i]));
+                let theta = bracketed_zero(&mut value, bracket.0, bracket.1, accuracy)?;
+                add_crossing(&mut self.candidates, &mut memory, index, step, theta);
+            } else if i >= 2 && dips(&values[i - 2..=i], &NODES[i - 2..=i], memory.side) {
+                let side = memory.side;
+                let (theta, least) =
+                    minimum(|x| value(x).map(|v| side * v), NODES[i - 2], NODES[i])?;
+                if least < -touch {
+                    for (edge, v) in [(NODES[i - 2], values[i - 2]), (NODES[i], values[i])] {
+                        let inside = (theta, side * least);
+                        let zero = bracketed_zero(&mut value, (edge, v), inside, accuracy)?;
+                        add_crossing(&mut self.candidates, &mut memory, index, step, zero);
+                    }
+                } else if least <= touch {
+                    self.candidates.push(Candidate {
+                        theta,
+                        index,
+                        kind: EventKind::Grazing,
+                    });
+                }
+            }
+            if values[i] != 0.0 {
+                from = i;
+            }
+        }
+        let end = values[NODES.len() - 1];
+        if step.last && ends_on_zero(end, values[NODES.len() - 2], SAME * step.ulp()) {
+            add_crossing(&mut self.candidates, &mut memory, index, step, 1.0);
+        }
+        memory.end = if end * memory.side > 0.0 {
+            end
+        } else {
+            memory.side * f64::MIN_POSITIVE
+        };
+        self.memories[index] = memory;
+        Ok(())
+    }
+
+    /// Writes the state at the candidate into `self.state`: by a step exactly to it and one Newton correction, since
+    /// the dense output is of lower order than the step; by the dense output where that fails.
+    fn refine(
+        &mut self,
+        system: &mut dyn System,
+        event: &mut Event<'_>,
+        (step, next): (Step<'_>, &State),
+        candidate: Candidate,
+        restarted: &mut bool,
+    ) {
+        let theta = candidate.theta;
+        if theta >= 1.0 {
+            self.state.clone_from(next);
+            return;
+        }
+        step.dense.at_theta(theta, &mut self.state.y);
+        self.state.carry.fill(0.0);
+        self.state.t = step.now.t.plus(theta * step.dense.h);
+        if candidate.kind == EventKind::Grazing || theta <= 0.0 {
+            return;
+        }
+        let (n, method, settings) = (self.y.len(), self.method, &self.settings);
+        let stepper = self
+            .stepper
+            .get_or_insert_with(|| method.stepper(n, settings));
+        if !*restarted && stepper.restart(system, step.now).is_err() {
+            return;
+        }
+        *restarted = true;
+        let mut trial = step.now.clone();
+        let h = theta * step.dense.h;
+        if stepper.attempt(system, step.now, h, &mut trial).is_err() {
+            return;
+        }
+        self.state.clone_from(&trial);
+        // The slope of the switching function only scales a correction that is small already.
+        let d = NEAR.min(theta);
+        let mut value = |x: f64, y: &mut Vec<f64>| {
+            step.dense.at_theta(x, y);
+            event.value(system, step.time(x), y)
+        };
+        let (Ok(before), Ok(after)) =
+            (value(theta - d, &mut self.y), value(theta + d, &mut self.y))
+        else {
+            return;
+        };
+        let Ok(residual) = event.value(system, trial.t.high, &trial.y) else {
+            return;
+        };
+        let correction = -residual * 2.0 * d * step.dense.h / (after - before);
+        let small = correction.abs() <= 1e-3 * step.dense.h.abs();
+        if small
+            && stepper
+                .attempt(system, step.now, h + correction, &mut trial)
+                .is_ok()
+        {
+            self.state.clone_from(&trial);
+        }
+    }
+
+    /// Records the event at `self.state`; says whether it counts as a crossing.
+    fn record(
+        &mut self,
+        system: &mut dyn System,
+        candidate: Candidate,
+        solution: &mut Solution,
+    ) -> Result<bool, Stop> {
+        let t = self.state.t.high;
+        let mut row = vec![0.0; solution.width];
+        if let Err(failure) = system.output(t, &self.state.y, &mut row) {
+            return Err(Stop::Singular { t, failure });
+        }
+        let Candidate { index, kind, .. } = candidate;
+        solution.events.push(EventRecord {
+            t,
+            index,
+            kind,
+            row,
+        });
+        if kind == EventKind::Grazing {
+            solution.notes.push(Note::Grazing { t, event: index });
+        }
+        Ok(kind != EventKind::Grazing)
+    }
+}
+
+/// Whether a zero of this kind is wanted. Grazing ones are always reported.
+fn counts(direction: Direction, kind: EventKind) -> bool {
+    match (direction, kind) {
+        (Direction::Both, _) | (_, EventKind::Grazing) => true,
+        (Direction::Up, kind) => kind == EventKind::Up,
+        (Direction::Down, kind) => kind == EventKind::Down,
+    }
+}
+
+/// Notes a change of side at θ, unless it is the last zero once more.
+fn add_crossing(
+    candidates: &mut Vec<Candidate>,
+    memory: &mut Memory,
+    index: usize,
+    step: Step<'_>,
+    theta: f64,
+) {
+    let t = step.time(theta);
+    let kind = if memory.side < 0.0 {
+        EventKind::Up
+    } else {
+        EventKind::Down
+    };
+    memory.side = -memory.side;
+    let again = (t - memory.last_zero).abs() <= SAME * step.ulp() * step.dense.h.abs();
+    memory.last_zero = t;
+    if !again {
+        candidates.push(Candidate { theta, index, kind });
+    }
+}
+
+/// Whether three samples on one side have their least magnitude in the middle, and a parabola through them comes
+/// near zero.
+fn dips(v: &[f64], x: &[f64], side: f64) -> bool {
+    let [a, b, c] = [v[0] * side, v[1] * side, v[2] * side];
+    // One comparison is strict, so that two equal samples make one dip and not two.
+    if b < 0.0 || b > a || b >= c || a == 0.0 {
+        return false;
+    }
+    let left = (b - a) / (x[1] - x[0]);
+    let right = (c - b) / (x[2] - x[1]);
+    let curvature = (right - left) / (x[2] - x[0]);
+    if curvature <= 0.0 {
+        return b == 0.0;
+    }
+    let slope = left + curvature * (x[1] - x[0]);
+    b - slope * slope / (4.0 * curvature) < 0.5 * b
+}
+
+/// Whether a function with these values at the end of the step and just before it vanishes within `slack` of the
+/// end, which is the end of the run.
+fn ends_on_zero(end: f64, before: f64, slack: f64) -> bool {
+    let fall = before - end;
+    end == 0.0 && before != 0.0
+        || end * before > 0.0 && (end / fall) * NEAR <= slack && end / fall >= 0.0
 }
