@@ -64,7 +64,7 @@ pub enum TooLarge {
 }
 
 /// A [`Budget`] together with the work already done on it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Meter {
     budget: Budget,
     spent: Cell<u64>,

@@ -14,6 +14,7 @@ mod division;
 mod factor;
 mod gcd;
 mod monomial;
+pub mod normal_form;
 mod rational_function;
 mod sparse;
 mod univariate;
