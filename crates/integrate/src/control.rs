@@ -81,11 +81,15 @@ impl ErrorControl {
                     atol,
                 });
             }
-            // A purely absolute tolerance has to be resolved at the size of the initial value.
+            // A purely absolute tolerance has to be resolved at the size of the initial value. Slopes do not
+            // depend on a cyclic component: only the rounding of its own value counts.
+            let cyclic = self.absolute.get(component).copied().unwrap_or(false);
             let (requested, attainable) = if rtol > 0.0 {
                 (rtol, least)
+            } else if cyclic {
+                (atol, y.abs() * least.min(2.0 * f64::EPSILON))
             } else {
-                (atol, least * y.abs())
+                (atol, y.abs() * least)
             };
             if requested < attainable {
                 return Err(IntegrateError::ToleranceTooSmall {

@@ -10,6 +10,7 @@
 //! - [`control`]: error norms, tolerances, step-size control;
 //! - [`dense`]: the polynomial of each step; [`event`]: zero crossings located on it;
 //! - [`solution`]: results; [`mod@integrate`]: options and the loop;
+//! - [`mod@global_error`]: a second run at a tenth of the tolerance.
 //!
 //! Everything is deterministic: no clock, no threads, no global state, fixed orders of summation.
 
@@ -19,6 +20,7 @@ pub mod control;
 pub mod dense;
 mod error;
 pub mod event;
+pub mod global_error;
 pub mod integrate;
 mod locate;
 pub mod method;
@@ -34,6 +36,7 @@ pub use control::ErrorControl;
 pub use dense::Trajectory;
 pub use error::IntegrateError;
 pub use event::{Direction, Event, EventKind, EventRecord};
+pub use global_error::{global_error, GlobalError};
 pub use integrate::{integrate, Options, Output, Progress, StepSize};
 pub use method::{method, Method, MethodCard};
 pub use problem::{
