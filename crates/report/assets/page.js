@@ -47,7 +47,7 @@ function readable(value, digits = 6) {
   const text = power >= -4 && power < digits
     ? trim(value.toFixed(Math.max(0, digits - 1 - power)))
     : `${trim(mantissa)} × 10${raised(power)}`;
-  return text.replace("-", "−");
+  return text.replace("-", "−").replace(/^(−?)1 × /, "$1");
 }
 
 /** Round steps (1, 2, 5 times a power of ten) that cover an interval with about `count` parts. */
@@ -175,6 +175,15 @@ function setUpContents() {
   mark();
 }
 
+/** Paper cannot scroll: formulas wider than it are set smaller, down to a third. */
+function fitFormulas() {
+  const room = 480;
+  for (const formula of findAll(".formula math")) {
+    const width = formula.getBoundingClientRect().width;
+    if (width > room) formula.style.fontSize = `${Math.max(0.33, room / width)}em`;
+  }
+}
+
 /** Paper shows all evidence, in light colors. */
 function setUpPrinting() {
   let opened = [];
@@ -184,10 +193,12 @@ function setUpPrinting() {
     for (const details of opened) details.open = true;
     theme = document.documentElement.dataset.theme;
     document.documentElement.dataset.theme = "light";
+    fitFormulas();
     themed.forEach((paint) => paint());
   });
   addEventListener("afterprint", () => {
     for (const details of opened) details.open = false;
+    for (const formula of findAll(".formula math")) formula.style.fontSize = "";
     if (theme) document.documentElement.dataset.theme = theme;
     else delete document.documentElement.dataset.theme;
     themed.forEach((paint) => paint());

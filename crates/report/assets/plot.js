@@ -168,6 +168,7 @@ class Plot {
   paint() {
     const width = Math.max(this.figure.clientWidth, 200);
     const height = this.isPortrait ? Math.round(Math.min(width * 0.8, 360)) : 230;
+    this.shown = { x: this.view.x, y: this.view.y };
     const ticksY = this.ticks("y", Math.max(3, height / 50));
     const longest = Math.max(2, ...ticksY.list.map((tick) => tick.text.length));
     this.box = { left: 14 + 7 * longest, right: 12, top: 24, bottom: 38, width, height };
@@ -175,36 +176,29 @@ class Plot {
     if (this.spec.equal) this.equalize();
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     finish(this.clip, { x: this.box.left, y: this.box.top, width: this.box.inner[0], height: this.box.inner[1] });
-    this.paintAxes(this.ticks("x", Math.max(2, this.box.inner[0] / 90)), this.spec.equal ? this.ticks("y", height / 50) : ticksY);
+    this.paintAxes(this.ticks("x", Math.max(2, this.box.inner[0] / 70)), this.spec.equal ? this.ticks("y", height / 50) : ticksY);
     for (const curve of this.curves) curve.path.setAttribute("d", curve.visible ? this.pathOf(curve) : "");
     this.paintLevels();
     this.figure.classList.toggle("zoomed", this.isZoomed);
     this.showAt(this.shownTime());
   }
 
-  toX(x) { return this.box.left + (x - this.view.x[0]) / (this.view.x[1] - this.view.x[0]) * this.box.inner[0]; }
-  toY(y) {
-    const at = this.box.top + (this.view.y[1] - y) / (this.view.y[1] - this.view.y[0]) * this.box.inner[1];
-    return Math.max(-1e5, Math.min(1e5, at));
-  }
-  fromX(px) { return this.view.x[0] + (px - this.box.left) / this.box.inner[0] * (this.view.x[1] - this.view.x[0]); }
-  fromY(py) { return this.view.y[1] - (py - this.box.top) / this.box.inner[1] * (this.view.y[1] - this.view.y[0]); }
+  toX(x) { return within(this.box.left + (x - this.shown.x[0]) / (this.shown.x[1] - this.shown.x[0]) * this.box.inner[0]); }
+  toY(y) { return within(this.box.top + (this.shown.y[1] - y) / (this.shown.y[1] - this.shown.y[0]) * this.box.inner[1]); }
+  fromX(px) { return this.shown.x[0] + (px - this.box.left) / this.box.inner[0] * (this.shown.x[1] - this.shown.x[0]); }
+  fromY(py) { return this.shown.y[1] - (py - this.box.top) / this.box.inner[1] * (this.shown.y[1] - this.shown.y[0]); }
 
-  /** The same scale on both axes, by widening one. */
+  /** The same scale on both axes, by showing more along one. */
   equalize() {
     const scale = ["x", "y"].map((axis, i) => (this.view[axis][1] - this.view[axis][0]) / this.box.inner[i]);
     const wide = scale[0] < scale[1] ? "x" : "y";
     const length = Math.max(...scale) * this.box.inner[wide === "x" ? 0 : 1];
     const middle = (this.view[wide][0] + this.view[wide][1]) / 2;
-    this.view[wide] = [middle - length / 2, middle + length / 2];
-    if (!this.equalized) {
-      this.equalized = true;
-      this.bounds[wide] = [...this.view[wide]];
-    }
+    this.shown[wide] = [middle - length / 2, middle + length / 2];
   }
 
   ticks(axis, count) {
-    const [low, high] = this.view[axis];
+    const [low, high] = this.shown[axis];
     const isLog = axis === "x" ? this.spec.logHorizontal : this.spec.log;
     if (isLog && high - low > 1.2) return { list: decades(low, high, count), head: "" };
     const step = niceStep(low, high, count);
@@ -269,11 +263,17 @@ class Plot {
   pathOf(curve) {
     const pen = new Pen();
     const put = (i) => pen.to(this.toX(curve.x[i]), this.toY(Number.isNaN(curve.y[i]) ? NaN : Math.max(curve.y[i], this.foot())));
-    const [first, last] = this.isPortrait || this.spec.marks ? [0, curve.x.length] : this.visibleRange(curve.x);
-    if (this.isPortrait || this.spec.marks || last - first < 4 * this.box.inner[0]) {
-      for (let i = first; i < last; i++) put(i);
+    const isRun = !this.isPortrait && !this.spec.marks;
+    const [first, last] = isRun ? this.visibleRange(curve.x) : [0, curve.x.length];
+    // Of a drift the upper edge tells: it crosses zero again and again, down to any depth.
+    if (isRun && this.spec.log && last - first > this.box.inner[0] / 2) {
+      for (const [, , highest] of groups(curve, first, last, (x) => Math.floor(this.toX(x) / 3))) put(highest);
+    } else if (isRun && last - first > 4 * this.box.inner[0]) {
+      for (const group of groups(curve, first, last, (x) => Math.floor(this.toX(x)))) {
+        for (const i of [...new Set(group)].sort((a, b) => a - b)) put(i);
+      }
     } else {
-      for (const i of extremes(curve, first, last, (x) => Math.floor(this.toX(x)))) put(i);
+      for (let i = first; i < last; i++) put(i);
     }
     if (!this.spec.marks) return pen.path;
     return pen.path + pen.points.map(([x, y]) => `M${x - 3} ${y}a3 3 0 1 0 6 0a3 3 0 1 0 -6 0`).join("");
@@ -351,7 +351,7 @@ class Plot {
 
   zoomAbout([px, py], factor) {
     const about = (interval, center) => interval.map((v) => center + (v - center) * factor);
-    this.zoom(about(this.view.x, this.fromX(px)), this.overTime ? null : about(this.view.y, this.fromY(py)));
+    this.zoom(about(this.shown.x, this.fromX(px)), this.overTime ? null : about(this.shown.y, this.fromY(py)));
   }
 
   listenToPointer() {
@@ -359,6 +359,7 @@ class Plot {
     this.svg.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
       down = { at: this.place(event), touch: event.pointerType === "touch", moved: false };
+      this.hover(down.at);
       if (!down.touch) this.svg.setPointerCapture(event.pointerId);
     });
     this.svg.addEventListener("pointermove", (event) => {
@@ -435,7 +436,7 @@ class Plot {
     const middle = [this.box.left + this.box.inner[0] / 2, this.box.top + this.box.inner[1] / 2];
     const steps = { ArrowLeft: -1, ArrowRight: 1 };
     if (event.key in steps && this.times) {
-      const span = this.overTime ? this.view.x : [this.times[0], this.times.at(-1)];
+      const span = this.overTime ? this.shown.x : [this.times[0], this.times.at(-1)];
       const from = Number.isFinite(clock.time) ? clock.time : span[0];
       const to = from + steps[event.key] * (span[1] - span[0]) / (event.shiftKey ? 20 : 200);
       clock.set(Math.max(this.times[0], Math.min(this.times.at(-1), to)));
@@ -469,24 +470,26 @@ class Pen {
   }
 }
 
-/** Indices of first, lowest, highest and last sample in each column of pixels. */
-function extremes(curve, first, last, column) {
-  const kept = [];
-  const flush = (group) => kept.push(...[...new Set(group)].sort((a, b) => a - b));
-  let [at, group] = [NaN, []];
+/** Indices of first, lowest, highest and last sample in each column of the screen. */
+function groups(curve, first, last, column) {
+  const found = [];
+  let at = NaN;
+  let group;
   for (let i = first; i < last; i++) {
     const here = column(curve.x[i]);
     if (here !== at) {
-      flush(group);
-      [at, group] = [here, [i, i, i, i]];
+      at = here;
+      found.push(group = [i, i, i, i]);
     }
-    if (curve.y[i] < curve.y[group[1]]) group[1] = i;
-    if (curve.y[i] > curve.y[group[2]]) group[2] = i;
+    if (!(curve.y[i] >= curve.y[group[1]])) group[1] = i;
+    if (!(curve.y[i] <= curve.y[group[2]])) group[2] = i;
     group[3] = i;
   }
-  flush(group);
-  return kept;
+  return found;
 }
+
+/** Keeps places far outside the screen from overflowing the drawing; what is not a number stays. */
+const within = (px) => Math.max(-1e5, Math.min(1e5, px));
 
 /** Least and greatest finite value of several arrays. */
 function range(arrays) {

@@ -3,7 +3,7 @@
 use crate::data::{Claim, Report, Verdict};
 use crate::equations::{definitions, equation_body};
 use crate::html::{fragment, Html};
-use crate::number::readable;
+use crate::number::{raised, readable};
 use crate::words::{fill, look_up, Words};
 
 /// The section of all claims.
@@ -159,18 +159,13 @@ fn one(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
 
 /// The rows of the evidence that are there.
 fn evidence(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
-    let condition = match claim.verdict {
-        Verdict::NotApplicable => words.failing_hypothesis,
-        _ => words.condition,
-    };
     let seconds = claim
         .seconds
         .map(|seconds| fill(words.seconds, &[&readable(seconds)]));
     let rows = [
         (words.method, claim.method.clone()),
         (words.on, claim.on.clone()),
-        (condition, claim.condition.clone()),
-        (words.error_bound, claim.error_bound.clone()),
+        (words.error_bound, claim.error_bound.as_deref().map(raised)),
         (words.samples, claim.samples.map(|n| n.to_string())),
         (words.seed, claim.seed.map(|n| n.to_string())),
         (words.residual, claim.residual.clone()),
@@ -182,6 +177,19 @@ fn evidence(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
             html.wrap("<div><dt>", label, "</dt>")
                 .wrap("<dd>", value, "</dd></div>\n");
         }
+    }
+    if let Some(condition) = &claim.condition {
+        let label = match claim.verdict {
+            Verdict::NotApplicable => words.failing_hypothesis,
+            _ => words.condition,
+        };
+        html.wrap("<div class=\"wide\"><dt>", label, "</dt><dd>");
+        if report.claims.iter().any(|other| other.id() == *condition) {
+            reference(html, condition, report, words);
+        } else {
+            html.text(condition);
+        }
+        html.raw("</dd></div>\n");
     }
     if let Some(counterexample) = &claim.counterexample {
         html.wrap("<div class=\"wide\"><dt>", words.counterexample, "</dt>")

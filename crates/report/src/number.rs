@@ -18,9 +18,34 @@ pub(crate) fn readable(value: f64) -> String {
     } else {
         let exponent = exponent.to_string();
         let raised: String = exponent.chars().map(superscript).collect();
-        format!("{} × 10{raised}", trimmed(mantissa))
+        match trimmed(mantissa).as_str() {
+            "1" => format!("10{raised}"),
+            "-1" => format!("-10{raised}"),
+            mantissa => format!("{mantissa} × 10{raised}"),
+        }
     };
     text.replace('-', "−")
+}
+
+/// Powers written with a caret set as in print: `2^-104` becomes `2⁻¹⁰⁴`.
+pub(crate) fn raised(text: &str) -> String {
+    let mut is_exponent = false;
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        is_exponent = match c {
+            '^' => rest
+                .peek()
+                .is_some_and(|next| next.is_ascii_digit() || *next == '-'),
+            _ => is_exponent && (c.is_ascii_digit() || c == '-'),
+        };
+        match c {
+            '^' if is_exponent => {}
+            c if is_exponent => out.push(superscript(c)),
+            c => out.push(c),
+        }
+    }
+    out
 }
 
 /// Without the zeros that end a fraction.
@@ -76,7 +101,7 @@ pub(crate) mod vector {
 
 #[cfg(test)]
 mod tests {
-    use super::readable;
+    use super::{raised, readable};
 
     #[test]
     fn numbers_read_as_in_print() {
@@ -87,10 +112,17 @@ mod tests {
             (1.2048374, "1.20484"),
             (123456.0, "123456"),
             (1.5e-7, "1.5 × 10⁻⁷"),
+            (1e-9, "10⁻⁹"),
+            (-1e12, "−10¹²"),
             (-2e14, "−2 × 10¹⁴"),
             (f64::NAN, "—"),
         ] {
             assert_eq!(readable(value), expected);
         }
+    }
+
+    #[test]
+    fn powers_are_raised_and_nothing_else() {
+        assert_eq!(raised("below 2^-104, 10^3 x^a"), "below 2⁻¹⁰⁴, 10³ x^a");
     }
 }

@@ -13,6 +13,7 @@ const SCRIPT: &str = concat!(
     "\"use strict\";\n",
     include_str!("../assets/page.js"),
     include_str!("../assets/plot.js"),
+    include_str!("../assets/scene.js"),
     include_str!("../assets/animate.js"),
     "start();\n",
 );
