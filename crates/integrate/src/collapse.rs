@@ -5,35 +5,46 @@ use crate::method::State;
 use crate::problem::EvaluationFailure;
 use crate::solution::Stop;
 
-/// The present rate of change over the mean rate of the whole run, above which a collapse of the step size is put
+/// The present rate of change over the mean speed of the whole run, above which a collapse of the step size is put
 /// down to a derivative that grows without bound.
 const GROWTH: f64 = 1e4;
 
-/// |y'|·(time to the singularity)/|y| above which y itself is taken to be unbounded: the exponent of a power law,
-/// or 1/(number of e-foldings) of a logarithm; for a bounded y with an unbounded derivative it tends to zero.
-const EXPONENT: f64 = 0.01;
+/// Growth of the rate of change of a component between two marks of its way into a singularity.
+const MARK: f64 = 16.0;
+
+/// A component at the time when its rate of change had grown by another factor [`MARK`].
+///
+/// Near a power law y ~ δ^(−a), δ the time to the singularity, marks are at δ in geometric progression, and the
+/// changes of y from mark to mark have the ratio 16^(a/(a+1)): 1 for a logarithm, less if y stays bounded.
+#[derive(Debug, Clone, Copy, Default)]
+struct Mark {
+    t: f64,
+    y: f64,
+    rate: f64,
+}
 
 /// What the steps of a run say about the way it may end.
 #[derive(Debug)]
 pub(crate) struct Collapse {
     start: Time,
-    initial: Vec<f64>,
+    /// Total variation of each component so far.
+    variation: Vec<f64>,
     /// Rate of change of each component over the last accepted step.
     rates: Vec<f64>,
-    /// Lengths of the last two accepted steps.
-    lengths: [f64; 2],
+    /// The last three marks of each component.
+    marks: Vec<[Mark; 3]>,
     /// Failure of the last attempt since the last accepted step.
     failure: Option<EvaluationFailure>,
     worst: usize,
 }
 
 impl Collapse {
-    pub(crate) fn new(t0: f64, y0: &[f64]) -> Collapse {
+    pub(crate) fn new(t0: f64, n: usize) -> Collapse {
         Collapse {
             start: Time::exact(t0),
-            initial: y0.to_vec(),
-            rates: vec![0.0; y0.len()],
-            lengths: [0.0; 2],
+            variation: vec![0.0; n],
+            rates: vec![0.0; n],
+            marks: vec![[Mark::default(); 3]; n],
             failure: None,
             worst: 0,
         }
@@ -50,13 +61,34 @@ impl Collapse {
 
     pub(crate) fn accepted(&mut self, from: &State, to: &State, h: f64) {
         self.failure = None;
-        self.lengths = [self.lengths[1], h];
-        for (rate, (a, b)) in self.rates.iter_mut().zip(from.y.iter().zip(&to.y)) {
-            *rate = (b - a) / h;
+        for i in 0..self.rates.len() {
+            let change = to.y[i] - from.y[i];
+            let rate = change / h;
+            self.rates[i] = rate;
+            self.variation[i] += change.abs();
+            let [_, second, last] = self.marks[i];
+            if rate.abs() > MARK * last.rate {
+                let mark = Mark {
+                    t: to.t.high,
+                    y: to.y[i],
+                    rate: rate.abs(),
+                };
+                self.marks[i] = [second, last, mark];
+            }
         }
     }
 
-    /// The stop for a step that would have to be shorter than time resolves.
+    /// Present rate of change of component i over its mean speed.
+    fn growth(&self, i: usize, now: &State) -> f64 {
+        let mean = self.variation[i] / now.t.until(self.start.high).abs();
+        if mean > 0.0 {
+            self.rates[i].abs() / mean
+        } else {
+            0.0
+        }
+    }
+
+    /// The stop for a step h that would have to be shorter than time resolves.
     pub(crate) fn stop(&self, now: &State, h: f64) -> Stop {
         let t = now.t.high;
         match self.failure {
@@ -66,51 +98,37 @@ impl Collapse {
             Some(failure) => return Stop::Singular { t, failure },
             None => {}
         }
-        let elapsed = -now.t.until(self.start.high);
-        let growth = |i: usize| {
-            let mean = ((now.y[i] - self.initial[i]) / elapsed).abs();
-            if mean > 0.0 {
-                self.rates[i].abs() / mean
-            } else {
-                0.0
-            }
-        };
         let mut component = 0;
         for i in 1..self.rates.len() {
-            if growth(i) > growth(component) {
+            if self.growth(i, now) > self.growth(component, now) {
                 component = i;
             }
         }
-        if self.rates.is_empty() || growth(component) <= GROWTH {
+        if self.rates.is_empty() || self.growth(component, now) <= GROWTH {
             return Stop::StepTooSmall {
                 t,
                 component: self.worst,
                 h,
             };
         }
-        let singularity = self.singularity(now);
-        let rate = self.rates[component];
-        let y = now.y[component];
-        let grows = rate * y * h.signum() > 0.0;
-        let exponent = (rate * now.t.until(singularity) / y).abs();
+        let [first, second, last] = self.marks[component];
+        let grows = self.rates[component] * now.y[component] * h.signum() > 0.0;
         Stop::Divergence {
             t,
-            singularity,
+            singularity: singularity(now, [first.t, second.t, last.t], h.signum()),
             component,
-            unbounded: grows && exponent > EXPONENT,
+            unbounded: grows && (last.y - second.y).abs() > 0.5 * (second.y - first.y).abs(),
         }
     }
+}
 
-    /// Limit of the step ends, if the steps shrink geometrically (Aitken's extrapolation).
-    fn singularity(&self, now: &State) -> f64 {
-        let [before, last] = self.lengths;
-        let ahead = last * last / (before - last);
-        // Steps that did not shrink: one more step is as good a guess as any at this resolution.
-        let ahead = if ahead.is_finite() && ahead * last > 0.0 {
-            ahead
-        } else {
-            last
-        };
-        now.t.plus(ahead).high
+/// Limit of times in geometric progression (Aitken's extrapolation), which cannot lie before the present time.
+fn singularity(now: &State, [first, second, last]: [f64; 3], direction: f64) -> f64 {
+    let (before, after) = (second - first, last - second);
+    let limit = last + after * after / (before - after);
+    if (limit - now.t.high) * direction > 0.0 {
+        limit
+    } else {
+        now.t.high
     }
 }

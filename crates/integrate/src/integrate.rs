@@ -134,6 +134,23 @@ impl<'a> Options<'a> {
         self
     }
 
+    /// The same options once more, without the progress callback, for another run such as
+    /// [`global_error`](crate::global_error()).
+    pub fn again(&self) -> Options<'a> {
+        Options {
+            method: self.method,
+            error: self.error.clone(),
+            step: self.step,
+            output: self.output.clone(),
+            keep_trajectory: self.keep_trajectory,
+            step_limit: self.step_limit,
+            stiffness: self.stiffness,
+            compensated: self.compensated,
+            interrupt: self.interrupt,
+            progress: None,
+        }
+    }
+
     pub(crate) fn settings(&self) -> StepperSettings {
         StepperSettings {
             error: self.error.clone(),

@@ -1,6 +1,6 @@
 //! Time stepping of numeric functions; never sees a symbol.
 //!
-//! [`integrate`] runs a [`System`] y' = F(t, y) from one time to another with a [`Method`] of the registry and
+//! [`integrate()`] runs a [`System`] y' = F(t, y) from one time to another with a [`Method`] of the registry and
 //! returns a [`Solution`]: rows at the times asked for, events, statistics, notes, and the reason why the run ended.
 //! Ending early (an event, a singular state, a step limit, an interruption) is a value, [`Stop`], and keeps what the
 //! run has; an [`IntegrateError`] means that the run could not begin.

@@ -39,8 +39,6 @@ const SAME: f64 = 10.0;
 struct Memory {
     /// Sign last seen, 0 while it is unknown.
     side: f64,
-    /// Value at the end of the last step, if the side is known.
-    end: f64,
     /// Largest magnitude seen.
     scale: f64,
     last_zero: f64,
@@ -107,7 +105,6 @@ impl Locator {
         };
         let memory = Memory {
             side: 0.0,
-            end: 0.0,
             scale: 0.0,
             last_zero: f64::NAN,
             unknown: false,
@@ -227,8 +224,6 @@ impl Locator {
             for v in values.iter_mut().take_while(|v| v.abs() <= noise) {
                 *v = 0.0;
             }
-        } else {
-            values[0] = memory.end;
         }
         let touch = self.resolution * memory.scale;
         let accuracy = 4.0 * step.ulp();
@@ -236,10 +231,11 @@ impl Locator {
         let mut from = 0;
         for i in 1..NODES.len() {
             if values[i] * memory.side < 0.0 {
-                let before = if values[from] == 0.0 {
-                    memory.side * f64::MIN_POSITIVE
-                } else {
+                // The first value may be on the other side: a zero on the end of the last step, by rounding.
+                let before = if values[from] * memory.side > 0.0 {
                     values[from]
+                } else {
+                    memory.side * f64::MIN_POSITIVE
                 };
                 let bracket = ((NODES[from], before), (NODES[i], values[i]));
                 let theta = bracketed_zero(&mut value, bracket.0, bracket.1, accuracy)?;
@@ -270,11 +266,6 @@ impl Locator {
         if step.last && ends_on_zero(end, values[NODES.len() - 2], SAME * step.ulp()) {
             add_crossing(&mut self.candidates, &mut memory, index, step, 1.0);
         }
-        memory.end = if end * memory.side > 0.0 {
-            end
-        } else {
-            memory.side * f64::MIN_POSITIVE
-        };
         self.memories[index] = memory;
         Ok(())
     }

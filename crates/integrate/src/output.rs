@@ -4,7 +4,7 @@ use crate::integrate::Output;
 use crate::IntegrateError;
 
 /// Rows more than this are refused before the run rather than after the memory is gone.
-const MOST_ROWS: f64 = 1e9;
+const MOST_ROWS: f64 = 1e8;
 
 /// The output times still ahead.
 #[derive(Debug)]

@@ -78,7 +78,7 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
             h: 0.0,
             changed: false,
             repivoted: false,
-            collapse: Collapse::new(span.0, y0),
+            collapse: Collapse::new(span.0, n),
             detector: Detector::new(),
             point: vec![0.0; n],
             before_hook: vec![0.0; n],
@@ -254,7 +254,7 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
         let inside = self
             .schedule
             .next()
-            .is_some_and(|s| self.next.t.until(s) * self.direction < 0.0);
+            .is_some_and(|s| (self.next.t.high - s) * self.direction > 0.0);
         if inside || self.options.keep_trajectory || !self.events.is_empty() {
             self.stepper
                 .dense(self.system, &self.now, &self.next, &mut self.dense)?;
@@ -324,7 +324,7 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
     /// Records the scheduled times strictly inside the step.
     fn record_inside(&mut self) -> Result<(), Stop> {
         while let Some(s) = self.schedule.next() {
-            if self.next.t.until(s) * self.direction >= 0.0 || !self.dense_ready {
+            if (self.next.t.high - s) * self.direction <= 0.0 || !self.dense_ready {
                 break;
             }
             let mut point = std::mem::take(&mut self.point);

@@ -214,6 +214,53 @@ fn a_discontinuous_right_hand_side_is_passed_or_named() {
 }
 
 #[test]
+fn a_tolerance_out_of_reach_is_named() {
+    // An amplitude and frequency at which no step that time resolves meets the tolerance.
+    let f = |t: f64, _y: &[f64], dy: &mut [f64]| (dy[0], dy[1]) = (0.0, 1e20 * (1e18 * t).sin());
+    let solution = run(f, (1.0, 2.0), &[0.0, 0.0], Options::tolerance(1e-9));
+    assert!(
+        matches!(
+            solution.stop,
+            Stop::StepTooSmall {
+                t: 1.0,
+                component: 1,
+                ..
+            }
+        ),
+        "{:?}",
+        solution.stop
+    );
+}
+
+#[test]
+fn oscillating_components_are_not_blamed_for_a_singularity() {
+    // The harmonic oscillator returns to its start when the other component reaches its pole at 2π.
+    let pole = std::f64::consts::TAU;
+    let f = move |t: f64, y: &[f64], dy: &mut [f64]| {
+        (dy[0], dy[1]) = (y[1], -y[0]);
+        dy[2] = (pole - t).powi(-2);
+    };
+    let solution = run(f, (0.0, 10.0), &[0.0, 1.0, 0.0], Options::tolerance(1e-9));
+    match solution.stop {
+        Stop::Divergence {
+            singularity,
+            component: 2,
+            unbounded: true,
+            ..
+        } => {
+            assert!((singularity - pole).abs() < 1e-7);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_system_without_components_only_passes_the_time() {
+    let solution = run(|_, _, _| (), (0.0, 1.0), &[], Options::tolerance(1e-9));
+    assert_eq!((solution.stop, solution.t), (Stop::Finished, 1.0));
+}
+
+#[test]
 fn limits_and_interruptions_keep_what_there_is() {
     let mut options = Options::tolerance(1e-9);
     options.step_limit = 5;

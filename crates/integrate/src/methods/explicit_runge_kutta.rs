@@ -213,17 +213,32 @@ impl Runner {
     }
 }
 
-/// Writes h Σ_j row_j F_j into `sum`.
+/// Writes h Σ_j row_j F_j into `sum`, four components at a time so that their sums stay in registers. Every
+/// component is summed in the order of the row, whatever its place.
 fn weighted_sum(h: f64, row: Row, slopes: &[f64], sum: &mut [f64]) {
     let n = sum.len();
-    sum.fill(0.0);
-    for (j, weight) in row {
-        for (s, f) in sum.iter_mut().zip(&slopes[j * n..(j + 1) * n]) {
-            *s += weight * f;
+    let mut blocks = sum.chunks_exact_mut(4);
+    let mut base = 0;
+    for block in &mut blocks {
+        let mut total = [0.0; 4];
+        for (j, weight) in row {
+            let start = j * n + base;
+            for (t, f) in total.iter_mut().zip(&slopes[start..start + 4]) {
+                *t += weight * f;
+            }
         }
+        for (s, t) in block.iter_mut().zip(total) {
+            *s = h * t;
+        }
+        base += 4;
     }
-    for s in sum {
-        *s *= h;
+    for s in blocks.into_remainder() {
+        let mut total = 0.0;
+        for (j, weight) in row {
+            total += weight * slopes[j * n + base];
+        }
+        *s = h * total;
+        base += 1;
     }
 }
 

@@ -14,3 +14,12 @@ pub use tsitouras_5::TSITOURAS_5;
 
 /// Every method, by preference.
 pub static METHODS: &[&dyn Method] = &[&DORMAND_PRINCE_853, &TSITOURAS_5, &RUNGE_KUTTA_4];
+
+/// The method to take for a tolerance where nothing else is known: order 5 above 10⁻⁶, order 8 from there on.
+pub fn recommended(tolerance: f64) -> &'static dyn Method {
+    if tolerance > 1e-6 {
+        &TSITOURAS_5
+    } else {
+        &DORMAND_PRINCE_853
+    }
+}
