@@ -35,7 +35,7 @@ class Player {
     this.slider = make("input", {
       type: "range", id: "time-slider", min: this.first, max: this.last, step: "any", value: this.first, "aria-label": words.time,
     }, bar);
-    this.clockText = make("output", { for: "time-slider" }, bar);
+    this.clockText = make("span", { class: "time" }, bar);
     const options = make("div", { class: "options" });
     bar.after(options);
     this.buildSpeed(options);
@@ -59,7 +59,7 @@ class Player {
     const label = make("label", {}, parent, `${words.speed} `);
     this.speed = make("select", {}, label);
     const duration = this.last - this.first;
-    const base = duration >= 3 && duration <= 25 ? 1 : roundSpeed(duration / 12);
+    const base = !(duration > 0) || (duration >= 3 && duration <= 25) ? 1 : roundSpeed(duration / 12);
     const speeds = new Set([0.1, 0.2, 0.5, 1, 2, 5, 10].map((factor) => Number((factor * base).toPrecision(1))));
     speeds.add(1);
     for (const speed of [...speeds].sort((a, b) => a - b)) {
@@ -186,7 +186,7 @@ class Player {
   show(time) {
     this.slider.value = time;
     const timeUnit = data.trajectory?.timeUnit;
-    const decimals = Math.max(0, 3 - Math.floor(Math.log10(Math.max(this.last - this.first, 1e-9))));
+    const decimals = Math.max(0, Math.min(9, 3 - Math.floor(Math.log10(Math.max(this.last - this.first, 1e-9)))));
     this.clockText.textContent = `${time.toFixed(decimals).replace("-", "−")}${timeUnit ? ` ${timeUnit}` : ""}`;
     this.slider.setAttribute("aria-valuetext", this.clockText.textContent);
     this.paint();
@@ -213,7 +213,7 @@ class Player {
       this.colors[name] = getComputedStyle(probe).color;
     }
     probe.remove();
-    this.font = getComputedStyle(find(".controls output", this.figure)).fontFamily;
+    this.font = getComputedStyle(this.clockText).fontFamily;
   }
 
   // Drawing.

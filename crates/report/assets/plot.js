@@ -73,7 +73,7 @@ class Plot {
       if (!Number.isFinite(y0)) [y0, y1] = [-17, -15];
       // A drift starts at zero and crosses it: what lies far below its largest value tells nothing.
       y0 = Math.max(y0, y1 - 14);
-      [y0, y1] = [Math.floor(y0), Math.ceil(y1 + 0.05)];
+      [y0, y1] = [Math.floor(y0 - 0.05), Math.ceil(y1 + 0.05)];
     } else {
       if (!Number.isFinite(y0)) [y0, y1] = [0, 1];
       const size = Math.max(Math.abs(y0), Math.abs(y1));
@@ -112,7 +112,7 @@ class Plot {
   buildLegend() {
     this.legend = make("div", { class: "legend" }, this.figure);
     if (this.isPortrait) {
-      this.readout = make("output", { class: "readout" }, this.legend);
+      this.readout = make("span", { class: "readout" }, this.legend);
       return;
     }
     for (const curve of this.curves) {
@@ -124,7 +124,7 @@ class Plot {
       }, this.legend);
       make("i", { class: `swatch hue-${curve.hue % 8}${curve.hue >= 8 ? " dashed" : ""}`, "aria-hidden": "true" }, button);
       make("span", {}, button, curve.label);
-      curve.value = make("output", {}, button);
+      curve.value = make("span", { class: "reading" }, button);
       button.addEventListener("click", () => {
         curve.visible = !curve.visible;
         button.setAttribute("aria-pressed", curve.visible);
@@ -133,7 +133,7 @@ class Plot {
         this.paint();
       });
     }
-    this.position = make("output", { class: "position" }, this.legend);
+    this.position = make("span", { class: "position" }, this.legend);
   }
 
   reset() {
@@ -146,7 +146,7 @@ class Plot {
 
   /** Shows an interval; the other plots over the time follow. */
   zoom(x, y) {
-    const least = (interval) => (interval[1] - interval[0]) > 1e-13 * Math.max(...interval.map(Math.abs));
+    const least = (interval) => (interval[1] - interval[0]) > 2e-15 * Math.max(...interval.map(Math.abs));
     if (y && least(y)) this.view.y = y;
     if (x && least(x)) {
       for (const plot of this.overTime ? timePlots : [this]) {
@@ -201,11 +201,10 @@ class Plot {
     const [low, high] = this.shown[axis];
     const isLog = axis === "x" ? this.spec.logHorizontal : this.spec.log;
     if (isLog && high - low > 1.2) return { list: decades(low, high, count), head: "" };
-    const step = niceStep(low, high, count);
-    const values = [];
-    for (let i = Math.ceil(low / step - 1e-9); i * step <= high + step * 1e-9; i++) values.push(i * step);
-    if (isLog) return { list: values.map((v) => ({ at: v, text: readable(10 ** v, 3) })), head: "" };
-    return labelled(values, step);
+    if (!isLog) return linear(low, high, count);
+    // Within a decade the round values themselves.
+    const { list, head } = linear(10 ** low, 10 ** high, count);
+    return { list: list.map(({ at, text }) => ({ at: Math.log10(at), text })), head };
   }
 
   paintAxes(ticksX, ticksY) {
@@ -519,6 +518,14 @@ function nearest(values, value) {
   if (!values.length) return -1;
   const i = Math.min(lowerBound(values, value), values.length - 1);
   return i > 0 && value - values[i - 1] < values[i] - value ? i - 1 : i;
+}
+
+/** Labels at round values. */
+function linear(low, high, count) {
+  const step = niceStep(low, high, count);
+  const values = [];
+  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + step * 1e-9 && values.length < 50; i++) values.push(i * step);
+  return labelled(values, step);
 }
 
 /** Labels at powers of ten. */

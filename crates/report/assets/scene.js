@@ -27,7 +27,7 @@ class Scene {
     const { stride, values } = element;
     const out = new Array(stride);
     for (let j = 0; j < stride; j++) {
-      const a = values[here * stride + j];
+      const a = values[here * stride + j] ?? NaN;
       out[j] = part === 0 ? a : a + (values[next * stride + j] - a) * part;
     }
     return out;

@@ -102,6 +102,35 @@ pub(crate) mod vector {
 #[cfg(test)]
 mod tests {
     use super::{raised, readable};
+    use crate::data::{Report, Series, Trajectory};
+
+    #[test]
+    fn what_is_not_finite_goes_through_json_as_null() -> Result<(), serde_json::Error> {
+        let report = Report {
+            trajectory: Some(Trajectory {
+                times: vec![0.0, 1.0, 2.0, 3.0],
+                series: vec![Series {
+                    values: vec![0.1, f64::NAN, f64::INFINITY, -2.5e-300],
+                    ..Series::default()
+                }],
+                ..Trajectory::default()
+            }),
+            ..Report::default()
+        };
+        let text = serde_json::to_string(&report)?;
+        assert!(text.contains("[0.1,null,null,-2.5e-300]"), "{text}");
+        let back: Report = serde_json::from_str(&text)?;
+        let values = &back.trajectory.unwrap_or_default().series[0].values;
+        assert_eq!((values[0], values[3]), (0.1, -2.5e-300));
+        assert!(values[1].is_nan() && values[2].is_nan());
+        Ok(())
+    }
+
+    #[test]
+    fn a_report_may_leave_out_everything() -> Result<(), serde_json::Error> {
+        assert_eq!(serde_json::from_str::<Report>("{}")?, Report::default());
+        Ok(())
+    }
 
     #[test]
     fn numbers_read_as_in_print() {
