@@ -14,6 +14,7 @@ pub mod number;
 pub mod polynomial;
 pub mod print;
 pub mod rational;
+pub mod simplify;
 pub mod substitute;
 pub mod syntax;
 pub mod verdict;

@@ -4,12 +4,12 @@ use dashu_base::Sign;
 use dashu_int::IBig;
 use rustc_hash::FxHashMap;
 
-use super::super::budget::Meter;
+use super::super::budget::{Meter, TooLarge};
 use super::super::monomial::Monomial;
 use super::super::rational_function::RationalFunction;
 use super::super::sparse::Polynomial;
 use super::{Options, Stop};
-use crate::{Expr, Graph};
+use crate::{Expr, Graph, Node};
 
 /// What a generator is, as far as its relations need to know.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -52,6 +52,17 @@ pub(super) struct Relation {
     pub(super) generator: usize,
     pub(super) order: u16,
     pub(super) value: Polynomial,
+}
+
+/// Sine and cosine of one base angle, tied by `s² = 1 - c²`, or `s² = c² - 1` for the hyperbolic ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pythagoras {
+    /// The generator of the sine.
+    pub sine: usize,
+    /// The generator of the cosine.
+    pub cosine: usize,
+    /// Whether these are the circular functions.
+    pub circular: bool,
 }
 
 /// An element of a ℚ-basis of the arguments of sines, or of exponentials.
@@ -162,6 +173,76 @@ impl<'g> Field<'g> {
     /// The meter on which all work in this field is counted.
     pub fn meter(&self) -> &Meter {
         &self.meter
+    }
+
+    /// The pairs of sine and cosine.
+    pub fn pythagoras(&self) -> Vec<Pythagoras> {
+        let pairs = |table: &[BaseArgument], circular| -> Vec<Pythagoras> {
+            let pair = |a: &BaseArgument| Pythagoras {
+                sine: a.generators.0,
+                cosine: a.generators.1,
+                circular,
+            };
+            table.iter().map(pair).collect()
+        };
+        let mut all = pairs(&self.angles, true);
+        all.extend(pairs(&self.hyperbolic, false));
+        all
+    }
+
+    /// The value of the square of a generator that is algebraic of order two.
+    pub fn square_of(&self, generator: usize) -> Option<&Polynomial> {
+        let relation = self.relations.iter().find(|r| r.generator == generator)?;
+        (relation.order == 2).then_some(&relation.value)
+    }
+
+    /// The argument of a generator that is a function of one argument.
+    pub fn argument_of(&self, generator: usize) -> Option<Expr> {
+        match self.g.node(self.generators.get(generator)?.expr) {
+            Node::Apply { arguments, .. } => arguments.first().copied(),
+            _ => None,
+        }
+    }
+
+    /// numerator / denominator modulo the relations; `None` when the denominator vanishes.
+    ///
+    /// # Errors
+    /// [`TooLarge`] when the result or the work for it exceeds the budget.
+    pub fn quotient(
+        &self,
+        numerator: Polynomial,
+        denominator: Polynomial,
+    ) -> Result<Option<RationalFunction>, TooLarge> {
+        match self.fraction(numerator, denominator) {
+            Ok(f) => Ok(Some(f)),
+            Err(Stop::TooLarge(limit)) => Err(limit),
+            Err(Stop::Undefined | Stop::Refine) => Ok(None),
+        }
+    }
+
+    /// The polynomial with even powers of a cosine replaced through the sine.
+    ///
+    /// # Errors
+    /// [`TooLarge`] when the result or the work for it exceeds the budget.
+    pub fn by_sine(&self, p: &Polynomial, pair: &Pythagoras) -> Result<Polynomial, TooLarge> {
+        let s2 = Polynomial::generator(pair.sine).pow(2, &self.meter)?;
+        let one = Polynomial::one();
+        let c2 = if pair.circular {
+            one.sub(&s2)
+        } else {
+            one.add(&s2)
+        };
+        let mut result = Polynomial::zero();
+        for (exponent, coefficient) in p.coefficients_in(pair.cosine) {
+            let even = c2.pow(u32::from(exponent / 2), &self.meter)?;
+            let odd =
+                Polynomial::generator(pair.cosine).pow(u32::from(exponent % 2), &self.meter)?;
+            let part = coefficient
+                .mul(&even, &self.meter)?
+                .mul(&odd, &self.meter)?;
+            result = result.add(&part);
+        }
+        Ok(result)
     }
 
     /// Elementary steps spent so far.

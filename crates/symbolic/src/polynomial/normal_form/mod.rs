@@ -26,7 +26,7 @@ use super::budget::{Budget, TooLarge};
 use super::rational_function::RationalFunction;
 use crate::{Expr, Graph};
 
-pub use field::Field;
+pub use field::{Field, Generator, Kind, Pythagoras};
 
 /// How an expression is read as a rational function.
 #[derive(Clone, Debug)]
@@ -174,4 +174,4 @@ impl From<TooLarge> for Stop {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

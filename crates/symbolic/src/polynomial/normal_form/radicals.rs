@@ -51,16 +51,22 @@ impl Field<'_> {
                 return Ok(self.free(whole));
             }
         }
-        let root = self.root(base, order)?;
+        let written = whole.map(|w| self.g.base_exponent(w).0);
+        let root = self.root(base, order, written)?;
         self.pow(&root, numerator)
     }
 
     /// The root of order q of a non-zero form: `(n/d)^(1/q) = (n d^(q-1))^(1/q) / d`, with `|d|` for even q.
-    fn root(&mut self, base: &RationalFunction, q: u16) -> Result<RationalFunction, Stop> {
+    fn root(
+        &mut self,
+        base: &RationalFunction,
+        q: u16,
+        written: Option<Expr>,
+    ) -> Result<RationalFunction, Stop> {
         let (n, d) = (base.numerator().clone(), base.denominator().clone());
         let power = d.pow(u32::from(q) - 1, &self.meter)?;
         let radicand = self.reduce(n.mul(&power, &self.meter)?)?;
-        let top = self.root_of_polynomial(&radicand, q)?;
+        let top = self.root_of_polynomial(&radicand, q, written.filter(|_| d.is_one()))?;
         let bottom = if q.is_multiple_of(2) {
             self.absolute_of_polynomial(&d)?
         } else {
@@ -69,12 +75,17 @@ impl Field<'_> {
         self.div(&top, &bottom)
     }
 
-    fn root_of_polynomial(&mut self, p: &Polynomial, q: u16) -> Result<RationalFunction, Stop> {
+    fn root_of_polynomial(
+        &mut self,
+        p: &Polynomial,
+        q: u16,
+        written: Option<Expr>,
+    ) -> Result<RationalFunction, Stop> {
         if !self.options.split_roots {
             let content = p.integer_content();
             let kernel = p.divide_by_integer(&IBig::from(content.clone()));
             let number = self.root_of_natural(&content, q)?;
-            let root = self.radical(&kernel, q)?;
+            let root = self.radical(&kernel, q, written.filter(|_| content.is_one()))?;
             return self.mul(&number, &root);
         }
         let p = self.best_radicand(p, q)?;
@@ -114,7 +125,7 @@ impl Field<'_> {
             return Ok(outside);
         }
         let root = if common == 1 {
-            self.radical(&kernel, q)?
+            self.radical(&kernel, q, None)?
         } else {
             // (K^h)^(1/q) = |K|^(h/q) for even h; the order falls, so this ends.
             let bare = if common.is_multiple_of(2) {
@@ -125,7 +136,7 @@ impl Field<'_> {
             if q == common {
                 bare
             } else {
-                self.root(&bare, q / common)?
+                self.root(&bare, q / common, None)?
             }
         };
         self.mul(&outside, &root)
@@ -135,50 +146,17 @@ impl Field<'_> {
     fn best_radicand(&self, p: &Polynomial, q: u16) -> Result<Polynomial, Stop> {
         let mut best = p.clone();
         let mut size = self.kernel_degree(&best, q)?;
-        for relation in &self.relations {
-            let Kind::Sine { partner } = self.generators[relation.generator].kind else {
-                continue;
-            };
-            if size == 0 || best.degree_in(partner) < 2 {
+        for pair in self.pythagoras() {
+            if size == 0 || best.degree_in(pair.cosine) < 2 {
                 continue;
             }
-            let other = self.by_sine(&best, relation.generator, partner, &relation.value)?;
+            let other = self.by_sine(&best, &pair)?;
             let other_size = self.kernel_degree(&other, q)?;
             if other_size < size {
                 (best, size) = (other, other_size);
             }
         }
         Ok(best)
-    }
-
-    /// The polynomial with even powers of the cosine replaced through the sine.
-    pub(super) fn by_sine(
-        &self,
-        p: &Polynomial,
-        sine: usize,
-        cosine: usize,
-        square: &Polynomial,
-    ) -> Result<Polynomial, Stop> {
-        // square = ±(1 - c²), so c² = 1 ∓ s².
-        let circular = square
-            .leading_term()
-            .is_some_and(|(_, c)| c.sign() == Sign::Negative);
-        let s2 = Polynomial::generator(sine).pow(2, &self.meter)?;
-        let c2 = if circular {
-            Polynomial::one().sub(&s2)
-        } else {
-            Polynomial::one().add(&s2)
-        };
-        let mut result = Polynomial::zero();
-        for (exponent, coefficient) in p.coefficients_in(cosine) {
-            let even = c2.pow(u32::from(exponent / 2), &self.meter)?;
-            let odd = Polynomial::generator(cosine).pow(u32::from(exponent % 2), &self.meter)?;
-            let part = coefficient
-                .mul(&even, &self.meter)?
-                .mul(&odd, &self.meter)?;
-            result = result.add(&part);
-        }
-        Ok(result)
     }
 
     fn kernel_degree(&self, p: &Polynomial, q: u16) -> Result<u32, Stop> {
@@ -189,8 +167,13 @@ impl Field<'_> {
             .sum())
     }
 
-    /// The root of a square-free (up to powers below q), primitive polynomial.
-    fn radical(&mut self, kernel: &Polynomial, q: u16) -> Result<RationalFunction, Stop> {
+    /// The root of a square-free (up to powers below q), primitive polynomial; `written` is how the user wrote it.
+    fn radical(
+        &mut self,
+        kernel: &Polynomial,
+        q: u16,
+        written: Option<Expr>,
+    ) -> Result<RationalFunction, Stop> {
         if kernel.is_one() {
             return Ok(RationalFunction::one());
         }
@@ -228,9 +211,11 @@ impl Field<'_> {
             .unwrap_or(1);
         let order = hint / hint.gcd(q) * q;
         let exponent = Rational::from_parts(IBig::ONE, UBig::from(order));
-        let expr = self
-            .g
-            .pow(self.polynomial_expression(kernel), self.g.number(exponent));
+        let radicand = match written.filter(|_| !self.options.split_roots) {
+            Some(written) => written,
+            None => self.polynomial_expression(kernel),
+        };
+        let expr = self.g.pow(radicand, self.g.number(exponent));
         let generator = self.add_generator(expr, Kind::Radical { order });
         self.relate(generator, order, kernel.clone());
         self.radicals.push(Radical {
@@ -346,7 +331,7 @@ impl Field<'_> {
             let root = if order == 1 {
                 base.into()
             } else {
-                self.radical(&base, order)?
+                self.radical(&base, order, None)?
             };
             result = self.mul(&result, &self.pow(&root, i64::from(exponent))?)?;
         }

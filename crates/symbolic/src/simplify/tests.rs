@@ -1,0 +1,325 @@
+//! Textbook forms (T1 §1, T3 §8, reference cases) reached from the formulas a derivation produces.
+
+use super::*;
+use crate::polynomial::normal_form::normal_form;
+use crate::polynomial::normal_form::tests::read;
+use crate::rational::Rational;
+
+/// The simplified expression is exactly what the text says.
+fn check(input: &str, expected: &str) {
+    let g = Graph::new();
+    let found = simplify(&g, read(&g, input), &Options::default());
+    assert_eq!(g.text(found), g.text(read(&g, expected)), "from {input}");
+}
+
+fn symbols(g: &Graph, names: &[(&str, u32)]) -> Vec<Expr> {
+    names
+        .iter()
+        .map(|&(name, order)| g.symbol(name, order))
+        .collect()
+}
+
+#[test]
+fn common_factors_are_cancelled_and_pulled_out() {
+    check("(x^2 - y^2)/(x - y)", "x + y");
+    check("m a x + m a y", "m a (x + y)");
+    check("m x'/(m + m a^2)", "x'/(1 + a^2)");
+    check("m (x + y)^2/(x + y)^3", "m/(x + y)");
+    check("x^2 + 2 x y + y^2", "(x + y)^2");
+    check("a b + a c + b d + c d", "(a + d) (b + c)");
+}
+
+#[test]
+fn pythagoras_goes_both_ways() {
+    check("m cos(phi)^2 + m sin(phi)^2", "m");
+    check("J + m a^2 sin(phi)^2 + m a^2 cos(phi)^2", "J + m a^2");
+    check("J + m a^2 - m a^2 cos(phi)^2", "J + m a^2 sin(phi)^2");
+    check("(1 - cos(phi)^2)/sin(phi)", "sin(phi)");
+    check("x'^2 cos(phi)^2 + x'^2 sin(phi)^2 + y'^2", "x'^2 + y'^2");
+    check("cosh(x)^2 - 1", "sinh(x)^2");
+    check("sin(phi)^4 + 2 sin(phi)^2 cos(phi)^2 + cos(phi)^4", "1");
+}
+
+#[test]
+fn readable_input_is_left_alone() {
+    for text in [
+        "cos(alpha - beta)",
+        "m g/(1 + a^2)",
+        "x/(1 + a) + y/(1 + b)",
+        "(x + y)^2",
+        "tan(phi) x'",
+        "m sec(phi)^2 x''",
+        "sqrt((x - 1)^2 + y^2)",
+        "m/2 (x'^2 + y'^2)",
+        "abs(x) y",
+    ] {
+        check(text, text);
+    }
+}
+
+/// T1 S4 and T3 §8.2.
+#[test]
+fn particle_multiplier() {
+    check("-m ((-y) (x' y')/(1 + y^2)) y + m x' y'/(1+y^2)", "m x' y'");
+    check("m (x' y' - y^2 x' y'/(1 + y^2))", "m x' y'/(1 + y^2)");
+}
+
+/// A bordered system as Routh's equations pose it; the unknowns are the accelerations and λ.
+fn routh_lambda(g: &Graph, mass: &[&str], force: &[&str], jacobian: &[&str], rate: &str) -> Expr {
+    let n = mass.len();
+    let size = n + 1;
+    let mut matrix = vec![g.zero(); size * size];
+    let mut rhs: Vec<Expr> = force.iter().map(|f| read(g, f)).collect();
+    for i in 0..n {
+        matrix[i * size + i] = read(g, mass[i]);
+        let j = read(g, jacobian[i]);
+        matrix[i * size + n] = g.neg(j);
+        matrix[n * size + i] = j;
+    }
+    rhs.push(read(g, rate));
+    g.solve(&matrix, &rhs).unwrap()[n]
+}
+
+/// T1 S1 on the level: λ = -m u φ' with u = x' cos φ + y' sin φ.
+#[test]
+fn skate_multiplier() {
+    let g = Graph::new();
+    let lambda = routh_lambda(
+        &g,
+        &["m", "m", "J"],
+        &["0", "0", "0"],
+        &["sin(phi)", "-cos(phi)", "0"],
+        "-(x' cos(phi) + y' sin(phi)) phi'",
+    );
+    let found = simplify(&g, lambda, &Options::default());
+    assert_eq!(
+        g.text(found),
+        g.text(read(&g, "-m phi' (x' cos(phi) + y' sin(phi))"))
+    );
+}
+
+#[test]
+fn skate_multiplier_on_the_incline() {
+    let g = Graph::new();
+    let lambda = routh_lambda(
+        &g,
+        &["m", "m", "J"],
+        &["m G", "0", "0"],
+        &["sin(phi)", "-cos(phi)", "0"],
+        "-(x' cos(phi) + y' sin(phi)) phi'",
+    );
+    let found = simplify(&g, lambda, &Options::default());
+    let expected = "-m (G sin(phi) + phi' (x' cos(phi) + y' sin(phi)))";
+    assert_eq!(g.text(found), g.text(read(&g, expected)));
+}
+
+/// T1 S3: λ = m g/(1+a²).
+#[test]
+fn appell_hamel_multiplier() {
+    let g = Graph::new();
+    let lambda = routh_lambda(
+        &g,
+        &["m", "m", "m"],
+        &["0", "0", "-m g"],
+        &["-a x'/sqrt(x'^2 + y'^2)", "-a y'/sqrt(x'^2 + y'^2)", "1"],
+        "0",
+    );
+    let found = simplify(&g, lambda, &Options::default());
+    assert_eq!(g.text(found), g.text(read(&g, "m g/(1 + a^2)")));
+}
+
+/// T1 S4: λ = m x' y'/(1+y²).
+#[test]
+fn particle_multiplier_by_routh() {
+    let g = Graph::new();
+    let lambda = routh_lambda(
+        &g,
+        &["m", "m", "m"],
+        &["0", "0", "0"],
+        &["-y", "0", "1"],
+        "x' y'",
+    );
+    let found = simplify(&g, lambda, &Options::default());
+    assert_eq!(g.text(found), g.text(read(&g, "m x' y'/(1 + y^2)")));
+}
+
+/// The Chaplygin sleigh contracted with the virtual displacement along φ and expanded, as Maggi's equation comes out.
+#[test]
+fn chaplygin_sleigh_equation() {
+    let g = Graph::new();
+    let expanded = read(
+        &g,
+        "J phi'' + m a^2 phi'' sin(phi)^2 + m a^2 phi'' cos(phi)^2 + m a phi' x' cos(phi) + m a phi' y' sin(phi)",
+    );
+    let accelerations = symbols(&g, &[("x", 2), ("y", 2), ("phi", 2)]);
+    let velocities = symbols(&g, &[("x", 1), ("y", 1), ("phi", 1)]);
+    let found = collect(
+        &g,
+        expanded,
+        &[&accelerations, &velocities],
+        &Options::default(),
+    );
+    let expected = "(J + m a^2) phi'' + m a phi' (x' cos(phi) + y' sin(phi))";
+    assert_eq!(g.text(found), g.text(read(&g, expected)));
+}
+
+/// T1 §3, S1: (9) with θ = m tan φ x'.
+#[test]
+fn skate_voronets_keeps_tangents() {
+    let g = Graph::new();
+    let e = read(
+        &g,
+        "m (1 + tan(phi)^2) x'' + 2 m tan(phi) sec(phi)^2 x' phi' - m tan(phi) sec(phi)^2 x' phi'",
+    );
+    let accelerations = symbols(&g, &[("x", 2), ("phi", 2)]);
+    let velocities = symbols(&g, &[("x", 1), ("phi", 1)]);
+    let found = collect(&g, e, &[&accelerations, &velocities], &Options::default());
+    let expected = "m sec(phi)^2 x'' + m sec(phi)^2 tan(phi) x' phi'";
+    assert_eq!(g.text(found), g.text(read(&g, expected)));
+}
+
+#[test]
+fn double_pendulum_keeps_differences_of_angles() {
+    check(
+        "m l1 l2 (cos(alpha) cos(beta) + sin(alpha) sin(beta)) + m l1 l2 cos(alpha - beta)",
+        "2 m l1 l2 cos(alpha - beta)",
+    );
+}
+
+#[test]
+fn roots_cancel() {
+    check(
+        "a x' sqrt(x'^2 + y'^2)/(x'^2 + y'^2)",
+        "a x'/sqrt(x'^2 + y'^2)",
+    );
+    check("(x^2 + y^2)/sqrt(x^2 + y^2)", "sqrt(x^2 + y^2)");
+    check("sqrt(m x^2 cos(phi)^2 + m x^2 sin(phi)^2)", "sqrt(m x^2)");
+}
+
+#[test]
+fn dependent_velocities_are_eliminated() {
+    let g = Graph::new();
+    let e = read(&g, "x'^2 + y'^2 + z'^2");
+    let solved = [(g.symbol("z", 1), read(&g, "y x'"))];
+    let found = eliminate(&g, e, &solved, &Options::default());
+    assert_eq!(g.text(found), g.text(read(&g, "(1 + y^2) x'^2 + y'^2")));
+}
+
+#[test]
+fn linear_coefficients() {
+    let g = Graph::new();
+    let e = read(
+        &g,
+        "(x' + y')^2 - x'^2 - y'^2 - 2 x' y' + m x' cos(phi) - y'/(1 + a) + b",
+    );
+    let v = symbols(&g, &[("x", 1), ("y", 1)]);
+    let form = linear_form(&g, e, &v, &Budget::DISPLAY)
+        .unwrap()
+        .expect("linear");
+    let expected: Vec<Expr> = ["m cos(phi)", "-1/(1 + a)", "b"]
+        .iter()
+        .map(|t| read(&g, t))
+        .collect();
+    assert_eq!(form.coefficients, expected[..2]);
+    assert_eq!(form.remainder, expected[2]);
+    for text in ["x'^2", "1/x'", "sin(x')", "x' y'"] {
+        assert_eq!(
+            linear_form(&g, read(&g, text), &v, &Budget::DISPLAY),
+            Ok(None),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn parts_of_each_degree() {
+    let g = Graph::new();
+    let v = symbols(&g, &[("x", 1), ("y", 1)]);
+    let e = read(&g, "m/2 (x'^2 + y'^2) + b x x' - m g y");
+    let parts = homogeneous_parts(&g, e, &v, &Budget::DISPLAY)
+        .unwrap()
+        .expect("polynomial");
+    let found: Vec<(u32, String)> = parts.iter().map(|p| (p.degree, g.text(p.value))).collect();
+    let expected = [(0, "-m g y"), (1, "b x x'"), (2, "m/2 (x'^2 + y'^2)")];
+    let expected: Vec<(u32, String)> = expected
+        .iter()
+        .map(|&(d, t)| (d, g.text(read(&g, t))))
+        .collect();
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn homogeneity_is_euler_s_identity() {
+    let g = Graph::new();
+    let v = symbols(&g, &[("x", 1), ("y", 1), ("z", 1)]);
+    let degree = |text: &str| homogeneity(&g, read(&g, text), &v, &Budget::PROOF).unwrap();
+    assert_eq!(degree("z' - a sqrt(x'^2 + y'^2)"), Some(Rational::ONE));
+    assert_eq!(degree("x'^2/y'^3"), Some(crate::rational::integer(-1)));
+    assert_eq!(degree("sqrt(x' y')/m"), Some(Rational::ONE));
+    assert_eq!(degree("x' + 1"), None);
+    assert_eq!(degree("x'^2 + y'"), None);
+}
+
+/// Whatever the input, the value stays and the length does not grow.
+#[test]
+fn simplification_keeps_values_and_never_lengthens() {
+    use crate::number::random::Random;
+    let mut random = Random::new(11);
+    for round in 0..120 {
+        let g = Graph::new();
+        let e = random_expression(&g, &mut random, 4);
+        let s = simplify(&g, e, &Options::default());
+        assert!(
+            length(&g, s) <= length(&g, e),
+            "{}: {} became {}",
+            round,
+            g.text(e),
+            g.text(s)
+        );
+        if let Ok(form) = normal_form(&g, g.sub(e, s), &Budget::PROOF) {
+            assert!(form.is_zero(), "{} is not {}", g.text(e), g.text(s));
+        }
+        assert_eq!(s, simplify(&g, e, &Options::default()));
+    }
+}
+
+fn random_expression(g: &Graph, random: &mut crate::number::random::Random, depth: u32) -> Expr {
+    let leaf = |random: &mut crate::number::random::Random| match random.below(6) {
+        0 => g.integer(random.between(-3, 3)),
+        n => g.symbol(["a", "m", "x", "y", "phi"][n as usize - 1], 0),
+    };
+    if depth == 0 {
+        return leaf(random);
+    }
+    let child = |random: &mut _| random_expression(g, random, depth - 1);
+    match random.below(8) {
+        0 | 1 => {
+            let (a, b) = (child(random), child(random));
+            g.add(&[a, b])
+        }
+        2 | 3 => {
+            let (a, b) = (child(random), child(random));
+            g.mul(&[a, b])
+        }
+        4 => {
+            let (a, b) = (child(random), child(random));
+            g.div(a, g.add(&[b, g.symbol("z", 0)]))
+        }
+        5 => {
+            let a = child(random);
+            g.powi(a, 2)
+        }
+        6 => g.sin(g.symbol("phi", 0)),
+        _ => g.cos(g.symbol("phi", 0)),
+    }
+}
+
+#[test]
+fn large_input_is_returned_quickly() {
+    let g = Graph::new();
+    let mut e = g.symbol("x", 0);
+    for i in 0..300 {
+        e = g.add(&[g.powi(e, 2), g.symbol(&format!("a_{i}"), 0)]);
+    }
+    assert_eq!(simplify(&g, e, &Options::default()), e);
+}
