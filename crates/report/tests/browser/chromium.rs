@@ -8,6 +8,7 @@ use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::{Duration, Instant};
 
 use serde_json::{json, Value};
@@ -56,11 +57,67 @@ fn program() -> PathBuf {
         })
 }
 
-/// A page open in a browser of its own; both end with the value.
-pub(crate) struct Page {
+/// A browser; it ends with the last page that is open in it.
+struct Browser {
     process: Child,
     folder: PathBuf,
+    pages: AtomicU32,
+}
+
+impl Browser {
+    /// The browser that other tests have pages in, or a new one.
+    fn shared() -> Arc<Self> {
+        static SHARED: Mutex<Weak<Browser>> = Mutex::new(Weak::new());
+        let mut shared = SHARED.lock().unwrap_or_else(PoisonError::into_inner);
+        shared.upgrade().unwrap_or_else(|| {
+            let browser = Arc::new(Self::start());
+            *shared = Arc::downgrade(&browser);
+            browser
+        })
+    }
+
+    fn start() -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let count = COUNT.fetch_add(1, Ordering::Relaxed);
+        let name = format!("chetaev-report-{}-{count}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&folder).unwrap();
+        let process = Command::new(program())
+            .arg(format!("--user-data-dir={}", folder.display()))
+            .args(FLAGS)
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        Self {
+            process,
+            folder,
+            pages: AtomicU32::new(0),
+        }
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        // The tests are over; what fails here leaves at most a folder behind.
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+        for _ in 0..20 {
+            if std::fs::remove_dir_all(&self.folder).is_ok() {
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+}
+
+/// An open page, with a connection of its own.
+pub(crate) struct Page {
+    /// Held so that the browser lives as long as the page.
+    _browser: Arc<Browser>,
     socket: Socket,
+    target: Value,
     session: String,
     next: u64,
     events: Vec<Value>,
@@ -88,30 +145,15 @@ impl Default for View {
 impl Page {
     /// Shows a page from a file.
     pub(crate) fn open(html: &str, view: &View) -> Self {
-        static COUNT: AtomicU32 = AtomicU32::new(0);
-        let name = format!(
-            "chetaev-report-{}-{}",
-            std::process::id(),
-            COUNT.fetch_add(1, Ordering::Relaxed)
-        );
-        let folder = std::env::temp_dir().join(name);
-        std::fs::create_dir_all(&folder).unwrap();
-        let file = folder.join("report.html");
+        let browser = Browser::shared();
+        let count = browser.pages.fetch_add(1, Ordering::Relaxed);
+        let file = browser.folder.join(format!("report-{count}.html"));
         std::fs::write(&file, html).unwrap();
-        let process = Command::new(program())
-            .arg(format!("--user-data-dir={}", folder.display()))
-            .args(FLAGS)
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        let socket = Socket::connect(&folder);
         let mut page = Self {
-            process,
             address: format!("file://{}", file.display()),
-            folder,
-            socket,
+            socket: Socket::connect(&browser.folder),
+            _browser: browser,
+            target: Value::Null,
             session: String::new(),
             next: 0,
             events: Vec::new(),
@@ -121,10 +163,15 @@ impl Page {
     }
 
     fn load(&mut self, view: &View) {
-        let target = self.send("Target.createTarget", json!({"url": "about:blank"}));
+        // A window of its own: a page behind another one would not draw.
+        let target = self.send(
+            "Target.createTarget",
+            json!({"url": "about:blank", "newWindow": true}),
+        );
+        self.target = target["targetId"].clone();
         let attached = self.send(
             "Target.attachToTarget",
-            json!({"targetId": target["targetId"], "flatten": true}),
+            json!({"targetId": self.target, "flatten": true}),
         );
         self.session = attached["sessionId"].as_str().unwrap().to_owned();
         for domain in ["Page", "Runtime", "Log", "Network"] {
@@ -203,8 +250,8 @@ impl Page {
         let start = Instant::now();
         while !self.holds(expression) {
             assert!(
-                start.elapsed() < Duration::from_secs(20),
-                "not within 20 s: {expression}"
+                start.elapsed() < Duration::from_secs(60),
+                "not within a minute: {expression}"
             );
             std::thread::sleep(Duration::from_millis(20));
         }
@@ -301,15 +348,11 @@ fn complaint(event: &Value, address: &str) -> Option<String> {
 
 impl Drop for Page {
     fn drop(&mut self) {
-        // The test is over; what fails here leaves at most a folder behind.
-        let _ = self.process.kill();
-        let _ = self.process.wait();
-        for _ in 0..20 {
-            if std::fs::remove_dir_all(&self.folder).is_ok() {
-                break;
-            }
-            std::thread::sleep(Duration::from_millis(50));
-        }
+        // Only asked, not waited for: the connection may be what failed.
+        let close =
+            json!({"id": 0, "method": "Target.closeTarget", "params": {"targetId": self.target}});
+        let _ = self.socket.0.write_all(&frame(&close.to_string()));
+        let _ = std::fs::remove_file(self.address.trim_start_matches("file://"));
     }
 }
 
@@ -354,23 +397,8 @@ impl Socket {
         Self(stream)
     }
 
-    /// One text message in one frame; the mask is zero, so that the payload stays as it is.
     fn write(&mut self, text: &str) {
-        let mut frame = vec![0x81];
-        match text.len() {
-            length @ 0..=125 => frame.push(0x80 | length as u8),
-            length @ 126..=65535 => {
-                frame.push(0x80 | 126);
-                frame.extend((length as u16).to_be_bytes());
-            }
-            length => {
-                frame.push(0x80 | 127);
-                frame.extend((length as u64).to_be_bytes());
-            }
-        }
-        frame.extend([0; 4]);
-        frame.extend(text.as_bytes());
-        self.0.write_all(&frame).unwrap();
+        self.0.write_all(&frame(text)).unwrap();
     }
 
     /// The next text message, put together from its frames.
@@ -402,4 +430,23 @@ impl Socket {
         self.0.read_exact(&mut bytes).unwrap();
         bytes
     }
+}
+
+/// One text message in one frame; the mask is zero, so that the payload stays as it is.
+fn frame(text: &str) -> Vec<u8> {
+    let mut frame = vec![0x81];
+    match text.len() {
+        length @ 0..=125 => frame.push(0x80 | length as u8),
+        length @ 126..=65535 => {
+            frame.push(0x80 | 126);
+            frame.extend((length as u16).to_be_bytes());
+        }
+        length => {
+            frame.push(0x80 | 127);
+            frame.extend((length as u64).to_be_bytes());
+        }
+    }
+    frame.extend([0; 4]);
+    frame.extend(text.as_bytes());
+    frame
 }
