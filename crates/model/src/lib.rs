@@ -1,1 +1,25 @@
 //! What a user states: the model file, its diagnostics and units, and a builder with the same content.
+//!
+//! [`load`] reads a TOML text (the format is documented in `docs/model-file.md`) into a [`Model`], plain data on one
+//! expression graph, and reports every problem of the text at once, each at its place. The crate touches no files:
+//! included ones come through [`Files`]. Mechanics is elsewhere: here a constraint is an expression with a name.
+
+mod diagnostic;
+mod dimension;
+pub mod drawing;
+mod load;
+pub mod model;
+mod raw;
+mod render;
+mod resolve;
+mod source;
+mod text;
+pub mod units;
+
+pub use chetaev_symbolic::syntax::{Relation, Severity};
+pub use diagnostic::{Diagnostic, Diagnostics, Suggestion};
+pub use load::{load, reload, Loaded};
+pub use model::Model;
+pub use render::{DiagnosticData, PlaceData, RelatedData, Style, SuggestionData};
+pub use source::{Files, LineColumn, NoFiles, Place, Source, SourceId, Sources};
+pub use text::Text;

@@ -9,6 +9,13 @@ use super::span::Span;
 #[derive(Copy, Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId(pub(crate) u32);
 
+impl NodeId {
+    /// Position in the tree; usable as an index into tables over all nodes.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// Operations on two operands.
 #[derive(Copy, Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Binary {

@@ -1,0 +1,206 @@
+//! From text to model: includes followed, overrides laid over.
+
+use chetaev_symbolic::syntax::Span;
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::model::{Model, ModelText};
+use crate::raw::{self, Kind, Raw, Table};
+use crate::resolve::{self, Override};
+use crate::source::{joined, Files, Place, SourceId, Sources};
+use crate::text::Text;
+
+/// Most files that one model includes, directly or not.
+const MOST_FILES: usize = 100;
+
+/// What reading a model gives: the model where it has no error, and everything there is to say about it.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The model; none where there is an error.
+    pub model: Option<Model>,
+    /// Errors, warnings and notes with the texts they are about.
+    pub diagnostics: Diagnostics,
+}
+
+impl Loaded {
+    /// The model with its warnings.
+    ///
+    /// # Errors
+    /// All problems, where one of them is an error.
+    pub fn into_result(self) -> Result<(Model, Diagnostics), Diagnostics> {
+        match self.model {
+            Some(model) => Ok((model, self.diagnostics)),
+            None => Err(self.diagnostics),
+        }
+    }
+}
+
+/// Reads a model.
+///
+/// `path` names the text in diagnostics, and included files are sought relative to it. `overrides` are pairs of the
+/// name of a parameter or size and its new value, an exact expression such as `0.3` or `1/3`.
+pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, String)]) -> Loaded {
+    let mut loader = Loader {
+        files,
+        sources: Sources::default(),
+        diagnostics: Vec::new(),
+        kept: ModelText {
+            path: path.to_owned(),
+            text: text.to_owned(),
+            includes: Vec::new(),
+            overrides: overrides.to_vec(),
+        },
+        open: Vec::new(),
+        failed: false,
+    };
+    let source = loader.sources.add(path, text);
+    let table = loader.file(path, text, source);
+    let overrides = loader.overrides(overrides);
+    let Loader {
+        sources,
+        mut diagnostics,
+        kept,
+        failed,
+        ..
+    } = loader;
+    let file = Place {
+        source,
+        span: Span::new(0, text.len()),
+    };
+    let mut model = None;
+    if let Some(table) = table.filter(|_| !failed) {
+        let (resolved, found) = resolve::resolve(&table, file, sources.clone(), kept, overrides);
+        diagnostics.extend(found);
+        model = resolved;
+    }
+    let mut all = Diagnostics {
+        sources,
+        list: Vec::new(),
+    };
+    for diagnostic in diagnostics {
+        all.push(diagnostic);
+    }
+    all.sort();
+    if all.has_errors() {
+        model = None;
+    }
+    Loaded {
+        model,
+        diagnostics: all,
+    }
+}
+
+/// Reads a model again from the texts that were kept with it.
+pub fn reload(text: &ModelText) -> Loaded {
+    let files: std::collections::BTreeMap<String, String> = text.includes.iter().cloned().collect();
+    load(&text.path, &text.text, &files, &text.overrides)
+}
+
+struct Loader<'f> {
+    files: &'f dyn Files,
+    sources: Sources,
+    diagnostics: Vec<Diagnostic>,
+    kept: ModelText,
+    /// Paths of the files that are being read, each including the next.
+    open: Vec<String>,
+    /// Whether a file could not be read at all; what it would have declared is then unknown.
+    failed: bool,
+}
+
+impl Loader<'_> {
+    /// The table of a file with its includes below it. The depth of includes is bounded by the number of files.
+    fn file(&mut self, path: &str, text: &str, source: SourceId) -> Option<Table> {
+        let mut found = Vec::new();
+        let table = raw::read(text, source, &mut found);
+        self.diagnostics.extend(found);
+        let Some(mut table) = table else {
+            self.failed = true;
+            return None;
+        };
+        let Some(include) = table.remove("include") else {
+            return Some(table);
+        };
+        self.open.push(path.to_owned());
+        let mut base = Table::default();
+        for item in self.include_paths(&include) {
+            if let Some(included) = self.include(path, &item) {
+                base.overlay(included);
+            }
+        }
+        self.open.pop();
+        base.overlay(table);
+        Some(base)
+    }
+
+    fn include_paths(&mut self, raw: &Raw) -> Vec<Text> {
+        let items: Vec<&Raw> = match &raw.kind {
+            Kind::Array(items) => items.iter().collect(),
+            _ => vec![raw],
+        };
+        let mut paths = Vec::new();
+        for item in items {
+            match &item.kind {
+                Kind::Text(text) => paths.push(text.clone()),
+                other => {
+                    let message =
+                        format!("`include` must be the path of a file, not {}", other.word());
+                    self.diagnostics
+                        .push(Diagnostic::error("wrong-kind", item.place, message));
+                }
+            }
+        }
+        paths
+    }
+
+    fn include(&mut self, from: &str, named: &Text) -> Option<Table> {
+        let path = joined(from, &named.content);
+        if self.open.contains(&path) || self.kept.path == path {
+            let message = format!("`{}` includes itself", named.content);
+            self.fail(Diagnostic::error("circular-include", named.place, message));
+            return None;
+        }
+        if self.kept.includes.len() >= MOST_FILES {
+            let message = format!("a model is made of {MOST_FILES} files at most");
+            self.fail(Diagnostic::error("too-large", named.place, message));
+            return None;
+        }
+        match self.files.read(&path) {
+            Ok(text) => {
+                if self.kept.includes.iter().all(|(own, _)| *own != path) {
+                    self.kept.includes.push((path.clone(), text.clone()));
+                }
+                let source = self.sources.add(path.clone(), text.clone());
+                self.file(&path, &text, source)
+            }
+            Err(reason) => {
+                let message = format!("`{path}` cannot be read: {reason}");
+                self.fail(Diagnostic::error(
+                    "unreadable-include",
+                    named.place,
+                    message,
+                ));
+                None
+            }
+        }
+    }
+
+    fn fail(&mut self, diagnostic: Diagnostic) {
+        self.failed = true;
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Overrides are texts of their own, so that a mistake in one is shown like any other.
+    fn overrides(&mut self, overrides: &[(String, String)]) -> Vec<Override> {
+        overrides
+            .iter()
+            .map(|(name, value)| {
+                let line = format!("{name}={value}");
+                let source = self.sources.add(format!("--set {line}"), line);
+                Override {
+                    name: Text::verbatim(name.clone(), source, 0),
+                    value: Text::verbatim(value.clone(), source, name.len() + 1),
+                    used: false,
+                }
+            })
+            .collect()
+    }
+}

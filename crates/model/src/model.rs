@@ -1,0 +1,359 @@
+//! A model with everything resolved: plain data on one expression graph.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use chetaev_symbolic::syntax::Relation;
+use chetaev_symbolic::{Expr, Graph, Rational};
+
+use crate::drawing::Drawing;
+use crate::source::{Place, Sources};
+use crate::units::Unit;
+
+/// A mechanical system as its author stated it.
+///
+/// All expressions belong to [`Model::graph`]. A coordinate `x` is the symbol `x` of order 0, its velocity the symbol
+/// of order 1, and so on; controls likewise; parameters and the time `t` are symbols of order 0. Greek letters are
+/// written out: `θ` is `theta`. Definitions stand in the expressions with their values, and are kept by name beside.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The graph of all expressions below.
+    pub graph: Arc<Graph>,
+    /// Short name, usable as the name of a folder.
+    pub name: String,
+    /// One paragraph for a person; may be empty.
+    pub description: String,
+    /// Where the system comes from: one reference each.
+    pub source: Vec<String>,
+    /// Its short history; may be empty.
+    pub history: String,
+    /// The symbol `t`.
+    pub time: Expr,
+    /// Coordinates, in the order that numbers them everywhere.
+    pub coordinates: Vec<Coordinate>,
+    /// Parameters, in the order of the file.
+    pub parameters: Vec<Parameter>,
+    /// Functions u(t) prescribed from outside.
+    pub controls: Vec<Control>,
+    /// What may be taken for granted about signs and ranges; the ranges of parameters are not repeated here.
+    pub assumptions: Vec<Assumption>,
+    /// Named sub-expressions, each after those that it uses.
+    pub defines: Vec<Definition>,
+    /// Kinetic energy T, where the model gives it.
+    pub kinetic: Option<Expr>,
+    /// Potential energy V, where the model gives it.
+    pub potential: Option<Expr>,
+    /// The Lagrangian L; T − V where these are given.
+    pub lagrangian: Expr,
+    /// Generalized forces Q_i that are not in L, at most one for each coordinate.
+    pub forces: Vec<Force>,
+    /// Rayleigh's dissipation function R; it adds −∂R/∂v to the forces.
+    pub rayleigh: Option<Expr>,
+    /// Constraints f = left − right, in the order of the file.
+    pub constraints: Vec<Constraint>,
+    /// Coordinates whose velocities the author wants to be the independent ones.
+    pub independent: Option<Vec<usize>>,
+    /// Quasi-velocities by name, as expressions of q, v, t. The names may be used in every other expression.
+    pub quasi_velocities: Vec<Definition>,
+    /// Initial data.
+    pub initial: Initial,
+    /// How to compute the motion.
+    pub simulation: Simulation,
+    /// Candidate first integrals.
+    pub integrals: Vec<Definition>,
+    /// How to draw the system.
+    pub drawing: Option<Drawing>,
+    /// What the author expects to be found.
+    pub expect: Expect,
+    /// Integer sizes such as the number of links.
+    pub sizes: Vec<(String, i64)>,
+    /// Whether units are stated, and checked.
+    pub has_units: bool,
+    /// The texts it was read from, for diagnostics of later stages.
+    pub sources: Sources,
+    /// The same texts as they are embedded in a study.
+    pub text: ModelText,
+}
+
+/// A coordinate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coordinate {
+    /// Its name.
+    pub name: String,
+    /// Its symbol of order 0.
+    pub symbol: Expr,
+    /// Its unit, where stated.
+    pub unit: Option<Unit>,
+    /// A word about it; may be empty.
+    pub description: String,
+    /// Where it is declared.
+    pub place: Place,
+}
+
+/// A parameter: a constant of the system.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its symbol.
+    pub symbol: Expr,
+    /// What the model says it is, in terms of numbers, π and other parameters; in SI base units where units are stated.
+    pub definition: Option<Expr>,
+    /// The same with all other parameters replaced by their values: numbers, π and functions of them. None for a
+    /// symbolic parameter and for one that depends on such a one.
+    pub value: Option<Expr>,
+    /// Closed range of values, each end free of symbols.
+    pub range: Option<(Expr, Expr)>,
+    /// Its unit, where stated.
+    pub unit: Option<Unit>,
+    /// A word about it; may be empty.
+    pub description: String,
+    /// Where it is declared.
+    pub place: Place,
+}
+
+/// A function of the time that is prescribed from outside.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Control {
+    /// Its name.
+    pub name: String,
+    /// Its symbol of order 0; its derivatives are the symbols of higher order.
+    pub symbol: Expr,
+    /// The function of t and the parameters, where stated.
+    pub law: Option<Expr>,
+    /// Its unit, where stated.
+    pub unit: Option<Unit>,
+    /// A word about it; may be empty.
+    pub description: String,
+    /// Where it is declared.
+    pub place: Place,
+}
+
+/// A relation that holds by assumption.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assumption {
+    /// Left side.
+    pub left: Expr,
+    /// How the sides compare.
+    pub relation: Relation,
+    /// Right side.
+    pub right: Expr,
+    /// The whole statement as it is written; a chain `0 < a < b` gives two assumptions with the same text.
+    pub text: String,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// A named expression.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Definition {
+    /// Its name.
+    pub name: String,
+    /// What it stands for, free of other names.
+    pub value: Expr,
+    /// As it is written.
+    pub text: String,
+    /// A word about it; may be empty.
+    pub description: String,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// A generalized force.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Force {
+    /// Number of the coordinate.
+    pub coordinate: usize,
+    /// The force Q as a function of q, v, t.
+    pub value: Expr,
+    /// As it is written.
+    pub text: String,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// A constraint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constraint {
+    /// Its name, or its number from 1 where it has none; its multiplier is `lambda_NAME`.
+    pub name: String,
+    /// f = left − right, exactly as stated: a holonomic constraint is not differentiated.
+    pub f: Expr,
+    /// Left side.
+    pub left: Expr,
+    /// Right side.
+    pub right: Expr,
+    /// The highest derivative of a coordinate in it; 0 for a holonomic constraint.
+    pub order: u32,
+    /// As it is written.
+    pub text: String,
+    /// A word about it; may be empty.
+    pub description: String,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// Initial data at the start of the run. What is given is fixed; everything else is free, with 0 as the first guess.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Initial {
+    /// Given values by number of coordinate and order of derivative, free of coordinates and time.
+    pub values: BTreeMap<(usize, u32), InitialValue>,
+    /// Other data, such as `kappa_rolling` for the constrained extremum, or `lambda_law` for constraints of order 3.
+    pub extra: Vec<ExtraInitialValue>,
+    /// Whether a complete but inadmissible state may be changed by projection.
+    pub project: bool,
+}
+
+/// A given initial value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InitialValue {
+    /// An expression of parameters.
+    pub value: Expr,
+    /// As it is written.
+    pub text: String,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// A given initial value of something that is not a coordinate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExtraInitialValue {
+    /// Name, such as `kappa_rolling`.
+    pub name: String,
+    /// Order of differentiation.
+    pub order: u32,
+    /// An expression of parameters.
+    pub value: Expr,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// How to compute the motion. What the model leaves open is `None`, and the program decides.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Simulation {
+    /// Start of the run.
+    pub t_start: Option<Expr>,
+    /// End of the run; an expression of parameters.
+    pub t_end: Option<Expr>,
+    /// Relative tolerance.
+    pub tolerance: Option<Rational>,
+    /// Absolute tolerance.
+    pub absolute_tolerance: Option<Rational>,
+    /// Name of the method.
+    pub method: Option<String>,
+    /// When to put out the state.
+    pub output: Option<Output>,
+    /// Most steps.
+    pub max_steps: Option<u64>,
+    /// Which variables are integrated.
+    pub state: Option<StateKind>,
+    /// Whether the state is projected on the constraints during the run.
+    pub project: Option<bool>,
+}
+
+/// When the state is put out.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Output {
+    /// At this many equal intervals.
+    Points(u32),
+    /// At these times, each an expression of parameters.
+    Times(Vec<Expr>),
+    /// At multiples of this time.
+    Step(Expr),
+}
+
+/// Which variables are integrated.
+#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+pub enum StateKind {
+    /// Coordinates and independent velocities.
+    Reduced,
+    /// Coordinates and all velocities.
+    Full,
+}
+
+/// What the author expects.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Expect {
+    /// Expected verdicts.
+    pub verdicts: Vec<ExpectedVerdict>,
+    /// An early stop that is expected.
+    pub stop: Option<ExpectedStop>,
+}
+
+/// The expected verdict of a claim.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExpectedVerdict {
+    /// Claim id without subject, such as `formulation.equivalent`.
+    pub claim: String,
+    /// What stands after `#`, such as `maggi`.
+    pub subject: Option<String>,
+    /// Verdicts that are accepted, as words of the catalogue; at least one.
+    pub verdicts: Vec<String>,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// An expected early stop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExpectedStop {
+    /// About when; an expression of parameters.
+    pub at: Option<Expr>,
+    /// A word that the reason must contain; may be empty.
+    pub reason: String,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// The texts of a model, enough to read it again.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ModelText {
+    /// Path of the model file as it was given.
+    pub path: String,
+    /// The model file.
+    pub text: String,
+    /// Included files by path, in the order in which they were read.
+    pub includes: Vec<(String, String)>,
+    /// Overrides of parameters and sizes: name and value as they were given.
+    pub overrides: Vec<(String, String)>,
+}
+
+impl Model {
+    /// Number of coordinates, n.
+    pub fn n(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// The coordinate of a number, differentiated `order` times.
+    pub fn jet(&self, coordinate: usize, order: u32) -> Expr {
+        self.graph.symbol(&self.coordinates[coordinate].name, order)
+    }
+
+    /// The number of the coordinate of a name; `θ` is found as `theta`.
+    pub fn coordinate(&self, name: &str) -> Option<usize> {
+        let name = chetaev_symbolic::syntax::names::normalized(name);
+        self.coordinates
+            .iter()
+            .position(|coordinate| coordinate.name == name)
+    }
+
+    /// Whether a name varies with the time: a coordinate or a control.
+    pub fn varies(&self, name: &str) -> bool {
+        self.coordinates
+            .iter()
+            .any(|coordinate| coordinate.name == name)
+            || self.controls.iter().any(|control| control.name == name)
+    }
+
+    /// Symbols of the parameters with their values, where they have one: the input of a substitution.
+    pub fn parameter_values(&self) -> Vec<(Expr, Expr)> {
+        self.parameters
+            .iter()
+            .filter_map(|parameter| Some((parameter.symbol, parameter.value?)))
+            .collect()
+    }
+
+    /// The name of a constraint's reaction multiplier.
+    pub fn multiplier(&self, constraint: usize) -> String {
+        format!("lambda_{}", self.constraints[constraint].name)
+    }
+}

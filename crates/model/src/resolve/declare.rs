@@ -1,0 +1,767 @@
+//! Declarations: sizes, indices, coordinates, parameters, controls, with families expanded.
+
+use chetaev_symbolic::syntax::ast::{NamePart, Node};
+use chetaev_symbolic::syntax::lower::{expand_name, Bindings};
+use chetaev_symbolic::syntax::{functions, names, parse_expression, parse_range};
+use chetaev_symbolic::{Expr, Rational};
+
+use super::formula::Expected;
+use super::scope::{Context, ModelScope, Named, NamedKind};
+use super::{start_of, Resolver};
+use crate::diagnostic::Diagnostic;
+use crate::model::{Control, Coordinate, Parameter};
+use crate::raw::{Kind, Raw, Table};
+use crate::source::Place;
+use crate::text::Text;
+use crate::units::{parse_unit, Unit};
+
+/// An index with its range, both ends included.
+#[derive(Clone, Debug)]
+pub(crate) struct Index {
+    pub(crate) name: String,
+    pub(crate) first: i64,
+    pub(crate) last: i64,
+}
+
+/// One member of a family.
+#[derive(Clone, Debug)]
+pub(crate) struct Instance {
+    pub(crate) name: String,
+    pub(crate) order: u32,
+    pub(crate) bindings: Bindings,
+}
+
+/// Most members of a family.
+const MOST_INSTANCES: usize = 100_000;
+
+impl Resolver {
+    // ---- sizes and indices
+
+    pub(crate) fn declare_sizes(&mut self, root: &Table) {
+        if let Some(table) = self.section(root, "sizes") {
+            for (key, raw) in &table.entries {
+                let name = names::normalized(&key.content);
+                let outside = self.take_override(&name);
+                let value = match outside {
+                    Some(text) => self.integer(
+                        &Raw {
+                            place: text.place,
+                            kind: Kind::Text(text),
+                        },
+                        "a size",
+                    ),
+                    None => self.integer(raw, "a size"),
+                };
+                if let (true, Some(value)) = (
+                    self.declare(key, &name, NamedKind::Size(value.unwrap_or(1))),
+                    value,
+                ) {
+                    self.sizes.push((name, value));
+                }
+            }
+        }
+        if let Some(table) = self.section(root, "indices") {
+            for (key, raw) in &table.entries {
+                let Some(text) = self.expression_text(raw, "the range of an index") else {
+                    continue;
+                };
+                if let Some((first, last)) = self.range(&text) {
+                    self.indices.push(Index {
+                        name: names::normalized(&key.content),
+                        first,
+                        last,
+                    });
+                }
+            }
+        }
+    }
+
+    pub(crate) fn range(&mut self, text: &Text) -> Option<(i64, i64)> {
+        let parsed = self.parse(text, parse_range);
+        let [first, last] = *parsed.sides.as_slice() else {
+            return None;
+        };
+        let mut ends = [0; 2];
+        for (end, side) in ends.iter_mut().zip([first, last]) {
+            let value = self.lower(text, &parsed, side, &Vec::new(), Context::number("a range"))?;
+            let Some(whole) = self.graph.as_integer(value) else {
+                let place = text.place_of(parsed.tree.span(side));
+                self.push(Diagnostic::error(
+                    "bad-range",
+                    place,
+                    "the ends of a range must be integers",
+                ));
+                return None;
+            };
+            *end = whole;
+        }
+        Some((ends[0], ends[1]))
+    }
+
+    // ---- names
+
+    /// The members of the family that a key names; one for a plain name. Problems are reported, and give none.
+    pub(crate) fn instances(&mut self, key: &Text, what: &str, extra: &[Index]) -> Vec<Instance> {
+        let name = names::normalized(&key.content);
+        if functions::is_reserved(&name) {
+            self.reserved(key, &name, what);
+            return Vec::new();
+        }
+        let parsed = parse_expression(&key.content);
+        let Node::Name { parts, .. } = parsed.tree.node(parsed.root()) else {
+            let message = format!("`{}` cannot be the name of {what}", key.content);
+            self.push(Diagnostic::error("bad-name", key.place, message).hint(
+                "names are made of letters, digits and underscores, as in theta_1 or theta_{i}",
+            ));
+            return Vec::new();
+        };
+        if parsed.has_errors() {
+            self.parse(key, parse_expression);
+            return Vec::new();
+        }
+        let used: Vec<Index> = self.indices_in(&parsed, parts, extra);
+        let scope = ModelScope {
+            resolver: self,
+            context: Context::number("an index"),
+            wanted: Default::default(),
+        };
+        let mut found = Vec::new();
+        let mut instances = Vec::new();
+        for bindings in all_bindings(&used) {
+            if let Some((name, order)) = expand_name(
+                &self.graph,
+                &parsed.tree,
+                parsed.root(),
+                &scope,
+                &bindings,
+                &mut found,
+            ) {
+                instances.push(Instance {
+                    name,
+                    order,
+                    bindings,
+                });
+            }
+        }
+        for diagnostic in &found {
+            let mut diagnostic = Diagnostic::of_expression(diagnostic, key);
+            if diagnostic.code == "unknown-name" && diagnostic.hints.is_empty() {
+                diagnostic = diagnostic
+                    .hint("state the range of the index under [indices], as in i = \"1..n\"");
+            }
+            self.push(diagnostic);
+        }
+        instances
+    }
+
+    fn indices_in(
+        &self,
+        parsed: &chetaev_symbolic::syntax::Parsed,
+        parts: &[NamePart],
+        extra: &[Index],
+    ) -> Vec<Index> {
+        if parts.iter().all(|part| matches!(part, NamePart::Text(_))) {
+            return Vec::new();
+        }
+        let root = parsed.root();
+        let mut used: Vec<Index> = Vec::new();
+        for (id, _) in parsed.tree.iter().filter(|(id, _)| *id != root) {
+            let Some((name, _)) = parsed.tree.plain_name(id) else {
+                continue;
+            };
+            let known = extra
+                .iter()
+                .chain(&self.indices)
+                .find(|index| index.name == name);
+            if let Some(index) = known.filter(|index| used.iter().all(|own| own.name != index.name))
+            {
+                used.push(index.clone());
+            }
+        }
+        used
+    }
+
+    fn reserved(&mut self, key: &Text, name: &str, what: &str) {
+        let is = match name {
+            "t" => "is the time".to_owned(),
+            "pi" => "is the number 3.14159…".to_owned(),
+            "sum" => "is the sum over an index".to_owned(),
+            _ => "is a function".to_owned(),
+        };
+        let message = format!("`{}` {is} and cannot name {what}", key.content);
+        self.push(
+            Diagnostic::error("reserved-name", key.place, message)
+                .label("reserved")
+                .hint("choose another name"),
+        );
+    }
+
+    /// Declares a name; false where that is impossible, which is reported.
+    pub(crate) fn declare(&mut self, key: &Text, name: &str, kind: NamedKind) -> bool {
+        let what = kind.word();
+        if functions::is_reserved(name) {
+            self.reserved(key, name, what);
+            return false;
+        }
+        let valid = !name.is_empty()
+            && name
+                .bytes()
+                .all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+            && !name.as_bytes()[0].is_ascii_digit();
+        if !valid {
+            let message = format!("`{}` cannot be the name of {what}", key.content);
+            self.push(
+                Diagnostic::error("bad-name", key.place, message)
+                    .hint("names are made of letters, digits and underscores"),
+            );
+            return false;
+        }
+        for (prefix, meaning) in [
+            ("lambda_", "the reactions of constraints"),
+            ("kappa_", "the multipliers of the constrained extremum"),
+        ] {
+            if name.starts_with(prefix) {
+                let message = format!("names that begin with `{prefix}` are those of {meaning}, and cannot name {what}");
+                self.push(Diagnostic::error("reserved-name", key.place, message).label("reserved"));
+                return false;
+            }
+        }
+        if let Some(index) = self.indices.iter().find(|index| index.name == name) {
+            let message = format!("`{}` is an index, and cannot name {what} too", index.name);
+            self.push(Diagnostic::error("declared-twice", key.place, message));
+            return false;
+        }
+        if let Some(earlier) = self.names.get(name).copied() {
+            let message = format!(
+                "`{name}` is {} already, and cannot name {what} too",
+                earlier.kind.word()
+            );
+            self.push(
+                Diagnostic::error("declared-twice", key.place, message)
+                    .label("again here")
+                    .related(earlier.place, "first here"),
+            );
+            return false;
+        }
+        self.names.insert(
+            name.to_owned(),
+            Named {
+                kind,
+                place: key.place,
+            },
+        );
+        true
+    }
+
+    // ---- coordinates
+
+    pub(crate) fn declare_coordinates(&mut self, root: &Table, file: Place) {
+        let Some(raw) = root.get("coordinates") else {
+            self.push(
+                Diagnostic::error(
+                    "missing-section",
+                    start_of(file),
+                    "the model has no coordinates",
+                )
+                .hint("add `coordinates = [\"x\", \"y\"]` at the top"),
+            );
+            return;
+        };
+        match &raw.kind {
+            Kind::Array(items) => {
+                for item in items {
+                    match &item.kind {
+                        Kind::Text(name) => self.declare_coordinate(name, None, String::new()),
+                        _ => self.wrong_kind(item, "a coordinate", "a text, its name"),
+                    }
+                }
+            }
+            Kind::Table(table) => {
+                for (key, raw) in &table.entries {
+                    let (unit, description) = match &raw.kind {
+                        Kind::Text(unit) => (self.unit(unit), String::new()),
+                        Kind::Table(table) => {
+                            self.known_keys(table, &["unit", "description"], "of a coordinate");
+                            self.unit_and_description(table)
+                        }
+                        _ => {
+                            self.wrong_kind(
+                                raw,
+                                "a coordinate",
+                                "its unit as a text, or a table with `unit` and `description`",
+                            );
+                            (None, String::new())
+                        }
+                    };
+                    self.declare_coordinate(key, unit, description);
+                }
+            }
+            _ => self.wrong_kind(raw, "`coordinates`", "an array of names, or a table"),
+        }
+        if self.coordinates.is_empty() && self.diagnostics.is_empty() {
+            self.push(Diagnostic::error(
+                "missing-section",
+                raw.place,
+                "the model has no coordinates",
+            ));
+        }
+    }
+
+    fn declare_coordinate(&mut self, key: &Text, unit: Option<Unit>, description: String) {
+        let mut unit = unit;
+        if let Some(own) = unit.take_if(|unit| !unit.is_coherent()) {
+            let message = format!(
+                "a coordinate is measured in an SI unit without prefix, not in `{}`",
+                own.text
+            );
+            let hint = if own.dimension.is_none() {
+                "rad".to_owned()
+            } else {
+                own.dimension.to_string()
+            };
+            self.push(
+                Diagnostic::error("incoherent-unit", key.place, message)
+                    .hint(format!("state it in {hint}")),
+            );
+        }
+        for instance in self.instances(key, "a coordinate", &[]) {
+            if instance.order > 0 {
+                let message = format!(
+                    "`{}` is a derivative; coordinates are declared without primes",
+                    key.content
+                );
+                self.push(Diagnostic::error("bad-name", key.place, message));
+                return;
+            }
+            if self.declare(key, &instance.name, NamedKind::Coordinate) {
+                let symbol = self.graph.symbol(&instance.name, 0);
+                let description = description.clone();
+                self.coordinates.push(Coordinate {
+                    name: instance.name,
+                    symbol,
+                    unit: unit.clone(),
+                    description,
+                    place: key.place,
+                });
+            }
+        }
+    }
+
+    // ---- units
+
+    pub(crate) fn unit(&mut self, text: &Text) -> Option<Unit> {
+        match parse_unit(&text.content) {
+            Ok(unit) => Some(unit),
+            Err(problems) => {
+                for problem in &problems {
+                    self.push(Diagnostic::of_expression(problem, text));
+                }
+                None
+            }
+        }
+    }
+
+    pub(crate) fn unit_and_description(&mut self, table: &Table) -> (Option<Unit>, String) {
+        let unit = self
+            .optional_text(table, "unit")
+            .and_then(|text| self.unit(&text));
+        let description = self
+            .optional_text(table, "description")
+            .map_or_else(String::new, |text| text.content.trim().to_owned());
+        (unit, description)
+    }
+
+    /// A value given in a unit, in SI base units.
+    pub(crate) fn in_base_units(&self, value: Expr, unit: Option<&Unit>) -> Expr {
+        match unit {
+            Some(unit) if !unit.is_coherent() => {
+                let scaled = self.graph.scale(&unit.factor, value);
+                let pi = self
+                    .graph
+                    .pow(self.graph.pi(), self.graph.number(Rational::from(unit.pi)));
+                self.graph.mul(&[scaled, pi])
+            }
+            _ => value,
+        }
+    }
+
+    // ---- controls
+
+    pub(crate) fn declare_controls(&mut self, root: &Table) {
+        let Some(table) = self.section(root, "controls") else {
+            return;
+        };
+        for (key, raw) in &table.entries {
+            let (unit, description) = match &raw.kind {
+                Kind::Table(table) => {
+                    self.known_keys(table, &["value", "unit", "description"], "of a control");
+                    self.unit_and_description(table)
+                }
+                _ => (None, String::new()),
+            };
+            for instance in self.instances(key, "a control", &[]) {
+                if instance.order > 0 {
+                    let message = format!(
+                        "`{}` is a derivative; controls are declared without primes",
+                        key.content
+                    );
+                    self.push(Diagnostic::error("bad-name", key.place, message));
+                    break;
+                }
+                if self.declare(key, &instance.name, NamedKind::Control) {
+                    let symbol = self.graph.symbol(&instance.name, 0);
+                    let (unit, description) = (unit.clone(), description.clone());
+                    self.controls.push(Control {
+                        name: instance.name,
+                        symbol,
+                        law: None,
+                        unit,
+                        description,
+                        place: key.place,
+                    });
+                }
+            }
+        }
+    }
+
+    pub(crate) fn resolve_controls(&mut self, root: &Table) {
+        let Some(table) = root.get("controls").and_then(Raw::table) else {
+            return;
+        };
+        for (key, raw) in &table.entries {
+            let value = match &raw.kind {
+                Kind::Table(table) => table.get("value"),
+                _ => Some(raw),
+            };
+            let Some(value) = value else { continue };
+            let Some(text) = self.expression_text(value, "a control") else {
+                continue;
+            };
+            for instance in self.instances_again(key) {
+                let Some(at) = self
+                    .controls
+                    .iter()
+                    .position(|control| control.name == instance.name)
+                else {
+                    continue;
+                };
+                let expected = Expected::Quantity(instance.name.clone(), 0);
+                let law = self.expression(
+                    &text,
+                    &instance.bindings,
+                    Context::time("a control"),
+                    expected,
+                );
+                self.controls[at].law = law;
+            }
+        }
+    }
+
+    /// The members of a family whose key was looked at before: problems have been reported then.
+    pub(crate) fn instances_again(&mut self, key: &Text) -> Vec<Instance> {
+        let before = self.diagnostics.len();
+        let instances = self.instances(key, "", &[]);
+        self.diagnostics.truncate(before);
+        instances
+    }
+
+    // ---- parameters
+
+    pub(crate) fn declare_parameters(&mut self, root: &Table) {
+        let Some(raw) = root.get("parameters") else {
+            return;
+        };
+        match &raw.kind {
+            Kind::Array(items) => {
+                for item in items {
+                    match &item.kind {
+                        Kind::Text(name) => self.declare_parameter(name, None),
+                        _ => self.wrong_kind(item, "a parameter without value", "a text, its name"),
+                    }
+                }
+            }
+            Kind::Table(table) => {
+                for (key, raw) in &table.entries {
+                    self.declare_parameter(key, Some(raw));
+                }
+            }
+            _ => self.wrong_kind(raw, "`parameters`", "a table, or an array of names"),
+        }
+    }
+
+    fn declare_parameter(&mut self, key: &Text, raw: Option<&Raw>) {
+        let mut unit = None;
+        let mut description = String::new();
+        let mut value = raw;
+        let mut range = None;
+        if let Some(Raw {
+            kind: Kind::Table(table),
+            ..
+        }) = raw
+        {
+            self.known_keys(
+                table,
+                &["value", "unit", "range", "description"],
+                "of a parameter",
+            );
+            (unit, description) = self.unit_and_description(table);
+            value = table.get("value");
+            range = table.get("range");
+        }
+        let text = value.and_then(|value| self.expression_text(value, "the value of a parameter"));
+        for instance in self.instances(key, "a parameter", &[]) {
+            if instance.order > 0 {
+                let message = format!(
+                    "`{}` is a derivative; a parameter is a constant and has none",
+                    key.content
+                );
+                self.push(Diagnostic::error("bad-name", key.place, message));
+                return;
+            }
+            if !self.declare(key, &instance.name, NamedKind::Parameter) {
+                continue;
+            }
+            let symbol = self.graph.symbol(&instance.name, 0);
+            self.parameters.push(Parameter {
+                name: instance.name.clone(),
+                symbol,
+                definition: None,
+                value: None,
+                range: None,
+                unit: unit.clone(),
+                description: description.clone(),
+                place: key.place,
+            });
+            self.stated.push(super::Stated {
+                value: text.clone(),
+                range: range.cloned(),
+                bindings: instance.bindings,
+            });
+        }
+    }
+
+    /// Lowers the values of all parameters, then replaces parameters in them, in an order that has no circles.
+    pub(crate) fn resolve_parameters(&mut self) {
+        for at in 0..self.parameters.len() {
+            let (name, unit) = (
+                self.parameters[at].name.clone(),
+                self.parameters[at].unit.clone(),
+            );
+            let stated = self.stated[at].clone();
+            let (text, bindings) = match self.take_override(&name) {
+                Some(text) => (Some(text), Vec::new()),
+                None => (stated.value, stated.bindings.clone()),
+            };
+            if let Some(text) = text {
+                let context = Context::constant("the value of a parameter");
+                let expected = Expected::Quantity(name.clone(), 0);
+                let value = self.expression(&text, &bindings, context, expected);
+                self.parameters[at].definition =
+                    value.map(|value| self.in_base_units(value, unit.as_ref()));
+            }
+            if let Some(range) = stated.range {
+                self.parameters[at].range =
+                    self.parameter_range(&range, &stated.bindings, &name, unit.as_ref());
+            }
+        }
+        self.close_parameters();
+        self.check_ranges();
+    }
+
+    fn parameter_range(
+        &mut self,
+        raw: &Raw,
+        bindings: &Bindings,
+        name: &str,
+        unit: Option<&Unit>,
+    ) -> Option<(Expr, Expr)> {
+        let Kind::Array(items) = &raw.kind else {
+            self.wrong_kind(raw, "`range`", "an array of two ends");
+            return None;
+        };
+        let [low, high] = items.as_slice() else {
+            self.push(Diagnostic::error(
+                "wrong-kind",
+                raw.place,
+                "`range` must have two ends, the lower one first",
+            ));
+            return None;
+        };
+        let mut ends = Vec::new();
+        for end in [low, high] {
+            let text = self.expression_text(end, "the end of a range")?;
+            let expected = Expected::Quantity(name.to_owned(), 0);
+            let value = self.expression(
+                &text,
+                bindings,
+                Context::number("the range of a parameter"),
+                expected,
+            )?;
+            ends.push(self.in_base_units(value, unit));
+        }
+        let values: Vec<Option<f64>> = ends.iter().map(|end| self.constant_f64(*end)).collect();
+        if let [Some(low), Some(high)] = values.as_slice() {
+            if low > high {
+                self.push(Diagnostic::error(
+                    "empty-range",
+                    raw.place,
+                    "the lower end of the range comes first",
+                ));
+                return None;
+            }
+        }
+        Some((ends[0], ends[1]))
+    }
+
+    /// The value of an expression without symbols, to the precision of a double; used for comparisons only.
+    pub(crate) fn constant_f64(&self, value: Expr) -> Option<f64> {
+        let values = self.graph.evaluate_f64(&[value], &|_| None).ok()?;
+        values.first().copied().filter(|value| value.is_finite())
+    }
+
+    fn close_parameters(&mut self) {
+        let graph = std::sync::Arc::clone(&self.graph);
+        let uses: Vec<Vec<usize>> = self
+            .parameters
+            .iter()
+            .map(|parameter| self.parameters_used(parameter))
+            .collect();
+        let order = super::define::dependency_order(&uses);
+        for circle in &order.circles {
+            self.report_circle(circle);
+        }
+        for at in order.sorted {
+            let Some(definition) = self.parameters[at].definition else {
+                continue;
+            };
+            let known: Option<Vec<(Expr, Expr)>> = uses[at]
+                .iter()
+                .map(|used| Some((self.parameters[*used].symbol, self.parameters[*used].value?)))
+                .collect();
+            self.parameters[at].value = known.map(|known| graph.substitute(definition, &known));
+        }
+    }
+
+    fn parameters_used(&self, parameter: &Parameter) -> Vec<usize> {
+        let Some(definition) = parameter.definition else {
+            return Vec::new();
+        };
+        let symbols = self.graph.symbols_in(&[definition]);
+        symbols
+            .into_iter()
+            .filter_map(|symbol| {
+                self.parameters
+                    .iter()
+                    .position(|other| other.name == self.graph.symbol_name(symbol))
+            })
+            .collect()
+    }
+
+    fn report_circle(&mut self, circle: &[usize]) {
+        let names: Vec<String> = circle
+            .iter()
+            .map(|at| format!("`{}`", self.parameters[*at].name))
+            .collect();
+        let first = self.parameters[circle[0]].place;
+        let message = if circle.len() == 1 {
+            format!("the parameter {} is defined by itself", names[0])
+        } else {
+            format!(
+                "the parameters {} are defined by each other",
+                super::define::joined(&names)
+            )
+        };
+        let mut diagnostic = Diagnostic::error("circular-definition", first, message);
+        for at in circle.iter().skip(1) {
+            diagnostic = diagnostic.related(self.parameters[*at].place, "and this one");
+        }
+        self.push(diagnostic);
+    }
+
+    /// Warns of values outside their own ranges.
+    fn check_ranges(&mut self) {
+        for at in 0..self.parameters.len() {
+            let parameter = &self.parameters[at];
+            let (Some(value), Some((low, high))) = (parameter.value, parameter.range) else {
+                continue;
+            };
+            let of = |e| self.constant_f64(e);
+            let (Some(value), Some(low), Some(high)) = (of(value), of(low), of(high)) else {
+                continue;
+            };
+            if value < low || value > high {
+                let message = format!("the value of `{}` lies outside its range", parameter.name);
+                let place = parameter.place;
+                self.push(Diagnostic::warning("outside-range", place, message));
+            }
+        }
+    }
+
+    // ---- overrides
+
+    pub(crate) fn take_override(&mut self, name: &str) -> Option<Text> {
+        let mut found = None;
+        for own in self
+            .overrides
+            .iter_mut()
+            .filter(|own| names::normalized(&own.name.content) == name)
+        {
+            own.used = true;
+            found = Some(own.value.clone());
+        }
+        found
+    }
+
+    pub(crate) fn unused_overrides(&mut self) {
+        let unused: Vec<Text> = self
+            .overrides
+            .iter()
+            .filter(|own| !own.used)
+            .map(|own| own.name.clone())
+            .collect();
+        let known: Vec<String> = self
+            .parameters
+            .iter()
+            .map(|parameter| parameter.name.clone())
+            .chain(self.sizes.iter().map(|size| size.0.clone()))
+            .collect();
+        for name in unused {
+            let mut diagnostic = Diagnostic::error(
+                "unknown-parameter",
+                name.place,
+                format!("the model has no parameter or size `{}`", name.content),
+            );
+            diagnostic = match names::closest(
+                &names::normalized(&name.content),
+                known.iter().map(String::as_str),
+            ) {
+                Some(near) => diagnostic
+                    .hint(format!("did you mean `{near}`?"))
+                    .suggest(name.place, near),
+                None if known.is_empty() => diagnostic.hint("it has none at all"),
+                None => diagnostic.hint(format!("it has {}", known.join(", "))),
+            };
+            self.push(diagnostic);
+        }
+    }
+}
+
+/// All combinations of the values of some indices, the last one fastest; a single empty one for no index.
+pub(crate) fn all_bindings(indices: &[Index]) -> Vec<Bindings> {
+    let mut all: Vec<Bindings> = vec![Vec::new()];
+    for index in indices {
+        let mut longer = Vec::new();
+        'all: for bindings in &all {
+            for value in index.first..=index.last {
+                let mut bindings = bindings.clone();
+                bindings.push((index.name.clone(), value));
+                longer.push(bindings);
+                if longer.len() >= MOST_INSTANCES {
+                    break 'all;
+                }
+            }
+        }
+        all = longer;
+    }
+    all
+}

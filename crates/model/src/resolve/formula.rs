@@ -1,0 +1,162 @@
+//! Expressions: parsed once, lowered for each value of their indices, kept for the check of dimensions.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use chetaev_symbolic::syntax::lower::Bindings;
+use chetaev_symbolic::syntax::{lower, NodeId, Parsed};
+use chetaev_symbolic::{Expr, Rational};
+
+use super::scope::{Context, ModelScope};
+use super::Resolver;
+use crate::diagnostic::Diagnostic;
+use crate::raw::Raw;
+use crate::text::Text;
+
+/// What the dimension of an expression must be.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Expected {
+    /// Any dimension, as long as its own sums are of one kind.
+    Anything,
+    /// The same dimension on all sides of the relation.
+    EqualSides,
+    /// That of the named quantity's derivative of this order, where a bare number stands for a value in its unit.
+    Quantity(String, u32),
+    /// That of the Lagrangian.
+    Energy,
+    /// That of the Lagrangian divided by a coordinate.
+    Force(String),
+    /// That of the Lagrangian divided by the time.
+    Power,
+    /// That of the time, where a bare number stands for seconds.
+    Time,
+    /// A pure number.
+    Number,
+}
+
+/// An expression with all that is needed to look at it again.
+#[derive(Clone, Debug)]
+pub(crate) struct Formula {
+    pub(crate) text: Text,
+    pub(crate) parsed: Rc<Parsed>,
+    pub(crate) bindings: Bindings,
+    pub(crate) expected: Expected,
+    /// The definition that this is, by number.
+    pub(crate) define: Option<usize>,
+}
+
+impl Resolver {
+    /// Parses a text and reports what is wrong with it.
+    pub(crate) fn parse(&mut self, text: &Text, parser: fn(&str) -> Parsed) -> Rc<Parsed> {
+        let parsed = parser(&text.content);
+        for diagnostic in &parsed.diagnostics {
+            self.push(Diagnostic::of_expression(diagnostic, text));
+        }
+        Rc::new(parsed)
+    }
+
+    /// Lowers one side, reporting what is wrong; also returns the definitions that were wanted too early.
+    pub(crate) fn lower_wanting(
+        &mut self,
+        text: &Text,
+        parsed: &Parsed,
+        side: NodeId,
+        bindings: &Bindings,
+        context: Context,
+    ) -> (Option<Expr>, Vec<usize>) {
+        let mut found = Vec::new();
+        let scope = ModelScope {
+            resolver: self,
+            context,
+            wanted: RefCell::new(Vec::new()),
+        };
+        let value = lower(
+            &self.graph,
+            &parsed.tree,
+            side,
+            &scope,
+            bindings,
+            &mut found,
+        );
+        let wanted = scope.wanted.into_inner();
+        if wanted.is_empty() {
+            for diagnostic in &found {
+                self.push(Diagnostic::of_expression(diagnostic, text));
+            }
+        }
+        (value, wanted)
+    }
+
+    /// Lowers one side, reporting what is wrong.
+    pub(crate) fn lower(
+        &mut self,
+        text: &Text,
+        parsed: &Parsed,
+        side: NodeId,
+        bindings: &Bindings,
+        context: Context,
+    ) -> Option<Expr> {
+        self.lower_wanting(text, parsed, side, bindings, context).0
+    }
+
+    /// Parses and lowers an expression.
+    pub(crate) fn expression(
+        &mut self,
+        text: &Text,
+        bindings: &Bindings,
+        context: Context,
+        expected: Expected,
+    ) -> Option<Expr> {
+        let parsed = self.parse(text, chetaev_symbolic::syntax::parse_expression);
+        let value = self.lower(text, &parsed, parsed.root(), bindings, context);
+        if value.is_some() && !parsed.has_errors() {
+            self.formulas.push(Formula {
+                text: text.clone(),
+                parsed,
+                bindings: bindings.clone(),
+                expected,
+                define: None,
+            });
+            return value;
+        }
+        None
+    }
+
+    /// The expression that a value is; a value of another kind is reported.
+    pub(crate) fn expression_text(&mut self, raw: &Raw, what: &str) -> Option<Text> {
+        let text = raw.expression().cloned();
+        if text.is_none() {
+            self.wrong_kind(raw, what, "an expression");
+        }
+        text
+    }
+
+    /// An exact number, possibly stated by an expression such as `1/3` or `2^-40`.
+    pub(crate) fn rational(&mut self, raw: &Raw, what: &'static str) -> Option<Rational> {
+        let text = self.expression_text(raw, what)?;
+        let value = self.expression(&text, &Vec::new(), Context::number(what), Expected::Number)?;
+        let number = self.graph.as_number(value).cloned();
+        if number.is_none() {
+            self.push(Diagnostic::error(
+                "not-a-number",
+                raw.place,
+                format!("{what} must be a rational number"),
+            ));
+        }
+        number
+    }
+
+    /// An integer.
+    pub(crate) fn integer(&mut self, raw: &Raw, what: &'static str) -> Option<i64> {
+        let number = self.rational(raw, what)?;
+        let whole = chetaev_symbolic::syntax::parse::integer_of(&number);
+        if whole.is_none() {
+            self.push(Diagnostic::error(
+                "not-an-integer",
+                raw.place,
+                format!("{what} must be an integer"),
+            ));
+        }
+        whole
+    }
+}

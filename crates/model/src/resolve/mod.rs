@@ -1,0 +1,352 @@
+//! From the tree of values to a [`Model`]: names are declared, expressions lowered, everything checked.
+//!
+//! Every section is read even where an earlier one has errors, so that all problems are reported at once; a value
+//! that could not be understood is known as such, and what uses it gives no second diagnostic.
+
+mod declare;
+mod define;
+mod drawing;
+mod formula;
+mod run;
+mod scope;
+mod sections;
+mod system;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use chetaev_symbolic::syntax::{names, Span};
+use chetaev_symbolic::Graph;
+
+use crate::diagnostic::Diagnostic;
+use crate::dimension;
+use crate::model::{Control, Coordinate, Definition, Model, ModelText, Parameter};
+use crate::raw::{Kind, Raw, Table};
+use crate::source::{Place, Sources};
+use crate::text::Text;
+
+use formula::Formula;
+use scope::Named;
+
+/// A parameter or size set from outside: name and value.
+#[derive(Clone, Debug)]
+pub(crate) struct Override {
+    pub(crate) name: Text,
+    pub(crate) value: Text,
+    pub(crate) used: bool,
+}
+
+/// What the file says about a parameter, before it is given a meaning.
+#[derive(Clone, Debug)]
+pub(crate) struct Stated {
+    pub(crate) value: Option<Text>,
+    pub(crate) range: Option<Raw>,
+    pub(crate) bindings: chetaev_symbolic::syntax::lower::Bindings,
+}
+
+/// Everything known while a model is being read.
+pub(crate) struct Resolver {
+    pub(crate) graph: Arc<Graph>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    pub(crate) overrides: Vec<Override>,
+    pub(crate) sizes: Vec<(String, i64)>,
+    pub(crate) indices: Vec<declare::Index>,
+    pub(crate) names: BTreeMap<String, Named>,
+    pub(crate) coordinates: Vec<Coordinate>,
+    pub(crate) parameters: Vec<Parameter>,
+    /// What is stated about each parameter, in the same order.
+    pub(crate) stated: Vec<Stated>,
+    pub(crate) controls: Vec<Control>,
+    /// Definitions and quasi-velocities; both may be used by name.
+    pub(crate) defines: Vec<define::Define>,
+    /// Every expression with what its dimension should be.
+    pub(crate) formulas: Vec<Formula>,
+}
+
+/// The keys of the file, in the order in which the documentation explains them.
+const SECTIONS: &[&str] = &[
+    "name",
+    "description",
+    "source",
+    "history",
+    "include",
+    "sizes",
+    "indices",
+    "coordinates",
+    "parameters",
+    "assumptions",
+    "define",
+    "lagrangian",
+    "forces",
+    "constraints",
+    "velocities",
+    "quasi_velocities",
+    "controls",
+    "initial",
+    "simulation",
+    "integrals",
+    "drawing",
+    "expect",
+];
+
+/// Gives a meaning to a file. No model where there is an error.
+pub(crate) fn resolve(
+    root: &Table,
+    file: Place,
+    sources: Sources,
+    text: ModelText,
+    overrides: Vec<Override>,
+) -> (Option<Model>, Vec<Diagnostic>) {
+    let mut resolver = Resolver {
+        graph: Arc::new(Graph::new()),
+        diagnostics: Vec::new(),
+        overrides,
+        sizes: Vec::new(),
+        indices: Vec::new(),
+        names: BTreeMap::new(),
+        coordinates: Vec::new(),
+        parameters: Vec::new(),
+        stated: Vec::new(),
+        controls: Vec::new(),
+        defines: Vec::new(),
+        formulas: Vec::new(),
+    };
+    resolver.known_keys(root, SECTIONS, "of a model file");
+    let model = resolver.model(root, file, sources, text);
+    let failed = resolver
+        .diagnostics
+        .iter()
+        .any(|d| d.severity == chetaev_symbolic::syntax::Severity::Error);
+    (model.filter(|_| !failed), resolver.diagnostics)
+}
+
+impl Resolver {
+    fn model(
+        &mut self,
+        root: &Table,
+        file: Place,
+        sources: Sources,
+        text: ModelText,
+    ) -> Option<Model> {
+        self.declare_sizes(root);
+        self.declare_coordinates(root, file);
+        self.declare_controls(root);
+        self.declare_parameters(root);
+        self.declare_defines(root);
+        self.resolve_parameters();
+        self.resolve_defines();
+        self.resolve_controls(root);
+        self.unused_overrides();
+        let assumptions = self.assumptions(root);
+        let lagrangian = self.lagrangian(root, file);
+        let (forces, rayleigh) = self.forces(root);
+        let constraints = self.constraints(root);
+        let independent = self.independent_velocities(root);
+        let initial = self.initial(root, &constraints);
+        let simulation = self.simulation(root);
+        let integrals = self.integrals(root);
+        let drawing = self.drawing(root);
+        let expect = self.expect(root);
+        let has_units = dimension::check(self);
+        let name = self
+            .optional_text(root, "name")
+            .map_or_else(|| name_of_path(&text.path), |text| text.content);
+        let description = self
+            .optional_text(root, "description")
+            .map_or_else(String::new, |text| text.content.trim().to_owned());
+        let history = self
+            .optional_text(root, "history")
+            .map_or_else(String::new, |text| text.content.trim().to_owned());
+        let source = self.references(root);
+        let lagrangian = lagrangian?;
+        let definitions = |quasi: bool| -> Vec<Definition> {
+            let mut chosen: Vec<&define::Define> = self
+                .defines
+                .iter()
+                .filter(|define| define.quasi == quasi)
+                .collect();
+            chosen.sort_by_key(|define| if quasi { 0 } else { define.rank });
+            chosen
+                .into_iter()
+                .filter_map(define::Define::definition)
+                .collect()
+        };
+        Some(Model {
+            time: self.graph.symbol("t", 0),
+            graph: Arc::clone(&self.graph),
+            name,
+            description,
+            source,
+            history,
+            coordinates: std::mem::take(&mut self.coordinates),
+            parameters: std::mem::take(&mut self.parameters),
+            controls: std::mem::take(&mut self.controls),
+            assumptions,
+            defines: definitions(false),
+            kinetic: lagrangian.kinetic,
+            potential: lagrangian.potential,
+            lagrangian: lagrangian.total,
+            forces,
+            rayleigh,
+            constraints,
+            independent,
+            quasi_velocities: definitions(true),
+            initial,
+            simulation,
+            integrals,
+            drawing,
+            expect,
+            sizes: std::mem::take(&mut self.sizes),
+            has_units,
+            sources,
+            text,
+        })
+    }
+
+    pub(crate) fn push(&mut self, diagnostic: Diagnostic) {
+        if !self.diagnostics.contains(&diagnostic) {
+            self.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// Reports every key that is none of those known, with the nearest one.
+    pub(crate) fn known_keys(&mut self, table: &Table, known: &[&str], of: &str) {
+        for (key, _) in &table.entries {
+            if known.contains(&key.content.as_str()) {
+                continue;
+            }
+            let mut diagnostic = Diagnostic::error(
+                "unknown-key",
+                key.place,
+                format!("`{}` is no key {of}", key.content),
+            )
+            .label("not known");
+            diagnostic = match near_key(&key.content, known) {
+                Some(near) => diagnostic
+                    .hint(format!("did you mean `{near}`?"))
+                    .suggest(key.place, near),
+                None => diagnostic.hint(format!("known keys: {}", known.join(", "))),
+            };
+            self.push(diagnostic);
+        }
+    }
+
+    /// The table under a key of the file; a value of another kind is reported.
+    pub(crate) fn section<'t>(&mut self, root: &'t Table, key: &str) -> Option<&'t Table> {
+        let raw = root.get(key)?;
+        let table = raw.table();
+        if table.is_none() {
+            self.wrong_kind(raw, &format!("`{key}`"), "a table");
+        }
+        table
+    }
+
+    pub(crate) fn wrong_kind(&mut self, raw: &Raw, what: &str, wanted: &str) {
+        let message = format!("{what} must be {wanted}, not {}", raw.kind.word());
+        self.push(Diagnostic::error("wrong-kind", raw.place, message));
+    }
+
+    pub(crate) fn optional_text(&mut self, table: &Table, key: &str) -> Option<Text> {
+        let raw = table.get(key)?;
+        match &raw.kind {
+            Kind::Text(text) => Some(text.clone()),
+            _ => {
+                self.wrong_kind(raw, &format!("`{key}`"), "a text");
+                None
+            }
+        }
+    }
+
+    pub(crate) fn optional_truth(&mut self, table: &Table, key: &str) -> Option<bool> {
+        let raw = table.get(key)?;
+        match raw.kind {
+            Kind::Truth(truth) => Some(truth),
+            _ => {
+                self.wrong_kind(raw, &format!("`{key}`"), "true or false");
+                None
+            }
+        }
+    }
+
+    fn references(&mut self, root: &Table) -> Vec<String> {
+        let Some(raw) = root.get("source") else {
+            return Vec::new();
+        };
+        match &raw.kind {
+            Kind::Text(text) => vec![text.content.trim().to_owned()],
+            Kind::Array(items) => {
+                let mut list = Vec::new();
+                for item in items {
+                    match &item.kind {
+                        Kind::Text(text) => list.push(text.content.trim().to_owned()),
+                        _ => self.wrong_kind(item, "a reference", "a text"),
+                    }
+                }
+                list
+            }
+            _ => {
+                self.wrong_kind(raw, "`source`", "a text or an array of texts");
+                Vec::new()
+            }
+        }
+    }
+}
+
+/// The nearest key, also where the words or the number of a noun differ.
+fn near_key<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {
+    const OTHER_WORDS: &[(&str, &str)] = &[
+        ("constants", "parameters"),
+        ("definitions", "define"),
+        ("defines", "define"),
+        ("let", "define"),
+        ("kinetic", "T"),
+        ("potential", "V"),
+        ("dissipation", "rayleigh"),
+        ("quasi-velocities", "quasi_velocities"),
+        ("inputs", "controls"),
+        ("initial_conditions", "initial"),
+        ("solver", "simulation"),
+        ("first_integrals", "integrals"),
+        ("animation", "drawing"),
+        ("title", "name"),
+        ("rtol", "tolerance"),
+        ("atol", "absolute_tolerance"),
+        ("t_final", "t_end"),
+        ("duration", "t_end"),
+        ("expected", "expect"),
+        ("qs", "coordinates"),
+    ];
+    let known_word = |word: &'static str| known.iter().copied().find(|own| *own == word);
+    names::closest(key, known.iter().copied())
+        .or_else(|| {
+            OTHER_WORDS
+                .iter()
+                .find(|(other, _)| *other == key)
+                .and_then(|(_, word)| known_word(word))
+        })
+        .or_else(|| {
+            known
+                .iter()
+                .copied()
+                .find(|own| own.len() > 2 && (key.starts_with(own) || own.starts_with(key)))
+        })
+}
+
+/// A name for a model that states none: the folder, or the file where it is not called `model.toml`.
+fn name_of_path(path: &str) -> String {
+    let mut parts = path.rsplit(['/', '\\']).filter(|part| !part.is_empty());
+    let file = parts.next().unwrap_or("model");
+    let stem = file.strip_suffix(".toml").unwrap_or(file);
+    match parts.next() {
+        Some(folder) if stem == "model" && folder != "." && folder != ".." => folder.to_owned(),
+        _ => stem.to_owned(),
+    }
+}
+
+/// The first byte of a file: where something is missing, it is missing there.
+pub(crate) fn start_of(file: Place) -> Place {
+    Place {
+        source: file.source,
+        span: Span::empty(0),
+    }
+}

@@ -1,0 +1,343 @@
+//! The motion asked for: initial data, simulation, and what is expected of it.
+
+use chetaev_symbolic::Rational;
+
+use super::declare::Instance;
+use super::formula::Expected;
+use super::scope::Context;
+use super::Resolver;
+use crate::diagnostic::Diagnostic;
+use crate::model::{
+    Constraint, Expect, ExpectedStop, ExpectedVerdict, ExtraInitialValue, Initial, InitialValue,
+    Output, Simulation, StateKind,
+};
+use crate::raw::{Kind, Raw, Table};
+use crate::text::Text;
+
+/// Words of the catalogue of verdicts.
+const VERDICTS: [&str; 6] = [
+    "proved",
+    "numerical",
+    "refuted",
+    "conditional",
+    "not-applicable",
+    "undecided",
+];
+
+impl Resolver {
+    // ---- initial data
+
+    pub(crate) fn initial(&mut self, root: &Table, constraints: &[Constraint]) -> Initial {
+        let mut initial = Initial::default();
+        let Some(table) = self.section(root, "initial") else {
+            return initial;
+        };
+        for (key, raw) in &table.entries {
+            if key.content == "project" && !self.names.contains_key("project") {
+                initial.project = self.optional_truth(table, "project").unwrap_or(false);
+                continue;
+            }
+            let Some(text) = self.expression_text(raw, "an initial value") else {
+                continue;
+            };
+            for instance in self.instances(key, "an initial value", &[]) {
+                if !self.initial_value(key, &text, &instance, constraints, &mut initial) {
+                    break;
+                }
+            }
+        }
+        initial
+    }
+
+    fn initial_value(
+        &mut self,
+        key: &Text,
+        text: &Text,
+        instance: &Instance,
+        constraints: &[Constraint],
+        initial: &mut Initial,
+    ) -> bool {
+        let Instance {
+            name,
+            order,
+            bindings,
+        } = instance;
+        let context = Context::constant("the initial data");
+        let coordinate = self
+            .coordinates
+            .iter()
+            .position(|coordinate| coordinate.name == *name);
+        if let Some(coordinate) = coordinate {
+            let twice = initial
+                .values
+                .get(&(coordinate, *order))
+                .map(|earlier| earlier.place);
+            if let Some(earlier) = twice {
+                let message = format!("the initial value of `{}` is given twice", key.content);
+                self.push(
+                    Diagnostic::error("stated-twice", key.place, message)
+                        .related(earlier, "first here"),
+                );
+                return false;
+            }
+            let expected = Expected::Quantity(name.clone(), *order);
+            if let Some(value) = self.expression(text, bindings, context, expected) {
+                let text = text.content.clone();
+                initial.values.insert(
+                    (coordinate, *order),
+                    InitialValue {
+                        value,
+                        text,
+                        place: key.place,
+                    },
+                );
+            }
+            return true;
+        }
+        let multiplier = name
+            .strip_prefix("lambda_")
+            .or_else(|| name.strip_prefix("kappa_"));
+        if let Some(of) = multiplier {
+            if constraints.iter().any(|constraint| constraint.name == of) {
+                if let Some(value) = self.expression(text, bindings, context, Expected::Anything) {
+                    let (name, order) = (name.clone(), *order);
+                    initial.extra.push(ExtraInitialValue {
+                        name,
+                        order,
+                        value,
+                        place: key.place,
+                    });
+                }
+            } else {
+                let message = format!("there is no constraint `{of}` with such a multiplier");
+                self.push(Diagnostic::error("unknown-name", key.place, message));
+            }
+            return true;
+        }
+        self.no_coordinate(
+            key,
+            name,
+            "initial data are those of coordinates and their derivatives",
+        );
+        false
+    }
+
+    // ---- simulation
+
+    pub(crate) fn simulation(&mut self, root: &Table) -> Simulation {
+        const KEYS: &[&str] = &[
+            "t_start",
+            "t_end",
+            "tolerance",
+            "absolute_tolerance",
+            "method",
+            "output",
+            "max_steps",
+            "state",
+            "project",
+        ];
+        let mut simulation = Simulation::default();
+        let Some(table) = self.section(root, "simulation") else {
+            return simulation;
+        };
+        self.known_keys(table, KEYS, "of [simulation]");
+        simulation.t_start = self.time_value(table.get("t_start"), "the start of the run");
+        simulation.t_end = self.time_value(table.get("t_end"), "the end of the run");
+        simulation.tolerance = self.tolerance(table, "tolerance", "the tolerance");
+        simulation.absolute_tolerance =
+            self.tolerance(table, "absolute_tolerance", "the absolute tolerance");
+        simulation.method = self.optional_text(table, "method").map(|text| text.content);
+        simulation.output = table.get("output").and_then(|raw| self.output(raw));
+        simulation.project = self.optional_truth(table, "project");
+        simulation.max_steps = table
+            .get("max_steps")
+            .and_then(|raw| self.count(raw, "the number of steps"));
+        simulation.state =
+            self.word_of(table, "state", &["reduced", "full"])
+                .map(|word| match word {
+                    "full" => StateKind::Full,
+                    _ => StateKind::Reduced,
+                });
+        simulation
+    }
+
+    fn time_value(
+        &mut self,
+        raw: Option<&Raw>,
+        what: &'static str,
+    ) -> Option<chetaev_symbolic::Expr> {
+        let text = self.expression_text(raw?, what)?;
+        self.expression(&text, &Vec::new(), Context::constant(what), Expected::Time)
+    }
+
+    fn tolerance(&mut self, table: &Table, key: &str, what: &'static str) -> Option<Rational> {
+        let raw = table.get(key)?;
+        let value = self.rational(raw, what)?;
+        if value <= Rational::ZERO {
+            self.push(Diagnostic::error(
+                "not-positive",
+                raw.place,
+                format!("{what} must be positive"),
+            ));
+            return None;
+        }
+        Some(value)
+    }
+
+    fn count(&mut self, raw: &Raw, what: &'static str) -> Option<u64> {
+        let value = self.integer(raw, what)?;
+        let count = u64::try_from(value).ok().filter(|count| *count > 0);
+        if count.is_none() {
+            self.push(Diagnostic::error(
+                "not-positive",
+                raw.place,
+                format!("{what} must be positive"),
+            ));
+        }
+        count
+    }
+
+    fn output(&mut self, raw: &Raw) -> Option<Output> {
+        const ADVICE: &str = "`output` is a number of intervals, or one of { step = … }, { times = […] }, { points = … }";
+        let points = |resolver: &mut Self, raw: &Raw| {
+            let count = resolver.count(raw, "the number of output intervals")?;
+            u32::try_from(count).ok().map(Output::Points)
+        };
+        let Some(table) = raw.table() else {
+            return points(self, raw);
+        };
+        self.known_keys(table, &["points", "times", "step"], "of `output`");
+        match table.entries.as_slice() {
+            [(key, raw)] if key.content == "points" => points(self, raw),
+            [(key, raw)] if key.content == "step" => self
+                .time_value(Some(raw), "the output step")
+                .map(Output::Step),
+            [(
+                key,
+                Raw {
+                    kind: Kind::Array(items),
+                    ..
+                },
+            )] if key.content == "times" => {
+                let times: Vec<_> = items
+                    .iter()
+                    .map(|item| self.time_value(Some(item), "an output time"))
+                    .collect();
+                times
+                    .into_iter()
+                    .collect::<Option<Vec<_>>>()
+                    .map(Output::Times)
+            }
+            _ => {
+                self.push(Diagnostic::error("wrong-kind", raw.place, ADVICE));
+                None
+            }
+        }
+    }
+
+    // ---- expectations
+
+    pub(crate) fn expect(&mut self, root: &Table) -> Expect {
+        let mut expect = Expect::default();
+        let Some(table) = self.section(root, "expect") else {
+            return expect;
+        };
+        // Dotted keys are tables within tables; the claim id is put together again.
+        let mut open: Vec<(String, &Text, &Raw)> = table
+            .entries
+            .iter()
+            .rev()
+            .map(|(key, raw)| (key.content.clone(), key, raw))
+            .collect();
+        while let Some((claim, key, raw)) = open.pop() {
+            if claim == "stop" {
+                expect.stop = self.expected_stop(raw);
+                continue;
+            }
+            if let Kind::Table(inner) = &raw.kind {
+                let longer = inner
+                    .entries
+                    .iter()
+                    .rev()
+                    .map(|(key, raw)| (format!("{claim}.{}", key.content), key, raw));
+                open.extend(longer);
+                continue;
+            }
+            let verdicts = self.verdicts(raw);
+            if verdicts.is_empty() {
+                continue;
+            }
+            let (id, subject) = match claim.split_once('#') {
+                Some((id, subject)) => (id.to_owned(), Some(subject.to_owned())),
+                None => (claim, None),
+            };
+            expect.verdicts.push(ExpectedVerdict {
+                claim: id,
+                subject,
+                verdicts,
+                place: key.place,
+            });
+        }
+        expect
+    }
+
+    fn verdicts(&mut self, raw: &Raw) -> Vec<String> {
+        let items: Vec<&Raw> = match &raw.kind {
+            Kind::Array(items) => items.iter().collect(),
+            _ => vec![raw],
+        };
+        let mut verdicts = Vec::new();
+        for item in items {
+            match &item.kind {
+                Kind::Text(text) if VERDICTS.contains(&text.content.as_str()) => {
+                    verdicts.push(text.content.clone())
+                }
+                Kind::Text(text) => {
+                    let message = format!("`{}` is no verdict", text.content);
+                    let mut diagnostic = Diagnostic::error("unknown-value", text.place, message);
+                    diagnostic =
+                        match chetaev_symbolic::syntax::names::closest(&text.content, VERDICTS) {
+                            Some(near) => diagnostic.hint(format!("did you mean \"{near}\"?")),
+                            None => diagnostic.hint(format!("one of {}", VERDICTS.join(", "))),
+                        };
+                    self.push(diagnostic);
+                }
+                _ => self.wrong_kind(item, "an expected verdict", "a text such as \"proved\""),
+            }
+        }
+        verdicts
+    }
+
+    fn expected_stop(&mut self, raw: &Raw) -> Option<ExpectedStop> {
+        let place = raw.place;
+        match &raw.kind {
+            Kind::Truth(true) => Some(ExpectedStop {
+                at: None,
+                reason: String::new(),
+                place,
+            }),
+            Kind::Truth(false) => None,
+            Kind::Text(text) => Some(ExpectedStop {
+                at: None,
+                reason: text.content.clone(),
+                place,
+            }),
+            Kind::Table(table) => {
+                self.known_keys(table, &["at", "reason"], "of an expected stop");
+                let at = self.time_value(table.get("at"), "the time of the stop");
+                let reason = self
+                    .optional_text(table, "reason")
+                    .map_or_else(String::new, |text| text.content);
+                Some(ExpectedStop { at, reason, place })
+            }
+            _ => {
+                self.wrong_kind(
+                    raw,
+                    "`stop`",
+                    "true, a word of the reason, or a table with `at` and `reason`",
+                );
+                None
+            }
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! What names mean in an expression, depending on where it stands.
+
+use std::cell::RefCell;
+
+use chetaev_symbolic::syntax::{Resolution, Scope};
+
+use super::define::State;
+use super::Resolver;
+use crate::source::Place;
+
+/// Highest derivative of a definition that is taken; its size grows with each.
+const MOST_DERIVATIVES: u32 = 8;
+
+/// What a declared name is.
+#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+pub(crate) enum NamedKind {
+    Coordinate,
+    Parameter,
+    Control,
+    Define(usize),
+    Size(i64),
+}
+
+impl NamedKind {
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            NamedKind::Coordinate => "a coordinate",
+            NamedKind::Parameter => "a parameter",
+            NamedKind::Control => "a control",
+            NamedKind::Define(_) => "a definition",
+            NamedKind::Size(_) => "a size",
+        }
+    }
+}
+
+/// A declared name with the place of its declaration.
+#[derive(Copy, Clone, Debug)]
+pub(crate) struct Named {
+    pub(crate) kind: NamedKind,
+    pub(crate) place: Place,
+}
+
+/// What an expression is for, and what may occur in it.
+#[derive(Copy, Clone, Debug)]
+pub(crate) struct Context {
+    /// For messages: "the kinetic energy".
+    pub(crate) what: &'static str,
+    /// Whether coordinates may occur, and up to which derivative.
+    pub(crate) coordinates: Option<u32>,
+    /// Whether the time and the controls may occur.
+    pub(crate) time: bool,
+    /// Whether parameters may occur.
+    pub(crate) parameters: bool,
+}
+
+impl Context {
+    /// A function of q, q' and t.
+    pub(crate) const fn state(what: &'static str) -> Self {
+        Context {
+            what,
+            coordinates: Some(1),
+            time: true,
+            parameters: true,
+        }
+    }
+
+    /// A function of all derivatives.
+    pub(crate) const fn jet(what: &'static str) -> Self {
+        Context {
+            what,
+            coordinates: Some(u32::MAX),
+            time: true,
+            parameters: true,
+        }
+    }
+
+    /// A function of the time.
+    pub(crate) const fn time(what: &'static str) -> Self {
+        Context {
+            what,
+            coordinates: None,
+            time: true,
+            parameters: true,
+        }
+    }
+
+    /// A constant that may depend on the parameters.
+    pub(crate) const fn constant(what: &'static str) -> Self {
+        Context {
+            what,
+            coordinates: None,
+            time: false,
+            parameters: true,
+        }
+    }
+
+    /// A number known when the model is read.
+    pub(crate) const fn number(what: &'static str) -> Self {
+        Context {
+            what,
+            coordinates: None,
+            time: false,
+            parameters: false,
+        }
+    }
+}
+
+/// A context with the names of a model; remembers which definitions were wanted before they were known.
+pub(crate) struct ModelScope<'r> {
+    pub(crate) resolver: &'r Resolver,
+    pub(crate) context: Context,
+    pub(crate) wanted: RefCell<Vec<usize>>,
+}
+
+fn refused(code: &'static str, message: String, hint: impl Into<String>) -> Resolution {
+    Resolution::Refused {
+        code,
+        message,
+        hint: hint.into(),
+    }
+}
+
+impl ModelScope<'_> {
+    fn varying(&self, name: &str, order: u32, word: &str) -> Resolution {
+        let Context {
+            what,
+            coordinates,
+            time,
+            ..
+        } = self.context;
+        let allowed = if word == "control" {
+            time.then_some(u32::MAX)
+        } else {
+            coordinates
+        };
+        match allowed {
+            None => refused(
+                "not-constant",
+                format!("the {word} `{name}` may not occur in {what}, which is constant"),
+                "",
+            ),
+            Some(most) if order > most => {
+                let primes = "'".repeat(order as usize);
+                refused(
+                    "order-too-high",
+                    format!("`{name}{primes}` may not occur in {what}"),
+                    "only first derivatives may occur there",
+                )
+            }
+            Some(_) => Resolution::Known(self.resolver.graph.symbol(name, order)),
+        }
+    }
+
+    fn defined(&self, name: &str, number: usize, order: u32) -> Resolution {
+        let resolver = self.resolver;
+        let define = &resolver.defines[number];
+        let value = match define.state {
+            State::Known(value) => value,
+            State::Failed => return Resolution::Failed,
+            State::Open => {
+                self.wanted.borrow_mut().push(number);
+                return Resolution::Failed;
+            }
+        };
+        if order > MOST_DERIVATIVES {
+            return refused(
+                "order-too-high",
+                format!("derivatives of a definition are taken up to order {MOST_DERIVATIVES}"),
+                "",
+            );
+        }
+        let graph = &resolver.graph;
+        let varies = |name: &str| resolver.varies(name);
+        let value = (0..order).fold(value, |value, _| graph.total_derivative(value, &varies));
+        let Context {
+            what,
+            coordinates,
+            time,
+            parameters,
+        } = self.context;
+        for symbol in graph.symbols_in(&[value]) {
+            let (own, own_order) = (graph.symbol_name(symbol), graph.symbol_order(symbol));
+            let kind = resolver.names.get(own).map(|named| named.kind);
+            let allowed = match kind {
+                Some(NamedKind::Coordinate) => coordinates.is_some_and(|most| own_order <= most),
+                Some(NamedKind::Parameter) => parameters,
+                _ => time,
+            };
+            if !allowed {
+                let primes = "'".repeat(order as usize);
+                let inner = graph.symbol_text(symbol);
+                return refused(
+                    "not-allowed-here",
+                    format!("`{name}{primes}` contains `{inner}`, which may not occur in {what}"),
+                    "",
+                );
+            }
+        }
+        Resolution::Known(value)
+    }
+}
+
+impl Scope for ModelScope<'_> {
+    fn resolve(&self, name: &str, order: u32) -> Resolution {
+        let resolver = self.resolver;
+        if name == "t" {
+            return match (self.context.time, order) {
+                (true, 0) => Resolution::Known(resolver.graph.symbol("t", 0)),
+                (false, _) => refused(
+                    "not-constant",
+                    format!(
+                        "the time `t` may not occur in {}, which is constant",
+                        self.context.what
+                    ),
+                    "",
+                ),
+                _ => refused(
+                    "derivative-of-constant",
+                    "the time `t` has no derivative".to_owned(),
+                    "",
+                ),
+            };
+        }
+        match resolver.names.get(name).map(|named| named.kind) {
+            None => Resolution::Unknown,
+            Some(NamedKind::Coordinate) => self.varying(name, order, "coordinate"),
+            Some(NamedKind::Control) => self.varying(name, order, "control"),
+            Some(NamedKind::Define(number)) => self.defined(name, number, order),
+            Some(NamedKind::Size(value)) if order == 0 => Resolution::Known(resolver.graph.integer(value)),
+            Some(NamedKind::Size(_)) => {
+                refused("derivative-of-constant", format!("`{name}` is a size, an integer, and has no derivative"), "")
+            }
+            Some(NamedKind::Parameter) if order > 0 => refused(
+                "derivative-of-parameter",
+                format!("`{name}` is a parameter, a constant, and has no derivative"),
+                format!("if `{name}` varies with the time, state it under [controls]; if it is unknown, under coordinates"),
+            ),
+            Some(NamedKind::Parameter) if !self.context.parameters => {
+                refused("not-a-number", format!("the parameter `{name}` may not occur in {}", self.context.what), "")
+            }
+            Some(NamedKind::Parameter) => Resolution::Known(resolver.graph.symbol(name, 0)),
+        }
+    }
+
+    fn names(&self) -> Vec<String> {
+        let rank = |kind: NamedKind| match kind {
+            NamedKind::Coordinate => 0,
+            NamedKind::Parameter => 1,
+            NamedKind::Define(_) => 2,
+            NamedKind::Control => 3,
+            NamedKind::Size(_) => 4,
+        };
+        let mut names: Vec<(u8, &String)> = self
+            .resolver
+            .names
+            .iter()
+            .map(|(name, named)| (rank(named.kind), name))
+            .collect();
+        names.sort();
+        names.into_iter().map(|(_, name)| name.clone()).collect()
+    }
+}
+
+impl Resolver {
+    /// Whether a name is that of a coordinate or a control.
+    pub(crate) fn varies(&self, name: &str) -> bool {
+        matches!(
+            self.names.get(name).map(|named| named.kind),
+            Some(NamedKind::Coordinate | NamedKind::Control)
+        )
+    }
+
+    /// The highest derivative of a coordinate in an expression; none where no coordinate occurs.
+    pub(crate) fn order_of(&self, value: chetaev_symbolic::Expr) -> Option<u32> {
+        let is_coordinate = |name: &str| {
+            matches!(
+                self.names.get(name).map(|named| named.kind),
+                Some(NamedKind::Coordinate)
+            )
+        };
+        let symbols = self.graph.symbols_in(&[value]);
+        symbols
+            .into_iter()
+            .filter(|symbol| is_coordinate(self.graph.symbol_name(*symbol)))
+            .map(|symbol| self.graph.symbol_order(symbol))
+            .max()
+    }
+}

@@ -1,0 +1,510 @@
+//! What makes the system: Lagrangian, forces, constraints, velocities, assumptions.
+
+use chetaev_symbolic::syntax::{parse_equation, parse_expression, parse_relation};
+use chetaev_symbolic::Expr;
+
+use super::declare::Instance;
+use super::formula::{Expected, Formula};
+use super::scope::Context;
+use super::{start_of, Resolver};
+use crate::diagnostic::Diagnostic;
+use crate::model::{Assumption, Constraint, Definition, Force};
+use crate::raw::{Kind, Raw, Table};
+use crate::source::Place;
+use crate::text::Text;
+
+/// The Lagrangian with its parts.
+pub(crate) struct Lagrangian {
+    pub(crate) kinetic: Option<Expr>,
+    pub(crate) potential: Option<Expr>,
+    pub(crate) total: Expr,
+}
+
+impl Resolver {
+    // ---- the Lagrangian
+
+    pub(crate) fn lagrangian(&mut self, root: &Table, file: Place) -> Option<Lagrangian> {
+        let Some(raw) = root.get("lagrangian") else {
+            self.push(
+                Diagnostic::error(
+                    "missing-section",
+                    start_of(file),
+                    "the model has no Lagrangian",
+                )
+                .hint("add [lagrangian] with `T` and `V`, or with `L`"),
+            );
+            return None;
+        };
+        if raw.expression().is_some() {
+            let total = self.energy(raw, "the Lagrangian")?;
+            return Some(Lagrangian {
+                kinetic: None,
+                potential: None,
+                total,
+            });
+        }
+        let Some(table) = raw.table() else {
+            self.wrong_kind(
+                raw,
+                "`lagrangian`",
+                "a table with `T` and `V` or `L`, or the expression of L",
+            );
+            return None;
+        };
+        self.known_keys(table, &["T", "V", "L"], "of [lagrangian]");
+        let of = |resolver: &mut Self, key: &str, what| {
+            table.get(key).map(|raw| resolver.energy(raw, what))
+        };
+        let kinetic = of(self, "T", "the kinetic energy");
+        let potential = of(self, "V", "the potential energy");
+        let whole = of(self, "L", "the Lagrangian");
+        if let (Some(raw), true) = (table.get("L"), kinetic.is_some() || potential.is_some()) {
+            self.push(Diagnostic::error(
+                "stated-twice",
+                raw.place,
+                "the Lagrangian is stated by `T` and `V`, or by `L`, not by both",
+            ));
+            return None;
+        }
+        let total = match (whole, kinetic, potential) {
+            (Some(whole), ..) => whole?,
+            (None, None, None) => {
+                self.push(
+                    Diagnostic::error("missing-section", raw.place, "[lagrangian] is empty")
+                        .hint("state `T` and `V`, or `L`"),
+                );
+                return None;
+            }
+            (None, kinetic, potential) => {
+                let zero = self.graph.zero();
+                let (kinetic, potential) = (
+                    kinetic.unwrap_or(Some(zero)),
+                    potential.unwrap_or(Some(zero)),
+                );
+                self.graph.sub(kinetic?, potential?)
+            }
+        };
+        Some(Lagrangian {
+            kinetic: kinetic.flatten(),
+            potential: potential.flatten(),
+            total,
+        })
+    }
+
+    fn energy(&mut self, raw: &Raw, what: &'static str) -> Option<Expr> {
+        let text = self.expression_text(raw, what)?;
+        self.expression(&text, &Vec::new(), Context::state(what), Expected::Energy)
+    }
+
+    // ---- forces
+
+    pub(crate) fn forces(&mut self, root: &Table) -> (Vec<Force>, Option<Expr>) {
+        let mut forces: Vec<Force> = Vec::new();
+        let mut rayleigh = None;
+        let Some(table) = self.section(root, "forces") else {
+            return (forces, rayleigh);
+        };
+        for (key, raw) in &table.entries {
+            let what = "a generalized force";
+            if key.content == "rayleigh" && !self.names.contains_key("rayleigh") {
+                let Some(text) = self.expression_text(raw, "Rayleigh's function") else {
+                    continue;
+                };
+                rayleigh = self.expression(
+                    &text,
+                    &Vec::new(),
+                    Context::state("Rayleigh's function"),
+                    Expected::Power,
+                );
+                continue;
+            }
+            let Some(text) = self.expression_text(raw, what) else {
+                continue;
+            };
+            for Instance {
+                name,
+                order,
+                bindings,
+            } in self.instances(key, what, &[])
+            {
+                let Some(coordinate) =
+                    self.coordinate_named(key, &name, order, "a force acts on a coordinate")
+                else {
+                    break;
+                };
+                if let Some(earlier) = forces.iter().find(|force| force.coordinate == coordinate) {
+                    let message = format!("the force on `{name}` is stated twice");
+                    self.push(
+                        Diagnostic::error("stated-twice", key.place, message)
+                            .related(earlier.place, "first here"),
+                    );
+                    break;
+                }
+                let expected = Expected::Force(name);
+                if let Some(value) =
+                    self.expression(&text, &bindings, Context::state(what), expected)
+                {
+                    forces.push(Force {
+                        coordinate,
+                        value,
+                        text: text.content.clone(),
+                        place: key.place,
+                    });
+                }
+            }
+        }
+        forces.sort_by_key(|force| force.coordinate);
+        (forces, rayleigh)
+    }
+
+    /// The number of a coordinate that a key names without primes; else a diagnostic.
+    pub(crate) fn coordinate_named(
+        &mut self,
+        key: &Text,
+        name: &str,
+        order: u32,
+        because: &str,
+    ) -> Option<usize> {
+        let found = self
+            .coordinates
+            .iter()
+            .position(|coordinate| coordinate.name == name);
+        if found.is_some() && order == 0 {
+            return found;
+        }
+        if found.is_some() {
+            let message = format!("`{}` has a prime, and {because}", key.content);
+            self.push(
+                Diagnostic::error("not-a-coordinate", key.place, message).suggest(key.place, name),
+            );
+        } else {
+            self.no_coordinate(key, name, because);
+        }
+        None
+    }
+
+    pub(crate) fn no_coordinate(&mut self, key: &Text, name: &str, because: &str) {
+        let message = match self.names.get(name) {
+            Some(named) => format!("`{name}` is {}, and {because}", named.kind.word()),
+            None => format!("there is no coordinate `{}`, and {because}", key.content),
+        };
+        let mut diagnostic = Diagnostic::error("not-a-coordinate", key.place, message);
+        let known = self
+            .coordinates
+            .iter()
+            .map(|coordinate| coordinate.name.as_str());
+        if let Some(near) = chetaev_symbolic::syntax::names::closest(name, known) {
+            diagnostic = diagnostic.hint(format!("did you mean `{near}`?"));
+        }
+        self.push(diagnostic);
+    }
+
+    // ---- constraints
+
+    pub(crate) fn constraints(&mut self, root: &Table) -> Vec<Constraint> {
+        let mut constraints = Vec::new();
+        let Some(raw) = root.get("constraints") else {
+            return constraints;
+        };
+        match &raw.kind {
+            Kind::Table(table) => {
+                for (key, raw) in &table.entries {
+                    self.named_constraint(key, raw, &mut constraints);
+                }
+            }
+            Kind::Array(items) => {
+                for (at, item) in items.iter().enumerate() {
+                    let name = match &item.kind {
+                        Kind::Table(table) => self.optional_text(table, "name"),
+                        _ => None,
+                    };
+                    match name {
+                        Some(name) => self.named_constraint(&name, item, &mut constraints),
+                        None => {
+                            let instance = Instance {
+                                name: (at + 1).to_string(),
+                                order: 0,
+                                bindings: Vec::new(),
+                            };
+                            self.constraint(item, &[instance], &mut constraints);
+                        }
+                    }
+                }
+            }
+            _ => self.wrong_kind(
+                raw,
+                "`constraints`",
+                "a table of named equations, or an array of equations",
+            ),
+        }
+        constraints
+    }
+
+    fn named_constraint(&mut self, key: &Text, raw: &Raw, constraints: &mut Vec<Constraint>) {
+        // A number is a name too: it is what an unnamed constraint is called.
+        let numbered =
+            !key.content.is_empty() && key.content.bytes().all(|byte| byte.is_ascii_digit());
+        let instances = if numbered {
+            vec![Instance {
+                name: key.content.clone(),
+                order: 0,
+                bindings: Vec::new(),
+            }]
+        } else {
+            self.constraint_names(key)
+        };
+        for instance in &instances {
+            if let Some(earlier) = constraints
+                .iter()
+                .find(|constraint| constraint.name == instance.name)
+            {
+                let message = format!("two constraints are called `{}`", instance.name);
+                self.push(
+                    Diagnostic::error("declared-twice", key.place, message)
+                        .related(earlier.place, "first here"),
+                );
+                return;
+            }
+        }
+        self.constraint(raw, &instances, constraints);
+    }
+
+    /// Constraints have their own names: one may be called like a coordinate, or like a function.
+    fn constraint_names(&mut self, key: &Text) -> Vec<Instance> {
+        let plain = chetaev_symbolic::syntax::names::normalized(&key.content);
+        if !plain.is_empty()
+            && plain
+                .bytes()
+                .all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+        {
+            return vec![Instance {
+                name: plain,
+                order: 0,
+                bindings: Vec::new(),
+            }];
+        }
+        let mut instances = self.instances(key, "a constraint", &[]);
+        if instances.iter().any(|instance| instance.order > 0) {
+            let message = format!("`{}` has a prime and cannot name a constraint", key.content);
+            self.push(Diagnostic::error("bad-name", key.place, message));
+            instances.clear();
+        }
+        instances
+    }
+
+    fn constraint(&mut self, raw: &Raw, instances: &[Instance], constraints: &mut Vec<Constraint>) {
+        let mut description = String::new();
+        let mut value = Some(raw);
+        if let Kind::Table(table) = &raw.kind {
+            self.known_keys(
+                table,
+                &["name", "equation", "description"],
+                "of a constraint",
+            );
+            description = self
+                .optional_text(table, "description")
+                .map_or_else(String::new, |text| text.content.trim().to_owned());
+            value = table.get("equation");
+        }
+        let Some(value) = value else {
+            self.push(Diagnostic::error(
+                "missing-value",
+                raw.place,
+                "a constraint needs its `equation`",
+            ));
+            return;
+        };
+        let Kind::Text(text) = &value.kind else {
+            self.wrong_kind(value, "a constraint", "a text, the equation `left = right`");
+            return;
+        };
+        let parsed = self.parse(text, parse_equation);
+        if parsed.has_errors() {
+            return;
+        }
+        for instance in instances {
+            let context = Context::jet("a constraint");
+            let side = |resolver: &mut Self, at: usize| {
+                resolver.lower(text, &parsed, parsed.sides[at], &instance.bindings, context)
+            };
+            let (left, right) = (side(self, 0), side(self, 1));
+            let (Some(left), Some(right)) = (left, right) else {
+                continue;
+            };
+            let f = self.graph.sub(left, right);
+            let Some(order) = self.order_of(f) else {
+                self.empty_constraint(&instance.name, f, text);
+                continue;
+            };
+            self.formulas.push(Formula {
+                text: text.clone(),
+                parsed: parsed.clone(),
+                bindings: instance.bindings.clone(),
+                expected: Expected::EqualSides,
+                define: None,
+            });
+            constraints.push(Constraint {
+                name: instance.name.clone(),
+                f,
+                left,
+                right,
+                order,
+                text: text.content.clone(),
+                description: description.clone(),
+                place: text.place,
+            });
+        }
+    }
+
+    fn empty_constraint(&mut self, name: &str, f: Expr, text: &Text) {
+        let diagnostic = if self.graph.is_zero(f) {
+            let message = format!("the constraint `{name}` says nothing: both sides are the same");
+            Diagnostic::error("constraint-without-coordinate", text.place, message)
+        } else {
+            let message = format!("no coordinate occurs in the constraint `{name}`");
+            Diagnostic::error("constraint-without-coordinate", text.place, message)
+                .hint("a constraint relates coordinates and their derivatives; a relation among parameters belongs under assumptions")
+        };
+        self.push(diagnostic);
+    }
+
+    // ---- velocities
+
+    pub(crate) fn independent_velocities(&mut self, root: &Table) -> Option<Vec<usize>> {
+        let table = self.section(root, "velocities")?;
+        self.known_keys(table, &["independent"], "of [velocities]");
+        let raw = table.get("independent")?;
+        let Kind::Array(items) = &raw.kind else {
+            self.wrong_kind(
+                raw,
+                "`independent`",
+                "an array of velocities such as \"x'\"",
+            );
+            return None;
+        };
+        let mut chosen = Vec::new();
+        for item in items {
+            let Kind::Text(key) = &item.kind else {
+                self.wrong_kind(item, "an independent velocity", "a text such as \"x'\"");
+                continue;
+            };
+            for Instance { name, .. } in self.instances(key, "a velocity", &[]) {
+                match self
+                    .coordinates
+                    .iter()
+                    .position(|coordinate| coordinate.name == name)
+                {
+                    Some(number) if chosen.contains(&number) => {
+                        let message = format!("`{}` is chosen twice", key.content);
+                        self.push(Diagnostic::error("stated-twice", key.place, message));
+                    }
+                    Some(number) => chosen.push(number),
+                    None => {
+                        self.no_coordinate(key, &name, "the velocity of a coordinate is chosen")
+                    }
+                }
+            }
+        }
+        Some(chosen)
+    }
+
+    // ---- assumptions and integrals
+
+    pub(crate) fn assumptions(&mut self, root: &Table) -> Vec<Assumption> {
+        let mut assumptions = Vec::new();
+        let Some(raw) = root.get("assumptions") else {
+            return assumptions;
+        };
+        let Kind::Array(items) = &raw.kind else {
+            self.wrong_kind(
+                raw,
+                "`assumptions`",
+                "an array of comparisons such as \"m > 0\"",
+            );
+            return assumptions;
+        };
+        for item in items {
+            let Kind::Text(text) = &item.kind else {
+                self.wrong_kind(item, "an assumption", "a text such as \"m > 0\"");
+                continue;
+            };
+            let parsed = self.parse(text, parse_relation);
+            let context = Context::jet("an assumption");
+            let sides: Vec<Option<Expr>> = parsed
+                .sides
+                .iter()
+                .map(|side| self.lower(text, &parsed, *side, &Vec::new(), context))
+                .collect();
+            if parsed.has_errors() {
+                continue;
+            }
+            for (pair, (relation, _)) in sides.windows(2).zip(&parsed.relations) {
+                if let [Some(left), Some(right)] = *pair {
+                    let text_content = text.content.clone();
+                    assumptions.push(Assumption {
+                        left,
+                        relation: *relation,
+                        right,
+                        text: text_content,
+                        place: text.place,
+                    });
+                }
+            }
+            let bindings = Vec::new();
+            self.formulas.push(Formula {
+                text: text.clone(),
+                parsed,
+                bindings,
+                expected: Expected::EqualSides,
+                define: None,
+            });
+        }
+        assumptions
+    }
+
+    pub(crate) fn integrals(&mut self, root: &Table) -> Vec<Definition> {
+        let mut integrals: Vec<Definition> = Vec::new();
+        let Some(table) = self.section(root, "integrals") else {
+            return integrals;
+        };
+        for (key, raw) in &table.entries {
+            let mut description = String::new();
+            let mut value = Some(raw);
+            if let Kind::Table(table) = &raw.kind {
+                self.known_keys(table, &["value", "description"], "of an integral");
+                description = self
+                    .optional_text(table, "description")
+                    .map_or_else(String::new, |text| text.content.trim().to_owned());
+                value = table.get("value");
+            }
+            let Some(value) = value else {
+                self.push(Diagnostic::error(
+                    "missing-value",
+                    raw.place,
+                    "an integral needs its `value`",
+                ));
+                continue;
+            };
+            let Some(text) = self.expression_text(value, "an integral") else {
+                continue;
+            };
+            self.parse(&text, parse_expression);
+            for Instance { name, bindings, .. } in self.constraint_names(key) {
+                let expected = Expected::Anything;
+                if let Some(value) =
+                    self.expression(&text, &bindings, Context::jet("an integral"), expected)
+                {
+                    let (text, description) = (text.content.clone(), description.clone());
+                    integrals.push(Definition {
+                        name,
+                        value,
+                        text,
+                        description,
+                        place: key.place,
+                    });
+                }
+            }
+        }
+        integrals
+    }
+}

@@ -1,0 +1,158 @@
+//! Models that must be refused because of their text, after the section "Rejections" of the published reference cases.
+
+use chetaev_model::{load, Loaded, NoFiles, Severity, Style};
+
+fn read(text: &str) -> Loaded {
+    load("model.toml", text, &NoFiles, &[])
+}
+
+/// The model is refused, and the message a person reads contains each of the words.
+fn refused(text: &str, words: &[&str]) -> String {
+    let loaded = read(text);
+    assert!(loaded.model.is_none(), "accepted: {text}");
+    let message = loaded.diagnostics.render(Style::Plain);
+    for word in words {
+        assert!(
+            word.split('|').any(|word| message.contains(word)),
+            "{word} is missing in\n{message}"
+        );
+    }
+    message
+}
+
+#[test]
+fn unknown_symbol() {
+    let message = refused(
+        "coordinates = [\"x\", \"theta\"]\nparameters = { m = 1, R = 0.5 }\n[lagrangian]\nL = \"m*(x'^2 + R^2*thta'^2)/2\"\n",
+        &["thta", "did you mean `theta`?", "model.toml:4:20"],
+    );
+    // The offending text is underlined: four letters, not five with the prime.
+    assert!(
+        message.contains("                    ^^^^ not defined"),
+        "{message}"
+    );
+}
+
+#[test]
+fn derivative_of_parameter() {
+    refused(
+        "coordinates = [\"x\"]\nparameters = { m = 1 }\n[lagrangian]\nL = \"m'*x'^2/2\"",
+        &["`m` is a parameter", "4:6"],
+    );
+}
+
+#[test]
+fn wrong_arity() {
+    refused(
+        "coordinates = [\"x\"]\nparameters = { m = 1 }\nlagrangian = \"m*x'^2/2 - sin(x, 2)\"",
+        &["`sin` takes one argument, not 2"],
+    );
+}
+
+#[test]
+fn unbalanced_parenthesis() {
+    refused(
+        "coordinates = [\"x\"]\nparameters = { m = 1 }\nlagrangian = \"m*(x'^2/2 - cos(x)\"",
+        &["parenthes", "add `)`", "3:17"],
+    );
+}
+
+#[test]
+fn circular_definition() {
+    let message = refused(
+        "coordinates = [\"x\"]\nparameters = { m = 1 }\nlagrangian = \"m*x'^2/2 - u\"\n[define]\nu = \"v + x\"\nv = \"u - x\"",
+        &["`u` and `v` need each other"],
+    );
+    assert!(
+        message.ends_with("1 error"),
+        "the circle is reported once: {message}"
+    );
+    refused(
+        "coordinates = [\"x\"]\nlagrangian = \"x'^2\"\n[define]\nu = \"2 u\"",
+        &["`u` needs `u` itself"],
+    );
+    refused("coordinates = [\"x\"]\nlagrangian = \"x'^2\"\n[parameters]\na = \"b\"\nb = \"c + 1\"\nc = \"a\"", &["`a`, `b` and `c`"]);
+}
+
+#[test]
+fn reserved_parameter_name() {
+    refused(
+        "coordinates = [\"x\"]\nparameters = { m = 1, t = 3 }\nlagrangian = \"m*x'^2/2\"",
+        &["`t` is the time", "2:23"],
+    );
+    refused(
+        "coordinates = [\"x\"]\nparameters = { sin = 1 }\nlagrangian = \"x'^2\"",
+        &["`sin` is a function"],
+    );
+    refused(
+        "coordinates = [\"lambda_a\"]\nlagrangian = \"1\"",
+        &["lambda_"],
+    );
+    refused(
+        "coordinates = [\"x\", \"x\"]\nlagrangian = \"x'^2\"",
+        &["`x` is a coordinate already"],
+    );
+}
+
+#[test]
+fn constraint_without_coordinate() {
+    let model = |equation: &str| {
+        format!("coordinates = [\"x\"]\nparameters = {{ m = 1 }}\nlagrangian = \"x'^2\"\nconstraints = {{ rod = \"{equation}\" }}")
+    };
+    refused(
+        &model("m = 2"),
+        &["no coordinate occurs in the constraint `rod`"],
+    );
+    refused(&model("x' = x'"), &["both sides are the same"]);
+    refused(&model("x'"), &["left = right"]);
+}
+
+#[test]
+fn all_errors_are_reported_at_once() {
+    let text = r#"
+cordinates = ["x"]
+coordinates = ["x", "y"]
+[parameters]
+m = "1 + "
+t = 2
+[lagrangian]
+T = "m*x''^2 + sin(x, 2)"
+V = "g y"
+[constraints]
+one = "x' = z'"
+two = "x' + (y'"
+[initial]
+q = 1
+x = "y"
+[simulation]
+t_end = "x"
+methd = "rk"
+"#;
+    let loaded = read(text);
+    let lines: Vec<usize> = loaded
+        .diagnostics
+        .to_data()
+        .iter()
+        .filter(|d| d.severity == Severity::Error.word())
+        .map(|d| d.at.line)
+        .collect();
+    assert_eq!(
+        lines,
+        [2, 5, 6, 8, 8, 9, 11, 12, 14, 15, 17, 18],
+        "{}",
+        loaded.diagnostics
+    );
+}
+
+#[test]
+fn a_suggestion_carried_out_gives_a_model() {
+    let text = "coordinates = [\"x\", \"theta\"]\nlagrangian = \"x'^2 + thta'^2\"\n";
+    let data = read(text).diagnostics.to_data();
+    let suggestion = data[0].suggestion.clone().unwrap();
+    let mut fixed = text.to_owned();
+    fixed.replace_range(
+        suggestion.at.start..suggestion.at.end,
+        &suggestion.replacement,
+    );
+    assert!(read(&fixed).model.is_some(), "{fixed}");
+}
