@@ -1,1 +1,28 @@
-//! Zero testing: exact normal form, modular proof, verified refutation.
+//! Zero testing: is an expression identically zero, everywhere or on the constraints of a model?
+//!
+//! [`decide_zero`] combines the ways of theory 6: expressions that cancel in canonical form are zero by exact arithmetic;
+//! the *modular proof* evaluates a program over the field of §6.1 at random points of random prime fields and states
+//! its bound on the probability of error; what is not zero is *refuted* by a verified enclosure at a point with small
+//! rational data. What can be neither proved nor refuted is `numerical` or `undecided`, never called proved.
+//!
+//! * [`assumptions`]: what a model assumes of signs and ranges.
+//! * [`enclose`]: evaluation in balls, also for its own sake.
+
+pub mod assumptions;
+mod decide;
+pub mod enclose;
+mod evaluate;
+mod expand;
+mod modular;
+mod newton;
+mod prepare;
+mod program;
+mod refute;
+mod ring;
+mod signs;
+mod size;
+
+pub use decide::{decide_zero, Options, ZeroTest};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,246 @@
+//! The driver of the zero test.
+
+use super::assumptions::Assumptions;
+use super::evaluate::Parametrization;
+use super::modular::{self, Outcome, Plan};
+use super::prepare::{prepare, Question};
+use super::program::{Generator, Program};
+use super::refute::{self, Claim, Search};
+use crate::graph::Graph;
+use crate::node::{Expr, Symbol};
+use crate::verdict::{Evidence, Method, Proof, Verdict};
+
+/// The question: do all residuals vanish where the conditions hold?
+#[derive(Clone, Copy, Debug)]
+pub struct ZeroTest<'a> {
+    /// The expressions claimed to be zero.
+    pub residuals: &'a [Expr],
+    /// Symbols determined exactly: each is replaced by its expression (which may be a component of a solve and may use
+    /// other symbols of this list, without circles).
+    pub solved: &'a [(Symbol, Expr)],
+    /// Nonlinear constraints `f = 0`, each with the symbol it determines.
+    pub implicit: &'a [(Expr, Symbol)],
+    /// Signs and ranges that may be used.
+    pub assumptions: &'a Assumptions,
+    /// How it is to be decided.
+    pub options: Options,
+}
+
+/// How a zero test is carried out. The default reaches an error bound of 2^(−100).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Seed of every random choice; stated in the verdict.
+    pub seed: u64,
+    /// The bound on the probability of error to reach, as its log2.
+    pub error_bound_log2: f64,
+    /// Turns every circle by a rational rotation of this parameter (numerator, denominator): another parametrization
+    /// for a replay (theory 6.6).
+    pub rotation: Option<(i64, i64)>,
+    /// At most so many operations are evaluated by the modular proof.
+    pub budget: u64,
+    /// Should a counterexample be looked for?
+    pub refute: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            seed: 1,
+            error_bound_log2: -100.0,
+            rotation: None,
+            budget: 2_000_000_000,
+            refute: true,
+        }
+    }
+}
+
+impl Options {
+    /// For a replay (theory 6.6): other primes and points than those of `self`, and circles parametrized from another point.
+    #[must_use]
+    pub fn replay(self) -> Self {
+        let seed = self
+            .seed
+            .wrapping_mul(0x9e37_79b9_7f4a_7c15)
+            .wrapping_add(0x5eed);
+        let numerator = (seed >> 32 & 0x3ff) as i64 + 1;
+        Self {
+            seed,
+            rotation: Some((numerator, 1031)),
+            ..self
+        }
+    }
+}
+
+impl<'a> ZeroTest<'a> {
+    /// The test of residuals everywhere, with no assumptions used.
+    pub fn everywhere(residuals: &'a [Expr], assumptions: &'a Assumptions) -> Self {
+        Self {
+            residuals,
+            solved: &[],
+            implicit: &[],
+            assumptions,
+            options: Options::default(),
+        }
+    }
+}
+
+/// Decides whether all residuals are identically zero.
+pub fn decide_zero(graph: &Graph, test: &ZeroTest<'_>) -> Verdict {
+    let residuals = match eliminate(graph, test.solved, test.residuals) {
+        Ok(residuals) => residuals,
+        Err(tried) => return Verdict::undecided(tried),
+    };
+    if residuals.iter().all(|&residual| graph.is_zero(residual)) {
+        let detail = "the difference cancels in canonical form, by exact rational arithmetic";
+        return Verdict::Proved(Proof::exact(place(test, &[]), detail));
+    }
+    let question = Question {
+        outputs: &residuals,
+        constraints: test.implicit,
+        assumptions: test.assumptions,
+    };
+    let program = prepare(graph, &question);
+    let plan = Plan {
+        seed: test.options.seed,
+        error_bound_log2: test.options.error_bound_log2,
+        parametrization: Parametrization {
+            rotation: test.options.rotation,
+        },
+        budget: test.options.budget,
+    };
+    let outcome = modular::decide(&program, &plan);
+    conclude(graph, test, &residuals, &program, outcome)
+}
+
+/// The residuals with the solved symbols replaced, in an order in which each replacement is complete.
+pub(super) fn eliminate(
+    graph: &Graph,
+    solved: &[(Symbol, Expr)],
+    residuals: &[Expr],
+) -> Result<Vec<Expr>, String> {
+    let mut rest: Vec<(Symbol, Expr)> = solved.to_vec();
+    let mut residuals = residuals.to_vec();
+    while !rest.is_empty() {
+        // A symbol that no other replacement uses can be replaced first, by an expression that still uses the others.
+        let used = |symbol: Symbol| rest.iter().any(|(_, e)| graph.contains_any(*e, &[symbol]));
+        let Some(next) = rest.iter().position(|(symbol, _)| !used(*symbol)) else {
+            return Err("the solved symbols depend on each other in a circle".to_owned());
+        };
+        let (symbol, expression) = rest.remove(next);
+        residuals = graph.substitute_all(&residuals, &[(graph.symbol_expr(symbol), expression)]);
+    }
+    Ok(residuals)
+}
+
+fn conclude(
+    graph: &Graph,
+    test: &ZeroTest<'_>,
+    residuals: &[Expr],
+    program: &Program,
+    outcome: Outcome,
+) -> Verdict {
+    match outcome {
+        Outcome::Zero { error_bound_log2, samples, cuts } => {
+            Verdict::Proved(modular_proof(test, program, error_bound_log2, samples, cuts))
+        }
+        Outcome::Nowhere { samples } => Verdict::undecided(format!(
+            "the expression is nowhere defined: a denominator vanished at each of {samples} random points"
+        )),
+        Outcome::NonZero { .. } => {
+            search(graph, test, residuals, &format!("not zero in the field of its generators ({})", generators(program)))
+        }
+        Outcome::Branches { what, .. } => search(graph, test, residuals, &what),
+        Outcome::Open { why, .. } => search(graph, test, residuals, &why),
+    }
+}
+
+fn search(graph: &Graph, test: &ZeroTest<'_>, residuals: &[Expr], why: &str) -> Verdict {
+    if !test.options.refute {
+        return Verdict::undecided(why);
+    }
+    let claim = Claim {
+        residuals,
+        constraints: test.implicit,
+        solved: test.solved,
+        assumptions: test.assumptions,
+    };
+    match refute::search(graph, &claim, test.options.seed) {
+        Search::Found(counterexample) => Verdict::Refuted(*counterexample),
+        Search::Vanishing {
+            points,
+            largest,
+            bits,
+        } => Verdict::Numerical(Evidence {
+            samples: points,
+            region: "small rational data".to_owned(),
+            digits: (bits as f64 * std::f64::consts::LOG10_2) as u32,
+            residual: largest,
+            seed: Some(test.options.seed),
+            why_no_proof: why.to_owned(),
+        }),
+        Search::NoPoint => Verdict::undecided(format!(
+            "{why}; no point with small rational data could be evaluated"
+        )),
+    }
+}
+
+fn modular_proof(
+    test: &ZeroTest<'_>,
+    program: &Program,
+    bound: f64,
+    samples: u32,
+    cuts: usize,
+) -> Proof {
+    let cut = match cuts {
+        0 => String::new(),
+        n => format!(", {n} large subexpressions taken as free"),
+    };
+    let points = if samples == 1 { "point" } else { "points" };
+    Proof {
+        method: Method::Modular,
+        on: place(test, &program.conditions),
+        error_bound_log2: Some(bound),
+        samples,
+        seed: Some(test.options.seed),
+        detail: format!("zero at {samples} random {points} of prime fields of 62 bits{cut}; wrong with probability below 2^{bound:.0}"),
+    }
+}
+
+/// Where the statement holds.
+fn place(test: &ZeroTest<'_>, conditions: &[String]) -> String {
+    let mut place = match (test.solved.is_empty(), test.implicit.is_empty()) {
+        (true, true) => "wherever both sides are defined".to_owned(),
+        (false, true) => "on the constraint manifold, wherever both sides are defined".to_owned(),
+        (_, false) => {
+            "on every component of the constraint manifold, wherever both sides are defined"
+                .to_owned()
+        }
+    };
+    if !conditions.is_empty() {
+        place.push_str(", that is ");
+        place.push_str(&conditions.join(" and "));
+    }
+    place
+}
+
+/// The kinds of generators, for people.
+fn generators(program: &Program) -> String {
+    let mut kinds: Vec<&str> = program
+        .generators
+        .iter()
+        .map(|generator| match generator {
+            Generator::Symbol(_) => "symbols",
+            Generator::Dependent(_) => "dependent symbols",
+            Generator::Transcendental { text, .. } => text.as_str(),
+        })
+        .collect();
+    if program.circles > 0 {
+        kinds.push("angles");
+    }
+    if program.radicals > 0 {
+        kinds.push("radicals");
+    }
+    kinds.sort_unstable();
+    kinds.dedup();
+    kinds.join(", ")
+}

@@ -1,0 +1,345 @@
+//! Verified counterexamples (theory 6.4): rational independent data, dependent data enclosed with existence and uniqueness,
+//! and a residual whose enclosure excludes zero.
+
+use std::cmp::Ordering;
+
+use rustc_hash::FxHashMap;
+
+use super::assumptions::{as_pi_number, Assumptions};
+use super::newton::System;
+use crate::graph::Graph;
+use crate::node::{Expr, Symbol};
+use crate::number::ball::{Ball, Precision};
+use crate::number::random::Random;
+use crate::rational::{self, Rational};
+use crate::verdict::{Counterexample, PointValue};
+
+/// What to look for a counterexample to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Claim<'a> {
+    /// These are claimed to be zero.
+    pub(super) residuals: &'a [Expr],
+    /// On these constraints, each with the symbol it determines.
+    pub(super) constraints: &'a [(Expr, Symbol)],
+    /// Symbols already eliminated, with the expressions that replaced them: printed with the point.
+    pub(super) solved: &'a [(Symbol, Expr)],
+    /// Under these assumptions.
+    pub(super) assumptions: &'a Assumptions,
+}
+
+/// What the search brought.
+#[derive(Clone, Debug)]
+pub(super) enum Search {
+    /// A point where the claim fails.
+    Found(Box<Counterexample>),
+    /// At every point evaluated the residuals are zero to this precision; how many points, and the largest bound of a residual.
+    Vanishing {
+        points: u32,
+        largest: f64,
+        bits: usize,
+    },
+    /// No point could be evaluated.
+    NoPoint,
+}
+
+/// Points tried.
+const POINTS: u32 = 24;
+/// Precisions tried at each point.
+const PRECISIONS: [usize; 3] = [96, 256, 512];
+/// Evaluating less than this many nodes at every precision is cheap; beyond it fewer points are tried.
+const CHEAP: usize = 20_000;
+/// Numbers a person can check by hand.
+const SMALL: [(i64, i64); 20] = [
+    (1, 1),
+    (2, 1),
+    (3, 1),
+    (1, 2),
+    (-1, 1),
+    (-2, 1),
+    (3, 2),
+    (2, 3),
+    (1, 3),
+    (5, 2),
+    (-1, 2),
+    (4, 1),
+    (-3, 1),
+    (5, 1),
+    (1, 4),
+    (3, 4),
+    (-3, 2),
+    (4, 3),
+    (-1, 3),
+    (7, 2),
+];
+
+/// Looks for a point where a residual is not zero.
+pub(super) fn search(graph: &Graph, claim: &Claim<'_>, seed: u64) -> Search {
+    let mut hunt = Hunt::new(graph, claim, seed);
+    let points = if graph.reachable(claim.residuals).len() > CHEAP {
+        POINTS / 6
+    } else {
+        POINTS
+    };
+    let (mut vanishing, mut largest) = (0, 0.0_f64);
+    for attempt in 0..points {
+        match hunt.attempt(attempt) {
+            Attempt::Found(counterexample) => return Search::Found(counterexample),
+            Attempt::Vanishes(bound) => {
+                vanishing += 1;
+                largest = largest.max(bound);
+            }
+            Attempt::Unusable => {}
+        }
+    }
+    match vanishing {
+        0 => Search::NoPoint,
+        points => Search::Vanishing {
+            points,
+            largest,
+            bits: PRECISIONS[PRECISIONS.len() - 1],
+        },
+    }
+}
+
+enum Attempt {
+    Found(Box<Counterexample>),
+    Vanishes(f64),
+    Unusable,
+}
+
+struct Hunt<'a> {
+    graph: &'a Graph,
+    claim: &'a Claim<'a>,
+    independent: Vec<Symbol>,
+    system: System<'a>,
+    random: Random,
+}
+
+impl<'a> Hunt<'a> {
+    fn new(graph: &'a Graph, claim: &'a Claim<'a>, seed: u64) -> Self {
+        let mut roots = claim.residuals.to_vec();
+        roots.extend(claim.constraints.iter().map(|(f, _)| *f));
+        roots.extend(
+            claim
+                .assumptions
+                .list()
+                .iter()
+                .flat_map(|a| [a.left, a.right]),
+        );
+        let dependent = |symbol: &Symbol| claim.constraints.iter().any(|(_, s)| s == symbol);
+        let eliminated = |symbol: &Symbol| claim.solved.iter().any(|(s, _)| s == symbol);
+        let mut independent = graph.symbols_in(&roots);
+        independent.retain(|symbol| !dependent(symbol) && !eliminated(symbol));
+        Self {
+            graph,
+            claim,
+            independent,
+            system: System::new(graph, claim.constraints),
+            random: Random::stream(seed, 0xc0de),
+        }
+    }
+
+    fn attempt(&mut self, attempt: u32) -> Attempt {
+        let data: Vec<(Symbol, Rational)> = self
+            .independent
+            .clone()
+            .into_iter()
+            .map(|s| (s, self.choose(s, attempt)))
+            .collect();
+        let start: Vec<f64> = self
+            .claim
+            .constraints
+            .iter()
+            .map(|_| self.random.between(-40, 40) as f64 / 8.0 + 0.1)
+            .collect();
+        let mut bound = None;
+        for bits in PRECISIONS {
+            let precision = Precision::new(bits);
+            let Some(point) = self.point(&precision, &data, &start) else {
+                return self.give_up(bound);
+            };
+            if !self.assumptions_hold(&precision, &point) {
+                return Attempt::Unusable;
+            }
+            let Ok(values) = self.evaluate(&precision, self.claim.residuals, &point) else {
+                return self.give_up(bound);
+            };
+            if let Some(index) = values.iter().position(Ball::excludes_zero) {
+                return Attempt::Found(Box::new(self.report(
+                    &precision,
+                    &data,
+                    &point,
+                    index,
+                    &values[index],
+                )));
+            }
+            bound = Some(
+                values
+                    .iter()
+                    .map(|v| v.upper().to_f64().abs().max(v.lower().to_f64().abs()))
+                    .fold(0.0, f64::max),
+            );
+        }
+        self.give_up(bound)
+    }
+
+    fn give_up(&self, bound: Option<f64>) -> Attempt {
+        match bound {
+            Some(bound) if bound < 1e-20 => Attempt::Vanishes(bound),
+            _ => Attempt::Unusable,
+        }
+    }
+
+    /// A small rational number within the simple bounds of the symbol.
+    fn choose(&mut self, symbol: Symbol, attempt: u32) -> Rational {
+        let (low, high) = self.bounds(symbol);
+        let inside =
+            |value: f64| low.is_none_or(|low| low < value) && high.is_none_or(|high| value < high);
+        // Later attempts reach further into the list; 0 only at the end, where much is undefined or degenerate.
+        let reach = (4 + attempt as usize).min(SMALL.len());
+        for _ in 0..16 {
+            let (numerator, denominator) = SMALL[self.random.below(reach as u64) as usize];
+            if inside(numerator as f64 / denominator as f64) {
+                return ratio(numerator, denominator);
+            }
+        }
+        let middle = match (low, high) {
+            (Some(low), Some(high)) => low + (high - low) * (1 + self.random.below(7)) as f64 / 8.0,
+            (Some(low), None) => low + self.random.between(1, 5) as f64,
+            (None, Some(high)) => high - self.random.between(1, 5) as f64,
+            (None, None) => 0.0,
+        };
+        // The coarsest dyadic fraction inside the bounds.
+        for scale in [1.0, 2.0, 4.0, 8.0, 64.0, 1024.0, 1_048_576.0] {
+            let numerator = (middle * scale).round();
+            if inside(numerator / scale) && numerator.abs() < 1e15 {
+                return ratio(numerator as i64, scale as i64);
+            }
+        }
+        Rational::ZERO
+    }
+
+    /// Bounds stated by assumptions that compare the symbol with a number or a multiple of π, for the choice only.
+    fn bounds(&self, symbol: Symbol) -> (Option<f64>, Option<f64>) {
+        let expression = self.graph.symbol_expr(symbol);
+        let (mut low, mut high) = (None::<f64>, None::<f64>);
+        for assumption in self.claim.assumptions.list() {
+            let signs = assumption.relation.signs();
+            for (side, bound, signs) in [
+                (assumption.left, assumption.right, signs),
+                (assumption.right, assumption.left, signs.negated()),
+            ] {
+                let Some((a, b)) = as_pi_number(self.graph, bound).filter(|_| side == expression)
+                else {
+                    continue;
+                };
+                let value = rational::to_f64(&a) + rational::to_f64(&b) * std::f64::consts::PI;
+                if signs.is_nonnegative() {
+                    low = Some(low.map_or(value, |x| x.max(value)));
+                } else if signs.is_nonpositive() {
+                    high = Some(high.map_or(value, |x| x.min(value)));
+                }
+            }
+        }
+        (low, high)
+    }
+
+    /// Balls for all symbols: the independent exact, the dependent with existence and uniqueness.
+    fn point(
+        &self,
+        precision: &Precision,
+        data: &[(Symbol, Rational)],
+        start: &[f64],
+    ) -> Option<FxHashMap<Symbol, Ball>> {
+        let mut point: FxHashMap<Symbol, Ball> = data
+            .iter()
+            .map(|(symbol, value)| (*symbol, precision.rational(value)))
+            .collect();
+        if !self.claim.constraints.is_empty() {
+            let roots =
+                self.system
+                    .solve(precision, &|symbol| point.get(&symbol).cloned(), start)?;
+            point.extend(
+                self.claim
+                    .constraints
+                    .iter()
+                    .map(|(_, symbol)| *symbol)
+                    .zip(roots),
+            );
+        }
+        Some(point)
+    }
+
+    fn evaluate(
+        &self,
+        precision: &Precision,
+        roots: &[Expr],
+        point: &FxHashMap<Symbol, Ball>,
+    ) -> Result<Vec<Ball>, super::enclose::EncloseError> {
+        self.graph
+            .enclose(roots, precision, &|symbol| point.get(&symbol).cloned())
+    }
+
+    fn assumptions_hold(&self, precision: &Precision, point: &FxHashMap<Symbol, Ball>) -> bool {
+        self.claim.assumptions.list().iter().all(|assumption| {
+            let difference = self.graph.sub(assumption.left, assumption.right);
+            let Ok(values) = self.evaluate(precision, &[difference], point) else {
+                return false;
+            };
+            values[0]
+                .sign()
+                .is_some_and(|sign: Ordering| assumption.relation.holds(sign))
+        })
+    }
+
+    fn report(
+        &self,
+        precision: &Precision,
+        data: &[(Symbol, Rational)],
+        point: &FxHashMap<Symbol, Ball>,
+        index: usize,
+        residual: &Ball,
+    ) -> Counterexample {
+        let mut values: Vec<PointValue> = data
+            .iter()
+            .map(|(symbol, value)| PointValue {
+                name: self.graph.symbol_text(*symbol),
+                exact: Some(value.clone()),
+                enclosure: None,
+            })
+            .collect();
+        let enclosed = |symbol: Symbol, ball: &Ball| PointValue {
+            name: self.graph.symbol_text(symbol),
+            exact: None,
+            enclosure: Some(ball.to_decimal_interval(12)),
+        };
+        values.extend(
+            self.claim
+                .constraints
+                .iter()
+                .filter_map(|(_, s)| point.get(s).map(|ball| enclosed(*s, ball))),
+        );
+        for (symbol, expression) in self.claim.solved {
+            if let Ok(balls) = self.evaluate(precision, &[*expression], point) {
+                values.push(enclosed(*symbol, &balls[0]));
+            }
+        }
+        let quantity = match self.claim.residuals.len() {
+            1 => "the residual".to_owned(),
+            count => format!("residual {} of {count}", index + 1),
+        };
+        let (lower, upper) = residual.to_decimal_interval(10);
+        Counterexample {
+            point: values,
+            detail: format!(
+                "{quantity} lies between {lower} and {upper} at the point stated, not at zero"
+            ),
+            quantity,
+            residual: (lower, upper),
+        }
+    }
+}
+
+fn ratio(numerator: i64, denominator: i64) -> Rational {
+    rational::ratio(numerator, denominator).unwrap_or(Rational::ZERO)
+}
