@@ -248,3 +248,36 @@ pub(crate) fn least_step(t: f64, span: f64) -> f64 {
         .max(f64::EPSILON * f64::EPSILON * span)
         .max(f64::MIN_POSITIVE)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_controller_follows_its_formula() {
+        let mut controller = Controller::new(8.0);
+        // err^(−0.7/8)·previous^(0.4/8), times 0.9.
+        assert_eq!(controller.accepted(1.0), 0.9);
+        assert!((controller.accepted(0.1) - 0.9 * 10f64.powf(0.7 / 8.0)).abs() < 1e-15);
+        assert!((controller.accepted(1.0) - 0.9 * 10f64.powf(-0.4 / 8.0)).abs() < 1e-15);
+        assert_eq!(Controller::new(5.0).accepted(0.0), GROW);
+    }
+
+    #[test]
+    fn rejections_shrink_and_forbid_growth_once() {
+        let mut controller = Controller::new(5.0);
+        assert!((controller.rejected(2.0) - 0.9 * 2f64.powf(-0.2)).abs() < 1e-15);
+        assert_eq!(controller.rejected(1e30), SHRINK);
+        assert_eq!(controller.rejected(f64::INFINITY), SHRINK);
+        assert_eq!(controller.accepted(1e-6), 1.0);
+        assert!(controller.accepted(1e-6) > 1.5);
+        controller.failed();
+        assert_eq!(controller.accepted(1e-6), 1.0);
+    }
+
+    #[test]
+    fn the_least_step_is_relative_to_the_time() {
+        assert_eq!(least_step(1.0, 10.0), 16.0 * f64::EPSILON);
+        assert!(least_step(0.0, 10.0) < 1e-29 && least_step(0.0, 10.0) > 0.0);
+    }
+}

@@ -6,7 +6,7 @@
 //! run is better than proportional. It is an estimate, no bound: a chaotic motion, or one where both runs share an
 //! error of the equations, is not caught by it.
 
-use crate::integrate::{integrate, Options, Output};
+use crate::integrate::{integrate, Options, Output, StepSize};
 use crate::problem::System;
 use crate::solution::{Solution, Stop};
 use crate::IntegrateError;
@@ -34,8 +34,8 @@ impl ComponentError {
 pub struct GlobalError {
     /// Per component of the output rows.
     pub components: Vec<ComponentError>,
-    /// Factor by which the tolerance of the second run is smaller (10, less near the limit of the method, or 0.1
-    /// where the second run had to be a coarser one).
+    /// Factor by which the error of the second run is expected to be smaller: 10, less near the limit of the method,
+    /// 0.1 where the second run had to be a coarser one, 2^p for fixed steps.
     pub ratio: f64,
     /// Last time at which both runs have a row.
     pub until: f64,
@@ -62,17 +62,28 @@ impl GlobalError {
 /// Where a tenth is below what the method resolves, the least tolerance is used, and where that is not at least a
 /// factor 2 smaller, a tolerance ten times larger; the estimate is scaled accordingly.
 ///
+/// A run of fixed steps is repeated with half the step, which for a method of order p makes the error 2^p times
+/// smaller.
+///
 /// # Errors
-/// As [`integrate`]; a run of fixed steps has no tolerance to vary and is refused as
-/// [`IntegrateError::FixedStepRequired`] would be, so pass one with adaptive steps.
+/// As [`integrate()`].
 pub fn global_error(
     system: &mut dyn System,
     (t0, y0): (f64, &[f64]),
     solution: &Solution,
     mut options: Options<'_>,
 ) -> Result<GlobalError, IntegrateError> {
-    let ratio = tolerance_ratio(&options, y0);
-    options.error = options.error.scaled(1.0 / ratio);
+    let ratio = match options.step {
+        StepSize::Fixed(h) => {
+            options.step = StepSize::Fixed(h / 2.0);
+            f64::from(options.method.card().order).exp2()
+        }
+        StepSize::Adaptive { .. } => {
+            let ratio = tolerance_ratio(&options, y0);
+            options.error = options.error.scaled(1.0 / ratio);
+            ratio
+        }
+    };
     options.output = Output::Times(solution.times.clone());
     options.keep_trajectory = false;
     let second = integrate(system, (t0, solution.t), y0, &mut [], options)?;

@@ -204,69 +204,18 @@ impl Locator {
         step: Step<'_>,
     ) -> Result<(), EvaluationFailure> {
         let y = &mut self.y;
-        let mut value = |theta: f64| {
-            step.dense.at_theta(theta, y);
-            event.value(system, step.time(theta), y)
+        let mut scan = Scan {
+            value: |theta: f64| {
+                step.dense.at_theta(theta, y);
+                event.value(system, step.time(theta), y)
+            },
+            step,
+            index,
+            memory: self.memories[index],
+            candidates: &mut self.candidates,
         };
-        let mut memory = self.memories[index];
-        let mut values = [0.0; NODES.len()];
-        for (v, theta) in values.iter_mut().zip(NODES) {
-            *v = value(theta)?;
-            memory.scale = memory.scale.max(v.abs());
-        }
-        if memory.side == 0.0 {
-            // A value that is zero up to rounding at the start says nothing about the side.
-            let noise = 100.0 * f64::EPSILON * memory.scale;
-            match values.iter().find(|v| v.abs() > noise) {
-                Some(v) => memory.side = v.signum(),
-                None => return Ok(()),
-            }
-            for v in values.iter_mut().take_while(|v| v.abs() <= noise) {
-                *v = 0.0;
-            }
-        }
-        let touch = self.resolution * memory.scale;
-        let accuracy = 4.0 * step.ulp();
-        // Last node at which the function was on the present side.
-        let mut from = 0;
-        for i in 1..NODES.len() {
-            if values[i] * memory.side < 0.0 {
-                // The first value may be on the other side: a zero on the end of the last step, by rounding.
-                let before = if values[from] * memory.side > 0.0 {
-                    values[from]
-                } else {
-                    memory.side * f64::MIN_POSITIVE
-                };
-                let bracket = ((NODES[from], before), (NODES[i], values[i]));
-                let theta = bracketed_zero(&mut value, bracket.0, bracket.1, accuracy)?;
-                add_crossing(&mut self.candidates, &mut memory, index, step, theta);
-            } else if i >= 2 && dips(&values[i - 2..=i], &NODES[i - 2..=i], memory.side) {
-                let side = memory.side;
-                let (theta, least) =
-                    minimum(|x| value(x).map(|v| side * v), NODES[i - 2], NODES[i])?;
-                if least < -touch {
-                    for (edge, v) in [(NODES[i - 2], values[i - 2]), (NODES[i], values[i])] {
-                        let inside = (theta, side * least);
-                        let zero = bracketed_zero(&mut value, (edge, v), inside, accuracy)?;
-                        add_crossing(&mut self.candidates, &mut memory, index, step, zero);
-                    }
-                } else if least <= touch {
-                    self.candidates.push(Candidate {
-                        theta,
-                        index,
-                        kind: EventKind::Grazing,
-                    });
-                }
-            }
-            if values[i] != 0.0 {
-                from = i;
-            }
-        }
-        let end = values[NODES.len() - 1];
-        if step.last && ends_on_zero(end, values[NODES.len() - 2], SAME * step.ulp()) {
-            add_crossing(&mut self.candidates, &mut memory, index, step, 1.0);
-        }
-        self.memories[index] = memory;
+        scan.run(self.resolution)?;
+        self.memories[index] = scan.memory;
         Ok(())
     }
 
@@ -356,34 +305,125 @@ impl Locator {
     }
 }
 
+/// The search for the zeros of one switching function, given as a function of the scaled time.
+struct Scan<'s, F> {
+    value: F,
+    step: Step<'s>,
+    index: usize,
+    memory: Memory,
+    candidates: &'s mut Vec<Candidate>,
+}
+
+impl<F> Scan<'_, F>
+where
+    F: FnMut(f64) -> Result<f64, EvaluationFailure>,
+{
+    /// Goes through the step sample by sample; dips of less than `resolution` times the largest value are touches.
+    fn run(&mut self, resolution: f64) -> Result<(), EvaluationFailure> {
+        let values = self.sample()?;
+        if self.memory.side == 0.0 {
+            return Ok(());
+        }
+        let touch = resolution * self.memory.scale;
+        // Last node at which the function was on the present side.
+        let mut from = 0;
+        for i in 1..NODES.len() {
+            if values[i] * self.memory.side < 0.0 {
+                self.cross((NODES[from], values[from]), (NODES[i], values[i]))?;
+            } else if i >= 2 && dips(&values[i - 2..=i], &NODES[i - 2..=i], self.memory.side) {
+                let edges = [(NODES[i - 2], values[i - 2]), (NODES[i], values[i])];
+                self.dip(edges, touch)?;
+            }
+            if values[i] != 0.0 {
+                from = i;
+            }
+        }
+        let [.., before, end] = values;
+        if self.step.last && ends_on_zero(end, before, SAME * self.step.ulp()) {
+            self.add_crossing(1.0);
+        }
+        Ok(())
+    }
+
+    /// Values at the nodes; finds out the side if it is unknown.
+    fn sample(&mut self) -> Result<[f64; NODES.len()], EvaluationFailure> {
+        let mut values = [0.0; NODES.len()];
+        for (v, theta) in values.iter_mut().zip(NODES) {
+            *v = (self.value)(theta)?;
+            self.memory.scale = self.memory.scale.max(v.abs());
+        }
+        if self.memory.side == 0.0 {
+            // A value that is zero up to rounding at the start says nothing about the side.
+            let noise = 100.0 * f64::EPSILON * self.memory.scale;
+            if let Some(v) = values.iter().find(|v| v.abs() > noise) {
+                self.memory.side = v.signum();
+            }
+            for v in values.iter_mut().take_while(|v| v.abs() <= noise) {
+                *v = 0.0;
+            }
+        }
+        Ok(values)
+    }
+
+    /// Refines a zero between a sample on the present side and one on the other.
+    fn cross(&mut self, (a, fa): (f64, f64), (b, fb): (f64, f64)) -> Result<(), EvaluationFailure> {
+        // The first sample may be on the other side already: a zero on the end of the last step, by rounding.
+        let fa = if fa * self.memory.side > 0.0 {
+            fa
+        } else {
+            self.memory.side * f64::MIN_POSITIVE
+        };
+        let theta = bracketed_zero(&mut self.value, (a, fa), (b, fb), 4.0 * self.step.ulp())?;
+        self.add_crossing(theta);
+        Ok(())
+    }
+
+    /// Looks into a dip towards zero between two samples: two zeros, a touch, or nothing.
+    fn dip(&mut self, edges: [(f64, f64); 2], touch: f64) -> Result<(), EvaluationFailure> {
+        let side = self.memory.side;
+        let height = |theta: f64| (self.value)(theta).map(|v| side * v);
+        let (theta, least) = minimum(height, edges[0].0, edges[1].0)?;
+        if least < -touch {
+            self.cross(edges[0], (theta, side * least))?;
+            self.cross((theta, side * least), edges[1])?;
+        } else if least <= touch {
+            self.candidates.push(Candidate {
+                theta,
+                index: self.index,
+                kind: EventKind::Grazing,
+            });
+        }
+        Ok(())
+    }
+
+    /// Notes a change of side at θ, unless it is the last zero once more.
+    fn add_crossing(&mut self, theta: f64) {
+        let (step, memory) = (self.step, &mut self.memory);
+        let t = step.time(theta);
+        let kind = if memory.side < 0.0 {
+            EventKind::Up
+        } else {
+            EventKind::Down
+        };
+        memory.side = -memory.side;
+        let again = (t - memory.last_zero).abs() <= SAME * step.ulp() * step.dense.h.abs();
+        memory.last_zero = t;
+        if !again {
+            self.candidates.push(Candidate {
+                theta,
+                index: self.index,
+                kind,
+            });
+        }
+    }
+}
+
 /// Whether a zero of this kind is wanted. Grazing ones are always reported.
 fn counts(direction: Direction, kind: EventKind) -> bool {
     match (direction, kind) {
         (Direction::Both, _) | (_, EventKind::Grazing) => true,
         (Direction::Up, kind) => kind == EventKind::Up,
         (Direction::Down, kind) => kind == EventKind::Down,
-    }
-}
-
-/// Notes a change of side at θ, unless it is the last zero once more.
-fn add_crossing(
-    candidates: &mut Vec<Candidate>,
-    memory: &mut Memory,
-    index: usize,
-    step: Step<'_>,
-    theta: f64,
-) {
-    let t = step.time(theta);
-    let kind = if memory.side < 0.0 {
-        EventKind::Up
-    } else {
-        EventKind::Down
-    };
-    memory.side = -memory.side;
-    let again = (t - memory.last_zero).abs() <= SAME * step.ulp() * step.dense.h.abs();
-    memory.last_zero = t;
-    if !again {
-        candidates.push(Candidate { theta, index, kind });
     }
 }
 

@@ -361,3 +361,46 @@ fn runs_are_reproducible_bit_by_bit() {
     };
     assert_eq!(once(), once());
 }
+
+#[test]
+fn a_system_that_keeps_changing_its_chart_in_vain_is_stopped() {
+    struct Indecisive(u32);
+    impl System for Indecisive {
+        fn dimension(&self) -> usize {
+            1
+        }
+        fn derivative(
+            &mut self,
+            t: f64,
+            _y: &[f64],
+            dy: &mut [f64],
+        ) -> Result<(), EvaluationFailure> {
+            dy[0] = 1.0;
+            if t > 0.5 {
+                return Err(EvaluationFailure::PivotDegraded { ratio: 1e-5 });
+            }
+            Ok(())
+        }
+        fn repivot(&mut self, _t: f64, _y: &mut [f64]) -> Control {
+            self.0 += 1;
+            Control::ChartSwitched(ChartChange {
+                from: self.0 - 1,
+                to: self.0,
+                pivot_before: 1e-5,
+                pivot_after: 1e-5,
+            })
+        }
+    }
+    let run = integrate(
+        &mut Indecisive(0),
+        (0.0, 1.0),
+        &[0.0],
+        &mut [],
+        Options::tolerance(1e-9),
+    )
+    .unwrap();
+    assert!(matches!(run.stop, Stop::Singular { .. }));
+    assert!((run.t - 0.5).abs() < 1e-12);
+    // At most one question for each starting point.
+    assert!(run.statistics.chart_switches <= run.statistics.steps + 1);
+}

@@ -506,4 +506,18 @@ fn the_global_error_is_estimated() {
         );
         assert!(estimate.largest_scaled() <= ratio * actual);
     }
+    let (mut system, y0) = kepler();
+    let options = || Options::fixed_step(&RUNGE_KUTTA_4, 0.005).output(Output::Every(0.5));
+    let solution = integrate(&mut system, (0.0, 3.0), &y0, &mut [], options()).unwrap();
+    let estimate = global_error(&mut system, (0.0, &y0), &solution, options()).unwrap();
+    let actual = distance(&solution.state, &kepler_exact(3.0));
+    let estimated = estimate
+        .components
+        .iter()
+        .map(|c| c.largest)
+        .fold(0.0, f64::max);
+    assert!(
+        (0.9..1.5).contains(&(estimated / actual)),
+        "{estimated:e} for {actual:e}"
+    );
 }
