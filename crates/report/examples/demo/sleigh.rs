@@ -209,14 +209,14 @@ fn letter(text: &str) -> Formula {
     formula(text, &format!("<mi>{text}</mi>"), text)
 }
 
-const COS: &str = "<mrow><mi>cos</mi><mo>&#8289;</mo><mi>φ</mi></mrow>";
-const SIN: &str = "<mrow><mi>sin</mi><mo>&#8289;</mo><mi>φ</mi></mrow>";
-const DX: &str = "<msup><mi>x</mi><mo>′</mo></msup>";
-const DY: &str = "<msup><mi>y</mi><mo>′</mo></msup>";
-const DPHI: &str = "<msup><mi>φ</mi><mo>′</mo></msup>";
-const DDX: &str = "<msup><mi>x</mi><mo>″</mo></msup>";
-const DDY: &str = "<msup><mi>y</mi><mo>″</mo></msup>";
-const DDPHI: &str = "<msup><mi>φ</mi><mo>″</mo></msup>";
+const COS: &str = "<mspace width=\"0.1667em\"></mspace><mrow><mi>cos</mi><mo>&#8289;</mo><mspace width=\"0.1667em\"></mspace><mi>φ</mi></mrow>";
+const SIN: &str = "<mspace width=\"0.1667em\"></mspace><mrow><mi>sin</mi><mo>&#8289;</mo><mspace width=\"0.1667em\"></mspace><mi>φ</mi></mrow>";
+const DX: &str = "<mover accent=\"true\"><mi>x</mi><mo stretchy=\"false\">˙</mo></mover>";
+const DY: &str = "<mover accent=\"true\"><mi>y</mi><mo stretchy=\"false\">˙</mo></mover>";
+const DPHI: &str = "<mover accent=\"true\"><mi>φ</mi><mo stretchy=\"false\">˙</mo></mover>";
+const DDX: &str = "<mover accent=\"true\"><mi>x</mi><mo stretchy=\"false\">¨</mo></mover>";
+const DDY: &str = "<mover accent=\"true\"><mi>y</mi><mo stretchy=\"false\">¨</mo></mover>";
+const DDPHI: &str = "<mover accent=\"true\"><mi>φ</mi><mo stretchy=\"false\">¨</mo></mover>";
 
 fn lagrangian() -> EquationSection {
     EquationSection {
@@ -229,7 +229,7 @@ fn lagrangian() -> EquationSection {
             Equation {
                 formula: formula(
                     "L = m (x'^2 + y'^2)/2 + ...",
-                    &format!("<mi>L</mi><mo>=</mo><mfrac><mi>m</mi><mn>2</mn></mfrac><mrow><mo>(</mo><msup><mrow><mo>(</mo>{DX}<mo>−</mo><mi>a</mi>{DPHI}{SIN}<mo>)</mo></mrow><mn>2</mn></msup><mo>+</mo><msup><mrow><mo>(</mo>{DY}<mo>+</mo><mi>a</mi>{DPHI}{COS}<mo>)</mo></mrow><mn>2</mn></msup><mo>)</mo></mrow><mo>+</mo><mfrac><mi>J</mi><mn>2</mn></mfrac><msup><mi>φ</mi><mrow><mo>′</mo><mn>2</mn></mrow></msup>"),
+                    &format!("<mi>L</mi><mo>=</mo><mfrac><mi>m</mi><mn>2</mn></mfrac><mrow><mo>(</mo><msup><mrow><mo>(</mo>{DX}<mo>−</mo><mi>a</mi>{DPHI}{SIN}<mo>)</mo></mrow><mn>2</mn></msup><mo>+</mo><msup><mrow><mo>(</mo>{DY}<mo>+</mo><mi>a</mi>{DPHI}{COS}<mo>)</mo></mrow><mn>2</mn></msup><mo>)</mo></mrow><mo>+</mo><mfrac><mi>J</mi><mn>2</mn></mfrac><msup>{DPHI}<mn>2</mn></msup>"),
                     r"L = \frac{m}{2}\left((\dot x - a\dot\varphi\sin\varphi)^2 + (\dot y + a\dot\varphi\cos\varphi)^2\right) + \frac{J}{2}\dot\varphi^2",
                 ),
                 ..Equation::default()
@@ -264,13 +264,13 @@ fn routh() -> EquationSection {
             row(
                 "x",
                 "m x'' - m a phi'' sin(phi) - m a phi'^2 cos(phi) = -lambda sin(phi)",
-                format!("<mi>m</mi>{DDX}<mo>−</mo><mi>m</mi><mi>a</mi>{DDPHI}{SIN}<mo>−</mo><mi>m</mi><mi>a</mi><msup><mi>φ</mi><mrow><mo>′</mo><mn>2</mn></mrow></msup>{COS}<mo>=</mo><mo>−</mo><mi>λ</mi>{SIN}"),
+                format!("<mi>m</mi>{DDX}<mo>−</mo><mi>m</mi><mi>a</mi>{DDPHI}{SIN}<mo>−</mo><mi>m</mi><mi>a</mi><msup>{DPHI}<mn>2</mn></msup>{COS}<mo>=</mo><mo>−</mo><mi>λ</mi>{SIN}"),
                 r"m\ddot x - m a\ddot\varphi\sin\varphi - m a\dot\varphi^2\cos\varphi = -\lambda\sin\varphi",
             ),
             row(
                 "y",
                 "m y'' + m a phi'' cos(phi) - m a phi'^2 sin(phi) = lambda cos(phi)",
-                format!("<mi>m</mi>{DDY}<mo>+</mo><mi>m</mi><mi>a</mi>{DDPHI}{COS}<mo>−</mo><mi>m</mi><mi>a</mi><msup><mi>φ</mi><mrow><mo>′</mo><mn>2</mn></mrow></msup>{SIN}<mo>=</mo><mi>λ</mi>{COS}"),
+                format!("<mi>m</mi>{DDY}<mo>+</mo><mi>m</mi><mi>a</mi>{DDPHI}{COS}<mo>−</mo><mi>m</mi><mi>a</mi><msup>{DPHI}<mn>2</mn></msup>{SIN}<mo>=</mo><mi>λ</mi>{COS}"),
                 r"m\ddot y + m a\ddot\varphi\cos\varphi - m a\dot\varphi^2\sin\varphi = \lambda\cos\varphi",
             ),
             row(
@@ -307,7 +307,7 @@ fn maggi() -> EquationSection {
             Equation {
                 formula: formula(
                     "m v' = m a phi'^2",
-                    "<mi>m</mi><msup><mi>v</mi><mo>′</mo></msup><mo>=</mo><mi>m</mi><mi>a</mi><msup><mi>φ</mi><mrow><mo>′</mo><mn>2</mn></mrow></msup>",
+                    &format!("<mi>m</mi><mover accent=\"true\"><mi>v</mi><mo stretchy=\"false\">˙</mo></mover><mo>=</mo><mi>m</mi><mi>a</mi><msup>{DPHI}<mn>2</mn></msup>"),
                     r"m\dot v = m a\dot\varphi^2",
                 ),
                 ..Equation::default()
