@@ -1,0 +1,109 @@
+//! Systems written as text, and numbers from them.
+
+#![allow(dead_code, reason = "each test file uses its part")]
+
+use chetaev_mechanics::claims::{Context, Finding};
+use chetaev_mechanics::sample::{self, Point};
+use chetaev_mechanics::{Prepared, Prover, Registry, System, SystemParts};
+use chetaev_symbolic::syntax::{lower, parse_expression, Resolution, Scope};
+use chetaev_symbolic::{Expr, Graph, Symbol};
+use std::sync::Arc;
+
+struct EveryName<'g>(&'g Graph);
+
+impl Scope for EveryName<'_> {
+    fn resolve(&self, name: &str, order: u32) -> Resolution {
+        Resolution::Known(self.0.symbol(name, order))
+    }
+    fn names(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+pub(crate) fn expr(g: &Graph, text: &str) -> Expr {
+    let parsed = parse_expression(text);
+    let mut diagnostics = Vec::new();
+    let scope = EveryName(g);
+    let e = lower(
+        g,
+        &parsed.tree,
+        parsed.root(),
+        &scope,
+        &[],
+        &mut diagnostics,
+    );
+    assert!(!parsed.has_errors() && diagnostics.is_empty(), "{text}");
+    e.unwrap()
+}
+
+/// A system as text; every name that is no coordinate is a parameter.
+pub(crate) struct Text {
+    pub(crate) coordinates: &'static str,
+    pub(crate) lagrangian: &'static str,
+    pub(crate) forces: &'static [(&'static str, &'static str)],
+    pub(crate) constraints: &'static [(&'static str, &'static str)],
+}
+
+pub(crate) fn system(text: &Text) -> System {
+    let graph = Arc::new(Graph::new());
+    let pairs = |stated: &[(&str, &str)]| -> Vec<(String, Expr)> {
+        stated
+            .iter()
+            .map(|(name, e)| (name.to_string(), expr(&graph, e)))
+            .collect()
+    };
+    let parts = SystemParts {
+        name: "test".into(),
+        coordinates: text
+            .coordinates
+            .split_whitespace()
+            .map(String::from)
+            .collect(),
+        lagrangian: Some(expr(&graph, text.lagrangian)),
+        forces: pairs(text.forces),
+        constraints: pairs(text.constraints),
+        ..SystemParts::default()
+    };
+    System::new(graph, parts).unwrap()
+}
+
+/// The finding of `id#subject` with the claims of mechanics and of this crate.
+pub(crate) fn finding(system: &System, full: &str) -> Arc<Finding> {
+    let prepared = Prepared::new(system).unwrap();
+    let registry = Registry::new(&[
+        chetaev_mechanics::claims::CLAIMS,
+        chetaev_principles::CLAIMS,
+    ]);
+    let cx = Context::new(
+        system,
+        &prepared.terms,
+        &prepared.selection,
+        &registry,
+        Prover::default(),
+    );
+    cx.finding(full)
+}
+
+/// A state on the constraint manifold.
+pub(crate) fn admissible(system: &System, prepared: &Prepared, seed: u64) -> Point {
+    sample::admissible_point(system, &prepared.terms, seed).unwrap()
+}
+
+/// An arbitrary state, the same for the same symbols and seed.
+pub(crate) fn anywhere(g: &Graph, es: &[Expr], seed: u64) -> Point {
+    let mut generator = sample::Generator::new(seed);
+    g.symbols_in(es)
+        .into_iter()
+        .map(|s| (s, generator.between(0.3, 1.4)))
+        .collect()
+}
+
+pub(crate) fn values(g: &Graph, es: &[Expr], point: &Point) -> Vec<f64> {
+    let value = |s: Symbol| point.get(&s).copied();
+    g.evaluate_f64(es, &value).unwrap()
+}
+
+pub(crate) fn largest(values: &[f64]) -> f64 {
+    assert!(values.iter().all(|x| x.is_finite()), "{values:?}");
+    values.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+}
