@@ -1,1 +1,54 @@
-//! Equations to numeric functions: the flat program and the interpreter.
+//! Expressions to numeric functions: the flat program and its interpreters.
+//!
+//! ```text
+//! graph ──Lowering──▶ Program ──Interpreter──▶ Evaluator       one state per call
+//!                        │            └───────▶ BlockEvaluator  32 states per call
+//!                        └──▶ later: native code, Taylor recurrences
+//! ```
+//!
+//! [`Lowering`] turns expressions of a [`Graph`](chetaev_symbolic::Graph) into a [`Program`], a register tape of plain data with named groups of
+//! outputs. Common subexpressions are computed once, what depends on parameters only is computed once per set of
+//! parameters, and linear systems stay structured: one factorization per matrix, shared by all right-hand sides.
+//! [`Interpreter`] runs a program through the traits [`Evaluator`] and [`BlockEvaluator`], without allocating.
+//! Nothing here knows mechanics.
+//!
+//! ```
+//! use chetaev_compile::{Evaluator, Interpreter, Lowering};
+//! use chetaev_symbolic::Graph;
+//!
+//! let g = Graph::new();
+//! let (x, m) = (g.intern_symbol("x", 0), g.intern_symbol("m", 0));
+//! let energy = g.div(g.powi(g.symbol_expr(x), 2), g.symbol_expr(m));
+//! let program = Lowering::new(&g)
+//!     .variables(&[x])
+//!     .parameters(&[m])
+//!     .output("energy", &[energy])
+//!     .lower()?;
+//! let interpreter = Interpreter::new(program)?;
+//! let mut workspace = interpreter.workspace();
+//! interpreter.prepare(&[2.0], &mut workspace)?;
+//! let mut energy = [0.0];
+//! interpreter.evaluate(&[3.0], &mut workspace, &mut energy)?;
+//! assert_eq!(energy, [4.5]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod allocate;
+mod arithmetic;
+mod display;
+mod emit;
+pub mod evaluate;
+mod factor;
+pub mod interpret;
+mod kernel;
+mod lanes;
+pub mod lower;
+pub mod program;
+pub mod verify;
+
+pub use evaluate::{BlockEvaluator, EvaluateFailure, Evaluator};
+pub use interpret::{BlockWorkspace, Interpreter, Workspace};
+pub use lanes::{Lanes, LANES};
+pub use lower::{LowerError, Lowering};
+pub use program::Program;
+pub use verify::VerifyError;
