@@ -1,0 +1,173 @@
+//! Which velocities are independent, chosen by conditioning at a state, and when to choose again (theory 5.2).
+
+/// A choice of independent constraints and dependent velocities.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    /// Independent constraint rows.
+    pub rows: Vec<usize>,
+    /// Dependent velocities, one per row.
+    pub dependent: Vec<usize>,
+    /// Independent velocities.
+    pub independent: Vec<usize>,
+    /// Smallest pivot of the scaled Jacobian when the chart was chosen.
+    pub pivot: f64,
+    /// Last accepted pivot over first rejected one; infinite when none was rejected.
+    pub gap: f64,
+}
+
+/// Relative size below which a pivot of the scaled Jacobian counts as zero.
+pub const RANK_TOLERANCE: f64 = 1e-10;
+
+/// Chooses a chart by Gaussian elimination with complete pivoting on the scaled Jacobian: rows to unit length (zero
+/// rows stay zero), column j divided by `sqrt(|M_jj|)`.
+pub fn choose(jacobian: &[f64], r: usize, n: usize, mass_diagonal: &[f64]) -> Chart {
+    eliminate(scaled(jacobian, r, n, mass_diagonal), r, n)
+}
+
+fn eliminate(mut a: Vec<f64>, r: usize, n: usize) -> Chart {
+    let mut rows: Vec<usize> = (0..r).collect();
+    let mut columns: Vec<usize> = (0..n).collect();
+    let mut largest: f64 = 0.0;
+    let mut smallest = f64::INFINITY;
+    let mut rejected: f64 = 0.0;
+    let mut rank = 0;
+    while rank < r.min(n) {
+        let (i, j, value) = largest_entry(&a, &rows, &columns, rank, n);
+        largest = largest.max(value);
+        if value.is_nan() || value <= (n.max(r) as f64) * RANK_TOLERANCE * largest || value == 0.0 {
+            rejected = value;
+            break;
+        }
+        smallest = smallest.min(value);
+        rows.swap(rank, i);
+        columns.swap(rank, j);
+        let pivot = a[rows[rank] * n + columns[rank]];
+        for &o in &rows[rank + 1..] {
+            let factor = a[o * n + columns[rank]] / pivot;
+            if factor != 0.0 {
+                for &c in &columns[rank..] {
+                    a[o * n + c] -= factor * a[rows[rank] * n + c];
+                }
+            }
+        }
+        rank += 1;
+    }
+    let mut independent = columns[rank..].to_vec();
+    independent.sort_unstable();
+    let (rows, dependent) = sorted_pairs(&rows[..rank], &columns[..rank]);
+    Chart {
+        rows,
+        dependent,
+        independent,
+        pivot: if rank == 0 { 1.0 } else { smallest },
+        gap: if rejected > 0.0 {
+            smallest / rejected
+        } else {
+            f64::INFINITY
+        },
+    }
+}
+
+/// The smallest pivot that elimination meets in the columns of an existing chart: the cheap indicator of its quality.
+pub fn quality(chart: &Chart, jacobian: &[f64], r: usize, n: usize, mass_diagonal: &[f64]) -> f64 {
+    let a = scaled(jacobian, r, n, mass_diagonal);
+    let mut block: Vec<f64> = Vec::with_capacity(chart.rows.len() * chart.rows.len());
+    for &row in &chart.rows {
+        block.extend(chart.dependent.iter().map(|&d| a[row * n + d]));
+    }
+    let size = chart.rows.len();
+    eliminate(block, size, size).pivot_if_full(size)
+}
+
+impl Chart {
+    fn pivot_if_full(&self, size: usize) -> f64 {
+        if self.rows.len() == size {
+            self.pivot
+        } else {
+            0.0
+        }
+    }
+
+    /// The rank found.
+    pub fn rank(&self) -> usize {
+        self.rows.len()
+    }
+}
+
+fn sorted_pairs(rows: &[usize], columns: &[usize]) -> (Vec<usize>, Vec<usize>) {
+    let mut pairs: Vec<(usize, usize)> =
+        rows.iter().copied().zip(columns.iter().copied()).collect();
+    pairs.sort_unstable();
+    pairs.into_iter().unzip()
+}
+
+fn scaled(jacobian: &[f64], r: usize, n: usize, mass_diagonal: &[f64]) -> Vec<f64> {
+    let mut a = jacobian.to_vec();
+    for row in a.chunks_mut(n.max(1)).take(r) {
+        for (entry, &mass) in row.iter_mut().zip(mass_diagonal) {
+            if mass != 0.0 && mass.is_finite() {
+                *entry /= mass.abs().sqrt();
+            }
+        }
+        let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if length > 0.0 {
+            row.iter_mut().for_each(|x| *x /= length);
+        }
+    }
+    a
+}
+
+fn largest_entry(
+    a: &[f64],
+    rows: &[usize],
+    columns: &[usize],
+    rank: usize,
+    n: usize,
+) -> (usize, usize, f64) {
+    let mut best = (rank, rank, -1.0);
+    for (i, &row) in rows.iter().enumerate().skip(rank) {
+        for (j, &column) in columns.iter().enumerate().skip(rank) {
+            let value = a[row * n + column].abs();
+            // A relative margin keeps the choice stable against rounding: ties go to the first.
+            if value > best.2 * (1.0 + 1e-9) {
+                best = (i, j, value);
+            }
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rank_and_independent_velocities() {
+        let jacobian = [1.0, 0.0, -0.3, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, -0.3, 0.0];
+        let chart = choose(&jacobian, 3, 4, &[1.0; 4]);
+        assert_eq!(chart.rank(), 2);
+        assert_eq!(chart.independent.len(), 2);
+    }
+
+    #[test]
+    fn the_choice_does_not_depend_on_row_scaling() {
+        let jacobian = [0.3, -0.8, 0.1, 0.5, 0.2, 0.9];
+        let chart = choose(&jacobian, 2, 3, &[1.0; 3]);
+        let rescaled: Vec<f64> = jacobian
+            .iter()
+            .enumerate()
+            .map(|(i, x)| if i < 3 { x * 1e6 } else { x * 1e-6 })
+            .collect();
+        let other = choose(&rescaled, 2, 3, &[1.0; 3]);
+        assert_eq!(chart.dependent, other.dependent);
+        assert!((chart.pivot - other.pivot).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_turning_gradient_degrades_its_chart() {
+        let at = |angle: f64| [angle.sin(), -angle.cos(), 0.0];
+        let chart = choose(&at(0.0), 1, 3, &[1.0; 3]);
+        assert_eq!(chart.dependent, vec![1]);
+        assert!(quality(&chart, &at(1.5), 1, 3, &[1.0; 3]) < 0.1);
+    }
+}

@@ -1,0 +1,225 @@
+//! Small dense linear algebra in place, without allocation: LU with partial pivoting and LDLᵀ.
+
+/// Why a matrix cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SmallPivot {
+    /// Position in the order of elimination.
+    pub index: usize,
+    /// The pivot found.
+    pub pivot: f64,
+    /// The size below which it counts as zero.
+    pub threshold: f64,
+}
+
+/// `c₀ n ε`, the relative size below which a pivot counts as zero (theory 5.1, c₀ = 10).
+fn negligible(n: usize) -> f64 {
+    10.0 * n.max(1) as f64 * f64::EPSILON
+}
+
+/// An LU factorization with row interchanges of an n × n matrix kept by rows.
+#[derive(Clone, Debug, Default)]
+pub struct Lu {
+    n: usize,
+    a: Vec<f64>,
+    order: Vec<usize>,
+    scratch: Vec<f64>,
+}
+
+impl Lu {
+    /// Factors `a` (n × n, row by row).
+    ///
+    /// # Errors
+    /// [`SmallPivot`] when a pivot is negligible against the largest entry.
+    pub fn factor(&mut self, n: usize, a: &[f64]) -> Result<(), SmallPivot> {
+        self.n = n;
+        self.a.clear();
+        self.a.extend_from_slice(a);
+        self.order.clear();
+        self.order.extend(0..n);
+        let largest = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let threshold = negligible(n) * largest;
+        for k in 0..n {
+            let p = (k..n)
+                .max_by(|&i, &j| self.a[i * n + k].abs().total_cmp(&self.a[j * n + k].abs()))
+                .unwrap_or(k);
+            let pivot = self.a[p * n + k];
+            if pivot.is_nan() || pivot.abs() <= threshold {
+                return Err(SmallPivot {
+                    index: k,
+                    pivot,
+                    threshold,
+                });
+            }
+            if p != k {
+                for j in 0..n {
+                    self.a.swap(k * n + j, p * n + j);
+                }
+                self.order.swap(k, p);
+            }
+            for i in k + 1..n {
+                let factor = self.a[i * n + k] / pivot;
+                self.a[i * n + k] = factor;
+                if factor != 0.0 {
+                    for j in k + 1..n {
+                        self.a[i * n + j] -= factor * self.a[k * n + j];
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Replaces `b` by the solution of `A x = b`.
+    pub fn solve(&mut self, b: &mut [f64]) {
+        let n = self.n;
+        self.scratch.clear();
+        self.scratch.extend(self.order.iter().map(|&i| b[i]));
+        b.copy_from_slice(&self.scratch);
+        for i in 1..n {
+            let sum: f64 = (0..i).map(|j| self.a[i * n + j] * b[j]).sum();
+            b[i] -= sum;
+        }
+        for i in (0..n).rev() {
+            let sum: f64 = (i + 1..n).map(|j| self.a[i * n + j] * b[j]).sum();
+            b[i] = (b[i] - sum) / self.a[i * n + i];
+        }
+    }
+
+    /// Replaces `b` by the solution of `Aᵀ x = b`.
+    pub fn solve_transposed(&mut self, b: &mut [f64]) {
+        let n = self.n;
+        for i in 0..n {
+            let sum: f64 = (0..i).map(|j| self.a[j * n + i] * b[j]).sum();
+            b[i] = (b[i] - sum) / self.a[i * n + i];
+        }
+        for i in (0..n).rev() {
+            let sum: f64 = (i + 1..n).map(|j| self.a[j * n + i] * b[j]).sum();
+            b[i] -= sum;
+        }
+        self.scratch.clear();
+        self.scratch.resize(n, 0.0);
+        for (i, &place) in self.order.iter().enumerate() {
+            self.scratch[place] = b[i];
+        }
+        b.copy_from_slice(&self.scratch);
+    }
+}
+
+/// A symmetric solve: LDLᵀ without pivoting while the pivots are positive, LU otherwise (theory 5.1).
+#[derive(Clone, Debug, Default)]
+pub struct Symmetric {
+    n: usize,
+    l: Vec<f64>,
+    definite: bool,
+    lu: Lu,
+}
+
+impl Symmetric {
+    /// Factors the symmetric matrix `a` (n × n, row by row).
+    ///
+    /// # Errors
+    /// [`SmallPivot`] when the matrix is numerically singular.
+    pub fn factor(&mut self, n: usize, a: &[f64]) -> Result<(), SmallPivot> {
+        self.n = n;
+        self.definite = self.factor_definite(a);
+        if self.definite {
+            Ok(())
+        } else {
+            self.lu.factor(n, a)
+        }
+    }
+
+    fn factor_definite(&mut self, a: &[f64]) -> bool {
+        let n = self.n;
+        self.l.clear();
+        self.l.extend_from_slice(a);
+        let largest = (0..n).fold(0.0, |m: f64, i| m.max(a[i * n + i].abs()));
+        for j in 0..n {
+            let mut d = self.l[j * n + j];
+            for m in 0..j {
+                d -= self.l[j * n + m] * self.l[j * n + m] * self.l[m * n + m];
+            }
+            if d.is_nan() || d <= negligible(n) * largest {
+                return false;
+            }
+            self.l[j * n + j] = d;
+            for i in j + 1..n {
+                let mut value = a[i * n + j];
+                for m in 0..j {
+                    value -= self.l[i * n + m] * self.l[j * n + m] * self.l[m * n + m];
+                }
+                self.l[i * n + j] = value / d;
+            }
+        }
+        true
+    }
+
+    /// Replaces `b` by the solution.
+    pub fn solve(&mut self, b: &mut [f64]) {
+        if !self.definite {
+            self.lu.solve(b);
+            return;
+        }
+        let n = self.n;
+        for i in 1..n {
+            let sum: f64 = (0..i).map(|j| self.l[i * n + j] * b[j]).sum();
+            b[i] -= sum;
+        }
+        for i in 0..n {
+            b[i] /= self.l[i * n + i];
+        }
+        for i in (0..n).rev() {
+            let sum: f64 = (i + 1..n).map(|j| self.l[j * n + i] * b[j]).sum();
+            b[i] -= sum;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn random(seed: u64, count: usize) -> Vec<f64> {
+        let mut generator = chetaev_mechanics::sample::Generator::new(seed);
+        (0..count).map(|_| generator.between(-1.0, 1.0)).collect()
+    }
+
+    #[test]
+    fn solutions_satisfy_their_systems() {
+        for n in 1..9 {
+            let a = random(n as u64, n * n);
+            let b = random(100 + n as u64, n);
+            let mut lu = Lu::default();
+            lu.factor(n, &a).unwrap();
+            let mut x = b.clone();
+            lu.solve(&mut x);
+            let mut y = b.clone();
+            lu.solve_transposed(&mut y);
+            for i in 0..n {
+                let row: f64 = (0..n).map(|j| a[i * n + j] * x[j]).sum();
+                let column: f64 = (0..n).map(|j| a[j * n + i] * y[j]).sum();
+                assert!((row - b[i]).abs() < 1e-11 && (column - b[i]).abs() < 1e-11);
+            }
+        }
+    }
+
+    #[test]
+    fn definite_and_indefinite_symmetric_systems() {
+        for (matrix, definite) in [
+            ([2.0, 1.0, 1.0, 3.0], true),
+            ([0.0, 1.0, 1.0, 0.0], false),
+            ([1.0, 2.0, 2.0, 1.0], false),
+        ] {
+            let mut symmetric = Symmetric::default();
+            symmetric.factor(2, &matrix).unwrap();
+            assert_eq!(symmetric.definite, definite);
+            let mut x = [1.0, -2.0];
+            symmetric.solve(&mut x);
+            assert!((matrix[0] * x[0] + matrix[1] * x[1] - 1.0).abs() < 1e-14);
+            assert!((matrix[2] * x[0] + matrix[3] * x[1] + 2.0).abs() < 1e-14);
+        }
+        assert!(Symmetric::default()
+            .factor(2, &[1.0, 1.0, 1.0, 1.0])
+            .is_err());
+    }
+}

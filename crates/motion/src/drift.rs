@@ -1,0 +1,65 @@
+//! The largest violation of each constraint over a run, before any projection.
+
+use crate::numeric::NumericSystem;
+
+/// A largest absolute value and when it occurred.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Extreme {
+    /// The largest absolute value.
+    pub value: f64,
+    /// The time of it.
+    pub t: f64,
+}
+
+impl Extreme {
+    /// Takes a new value into account.
+    pub fn record(&mut self, value: f64, t: f64) {
+        if value.abs() > self.value {
+            *self = Extreme {
+                value: value.abs(),
+                t,
+            };
+        }
+    }
+}
+
+/// Drift of every constraint row and of every holonomic constraint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drift {
+    /// |f| by row.
+    pub velocity: Vec<Extreme>,
+    /// |φ| of the holonomic constraints.
+    pub position: Vec<Extreme>,
+    /// Steps looked at.
+    pub steps: u64,
+}
+
+impl Drift {
+    /// Nothing recorded yet.
+    pub fn new(system: &NumericSystem) -> Drift {
+        Drift {
+            velocity: vec![Extreme::default(); system.r],
+            position: vec![Extreme::default(); system.holonomic.len()],
+            steps: 0,
+        }
+    }
+
+    /// Records the residuals of the last evaluation.
+    pub fn record(&mut self, system: &NumericSystem, t: f64) {
+        self.steps += 1;
+        for (extreme, &f) in self.velocity.iter_mut().zip(system.residual()) {
+            extreme.record(f, t);
+        }
+        for (extreme, &phi) in self.position.iter_mut().zip(system.position_residual()) {
+            extreme.record(phi, t);
+        }
+    }
+
+    /// The largest of all.
+    pub fn largest(&self) -> f64 {
+        self.velocity
+            .iter()
+            .chain(&self.position)
+            .fold(0.0, |m, e| m.max(e.value))
+    }
+}

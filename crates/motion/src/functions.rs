@@ -1,0 +1,111 @@
+//! Compiled functions of the state: the program of expressions, with parameter values set.
+
+use crate::numeric::Binding;
+use chetaev_compile::{
+    EvaluateFailure, Evaluator, Interpreter, LowerError, Lowering, VerifyError, Workspace,
+};
+use chetaev_integrate::EvaluationFailure;
+use chetaev_symbolic::{Expr, Graph, Symbol};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Why expressions cannot be compiled.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FunctionsError {
+    /// The expressions cannot be lowered.
+    #[error("the equations cannot be compiled: {0}")]
+    Lower(#[from] LowerError),
+    /// The program is not well formed.
+    #[error("the compiled program is not well formed: {0}")]
+    Verify(#[from] VerifyError),
+    /// The parameters make a linear system singular.
+    #[error("the parameter values make a linear system singular: {0}")]
+    Prepare(#[from] EvaluateFailure),
+}
+
+/// Named groups of expressions as one numeric function of (t, state).
+#[derive(Clone, Debug)]
+pub struct Functions {
+    interpreter: Arc<Interpreter>,
+    workspace: Workspace,
+    inputs: Vec<f64>,
+    outputs: Vec<f64>,
+    groups: Vec<Range<usize>>,
+}
+
+impl Functions {
+    /// Compiles `groups` as functions of `variables`, the first of which is the time.
+    ///
+    /// # Errors
+    /// [`FunctionsError`].
+    pub fn new(
+        g: &Graph,
+        binding: &Binding,
+        variables: &[Symbol],
+        groups: &[(&str, Vec<Expr>)],
+    ) -> Result<Functions, FunctionsError> {
+        let (symbols, values): (Vec<Symbol>, Vec<f64>) = binding.parameters.iter().copied().unzip();
+        let mut lowering = Lowering::new(g).variables(variables).parameters(&symbols);
+        let mut ranges = Vec::with_capacity(groups.len());
+        let mut start = 0;
+        for (name, values) in groups {
+            let values = g.substitute_all(values, &binding.controls);
+            lowering = lowering.output(name, &values);
+            ranges.push(start..start + values.len());
+            start += values.len();
+        }
+        let interpreter = Interpreter::new(lowering.lower()?)?;
+        let mut workspace = interpreter.workspace();
+        interpreter.prepare(&values, &mut workspace)?;
+        Ok(Functions {
+            interpreter: Arc::new(interpreter),
+            workspace,
+            inputs: vec![0.0; variables.len()],
+            outputs: vec![0.0; start],
+            groups: ranges,
+        })
+    }
+
+    /// Evaluates all groups at time t and the state given in pieces, which together fill the variables after t.
+    ///
+    /// # Errors
+    /// When a value is not finite or a linear system is singular.
+    pub fn evaluate(&mut self, t: f64, pieces: &[&[f64]]) -> Result<(), EvaluationFailure> {
+        if let Some(first) = self.inputs.first_mut() {
+            *first = t;
+        }
+        let state = pieces.iter().flat_map(|piece| piece.iter());
+        for (input, &value) in self.inputs.iter_mut().skip(1).zip(state) {
+            *input = value;
+        }
+        self.interpreter
+            .evaluate(&self.inputs, &mut self.workspace, &mut self.outputs)
+            .map_err(failure)?;
+        match self.outputs.iter().position(|x| !x.is_finite()) {
+            Some(component) => Err(EvaluationFailure::NotFinite { component }),
+            None => Ok(()),
+        }
+    }
+
+    /// The values of group number `index` of the last evaluation.
+    pub fn group(&self, index: usize) -> &[f64] {
+        &self.outputs[self.groups[index].clone()]
+    }
+}
+
+fn failure(failure: EvaluateFailure) -> EvaluationFailure {
+    match failure {
+        EvaluateFailure::Singular {
+            pivot,
+            value,
+            threshold,
+            ..
+        } => EvaluationFailure::Singular {
+            index: pivot,
+            pivot: value,
+            threshold,
+        },
+        _ => EvaluationFailure::NotFinite { component: 0 },
+    }
+}

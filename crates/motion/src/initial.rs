@@ -1,0 +1,639 @@
+//! Consistent initial data (theory 5.10): what is given is fixed, the rest is projected in the kinetic metric.
+
+use crate::accelerations::{Accelerations, SolveFailure};
+use crate::chart::{self, Chart};
+use crate::numeric::NumericSystem;
+
+/// Given and free initial data of the coordinates and velocities.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InitialData {
+    /// Start time.
+    pub t: f64,
+    /// Values or first guesses of q, length n.
+    pub q: Vec<f64>,
+    /// Values or first guesses of v, length n.
+    pub v: Vec<f64>,
+    /// Whether qᵢ is given, hence fixed.
+    pub q_fixed: Vec<bool>,
+    /// Whether vᵢ is given, hence fixed.
+    pub v_fixed: Vec<bool>,
+    /// Whether a state that does not satisfy the constraints may be moved, given data included.
+    pub project: bool,
+}
+
+/// A state that satisfies the constraints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConsistentState {
+    /// Start time.
+    pub t: f64,
+    /// q, length n.
+    pub q: Vec<f64>,
+    /// v, length n.
+    pub v: Vec<f64>,
+    /// Names of what was changed from its given value or completed, with the value found.
+    pub completed: Vec<(String, f64)>,
+    /// The chart at the start.
+    pub chart: Chart,
+    /// Constraints that follow from the others at the start.
+    pub redundant: Vec<String>,
+}
+
+/// Why the initial data cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum InitialError {
+    /// A function has no finite value there.
+    #[error("the initial state is singular: {what} has no finite value there{hint}")]
+    NotFinite {
+        /// What.
+        what: String,
+        /// A likely reason.
+        hint: String,
+    },
+    /// Given data violate a constraint.
+    #[error("the initial {kind} violates {constraint}: its residual is {residual:.3e}; {advice}")]
+    Inconsistent {
+        /// "position" or "velocity".
+        kind: &'static str,
+        /// Constraints with their residuals.
+        constraint: String,
+        /// The largest residual.
+        residual: f64,
+        /// The nearest consistent state.
+        advice: String,
+    },
+    /// Constraints contradict each other.
+    #[error("constraints {names} contradict each other at the initial position: they are inconsistent, no velocity satisfies them all ({combination})")]
+    Contradiction {
+        /// The constraints.
+        names: String,
+        /// The combination that contradicts.
+        combination: String,
+    },
+    /// No real velocity found for nonlinear constraints.
+    #[error("no real velocity satisfies {names} at the initial position: the best of {starts} searches leaves the residual {residual:.3e}")]
+    NoRealVelocity {
+        /// The constraints.
+        names: String,
+        /// The residual left.
+        residual: f64,
+        /// Number of starting points.
+        starts: usize,
+    },
+    /// A gradient vanishes.
+    #[error("the gradient of constraint `{name}` by the velocities vanishes at the initial state: its rank is 0 there, so it is singular and determines no reaction{hint}")]
+    VanishingGradient {
+        /// The constraint.
+        name: String,
+        /// Advice.
+        hint: String,
+    },
+    /// Accelerations are not determined.
+    #[error("the accelerations are not determined at the initial state: the mass matrix is singular in the direction of {direction}, which has no inertia and is not held by a constraint (degenerate Lagrangian or zero mass)")]
+    NoInertia {
+        /// Coordinate names.
+        direction: String,
+    },
+}
+
+const STARTS: usize = 12;
+
+/// Completes and checks initial data.
+///
+/// # Errors
+/// [`InitialError`], which names constraints and coordinates.
+pub fn consistent_state(
+    system: &mut NumericSystem,
+    data: &InitialData,
+) -> Result<ConsistentState, InitialError> {
+    let mut search = Search::new(system, data);
+    search.positions()?;
+    search.velocities()?;
+    search.finish()
+}
+
+struct Search<'a> {
+    system: &'a mut NumericSystem,
+    data: &'a InitialData,
+    q: Vec<f64>,
+    v: Vec<f64>,
+}
+
+impl Search<'_> {
+    fn new<'a>(system: &'a mut NumericSystem, data: &'a InitialData) -> Search<'a> {
+        Search {
+            q: data.q.clone(),
+            v: data.v.clone(),
+            system,
+            data,
+        }
+    }
+
+    fn movable(&self, fixed: &[bool]) -> Vec<usize> {
+        (0..self.system.n)
+            .filter(|&i| self.data.project || !fixed[i])
+            .collect()
+    }
+
+    fn not_finite(&self, what: &str) -> InitialError {
+        let names: Vec<String> = self
+            .system
+            .constraints
+            .iter()
+            .map(|name| format!("`{name}`"))
+            .collect();
+        let hint = if names.is_empty() {
+            "; a denominator or the argument of a root or logarithm is zero there".to_string()
+        } else {
+            format!(
+                "; a denominator is zero there, or a constraint ({}) is not differentiable",
+                names.join(", ")
+            )
+        };
+        InitialError::NotFinite {
+            what: what.to_string(),
+            hint,
+        }
+    }
+
+    /// Moves free coordinates until φ(q) = 0.
+    fn positions(&mut self) -> Result<(), InitialError> {
+        if self.system.holonomic.is_empty() {
+            return Ok(());
+        }
+        let given = self.q.clone();
+        let movable = self.movable(&self.data.q_fixed);
+        let all: Vec<usize> = (0..self.system.n).collect();
+        let t = self.data.t;
+        self.newton_positions(t, &movable)?;
+        let residual = self.largest_position_residual()?;
+        if residual <= tolerance(&self.q) {
+            return Ok(());
+        }
+        self.q = given.clone();
+        let worst = self.position_violations()?;
+        self.newton_positions(t, &all)?;
+        let nearest = self.describe(&given, &self.q.clone(), "");
+        Err(InitialError::Inconsistent {
+            kind: "position",
+            constraint: worst.0,
+            residual: worst.1,
+            advice: advice(&nearest),
+        })
+    }
+
+    fn newton_positions(&mut self, t: f64, movable: &[usize]) -> Result<(), InitialError> {
+        let n = self.system.n;
+        for _ in 0..50 {
+            self.evaluate_positions(t)?;
+            let residual = self.system.position_residual().to_vec();
+            if residual
+                .iter()
+                .all(|x| x.abs() <= 1e-15 * (1.0 + largest(&self.q)))
+            {
+                return Ok(());
+            }
+            let gradient = self.system.position_gradient().to_vec();
+            let metric = self.metric(t);
+            let step = least_step(&gradient, &residual, n, movable, &metric);
+            let size = largest(&step);
+            for (x, dx) in self.q.iter_mut().zip(&step) {
+                *x -= dx;
+            }
+            if size <= 4.0 * f64::EPSILON * (1.0 + largest(&self.q)) {
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    fn evaluate_positions(&mut self, t: f64) -> Result<(), InitialError> {
+        let (q, v) = (self.q.clone(), self.v.clone());
+        self.system
+            .evaluate_positions(t, &q, &v)
+            .map_err(|_| self.not_finite("a holonomic constraint"))
+    }
+
+    fn largest_position_residual(&mut self) -> Result<f64, InitialError> {
+        self.evaluate_positions(self.data.t)?;
+        Ok(largest(self.system.position_residual()))
+    }
+
+    fn position_violations(&mut self) -> Result<(String, f64), InitialError> {
+        self.evaluate_positions(self.data.t)?;
+        let rows = self.system.holonomic.clone();
+        Ok(self.violations(&rows, self.system.position_residual()))
+    }
+
+    fn violations(&self, rows: &[usize], residual: &[f64]) -> (String, f64) {
+        let mut names = Vec::new();
+        for (&row, &value) in rows.iter().zip(residual) {
+            if value.abs() > 1e-9 {
+                names.push(format!("constraint `{}`", self.system.constraints[row]));
+            }
+        }
+        (names.join(" and "), largest(residual))
+    }
+
+    /// The diagonal of M as a metric; 1 where it is not positive.
+    fn metric(&mut self, t: f64) -> Vec<f64> {
+        let (q, v) = (self.q.clone(), self.v.clone());
+        let n = self.system.n;
+        match self.system.evaluate(t, &q, &v) {
+            Ok(()) => self.system.mass().to_vec(),
+            Err(_) => identity(n),
+        }
+    }
+
+    fn evaluate(&mut self) -> Result<(), InitialError> {
+        let (q, v) = (self.q.clone(), self.v.clone());
+        self.system
+            .evaluate(self.data.t, &q, &v)
+            .map_err(|_| self.not_finite("the equations of motion"))
+    }
+
+    /// Moves free velocities until f = 0.
+    fn velocities(&mut self) -> Result<(), InitialError> {
+        self.evaluate()?;
+        if self.system.r == 0 {
+            return Ok(());
+        }
+        let given = self.v.clone();
+        let movable = self.movable(&self.data.v_fixed);
+        if self.newton_velocities(&movable) {
+            return Ok(());
+        }
+        self.v = given.clone();
+        self.contradiction()?;
+        self.evaluate()?;
+        let rows: Vec<usize> = (0..self.system.r).collect();
+        let worst = self.violations(&rows, &self.system.residual().to_vec());
+        let all: Vec<usize> = (0..self.system.n).collect();
+        if !self.search_velocities(&all) {
+            return Err(self.no_real_velocity(&given));
+        }
+        let nearest = self.describe(&given, &self.v.clone(), "'");
+        Err(InitialError::Inconsistent {
+            kind: "velocity",
+            constraint: worst.0,
+            residual: worst.1,
+            advice: advice(&nearest),
+        })
+    }
+
+    /// Newton steps of least kinetic norm; false when they do not converge or leave the domain.
+    fn newton_velocities(&mut self, movable: &[usize]) -> bool {
+        let n = self.system.n;
+        let mut best = f64::INFINITY;
+        let mut stalled = 0;
+        for _ in 0..80 {
+            if self.evaluate().is_err() {
+                return false;
+            }
+            let residual = self.system.residual().to_vec();
+            let size = largest(&residual);
+            let jacobian = self.system.jacobian().to_vec();
+            let scale = largest(&jacobian) * (1.0 + largest(&self.v));
+            if size <= 4.0 * f64::EPSILON * scale.max(f64::MIN_POSITIVE) {
+                return true;
+            }
+            stalled = if size < 0.9 * best { 0 } else { stalled + 1 };
+            best = best.min(size);
+            if stalled > 8 {
+                break;
+            }
+            let metric = self.system.mass().to_vec();
+            let step = least_step(&jacobian, &residual, n, movable, &metric);
+            for (x, dx) in self.v.iter_mut().zip(&step) {
+                *x -= dx;
+            }
+        }
+        self.evaluate().is_ok()
+            && largest(self.system.residual()) <= 2e-12 * (1.0 + largest(&self.v))
+    }
+
+    /// Newton from several starting points.
+    fn search_velocities(&mut self, movable: &[usize]) -> bool {
+        let start = self.v.clone();
+        let mut generator = chetaev_mechanics::sample::Generator::new(7);
+        for attempt in 0..STARTS {
+            self.v = start.clone();
+            if attempt > 0 {
+                for x in &mut self.v {
+                    *x += generator.between(-1.0, 1.0) * (1.0 + x.abs());
+                }
+            }
+            if self.newton_velocities(movable) {
+                return true;
+            }
+        }
+        self.v = start;
+        false
+    }
+
+    fn no_real_velocity(&mut self, given: &[f64]) -> InitialError {
+        self.v = given.to_vec();
+        let residual = match self.evaluate() {
+            Ok(()) => largest(self.system.residual()),
+            Err(error) => return error,
+        };
+        let names: Vec<String> = (0..self.system.r)
+            .filter(|&row| self.system.residual()[row].abs() > 1e-9)
+            .map(|row| format!("constraint `{}`", self.system.constraints[row]))
+            .collect();
+        InitialError::NoRealVelocity {
+            names: names.join(" and "),
+            residual,
+            starts: STARTS,
+        }
+    }
+
+    /// For affine rows: elimination that ends in `0 = c ≠ 0` is a contradiction.
+    fn contradiction(&mut self) -> Result<(), InitialError> {
+        self.evaluate()?;
+        let n = self.system.n;
+        let rows: Vec<usize> = (0..self.system.r)
+            .filter(|&row| self.system.affine[row])
+            .collect();
+        let jacobian = self.system.jacobian();
+        let mut reduced: Vec<(Vec<f64>, f64, Vec<f64>)> = Vec::new();
+        for (position, &row) in rows.iter().enumerate() {
+            let mut line = jacobian[row * n..(row + 1) * n].to_vec();
+            let along: f64 = line.iter().zip(&self.v).map(|(a, v)| a * v).sum();
+            let mut value = self.system.residual()[row] - along;
+            let mut combination = vec![0.0; rows.len()];
+            combination[position] = 1.0;
+            let length = norm(&line).max(f64::MIN_POSITIVE);
+            for (pivot_line, pivot_value, pivot_combination) in &reduced {
+                let Some(column) = pivot_column(pivot_line) else {
+                    continue;
+                };
+                let factor = line[column] / pivot_line[column];
+                line.iter_mut()
+                    .zip(pivot_line)
+                    .for_each(|(a, b)| *a -= factor * b);
+                line[column] = 0.0;
+                value -= factor * pivot_value;
+                combination
+                    .iter_mut()
+                    .zip(pivot_combination)
+                    .for_each(|(a, b)| *a -= factor * b);
+            }
+            if norm(&line) <= 1e-10 * length {
+                if value.abs() > 1e-9 * (1.0 + value.abs()) {
+                    return Err(self.contradiction_of(&rows, &combination, value));
+                }
+            } else {
+                reduced.push((line, value, combination));
+            }
+        }
+        Ok(())
+    }
+
+    fn contradiction_of(&self, rows: &[usize], combination: &[f64], value: f64) -> InitialError {
+        let mut names = Vec::new();
+        let mut terms = Vec::new();
+        for (&row, &factor) in rows.iter().zip(combination) {
+            if factor.abs() > 1e-12 {
+                let name = &self.system.constraints[row];
+                names.push(format!("`{name}`"));
+                terms.push(format!("{factor:+.4}·{name}"));
+            }
+        }
+        InitialError::Contradiction {
+            names: names.join(", "),
+            combination: format!("{} gives 0 = {:.4}", terms.join(" "), value),
+        }
+    }
+
+    /// Ranks, inertia, and the list of what was completed.
+    fn finish(mut self) -> Result<ConsistentState, InitialError> {
+        self.evaluate()?;
+        self.check_gradients()?;
+        let system = &*self.system;
+        let chart = chart::choose(
+            system.jacobian(),
+            system.r,
+            system.n,
+            &system.mass_diagonal(),
+        );
+        self.check_inertia(&chart)?;
+        let mut completed = self.describe_values(&self.data.q, &self.q, "");
+        completed.extend(self.describe_values(&self.data.v, &self.v, "'"));
+        let redundant = (0..self.system.r)
+            .filter(|row| !chart.rows.contains(row))
+            .map(|row| self.system.constraints[row].clone())
+            .collect();
+        Ok(ConsistentState {
+            t: self.data.t,
+            q: self.q,
+            v: self.v,
+            completed,
+            chart,
+            redundant,
+        })
+    }
+
+    fn check_gradients(&self) -> Result<(), InitialError> {
+        let (system, n) = (&*self.system, self.system.n);
+        let scale = largest(system.jacobian()).max(1e-3);
+        for row in 0..system.r {
+            let gradient = &system.jacobian()[row * n..(row + 1) * n];
+            if norm(gradient) <= 1e-7 * scale {
+                let hint =
+                    "; if it is a square such as (x' - y)^2 = 0, write the base alone: x' = y"
+                        .to_string();
+                return Err(InitialError::VanishingGradient {
+                    name: system.constraints[row].clone(),
+                    hint,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_inertia(&self, chart: &Chart) -> Result<(), InitialError> {
+        let mut accelerations = Accelerations::default();
+        match accelerations.solve(self.system, chart) {
+            Ok(()) => Ok(()),
+            Err(SolveFailure::Chart(_)) => {
+                Err(self.not_finite("the solution for the dependent velocities"))
+            }
+            Err(SolveFailure::Inertia(_)) => {
+                let direction = accelerations.inertia_null_vector(chart, self.system.n);
+                Err(InitialError::NoInertia {
+                    direction: self.direction_in_words(direction),
+                })
+            }
+        }
+    }
+
+    fn direction_in_words(&self, direction: Option<Vec<f64>>) -> String {
+        let names = &self.system.coordinates;
+        let Some(direction) = direction else {
+            return "some velocity".to_string();
+        };
+        let parts: Vec<String> = names
+            .iter()
+            .zip(&direction)
+            .filter(|(_, x)| x.abs() > 1e-9)
+            .map(|(name, x)| {
+                if (x - 1.0).abs() < 1e-9 {
+                    format!("`{name}`")
+                } else {
+                    format!("{x:.3}·`{name}`")
+                }
+            })
+            .collect();
+        parts.join(" + ")
+    }
+
+    fn describe(&self, given: &[f64], found: &[f64], prime: &str) -> String {
+        let parts: Vec<String> = self
+            .describe_values(given, found, prime)
+            .into_iter()
+            .map(|(name, value)| format!("{name} = {value}"))
+            .collect();
+        parts.join(", ")
+    }
+
+    fn describe_values(&self, given: &[f64], found: &[f64], prime: &str) -> Vec<(String, f64)> {
+        self.system
+            .coordinates
+            .iter()
+            .zip(given.iter().zip(found))
+            .filter(|(_, (a, b))| (*a - *b).abs() > 1e-13 * (1.0 + a.abs()))
+            .map(|(name, (_, b))| (format!("{name}{prime}"), *b))
+            .collect()
+    }
+}
+
+fn advice(nearest: &str) -> String {
+    if nearest.is_empty() {
+        "give other initial data, or set `project = true`".to_string()
+    } else {
+        format!("the nearest consistent values are {nearest}; set `project = true` (or `--project`) to use them")
+    }
+}
+
+fn tolerance(x: &[f64]) -> f64 {
+    2e-12 * (1.0 + largest(x))
+}
+
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |m: f64, v| {
+        if v.is_nan() {
+            f64::INFINITY
+        } else {
+            m.max(v.abs())
+        }
+    })
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+fn pivot_column(line: &[f64]) -> Option<usize> {
+    (0..line.len()).max_by(|&i, &j| line[i].abs().total_cmp(&line[j].abs()))
+}
+
+fn identity(n: usize) -> Vec<f64> {
+    let mut matrix = vec![0.0; n * n];
+    for i in 0..n {
+        matrix[i * n + i] = 1.0;
+    }
+    matrix
+}
+
+/// The step x of the movable components with `J x = f` (in the least-squares sense where rows depend) and least
+/// `xᵀ M x`; the metric falls back to the identity where M is not positive definite on the movable components.
+pub(crate) fn least_step(
+    jacobian: &[f64],
+    f: &[f64],
+    n: usize,
+    movable: &[usize],
+    metric: &[f64],
+) -> Vec<f64> {
+    let m = movable.len();
+    let mut step = vec![0.0; n];
+    if m == 0 || f.is_empty() {
+        return step;
+    }
+    let mut sub: Vec<f64> = Vec::with_capacity(m * m);
+    for &i in movable {
+        sub.extend(movable.iter().map(|&j| metric[i * n + j]));
+    }
+    let factor = cholesky(&sub, m).unwrap_or_else(|| identity(m));
+    // With x = L⁻ᵀ y the norm is Euclidean; rows of J L⁻ᵀ by forward substitution.
+    let mut basis: Vec<(Vec<f64>, f64)> = Vec::new();
+    for (row, &target) in jacobian.chunks(n).zip(f) {
+        let mut direction: Vec<f64> = movable.iter().map(|&i| row[i]).collect();
+        forward(&factor, &mut direction);
+        let original = norm(&direction);
+        let mut value = target;
+        for (unit, component) in &basis {
+            let along: f64 = direction.iter().zip(unit).map(|(a, b)| a * b).sum();
+            direction
+                .iter_mut()
+                .zip(unit)
+                .for_each(|(a, b)| *a -= along * b);
+            value -= along * component;
+        }
+        let length = norm(&direction);
+        if length > 1e-10 * original && length > 0.0 {
+            direction.iter_mut().for_each(|x| *x /= length);
+            basis.push((direction, value / length));
+        }
+    }
+    let mut y = vec![0.0; m];
+    for (unit, component) in basis {
+        y.iter_mut()
+            .zip(unit)
+            .for_each(|(a, u)| *a += component * u);
+    }
+    backward(&factor, &mut y);
+    for (&i, &x) in movable.iter().zip(&y) {
+        step[i] = x;
+    }
+    step
+}
+
+/// L with `L Lᵀ = A`; `None` when A is not safely positive definite.
+fn cholesky(a: &[f64], m: usize) -> Option<Vec<f64>> {
+    let mut l = vec![0.0; m * m];
+    let scale = (0..m).fold(0.0, |s: f64, i| s.max(a[i * m + i].abs()));
+    for i in 0..m {
+        for j in 0..=i {
+            let sum: f64 = (0..j).map(|k| l[i * m + k] * l[j * m + k]).sum();
+            let value = a[i * m + j] - sum;
+            if i == j {
+                if value.is_nan() || value <= 1e-12 * scale {
+                    return None;
+                }
+                l[i * m + i] = value.sqrt();
+            } else {
+                l[i * m + j] = value / l[j * m + j];
+            }
+        }
+    }
+    Some(l)
+}
+
+/// `x ← L⁻¹ x`.
+fn forward(l: &[f64], x: &mut [f64]) {
+    let m = x.len();
+    for i in 0..m {
+        let sum: f64 = (0..i).map(|j| l[i * m + j] * x[j]).sum();
+        x[i] = (x[i] - sum) / l[i * m + i];
+    }
+}
+
+/// `x ← L⁻ᵀ x`.
+fn backward(l: &[f64], x: &mut [f64]) {
+    let m = x.len();
+    for i in (0..m).rev() {
+        let sum: f64 = (i + 1..m).map(|j| l[j * m + i] * x[j]).sum();
+        x[i] = (x[i] - sum) / l[i * m + i];
+    }
+}

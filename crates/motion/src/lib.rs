@@ -1,0 +1,25 @@
+//! Numerical motion of a system: charts, consistent initial data, projection, reactions, drift.
+//!
+//! Knows numbers and systems, nothing of files or reports. [`run::Subject`] integrates one formulation;
+//! [`observe`] evaluates expressions along the rows.
+
+pub mod accelerations;
+pub mod chart;
+pub mod dense;
+pub mod drift;
+pub mod functions;
+pub mod initial;
+pub mod maggi_flow;
+pub mod multiplier_flow;
+pub mod numeric;
+pub mod observe;
+pub mod row;
+pub mod run;
+pub mod stop;
+pub mod watch;
+
+pub use initial::{consistent_state, ConsistentState, InitialData, InitialError};
+pub use multiplier_flow::StateKind;
+pub use numeric::{Binding, NumericError, NumericSystem};
+pub use row::RowLayout;
+pub use run::{Run, RunError, RunSettings, Subject, Watcher};

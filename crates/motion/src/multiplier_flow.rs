@@ -1,0 +1,383 @@
+//! The motion by Routh's equations: the multiplier form solved numerically at every state.
+//!
+//! State (q, v), projected on the constraints where asked; or (q, v_i) with the dependent velocities from the
+//! constraints, which are then satisfied identically (affine constraints only).
+
+use crate::accelerations::Accelerations;
+use crate::chart::{self, Chart};
+use crate::drift::Drift;
+use crate::initial::{least_step, ConsistentState};
+use crate::numeric::{Completion, NumericSystem};
+use crate::row::RowLayout;
+use crate::watch::Watch;
+use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System};
+
+/// Which variables are integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StateKind {
+    /// (q, v).
+    Full,
+    /// (q, v_i).
+    Reduced,
+}
+
+/// Routh's equations as a first-order system.
+#[derive(Clone, Debug)]
+pub struct MultiplierFlow {
+    system: NumericSystem,
+    kind: StateKind,
+    chart: Chart,
+    chart_number: u32,
+    project: bool,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    accelerations: Accelerations,
+    completion: Completion,
+    /// Largest residuals found at accepted steps, before projection.
+    pub drift: Drift,
+    reference_gradient: Vec<f64>,
+    /// Quantities whose vanishing makes the equations singular.
+    pub watch: Watch,
+}
+
+/// A chart is replaced when its pivot fell below this fraction of its value at the time of choice (theory 5.2).
+const DEGRADED: f64 = 0.1;
+/// A new chart must be better by this factor, or charts would chatter.
+const HYSTERESIS: f64 = 3.0;
+/// A stage whose pivot fell below this fraction rejects the step.
+const UNUSABLE: f64 = 1e-3;
+/// A gradient counts as vanished below this fraction of its largest length so far.
+const VANISHED: f64 = 1e-8;
+
+impl MultiplierFlow {
+    /// The flow from a consistent state. `Reduced` falls back to `Full` for constraints nonlinear in the velocities.
+    pub fn new(
+        system: NumericSystem,
+        start: &ConsistentState,
+        kind: StateKind,
+        project: bool,
+        mut watch: Watch,
+    ) -> MultiplierFlow {
+        watch.record(start.t, &start.q, &start.v);
+        let kind = if system.is_affine() {
+            kind
+        } else {
+            StateKind::Full
+        };
+        MultiplierFlow {
+            q: start.q.clone(),
+            v: start.v.clone(),
+            chart: start.chart.clone(),
+            chart_number: 0,
+            drift: Drift::new(&system),
+            reference_gradient: vec![0.0; system.r],
+            accelerations: Accelerations::default(),
+            completion: Completion::default(),
+            project: project && kind == StateKind::Full,
+            kind,
+            watch,
+            system,
+        }
+    }
+
+    /// The state vector of (q, v).
+    pub fn pack(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
+        let mut y = q.to_vec();
+        match self.kind {
+            StateKind::Full => y.extend_from_slice(v),
+            StateKind::Reduced => y.extend(self.chart.independent.iter().map(|&i| v[i])),
+        }
+        y
+    }
+
+    /// Which variables are integrated.
+    pub fn kind(&self) -> StateKind {
+        self.kind
+    }
+
+    /// Whether watched quantity `index` vanishes at the state y.
+    pub fn vanishes(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
+        if self.unpack(t, y).is_err() {
+            return true;
+        }
+        self.watch.vanishes(index, t, &self.q, &self.v)
+    }
+
+    /// Smallest pivot of the present chart over its value when chosen, at the state y; 0 where it cannot be computed.
+    pub fn pivot_ratio(&mut self, t: f64, y: &[f64]) -> f64 {
+        if self.system.r == 0 {
+            return 1.0;
+        }
+        if self.unpack(t, y).is_err() || self.system.evaluate(t, &self.q, &self.v).is_err() {
+            return 0.0;
+        }
+        self.choose().pivot
+    }
+
+    /// The present chart.
+    pub fn chart(&self) -> &Chart {
+        &self.chart
+    }
+
+    /// The numeric system.
+    pub fn system(&self) -> &NumericSystem {
+        &self.system
+    }
+
+    fn unpack(&mut self, t: f64, y: &[f64]) -> Result<(), EvaluationFailure> {
+        let n = self.system.n;
+        self.q.copy_from_slice(&y[..n]);
+        match self.kind {
+            StateKind::Full => self.v.copy_from_slice(&y[n..]),
+            StateKind::Reduced => {
+                for (&i, &value) in self.chart.independent.iter().zip(&y[n..]) {
+                    self.v[i] = value;
+                }
+                self.system.complete_velocities(
+                    t,
+                    &self.q,
+                    &mut self.v,
+                    &self.chart,
+                    &mut self.completion,
+                )?;
+            }
+        }
+        Ok(())
+    }
+
+    fn evaluate(&mut self, t: f64, y: &[f64]) -> Result<(), EvaluationFailure> {
+        self.unpack(t, y)?;
+        self.system.evaluate(t, &self.q, &self.v)?;
+        self.accelerations.solve(&self.system, &self.chart)?;
+        Ok(())
+    }
+
+    fn quality(&self) -> f64 {
+        let system = &self.system;
+        chart::quality(
+            &self.chart,
+            system.jacobian(),
+            system.r,
+            system.n,
+            &system.mass_diagonal(),
+        )
+    }
+
+    /// Chooses again at the state of the last evaluation of the constraints.
+    fn choose(&self) -> Chart {
+        let system = &self.system;
+        chart::choose(
+            system.jacobian(),
+            system.r,
+            system.n,
+            &system.mass_diagonal(),
+        )
+    }
+
+    fn switch(&mut self, next: Chart, before: f64, y: &mut [f64]) -> Control {
+        let change = ChartChange {
+            from: self.chart_number,
+            to: self.chart_number + 1,
+            pivot_before: before,
+            pivot_after: next.pivot,
+        };
+        self.chart_number += 1;
+        self.chart = next;
+        let packed = self.pack(&self.q.clone(), &self.v.clone());
+        y.copy_from_slice(&packed);
+        Control::ChartSwitched(change)
+    }
+
+    /// The row whose gradient has vanished, if any; keeps the largest length seen of each.
+    fn vanished_gradient(&mut self) -> Option<usize> {
+        let (n, r) = (self.system.n, self.system.r);
+        for row in 0..r {
+            let gradient = &self.system.jacobian()[row * n..(row + 1) * n];
+            let length = gradient.iter().map(|x| x * x).sum::<f64>().sqrt();
+            self.reference_gradient[row] = self.reference_gradient[row].max(length);
+            if length <= VANISHED * self.reference_gradient[row] {
+                return Some(row);
+            }
+        }
+        None
+    }
+
+    fn rank_drop(&self, to: usize, constraint: usize) -> Control {
+        Control::Stop(HaltReason::RankDrop {
+            from: self.chart.rank(),
+            to,
+            constraint,
+        })
+    }
+
+    /// Velocities back on the constraints in the kinetic metric; Newton for nonlinear ones. True when y changed.
+    fn project(&mut self, t: f64, y: &mut [f64]) -> bool {
+        let n = self.system.n;
+        let all: Vec<usize> = (0..n).collect();
+        let mut changed = false;
+        self.project_positions(t, &all, &mut changed);
+        for _ in 0..10 {
+            if self.system.evaluate(t, &self.q, &self.v).is_err() {
+                return false;
+            }
+            let residual = self.system.residual();
+            let scale: f64 = self.v.iter().fold(1e-300, |m, x| m.max(x.abs()));
+            if residual
+                .iter()
+                .all(|f| f.abs() <= 8.0 * f64::EPSILON * scale)
+            {
+                break;
+            }
+            let step = least_step(
+                self.system.jacobian(),
+                residual,
+                n,
+                &all,
+                self.system.mass(),
+            );
+            self.v.iter_mut().zip(&step).for_each(|(v, dv)| *v -= dv);
+            changed = true;
+        }
+        if changed {
+            y[..n].copy_from_slice(&self.q);
+            y[n..].copy_from_slice(&self.v);
+        }
+        changed
+    }
+
+    fn project_positions(&mut self, t: f64, all: &[usize], changed: &mut bool) {
+        if self.system.holonomic.is_empty() {
+            return;
+        }
+        for _ in 0..10 {
+            if self.system.evaluate_positions(t, &self.q, &self.v).is_err() {
+                return;
+            }
+            let scale: f64 = self.q.iter().fold(1e-300, |m, x| m.max(x.abs()));
+            let residual = self.system.position_residual();
+            if residual
+                .iter()
+                .all(|f| f.abs() <= 8.0 * f64::EPSILON * scale)
+            {
+                return;
+            }
+            let gradient = self.system.position_gradient();
+            let step = least_step(gradient, residual, self.system.n, all, self.system.mass());
+            self.q.iter_mut().zip(&step).for_each(|(q, dq)| *q -= dq);
+            *changed = true;
+        }
+    }
+}
+
+impl System for MultiplierFlow {
+    fn dimension(&self) -> usize {
+        match self.kind {
+            StateKind::Full => 2 * self.system.n,
+            StateKind::Reduced => self.system.n + self.chart.independent.len(),
+        }
+    }
+
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure> {
+        self.evaluate(t, y)?;
+        if self.system.r > 0 {
+            let ratio = self.quality() / self.chart.pivot;
+            if ratio < UNUSABLE {
+                return Err(EvaluationFailure::PivotDegraded { ratio });
+            }
+        }
+        let n = self.system.n;
+        dy[..n].copy_from_slice(&self.v);
+        match self.kind {
+            StateKind::Full => dy[n..].copy_from_slice(&self.accelerations.a),
+            StateKind::Reduced => {
+                for (rate, &i) in dy[n..].iter_mut().zip(&self.chart.independent) {
+                    *rate = self.accelerations.a[i];
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn accepted(&mut self, t: f64, y: &mut [f64]) -> Control {
+        if self.unpack(t, y).is_err() || self.system.evaluate(t, &self.q, &self.v).is_err() {
+            return Control::Continue;
+        }
+        self.watch.record(t, &self.q, &self.v);
+        if let Some(index) = self.watch.vanished() {
+            return Control::Stop(HaltReason::Custom(index as u32));
+        }
+        if self.system.r == 0 {
+            return Control::Continue;
+        }
+        if !self.system.holonomic.is_empty() {
+            let _ = self.system.evaluate_positions(t, &self.q, &self.v);
+        }
+        self.drift.record(&self.system, t);
+        if let Some(row) = self.vanished_gradient() {
+            return self.rank_drop(self.chart.rank().saturating_sub(1), row);
+        }
+        let unchanged = if self.project && self.project(t, y) {
+            Control::StateModified
+        } else {
+            Control::Continue
+        };
+        let before = self.quality();
+        if before >= DEGRADED * self.chart.pivot {
+            return unchanged;
+        }
+        let next = self.choose();
+        if next.rank() < self.chart.rank() {
+            let missing = (0..self.system.r)
+                .find(|row| !next.rows.contains(row))
+                .unwrap_or(0);
+            return self.rank_drop(next.rank(), missing);
+        }
+        if next.pivot < HYSTERESIS * before {
+            return unchanged;
+        }
+        self.switch(next, before, y)
+    }
+
+    fn repivot(&mut self, t: f64, y: &mut [f64]) -> Control {
+        if self.unpack(t, y).is_err() || self.system.evaluate(t, &self.q, &self.v).is_err() {
+            return Control::Continue;
+        }
+        let before = self.quality();
+        let next = self.choose();
+        if next.rank() == self.chart.rank()
+            && next.pivot > before
+            && next.dependent != self.chart.dependent
+        {
+            self.switch(next, before, y)
+        } else {
+            Control::Continue
+        }
+    }
+
+    fn output_dimension(&self) -> usize {
+        RowLayout::new(self.system.n, self.system.r).len()
+    }
+
+    fn output(&mut self, t: f64, y: &[f64], row: &mut [f64]) -> Result<(), EvaluationFailure> {
+        self.evaluate(t, y)?;
+        let layout = RowLayout::new(self.system.n, self.system.r);
+        layout.write(
+            row,
+            &self.q,
+            &self.v,
+            &self.accelerations.a,
+            &self.accelerations.lambda,
+        );
+        Ok(())
+    }
+
+    fn switching(&mut self, index: usize, t: f64, y: &[f64]) -> Result<f64, EvaluationFailure> {
+        self.evaluate(t, y)?;
+        self.watch
+            .switching(index, t, &self.q, &self.v, &self.accelerations.a)
+    }
+
+    fn factorizations(&self) -> u64 {
+        self.accelerations.factorizations
+    }
+}

@@ -1,0 +1,307 @@
+//! A system with numbers for its parameters: mass matrix, forces and constraints as compiled functions.
+
+use crate::chart::Chart;
+use crate::dense::Lu;
+use crate::functions::{Functions, FunctionsError};
+use chetaev_integrate::EvaluationFailure;
+use chetaev_mechanics::{ConstraintKind, MotionTerms, System};
+use chetaev_symbolic::{Expr, Graph, Symbol};
+
+/// Why a system has no numeric form.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NumericError {
+    /// A parameter without a value.
+    #[error("parameter `{0}` has no value; give it one in the model or with `--set {0}=…`")]
+    NoValue(String),
+    /// A parameter whose value is not a finite number.
+    #[error("the value of parameter `{0}` is not a finite number")]
+    NotFinite(String),
+    /// A control without a law.
+    #[error("control `{0}` has no law u(t), so the motion cannot be computed")]
+    NoControlLaw(String),
+    /// A constraint of higher order.
+    #[error("constraint `{0}` contains accelerations or higher derivatives; its dynamics is not built in yet, only its classification")]
+    HigherOrder(String),
+    /// The functions cannot be compiled.
+    #[error(transparent)]
+    Functions(#[from] FunctionsError),
+}
+
+/// `M a - Jᵀ λ = b`, `J a = g`, `f = 0` and the holonomic `φ = 0` as numeric functions of (t, q, v).
+#[derive(Clone, Debug)]
+pub struct NumericSystem {
+    /// Number of coordinates.
+    pub n: usize,
+    /// Number of constraint rows, redundant ones included.
+    pub r: usize,
+    /// Names of the coordinates.
+    pub coordinates: Vec<String>,
+    /// Names of the constraints, by row.
+    pub constraints: Vec<String>,
+    /// Rows that are affine in the velocities.
+    pub affine: Vec<bool>,
+    /// Rows of the holonomic constraints.
+    pub holonomic: Vec<usize>,
+    dynamics: Functions,
+    kinematics: Functions,
+    positions: Functions,
+}
+
+/// Groups of the dynamics program, in order.
+const MASS: usize = 0;
+const FORCE: usize = 1;
+const JACOBIAN: usize = 2;
+const RATE: usize = 3;
+const RESIDUAL: usize = 4;
+
+/// How symbols become numbers: parameter values, and control laws in the place of controls.
+#[derive(Clone, Debug)]
+pub struct Binding {
+    /// Symbols and values of the parameters.
+    pub parameters: Vec<(Symbol, f64)>,
+    /// Substitution of controls and their derivatives by their laws.
+    pub controls: Vec<(Expr, Expr)>,
+    /// The variables (t, q, v) in this order.
+    pub variables: Vec<Symbol>,
+}
+
+impl Binding {
+    /// Values of all parameters and laws of all controls of a system.
+    ///
+    /// # Errors
+    /// [`NumericError`] for what has no value.
+    pub fn new(system: &System) -> Result<Binding, NumericError> {
+        let g = &system.graph;
+        let mut parameters = Vec::new();
+        for parameter in &system.parameters {
+            let name = || parameter.name.clone();
+            let value = parameter
+                .value
+                .ok_or_else(|| NumericError::NoValue(name()))?;
+            let number = g
+                .evaluate_f64(&[value], &|_| None)
+                .map_err(|_| NumericError::NoValue(name()))?[0];
+            if !number.is_finite() {
+                return Err(NumericError::NotFinite(name()));
+            }
+            parameters.push((g.intern_symbol(&parameter.name, 0), number));
+        }
+        Ok(Binding {
+            parameters,
+            controls: control_laws(system)?,
+            variables: variables(g, system),
+        })
+    }
+}
+
+fn variables(g: &Graph, system: &System) -> Vec<Symbol> {
+    let mut variables = vec![g.intern_symbol("t", 0)];
+    variables.extend(system.coordinate_symbols());
+    variables.extend(system.velocity_symbols());
+    variables
+}
+
+/// u, u', u'', … replaced by the law and its derivatives, as far as they occur.
+fn control_laws(system: &System) -> Result<Vec<(Expr, Expr)>, NumericError> {
+    let g = &system.graph;
+    let mut pairs = Vec::new();
+    for control in &system.controls {
+        let mut law = control
+            .law
+            .ok_or_else(|| NumericError::NoControlLaw(control.name.clone()))?;
+        // Three derivatives: accelerations of constraints that contain u' need u''.
+        for order in 0..4 {
+            pairs.push((g.symbol(&control.name, order), law));
+            law = g.total_derivative(law, &|_| false);
+        }
+    }
+    Ok(pairs)
+}
+
+impl NumericSystem {
+    /// Compiles the functions of a system.
+    ///
+    /// # Errors
+    /// [`NumericError`].
+    pub fn new(
+        system: &System,
+        terms: &MotionTerms,
+        binding: &Binding,
+    ) -> Result<NumericSystem, NumericError> {
+        if let Some(c) = system
+            .constraints
+            .iter()
+            .find(|c| c.kind == ConstraintKind::HigherOrder)
+        {
+            return Err(NumericError::HigherOrder(c.name.clone()));
+        }
+        let g = &system.graph;
+        let constraint = |row: usize| &system.constraints[terms.constraint_index[row]];
+        let r = terms.constraints.len();
+        let holonomic: Vec<usize> = (0..r)
+            .filter(|&row| constraint(row).kind == ConstraintKind::Holonomic)
+            .collect();
+        let stated: Vec<Expr> = holonomic
+            .iter()
+            .map(|&row| constraint(row).stated)
+            .collect();
+        let gradient = g.jacobian(&stated, &system.coordinate_symbols()).concat();
+        let groups = [
+            ("mass", terms.mass_matrix.concat()),
+            ("force", terms.force.clone()),
+            ("jacobian", terms.jacobian.concat()),
+            ("rate", terms.constraint_rate.clone()),
+            ("residual", terms.constraints.clone()),
+        ];
+        Ok(NumericSystem {
+            n: system.n(),
+            r,
+            coordinates: system.coordinates.iter().map(|c| c.name.clone()).collect(),
+            constraints: (0..r).map(|row| constraint(row).name.clone()).collect(),
+            affine: (0..r)
+                .map(|row| constraint(row).is_affine_in_velocities())
+                .collect(),
+            holonomic,
+            dynamics: Functions::new(g, binding, &binding.variables, &groups)?,
+            kinematics: Functions::new(g, binding, &binding.variables, &groups[2..5])?,
+            positions: Functions::new(
+                g,
+                binding,
+                &binding.variables,
+                &[("position", stated), ("gradient", gradient)],
+            )?,
+        })
+    }
+
+    /// Evaluates everything at (t, q, v); read the results with the accessors.
+    ///
+    /// # Errors
+    /// When a value is not finite.
+    pub fn evaluate(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), EvaluationFailure> {
+        self.dynamics.evaluate(t, &[q, v])
+    }
+
+    /// For affine constraints: the dependent velocities of `chart` from the independent ones, written into `v`.
+    ///
+    /// # Errors
+    /// When a value is not finite or the chart is singular here.
+    pub fn complete_velocities(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &mut [f64],
+        chart: &Chart,
+        workspace: &mut Completion,
+    ) -> Result<(), EvaluationFailure> {
+        for &d in &chart.dependent {
+            v[d] = 0.0;
+        }
+        self.kinematics.evaluate(t, &[q, v])?;
+        workspace.complete(
+            self.n,
+            self.kinematics.group(0),
+            self.kinematics.group(2),
+            v,
+            chart,
+        )
+    }
+
+    /// Evaluates the holonomic constraints at (t, q).
+    ///
+    /// # Errors
+    /// When a value is not finite.
+    pub fn evaluate_positions(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<(), EvaluationFailure> {
+        self.positions.evaluate(t, &[q, v])
+    }
+
+    /// M, n × n.
+    pub fn mass(&self) -> &[f64] {
+        self.dynamics.group(MASS)
+    }
+
+    /// b, length n.
+    pub fn force(&self) -> &[f64] {
+        self.dynamics.group(FORCE)
+    }
+
+    /// J, r × n.
+    pub fn jacobian(&self) -> &[f64] {
+        self.dynamics.group(JACOBIAN)
+    }
+
+    /// g, length r.
+    pub fn rate(&self) -> &[f64] {
+        self.dynamics.group(RATE)
+    }
+
+    /// f, length r.
+    pub fn residual(&self) -> &[f64] {
+        self.dynamics.group(RESIDUAL)
+    }
+
+    /// φ, one per holonomic constraint.
+    pub fn position_residual(&self) -> &[f64] {
+        self.positions.group(0)
+    }
+
+    /// ∂φ/∂q, row by row.
+    pub fn position_gradient(&self) -> &[f64] {
+        self.positions.group(1)
+    }
+
+    /// The diagonal of M.
+    pub fn mass_diagonal(&self) -> Vec<f64> {
+        (0..self.n).map(|i| self.mass()[i * self.n + i]).collect()
+    }
+
+    /// Whether all constraints are affine in the velocities.
+    pub fn is_affine(&self) -> bool {
+        self.affine.iter().all(|&a| a)
+    }
+}
+
+/// Workspace of [`NumericSystem::complete_velocities`].
+#[derive(Clone, Debug, Default)]
+pub struct Completion {
+    lu: Lu,
+    block: Vec<f64>,
+    column: Vec<f64>,
+}
+
+impl Completion {
+    fn complete(
+        &mut self,
+        n: usize,
+        jacobian: &[f64],
+        residual: &[f64],
+        v: &mut [f64],
+        chart: &Chart,
+    ) -> Result<(), EvaluationFailure> {
+        if chart.rows.is_empty() {
+            return Ok(());
+        }
+        self.block.clear();
+        self.column.clear();
+        for &row in &chart.rows {
+            self.block
+                .extend(chart.dependent.iter().map(|&d| jacobian[row * n + d]));
+            self.column.push(-residual[row]);
+        }
+        self.lu
+            .factor(chart.rows.len(), &self.block)
+            .map_err(|pivot| EvaluationFailure::PivotDegraded {
+                ratio: pivot.pivot.abs(),
+            })?;
+        self.lu.solve(&mut self.column);
+        for (&d, &value) in chart.dependent.iter().zip(&self.column) {
+            v[d] = value;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,59 @@
+//! Expressions in (t, q, v, a, λ) evaluated along a run.
+
+use crate::functions::{Functions, FunctionsError};
+use crate::numeric::Binding;
+use crate::run::Run;
+use chetaev_mechanics::{MotionTerms, System};
+use chetaev_symbolic::{Expr, Symbol};
+
+/// Expressions compiled as functions of an output row.
+#[derive(Clone, Debug)]
+pub struct Observer {
+    functions: Functions,
+    count: usize,
+}
+
+impl Observer {
+    /// Compiles expressions in t, q, q', q'', `lambda_NAME` and parameters.
+    ///
+    /// # Errors
+    /// [`FunctionsError`], for instance for a symbol that is none of these.
+    pub fn new(
+        system: &System,
+        terms: &MotionTerms,
+        binding: &Binding,
+        expressions: &[Expr],
+    ) -> Result<Observer, FunctionsError> {
+        let g = &system.graph;
+        let mut variables: Vec<Symbol> = binding.variables.clone();
+        variables.extend(system.coordinates.iter().map(|c| c.a_symbol));
+        variables.extend(
+            terms
+                .constraint_index
+                .iter()
+                .map(|&l| g.intern_symbol(&format!("lambda_{}", system.constraints[l].name), 0)),
+        );
+        Ok(Observer {
+            functions: Functions::new(g, binding, &variables, &[("values", expressions.to_vec())])?,
+            count: expressions.len(),
+        })
+    }
+
+    /// Values at one row; NaN where a value is not finite.
+    pub fn at(&mut self, t: f64, row: &[f64]) -> Vec<f64> {
+        // A value that is not finite belongs to one expression; the others are still wanted.
+        let _ = self.functions.evaluate(t, &[row]);
+        self.functions.group(0).to_vec()
+    }
+
+    /// One series per expression along a run.
+    pub fn along(&mut self, run: &Run) -> Vec<Vec<f64>> {
+        let mut series = vec![Vec::with_capacity(run.len()); self.count];
+        for (j, &t) in run.times.iter().enumerate() {
+            for (values, value) in series.iter_mut().zip(self.at(t, run.row(j))) {
+                values.push(value);
+            }
+        }
+        series
+    }
+}

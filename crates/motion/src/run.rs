@@ -1,0 +1,356 @@
+//! One run: settings, the trajectory as rows (q, v, a, λ), and why it ended, in words.
+
+use crate::initial::ConsistentState;
+use crate::maggi_flow::{MaggiError, MaggiFlow};
+use crate::multiplier_flow::{MultiplierFlow, StateKind};
+use crate::numeric::{Binding, NumericSystem};
+use crate::row::RowLayout;
+use crate::stop::{self, Ending};
+use crate::watch::Watch;
+use chetaev_integrate::{
+    integrate, method, ChartChange, Direction, ErrorControl, Event, HaltReason, IntegrateError,
+    Note, Options, Output, Progress, Solution, Statistics, StiffnessPolicy, Stop,
+};
+use chetaev_mechanics::{MotionTerms, System};
+use std::ops::ControlFlow;
+use std::sync::atomic::AtomicBool;
+
+/// How a run is made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunSettings {
+    /// End of the run.
+    pub t_end: f64,
+    /// Relative tolerance.
+    pub tolerance: f64,
+    /// Absolute tolerance.
+    pub absolute_tolerance: f64,
+    /// Name of the method.
+    pub method: String,
+    /// Times of the rows.
+    pub times: Vec<f64>,
+    /// Most steps.
+    pub max_steps: u64,
+    /// Variables of the multiplier form.
+    pub state: StateKind,
+    /// Whether the state is projected on the constraints after each step.
+    pub project: bool,
+}
+
+impl RunSettings {
+    /// 500 equal intervals, DOP853 at tolerance 1e-10, reduced state.
+    pub fn new(t_start: f64, t_end: f64) -> RunSettings {
+        RunSettings {
+            t_end,
+            tolerance: 1e-10,
+            absolute_tolerance: 1e-10,
+            method: "dormand-prince-853".into(),
+            times: equal_times(t_start, t_end, 500),
+            max_steps: 2_000_000,
+            state: StateKind::Reduced,
+            project: false,
+        }
+    }
+}
+
+/// `t_start + j (t_end - t_start)/intervals`, j = 0..=intervals, the last exactly `t_end`.
+pub fn equal_times(t_start: f64, t_end: f64, intervals: u32) -> Vec<f64> {
+    if intervals == 0 || t_start == t_end {
+        return vec![t_start];
+    }
+    let mut times: Vec<f64> = (0..=intervals)
+        .map(|j| t_start + f64::from(j) * ((t_end - t_start) / f64::from(intervals)))
+        .collect();
+    if let Some(last) = times.last_mut() {
+        *last = t_end;
+    }
+    times
+}
+
+/// Interruption and progress of long runs.
+#[derive(Default)]
+pub struct Watcher<'a> {
+    /// When it becomes true the run ends and keeps what it has.
+    pub interrupt: Option<&'a AtomicBool>,
+    /// Called after each step; breaking ends the run as an interruption.
+    pub progress: Option<&'a mut dyn FnMut(Progress) -> ControlFlow<()>>,
+}
+
+impl std::fmt::Debug for Watcher<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Watcher")
+    }
+}
+
+/// A computed motion.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// Name of the formulation integrated.
+    pub formulation: &'static str,
+    /// Name of the method.
+    pub method: &'static str,
+    /// Layout of the rows.
+    pub layout: RowLayout,
+    /// Times of the rows.
+    pub times: Vec<f64>,
+    /// Rows (q, v, a, λ), one after the other.
+    pub rows: Vec<f64>,
+    /// Why it ended.
+    pub ending: Ending,
+    /// Last time reached.
+    pub t: f64,
+    /// Counts.
+    pub statistics: Statistics,
+    /// Changes of chart.
+    pub chart_changes: Vec<(f64, ChartChange)>,
+    /// Remarks.
+    pub notes: Vec<Note>,
+    /// Largest violation of each constraint before projection; `None` when constraints hold by construction.
+    pub drift: Option<crate::drift::Drift>,
+}
+
+impl Run {
+    /// Row number j.
+    pub fn row(&self, j: usize) -> &[f64] {
+        let width = self.layout.len();
+        &self.rows[j * width..(j + 1) * width]
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Whether there are no rows.
+    pub fn is_empty(&self) -> bool {
+        self.times.is_empty()
+    }
+}
+
+/// Why a run cannot begin.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// The integrator refuses the question.
+    #[error(transparent)]
+    Integrate(#[from] IntegrateError),
+    /// Maggi's equations cannot be integrated.
+    #[error(transparent)]
+    Maggi(#[from] MaggiError),
+    /// The singular set cannot be watched.
+    #[error(transparent)]
+    Functions(#[from] crate::functions::FunctionsError),
+    /// A state of the start cannot be expressed in the variables of the formulation.
+    #[error("the initial state has no finite quasi-velocities")]
+    Start,
+}
+
+/// What a run needs to know of the system.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// The system.
+    pub system: &'a System,
+    /// Its terms.
+    pub terms: &'a MotionTerms,
+    /// Values of parameters.
+    pub binding: &'a Binding,
+    /// Compiled functions.
+    pub numeric: &'a NumericSystem,
+    /// Where to start.
+    pub start: &'a ConsistentState,
+}
+
+impl Subject<'_> {
+    /// Integrates Routh's equations.
+    ///
+    /// # Errors
+    /// [`RunError`] when the run cannot begin; what happens later is in [`Run::ending`].
+    pub fn routh(
+        &self,
+        settings: &RunSettings,
+        watcher: &mut Watcher<'_>,
+    ) -> Result<Run, RunError> {
+        let watch = Watch::new(self.system, self.terms, self.binding)?;
+        let watched = watch.quantities.clone();
+        let mut flow = MultiplierFlow::new(
+            self.numeric.clone(),
+            self.start,
+            settings.state,
+            settings.project,
+            watch,
+        );
+        let y0 = flow.pack(&self.start.q, &self.start.v);
+        let mut pieces: Vec<Solution> = Vec::new();
+        let (mut t, mut y) = (self.start.t, y0);
+        let ending = loop {
+            let mut events: Vec<Event<'_>> = (0..watched.len())
+                .map(|index| Event::of_system(index).direction(Direction::Up).terminal())
+                .collect();
+            let options = self.options(settings, t, y.len(), watcher)?;
+            let solution = integrate(&mut flow, (t, settings.t_end), &y, &mut events, options)?;
+            (t, y) = (solution.t, solution.state.clone());
+            let stop = solution.stop;
+            pieces.push(solution);
+            if let Stop::Event { index, t } = stop {
+                if flow.vanishes(index, t, &y) {
+                    break stop::vanished(&watched[index], t, &self.numeric.constraints);
+                }
+                if t != settings.t_end {
+                    continue;
+                }
+            }
+            if let Stop::Halted {
+                t,
+                reason: HaltReason::Custom(index),
+            } = stop
+            {
+                if let Some(what) = watched.get(index as usize) {
+                    break stop::vanished(what, t, &self.numeric.constraints);
+                }
+            }
+            let pivot = flow.pivot_ratio(t, &y);
+            let names = stop::Names {
+                coordinates: &self.numeric.coordinates,
+                constraints: &self.numeric.constraints,
+                state: stop::component_names(&self.numeric.coordinates, flow.kind(), flow.chart()),
+            };
+            break stop::ending(&stop, &names, pivot);
+        };
+        let kind = flow.kind();
+        let drift = (self.numeric.r > 0
+            && (kind == StateKind::Full || !self.numeric.holonomic.is_empty()))
+        .then(|| flow.drift.clone());
+        Ok(self.collect("routh", pieces, ending, drift))
+    }
+
+    /// Integrates Maggi's equations.
+    ///
+    /// # Errors
+    /// [`RunError`].
+    pub fn maggi(
+        &self,
+        settings: &RunSettings,
+        watcher: &mut Watcher<'_>,
+    ) -> Result<Run, RunError> {
+        let mut flow = MaggiFlow::new(
+            self.system,
+            self.terms,
+            self.binding,
+            self.numeric.clone(),
+            self.start,
+        )?;
+        let y0 = flow
+            .pack(self.start.t, &self.start.q, &self.start.v)
+            .map_err(|_| RunError::Start)?;
+        let options = self.options(settings, self.start.t, y0.len(), watcher)?;
+        let span = (self.start.t, settings.t_end);
+        let solution = integrate(&mut flow, span, &y0, &mut [], options)?;
+        let mut state = self.numeric.coordinates.clone();
+        state.extend(
+            (state.len()..y0.len())
+                .map(|i| format!("independent velocity {}", i + 1 - self.numeric.n)),
+        );
+        let names = stop::Names {
+            coordinates: &self.numeric.coordinates,
+            constraints: &self.numeric.constraints,
+            state,
+        };
+        let ending = stop::ending(&solution.stop, &names, 1.0);
+        Ok(self.collect("maggi", vec![solution], ending, None))
+    }
+
+    fn options<'o>(
+        &self,
+        settings: &RunSettings,
+        t: f64,
+        dimension: usize,
+        watcher: &'o mut Watcher<'_>,
+    ) -> Result<Options<'o>, RunError> {
+        let forward = settings.t_end >= self.start.t;
+        let times = settings
+            .times
+            .iter()
+            .copied()
+            .filter(|&x| {
+                if forward {
+                    x > t || t == self.start.t && x >= t
+                } else {
+                    x < t || t == self.start.t && x <= t
+                }
+            })
+            .collect();
+        let mut options = Options::tolerance(settings.tolerance);
+        options.method = method(&settings.method)?;
+        options.error = ErrorControl {
+            rtol: settings.tolerance,
+            atol: settings.absolute_tolerance,
+            atol_of: Vec::new(),
+            absolute: self.cyclic(dimension),
+        };
+        options.output = Output::Times(times);
+        options.step_limit = settings.max_steps;
+        options.stiffness = StiffnessPolicy::StopAfter(50_000);
+        options.interrupt = watcher.interrupt;
+        if let Some(report) = &mut watcher.progress {
+            options.progress = Some(&mut **report);
+        }
+        Ok(options)
+    }
+
+    /// Coordinates that occur nowhere in the equations: a relative tolerance on them would grow blind.
+    fn cyclic(&self, dimension: usize) -> Vec<bool> {
+        let g = &self.system.graph;
+        let mut roots = self.terms.mass_matrix.concat();
+        roots.extend(self.terms.jacobian.concat());
+        roots.extend(&self.terms.force);
+        roots.extend(&self.terms.constraint_rate);
+        let present = g.symbols_in(&roots);
+        let mut absolute: Vec<bool> = self
+            .system
+            .coordinates
+            .iter()
+            .map(|c| !present.contains(&c.q_symbol))
+            .collect();
+        absolute.resize(dimension, false);
+        absolute
+    }
+
+    fn collect(
+        &self,
+        formulation: &'static str,
+        pieces: Vec<Solution>,
+        ending: Ending,
+        drift: Option<crate::drift::Drift>,
+    ) -> Run {
+        let mut run = Run {
+            formulation,
+            method: pieces.first().map_or("", |s| s.method),
+            layout: RowLayout::new(self.numeric.n, self.numeric.r),
+            times: Vec::new(),
+            rows: Vec::new(),
+            t: pieces.last().map_or(self.start.t, |s| s.t),
+            ending,
+            statistics: Statistics::default(),
+            chart_changes: Vec::new(),
+            notes: Vec::new(),
+            drift,
+        };
+        for piece in pieces {
+            run.times.extend(&piece.times);
+            run.rows.extend(&piece.rows);
+            run.chart_changes.extend(&piece.chart_changes);
+            run.notes.extend(&piece.notes);
+            add(&mut run.statistics, &piece.statistics);
+        }
+        run
+    }
+}
+
+fn add(total: &mut Statistics, part: &Statistics) {
+    total.steps += part.steps;
+    total.rejected += part.rejected;
+    total.failed += part.failed;
+    total.evaluations += part.evaluations;
+    total.factorizations += part.factorizations;
+    total.chart_switches += part.chart_switches;
+    total.modifications += part.modifications;
+}

@@ -1,0 +1,186 @@
+//! Why a run ended, in mechanical terms.
+
+use crate::chart::Chart;
+use crate::multiplier_flow::StateKind;
+use crate::watch::Watched;
+use chetaev_integrate::{EvaluationFailure, HaltReason, Stop};
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ending {
+    /// Whether the end of the span was reached.
+    pub finished: bool,
+    /// Whether the user interrupted it.
+    pub interrupted: bool,
+    /// One sentence.
+    pub reason: String,
+    /// Time of the end, or the extrapolated time of the singularity.
+    pub t: f64,
+}
+
+/// Names for messages.
+#[derive(Clone, Debug)]
+pub struct Names<'a> {
+    /// Of the coordinates.
+    pub coordinates: &'a [String],
+    /// Of the constraint rows.
+    pub constraints: &'a [String],
+    /// Of the components of the state.
+    pub state: Vec<String>,
+}
+
+/// Names of the components of the state of the multiplier form.
+pub fn component_names(coordinates: &[String], kind: StateKind, chart: &Chart) -> Vec<String> {
+    let mut names = coordinates.to_vec();
+    match kind {
+        StateKind::Full => names.extend(coordinates.iter().map(|c| format!("{c}'"))),
+        StateKind::Reduced => {
+            names.extend(
+                chart
+                    .independent
+                    .iter()
+                    .map(|&i| format!("{}'", coordinates[i])),
+            );
+        }
+    }
+    names
+}
+
+/// The run met a point where a watched quantity vanishes.
+pub fn vanished(what: &Watched, t: f64, constraints: &[String]) -> Ending {
+    let reason = match what {
+        Watched::Gradient { row } => format!(
+            "the gradient of constraint `{}` by the velocities vanishes at t = {t:.9}: the rank of the constraints falls and the motion beyond is not determined",
+            constraints[*row]
+        ),
+        Watched::Expression { text } => format!(
+            "{text} vanishes at t = {t:.9}: the equations are singular there{}",
+            of_constraints(constraints)
+        ),
+    };
+    early(reason, t)
+}
+
+fn of_constraints(constraints: &[String]) -> String {
+    if constraints.is_empty() {
+        return String::new();
+    }
+    let names: Vec<String> = constraints.iter().map(|c| format!("`{c}`")).collect();
+    format!(" (constraints {})", names.join(", "))
+}
+
+fn early(reason: String, t: f64) -> Ending {
+    Ending {
+        finished: false,
+        interrupted: false,
+        reason,
+        t,
+    }
+}
+
+/// Translates the integrator's reason; `pivot` is the smallest pivot of the scaled constraint Jacobian at the end.
+pub fn ending(stop: &Stop, names: &Names<'_>, pivot: f64) -> Ending {
+    let component = |i: usize| {
+        names
+            .state
+            .get(i)
+            .cloned()
+            .unwrap_or_else(|| format!("component {i}"))
+    };
+    let rank = if pivot < 1e-2 {
+        format!(
+            "; the constraints{} become dependent there: their rank drops (smallest pivot {pivot:.1e})",
+            list(names.constraints)
+        )
+    } else {
+        String::new()
+    };
+    match stop {
+        Stop::Finished => Ending {
+            finished: true,
+            interrupted: false,
+            reason: "the end of the time span was reached".into(),
+            t: f64::NAN,
+        },
+        Stop::Interrupted { t } => Ending {
+            finished: false,
+            interrupted: true,
+            reason: format!("interrupted at t = {t}; what was computed is kept"),
+            t: *t,
+        },
+        Stop::Event { t, .. } => Ending {
+            finished: true,
+            interrupted: false,
+            reason: "the end of the time span was reached".into(),
+            t: *t,
+        },
+        Stop::Singular { t, failure } => early(
+            format!("singular state at t = {t:.9}: {}{rank}", singular(failure)),
+            *t,
+        ),
+        Stop::Halted { t, reason } => early(halted(reason, *t, names), *t),
+        Stop::Divergence { singularity, component: i, .. } => early(
+            format!(
+                "singular state: the rate of {} grows without bound towards t = {singularity:.9}{rank}",
+                component(*i)
+            ),
+            *singularity,
+        ),
+        Stop::StepTooSmall { t, component: i, .. } => early(
+            format!(
+                "the tolerance cannot be met at t = {t:.9}: the step became too small, the largest error is that of {}; the state is close to a singular one{rank}",
+                component(*i)
+            ),
+            *t,
+        ),
+        Stop::NotFinite { t, component: i } => early(
+            format!("singular state at t = {t:.9}: {} is not finite{rank}", component(*i)),
+            *t,
+        ),
+        Stop::StepLimit { t, limit } => early(
+            format!("the limit of {limit} steps was reached at t = {t:.9}; raise `max_steps` or the tolerance"),
+            *t,
+        ),
+        Stop::Stiff { t, steps, steps_ahead } => early(
+            format!(
+                "the problem is stiff: after {steps} steps the run stands at t = {t:.6}, and about {steps_ahead:.0} more would be needed by an explicit method; an implicit method is the right tool"
+            ),
+            *t,
+        ),
+        other => early(format!("the run ended early: {other:?}"), f64::NAN),
+    }
+}
+
+fn list(names: &[String]) -> String {
+    let quoted: Vec<String> = names.iter().map(|n| format!(" `{n}`")).collect();
+    quoted.join(",")
+}
+
+fn singular(failure: &EvaluationFailure) -> String {
+    match failure {
+        EvaluationFailure::Singular { .. } => {
+            "the mass matrix restricted to the constraints is singular".to_string()
+        }
+        EvaluationFailure::PivotDegraded { .. } => {
+            "the dependent velocities cannot be solved from the constraints".to_string()
+        }
+        EvaluationFailure::NotFinite { .. } => {
+            "the equations of motion have no finite value".to_string()
+        }
+        other => other.to_string(),
+    }
+}
+
+fn halted(reason: &HaltReason, t: f64, names: &Names<'_>) -> String {
+    let name = |i: usize| names.constraints.get(i).cloned().unwrap_or_default();
+    match reason {
+        HaltReason::RankDrop { from, to, constraint } => format!(
+            "the constraint rank falls from {from} to {to} at t = {t:.9}: the gradient of `{}` vanishes or becomes dependent",
+            name(*constraint)
+        ),
+        HaltReason::Contradiction { constraint } => {
+            format!("constraint `{}` contradicts the others at t = {t:.9}", name(*constraint))
+        }
+        other => format!("the run was halted at t = {t:.9}: {other:?}"),
+    }
+}

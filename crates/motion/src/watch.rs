@@ -1,0 +1,150 @@
+//! Quantities whose vanishing makes the equations of motion singular: gradients of constraints, radicands, denominators.
+//!
+//! An integrator can step across such a point without noticing (pursuit at the moment of capture). Each watched quantity
+//! is non-negative; a local minimum along the motion that is zero to the accuracy of the run stops it.
+
+use crate::functions::{Functions, FunctionsError};
+use crate::numeric::Binding;
+use chetaev_integrate::EvaluationFailure;
+use chetaev_mechanics::terms::freeze_accelerations;
+use chetaev_mechanics::{MotionTerms, System};
+use chetaev_symbolic::{rational, Expr, Node};
+
+/// What vanishes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Watched {
+    /// The squared length of the velocity gradient of constraint row `row`.
+    Gradient {
+        /// The row.
+        row: usize,
+    },
+    /// The argument of a root, or the square of a denominator.
+    Expression {
+        /// As printed.
+        text: String,
+    },
+}
+
+/// Watched quantities of a system, compiled.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    /// What they are.
+    pub quantities: Vec<Watched>,
+    functions: Functions,
+    reference: Vec<f64>,
+    n: usize,
+}
+
+/// Only the neighbourhood of zero is looked at: values below this fraction of the largest seen.
+const NEAR: f64 = 1e-2;
+/// A minimum below this fraction of the largest value counts as zero; the quantities are squares of lengths.
+const ZERO: f64 = 1e-10;
+const MOST: usize = 12;
+
+impl Watch {
+    /// Collects what can vanish in the Lagrangian and the constraints of `system`.
+    ///
+    /// # Errors
+    /// [`FunctionsError`].
+    pub fn new(
+        system: &System,
+        terms: &MotionTerms,
+        binding: &Binding,
+    ) -> Result<Watch, FunctionsError> {
+        let g = &system.graph;
+        let mut found: Vec<(Watched, Expr)> = Vec::new();
+        for (row, gradient) in terms.jacobian.iter().enumerate() {
+            let squares: Vec<Expr> = gradient.iter().map(|&e| g.powi(e, 2)).collect();
+            found.push((Watched::Gradient { row }, g.add(&squares)));
+        }
+        let mut roots = terms.constraints.clone();
+        roots.push(system.lagrangian);
+        for e in g.reachable(&roots) {
+            if let Some(value) = vanishing_part(system, e) {
+                let text = g.text(value);
+                found.push((Watched::Expression { text }, value));
+            }
+        }
+        found.retain(|(_, value)| {
+            !g.is_free_of(*value, &|s| {
+                system.moves(g.symbol_name(s)) || g.symbol_name(s) == "t"
+            })
+        });
+        found.truncate(MOST);
+        let values: Vec<Expr> = found.iter().map(|(_, value)| *value).collect();
+        let drift = freeze_accelerations(system, &values);
+        let slopes = g.jacobian(&values, &system.velocity_symbols()).concat();
+        let groups = [("value", values), ("drift", drift), ("slope", slopes)];
+        Ok(Watch {
+            reference: vec![0.0; found.len()],
+            quantities: found.into_iter().map(|(what, _)| what).collect(),
+            functions: Functions::new(g, binding, &binding.variables, &groups)?,
+            n: system.n(),
+        })
+    }
+
+    /// Takes the values at (t, q, v) into account as ordinary ones.
+    pub fn record(&mut self, t: f64, q: &[f64], v: &[f64]) {
+        if self.functions.evaluate(t, &[q, v]).is_ok() {
+            for (reference, &value) in self.reference.iter_mut().zip(self.functions.group(0)) {
+                *reference = reference.max(value.abs());
+            }
+        }
+    }
+
+    /// The first quantity that is zero at the last recorded state.
+    pub fn vanished(&self) -> Option<usize> {
+        self.functions
+            .group(0)
+            .iter()
+            .zip(&self.reference)
+            .position(|(value, reference)| value.abs() <= ZERO * reference)
+    }
+
+    /// A switching function that rises through zero where quantity `index` has a local minimum close to zero.
+    ///
+    /// # Errors
+    /// When a value is not finite.
+    pub fn switching(
+        &mut self,
+        index: usize,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        a: &[f64],
+    ) -> Result<f64, EvaluationFailure> {
+        self.functions.evaluate(t, &[q, v])?;
+        let value = self.functions.group(0)[index].abs();
+        let reference = self.reference[index];
+        if value > NEAR * reference {
+            return Ok(-1.0);
+        }
+        let slope = &self.functions.group(2)[index * self.n..(index + 1) * self.n];
+        let along: f64 = slope.iter().zip(a).map(|(s, a)| s * a).sum();
+        Ok((self.functions.group(1)[index] + along) / reference.max(f64::MIN_POSITIVE))
+    }
+
+    /// Whether quantity `index` is zero at (t, q, v), measured by its size along the run.
+    pub fn vanishes(&mut self, index: usize, t: f64, q: &[f64], v: &[f64]) -> bool {
+        match self.functions.evaluate(t, &[q, v]) {
+            Ok(()) => self.functions.group(0)[index].abs() <= ZERO * self.reference[index],
+            Err(_) => true,
+        }
+    }
+}
+
+/// The base of a root; the square of the base of a negative power.
+fn vanishing_part(system: &System, e: Expr) -> Option<Expr> {
+    let g = &system.graph;
+    let Node::Power { base, exponent } = g.node(e) else {
+        return None;
+    };
+    let exponent = g.as_number(*exponent)?;
+    if g.as_number(*base).is_some() {
+        return None;
+    }
+    if !exponent.is_int() {
+        return Some(*base);
+    }
+    rational::is_negative(exponent).then(|| g.powi(*base, 2))
+}

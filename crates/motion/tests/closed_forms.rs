@@ -1,0 +1,194 @@
+//! Trajectories against closed forms from the literature (reference-cases: skate-inclined-dalembert, chaplygin-sleigh,
+//! appell-hamel, pursuit).
+
+use chetaev_mechanics::{Prepared, System, SystemParts};
+use chetaev_motion::{
+    consistent_state, Binding, InitialData, NumericSystem, Run, RunSettings, StateKind, Subject,
+    Watcher,
+};
+use chetaev_symbolic::{Expr, Graph};
+use std::sync::Arc;
+
+/// Reads `x'` as the first derivative of x.
+fn s(g: &Graph, name: &str) -> Expr {
+    let order = name.chars().filter(|&c| c == '\'').count() as u32;
+    g.symbol(name.trim_end_matches('\''), order)
+}
+
+fn number(g: &Graph, text: &str) -> Expr {
+    let value: f64 = text.parse().unwrap();
+    let scaled = (value * 1e6).round() as i64;
+    g.number(chetaev_symbolic::rational::ratio(scaled, 1_000_000).unwrap())
+}
+
+fn kinetic(g: &Graph, terms: &[(&str, &str)]) -> Vec<Expr> {
+    terms
+        .iter()
+        .map(|(m, v)| g.mul(&[number(g, "0.5"), s(g, m), g.powi(s(g, v), 2)]))
+        .collect()
+}
+
+fn skate(g: &Graph) -> SystemParts {
+    let mut l = kinetic(g, &[("m", "x'"), ("m", "y'"), ("J", "phi'")]);
+    l.push(g.mul(&[s(g, "m"), s(g, "gs"), s(g, "x")]));
+    let f = g.sub(
+        g.mul(&[s(g, "x'"), g.sin(s(g, "phi"))]),
+        g.mul(&[s(g, "y'"), g.cos(s(g, "phi"))]),
+    );
+    SystemParts {
+        coordinates: ["x", "y", "phi"].map(String::from).to_vec(),
+        parameters: [("m", "1.2"), ("J", "0.3"), ("gs", "4")]
+            .map(|(n, v)| (n.to_string(), Some(number(g, v))))
+            .to_vec(),
+        lagrangian: Some(g.add(&l)),
+        constraints: vec![("blade".into(), f)],
+        ..SystemParts::default()
+    }
+}
+
+fn run(
+    parts: impl Fn(&Graph) -> SystemParts,
+    q: &[f64],
+    v: &[f64],
+    settings: RunSettings,
+) -> (Run, Run) {
+    let g = Arc::new(Graph::new());
+    let system = System::new(g.clone(), parts(&g)).unwrap();
+    let prepared = Prepared::new(&system).unwrap();
+    let binding = Binding::new(&system).unwrap();
+    let mut numeric = NumericSystem::new(&system, &prepared.terms, &binding).unwrap();
+    let data = InitialData {
+        t: 0.0,
+        q: q.to_vec(),
+        v: v.to_vec(),
+        q_fixed: vec![true; q.len()],
+        v_fixed: vec![true; v.len()],
+        project: false,
+    };
+    let start = consistent_state(&mut numeric, &data).unwrap();
+    let subject = Subject {
+        system: &system,
+        terms: &prepared.terms,
+        binding: &binding,
+        numeric: &numeric,
+        start: &start,
+    };
+    let routh = subject.routh(&settings, &mut Watcher::default()).unwrap();
+    let maggi = subject.maggi(&settings, &mut Watcher::default()).unwrap();
+    (routh, maggi)
+}
+
+#[test]
+fn the_skate_crosses_four_singular_charts_on_its_cycloid() {
+    for state in [StateKind::Full, StateKind::Reduced] {
+        let settings = RunSettings {
+            state,
+            ..RunSettings::new(0.0, 10.0)
+        };
+        let (routh, maggi) = run(skate, &[0.0; 3], &[0.0, 0.0, 1.3], settings);
+        for motion in [&routh, &maggi] {
+            assert!(motion.ending.finished, "{:?}", motion.ending);
+            let last = motion.row(motion.len() - 1);
+            let (g, w, t) = (4.0, 1.3, 10.0f64);
+            let x = g / (2.0 * w * w) * (w * t).sin().powi(2);
+            let y = g / (2.0 * w * w) * (w * t - (2.0 * w * t).sin() / 2.0);
+            assert!(
+                (last[0] - x).abs() < 1e-8 && (last[1] - y).abs() < 1e-8,
+                "{} {last:?}",
+                motion.formulation
+            );
+            assert!((last[2] - 13.0).abs() < 1e-9);
+        }
+        // lambda = -2 m gs sin(W t) for this start (T1 S1).
+        let lambda = routh.row(routh.len() - 1)[routh.layout.lambda()][0];
+        assert!(
+            (lambda + 2.0 * 1.2 * 4.0 * 13f64.sin()).abs() < 1e-6,
+            "{lambda}"
+        );
+        assert!(routh.statistics.chart_switches >= 4);
+    }
+}
+
+fn appell_hamel(g: &Graph) -> SystemParts {
+    let mut l = kinetic(g, &[("m", "x'"), ("m", "y'"), ("m", "z'")]);
+    l.push(g.neg(g.mul(&[s(g, "m"), s(g, "g"), s(g, "z")])));
+    let speed = g.sqrt(g.add(&[g.powi(s(g, "x'"), 2), g.powi(s(g, "y'"), 2)]));
+    SystemParts {
+        coordinates: ["x", "y", "z"].map(String::from).to_vec(),
+        parameters: [("m", "1.3"), ("rho", "0.7"), ("g", "9.81")]
+            .map(|(n, v)| (n.to_string(), Some(number(g, v))))
+            .to_vec(),
+        lagrangian: Some(g.add(&l)),
+        constraints: vec![(
+            "cone".into(),
+            g.sub(s(g, "z'"), g.mul(&[s(g, "rho"), speed])),
+        )],
+        ..SystemParts::default()
+    }
+}
+
+#[test]
+fn appell_hamel_moves_straight_and_stops_where_the_constraint_is_not_smooth() {
+    let (s0, al, rho, grav) = (6.0f64, 0.5f64, 0.7f64, 9.81f64);
+    let v = [s0 * al.cos(), s0 * al.sin(), rho * s0];
+    let (routh, maggi) = run(appell_hamel, &[0.0; 3], &v, RunSettings::new(0.0, 1.0));
+    for motion in [&routh, &maggi] {
+        assert!(motion.ending.finished, "{:?}", motion.ending);
+        let path = s0 - grav * rho / (1.0 + rho * rho) / 2.0;
+        let last = motion.row(motion.len() - 1);
+        assert!(
+            (last[0] - al.cos() * path).abs() < 1e-8,
+            "{} {last:?}",
+            motion.formulation
+        );
+        assert!((last[2] - rho * path).abs() < 1e-8);
+    }
+    let stop = s0 * (1.0 + rho * rho) / (grav * rho);
+    let (routh, _) = run(appell_hamel, &[0.0; 3], &v, RunSettings::new(0.0, 1.5));
+    assert!(!routh.ending.finished);
+    assert!(
+        (routh.ending.t - stop).abs() < 1e-4,
+        "{:?} against {stop}",
+        routh.ending
+    );
+}
+
+fn pursuit(g: &Graph) -> SystemParts {
+    let l = kinetic(g, &[("m", "x'"), ("m", "y'")]);
+    let aim = g.sub(g.mul(&[s(g, "u"), s(g, "t")]), s(g, "y"));
+    let f = g.add(&[g.mul(&[s(g, "x'"), aim]), g.mul(&[s(g, "y'"), s(g, "x")])]);
+    SystemParts {
+        coordinates: ["x", "y"].map(String::from).to_vec(),
+        parameters: [("m", "1"), ("u", "1")]
+            .map(|(n, v)| (n.to_string(), Some(number(g, v))))
+            .to_vec(),
+        lagrangian: Some(g.add(&l)),
+        constraints: vec![("aim".into(), f)],
+        ..SystemParts::default()
+    }
+}
+
+#[test]
+fn pursuit_stops_at_capture_where_the_gradient_vanishes() {
+    let (routh, _) = run(
+        pursuit,
+        &[10.0, 0.0],
+        &[-2.0, 0.0],
+        RunSettings::new(0.0, 6.0),
+    );
+    assert!(routh.ending.finished);
+    assert!((routh.row(routh.len() - 1)[0] - 0.175713403123657).abs() < 1e-7);
+    let (routh, _) = run(
+        pursuit,
+        &[10.0, 0.0],
+        &[-2.0, 0.0],
+        RunSettings::new(0.0, 8.0),
+    );
+    assert!(!routh.ending.finished, "{:?}", routh.ending);
+    assert!(
+        (routh.ending.t - 20.0 / 3.0).abs() < 1e-3,
+        "{:?}",
+        routh.ending
+    );
+    assert!(routh.ending.reason.contains("aim"));
+}
