@@ -123,6 +123,19 @@ impl Formula {
         matches!(self, Formula::Fraction(top, bottom) if top.is_integer() && bottom.is_integer())
     }
 
+    /// A fraction that can be written on one line without parentheses, such as x²/2.
+    pub(crate) fn is_flat_fraction(&self) -> bool {
+        match self {
+            Formula::Fraction(top, bottom) => {
+                top.strength() >= Strength::Product
+                    && bottom.strength() >= Strength::Power
+                    && !top.is_tall()
+                    && !bottom.is_tall()
+            }
+            _ => false,
+        }
+    }
+
     pub(crate) fn strength(&self) -> Strength {
         match self {
             Formula::Sum(_) => Strength::Sum,

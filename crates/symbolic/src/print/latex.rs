@@ -2,7 +2,7 @@
 
 use super::document::{Definition, Document, LinearSystem, Statement};
 use super::formula::{Formula, Strength, Term};
-use super::names::{typeset, Piece};
+use super::names::{typeset, Piece, Subscript};
 use super::Parts;
 use crate::node::Function;
 
@@ -74,7 +74,8 @@ impl Latex<'_> {
                 vec![self.equation(&Formula::symbol(name), value, equals)]
             }
             Definition::System(system) if system.unknowns.len() <= LARGEST_MATRIX => {
-                vec![self.matrix_equation(system, equals)]
+                let mark = if equals.contains('&') { "&" } else { "" };
+                vec![format!("{mark}{}", self.matrix_equation(system))]
             }
             Definition::System(system) => system
                 .rows()
@@ -84,14 +85,14 @@ impl Latex<'_> {
         }
     }
 
-    fn matrix_equation(&self, system: &LinearSystem, equals: &str) -> String {
+    fn matrix_equation(&self, system: &LinearSystem) -> String {
         let n = system.unknowns.len();
         let unknowns: Vec<Formula> = system.unknowns.iter().map(|u| Formula::symbol(u)).collect();
         let mut out = String::new();
         self.matrix(n, &system.matrix, &mut out);
         out.push(' ');
         self.matrix(1, &unknowns, &mut out);
-        out.push_str(equals);
+        out.push_str(" = ");
         self.matrix(1, &system.rhs, &mut out);
         out
     }
@@ -164,7 +165,7 @@ impl Latex<'_> {
             _ => out.push_str(&format!("{head}^{{({order})}}")),
         }
         if !name.subscripts.is_empty() {
-            let subscripts: Vec<String> = name.subscripts.iter().map(piece).collect();
+            let subscripts: Vec<String> = name.subscripts.iter().map(subscript).collect();
             out.push_str(&format!("_{}", braced(&subscripts.join(","))));
         }
     }
@@ -223,9 +224,14 @@ impl Latex<'_> {
         out.push_str(&format!("^{}", braced(&inner)));
     }
 
+    /// A fraction in an exponent is written on the line where it can be.
     fn exponent(&self, e: &Formula, out: &mut String) {
         match e {
-            Formula::Fraction(top, bottom) if e.is_ratio() => {
+            Formula::Negative(inner) if inner.is_flat_fraction() => {
+                out.push('-');
+                self.exponent(inner, out);
+            }
+            Formula::Fraction(top, bottom) if e.is_flat_fraction() => {
                 self.write(top, out);
                 out.push('/');
                 self.write(bottom, out);
@@ -397,6 +403,14 @@ fn piece(piece: &Piece) -> String {
             "omicron" => "o".to_string(),
             _ => format!("\\{name}"),
         },
+    }
+}
+
+fn subscript(subscript: &Subscript) -> String {
+    let own = piece(&subscript.piece);
+    match &subscript.digits {
+        Some(digits) => format!("{own}_{}", braced(digits)),
+        None => own,
     }
 }
 

@@ -263,7 +263,6 @@ fn leads_with_ratio(factors: &[Formula]) -> bool {
     };
     match factors {
         [] => false,
-        [Formula::Power(..)] => true,
         [_] => false,
         _ => !factors.iter().all(constant),
     }

@@ -3,7 +3,7 @@
 use super::document::{Definition, Document, LinearSystem, Statement};
 use super::formula::{Formula, Strength, Term};
 use super::latex::{function_of, strength, takes_power, LARGEST_MATRIX};
-use super::names::{typeset, Piece};
+use super::names::{typeset, Piece, Subscript};
 use super::Parts;
 use crate::node::Function;
 
@@ -117,7 +117,11 @@ impl Mathml<'_> {
         let n = system.unknowns.len();
         let unknowns: Vec<Formula> = system.unknowns.iter().map(|u| Formula::symbol(u)).collect();
         let left = self.matrix(n, &system.matrix) + TIMES + &self.matrix(1, &unknowns);
-        vec![row(&left), operator("="), self.matrix(1, &system.rhs)]
+        vec![row(&format!(
+            "{left}{}{}",
+            operator("="),
+            self.matrix(1, &system.rhs)
+        ))]
     }
 
     /// Exactly one element.
@@ -173,7 +177,7 @@ impl Mathml<'_> {
         };
         let order = (order > 3).then(|| row(&format!("<mo>(</mo><mn>{order}</mn><mo>)</mo>")));
         let above = order.as_deref().or(exponent);
-        let subscripts: Vec<String> = name.subscripts.iter().map(piece).collect();
+        let subscripts: Vec<String> = name.subscripts.iter().map(subscript).collect();
         let below = match &subscripts[..] {
             [] => None,
             [only] => Some(only.clone()),
@@ -246,9 +250,13 @@ impl Mathml<'_> {
         }
     }
 
+    /// A fraction in an exponent is written on the line where it can be.
     fn exponent(&self, e: &Formula) -> String {
         match e {
-            Formula::Fraction(top, bottom) if e.is_ratio() => {
+            Formula::Negative(inner) if inner.is_flat_fraction() => {
+                row(&(operator("−") + &self.exponent(inner)))
+            }
+            Formula::Fraction(top, bottom) if e.is_flat_fraction() => {
                 row(&(self.formula(top) + "<mo>/</mo>" + &self.formula(bottom)))
             }
             _ => self.formula(e),
@@ -351,6 +359,14 @@ fn piece(piece: &Piece) -> String {
         Piece::Greek(_, sign) => format!("<mi>{sign}</mi>"),
         Piece::Word(word) => format!("<mi>{}</mi>", escaped(word)),
         Piece::Digits(digits) => format!("<mn>{digits}</mn>"),
+    }
+}
+
+fn subscript(subscript: &Subscript) -> String {
+    let own = piece(&subscript.piece);
+    match &subscript.digits {
+        Some(digits) => format!("<msub>{own}<mn>{digits}</mn></msub>"),
+        None => own,
     }
 }
 

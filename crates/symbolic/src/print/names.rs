@@ -19,7 +19,14 @@ pub(crate) enum Piece {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct TypesetName {
     pub(crate) head: Piece,
-    pub(crate) subscripts: Vec<Piece>,
+    pub(crate) subscripts: Vec<Subscript>,
+}
+
+/// A subscript, which may have a number as its own: Q with the subscript θ₁.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Subscript {
+    pub(crate) piece: Piece,
+    pub(crate) digits: Option<String>,
 }
 
 fn piece(text: &str) -> Piece {
@@ -46,20 +53,41 @@ pub(crate) fn typeset(name: &str) -> TypesetName {
         };
     };
     let letters = first.trim_end_matches(|c: char| c.is_ascii_digit());
-    let mut subscripts = Vec::new();
+    let mut pieces = Vec::new();
     let head = if letters.is_empty() {
         first
     } else {
         if letters.len() < first.len() {
-            subscripts.push(piece(&first[letters.len()..]));
+            pieces.push(piece(&first[letters.len()..]));
         }
         letters
     };
-    subscripts.extend(parts.map(piece));
+    pieces.extend(parts.map(piece));
     TypesetName {
         head: piece(head),
-        subscripts,
+        subscripts: subscripts(pieces),
     }
+}
+
+/// A number after letters is their subscript; numbers stand side by side.
+fn subscripts(pieces: Vec<Piece>) -> Vec<Subscript> {
+    let mut subscripts: Vec<Subscript> = Vec::new();
+    for piece in pieces {
+        match (&piece, subscripts.last_mut()) {
+            (
+                Piece::Digits(own),
+                Some(Subscript {
+                    piece: Piece::Letter(_) | Piece::Greek(..) | Piece::Word(_),
+                    digits: digits @ None,
+                }),
+            ) => *digits = Some(own.clone()),
+            _ => subscripts.push(Subscript {
+                piece,
+                digits: None,
+            }),
+        }
+    }
+    subscripts
 }
 
 #[cfg(test)]
@@ -69,16 +97,24 @@ mod tests {
     #[test]
     fn names_split_into_letter_and_subscripts() {
         let theta = Piece::Greek("theta".into(), 'θ');
-        let one = Piece::Digits("1".into());
-        assert_eq!(typeset("theta_1").head, theta);
+        let bare = |piece| Subscript {
+            piece,
+            digits: None,
+        };
+        let digits = |text: &str| bare(Piece::Digits(text.into()));
+        assert_eq!(typeset("theta_1").head, theta.clone());
         assert_eq!(typeset("theta1"), typeset("theta_1"));
-        assert_eq!(
-            typeset("q_1_2").subscripts,
-            [one, Piece::Digits("2".into())]
-        );
+        assert_eq!(typeset("q_1_2").subscripts, [digits("1"), digits("2")]);
         assert_eq!(
             typeset("lambda_blade").subscripts,
-            [Piece::Word("blade".into())]
+            [bare(Piece::Word("blade".into()))]
+        );
+        assert_eq!(
+            typeset("Q_theta_1").subscripts,
+            [Subscript {
+                piece: theta,
+                digits: Some("1".into())
+            }]
         );
         assert_eq!(typeset("mass").head, Piece::Word("mass".into()));
         assert_eq!(typeset("_").head, Piece::Word("_".into()));

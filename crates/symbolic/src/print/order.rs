@@ -25,6 +25,7 @@ pub(crate) struct FactorKey {
     class: Class,
     order: u32,
     rank: Rank,
+    is_composite: bool,
     function: Option<Function>,
     digest: u128,
 }
@@ -69,12 +70,31 @@ impl TermKey {
     }
 }
 
+/// How an expression moves.
+#[derive(Clone, Copy)]
+struct Lead {
+    /// 0 for parameters, 1 where coordinates or the time occur, k + 1 where k-th derivatives occur.
+    grade: u32,
+    /// Degree in the symbols of this grade, functions counting one.
+    degree: i64,
+    /// First of the symbols of this grade.
+    rank: Rank,
+    /// Whether it is a function of what moves, and no polynomial in it.
+    is_function: bool,
+}
+
+const CONSTANT: Lead = Lead {
+    grade: 0,
+    degree: 0,
+    rank: NO_RANK,
+    is_function: false,
+};
+
 /// The order for one document.
 pub(crate) struct Order<'a> {
     g: &'a Graph,
     ranks: FxHashMap<Symbol, Rank>,
-    /// 0 for parameters, 1 where coordinates or the time occur, k + 1 where k-th derivatives occur.
-    grades: FxHashMap<Expr, u32>,
+    leads: FxHashMap<Expr, Lead>,
 }
 
 impl<'a> Order<'a> {
@@ -95,7 +115,7 @@ impl<'a> Order<'a> {
         let mut order = Order {
             g,
             ranks: FxHashMap::default(),
-            grades: FxHashMap::default(),
+            leads: FxHashMap::default(),
         };
         for &symbol in &symbols {
             order
@@ -103,20 +123,59 @@ impl<'a> Order<'a> {
                 .insert(symbol, rank_of_name[g.symbol_name(symbol)]);
         }
         for e in nodes {
-            let mut grade = match g.node(e) {
-                Node::Symbol(s) if g.symbol_order(*s) > 0 => g.symbol_order(*s).saturating_add(1),
-                Node::Symbol(s) => u32::from(moving.contains(g.symbol_name(*s))),
-                _ => 0,
+            let lead = match g.node(e) {
+                Node::Symbol(s) => Lead {
+                    grade: match g.symbol_order(*s) {
+                        0 => u32::from(moving.contains(g.symbol_name(*s))),
+                        k => k.saturating_add(1),
+                    },
+                    degree: 1,
+                    rank: order.rank(*s),
+                    is_function: false,
+                },
+                _ => order.lead_of_node(e),
             };
-            g.node(e)
-                .for_each_child(|child| grade = grade.max(order.grade(child)));
-            order.grades.insert(e, grade);
+            order.leads.insert(e, lead);
         }
         order
     }
 
+    fn lead_of_node(&self, e: Expr) -> Lead {
+        let mut lead = CONSTANT;
+        let adds_degrees = matches!(self.g.node(e), Node::Product { .. });
+        self.g.node(e).for_each_child(|child| {
+            let own = self.lead(child);
+            if own.grade > lead.grade {
+                lead = own;
+            } else if own.grade == lead.grade {
+                lead.rank = lead.rank.min(own.rank);
+                lead.is_function |= own.is_function;
+                lead.degree = match adds_degrees {
+                    true => lead.degree.saturating_add(own.degree),
+                    false => lead.degree.max(own.degree),
+                };
+            }
+        });
+        match self.g.node(e) {
+            Node::Power { exponent, .. } => {
+                let n = self.g.as_number(*exponent).and_then(rational::to_i64);
+                lead.degree = n.map_or(1, |n| lead.degree.saturating_mul(n));
+            }
+            Node::Apply { .. } => {
+                lead.degree = 1;
+                lead.is_function = true;
+            }
+            _ => {}
+        }
+        lead
+    }
+
+    fn lead(&self, e: Expr) -> Lead {
+        self.leads.get(&e).copied().unwrap_or(CONSTANT)
+    }
+
     fn grade(&self, e: Expr) -> u32 {
-        self.grades.get(&e).copied().unwrap_or(0)
+        self.lead(e).grade
     }
 
     fn rank(&self, symbol: Symbol) -> Rank {
@@ -148,6 +207,7 @@ impl<'a> Order<'a> {
             class: Class::Irrational,
             order: 0,
             rank: NO_RANK,
+            is_composite: false,
             function: None,
             digest: self.g.digest(factor),
         };
@@ -177,6 +237,12 @@ impl<'a> Order<'a> {
                 key.rank = self.argument_rank(arguments);
                 key.function = Some(*function);
                 Class::Function
+            }
+            // A sum of parameters stands where its first parameter would.
+            Node::Sum { .. } if grade == 0 => {
+                key.rank = self.lead(base).rank;
+                key.is_composite = true;
+                Class::Parameter
             }
             _ if grade <= 1 => Class::PlainSum,
             _ => Class::Sum,
@@ -211,12 +277,12 @@ impl<'a> Order<'a> {
     fn see(&self, factor: Expr, plan: &Plan, key: &mut TermKey) {
         let (base, degree) = self.base(factor, plan);
         let count = degree.unwrap_or(1);
-        let grade = self.grade(base);
-        let rank = self.g.as_symbol(base).map_or(NO_RANK, |s| self.rank(s));
+        let lead = self.lead(base);
+        let total = lead.degree.saturating_mul(count);
         match self.g.node(base) {
-            _ if grade >= 2 && count > 0 => {
-                key.derivatives
-                    .push((Reverse(grade - 1), rank, Reverse(count)));
+            _ if lead.grade >= 2 && count > 0 => {
+                let order = Reverse(lead.grade - 1);
+                key.derivatives.push((order, lead.rank, Reverse(total)));
             }
             Node::Apply {
                 function,
@@ -226,17 +292,17 @@ impl<'a> Order<'a> {
                 key.names_in_functions
                     .push((self.argument_rank(arguments), Some(*function)));
             }
-            _ if degree.is_none() => {
+            _ if degree.is_none() || lead.is_function => {
                 key.functions = key.functions.saturating_add(1);
-                key.names_in_functions.push((rank, None));
+                key.names_in_functions.push((lead.rank, None));
             }
-            _ if grade == 0 => {
-                key.parameter_degree = key.parameter_degree.saturating_add(count.saturating_abs());
-                key.parameters.push((rank, Reverse(count)));
+            _ if lead.grade == 0 => {
+                key.parameter_degree = key.parameter_degree.saturating_add(total.saturating_abs());
+                key.parameters.push((lead.rank, Reverse(total)));
             }
             _ => {
-                key.coordinate_degree.0 = key.coordinate_degree.0.saturating_add(count);
-                key.coordinates.push((rank, Reverse(count)));
+                key.coordinate_degree.0 = key.coordinate_degree.0.saturating_add(total);
+                key.coordinates.push((lead.rank, Reverse(total)));
             }
         }
     }
