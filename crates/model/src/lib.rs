@@ -4,9 +4,11 @@
 //! expression graph, and reports every problem of the text at once, each at its place. The crate touches no files:
 //! included ones come through [`Files`]. Mechanics is elsewhere: here a constraint is an expression with a name.
 
+mod builder;
 mod diagnostic;
 mod dimension;
 pub mod drawing;
+mod expression;
 mod load;
 pub mod model;
 mod raw;
@@ -16,6 +18,7 @@ mod source;
 mod text;
 pub mod units;
 
+pub use builder::ModelBuilder;
 pub use chetaev_symbolic::syntax::{Relation, Severity};
 pub use diagnostic::{Diagnostic, Diagnostics, Suggestion};
 pub use load::{load, reload, Loaded};

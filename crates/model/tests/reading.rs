@@ -1,4 +1,5 @@
 //! What the model file says and what it is read as.
+#![allow(clippy::unwrap_used)] // a panic is how a test fails
 
 use std::collections::BTreeMap;
 
@@ -336,4 +337,62 @@ stop = { at = 1, reason = "rank" }
     assert_eq!(model.expect.verdicts[0].claim, "model.chaplygin");
     assert_eq!(model.expect.stop.as_ref().unwrap().reason, "rank");
     assert_eq!(model.simulation.tolerance, Some(number("1e-9")));
+}
+
+#[test]
+fn expressions_about_a_finished_model() {
+    let model = accept(load("m", SLEIGH, &NoFiles, &[]));
+    let g = &model.graph;
+    let of = |text: &str| model.expression(text);
+    assert_eq!(of("v").unwrap(), model.defines[0].value);
+    assert_eq!(
+        of("v'").unwrap(),
+        model.total_derivative(model.defines[0].value)
+    );
+    assert_eq!(
+        of("x'' + lambda_blade").unwrap(),
+        g.add(&[model.jet(0, 2), g.symbol("lambda_blade", 0)])
+    );
+    assert!(of("x + w2")
+        .unwrap_err()
+        .to_string()
+        .contains("unknown name `w2`"));
+    assert!(of("m'").is_err());
+}
+
+#[test]
+fn what_the_motion_needs_is_named() {
+    let model = model("coordinates = [\"x\"]\nparameters = [\"m\"]\ncontrols = { u = {} }\nlagrangian = \"m x'^2 + u x\"");
+    let missing = model.missing_for_motion();
+    assert_eq!(missing.len(), 2);
+    assert!(missing[0].message.contains("`m`") && missing[1].message.contains("`u`"));
+    assert!(accept(load("m", SLEIGH, &NoFiles, &[]))
+        .missing_for_motion()
+        .is_empty());
+}
+
+#[test]
+fn assumptions_are_expanded_and_compared_with_the_values() {
+    let text = |l: &str| {
+        format!("coordinates = [\"x\"]\nassumptions = [\"l_{{i}} > 0\", \"0 <= x < pi\"]\nlagrangian = \"x'^2\"\n[sizes]\nn = 2\n[indices]\ni = \"1..n\"\n[parameters]\n\"l_{{i}}\" = \"{l}\"\n")
+    };
+    let good = model(&text("i/2"));
+    assert_eq!(good.assumptions.len(), 4);
+    assert_eq!(good.assumptions[1].left, good.graph.symbol("l_2", 0));
+    assert_eq!(good.assumptions[3].right, good.graph.pi());
+    let bad = load("m", &text("i - 1"), &NoFiles, &[]);
+    assert!(
+        bad.diagnostics
+            .to_string()
+            .contains("`l_{i} > 0` does not hold"),
+        "{}",
+        bad.diagnostics
+    );
+}
+
+#[test]
+fn a_model_can_be_shared_between_threads() {
+    fn shared<T: Send + Sync>() {}
+    shared::<Model>();
+    shared::<Loaded>();
 }

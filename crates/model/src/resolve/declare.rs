@@ -9,7 +9,7 @@ use super::formula::Expected;
 use super::scope::{Context, ModelScope, Named, NamedKind};
 use super::{start_of, Resolver};
 use crate::diagnostic::Diagnostic;
-use crate::model::{Control, Coordinate, Parameter};
+use crate::model::{Control, Coordinate};
 use crate::raw::{Kind, Raw, Table};
 use crate::source::Place;
 use crate::text::Text;
@@ -32,7 +32,7 @@ pub(crate) struct Instance {
 }
 
 /// Most members of a family.
-const MOST_INSTANCES: usize = 100_000;
+const MOST_INSTANCES: i128 = 20_000;
 
 impl Resolver {
     // ---- sizes and indices
@@ -65,12 +65,18 @@ impl Resolver {
                 let Some(text) = self.expression_text(raw, "the range of an index") else {
                     continue;
                 };
-                if let Some((first, last)) = self.range(&text) {
-                    self.indices.push(Index {
-                        name: names::normalized(&key.content),
-                        first,
-                        last,
-                    });
+                let name = names::normalized(&key.content);
+                if functions::is_reserved(&name) {
+                    self.reserved(key, &name, "an index");
+                } else if let Some(named) = self.names.get(&name).copied() {
+                    let message = format!(
+                        "`{name}` is {} already, and cannot name an index too",
+                        named.kind.word()
+                    );
+                    let diagnostic = Diagnostic::error("declared-twice", key.place, message);
+                    self.push(diagnostic.related(named.place, "first here"));
+                } else if let Some((first, last)) = self.range(&text) {
+                    self.indices.push(Index { name, first, last });
                 }
             }
         }
@@ -120,6 +126,9 @@ impl Resolver {
             return Vec::new();
         }
         let used: Vec<Index> = self.indices_in(&parsed, parts, extra);
+        if !self.is_small_family(&used, key) {
+            return Vec::new();
+        }
         let scope = ModelScope {
             resolver: self,
             context: Context::number("an index"),
@@ -152,6 +161,45 @@ impl Resolver {
             self.push(diagnostic);
         }
         instances
+    }
+
+    /// Whether the indices have few enough values together; else a diagnostic.
+    pub(crate) fn is_small_family(&mut self, indices: &[Index], key: &Text) -> bool {
+        let counts = indices
+            .iter()
+            .map(|index| (i128::from(index.last) - i128::from(index.first) + 1).max(0));
+        let small = counts.fold(1, i128::saturating_mul) <= MOST_INSTANCES;
+        if !small {
+            let message = format!("a family has {MOST_INSTANCES} members at most");
+            self.push(Diagnostic::error("too-large", key.place, message));
+        }
+        small
+    }
+
+    /// The declared indices that occur in an expression outside of its own sums.
+    pub(crate) fn free_indices(&self, parsed: &chetaev_symbolic::syntax::Parsed) -> Vec<Index> {
+        let bound = |name: &str| {
+            parsed
+                .tree
+                .iter()
+                .any(|(_, node)| matches!(node, Node::Sum { index, .. } if index == name))
+        };
+        let mut used: Vec<Index> = Vec::new();
+        for (id, _) in parsed.tree.iter() {
+            let Some((name, _)) = parsed.tree.plain_name(id) else {
+                continue;
+            };
+            if bound(name) || used.iter().any(|own| own.name == name) {
+                continue;
+            }
+            used.extend(
+                self.indices
+                    .iter()
+                    .find(|index| index.name == name)
+                    .cloned(),
+            );
+        }
+        used
     }
 
     fn indices_in(
@@ -465,238 +513,6 @@ impl Resolver {
         instances
     }
 
-    // ---- parameters
-
-    pub(crate) fn declare_parameters(&mut self, root: &Table) {
-        let Some(raw) = root.get("parameters") else {
-            return;
-        };
-        match &raw.kind {
-            Kind::Array(items) => {
-                for item in items {
-                    match &item.kind {
-                        Kind::Text(name) => self.declare_parameter(name, None),
-                        _ => self.wrong_kind(item, "a parameter without value", "a text, its name"),
-                    }
-                }
-            }
-            Kind::Table(table) => {
-                for (key, raw) in &table.entries {
-                    self.declare_parameter(key, Some(raw));
-                }
-            }
-            _ => self.wrong_kind(raw, "`parameters`", "a table, or an array of names"),
-        }
-    }
-
-    fn declare_parameter(&mut self, key: &Text, raw: Option<&Raw>) {
-        let mut unit = None;
-        let mut description = String::new();
-        let mut value = raw;
-        let mut range = None;
-        if let Some(Raw {
-            kind: Kind::Table(table),
-            ..
-        }) = raw
-        {
-            self.known_keys(
-                table,
-                &["value", "unit", "range", "description"],
-                "of a parameter",
-            );
-            (unit, description) = self.unit_and_description(table);
-            value = table.get("value");
-            range = table.get("range");
-        }
-        let text = value.and_then(|value| self.expression_text(value, "the value of a parameter"));
-        for instance in self.instances(key, "a parameter", &[]) {
-            if instance.order > 0 {
-                let message = format!(
-                    "`{}` is a derivative; a parameter is a constant and has none",
-                    key.content
-                );
-                self.push(Diagnostic::error("bad-name", key.place, message));
-                return;
-            }
-            if !self.declare(key, &instance.name, NamedKind::Parameter) {
-                continue;
-            }
-            let symbol = self.graph.symbol(&instance.name, 0);
-            self.parameters.push(Parameter {
-                name: instance.name.clone(),
-                symbol,
-                definition: None,
-                value: None,
-                range: None,
-                unit: unit.clone(),
-                description: description.clone(),
-                place: key.place,
-            });
-            self.stated.push(super::Stated {
-                value: text.clone(),
-                range: range.cloned(),
-                bindings: instance.bindings,
-            });
-        }
-    }
-
-    /// Lowers the values of all parameters, then replaces parameters in them, in an order that has no circles.
-    pub(crate) fn resolve_parameters(&mut self) {
-        for at in 0..self.parameters.len() {
-            let (name, unit) = (
-                self.parameters[at].name.clone(),
-                self.parameters[at].unit.clone(),
-            );
-            let stated = self.stated[at].clone();
-            let (text, bindings) = match self.take_override(&name) {
-                Some(text) => (Some(text), Vec::new()),
-                None => (stated.value, stated.bindings.clone()),
-            };
-            if let Some(text) = text {
-                let context = Context::constant("the value of a parameter");
-                let expected = Expected::Quantity(name.clone(), 0);
-                let value = self.expression(&text, &bindings, context, expected);
-                self.parameters[at].definition =
-                    value.map(|value| self.in_base_units(value, unit.as_ref()));
-            }
-            if let Some(range) = stated.range {
-                self.parameters[at].range =
-                    self.parameter_range(&range, &stated.bindings, &name, unit.as_ref());
-            }
-        }
-        self.close_parameters();
-        self.check_ranges();
-    }
-
-    fn parameter_range(
-        &mut self,
-        raw: &Raw,
-        bindings: &Bindings,
-        name: &str,
-        unit: Option<&Unit>,
-    ) -> Option<(Expr, Expr)> {
-        let Kind::Array(items) = &raw.kind else {
-            self.wrong_kind(raw, "`range`", "an array of two ends");
-            return None;
-        };
-        let [low, high] = items.as_slice() else {
-            self.push(Diagnostic::error(
-                "wrong-kind",
-                raw.place,
-                "`range` must have two ends, the lower one first",
-            ));
-            return None;
-        };
-        let mut ends = Vec::new();
-        for end in [low, high] {
-            let text = self.expression_text(end, "the end of a range")?;
-            let expected = Expected::Quantity(name.to_owned(), 0);
-            let value = self.expression(
-                &text,
-                bindings,
-                Context::number("the range of a parameter"),
-                expected,
-            )?;
-            ends.push(self.in_base_units(value, unit));
-        }
-        let values: Vec<Option<f64>> = ends.iter().map(|end| self.constant_f64(*end)).collect();
-        if let [Some(low), Some(high)] = values.as_slice() {
-            if low > high {
-                self.push(Diagnostic::error(
-                    "empty-range",
-                    raw.place,
-                    "the lower end of the range comes first",
-                ));
-                return None;
-            }
-        }
-        Some((ends[0], ends[1]))
-    }
-
-    /// The value of an expression without symbols, to the precision of a double; used for comparisons only.
-    pub(crate) fn constant_f64(&self, value: Expr) -> Option<f64> {
-        let values = self.graph.evaluate_f64(&[value], &|_| None).ok()?;
-        values.first().copied().filter(|value| value.is_finite())
-    }
-
-    fn close_parameters(&mut self) {
-        let graph = std::sync::Arc::clone(&self.graph);
-        let uses: Vec<Vec<usize>> = self
-            .parameters
-            .iter()
-            .map(|parameter| self.parameters_used(parameter))
-            .collect();
-        let order = super::define::dependency_order(&uses);
-        for circle in &order.circles {
-            self.report_circle(circle);
-        }
-        for at in order.sorted {
-            let Some(definition) = self.parameters[at].definition else {
-                continue;
-            };
-            let known: Option<Vec<(Expr, Expr)>> = uses[at]
-                .iter()
-                .map(|used| Some((self.parameters[*used].symbol, self.parameters[*used].value?)))
-                .collect();
-            self.parameters[at].value = known.map(|known| graph.substitute(definition, &known));
-        }
-    }
-
-    fn parameters_used(&self, parameter: &Parameter) -> Vec<usize> {
-        let Some(definition) = parameter.definition else {
-            return Vec::new();
-        };
-        let symbols = self.graph.symbols_in(&[definition]);
-        symbols
-            .into_iter()
-            .filter_map(|symbol| {
-                self.parameters
-                    .iter()
-                    .position(|other| other.name == self.graph.symbol_name(symbol))
-            })
-            .collect()
-    }
-
-    fn report_circle(&mut self, circle: &[usize]) {
-        let names: Vec<String> = circle
-            .iter()
-            .map(|at| format!("`{}`", self.parameters[*at].name))
-            .collect();
-        let first = self.parameters[circle[0]].place;
-        let message = if circle.len() == 1 {
-            format!("the parameter {} is defined by itself", names[0])
-        } else {
-            format!(
-                "the parameters {} are defined by each other",
-                super::define::joined(&names)
-            )
-        };
-        let mut diagnostic = Diagnostic::error("circular-definition", first, message);
-        for at in circle.iter().skip(1) {
-            diagnostic = diagnostic.related(self.parameters[*at].place, "and this one");
-        }
-        self.push(diagnostic);
-    }
-
-    /// Warns of values outside their own ranges.
-    fn check_ranges(&mut self) {
-        for at in 0..self.parameters.len() {
-            let parameter = &self.parameters[at];
-            let (Some(value), Some((low, high))) = (parameter.value, parameter.range) else {
-                continue;
-            };
-            let of = |e| self.constant_f64(e);
-            let (Some(value), Some(low), Some(high)) = (of(value), of(low), of(high)) else {
-                continue;
-            };
-            if value < low || value > high {
-                let message = format!("the value of `{}` lies outside its range", parameter.name);
-                let place = parameter.place;
-                self.push(Diagnostic::warning("outside-range", place, message));
-            }
-        }
-    }
-
     // ---- overrides
 
     pub(crate) fn take_override(&mut self, name: &str) -> Option<Text> {
@@ -750,18 +566,16 @@ impl Resolver {
 pub(crate) fn all_bindings(indices: &[Index]) -> Vec<Bindings> {
     let mut all: Vec<Bindings> = vec![Vec::new()];
     for index in indices {
-        let mut longer = Vec::new();
-        'all: for bindings in &all {
-            for value in index.first..=index.last {
-                let mut bindings = bindings.clone();
-                bindings.push((index.name.clone(), value));
-                longer.push(bindings);
-                if longer.len() >= MOST_INSTANCES {
-                    break 'all;
-                }
-            }
-        }
-        all = longer;
+        all = all
+            .iter()
+            .flat_map(|bindings| {
+                (index.first..=index.last).map(|value| {
+                    let mut longer = bindings.clone();
+                    longer.push((index.name.clone(), value));
+                    longer
+                })
+            })
+            .collect();
     }
     all
 }

@@ -17,6 +17,9 @@ const KINDS: &[&str] = &[
 ];
 const COLORS: &[&str] = &["ink", "muted", "blue", "red", "green", "amber", "violet"];
 
+/// Most elements that one table stands for.
+const MOST_COPIES: i64 = 10_000;
+
 const CONTEXT: Context = Context::jet("the drawing");
 
 /// An element being read: its table, the dimension of the picture, and the values of its indices.
@@ -153,6 +156,14 @@ impl Resolver {
         let Some(indices) = self.element_indices(table) else {
             return;
         };
+        let too_many = indices
+            .iter()
+            .any(|index| index.last.saturating_sub(index.first) > MOST_COPIES);
+        if too_many {
+            let message = format!("an element is drawn {MOST_COPIES} times at most");
+            self.push(Diagnostic::error("too-large", raw.place, message));
+            return;
+        }
         for bindings in all_bindings(&indices) {
             let dimension = if spatial { 3 } else { 2 };
             let element = ElementTable {

@@ -6,9 +6,10 @@
 mod declare;
 mod define;
 mod drawing;
-mod formula;
+pub(crate) mod formula;
+mod parameters;
 mod run;
-mod scope;
+pub(crate) mod scope;
 mod sections;
 mod system;
 
@@ -138,6 +139,7 @@ impl Resolver {
         self.resolve_controls(root);
         self.unused_overrides();
         let assumptions = self.assumptions(root);
+        self.check_assumptions(&assumptions);
         let lagrangian = self.lagrangian(root, file);
         let (forces, rayleigh) = self.forces(root);
         let constraints = self.constraints(root);

@@ -1,9 +1,12 @@
 //! What makes the system: Lagrangian, forces, constraints, velocities, assumptions.
 
-use chetaev_symbolic::syntax::{parse_equation, parse_expression, parse_relation};
+use std::rc::Rc;
+
+use chetaev_symbolic::syntax::lower::Bindings;
+use chetaev_symbolic::syntax::{parse_equation, parse_expression, parse_relation, Parsed};
 use chetaev_symbolic::Expr;
 
-use super::declare::Instance;
+use super::declare::{all_bindings, Instance};
 use super::formula::{Expected, Formula};
 use super::scope::Context;
 use super::{start_of, Resolver};
@@ -429,37 +432,50 @@ impl Resolver {
                 continue;
             };
             let parsed = self.parse(text, parse_relation);
-            let context = Context::jet("an assumption");
-            let sides: Vec<Option<Expr>> = parsed
-                .sides
-                .iter()
-                .map(|side| self.lower(text, &parsed, *side, &Vec::new(), context))
-                .collect();
-            if parsed.has_errors() {
+            let indices = self.free_indices(&parsed);
+            if parsed.has_errors() || !self.is_small_family(&indices, text) {
                 continue;
             }
-            for (pair, (relation, _)) in sides.windows(2).zip(&parsed.relations) {
-                if let [Some(left), Some(right)] = *pair {
-                    let text_content = text.content.clone();
-                    assumptions.push(Assumption {
-                        left,
-                        relation: *relation,
-                        right,
-                        text: text_content,
-                        place: text.place,
-                    });
-                }
+            for bindings in all_bindings(&indices) {
+                self.assumption(text, &parsed, bindings, &mut assumptions);
             }
-            let bindings = Vec::new();
-            self.formulas.push(Formula {
-                text: text.clone(),
-                parsed,
-                bindings,
-                expected: Expected::EqualSides,
-                define: None,
-            });
         }
         assumptions
+    }
+
+    fn assumption(
+        &mut self,
+        text: &Text,
+        parsed: &Rc<Parsed>,
+        bindings: Bindings,
+        assumptions: &mut Vec<Assumption>,
+    ) {
+        let context = Context::jet("an assumption");
+        let sides: Vec<Option<Expr>> = parsed
+            .sides
+            .iter()
+            .map(|side| self.lower(text, parsed, *side, &bindings, context))
+            .collect();
+        for (pair, (relation, _)) in sides.windows(2).zip(&parsed.relations) {
+            if let [Some(left), Some(right)] = *pair {
+                let (relation, words) = (*relation, text.content.clone());
+                assumptions.push(Assumption {
+                    left,
+                    relation,
+                    right,
+                    text: words,
+                    place: text.place,
+                });
+            }
+        }
+        let (text, parsed) = (text.clone(), Rc::clone(parsed));
+        self.formulas.push(Formula {
+            text,
+            parsed,
+            bindings,
+            expected: Expected::EqualSides,
+            define: None,
+        });
     }
 
     pub(crate) fn integrals(&mut self, root: &Table) -> Vec<Definition> {

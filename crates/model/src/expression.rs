@@ -1,0 +1,161 @@
+//! Expressions of a finished model: what a check, a command line or a report asks about.
+
+use chetaev_symbolic::syntax::{lower, parse_expression, Resolution, Scope};
+use chetaev_symbolic::Expr;
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::model::Model;
+use crate::source::Sources;
+use crate::text::Text;
+
+/// Highest derivative of a definition that is taken.
+const MOST_DERIVATIVES: u32 = 8;
+
+/// All names of a model: every quantity with its derivatives, definitions, and the multipliers of the constraints.
+struct WholeModel<'m>(&'m Model);
+
+impl Scope for WholeModel<'_> {
+    fn resolve(&self, name: &str, order: u32) -> Resolution {
+        let model = self.0;
+        let refused = |message: String| Resolution::Refused {
+            code: "derivative-of-constant",
+            message,
+            hint: String::new(),
+        };
+        let multiplier = name
+            .strip_prefix("lambda_")
+            .or_else(|| name.strip_prefix("kappa_"));
+        let is_multiplier = multiplier.is_some_and(|of| {
+            model
+                .constraints
+                .iter()
+                .any(|constraint| constraint.name == of)
+        });
+        if model.varies(name) || is_multiplier {
+            return Resolution::Known(model.graph.symbol(name, order));
+        }
+        if name == "t"
+            || model
+                .parameters
+                .iter()
+                .any(|parameter| parameter.name == name)
+        {
+            return match order {
+                0 => Resolution::Known(model.graph.symbol(name, 0)),
+                _ => refused(format!("`{name}` has no derivative")),
+            };
+        }
+        if let Some((_, value)) = model.sizes.iter().find(|(size, _)| size == name) {
+            return match order {
+                0 => Resolution::Known(model.graph.integer(*value)),
+                _ => refused(format!("`{name}` is an integer and has no derivative")),
+            };
+        }
+        let define = model
+            .defines
+            .iter()
+            .chain(&model.quasi_velocities)
+            .find(|define| define.name == name);
+        match define {
+            Some(_) if order > MOST_DERIVATIVES => refused(format!(
+                "derivatives of a definition are taken up to order {MOST_DERIVATIVES}"
+            )),
+            Some(define) => Resolution::Known(
+                (0..order).fold(define.value, |value, _| model.total_derivative(value)),
+            ),
+            None => Resolution::Unknown,
+        }
+    }
+
+    fn names(&self) -> Vec<String> {
+        let model = self.0;
+        let coordinates = model.coordinates.iter().map(|own| &own.name);
+        let parameters = model.parameters.iter().map(|own| &own.name);
+        let defines = model
+            .defines
+            .iter()
+            .chain(&model.quasi_velocities)
+            .map(|own| &own.name);
+        let controls = model.controls.iter().map(|own| &own.name);
+        let sizes = model.sizes.iter().map(|own| &own.0);
+        let multipliers =
+            (0..model.constraints.len()).map(|constraint| model.multiplier(constraint));
+        coordinates
+            .chain(parameters)
+            .chain(defines)
+            .chain(controls)
+            .chain(sizes)
+            .cloned()
+            .chain(multipliers)
+            .collect()
+    }
+}
+
+impl Model {
+    /// Reads an expression in which every name of the model may occur, with derivatives of any order; the multiplier
+    /// `lambda_NAME` of a constraint is the symbol of that name.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the text, each at its place; the text is shown under the name `expression`.
+    pub fn expression(&self, text: &str) -> Result<Expr, Diagnostics> {
+        let mut sources = Sources::default();
+        let source = sources.add("expression", text);
+        let located = Text::verbatim(text, source, 0);
+        let parsed = parse_expression(text);
+        let mut found = parsed.diagnostics.clone();
+        let value = lower(
+            &self.graph,
+            &parsed.tree,
+            parsed.root(),
+            &WholeModel(self),
+            &[],
+            &mut found,
+        );
+        let list = found
+            .iter()
+            .map(|diagnostic| Diagnostic::of_expression(diagnostic, &located))
+            .collect();
+        let diagnostics = Diagnostics { sources, list };
+        match value {
+            Some(value) if !diagnostics.has_errors() => Ok(value),
+            _ => Err(diagnostics),
+        }
+    }
+
+    /// The total derivative with respect to the time of an expression of coordinates, controls and t.
+    pub fn total_derivative(&self, value: Expr) -> Expr {
+        self.graph
+            .total_derivative(value, &|name| self.varies(name))
+    }
+
+    /// What a computation of the motion needs and the model leaves open: values of parameters, laws of controls.
+    ///
+    /// A symbolic model is complete for derivations; these errors are for those who integrate.
+    pub fn missing_for_motion(&self) -> Vec<Diagnostic> {
+        let parameters = self
+            .parameters
+            .iter()
+            .filter(|parameter| parameter.value.is_none())
+            .map(|parameter| {
+                let name = &parameter.name;
+                let message =
+                    format!("the parameter `{name}` has no value, and the motion needs one");
+                Diagnostic::error("missing-value", parameter.place, message).hint(format!(
+                    "state it under [parameters], or run with --set {name}=1"
+                ))
+            });
+        let controls = self
+            .controls
+            .iter()
+            .filter(|control| control.law.is_none())
+            .map(|control| {
+                let message = format!(
+                    "the control `{}` has no law, and the motion needs one",
+                    control.name
+                );
+                Diagnostic::error("missing-value", control.place, message)
+                    .hint("state it under [controls] as a function of t")
+            });
+        parameters.chain(controls).collect()
+    }
+}
