@@ -156,11 +156,22 @@ impl<'p, R: Ring> Run<'p, R> {
 
     /// Runs up to, not including, operation `end`.
     pub(super) fn advance(&mut self, ring: &R, end: usize) -> Result<(), Stop> {
+        self.advance_over(ring, end, |_| true)
+    }
+
+    /// The same, leaving out what is not wanted (and must not be used by what is).
+    pub(super) fn advance_over(
+        &mut self,
+        ring: &R,
+        end: usize,
+        wanted: impl Fn(usize) -> bool,
+    ) -> Result<(), Stop> {
         while self.values.len() < end {
             let value = self.values.len() as Value;
             let element = match self.point.cuts.get(&value) {
                 Some(&cut) => ring.scalar(cut),
-                None => self.step(ring, value)?,
+                None if wanted(value as usize) => self.step(ring, value)?,
+                None => ring.scalar(Residue::ZERO),
             };
             self.values.push(element);
         }

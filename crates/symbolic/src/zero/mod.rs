@@ -15,12 +15,15 @@ mod evaluate;
 mod expand;
 mod modular;
 mod newton;
+mod polynomials;
 mod prepare;
 mod program;
 mod refute;
 mod ring;
 mod signs;
 mod size;
+mod tower;
+mod variety;
 
 pub use decide::{decide_zero, Options, ZeroTest};
 

@@ -18,11 +18,17 @@
 //! not a square although all earlier ones are shows just this. Roots for which no such point is seen are not taken as independent:
 //! for them every combination of signs is tried at each point, which decides zero in the ring K\[ρ\]/(ρ² − R), a product of
 //! fields, and needs no independence.
+//!
+//! # Constraints
+//! Dependent symbols of nonlinear constraints are adjoined (see [`tower`](super::tower)): the outputs are tested in the ring of all solutions
+//! over the point, hence on every component. Roots whose radicands contain them are adjoined too. The norm from the
+//! tower has at most its dimension times the degree; the leading coefficients, the discriminants and the denominators add as much again.
 
 use super::evaluate::{Parametrization, Point, Run, Stop};
 use super::program::{Operation, Program, Value};
 use super::ring::{Ring, Scalars};
-use super::size::{Sizes, SLACK};
+use super::size::{Sizes, Weight, SLACK};
+use super::variety::{Failure, Parts, Variety};
 use crate::number::prime::{random_prime, LOG2_PRIME_COUNT};
 use crate::number::prime_field::PrimeField;
 use crate::number::random::Random;
@@ -67,6 +73,8 @@ const MOST_RADICALS: u32 = 11;
 const LARGEST_LOG2_DEGREE: f64 = 40.0;
 /// Values beyond 2^CUT become generators when the bound is useless otherwise.
 const CUT: f64 = 26.0;
+/// log2 of 4 times the largest dimension of a tower: norms over it, its leading coefficients and discriminants.
+const LOG2_TOWER: f64 = 8.0;
 /// Refusals by poles after which a program is called nowhere defined.
 const POLES_FOR_NOWHERE: u32 = 6;
 
@@ -87,14 +95,19 @@ pub(super) fn decide(program: &Program, plan: &Plan) -> Outcome {
         let why = format!("roots of degree {q} occur together with angles of a {q}-th of π");
         return Outcome::Open { why, vanished: 0 };
     }
-    let sizes = Sizes::of(program, &[], None);
+    let weights = weights(program);
+    let sizes = Sizes::of(program, &weights, None);
+    let variety = (!program.constraints.is_empty()).then(|| Variety::new(program));
     let mut session = Session {
         program,
         plan,
+        weights,
         sizes,
+        variety,
         suspects: Vec::new(),
         spent: 0,
         trial: 0,
+        parts: (0, 0),
     };
     session.find_suspects();
     if session.suspects.len() > MOST_SUSPECTS {
@@ -112,10 +125,43 @@ pub(super) fn decide(program: &Program, plan: &Plan) -> Outcome {
     }
 }
 
+/// Degrees and heights of the constraints, each as coefficients of the equation of its symbol.
+fn weights(program: &Program) -> Vec<Weight> {
+    let mut weights = vec![
+        Weight {
+            degree: 1.0,
+            height: 0.0
+        };
+        program.constraints.len()
+    ];
+    // Roots over the symbol: the equation is the norm of the constraint.
+    let adjoined = program
+        .adjoined
+        .iter()
+        .filter(|&&adjoined| adjoined)
+        .count()
+        .min(3);
+    let norm = f64::from(1_u32 << adjoined);
+    for (k, &constraint) in program.constraints.iter().enumerate() {
+        let sizes = Sizes::of(program, &weights, None);
+        let (size, denominator) = (sizes.get(constraint), sizes.denominator(constraint));
+        weights[k] = Weight {
+            degree: norm * (size.degree + denominator.degree),
+            height: norm * (size.height + denominator.height + 1.0),
+        };
+    }
+    weights
+}
+
 struct Session<'p> {
     program: &'p Program,
     plan: &'p Plan,
+    weights: Vec<Weight>,
     sizes: Sizes,
+    /// How the constraints are satisfied, if there are any.
+    variety: Option<Variety<'p>>,
+    /// Dimensions of the parts of the variety where the outputs vanished and where not, at the last mixed point.
+    parts: (usize, usize),
     /// Radicals whose independence of the earlier ones is not established.
     suspects: Vec<u32>,
     spent: u64,
@@ -129,6 +175,7 @@ enum Trial {
     Mixed,
     Refused { poles: u32 },
     OutOfBudget,
+    Unsupported(String),
 }
 
 impl Session<'_> {
@@ -148,13 +195,18 @@ impl Session<'_> {
 
     /// log2 of M.
     fn multiplicity(&self) -> f64 {
-        let squares = f64::from(self.program.radicals) - self.suspects.len() as f64;
+        let squares = f64::from(self.program.chosen_radicals()) - self.suspects.len() as f64;
         let odd = |operation: &Operation| match operation {
             Operation::OddRoot { degree, .. } => (*degree as f64).log2(),
             _ => 0.0,
         };
         let odd: f64 = self.program.operations.iter().map(odd).sum();
-        squares + odd + (self.program.order_of_unity as f64).log2()
+        let tower = if self.variety.is_some() {
+            LOG2_TOWER
+        } else {
+            0.0
+        };
+        squares + odd + (self.program.order_of_unity as f64).log2() + tower
     }
 
     /// log2 of the number of primes the choice is made from, rounded down.
@@ -170,7 +222,8 @@ impl Session<'_> {
 
     /// T, the largest number of points drawn for one trial.
     fn draws(&self) -> u32 {
-        16 << (self.program.radicals + u32::from(self.program.radicals > 0))
+        let radicals = self.program.chosen_radicals();
+        16 << (radicals + u32::from(radicals > 0))
     }
 
     /// log2 of the probability that one trial errs.
@@ -205,6 +258,12 @@ impl Session<'_> {
                         why,
                         vanished: zeros,
                     };
+                }
+                Trial::Unsupported(why) => {
+                    return Outcome::Open {
+                        why,
+                        vanished: zeros,
+                    }
                 }
                 Trial::OutOfBudget => {
                     let why = "the budget of evaluations is used up".to_owned();
@@ -245,9 +304,22 @@ impl Session<'_> {
         }
     }
 
+    fn describe_branches(&self) -> String {
+        if self.variety.is_none() {
+            let count = self.suspects.len();
+            return format!("zero for some signs of {count} dependent radicals and not for others");
+        }
+        let (vanishing, other) = self.parts;
+        format!(
+            "zero on some components of the constraints only: of the {} solutions for the dependent symbols at a point, \
+             {vanishing} make it vanish",
+            vanishing + other
+        )
+    }
+
     /// The same with values of huge degree taken as free generators: zero then is zero all the more.
     fn with_cuts(&mut self) -> Option<Outcome> {
-        self.sizes = Sizes::of(self.program, &[], Some(CUT));
+        self.sizes = Sizes::of(self.program, &self.weights, Some(CUT));
         if self.sizes.cuts.is_empty() {
             return None;
         }
@@ -299,17 +371,18 @@ impl Session<'_> {
                 for (bit, &suspect) in self.suspects.iter().enumerate() {
                     negative[suspect as usize] = signs >> bit & 1 == 1;
                 }
-                match self.vanishes(&field, &point, &negative) {
-                    Ok(true) => zeros += 1,
-                    Ok(false) => others += 1,
-                    Err(Stop::Pole(_)) => {
-                        refused += 1;
+                match self.parts_at(&field, &point, &negative) {
+                    Ok(parts) => {
+                        zeros += parts.vanishing;
+                        others += parts.other;
+                        refused += usize::from(parts.vanishing + parts.other == 0);
                     }
-                    Err(_) => {
-                        refused = 0;
-                        (zeros, others) = (0, 0);
+                    Err(Failure::Stop(Stop::Pole(_))) => refused += 1,
+                    Err(Failure::Stop(_)) => {
+                        (zeros, others, refused) = (0, 0, 0);
                         break;
                     }
+                    Err(Failure::Unsupported(why)) => return Trial::Unsupported(why),
                 }
                 if self.spent > self.plan.budget {
                     return Trial::OutOfBudget;
@@ -319,13 +392,37 @@ impl Session<'_> {
                 (0, 0) => poles += u32::from(refused > 0),
                 (_, 0) => return Trial::Zero,
                 (0, _) => return Trial::NonZero,
-                _ => return Trial::Mixed,
+                (vanishing, other) => {
+                    self.parts = (vanishing, other);
+                    return Trial::Mixed;
+                }
             }
             if poles >= POLES_FOR_NOWHERE {
                 break;
             }
         }
         Trial::Refused { poles }
+    }
+
+    /// Where over the point do all outputs vanish?
+    fn parts_at(
+        &mut self,
+        field: &PrimeField,
+        point: &Point,
+        negative: &[bool],
+    ) -> Result<Parts, Failure> {
+        if let Some(variety) = &self.variety {
+            // An operation in a tower costs about the square of its dimension.
+            self.spent += 16 * self.program.operations.len() as u64;
+            return variety.parts_at(field, point, negative);
+        }
+        let vanishing = self
+            .vanishes(field, point, negative)
+            .map_err(Failure::Stop)?;
+        Ok(Parts {
+            vanishing: usize::from(vanishing),
+            other: usize::from(!vanishing),
+        })
     }
 
     /// Do all outputs vanish at the point?
@@ -356,19 +453,23 @@ impl Session<'_> {
     /// Looks for each radical for points where it is the first to have no root.
     fn find_suspects(&mut self) {
         let radicals = self.program.radicals as usize;
-        if radicals == 0 {
+        let chosen = self.program.chosen_radicals();
+        if chosen == 0 {
             return;
         }
         // A wrong witness needs a zero of the denominator of a square root of the radicand; k of them are as
         // unlikely as k failures of a trial with the degree of the whole program.
         let (degree, _) = self.worst();
-        let each = (60.0 - degree.log2() - radicals as f64).max(10.0);
+        let each = (60.0 - degree.log2() - f64::from(chosen)).max(10.0);
         let needed = (-self.plan.error_bound_log2 / each).ceil().max(2.0) as u32;
         let mut seen = vec![0_u32; radicals];
-        let attempts = (8 * needed) << radicals;
+        let attempts = (8 * needed) << chosen;
         let mut random = Random::stream(self.plan.seed, u64::MAX);
         for _ in 0..attempts {
-            if seen.iter().all(|&count| count >= needed) || self.spent > self.plan.budget / 4 {
+            let done = |(count, &adjoined): (&u32, &bool)| adjoined || *count >= needed;
+            if seen.iter().zip(&self.program.adjoined).all(done)
+                || self.spent > self.plan.budget / 4
+            {
                 break;
             }
             let Some((field, point)) = self.draw(&mut random) else {
@@ -385,7 +486,8 @@ impl Session<'_> {
                 seen[radical as usize] += 1;
             }
         }
-        let suspects: Vec<bool> = seen.iter().map(|&count| count < needed).collect();
+        let open = |(count, &adjoined): (&u32, &bool)| !adjoined && *count < needed;
+        let suspects: Vec<bool> = seen.iter().zip(&self.program.adjoined).map(open).collect();
         self.suspects = self.spread(suspects);
     }
 
@@ -396,7 +498,7 @@ impl Session<'_> {
             let mut below = false;
             operation.for_each_operand(|operand| below |= tainted[operand as usize]);
             if let Operation::SquareRoot { radical, .. } = operation {
-                suspects[*radical as usize] |= below;
+                suspects[*radical as usize] |= below && !self.program.adjoined[*radical as usize];
                 below |= suspects[*radical as usize];
             }
             tainted[value] = below;

@@ -135,11 +135,13 @@ pub(super) struct Program {
     pub(super) circles: u32,
     /// Number of square roots.
     pub(super) radicals: u32,
+    /// Which of them depend on dependent symbols: these are adjoined to the tower of the constraints, not chosen.
+    pub(super) adjoined: Vec<bool>,
     /// The order N of the root of unity needed for cosines of rational multiples of π; 1 if there are none.
     pub(super) order_of_unity: u64,
     /// The primes q of odd roots.
     pub(super) odd_roots: Vec<u64>,
-    /// The first so many operations suffice for all radicands.
+    /// The first so many operations suffice for all radicands that depend on no dependent symbol.
     pub(super) prefix: usize,
     /// Conditions under which the program represents the expressions, for people: `x >= 0, because of sqrt(x)`.
     pub(super) conditions: Vec<String>,
@@ -156,12 +158,19 @@ impl Program {
             .iter()
             .chain(&self.constraints)
             .for_each(|&output| needed[output as usize] = true);
+        let tainted = self.tainted();
+        self.adjoined = vec![false; self.radicals as usize];
+        for (operation, &tainted) in self.operations.iter().zip(&tainted) {
+            if let Operation::SquareRoot { radical, .. } = operation {
+                self.adjoined[*radical as usize] = tainted;
+            }
+        }
         let mut early = vec![false; count];
         for i in (0..count).rev() {
             if !needed[i] {
                 continue;
             }
-            if matches!(self.operations[i], Operation::SquareRoot { .. }) {
+            if matches!(self.operations[i], Operation::SquareRoot { .. }) && !tainted[i] {
                 early[i] = true;
             }
             let is_early = early[i];
@@ -180,6 +189,39 @@ impl Program {
         sequence.extend(order(false));
         self.reorder(&sequence);
         self
+    }
+
+    /// Which values depend on a dependent symbol.
+    fn tainted(&self) -> Vec<bool> {
+        let mut tainted: Vec<bool> = Vec::with_capacity(self.operations.len());
+        for operation in &self.operations {
+            let mut below = match operation {
+                Operation::Generator(index) => {
+                    matches!(self.generators[*index as usize], Generator::Dependent(_))
+                }
+                _ => false,
+            };
+            operation.for_each_operand(|operand| below |= tainted[operand as usize]);
+            tainted.push(below);
+        }
+        tainted
+    }
+
+    /// Which values a value needs, itself included.
+    pub(super) fn closure(&self, value: Value) -> Vec<bool> {
+        let mut needed = vec![false; self.operations.len()];
+        needed[value as usize] = true;
+        for i in (0..=value as usize).rev() {
+            if needed[i] {
+                self.operations[i].for_each_operand(|operand| needed[operand as usize] = true);
+            }
+        }
+        needed
+    }
+
+    /// The number of radicals whose roots are chosen.
+    pub(super) fn chosen_radicals(&self) -> u32 {
+        self.adjoined.iter().filter(|&&adjoined| !adjoined).count() as u32
     }
 
     fn reorder(&mut self, sequence: &[usize]) {

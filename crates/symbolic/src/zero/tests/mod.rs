@@ -1,6 +1,7 @@
 //! The traps of theory 6.7, random identities, planted errors, varieties and scale.
 
 mod traps;
+mod varieties;
 
 use super::assumptions::Assumptions;
 use super::{decide_zero, ZeroTest};

@@ -1,0 +1,202 @@
+//! Points of the constraints: over a random point of the independent data, the ring of all solutions for the dependent symbols.
+
+use super::evaluate::{Point, Run, Stop};
+use super::polynomials::Polynomials;
+use super::program::{Generator, Program};
+use super::ring::Ring;
+use super::tower::{Element, Split, Tower};
+use crate::number::prime_field::PrimeField;
+
+/// At most so many parts are followed at one point.
+const MOST_PARTS: usize = 128;
+
+/// The constraints of a program, in the order in which they are solved.
+#[derive(Debug)]
+pub(super) struct Variety<'p> {
+    program: &'p Program,
+    /// For each constraint, the values it needs.
+    closures: Vec<Vec<bool>>,
+}
+
+/// Numbers of solutions over a point at which the outputs vanish and do not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Parts {
+    pub(super) vanishing: usize,
+    pub(super) other: usize,
+}
+
+/// Why a point gives nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Failure {
+    /// The point is refused.
+    Stop(Stop),
+    /// No point can be used.
+    Unsupported(String),
+}
+
+/// What one tower says.
+enum Part {
+    Vanishing(usize),
+    Other(usize),
+    /// A solution of the equations, but not of the constraints; or a pole.
+    Nothing,
+    Split(Split),
+}
+
+impl<'p> Variety<'p> {
+    pub(super) fn new(program: &'p Program) -> Self {
+        let closures = program
+            .constraints
+            .iter()
+            .map(|&constraint| program.closure(constraint))
+            .collect();
+        Self { program, closures }
+    }
+
+    /// Follows every part of the variety over the point.
+    pub(super) fn parts_at(
+        &self,
+        field: &PrimeField,
+        point: &Point,
+        negative: &[bool],
+    ) -> Result<Parts, Failure> {
+        let mut parts = Parts::default();
+        let mut stack: Vec<Vec<Option<Vec<Element>>>> = vec![Vec::new()];
+        let mut followed = 0;
+        while let Some(prescribed) = stack.pop() {
+            followed += 1;
+            if followed > MOST_PARTS {
+                return Err(Failure::Unsupported(
+                    "the constraints have too many components".to_owned(),
+                ));
+            }
+            let tower = Tower::new(*field, negative, &prescribed);
+            match self.part(&tower, point)? {
+                Part::Vanishing(dimension) => parts.vanishing += dimension,
+                Part::Other(dimension) => parts.other += dimension,
+                Part::Nothing => {}
+                Part::Split(Split { level, factors }) => {
+                    for factor in factors {
+                        let mut next = tower.equations(level);
+                        next.push(Some(factor));
+                        stack.push(next);
+                    }
+                }
+            }
+        }
+        Ok(parts)
+    }
+
+    fn part(&self, tower: &Tower<'_>, point: &Point) -> Result<Part, Failure> {
+        let dependent = match self.solve(tower, point)? {
+            Ok(dependent) => dependent,
+            Err(part) => return Ok(part),
+        };
+        let mut run = Run::new(self.program, point, dependent);
+        if let Err(stop) = run.advance(tower, self.program.operations.len()) {
+            return stopped(tower, stop);
+        }
+        for &constraint in &self.program.constraints {
+            if let Some(part) = nonzero(tower, run.get(constraint), |_| Part::Nothing) {
+                return Ok(part);
+            }
+        }
+        for &output in &self.program.outputs {
+            if let Some(part) = nonzero(tower, run.get(output), Part::Other) {
+                return Ok(part);
+            }
+        }
+        Ok(Part::Vanishing(tower.dimension()))
+    }
+
+    /// The dependent symbols as elements of the tower.
+    fn solve(
+        &self,
+        tower: &Tower<'_>,
+        point: &Point,
+    ) -> Result<Result<Vec<Element>, Part>, Failure> {
+        let mut dependent: Vec<Element> = Vec::new();
+        for (k, closure) in self.closures.iter().enumerate() {
+            let constraint = self.program.constraints[k];
+            if self.uses_later(k, closure) {
+                let why = "the nonlinear constraints are not triangular: one contains the symbol of a later one";
+                return Err(Failure::Unsupported(why.to_owned()));
+            }
+            let ring = Polynomials::new(tower);
+            let mut values: Vec<_> = dependent
+                .iter()
+                .map(|element| ring.constant(element.clone()))
+                .collect();
+            values.push(ring.symbol());
+            let mut run = Run::new(self.program, point, values);
+            let result = run.advance_over(&ring, constraint as usize + 1, |value| closure[value]);
+            if ring.is_unsupported() {
+                let why = "a nonlinear constraint has no polynomial equation for its symbol";
+                return Err(Failure::Unsupported(why.to_owned()));
+            }
+            if let Err(stop) = result {
+                return stopped(tower, stop).map(Err);
+            }
+            let equation = ring.equation(run.get(constraint));
+            match equation.len() {
+                // The constraint holds for every value of the symbol.
+                0 => dependent.push(tower.scalar(point.generators[self.generator_of(k)])),
+                1 => {
+                    return Ok(Err(
+                        nonzero(tower, &equation[0], |_| Part::Nothing).unwrap_or(Part::Nothing)
+                    ))
+                }
+                _ => match tower.adjoin(&equation) {
+                    Some(x) => dependent.push(x),
+                    None => return stopped(tower, Stop::NoRoot).map(Err),
+                },
+            }
+        }
+        Ok(Ok(dependent))
+    }
+
+    fn uses_later(&self, k: usize, closure: &[bool]) -> bool {
+        self.program.operations.iter().zip(closure).any(|(operation, &needed)| match operation {
+            super::program::Operation::Generator(index) if needed => {
+                matches!(self.program.generators[*index as usize], Generator::Dependent(j) if j as usize > k)
+            }
+            _ => false,
+        })
+    }
+
+    fn generator_of(&self, k: usize) -> usize {
+        let is_it = |generator: &Generator| matches!(generator, Generator::Dependent(j) if *j as usize == k);
+        self.program.generators.iter().position(is_it).unwrap_or(0)
+    }
+}
+
+/// What a stop in a tower means: it falls apart, is too large, or the point is refused.
+fn stopped(tower: &Tower<'_>, stop: Stop) -> Result<Part, Failure> {
+    if tower.is_too_large() {
+        return Err(Failure::Unsupported(
+            "the constraints have too many solutions over a point".to_owned(),
+        ));
+    }
+    match tower.split() {
+        Some(split) => Ok(Part::Split(split)),
+        None => match stop {
+            Stop::Pole(_) => Ok(Part::Nothing),
+            other => Err(Failure::Stop(other)),
+        },
+    }
+}
+
+/// `None` for zero; otherwise what a unit means, or the split a zero divisor causes.
+fn nonzero(tower: &Tower<'_>, element: &Element, unit: impl Fn(usize) -> Part) -> Option<Part> {
+    if tower.is_zero(element) {
+        return None;
+    }
+    if tower.invert(element).is_some() {
+        return Some(unit(tower.dimension()));
+    }
+    Some(
+        tower
+            .split()
+            .map_or_else(|| unit(tower.dimension()), Part::Split),
+    )
+}
