@@ -149,9 +149,13 @@ pub(crate) fn read(
             Ok(_) => return None,
             Err(error) => {
                 let span = error.span().unwrap_or(0..0);
-                let span = Span::new(span.start.min(text.len()), span.end.min(text.len()));
-                diagnostics.push(syntax_error(text, source, span, error.message()));
-                if !blank_line(&mut remaining, span.start) {
+                let span = Span::new(floor(text, span.start), floor(text, span.end));
+                let (diagnostic, blank) = match unclosed(&remaining, span.start, error.message()) {
+                    Some(open) => (unclosed_error(source, open), Span::new(open, span.start)),
+                    None => (syntax_error(text, source, span, error.message()), span),
+                };
+                diagnostics.push(diagnostic);
+                if !blank_lines(&mut remaining, blank) {
                     return None;
                 }
             }
@@ -160,18 +164,59 @@ pub(crate) fn read(
     None
 }
 
-/// Replaces the line around a byte by spaces; false where it is blank already.
-fn blank_line(text: &mut String, at: usize) -> bool {
-    let at = at.min(text.len());
-    let start = text.as_bytes()[..at]
-        .iter()
-        .rposition(|byte| *byte == b'\n')
-        .map_or(0, |newline| newline + 1);
-    let end = text.as_bytes()[start..]
+/// The bracket that was never closed, where this is what the parser stumbles over: it notices only in a later line.
+fn unclosed(text: &str, at: usize, message: &str) -> Option<usize> {
+    if !message.contains("array") && !message.contains("inline table") {
+        return None;
+    }
+    let mut start = 0;
+    let mut open = None;
+    for line in text.get(..at)?.split_inclusive('\n') {
+        let code = line.split('#').next().unwrap_or("");
+        let count = |sign: char| code.matches(sign).count();
+        let first = code.find(['[', '{']).filter(|_| code.contains('='));
+        if count('[') > count(']') || count('{') > count('}') {
+            // The first of several lines that go on: an array over many lines is opened in one of them only.
+            open = first.map(|column| start + column).or(open);
+        } else if count('[') < count(']') || count('{') < count('}') {
+            open = None;
+        }
+        start += line.len();
+    }
+    open
+}
+
+fn unclosed_error(source: SourceId, open: usize) -> Diagnostic {
+    let place = Place {
+        source,
+        span: Span::new(open, open + 1),
+    };
+    Diagnostic::error("toml-syntax", place, "this bracket is never closed").label("opened here")
+}
+
+/// Replaces the lines of a span by spaces, without the last one where the span ends at its beginning; false where
+/// they are blank already.
+fn blank_lines(text: &mut String, span: Span) -> bool {
+    let bytes = text.as_bytes();
+    let newline_before = |at: usize| {
+        bytes[..at]
+            .iter()
+            .rposition(|byte| *byte == b'\n')
+            .map_or(0, |newline| newline + 1)
+    };
+    let start = newline_before(span.start.min(bytes.len()));
+    let mut last = span.end.min(bytes.len());
+    if last > span.start && newline_before(last) == last && last > start {
+        last -= 1;
+    }
+    let end = bytes[last..]
         .iter()
         .position(|byte| *byte == b'\n')
-        .map_or(text.len(), |newline| start + newline);
-    let blank = " ".repeat(end - start);
+        .map_or(bytes.len(), |newline| last + newline);
+    let blank: String = bytes[start..end]
+        .iter()
+        .map(|byte| if *byte == b'\n' { '\n' } else { ' ' })
+        .collect();
     if text[start..end] == blank {
         return false;
     }
@@ -340,6 +385,23 @@ mod tests {
                 .as_ref()
                 .map(|s| s.replacement.as_str()),
             Some("\"m*g\"")
+        );
+    }
+
+    #[test]
+    fn an_unclosed_bracket_is_found_where_it_was_opened() {
+        let mut diagnostics = Vec::new();
+        let text = "a = [\"x\", \"y\"\n[b]\nm = 1,5\nk = { v = 1\nz = 2 pi\n";
+        assert!(read(text, SourceId::default(), &mut diagnostics).is_none());
+        diagnostics.sort_by_key(|diagnostic| diagnostic.place);
+        let found: Vec<&str> = diagnostics
+            .iter()
+            .map(|d| text[d.place.span.start..].lines().next().unwrap_or(""))
+            .collect();
+        assert_eq!(found.len(), 4, "{found:?}");
+        assert!(
+            found[0].starts_with("[\"x\"") && found[2].starts_with("{ v"),
+            "{found:?}"
         );
     }
 

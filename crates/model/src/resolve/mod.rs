@@ -13,6 +13,7 @@ pub(crate) mod scope;
 mod sections;
 mod system;
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -27,7 +28,7 @@ use crate::source::{Place, Sources};
 use crate::text::Text;
 
 use formula::Formula;
-use scope::Named;
+use scope::{Contents, Named};
 
 /// A parameter or size set from outside: name and value.
 #[derive(Clone, Debug)]
@@ -60,6 +61,8 @@ pub(crate) struct Resolver {
     pub(crate) controls: Vec<Control>,
     /// Definitions and quasi-velocities; both may be used by name.
     pub(crate) defines: Vec<define::Define>,
+    /// Derivatives of definitions that were taken, by number and order.
+    pub(crate) contents: RefCell<BTreeMap<(usize, u32), Contents>>,
     /// Every expression with what its dimension should be.
     pub(crate) formulas: Vec<Formula>,
 }
@@ -110,6 +113,7 @@ pub(crate) fn resolve(
         stated: Vec::new(),
         controls: Vec::new(),
         defines: Vec::new(),
+        contents: RefCell::default(),
         formulas: Vec::new(),
     };
     resolver.known_keys(root, SECTIONS, "of a model file");

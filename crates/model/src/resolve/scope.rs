@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 
 use chetaev_symbolic::syntax::{Resolution, Scope};
+use chetaev_symbolic::Expr;
 
 use super::define::State;
 use super::Resolver;
@@ -105,6 +106,18 @@ impl Context {
     }
 }
 
+/// A derivative of a definition, and what occurs in it.
+#[derive(Clone, Debug)]
+pub(crate) struct Contents {
+    value: Expr,
+    /// The highest derivative of a coordinate, with its symbol.
+    highest: Option<(u32, String)>,
+    /// A parameter.
+    parameter: Option<String>,
+    /// The time or a control.
+    time: Option<String>,
+}
+
 /// A context with the names of a model; remembers which definitions were wanted before they were known.
 pub(crate) struct ModelScope<'r> {
     pub(crate) resolver: &'r Resolver,
@@ -169,34 +182,86 @@ impl ModelScope<'_> {
                 "",
             );
         }
+        let contents = self.contents(number, value, order);
+        match self.forbidden(&contents) {
+            None => Resolution::Known(contents.value),
+            Some(inner) => {
+                let (what, primes) = (self.context.what, "'".repeat(order as usize));
+                let message =
+                    format!("`{name}{primes}` contains `{inner}`, which may not occur in {what}");
+                refused("not-allowed-here", message, "")
+            }
+        }
+    }
+
+    /// The derivative of a definition with an example of each kind of symbol in it. Both cost time in proportion to
+    /// the definition, so they are kept.
+    fn contents(&self, number: usize, value: Expr, order: u32) -> Contents {
+        let resolver = self.resolver;
+        if let Some(known) = resolver.contents.borrow().get(&(number, order)) {
+            return known.clone();
+        }
         let graph = &resolver.graph;
-        let varies = |name: &str| resolver.varies(name);
-        let value = (0..order).fold(value, |value, _| graph.total_derivative(value, &varies));
+        let value = match order.checked_sub(1) {
+            None => value,
+            Some(lower) => {
+                let lower = self.contents(number, value, lower).value;
+                graph.total_derivative(lower, &|name| resolver.varies(name))
+            }
+        };
+        let mut contents = Contents {
+            value,
+            highest: None,
+            parameter: None,
+            time: None,
+        };
+        for symbol in graph.symbols_in(&[value]) {
+            let place = match resolver
+                .names
+                .get(graph.symbol_name(symbol))
+                .map(|named| named.kind)
+            {
+                Some(NamedKind::Coordinate) => {
+                    let order = graph.symbol_order(symbol);
+                    if contents
+                        .highest
+                        .as_ref()
+                        .is_none_or(|(highest, _)| order > *highest)
+                    {
+                        contents.highest = Some((order, graph.symbol_text(symbol)));
+                    }
+                    continue;
+                }
+                Some(NamedKind::Parameter) => &mut contents.parameter,
+                _ => &mut contents.time,
+            };
+            place.get_or_insert_with(|| graph.symbol_text(symbol));
+        }
+        resolver
+            .contents
+            .borrow_mut()
+            .insert((number, order), contents.clone());
+        contents
+    }
+
+    /// A symbol that may not occur here.
+    fn forbidden(&self, contents: &Contents) -> Option<String> {
         let Context {
-            what,
             coordinates,
             time,
             parameters,
+            ..
         } = self.context;
-        for symbol in graph.symbols_in(&[value]) {
-            let (own, own_order) = (graph.symbol_name(symbol), graph.symbol_order(symbol));
-            let kind = resolver.names.get(own).map(|named| named.kind);
-            let allowed = match kind {
-                Some(NamedKind::Coordinate) => coordinates.is_some_and(|most| own_order <= most),
-                Some(NamedKind::Parameter) => parameters,
-                _ => time,
-            };
-            if !allowed {
-                let primes = "'".repeat(order as usize);
-                let inner = graph.symbol_text(symbol);
-                return refused(
-                    "not-allowed-here",
-                    format!("`{name}{primes}` contains `{inner}`, which may not occur in {what}"),
-                    "",
-                );
-            }
-        }
-        Resolution::Known(value)
+        let high = contents
+            .highest
+            .as_ref()
+            .filter(|(order, _)| coordinates.is_none_or(|most| *order > most));
+        let parameter = contents.parameter.as_ref().filter(|_| !parameters);
+        let timely = contents.time.as_ref().filter(|_| !time);
+        high.map(|(_, symbol)| symbol)
+            .or(parameter)
+            .or(timely)
+            .cloned()
     }
 }
 
@@ -271,7 +336,7 @@ impl Resolver {
     }
 
     /// The highest derivative of a coordinate in an expression; none where no coordinate occurs.
-    pub(crate) fn order_of(&self, value: chetaev_symbolic::Expr) -> Option<u32> {
+    pub(crate) fn order_of(&self, value: Expr) -> Option<u32> {
         let is_coordinate = |name: &str| {
             matches!(
                 self.names.get(name).map(|named| named.kind),

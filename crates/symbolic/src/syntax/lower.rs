@@ -579,14 +579,16 @@ pub fn unknown_name(
     let mut names = scope.names();
     names.extend(bindings.iter().map(|(index, _)| index.clone()));
     let known = |part: &str| names.iter().any(|other| other == part) || part == "pi" || part == "t";
-    if let Some((left, right)) = product_of_names(name, known) {
-        let hint = format!("write `{left} {right}` for the product of `{left}` and `{right}`");
-        return base.hint(hint).suggest(span, format!("{left} {right}"));
+    if let Some(factors) = product_of_names(name, known) {
+        let product = factors.join(" ");
+        let hint = format!("write `{product}` for a product: letters together are one name");
+        return base.hint(hint).suggest(span, product);
     }
     match closest(name, names.iter().map(String::as_str)) {
         Some(near) => base
             .hint(format!("did you mean `{near}`?"))
             .suggest(span, near),
+        None if name == "e" => base.hint("write exp(x) for the exponential function"),
         None if name == "i" || name == "n" => {
             base.hint("sizes are stated under [sizes], indices under [indices]")
         }
@@ -594,12 +596,31 @@ pub fn unknown_name(
     }
 }
 
-/// Splits a name that was meant as a product: `mg` where `m` and `g` are known.
-fn product_of_names(name: &str, known: impl Fn(&str) -> bool) -> Option<(&str, &str)> {
-    if name.len() > 64 || !name.is_ascii() {
+/// Splits a name that was meant as a product, `mgx` where `m`, `g` and `x` are known, into the fewest factors.
+fn product_of_names(name: &str, known: impl Fn(&str) -> bool) -> Option<Vec<&str>> {
+    const LONGEST: usize = 24;
+    if name.len() > LONGEST || !name.is_ascii() {
         return None;
     }
-    (1..name.len())
-        .map(|at| name.split_at(at))
-        .find(|(left, right)| known(left) && known(right))
+    // For each length, the fewest factors that the beginning of the name splits into.
+    let mut splits: Vec<Option<Vec<&str>>> = vec![Some(Vec::new())];
+    for end in 1..=name.len() {
+        let mut best: Option<Vec<&str>> = None;
+        for start in 0..end {
+            let Some(Some(before)) = splits.get(start) else {
+                continue;
+            };
+            let shorter = best
+                .as_ref()
+                .is_none_or(|best| before.len() + 1 < best.len());
+            if shorter && known(&name[start..end]) {
+                best = Some(before.iter().copied().chain([&name[start..end]]).collect());
+            }
+        }
+        splits.push(best);
+    }
+    splits
+        .pop()
+        .flatten()
+        .filter(|factors| (2..=4).contains(&factors.len()))
 }

@@ -378,7 +378,8 @@ fn sums_expand_over_known_ranges() {
 #[test]
 fn names_without_meaning_are_all_reported_with_the_nearest_name() {
     let g = Graph::new();
-    let problems = lowered(&g, "m*(x'^2 + thta'^2) + m' + mx + sine(x) + 1/(2-2)").unwrap_err();
+    let problems =
+        lowered(&g, "m*(x'^2 + thta'^2) + m' + mx + θym + sine(x) + 1/(2-2)").unwrap_err();
     let told: Vec<(&str, Option<&str>)> = problems
         .iter()
         .map(|d| {
@@ -394,6 +395,7 @@ fn names_without_meaning_are_all_reported_with_the_nearest_name() {
             ("unknown-name", Some("theta")),
             ("derivative-of-constant", None),
             ("unknown-name", Some("m x")),
+            ("unknown-name", Some("theta y m")),
             ("unknown-name", Some("sin")),
             ("division-by-zero", None),
         ]
