@@ -120,7 +120,7 @@ impl<'a> Builder<'a> {
         g: &'a Graph,
         plan: &'a Plan,
         order: &'a Order<'a>,
-        taken: &[Name],
+        taken: &[&str],
     ) -> Builder<'a> {
         Builder {
             g,
@@ -263,10 +263,10 @@ impl<'a> Builder<'a> {
 }
 
 /// The first letter that the model does not use for a numbered name.
-fn free_prefix(letters: &[&str], taken: &[Name]) -> String {
+fn free_prefix(letters: &[&str], taken: &[&str]) -> String {
     let is_free = |prefix: &str| {
         !taken.iter().any(|own| {
-            let rest = own.name.strip_prefix(prefix);
+            let rest = own.strip_prefix(prefix);
             rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
         })
     };

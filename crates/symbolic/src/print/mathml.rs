@@ -9,6 +9,7 @@ use crate::node::Function;
 
 const TIMES: &str = "<mo>&#x2062;</mo>";
 const APPLY: &str = "<mo>&#x2061;</mo>";
+const DOT_OPEN: &str = "<mo lspace=\"0\" rspace=\"0\" stretchy=\"false\">";
 const THIN_SPACE: &str = "<mspace width=\"0.1667em\"></mspace>";
 
 impl Document {
@@ -170,9 +171,8 @@ impl Mathml<'_> {
         let name = typeset(name);
         let letter = piece(&name.head);
         let head = match accent(order) {
-            Some(sign) => {
-                format!("<mover accent=\"true\">{letter}<mo stretchy=\"false\">{sign}</mo></mover>")
-            }
+            // Without `accent`: as an accent the dot touches the letter in fonts that have no MATH table.
+            Some(sign) => format!("<mover>{letter}{DOT_OPEN}{sign}</mo></mover>"),
             None => letter,
         };
         let order = (order > 3).then(|| row(&format!("<mo>(</mo><mn>{order}</mn><mo>)</mo>")));

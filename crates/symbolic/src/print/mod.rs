@@ -81,6 +81,8 @@ pub struct Parts {
     pub definitions: Vec<String>,
 }
 
+/// Each prints with the default [`Options`]. A large expression comes with its intermediate results: in text, lines
+/// after "where".
 impl Graph {
     /// `e` in the syntax of the model file.
     pub fn text(&self, e: Expr) -> String {
@@ -170,17 +172,20 @@ impl Document {
     }
 }
 
-fn lay_out<'o>(
+fn lay_out(
     g: &Graph,
     roots: &[Expr],
-    options: &'o Options,
-    statements: impl FnOnce(&mut Builder<'_>) -> Vec<Statement> + 'o,
+    options: &Options,
+    statements: impl FnOnce(&mut Builder<'_>) -> Vec<Statement>,
 ) -> Document {
     let budget = options.max_nodes.saturating_mul(roots.len() as u64);
     let plan = Plan::new(g, roots, budget);
     let order = Order::new(g, roots, options);
     let names = names_in(g, roots, options);
-    let mut builder = Builder::new(g, &plan, &order, &names);
+    let taken = names.iter().map(|name| name.name.as_str());
+    let listed = options.parameters.iter().chain(&options.coordinates);
+    let taken: Vec<&str> = taken.chain(listed.map(String::as_str)).collect();
+    let mut builder = Builder::new(g, &plan, &order, &taken);
     let statements = statements(&mut builder);
     builder.finish(statements, names, options)
 }
