@@ -29,6 +29,7 @@ pub mod lower;
 pub mod names;
 pub mod parse;
 pub mod span;
+mod unknown;
 
 #[cfg(test)]
 mod tests;
