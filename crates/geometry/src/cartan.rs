@@ -119,10 +119,14 @@ pub fn exterior_derivative(
     (v, along_v): (&JetField, &CartanForm),
 ) -> Expr {
     let g = &system.graph;
-    let mut parts = vec![g.mul(&[along_u.dt, v.t]), g.neg(g.mul(&[along_v.dt, u.t]))];
+    // Components are mostly zero; a product with zero would cost as much as any other.
+    let term = |a: Expr, b: Expr| (!g.is_zero(a) && !g.is_zero(b)).then(|| g.mul(&[a, b]));
+    let mut parts = Vec::new();
+    parts.extend(term(along_u.dt, v.t));
+    parts.extend(term(along_v.dt, u.t).map(|e| g.neg(e)));
     for s in 0..system.n() {
-        parts.push(g.mul(&[along_u.dq[s], v.q[s]]));
-        parts.push(g.neg(g.mul(&[along_v.dq[s], u.q[s]])));
+        parts.extend(term(along_u.dq[s], v.q[s]));
+        parts.extend(term(along_v.dq[s], u.q[s]).map(|e| g.neg(e)));
     }
     g.add(&parts)
 }

@@ -32,6 +32,9 @@ const PAIRWISE_BUDGET: usize = 3000;
 /// The most constraints whose sub-systems of every size are looked at; above, single constraints only.
 const ALL_SUBSETS: usize = 3;
 
+/// The most sub-systems named one by one.
+const LISTED: usize = 6;
+
 /// Which of the two conditions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Strength {
@@ -380,9 +383,20 @@ fn subsystems(cx: &Context<'_>, strength: Strength) -> Option<String> {
     ]
     .into_iter()
     .filter(|(names, _)| !names.is_empty())
-    .map(|(names, word)| format!("{word}: {}", names.join(", ")))
+    .map(|(names, word)| format!("{word}: {}", listed(&names)))
     .collect();
     Some(parts.join("; "))
+}
+
+/// All names of a short list, the first few of a long one.
+fn listed(names: &[String]) -> String {
+    match names.get(..LISTED) {
+        Some(first) if names.len() > LISTED + 1 => {
+            let more = names.len() - LISTED;
+            format!("{} and {more} more", first.join(", "))
+        }
+        _ => names.join(", "),
+    }
 }
 
 /// Single constraints first, then pairs; never all of them.
