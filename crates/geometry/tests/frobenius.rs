@@ -1,5 +1,7 @@
 //! Frobenius' condition: against a direct evaluation of the forms, and the verdicts of the literature.
 
+#![allow(clippy::unwrap_used)] // a panic is how a test fails
+
 mod common;
 
 use chetaev_geometry::cartan::{exterior_derivative, CartanForm, JetField};

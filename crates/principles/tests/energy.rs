@@ -1,5 +1,7 @@
 //! The rate of the energy against closed forms derived by hand, and the verdicts (T1 §5.1).
 
+#![allow(clippy::unwrap_used)] // a panic is how a test fails
+
 mod common;
 
 use chetaev_mechanics::formulations::{Basis, Routh};

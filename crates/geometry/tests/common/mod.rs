@@ -1,6 +1,6 @@
 //! Systems written as text, and numbers from them.
 
-#![allow(dead_code, reason = "each test file uses its part")]
+#![allow(dead_code)] // each test file uses its part
 
 use chetaev_mechanics::claims::{Context, Finding};
 use chetaev_mechanics::sample::{self, Point};
