@@ -2,7 +2,7 @@
 
 use super::assumptions::Assumptions;
 use super::evaluate::Parametrization;
-use super::modular::{self, Outcome, Plan};
+use super::modular::{self, Finding, Outcome, Plan};
 use super::prepare::{prepare, Question};
 use super::program::{Generator, Program};
 use super::refute::{self, Claim, Search};
@@ -100,16 +100,22 @@ pub fn decide_zero(graph: &Graph, test: &ZeroTest<'_>) -> Verdict {
         assumptions: test.assumptions,
     };
     let program = prepare(graph, &question);
-    let plan = Plan {
-        seed: test.options.seed,
-        error_bound_log2: test.options.error_bound_log2,
-        parametrization: Parametrization {
-            rotation: test.options.rotation,
-        },
-        budget: test.options.budget,
-    };
+    let plan = plan_of(&test.options, 1, residuals.len());
     let outcome = modular::decide(&program, &plan);
     conclude(graph, test, &residuals, &program, outcome)
+}
+
+pub(super) fn plan_of(options: &Options, rows: usize, columns: usize) -> Plan {
+    Plan {
+        seed: options.seed,
+        error_bound_log2: options.error_bound_log2,
+        parametrization: Parametrization {
+            rotation: options.rotation,
+        },
+        budget: options.budget,
+        rows,
+        columns,
+    }
 }
 
 /// The residuals with the solved symbols replaced, in an order in which each replacement is complete.
@@ -139,19 +145,43 @@ fn conclude(
     program: &Program,
     outcome: Outcome,
 ) -> Verdict {
-    match outcome {
-        Outcome::Zero { error_bound_log2, samples, cuts } => {
-            Verdict::Proved(modular_proof(test, program, error_bound_log2, samples, cuts))
+    let finding = match outcome {
+        Outcome::Found(finding) => finding,
+        Outcome::Nowhere { samples } => {
+            return Verdict::undecided(format!(
+                "the expression is nowhere defined: a denominator vanished at each of {samples} random points"
+            ))
         }
-        Outcome::Nowhere { samples } => Verdict::undecided(format!(
-            "the expression is nowhere defined: a denominator vanished at each of {samples} random points"
-        )),
-        Outcome::NonZero { .. } => {
-            search(graph, test, residuals, &format!("not zero in the field of its generators ({})", generators(program)))
+        Outcome::Empty { samples } => {
+            return Verdict::undecided(format!(
+                "the constraints have no solution over any of {samples} random points"
+            ))
         }
-        Outcome::Branches { what, .. } => search(graph, test, residuals, &what),
-        Outcome::Open { why, .. } => search(graph, test, residuals, &why),
+        Outcome::Open { why } => return search(graph, test, residuals, &why),
+    };
+    match (finding.minimum, finding.maximum, finding.error_bound_log2) {
+        (0, 0, Some(bound)) => Verdict::Proved(modular_proof(test, program, &finding, bound)),
+        (0, 0, None) => search(graph, test, residuals, &finding.why_no_bound),
+        (0, _, _) => search(graph, test, residuals, &branches(test, &finding)),
+        _ => {
+            let why = format!(
+                "not zero in the field of its generators ({})",
+                generators(program)
+            );
+            search(graph, test, residuals, &why)
+        }
     }
+}
+
+/// In words, where the residuals vanish and where not.
+fn branches(test: &ZeroTest<'_>, finding: &Finding) -> String {
+    if test.implicit.is_empty() {
+        let count = finding.suspects;
+        return format!("zero for some signs of {count} dependent radicals and not for others");
+    }
+    let vanishing = finding.parts.get(&0).copied().unwrap_or(0);
+    let all: usize = finding.parts.values().sum();
+    format!("zero on some components of the constraints only: {vanishing} of {all} solutions over a point make it vanish")
 }
 
 fn search(graph: &Graph, test: &ZeroTest<'_>, residuals: &[Expr], why: &str) -> Verdict {
@@ -184,14 +214,9 @@ fn search(graph: &Graph, test: &ZeroTest<'_>, residuals: &[Expr], why: &str) -> 
     }
 }
 
-fn modular_proof(
-    test: &ZeroTest<'_>,
-    program: &Program,
-    bound: f64,
-    samples: u32,
-    cuts: usize,
-) -> Proof {
-    let cut = match cuts {
+fn modular_proof(test: &ZeroTest<'_>, program: &Program, finding: &Finding, bound: f64) -> Proof {
+    let samples = finding.samples;
+    let cut = match finding.cuts {
         0 => String::new(),
         n => format!(", {n} large subexpressions taken as free"),
     };

@@ -6,6 +6,7 @@
 //! rational data. What can be neither proved nor refuted is `numerical` or `undecided`, never called proved.
 //!
 //! * [`assumptions`]: what a model assumes of signs and ranges.
+//! * [`rank`]: generic ranks and regularity of matrices, by the same means.
 //! * [`enclose`]: evaluation in balls, also for its own sake.
 
 pub mod assumptions;
@@ -18,6 +19,7 @@ mod newton;
 mod polynomials;
 mod prepare;
 mod program;
+pub mod rank;
 mod refute;
 mod ring;
 mod signs;
@@ -26,6 +28,7 @@ mod tower;
 mod variety;
 
 pub use decide::{decide_zero, Options, ZeroTest};
+pub use rank::{generic_determinant_nonzero, generic_rank, GenericRank, RankTest};
 
 #[cfg(test)]
 mod tests;

@@ -6,10 +6,11 @@ use std::cmp::Ordering;
 use rustc_hash::FxHashMap;
 
 use super::assumptions::{as_pi_number, Assumptions};
+use super::enclose::EncloseError;
 use super::newton::System;
 use crate::graph::Graph;
 use crate::node::{Expr, Symbol};
-use crate::number::ball::{Ball, Precision};
+use crate::number::ball::{self, Ball, BallError, Precision};
 use crate::number::random::Random;
 use crate::rational::{self, Rational};
 use crate::verdict::{Counterexample, PointValue};
@@ -44,8 +45,14 @@ pub(super) enum Search {
 
 /// Points tried.
 const POINTS: u32 = 24;
-/// Precisions tried at each point.
-const PRECISIONS: [usize; 3] = [96, 256, 512];
+/// Bits of the first evaluation at a point; they are increased as long as it is not decided.
+const FIRST_PRECISION: usize = 96;
+/// Evaluations at one point.
+const MOST_PRECISIONS: u32 = 6;
+/// A residual enclosed in a ball around zero of radius 2^−ENOUGH is taken to vanish at the point.
+const ENOUGH: usize = 400;
+/// Bits times nodes of one evaluation.
+const MOST_BITS: usize = 600_000_000;
 /// Evaluating less than this many nodes at every precision is cheap; beyond it fewer points are tried.
 const CHEAP: usize = 20_000;
 /// Numbers a person can check by hand.
@@ -96,9 +103,38 @@ pub(super) fn search(graph: &Graph, claim: &Claim<'_>, seed: u64) -> Search {
         points => Search::Vanishing {
             points,
             largest,
-            bits: PRECISIONS[PRECISIONS.len() - 1],
+            bits: ENOUGH,
         },
     }
+}
+
+/// Is the square matrix regular at some point with small rational data? Verified by elimination in balls.
+pub(super) fn is_regular_somewhere(
+    graph: &Graph,
+    matrix: &[Expr],
+    assumptions: &Assumptions,
+    precision: &Precision,
+    seed: u64,
+) -> bool {
+    let claim = Claim {
+        residuals: matrix,
+        constraints: &[],
+        solved: &[],
+        assumptions,
+    };
+    let mut hunt = Hunt::new(graph, &claim, seed);
+    let size = matrix.len().isqrt();
+    (0..POINTS / 4).any(|attempt| {
+        let data = hunt.data(attempt);
+        let Some(point) = hunt.point(precision, &data, &[]) else {
+            return false;
+        };
+        let Ok(values) = hunt.evaluate(precision, matrix, &point) else {
+            return false;
+        };
+        hunt.assumptions_hold(precision, &point)
+            && ball::solve(precision, size, values, &[]).is_ok()
+    })
 }
 
 enum Attempt {
@@ -113,6 +149,8 @@ struct Hunt<'a> {
     independent: Vec<Symbol>,
     system: System<'a>,
     random: Random,
+    /// Nodes evaluated at each point.
+    nodes: usize,
 }
 
 impl<'a> Hunt<'a> {
@@ -136,58 +174,70 @@ impl<'a> Hunt<'a> {
             independent,
             system: System::new(graph, claim.constraints),
             random: Random::stream(seed, 0xc0de),
+            nodes: graph.reachable(claim.residuals).len(),
         }
     }
 
     fn attempt(&mut self, attempt: u32) -> Attempt {
-        let data: Vec<(Symbol, Rational)> = self
-            .independent
-            .clone()
-            .into_iter()
-            .map(|s| (s, self.choose(s, attempt)))
-            .collect();
+        let data = self.data(attempt);
         let start: Vec<f64> = self
             .claim
             .constraints
             .iter()
             .map(|_| self.random.between(-40, 40) as f64 / 8.0 + 0.1)
             .collect();
+        let mut bits = FIRST_PRECISION;
         let mut bound = None;
-        for bits in PRECISIONS {
+        for _ in 0..MOST_PRECISIONS {
             let precision = Precision::new(bits);
             let Some(point) = self.point(&precision, &data, &start) else {
-                return self.give_up(bound);
+                break;
             };
             if !self.assumptions_hold(&precision, &point) {
-                return Attempt::Unusable;
+                break;
             }
-            let Ok(values) = self.evaluate(&precision, self.claim.residuals, &point) else {
-                return self.give_up(bound);
-            };
-            if let Some(index) = values.iter().position(Ball::excludes_zero) {
-                return Attempt::Found(Box::new(self.report(
-                    &precision,
-                    &data,
-                    &point,
-                    index,
-                    &values[index],
-                )));
+            let mut wanted = 2 * bits + 64;
+            match self.evaluate(&precision, self.claim.residuals, &point) {
+                Ok(values) => {
+                    if let Some(index) = values.iter().position(Ball::excludes_zero) {
+                        let report = self.report(&precision, &data, &point, index, &values[index]);
+                        return Attempt::Found(Box::new(report));
+                    }
+                    let width = values
+                        .iter()
+                        .filter_map(|v| v.radius().log2_ceil())
+                        .max()
+                        .unwrap_or(i64::MIN);
+                    if width < -(ENOUGH as i64) {
+                        bound = Some(
+                            values
+                                .iter()
+                                .map(|v| v.upper().to_f64().abs().max(v.lower().to_f64().abs()))
+                                .fold(0.0, f64::max),
+                        );
+                        break;
+                    }
+                    // So many bits were lost; the same loss is expected again.
+                    let lost = usize::try_from(width.saturating_add(bits as i64)).unwrap_or(0);
+                    wanted = wanted.max(lost + ENOUGH + 32);
+                }
+                Err(EncloseError::Ball(BallError::Uncertain(_))) => {}
+                Err(_) => break,
             }
-            bound = Some(
-                values
-                    .iter()
-                    .map(|v| v.upper().to_f64().abs().max(v.lower().to_f64().abs()))
-                    .fold(0.0, f64::max),
-            );
+            if wanted.saturating_mul(self.nodes) > MOST_BITS {
+                break;
+            }
+            bits = wanted;
         }
-        self.give_up(bound)
+        bound.map_or(Attempt::Unusable, Attempt::Vanishes)
     }
 
-    fn give_up(&self, bound: Option<f64>) -> Attempt {
-        match bound {
-            Some(bound) if bound < 1e-20 => Attempt::Vanishes(bound),
-            _ => Attempt::Unusable,
-        }
+    fn data(&mut self, attempt: u32) -> Vec<(Symbol, Rational)> {
+        self.independent
+            .clone()
+            .into_iter()
+            .map(|symbol| (symbol, self.choose(symbol, attempt)))
+            .collect()
     }
 
     /// A small rational number within the simple bounds of the symbol.
@@ -195,7 +245,15 @@ impl<'a> Hunt<'a> {
         let (low, high) = self.bounds(symbol);
         let inside =
             |value: f64| low.is_none_or(|low| low < value) && high.is_none_or(|high| value < high);
-        // Later attempts reach further into the list; 0 only at the end, where much is undefined or degenerate.
+        if attempt % 4 == 3 {
+            // Zeros make large graphs easy to enclose, where they are allowed.
+            for value in [0, 1] {
+                if inside(value as f64) && self.random.below(3) > 0 {
+                    return ratio(value, 1);
+                }
+            }
+        }
+        // Later attempts reach further into the list.
         let reach = (4 + attempt as usize).min(SMALL.len());
         for _ in 0..16 {
             let (numerator, denominator) = SMALL[self.random.below(reach as u64) as usize];
@@ -275,7 +333,7 @@ impl<'a> Hunt<'a> {
         precision: &Precision,
         roots: &[Expr],
         point: &FxHashMap<Symbol, Ball>,
-    ) -> Result<Vec<Ball>, super::enclose::EncloseError> {
+    ) -> Result<Vec<Ball>, EncloseError> {
         self.graph
             .enclose(roots, precision, &|symbol| point.get(&symbol).cloned())
     }

@@ -70,7 +70,11 @@ impl Sizes {
                 Operation::Matrix { .. } | Operation::Solve { .. }
             );
             let large = cut.is_some_and(|cut| size.degree.max(size.height) > cut.exp2());
-            if large && scalar && !program.outputs.contains(&(value as Value)) {
+            if large
+                && scalar
+                && !program.outputs.contains(&(value as Value))
+                && !program.constraints.contains(&(value as Value))
+            {
                 sizes.cuts.push(value as Value);
                 size = Size {
                     degree: 1.0,

@@ -1,8 +1,10 @@
 //! Points of the constraints: over a random point of the independent data, the ring of all solutions for the dependent symbols.
 
 use super::evaluate::{Point, Run, Stop};
+use super::modular::Parts;
 use super::polynomials::Polynomials;
 use super::program::{Generator, Program};
+use super::rank::{rank_over, Pivots};
 use super::ring::Ring;
 use super::tower::{Element, Split, Tower};
 use crate::number::prime_field::PrimeField;
@@ -16,13 +18,9 @@ pub(super) struct Variety<'p> {
     program: &'p Program,
     /// For each constraint, the values it needs.
     closures: Vec<Vec<bool>>,
-}
-
-/// Numbers of solutions over a point at which the outputs vanish and do not.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Parts {
-    pub(super) vanishing: usize,
-    pub(super) other: usize,
+    /// The shape of the matrix of outputs.
+    rows: usize,
+    columns: usize,
 }
 
 /// Why a point gives nothing.
@@ -36,21 +34,28 @@ pub(super) enum Failure {
 
 /// What one tower says.
 enum Part {
-    Vanishing(usize),
-    Other(usize),
-    /// A solution of the equations, but not of the constraints; or a pole.
-    Nothing,
+    /// The rank of the outputs, at so many solutions.
+    Rank(usize, Pivots),
+    /// A solution of the equations, but not of the constraints.
+    Elsewhere,
+    /// A denominator vanishes.
+    Pole,
     Split(Split),
 }
 
 impl<'p> Variety<'p> {
-    pub(super) fn new(program: &'p Program) -> Self {
+    pub(super) fn new(program: &'p Program, rows: usize, columns: usize) -> Self {
         let closures = program
             .constraints
             .iter()
             .map(|&constraint| program.closure(constraint))
             .collect();
-        Self { program, closures }
+        Self {
+            program,
+            closures,
+            rows,
+            columns,
+        }
     }
 
     /// Follows every part of the variety over the point.
@@ -72,9 +77,9 @@ impl<'p> Variety<'p> {
             }
             let tower = Tower::new(*field, negative, &prescribed);
             match self.part(&tower, point)? {
-                Part::Vanishing(dimension) => parts.vanishing += dimension,
-                Part::Other(dimension) => parts.other += dimension,
-                Part::Nothing => {}
+                Part::Rank(dimension, pivots) => parts.add(dimension, pivots),
+                Part::Elsewhere => {}
+                Part::Pole => parts.poles += 1,
                 Part::Split(Split { level, factors }) => {
                     for factor in factors {
                         let mut next = tower.equations(level);
@@ -97,16 +102,20 @@ impl<'p> Variety<'p> {
             return stopped(tower, stop);
         }
         for &constraint in &self.program.constraints {
-            if let Some(part) = nonzero(tower, run.get(constraint), |_| Part::Nothing) {
+            if let Some(part) = off_constraint(tower, run.get(constraint)) {
                 return Ok(part);
             }
         }
-        for &output in &self.program.outputs {
-            if let Some(part) = nonzero(tower, run.get(output), Part::Other) {
-                return Ok(part);
-            }
-        }
-        Ok(Part::Vanishing(tower.dimension()))
+        let outputs: Vec<Element> = self
+            .program
+            .outputs
+            .iter()
+            .map(|&output| run.get(output).clone())
+            .collect();
+        Ok(match rank_over(tower, self.rows, self.columns, &outputs) {
+            Some(pivots) => Part::Rank(tower.dimension(), pivots),
+            None => tower.split().map_or(Part::Pole, Part::Split),
+        })
     }
 
     /// The dependent symbols as elements of the tower.
@@ -143,7 +152,7 @@ impl<'p> Variety<'p> {
                 0 => dependent.push(tower.scalar(point.generators[self.generator_of(k)])),
                 1 => {
                     return Ok(Err(
-                        nonzero(tower, &equation[0], |_| Part::Nothing).unwrap_or(Part::Nothing)
+                        off_constraint(tower, &equation[0]).unwrap_or(Part::Elsewhere)
                     ))
                 }
                 _ => match tower.adjoin(&equation) {
@@ -173,30 +182,23 @@ impl<'p> Variety<'p> {
 /// What a stop in a tower means: it falls apart, is too large, or the point is refused.
 fn stopped(tower: &Tower<'_>, stop: Stop) -> Result<Part, Failure> {
     if tower.is_too_large() {
-        return Err(Failure::Unsupported(
-            "the constraints have too many solutions over a point".to_owned(),
-        ));
+        let why = "the constraints have too many solutions over a point";
+        return Err(Failure::Unsupported(why.to_owned()));
     }
-    match tower.split() {
-        Some(split) => Ok(Part::Split(split)),
-        None => match stop {
-            Stop::Pole(_) => Ok(Part::Nothing),
-            other => Err(Failure::Stop(other)),
-        },
+    match (tower.split(), stop) {
+        (Some(split), _) => Ok(Part::Split(split)),
+        (None, Stop::Pole(_)) => Ok(Part::Pole),
+        (None, other) => Err(Failure::Stop(other)),
     }
 }
 
-/// `None` for zero; otherwise what a unit means, or the split a zero divisor causes.
-fn nonzero(tower: &Tower<'_>, element: &Element, unit: impl Fn(usize) -> Part) -> Option<Part> {
-    if tower.is_zero(element) {
+/// `None` if the constraint holds; otherwise the part has no solutions of it, or falls apart.
+fn off_constraint(tower: &Tower<'_>, constraint: &Element) -> Option<Part> {
+    if tower.is_zero(constraint) {
         return None;
     }
-    if tower.invert(element).is_some() {
-        return Some(unit(tower.dimension()));
+    if tower.invert(constraint).is_some() {
+        return Some(Part::Elsewhere);
     }
-    Some(
-        tower
-            .split()
-            .map_or_else(|| unit(tower.dimension()), Part::Split),
-    )
+    Some(tower.split().map_or(Part::Elsewhere, Part::Split))
 }

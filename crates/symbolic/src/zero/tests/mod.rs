@@ -1,5 +1,7 @@
 //! The traps of theory 6.7, random identities, planted errors, varieties and scale.
 
+mod random;
+mod ranks;
 mod traps;
 mod varieties;
 
