@@ -3,11 +3,12 @@
 //! One loop serves single states and blocks; in a block each instruction is applied to
 //! [`LANES`](crate::LANES) states before the next is read, so that the cost of reading it is shared.
 
+use crate::decode::{decode, Step};
 use crate::evaluate::{BlockEvaluator, EvaluateFailure, Evaluator, PivotRange};
 use crate::factor::{Factored, Fault};
 use crate::kernel;
 use crate::lanes::{Lanes, Word};
-use crate::program::{Binary, Fused, Instruction, Program, Unary};
+use crate::program::Program;
 use crate::verify::VerifyError;
 use chetaev_symbolic::evaluate::apply;
 use chetaev_symbolic::Function;
@@ -16,6 +17,8 @@ use chetaev_symbolic::Function;
 #[derive(Clone, Debug)]
 pub struct Interpreter {
     program: Program,
+    prologue: Vec<Step>,
+    body: Vec<Step>,
 }
 
 impl Interpreter {
@@ -25,7 +28,11 @@ impl Interpreter {
     /// [`VerifyError`] if the program is not well formed; one made by [`Lowering`](crate::Lowering) is.
     pub fn new(program: Program) -> Result<Interpreter, VerifyError> {
         program.verify()?;
-        Ok(Interpreter { program })
+        Ok(Interpreter {
+            prologue: decode(&program.prologue),
+            body: decode(&program.body),
+            program,
+        })
     }
 }
 
@@ -85,7 +92,7 @@ impl Evaluator for Interpreter {
         workspace: &mut Workspace,
     ) -> Result<(), EvaluateFailure> {
         let state = &mut workspace.0;
-        state.prepare(&self.program, parameters)?;
+        state.prepare(&self.program, &self.prologue, parameters)?;
         state.is_prepared = state.failures.is_empty();
         state.first_failure()
     }
@@ -98,7 +105,7 @@ impl Evaluator for Interpreter {
         outputs: &mut [f64],
     ) -> Result<(), EvaluateFailure> {
         let state = &mut workspace.0;
-        state.evaluate(&self.program, groups, variables, outputs)?;
+        state.evaluate((&self.program, &self.body), groups, variables, outputs)?;
         state.first_failure()
     }
 }
@@ -113,7 +120,9 @@ impl BlockEvaluator for Interpreter {
         parameters: &[Lanes],
         workspace: &mut BlockWorkspace,
     ) -> Result<(), EvaluateFailure> {
-        workspace.0.prepare(&self.program, parameters)
+        workspace
+            .0
+            .prepare(&self.program, &self.prologue, parameters)
     }
 
     fn evaluate_block(
@@ -125,7 +134,7 @@ impl BlockEvaluator for Interpreter {
     ) -> Result<(), EvaluateFailure> {
         workspace
             .0
-            .evaluate(&self.program, groups, variables, outputs)
+            .evaluate((&self.program, &self.body), groups, variables, outputs)
     }
 }
 
@@ -164,12 +173,17 @@ impl<W: Word> State<W> {
         }
     }
 
-    fn prepare(&mut self, program: &Program, parameters: &[W]) -> Result<(), EvaluateFailure> {
+    fn prepare(
+        &mut self,
+        program: &Program,
+        code: &[Step],
+        parameters: &[W],
+    ) -> Result<(), EvaluateFailure> {
         check_length("parameters", program.layout.parameters, parameters.len())?;
         self.check_shape(program)?;
         self.failures.clear();
         self.file[program.layout.parameter_range()].copy_from_slice(parameters);
-        self.run(program, &program.prologue);
+        self.run(program, code);
         self.lasting = self.failures.len();
         self.is_prepared = true;
         Ok(())
@@ -187,7 +201,7 @@ impl<W: Word> State<W> {
 
     fn evaluate(
         &mut self,
-        program: &Program,
+        (program, code): (&Program, &[Step]),
         groups: usize,
         variables: &[W],
         outputs: &mut [W],
@@ -203,7 +217,7 @@ impl<W: Word> State<W> {
         let mut outputs = outputs.iter_mut();
         let mut done = 0;
         for group in program.outputs.iter().take(groups) {
-            if !self.run(program, &program.body[done..group.end]) {
+            if !self.run(program, &code[done..group.end]) {
                 return Ok(());
             }
             done = group.end;
@@ -215,50 +229,26 @@ impl<W: Word> State<W> {
     }
 
     /// Runs instructions in order; `false` when no state is left that could go on.
-    fn run(&mut self, program: &Program, code: &[Instruction]) -> bool {
-        for &instruction in code {
-            match instruction {
-                Instruction::Unary { operation, out, a } => {
-                    unary(&mut self.file, operation, out.index(), a.index());
-                }
-                Instruction::Binary {
-                    operation,
-                    out,
-                    a,
-                    b,
-                } => binary(
-                    &mut self.file,
-                    operation,
-                    out.index(),
-                    (a.index(), b.index()),
-                ),
-                Instruction::Fused {
-                    operation,
-                    out,
-                    a,
-                    b,
-                    c,
-                } => {
-                    let operands = (a.index(), b.index(), c.index());
-                    fused(&mut self.file, operation, out.index(), operands);
-                }
-                Instruction::SinCos { sin, cos, a } => W::pair(
-                    &mut self.file,
-                    (sin.index(), cos.index()),
-                    a.index(),
-                    kernel::sin_cos_quick,
-                    kernel::sin_cos_library,
-                ),
-                Instruction::Factor { matrix } => {
-                    self.factor(program, matrix as usize);
+    fn run(&mut self, program: &Program, code: &[Step]) -> bool {
+        let mut rest = code;
+        // Linear systems need the whole state; what lies between them needs the register file only.
+        loop {
+            rest = run_scalar(&mut self.file, rest);
+            match rest.split_first() {
+                Some((Step::Factor(matrix), after)) => {
+                    self.factor(program, *matrix as usize);
                     if W::LANES == 1 && !self.failures.is_empty() {
                         return false;
                     }
+                    rest = after;
                 }
-                Instruction::Solve { solve } => self.solve(program, solve as usize),
+                Some((Step::Solve(solve), after)) => {
+                    self.solve(program, *solve as usize);
+                    rest = after;
+                }
+                _ => return true,
             }
         }
-        true
     }
 
     fn factor(&mut self, program: &Program, index: usize) {
@@ -306,47 +296,79 @@ fn failure(matrix: usize, fault: Fault) -> EvaluateFailure {
     }
 }
 
-#[inline(always)]
-fn unary<W: Word>(file: &mut [W], operation: Unary, out: usize, a: usize) {
-    match operation {
-        Unary::Neg => W::unary(file, out, a, |a| -a),
-        Unary::Square => W::unary(file, out, a, |a| a * a),
-        Unary::Sqrt => W::unary(file, out, a, f64::sqrt),
-        Unary::Function(Function::Sin) => {
-            let quick = |a| {
-                let (sin, _, is_good) = kernel::sin_cos_quick(a);
-                (sin, is_good)
-            };
-            W::guarded(file, out, a, quick, f64::sin);
+/// Runs instructions up to the next linear system; returns what is left.
+fn run_scalar<'c, W: Word>(file: &mut [W], code: &'c [Step]) -> &'c [Step] {
+    let place = |register: u32| register as usize;
+    for (i, step) in code.iter().enumerate() {
+        match *step {
+            Step::Add(out, a, b) => W::binary(file, place(out), place(a), place(b), |a, b| a + b),
+            Step::Sub(out, a, b) => W::binary(file, place(out), place(a), place(b), |a, b| a - b),
+            Step::Mul(out, a, b) => W::binary(file, place(out), place(a), place(b), |a, b| a * b),
+            Step::Div(out, a, b) => W::binary(file, place(out), place(a), place(b), |a, b| a / b),
+            Step::MulAdd(out, a, b, c) => {
+                let abc = (place(a), place(b), place(c));
+                W::ternary(file, place(out), abc, |a, b, c| a * b + c);
+            }
+            Step::MulSub(out, a, b, c) => {
+                let abc = (place(a), place(b), place(c));
+                W::ternary(file, place(out), abc, |a, b, c| a * b - c);
+            }
+            Step::NegMulAdd(out, a, b, c) => {
+                let abc = (place(a), place(b), place(c));
+                W::ternary(file, place(out), abc, |a, b, c| c - a * b);
+            }
+            Step::Neg(out, a) => W::unary(file, place(out), place(a), |a| -a),
+            Step::Square(out, a) => W::unary(file, place(out), place(a), |a| a * a),
+            Step::Sqrt(out, a) => W::unary(file, place(out), place(a), f64::sqrt),
+            Step::Pow(out, a, b) => power(file, place(out), place(a), place(b)),
+            Step::Atan2(out, a, b) => angle(file, place(out), place(a), place(b)),
+            Step::SinCos(sin, cos, a) => sin_cos(file, place(sin), place(cos), place(a)),
+            Step::Sin(out, a) => sin(file, place(out), place(a)),
+            Step::Cos(out, a) => cos(file, place(out), place(a)),
+            Step::Function(function, out, a) => elementary(file, function, place(out), place(a)),
+            Step::Factor(_) | Step::Solve(_) => return &code[i..],
         }
-        Unary::Function(Function::Cos) => {
-            let quick = |a| {
-                let (_, cos, is_good) = kernel::sin_cos_quick(a);
-                (cos, is_good)
-            };
-            W::guarded(file, out, a, quick, f64::cos);
-        }
-        Unary::Function(function) => W::unary(file, out, a, |a| apply(function, a)),
     }
+    &[]
 }
 
-#[inline(always)]
-fn binary<W: Word>(file: &mut [W], operation: Binary, out: usize, ab: (usize, usize)) {
-    match operation {
-        Binary::Add => W::binary(file, out, ab, |a, b| a + b),
-        Binary::Sub => W::binary(file, out, ab, |a, b| a - b),
-        Binary::Mul => W::binary(file, out, ab, |a, b| a * b),
-        Binary::Div => W::binary(file, out, ab, |a, b| a / b),
-        Binary::Pow => W::binary(file, out, ab, f64::powf),
-        Binary::Atan2 => W::binary(file, out, ab, f64::atan2),
-    }
+// Out of line, so that the loop above stays small.
+
+#[inline(never)]
+fn power<W: Word>(file: &mut [W], out: usize, a: usize, b: usize) {
+    W::binary(file, out, a, b, f64::powf);
 }
 
-#[inline(always)]
-fn fused<W: Word>(file: &mut [W], operation: Fused, out: usize, abc: (usize, usize, usize)) {
-    match operation {
-        Fused::MulAdd => W::ternary(file, out, abc, |a, b, c| a * b + c),
-        Fused::MulSub => W::ternary(file, out, abc, |a, b, c| a * b - c),
-        Fused::NegMulAdd => W::ternary(file, out, abc, |a, b, c| c - a * b),
-    }
+#[inline(never)]
+fn angle<W: Word>(file: &mut [W], out: usize, a: usize, b: usize) {
+    W::binary(file, out, a, b, f64::atan2);
+}
+
+#[inline(never)]
+fn elementary<W: Word>(file: &mut [W], function: Function, out: usize, a: usize) {
+    W::unary(file, out, a, |a| apply(function, a));
+}
+
+#[inline(never)]
+fn sin_cos<W: Word>(file: &mut [W], sin: usize, cos: usize, a: usize) {
+    let (quick, slow) = (kernel::sin_cos_quick, kernel::sin_cos_library);
+    W::pair(file, (sin, cos), a, quick, slow);
+}
+
+#[inline(never)]
+fn sin<W: Word>(file: &mut [W], out: usize, a: usize) {
+    let quick = |a| {
+        let (sin, _, is_good) = kernel::sin_cos_quick(a);
+        (sin, is_good)
+    };
+    W::guarded(file, out, a, quick, f64::sin);
+}
+
+#[inline(never)]
+fn cos<W: Word>(file: &mut [W], out: usize, a: usize) {
+    let quick = |a| {
+        let (_, cos, is_good) = kernel::sin_cos_quick(a);
+        (cos, is_good)
+    };
+    W::guarded(file, out, a, quick, f64::cos);
 }

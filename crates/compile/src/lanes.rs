@@ -55,7 +55,7 @@ pub(crate) trait Word: Copy + Default {
     fn set_lane(&mut self, l: usize, value: f64);
 
     fn unary(file: &mut [Self], out: usize, a: usize, f: impl Fn(f64) -> f64);
-    fn binary(file: &mut [Self], out: usize, ab: (usize, usize), f: impl Fn(f64, f64) -> f64);
+    fn binary(file: &mut [Self], out: usize, a: usize, b: usize, f: impl Fn(f64, f64) -> f64);
     fn ternary(
         file: &mut [Self],
         out: usize,
@@ -102,7 +102,7 @@ impl Word for f64 {
         file[out] = f(file[a]);
     }
     #[inline(always)]
-    fn binary(file: &mut [f64], out: usize, (a, b): (usize, usize), f: impl Fn(f64, f64) -> f64) {
+    fn binary(file: &mut [f64], out: usize, a: usize, b: usize, f: impl Fn(f64, f64) -> f64) {
         file[out] = f(file[a], file[b]);
     }
     #[inline(always)]
@@ -171,7 +171,7 @@ impl Word for Lanes {
         }
     }
     #[inline(always)]
-    fn binary(file: &mut [Lanes], out: usize, (a, b): (usize, usize), f: impl Fn(f64, f64) -> f64) {
+    fn binary(file: &mut [Lanes], out: usize, a: usize, b: usize, f: impl Fn(f64, f64) -> f64) {
         for chunk in 0..LANES / CHUNK {
             let (a, b) = (file[a].0[chunk], file[b].0[chunk]);
             file[out].0[chunk] = std::array::from_fn(|l| f(a[l], b[l]));

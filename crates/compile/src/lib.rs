@@ -35,6 +35,7 @@
 
 mod allocate;
 mod arithmetic;
+mod decode;
 mod display;
 mod emit;
 pub mod evaluate;

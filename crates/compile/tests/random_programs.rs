@@ -1,4 +1,5 @@
 //! Random expressions: the interpreters against the evaluation of the graph, which shares no code with them.
+#![allow(clippy::unwrap_used)] // A failure here is a failed test.
 
 use chetaev_compile::{BlockEvaluator, Evaluator, Interpreter, Lanes, Lowering, LANES};
 use chetaev_symbolic::rational::ratio;
