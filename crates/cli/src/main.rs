@@ -1,2 +1,37 @@
-//! The command line of Chetaev.
-fn main() {}
+//! The command line: a thin shell over the library, and the only crate that touches files, clock and terminal.
+
+mod arguments;
+mod commands;
+mod files;
+mod progress;
+mod terminal;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+/// Everything as asked.
+const DONE: u8 = 0;
+/// An expectation of the model is not met, or a verification disagrees.
+const UNMET: u8 = 1;
+/// The input is wrong.
+const INPUT: u8 = 2;
+/// The run stopped early or was interrupted.
+#[allow(dead_code)]
+const STOPPED: u8 = 3;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let status = match arguments.command {
+        Command::Study(a) => commands::study::run(&a),
+        Command::Derive(a) => commands::derive::run(&a),
+        Command::Simulate(a) => commands::simulate::run(&a),
+        Command::Check(a) => commands::check::run(&a),
+        Command::Explain(a) => commands::explain::run(&a),
+        Command::Verify(a) => commands::verify::run(&a),
+        Command::New(a) => commands::new::run(&a),
+        Command::Gallery(a) => commands::gallery::run(&a),
+        Command::Completions(a) => commands::completions::run(&a),
+    };
+    ExitCode::from(status)
+}

@@ -6,6 +6,7 @@ pub mod claims;
 pub mod constraint;
 pub mod equations;
 pub mod formulations;
+mod from_model;
 pub mod prover;
 pub mod sample;
 pub mod system;

@@ -1,7 +1,10 @@
 //! The bridge between claims about systems and zero tests of expressions.
 
 use crate::characteristics::Manifold;
-use crate::system::System;
+use crate::system::{Relation, System};
+use chetaev_symbolic::verdict::Counterexample;
+use chetaev_symbolic::zero::assumptions::{Assumptions, Relation as Sign};
+use chetaev_symbolic::zero::{decide_zero, generic_rank, Options, RankTest, ZeroTest};
 use chetaev_symbolic::{Expr, Verdict};
 
 /// How hard to try, and with which random choices.
@@ -9,8 +12,10 @@ use chetaev_symbolic::{Expr, Verdict};
 pub struct Prover {
     /// Seed of all random choices; stated in the verdicts.
     pub seed: u64,
-    /// Replay with another parametrization of the circle and no simplification (theory 6.6).
+    /// Replay with another parametrization of the circle and other primes (theory 6.6).
     pub replay: bool,
+    /// At most so many field operations for one proof.
+    pub budget: u64,
 }
 
 impl Default for Prover {
@@ -18,31 +23,105 @@ impl Default for Prover {
         Prover {
             seed: 0x43_68_65_74_61_65_76,
             replay: false,
+            budget: 2_000_000_000,
         }
     }
 }
 
+/// The assumptions of a system as the zero test wants them.
+fn assumptions(system: &System) -> Assumptions {
+    let mut list = Assumptions::new();
+    for assumption in &system.assumptions {
+        let relation = match assumption.relation {
+            Relation::Less => Sign::Less,
+            Relation::LessOrEqual => Sign::LessOrEqual,
+            Relation::NotEqual => Sign::NotEqual,
+        };
+        list.assume(assumption.left, relation, assumption.right);
+    }
+    list
+}
+
 impl Prover {
+    fn options(&self) -> Options {
+        let options = Options {
+            seed: self.seed,
+            budget: self.budget,
+            ..Options::default()
+        };
+        if self.replay {
+            options.replay()
+        } else {
+            options
+        }
+    }
+
     /// Decides whether every residual vanishes on `manifold`; `on` says in words where that is.
     pub fn identity(
         &self,
-        _system: &System,
-        _residuals: &[Expr],
-        _manifold: &Manifold,
-        _on: &str,
+        system: &System,
+        residuals: &[Expr],
+        manifold: &Manifold,
+        on: &str,
     ) -> Verdict {
-        Verdict::undecided("no zero test is linked in")
+        let assumptions = assumptions(system);
+        let verdict = decide_zero(
+            &system.graph,
+            &ZeroTest {
+                residuals,
+                solved: &manifold.solved,
+                implicit: &manifold.implicit,
+                assumptions: &assumptions,
+                options: self.options(),
+            },
+        );
+        match verdict {
+            Verdict::Proved(mut proof) => {
+                proof.on = located(&proof.on, on, system);
+                Verdict::Proved(proof)
+            }
+            other => other,
+        }
     }
 
     /// Decides whether a square matrix is nonsingular at almost every point of `manifold`; `what` names its determinant.
     pub fn nonsingular(
         &self,
-        _system: &System,
-        _matrix: &[Vec<Expr>],
-        _manifold: &Manifold,
-        _what: &str,
+        system: &System,
+        matrix: &[Vec<Expr>],
+        manifold: &Manifold,
+        what: &str,
     ) -> Verdict {
-        Verdict::undecided("no zero test is linked in")
+        let assumptions = assumptions(system);
+        let entries = matrix.concat();
+        let size = matrix.len();
+        let test = RankTest {
+            rows: size,
+            columns: size,
+            entries: &entries,
+            solved: &manifold.solved,
+            implicit: &manifold.implicit,
+            assumptions: &assumptions,
+            options: self.options(),
+        };
+        let rank = match generic_rank(&system.graph, &test) {
+            Ok(rank) => rank,
+            Err(verdict) => return *verdict,
+        };
+        if rank.minimum == size {
+            return match rank.at_least {
+                Verdict::Proved(mut proof) => {
+                    proof.on = located("outside its zeros", "almost everywhere", system);
+                    proof.detail = format!("{what} does not vanish identically: {}", proof.detail);
+                    Verdict::Proved(proof)
+                }
+                other => other,
+            };
+        }
+        match rank.at_most {
+            Verdict::Proved(proof) => rank_counterexample(what, size, rank.maximum, &proof.detail),
+            other => other,
+        }
     }
 
     /// The verdict on independence when some constraints were left out: `follows` says whether they vanish where the
@@ -50,10 +129,56 @@ impl Prover {
     pub fn dependent_rows(
         &self,
         _system: &System,
-        _follows: Verdict,
-        _names: &str,
-        _rank: usize,
+        follows: Verdict,
+        names: &str,
+        rank: usize,
     ) -> Verdict {
-        Verdict::undecided("no zero test is linked in")
+        match follows {
+            Verdict::Proved(proof) => Verdict::Refuted(Counterexample {
+                point: Vec::new(),
+                quantity: "constraints minus rank".into(),
+                residual: ("1".into(), "1".into()),
+                detail: format!(
+                    "the rank is {rank}: {names} follow from the other constraints and are left out ({})",
+                    proof.detail
+                ),
+            }),
+            Verdict::Refuted(counterexample) => Verdict::Refuted(Counterexample {
+                detail: format!(
+                    "the gradients of {names} depend on those of the other constraints, but {names} do not vanish where those do: they contradict each other except on a subset"
+                ),
+                ..counterexample
+            }),
+            other => other,
+        }
     }
+}
+
+/// Where a proof holds: the product's words first, then what the zero test adds, then the model's assumptions.
+fn located(found: &str, on: &str, system: &System) -> String {
+    let mut place = on.to_string();
+    if let Some((_, conditions)) = found.split_once("that is ") {
+        place.push_str(", where ");
+        place.push_str(conditions);
+    } else if found == "outside its zeros" {
+        place.push_str(", outside the zeros of the determinant");
+    } else {
+        place.push_str(", wherever both sides are defined");
+    }
+    if !system.assumptions.is_empty() {
+        let texts: Vec<&str> = system.assumptions.iter().map(|a| a.text.as_str()).collect();
+        place.push_str(&format!("; assuming {}", texts.join(", ")));
+    }
+    place
+}
+
+/// A matrix whose determinant vanishes identically: every state is a counterexample.
+fn rank_counterexample(what: &str, size: usize, rank: usize, detail: &str) -> Verdict {
+    let missing = (size - rank).to_string();
+    Verdict::Refuted(Counterexample {
+        point: Vec::new(),
+        quantity: "size of the matrix minus its rank, at every state".into(),
+        residual: (missing.clone(), missing),
+        detail: format!("{what} vanishes identically: rank {rank} of {size} ({detail})"),
+    })
 }

@@ -354,3 +354,20 @@ fn add(total: &mut Statistics, part: &Statistics) {
     total.chart_switches += part.chart_switches;
     total.modifications += part.modifications;
 }
+
+impl Subject<'_> {
+    /// The final (q, v) of Routh's equations by fixed steps of magnitude h; `None` when the run does not get there.
+    pub fn routh_fixed(&self, settings: &RunSettings, h: f64) -> Option<Vec<f64>> {
+        let watch = Watch::new(self.system, self.terms, self.binding).ok()?;
+        let mut flow = MultiplierFlow::new(self.numeric.clone(), self.start, settings.state, false, watch);
+        let y0 = flow.pack(&self.start.q, &self.start.v);
+        let mut options = Options::fixed_step(method(&settings.method).ok()?, h);
+        options.output = Output::End;
+        options.step_limit = 10_000;
+        let span = (self.start.t, settings.t_end);
+        let solution = integrate(&mut flow, span, &y0, &mut [], options).ok()?;
+        let layout = RowLayout::new(self.numeric.n, self.numeric.r);
+        let row = solution.rows.get(..layout.v().end)?;
+        (solution.stop == Stop::Finished).then(|| row.to_vec())
+    }
+}

@@ -1,1 +1,20 @@
 //! A question asked of a model: run, compare, collect verdicts, render.
+//!
+//! [`study::study`] takes a resolved model through its claims and its motion; [`record`] writes `study.json`,
+//! [`page`] the report, [`table`] the trajectory, [`summary`] the text for a terminal; [`verify`] replays a record.
+//! Clocks, files and interruption come from outside.
+
+pub mod motion_claims;
+pub mod options;
+pub mod page;
+pub mod record;
+pub mod registry;
+pub mod study;
+pub mod summary;
+pub mod table;
+pub mod typeset;
+pub mod verify;
+
+pub use options::{ClaimSelection, Hooks, StudyOptions};
+pub use registry::registry;
+pub use study::{study, Decided, Motion, Outcome, Study, StudyError};

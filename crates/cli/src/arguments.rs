@@ -1,0 +1,216 @@
+//! The arguments of every command.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+const EXIT: &str = "\
+Exit status:
+  0  done (also when an early stop was declared as expected, and when redundant constraints were reduced)
+  1  a claim that the model declares as expected is not met, or `verify` disagrees
+  2  the input is wrong: syntax, contradictory or rank-deficient constraints, a singular system
+  3  the run stopped early or was interrupted
+The highest of 2, 3, 1 in that order wins.";
+
+/// From a model of a nonholonomic system to proved equations, a checked motion and a report.
+#[derive(Parser, Debug)]
+#[command(name = "chetaev", version, after_help = EXIT, propagate_version = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Subcommand, Debug)]
+pub(crate) enum Command {
+    /// Decide every claim, compute the motion, write report.html, study.json and the trajectory
+    Study(Study),
+    /// Derive the equations of motion and print them
+    Derive(Derive),
+    /// Compute the motion only and write the trajectory
+    Simulate(Simulate),
+    /// Read a model and report everything wrong or doubtful in it
+    Check(Check),
+    /// Say what a claim states and how it is decided
+    Explain(Explain),
+    /// Replay the verdicts of a study.json by other random choices
+    Verify(Verify),
+    /// Write a commented model to start from
+    New(New),
+    /// List, describe or copy the models that come with Chetaev
+    Gallery(Gallery),
+    /// Print a completion script for a shell
+    Completions(Completions),
+}
+
+/// What every command that reads a model takes.
+#[derive(Args, Debug)]
+pub(crate) struct ModelArguments {
+    /// The model file
+    pub(crate) model: PathBuf,
+    /// Override a parameter or a size, exactly: --set a=0.3 --set n=8
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub(crate) set: Vec<String>,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev study gallery/chaplygin-sleigh/model.toml
+  chetaev study gallery/trailer/model.toml --set n=8 --out out/trailer-8
+  chetaev study model.toml --claims model,formulations --budget 10
+  chetaev study model.toml --t-end 100 --tolerance 1e-12 --json")]
+pub(crate) struct Study {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// Folder to write into [default: out/NAME, NAME of the model's folder or file]
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
+    /// Groups (model, formulations, motion, principles, integrals) and claim ids, separated by commas
+    #[arg(long)]
+    pub(crate) claims: Option<String>,
+    /// Seconds for all claims together
+    #[arg(long, default_value_t = 60.0)]
+    pub(crate) budget: f64,
+    #[command(flatten)]
+    pub(crate) motion: MotionArguments,
+    /// Print study.json instead of the summary
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// How the motion is computed.
+#[derive(Args, Debug)]
+pub(crate) struct MotionArguments {
+    /// End of the run
+    #[arg(long, allow_negative_numbers = true)]
+    pub(crate) t_end: Option<f64>,
+    /// Relative tolerance
+    #[arg(long)]
+    pub(crate) tolerance: Option<f64>,
+    /// dormand-prince-853 (dop853), tsitouras-5 (tsit5) or runge-kutta-4
+    #[arg(long)]
+    pub(crate) method: Option<String>,
+    /// The equations that are integrated: routh or maggi
+    #[arg(long)]
+    pub(crate) formulation: Option<String>,
+    /// Move inadmissible initial data to the nearest admissible state
+    #[arg(long)]
+    pub(crate) project: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev derive gallery/appell-hamel/model.toml
+  chetaev derive model.toml --formulation maggi --as latex
+  chetaev derive model.toml --formulation routh --as sympy > equations.py")]
+pub(crate) struct Derive {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// routh or maggi; all when left out
+    #[arg(long)]
+    pub(crate) formulation: Option<String>,
+    /// Notation
+    #[arg(long = "as", value_enum, default_value_t = Notation::Text)]
+    pub(crate) notation: Notation,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Notation {
+    Text,
+    Latex,
+    Mathml,
+    Sympy,
+    Json,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev simulate gallery/skate-incline/model.toml --t-end 50
+  chetaev simulate model.toml --formulation maggi --out run1")]
+pub(crate) struct Simulate {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// Folder to write trajectory.csv and trajectory.npz into
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) motion: MotionArguments,
+    /// Print a record of the run as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev check model.toml
+  chetaev check model.toml --json")]
+pub(crate) struct Check {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// Print the diagnostics as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev explain                     list all claims
+  chetaev explain energy.integral")]
+pub(crate) struct Explain {
+    /// A claim id; all are listed when left out
+    pub(crate) claim: Option<String>,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Example:
+  chetaev verify out/chaplygin-sleigh/study.json")]
+pub(crate) struct Verify {
+    /// A study.json
+    pub(crate) record: PathBuf,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Example:
+  chetaev new my-robot && chetaev study my-robot/model.toml")]
+pub(crate) struct New {
+    /// Folder to create
+    pub(crate) folder: PathBuf,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev gallery
+  chetaev gallery describe snakeboard
+  chetaev gallery copy snakeboard my-snakeboard")]
+pub(crate) struct Gallery {
+    #[command(subcommand)]
+    pub(crate) action: Option<GalleryAction>,
+}
+
+#[derive(Subcommand, Debug)]
+pub(crate) enum GalleryAction {
+    /// List the models
+    List,
+    /// Print the description of a model
+    Describe {
+        /// Its name
+        name: String,
+    },
+    /// Copy a model into a folder of your own
+    Copy {
+        /// Its name
+        name: String,
+        /// Folder to create [default: NAME]
+        folder: Option<PathBuf>,
+    },
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Example:
+  chetaev completions bash > ~/.local/share/bash-completion/completions/chetaev")]
+pub(crate) struct Completions {
+    /// The shell
+    #[arg(value_enum)]
+    pub(crate) shell: clap_complete::Shell,
+}

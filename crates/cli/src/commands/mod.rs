@@ -1,0 +1,68 @@
+//! One file for each command; each returns its exit status.
+
+pub(crate) mod check;
+pub(crate) mod completions;
+pub(crate) mod derive;
+pub(crate) mod explain;
+pub(crate) mod gallery;
+pub(crate) mod new;
+pub(crate) mod simulate;
+pub(crate) mod study;
+pub(crate) mod verify;
+
+use crate::arguments::MotionArguments;
+use crate::progress::ProgressLine;
+use crate::terminal;
+use chetaev::study::{Hooks, StudyOptions};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Set by Ctrl-C; a run then ends after its present step and keeps what it has.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// Listens to Ctrl-C.
+fn listen() {
+    // Where the handler cannot be installed, Ctrl-C ends the program at once.
+    let _ = ctrlc::set_handler(|| {
+        if INTERRUPTED.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    });
+}
+
+/// Runs `work` with a clock, a progress line and Ctrl-C.
+fn with_hooks<T>(work: impl FnOnce(&mut Hooks<'_>) -> T) -> T {
+    listen();
+    let line = ProgressLine::new();
+    let clock = || line.seconds();
+    let mut show = |what: &str, fraction: Option<f64>| line.show(what, fraction);
+    let mut hooks = Hooks {
+        clock: &clock,
+        interrupt: Some(&INTERRUPTED),
+        progress: &mut show,
+    };
+    let result = work(&mut hooks);
+    line.clear();
+    result
+}
+
+/// Options that come from the motion arguments.
+fn options(motion: &MotionArguments) -> StudyOptions {
+    StudyOptions {
+        t_end: motion.t_end,
+        tolerance: motion.tolerance,
+        method: motion.method.clone(),
+        formulation: motion.formulation.clone(),
+        project: motion.project,
+        ..StudyOptions::default()
+    }
+}
+
+/// Prints an error in the common form.
+fn error(message: impl std::fmt::Display) {
+    let label = if terminal::error_colours() {
+        "\u{1b}[1;31merror\u{1b}[0m"
+    } else {
+        "error"
+    };
+    terminal::err(&format!("{label}: {message}"));
+}

@@ -1,0 +1,52 @@
+//! `chetaev simulate`.
+
+use super::{error, options, with_hooks};
+use crate::arguments::Simulate as Arguments;
+use crate::{files, terminal, INPUT};
+use chetaev::study::table::Table;
+use chetaev::study::{record, study, summary, ClaimSelection, StudyOptions};
+
+pub(crate) fn run(arguments: &Arguments) -> u8 {
+    let Some(model) = files::model(&arguments.model) else {
+        return INPUT;
+    };
+    let options = StudyOptions {
+        claims: ClaimSelection {
+            words: ["motion.constraint-drift", "motion.integral-drift"].map(String::from).to_vec(),
+        },
+        ..options(&arguments.motion)
+    };
+    let study = match with_hooks(|hooks| study(model, options, hooks)) {
+        Ok(study) => study,
+        Err(problem) => {
+            error(format!("{}: {problem}", arguments.model.model.display()));
+            return INPUT;
+        }
+    };
+    let Some(motion) = &study.motion else {
+        error(study.notices.join("\n"));
+        return INPUT;
+    };
+    let folder = arguments.out.clone().unwrap_or_else(|| files::default_folder(&arguments.model.model));
+    let table = Table::new(&study, motion);
+    let written = table
+        .to_npz()
+        .map_err(|e| e.to_string())
+        .and_then(|archive| files::write(&folder.join("trajectory.npz"), &archive))
+        .and_then(|()| files::write(&folder.join("trajectory.csv"), table.to_csv().as_bytes()));
+    if let Err(problem) = written {
+        error(problem);
+        return INPUT;
+    }
+    if arguments.json {
+        let names = ["trajectory.csv".to_string(), "trajectory.npz".to_string()];
+        let trajectory = record::record(&study, &names).trajectory;
+        terminal::out(&serde_json::to_string_pretty(&trajectory).unwrap_or_default());
+        terminal::out("\n");
+    } else {
+        let style = if terminal::colours() { summary::Style::Ansi } else { summary::Style::Plain };
+        terminal::out(&summary::summary(&study, style));
+        terminal::out(&format!("\ntrajectory: {}\n", folder.join("trajectory.csv").display()));
+    }
+    study.outcome.exit_status()
+}

@@ -1,0 +1,80 @@
+//! `chetaev study`.
+
+use super::{error, options, with_hooks};
+use crate::arguments::Study as Arguments;
+use crate::{files, terminal, INPUT};
+use chetaev::study::summary::Style;
+use chetaev::study::table::Table;
+use chetaev::study::{page, record, registry, study, summary, ClaimSelection, Study, StudyOptions};
+use std::path::{Path, PathBuf};
+
+pub(crate) fn run(arguments: &Arguments) -> u8 {
+    let Some(model) = files::model(&arguments.model) else {
+        return INPUT;
+    };
+    let mut options = StudyOptions {
+        budget: arguments.budget,
+        ..options(&arguments.motion)
+    };
+    if let Some(text) = &arguments.claims {
+        match ClaimSelection::parse(text, registry().claims()) {
+            Ok(claims) => options.claims = claims,
+            Err(word) => {
+                error(format!(
+                    "--claims: `{word}` is neither a group (model, formulations, motion, principles, integrals) nor a claim; see `chetaev explain`"
+                ));
+                return INPUT;
+            }
+        }
+    }
+    let result = with_hooks(|hooks| study(model, options, hooks));
+    let study = match result {
+        Ok(study) => study,
+        Err(problem) => {
+            error(format!("{}: {problem}", arguments.model.model.display()));
+            return INPUT;
+        }
+    };
+    let folder = arguments.out.clone().unwrap_or_else(|| files::default_folder(&arguments.model.model));
+    let written = match write_all(&study, &folder, &arguments.model.model) {
+        Ok(written) => written,
+        Err(problem) => {
+            error(problem);
+            return INPUT;
+        }
+    };
+    if arguments.json {
+        terminal::out(&json(&study, &written));
+    } else {
+        let style = if terminal::colours() { Style::Ansi } else { Style::Plain };
+        terminal::out(&summary::summary(&study, style));
+        terminal::out(&format!("\nreport: {}\n", folder.join("report.html").display()));
+    }
+    study.outcome.exit_status()
+}
+
+fn json(study: &Study, files: &[String]) -> String {
+    let record = record::record(study, files);
+    // Serialising plain data to a string does not fail; an empty text would be visible.
+    let mut text = serde_json::to_string_pretty(&record).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+/// Writes report.html, study.json and the trajectory; names of the data files.
+fn write_all(study: &Study, folder: &Path, model: &Path) -> Result<Vec<String>, String> {
+    let mut names = Vec::new();
+    if let Some(motion) = &study.motion {
+        let table = Table::new(study, motion);
+        files::write(&folder.join("trajectory.csv"), table.to_csv().as_bytes())?;
+        let archive = table.to_npz().map_err(|e| e.to_string())?;
+        files::write(&folder.join("trajectory.npz"), &archive)?;
+        names.extend(["trajectory.csv".to_string(), "trajectory.npz".to_string()]);
+    }
+    files::write(&folder.join("study.json"), json(study, &names).as_bytes())?;
+    let command = format!("chetaev study {}", model.display());
+    let html = page::page(study, Some(command), &names);
+    let report: PathBuf = folder.join("report.html");
+    files::write(&report, html.as_bytes())?;
+    Ok(names)
+}

@@ -1,0 +1,88 @@
+//! Reading models and writing results.
+
+use crate::arguments::ModelArguments;
+use crate::terminal;
+use chetaev::model::{self, Diagnostics, Files, Model, Style};
+use std::path::{Path, PathBuf};
+
+/// The file system for included files.
+pub(crate) struct Disk;
+
+impl Files for Disk {
+    fn read(&self, path: &str) -> Result<String, String> {
+        std::fs::read_to_string(path).map_err(|e| e.to_string())
+    }
+}
+
+/// Reads a model; prints all diagnostics and returns `None` when there are errors.
+pub(crate) fn model(arguments: &ModelArguments) -> Option<Model> {
+    let (model, diagnostics) = load(arguments)?;
+    let style = if terminal::error_colours() { Style::Ansi } else { Style::Plain };
+    if !diagnostics.list.is_empty() {
+        terminal::err(&diagnostics.render(style));
+    }
+    model
+}
+
+/// Reads a model with its diagnostics; `None` when the file or an override cannot be read at all.
+pub(crate) fn load(arguments: &ModelArguments) -> Option<(Option<Model>, Diagnostics)> {
+    let overrides = overrides(&arguments.set)?;
+    let path = arguments.model.to_string_lossy().into_owned();
+    let text = match std::fs::read(&arguments.model) {
+        Ok(bytes) => match String::from_utf8(bytes) {
+            Ok(text) => text,
+            Err(_) => {
+                terminal::err(&format!("error: {path} is not UTF-8 text"));
+                return None;
+            }
+        },
+        Err(problem) => {
+            terminal::err(&format!("error: {path} cannot be read: {problem}"));
+            if arguments.model.is_dir() {
+                terminal::err(&format!("help: give the file: {path}/model.toml"));
+            }
+            return None;
+        }
+    };
+    let loaded = model::load(&path, &text, &Disk, &overrides);
+    Some((loaded.model, loaded.diagnostics))
+}
+
+fn overrides(set: &[String]) -> Option<Vec<(String, String)>> {
+    let mut pairs = Vec::new();
+    for item in set {
+        match item.split_once('=') {
+            Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
+                pairs.push((name.trim().to_string(), value.trim().to_string()));
+            }
+            _ => {
+                terminal::err(&format!("error: --set {item}: write NAME=VALUE, for example --set a=0.3"));
+                return None;
+            }
+        }
+    }
+    Some(pairs)
+}
+
+/// `out/NAME`, where NAME is the folder of `model.toml` or the stem of another file.
+pub(crate) fn default_folder(model: &Path) -> PathBuf {
+    let stem = model.file_stem().and_then(|s| s.to_str()).unwrap_or("study");
+    let folder = model
+        .parent()
+        .and_then(Path::file_name)
+        .and_then(|s| s.to_str())
+        .filter(|_| stem == "model");
+    Path::new("out").join(folder.unwrap_or(stem))
+}
+
+/// Writes a file completely or not at all: to a temporary name, then renamed.
+pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), String> {
+    let describe = |e: std::io::Error| format!("{} cannot be written: {e}", path.display());
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(describe)?;
+    }
+    let mut partial = path.as_os_str().to_owned();
+    partial.push(".partial");
+    std::fs::write(&partial, content).map_err(describe)?;
+    std::fs::rename(&partial, path).map_err(describe)
+}

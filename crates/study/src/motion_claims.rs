@@ -1,0 +1,572 @@
+//! Claims about the motion computed (claims.md §8) and the initial state.
+//!
+//! A drift is a number, not a proof: these verdicts are `numerical` with the largest residual found, or `refuted` with the
+//! time at which the bound was exceeded.
+
+use crate::options::Hooks;
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_mechanics::Manifold;
+use chetaev_model::model::Model;
+use chetaev_motion::drift::Extreme;
+use chetaev_motion::functions::FunctionsError;
+use chetaev_motion::observe::Observer;
+use chetaev_motion::{Run, RunError, RunSettings, Subject};
+use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue, Proof};
+use chetaev_symbolic::{Expr, Verdict};
+use std::sync::Arc;
+
+/// The claims of this module.
+pub static CLAIMS: &[&dyn Claim] = &[
+    &InitialStateAdmissible,
+    &ConstraintDrift,
+    &EnergyDrift,
+    &IntegralDrift,
+    &FormulationsAgree,
+    &MethodOrder,
+];
+
+/// A quantity followed along the run.
+#[derive(Clone, Debug)]
+pub struct Followed {
+    /// Name.
+    pub name: String,
+    /// Its expression in q, q', t and parameters.
+    pub expression: Expr,
+    /// Values at the rows.
+    pub values: Vec<f64>,
+    /// Largest deviation from the initial value.
+    pub drift: Extreme,
+    /// Size by which deviations are measured.
+    pub scale: f64,
+}
+
+/// Observed order of convergence at fixed steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Orders {
+    /// Step sizes.
+    pub steps: Vec<f64>,
+    /// Largest error at the end of the interval for each.
+    pub errors: Vec<f64>,
+    /// Slope between the two finest pairs above round-off.
+    pub observed: Option<f64>,
+    /// Nominal order.
+    pub nominal: f64,
+}
+
+/// Everything about a run that its claims look at.
+#[derive(Clone, Debug)]
+pub struct MotionEvidence {
+    /// The trajectory.
+    pub run: Run,
+    /// The same motion by another formulation.
+    pub comparison: Option<Run>,
+    /// Estimated global error: largest difference to a run at a tenth of the tolerance, over the scale of each component.
+    pub global_error: Option<f64>,
+    /// Energy.
+    pub energy: Followed,
+    /// Integrals stated by the model.
+    pub integrals: Vec<Followed>,
+    /// Constraint residuals at the rows, by row of the terms.
+    pub residuals: Vec<Followed>,
+    /// Largest difference of the two formulations over the scale of each component, with its time.
+    pub disagreement: Option<Extreme>,
+    /// Observed order.
+    pub orders: Option<Orders>,
+    /// Tolerance asked.
+    pub tolerance: f64,
+    /// Data for `model.initial-state-admissible`: exact initial values where all are given exactly.
+    pub exact_start: Option<Vec<(Expr, Expr)>>,
+    /// Initial values as numbers, for messages.
+    pub start: Vec<(String, f64)>,
+    /// Largest constraint residual at the start.
+    pub start_residual: f64,
+}
+
+impl MotionEvidence {
+    /// Evaluates energy, integrals and constraints along the run and compares the runs.
+    ///
+    /// # Errors
+    /// [`RunError`] when an integral contains something that has no value along a motion.
+    pub fn new(
+        model: &Model,
+        subject: &Subject<'_>,
+        run: Run,
+        comparison: Option<Run>,
+        finer: Option<Run>,
+        orders: Option<Orders>,
+        settings: &RunSettings,
+    ) -> Result<MotionEvidence, RunError> {
+        let system = subject.system;
+        let mut followed = vec![("energy".to_string(), system.energy())];
+        followed.extend(model.integrals.iter().map(|i| (i.name.clone(), i.value)));
+        let mut followed = follow(subject, &run, followed, true)?;
+        let integrals = followed.split_off(1);
+        let constraints = subject
+            .terms
+            .constraint_index
+            .iter()
+            .zip(&subject.terms.constraints)
+            .map(|(&l, &f)| (system.constraints[l].name.clone(), f))
+            .collect();
+        let residuals = follow(subject, &run, constraints, false)?;
+        let energy = followed.swap_remove(0);
+        let start_residual = residuals
+            .iter()
+            .filter_map(|r| r.values.first())
+            .fold(0.0, |m: f64, x| m.max(x.abs()));
+        Ok(MotionEvidence {
+            disagreement: comparison.as_ref().map(|other| difference(&run, other)),
+            global_error: finer.as_ref().map(|other| difference(&run, other).value),
+            tolerance: settings.tolerance,
+            exact_start: exact_start(model, subject),
+            start: start_values(subject),
+            start_residual,
+            energy,
+            integrals,
+            residuals,
+            orders,
+            comparison,
+            run,
+        })
+    }
+}
+
+fn follow(
+    subject: &Subject<'_>,
+    run: &Run,
+    quantities: Vec<(String, Expr)>,
+    from_start: bool,
+) -> Result<Vec<Followed>, FunctionsError> {
+    let expressions: Vec<Expr> = quantities.iter().map(|(_, e)| *e).collect();
+    let mut observer = Observer::new(subject.system, subject.terms, subject.binding, &expressions)?;
+    let series = observer.along(run);
+    Ok(quantities
+        .into_iter()
+        .zip(series)
+        .map(|((name, expression), values)| {
+            let reference = if from_start { values.first().copied().unwrap_or(0.0) } else { 0.0 };
+            let mut drift = Extreme::default();
+            let mut scale: f64 = 0.0;
+            for (&t, &value) in run.times.iter().zip(&values) {
+                let deviation = value - reference;
+                drift.record(if deviation.is_nan() { f64::INFINITY } else { deviation }, t);
+                scale = scale.max(value.abs());
+            }
+            Followed {
+                name,
+                expression,
+                values,
+                drift,
+                scale: scale.max(1.0),
+            }
+        })
+        .collect())
+}
+
+/// Largest difference of positions and velocities at common times, each component over 1 + its largest magnitude.
+fn difference(a: &Run, b: &Run) -> Extreme {
+    let width = a.layout.v().end;
+    let rows = a.len().min(b.len());
+    let mut largest = Extreme::default();
+    for i in 0..width {
+        let scale = 1.0 + (0..rows).fold(0.0, |m: f64, j| m.max(a.row(j)[i].abs()));
+        for j in (0..rows).filter(|&j| a.times[j] == b.times[j]) {
+            largest.record((a.row(j)[i] - b.row(j)[i]) / scale, a.times[j]);
+        }
+    }
+    largest
+}
+
+fn exact_start(model: &Model, subject: &Subject<'_>) -> Option<Vec<(Expr, Expr)>> {
+    let g = &model.graph;
+    let values = subject.system.parameter_values();
+    let mut exact = Vec::new();
+    for (i, c) in subject.system.coordinates.iter().enumerate() {
+        for (order, symbol, used) in [(0, c.q, subject.start.q[i]), (1, c.v, subject.start.v[i])] {
+            let given = match model.initial.values.get(&(i, order)) {
+                Some(given) => g.substitute(given.value, &values),
+                None => g.zero(),
+            };
+            let stated = g.evaluate_f64(&[given], &|_| None).ok()?[0];
+            if (stated - used).abs() > 1e-12 * (1.0 + used.abs()) {
+                return None;
+            }
+            exact.push((symbol, given));
+        }
+    }
+    let t = model.simulation.t_start.map_or(g.zero(), |t| g.substitute(t, &values));
+    exact.push((g.symbol("t", 0), t));
+    exact.extend(values);
+    Some(exact)
+}
+
+fn start_values(subject: &Subject<'_>) -> Vec<(String, f64)> {
+    let coordinates = &subject.system.coordinates;
+    let q = coordinates.iter().zip(&subject.start.q).map(|(c, &x)| (c.name.clone(), x));
+    let v = coordinates.iter().zip(&subject.start.v).map(|(c, &x)| (format!("{}'", c.name), x));
+    q.chain(v).collect()
+}
+
+/// Fixed steps h, h/2, h/4, h/8 over a short piece of the run, against the finest.
+pub fn observed_order(
+    subject: &Subject<'_>,
+    settings: &RunSettings,
+    run: &Run,
+    hooks: &mut Hooks<'_>,
+) -> Option<Orders> {
+    let steps = run.statistics.steps.max(1) as f64;
+    let span = run.t - subject.start.t;
+    if span == 0.0 || !span.is_finite() {
+        return None;
+    }
+    let nominal = if settings.method == "tsitouras-5" { 5.0 } else if settings.method == "runge-kutta-4" { 4.0 } else { 8.0 };
+    // Steps a few times the accurate ones, so that the error stands above round-off.
+    let base = span / steps * (1e-4 / settings.tolerance).powf(1.0 / nominal).clamp(1.0, 8.0);
+    let length = (base * 6.0).abs().min(span.abs()) * span.signum();
+    let mut finals: Vec<Vec<f64>> = Vec::new();
+    let counts = [6u32, 9, 12, 18, 24, 48];
+    for count in counts {
+        let fixed = RunSettings {
+            t_end: subject.start.t + length,
+            times: vec![subject.start.t + length],
+            ..settings.clone()
+        };
+        let h = length / f64::from(count);
+        (hooks.progress)("measuring the order of the method", None);
+        finals.push(subject.routh_fixed(&fixed, h.abs())?);
+    }
+    Some(orders(&finals, &counts, length, nominal))
+}
+
+fn orders(finals: &[Vec<f64>], counts: &[u32], length: f64, nominal: f64) -> Orders {
+    let reference = &finals[finals.len() - 1];
+    let mut steps = Vec::new();
+    let mut errors = Vec::new();
+    for (result, &count) in finals.iter().zip(counts).take(finals.len() - 1) {
+        let error = result
+            .iter()
+            .zip(reference)
+            .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs() / (1.0 + b.abs())));
+        steps.push((length / f64::from(count)).abs());
+        errors.push(error);
+    }
+    let usable: Vec<usize> = (0..errors.len()).filter(|&i| errors[i] > 2e-13 && errors[i] < 0.1).collect();
+    let observed = match usable[..] {
+        [.., i, j] => Some((errors[i] / errors[j]).ln() / (steps[i] / steps[j]).ln()),
+        _ => None,
+    };
+    Orders {
+        steps,
+        errors,
+        observed,
+        nominal,
+    }
+}
+
+fn evidence(cx: &Context<'_>) -> Option<Arc<MotionEvidence>> {
+    cx.extension::<MotionEvidence>()
+}
+
+fn subject_if_motion(cx: &Context<'_>) -> Vec<Option<String>> {
+    if evidence(cx).is_some() {
+        vec![None]
+    } else {
+        Vec::new()
+    }
+}
+
+fn no_motion() -> Finding {
+    Verdict::undecided("no motion was computed").into()
+}
+
+/// A drift against its bound.
+fn drift_verdict(what: &str, drift: &Extreme, bound: f64, samples: u32, tolerance: f64) -> Verdict {
+    let sentence = format!(
+        "largest drift of {what}: {:.2e} at t = {:.6} over {samples} states, tolerance asked {tolerance:.0e}, bound {bound:.1e}",
+        drift.value, drift.t
+    );
+    if drift.value <= bound {
+        Verdict::Numerical(Evidence {
+            samples,
+            region: "along the computed motion".into(),
+            digits: 16,
+            residual: drift.value,
+            seed: None,
+            why_no_proof: sentence,
+        })
+    } else {
+        Verdict::Refuted(Counterexample {
+            point: vec![PointValue {
+                name: "t".into(),
+                exact: None,
+                enclosure: Some((format!("{}", drift.t), format!("{}", drift.t))),
+            }],
+            quantity: what.into(),
+            residual: (format!("{:e}", drift.value), format!("{:e}", drift.value)),
+            detail: sentence,
+        })
+    }
+}
+
+/// Accumulated error may exceed the local tolerance; a thousand times it, on the scale of the quantity, may not.
+fn bound(tolerance: f64, scale: f64) -> f64 {
+    (1e3 * tolerance * scale).max(1e-11 * scale)
+}
+
+macro_rules! describe {
+    ($id:literal, $group:expr, $title:literal, $explanation:literal) => {
+        fn id(&self) -> &'static str {
+            $id
+        }
+        fn group(&self) -> Group {
+            $group
+        }
+        fn title(&self) -> &'static str {
+            $title
+        }
+        fn explanation(&self) -> &'static str {
+            $explanation
+        }
+    };
+}
+
+/// `model.initial-state-admissible`.
+#[derive(Clone, Copy, Debug)]
+pub struct InitialStateAdmissible;
+
+impl Claim for InitialStateAdmissible {
+    describe!(
+        "model.initial-state-admissible",
+        Group::Model,
+        "The initial state satisfies the constraints",
+        "The initial coordinates and velocities satisfy every constraint. Data that the model gives are fixed; the rest is \
+         found by projection in the kinetic metric and reported. Where all data are exact the constraints are evaluated \
+         exactly. A first-order system needs n coordinates and n - r independent velocities."
+    );
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        subject_if_motion(cx)
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let Some(evidence) = evidence(cx) else { return no_motion() };
+        let (n, r) = (cx.system.n(), cx.selection.rows.len());
+        let needed = format!("{n} coordinates and {} independent velocities are needed", n - r);
+        if cx.system.constraints.is_empty() {
+            return Verdict::Proved(Proof::structural("at the initial state", format!("no constraints; {needed}"))).into();
+        }
+        if let Some(exact) = &evidence.exact_start {
+            let mut stated: Vec<Expr> = cx.terms.constraints.clone();
+            stated.extend(cx.system.constraints.iter().filter(|c| c.order == 0).map(|c| c.stated));
+            let residuals = cx.system.graph.substitute_all(&stated, exact);
+            let verdict = cx.prover.identity(cx.system, &residuals, &Manifold::default(), "at the initial state");
+            if let Verdict::Proved(mut proof) = verdict {
+                proof.detail = format!("the given initial data satisfy every constraint exactly; {needed}");
+                return Verdict::Proved(proof).into();
+            }
+        }
+        Verdict::Numerical(Evidence {
+            samples: 1,
+            region: "the initial state".into(),
+            digits: 16,
+            residual: evidence.start_residual,
+            seed: None,
+            why_no_proof: format!(
+                "the initial data are rounded or were completed by projection; largest residual {:.1e}; {needed}",
+                evidence.start_residual
+            ),
+        })
+        .into()
+    }
+}
+
+/// `motion.constraint-drift`.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstraintDrift;
+
+impl Claim for ConstraintDrift {
+    describe!(
+        "motion.constraint-drift",
+        Group::Motion,
+        "The computed motion keeps the constraints",
+        "The largest residual of any constraint at the accepted steps, before projection, and at the output times, against \
+         the tolerance asked. In the reduced state the velocity constraints hold by construction up to rounding."
+    );
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        if cx.terms.constraints.is_empty() {
+            Vec::new()
+        } else {
+            subject_if_motion(cx)
+        }
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let Some(evidence) = evidence(cx) else { return no_motion() };
+        let mut worst = Extreme::default();
+        for followed in &evidence.residuals {
+            worst.record(followed.drift.value, followed.drift.t);
+        }
+        let mut samples = evidence.run.len() as u32;
+        if let Some(drift) = &evidence.run.drift {
+            samples += drift.steps as u32;
+            for extreme in drift.velocity.iter().chain(&drift.position) {
+                worst.record(extreme.value, extreme.t);
+            }
+        }
+        let scale = 1.0 + speed(&evidence.run);
+        drift_verdict("the constraints", &worst, bound(evidence.tolerance, scale), samples, evidence.tolerance).into()
+    }
+}
+
+fn speed(run: &Run) -> f64 {
+    (0..run.len())
+        .flat_map(|j| run.row(j)[run.layout.v()].to_vec())
+        .fold(0.0, |m: f64, v| m.max(v.abs()))
+}
+
+/// `motion.energy-drift`.
+#[derive(Clone, Copy, Debug)]
+pub struct EnergyDrift;
+
+impl Claim for EnergyDrift {
+    describe!(
+        "motion.energy-drift",
+        Group::Motion,
+        "The computed motion keeps the energy",
+        "Where the energy is an integral (`energy.integral`), its largest deviation from the initial value along the \
+         computed motion, against the tolerance asked."
+    );
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        vec!["energy.integral".into()]
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        subject_if_motion(cx)
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let Some(evidence) = evidence(cx) else { return no_motion() };
+        followed_verdict(&evidence, &evidence.energy, "the energy").into()
+    }
+}
+
+fn followed_verdict(evidence: &MotionEvidence, followed: &Followed, what: &str) -> Verdict {
+    let samples = evidence.run.len() as u32;
+    let bound = bound(evidence.tolerance, followed.scale);
+    drift_verdict(what, &followed.drift, bound, samples, evidence.tolerance)
+}
+
+/// `motion.integral-drift#NAME`.
+#[derive(Clone, Copy, Debug)]
+pub struct IntegralDrift;
+
+impl Claim for IntegralDrift {
+    describe!(
+        "motion.integral-drift",
+        Group::Motion,
+        "The computed motion keeps a stated integral",
+        "The largest deviation of an integral that the model states from its initial value, along the computed motion. \
+         That the quantity is an integral is not proved here: a drift within the tolerance is evidence, a larger one \
+         refutes the statement or the accuracy."
+    );
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        evidence(cx)
+            .map(|e| e.integrals.iter().map(|i| Some(i.name.clone())).collect())
+            .unwrap_or_default()
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        let Some(evidence) = evidence(cx) else { return no_motion() };
+        match evidence.integrals.iter().find(|i| Some(i.name.as_str()) == subject) {
+            Some(followed) => {
+                followed_verdict(&evidence, followed, &format!("`{}`", followed.name)).into()
+            }
+            None => Verdict::undecided("no such integral is stated").into(),
+        }
+    }
+}
+
+/// `motion.formulations-agree`.
+#[derive(Clone, Copy, Debug)]
+pub struct FormulationsAgree;
+
+impl Claim for FormulationsAgree {
+    describe!(
+        "motion.formulations-agree",
+        Group::Motion,
+        "Two formulations, integrated independently, give the same motion",
+        "The trajectory of Routh's equations (all velocities or the independent ones, the linear system solved numerically \
+         at each state) and that of Maggi's equations (reduced equations derived and compiled for each chart) are computed \
+         separately; the largest difference of coordinates and velocities is compared with the tolerance and the estimated \
+         global error."
+    );
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        subject_if_motion(cx)
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let Some(evidence) = evidence(cx) else { return no_motion() };
+        let (Some(other), Some(gap)) = (&evidence.comparison, &evidence.disagreement) else {
+            return Verdict::undecided("the second formulation could not be integrated").into();
+        };
+        if other.len() < evidence.run.len() {
+            let tried = format!(
+                "the run of `{}` ended before that of `{}`: {}",
+                other.formulation, evidence.run.formulation, other.ending.reason
+            );
+            return Verdict::undecided(tried).into();
+        }
+        let error = evidence.global_error.unwrap_or(0.0);
+        let allowed = bound(evidence.tolerance, 1.0).max(100.0 * error);
+        let what = format!("difference of `{}` and `{}`", evidence.run.formulation, other.formulation);
+        drift_verdict(&what, gap, allowed, evidence.run.len() as u32, evidence.tolerance).into()
+    }
+}
+
+/// `motion.method-order`.
+#[derive(Clone, Copy, Debug)]
+pub struct MethodOrder;
+
+impl Claim for MethodOrder {
+    describe!(
+        "motion.method-order",
+        Group::Motion,
+        "The method shows its order on this model",
+        "A piece of the motion is repeated with fixed steps of decreasing size; the slope of the error against the step is \
+         the observed order. An order far below the nominal one points to a right-hand side that is not smooth."
+    );
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        subject_if_motion(cx)
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let Some(evidence) = evidence(cx) else { return no_motion() };
+        let Some(orders) = &evidence.orders else {
+            return Verdict::undecided("the piece of motion with fixed steps could not be computed").into();
+        };
+        let Some(observed) = orders.observed else {
+            return Verdict::undecided(
+                "the errors of all step sizes tried are at round-off: the motion is too simple for the order to show",
+            )
+            .into();
+        };
+        Verdict::Numerical(Evidence {
+            samples: orders.steps.len() as u32,
+            region: format!(
+                "steps {:.2e} to {:.2e}",
+                orders.steps.first().copied().unwrap_or(0.0),
+                orders.steps.last().copied().unwrap_or(0.0)
+            ),
+            digits: 16,
+            residual: (observed - orders.nominal).abs(),
+            seed: None,
+            why_no_proof: format!("observed order {observed:.2}, nominal {}", orders.nominal),
+        })
+        .into()
+    }
+}

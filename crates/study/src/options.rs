@@ -1,0 +1,117 @@
+//! What is asked of a study, and what it may use from outside.
+
+use chetaev_mechanics::{Claim, Group};
+use std::sync::atomic::AtomicBool;
+
+/// Which claims are wanted.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ClaimSelection {
+    /// Groups and ids; empty for everything.
+    pub words: Vec<String>,
+}
+
+impl ClaimSelection {
+    /// Everything.
+    pub fn all() -> ClaimSelection {
+        ClaimSelection::default()
+    }
+
+    /// Reads `model,formulations,energy.integral`.
+    ///
+    /// # Errors
+    /// The first word that is neither a group nor an id of `known`.
+    pub fn parse(text: &str, known: &[&'static dyn Claim]) -> Result<ClaimSelection, String> {
+        let words: Vec<String> = text
+            .split(',')
+            .map(|w| w.trim().to_string())
+            .filter(|w| !w.is_empty())
+            .collect();
+        for word in &words {
+            let id = word.split('#').next().unwrap_or(word);
+            let is_group = Group::ALL.iter().any(|g| g.word() == word);
+            if !is_group && !known.iter().any(|c| c.id() == id) {
+                return Err(word.clone());
+            }
+        }
+        Ok(ClaimSelection { words })
+    }
+
+    /// Whether the claim `full` of `claim` is wanted.
+    pub fn wants(&self, claim: &dyn Claim, full: &str) -> bool {
+        self.words.is_empty()
+            || self
+                .words
+                .iter()
+                .any(|word| word == claim.group().word() || word == claim.id() || word == full)
+    }
+
+    /// Whether any claim of `group` may be wanted.
+    pub fn wants_group(&self, group: Group, known: &[&'static dyn Claim]) -> bool {
+        self.words.is_empty()
+            || self.words.iter().any(|word| {
+                let id = word.split('#').next().unwrap_or(word);
+                word == group.word() || known.iter().any(|c| c.id() == id && c.group() == group)
+            })
+    }
+}
+
+/// Options of a study; `None` leaves the choice to the model, and where the model is silent, to the program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudyOptions {
+    /// Which claims.
+    pub claims: ClaimSelection,
+    /// Seconds for all claims together.
+    pub budget: f64,
+    /// End of the run.
+    pub t_end: Option<f64>,
+    /// Relative tolerance.
+    pub tolerance: Option<f64>,
+    /// Name of the method.
+    pub method: Option<String>,
+    /// Formulation that is integrated for the trajectory.
+    pub formulation: Option<String>,
+    /// Whether inadmissible initial data are projected.
+    pub project: bool,
+    /// Seed of the random choices in proofs.
+    pub seed: Option<u64>,
+    /// Replay proofs with another parametrization.
+    pub replay: bool,
+    /// Whether to estimate the global error by a second run.
+    pub global_error: bool,
+    /// Whether to compute the motion at all.
+    pub motion: bool,
+}
+
+impl Default for StudyOptions {
+    fn default() -> StudyOptions {
+        StudyOptions {
+            claims: ClaimSelection::all(),
+            budget: 60.0,
+            t_end: None,
+            tolerance: None,
+            method: None,
+            formulation: None,
+            project: false,
+            seed: None,
+            replay: false,
+            global_error: true,
+            motion: true,
+        }
+    }
+}
+
+/// Clock, interruption and progress.
+pub struct Hooks<'a> {
+    /// Seconds since some moment.
+    pub clock: &'a dyn Fn() -> f64,
+    /// When it becomes true, the study ends soon and keeps what it has.
+    pub interrupt: Option<&'a AtomicBool>,
+    /// What is being done, and how much of it in [0, 1] where known.
+    pub progress: &'a mut dyn FnMut(&str, Option<f64>),
+}
+
+impl std::fmt::Debug for Hooks<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Hooks")
+    }
+}

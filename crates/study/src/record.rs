@@ -1,0 +1,357 @@
+//! `study.json`: the record of a study, which `verify` replays.
+
+use crate::study::{Decided, Motion, Study};
+use chetaev_symbolic::verdict::{Counterexample, Evidence, Proof};
+use chetaev_symbolic::Verdict;
+use serde::{Deserialize, Serialize};
+
+/// Version of the schema; fields may be added, none renamed.
+pub const SCHEMA: &str = "chetaev-study-1";
+
+/// The record.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Version of the program.
+    pub chetaev: String,
+    /// Enough to read the model again.
+    pub model: ModelRecord,
+    /// Verdicts.
+    pub verdicts: Vec<VerdictRecord>,
+    /// The motion; `null` when none was computed.
+    pub trajectory: Option<TrajectoryRecord>,
+    /// Things a reader must know.
+    #[serde(default)]
+    pub notices: Vec<String>,
+    /// Options that change verdicts.
+    #[serde(default)]
+    pub options: OptionsRecord,
+}
+
+/// The texts of the model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModelRecord {
+    /// Path as given.
+    pub path: String,
+    /// The model file.
+    pub text: String,
+    /// Included files.
+    pub includes: Vec<FileRecord>,
+    /// Overrides as given.
+    pub overrides: Vec<OverrideRecord>,
+}
+
+/// An included file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FileRecord {
+    /// Path.
+    pub path: String,
+    /// Content.
+    pub text: String,
+}
+
+/// An override.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OverrideRecord {
+    /// Parameter or size.
+    pub name: String,
+    /// Value as given.
+    pub value: String,
+}
+
+/// Options that change verdicts.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct OptionsRecord {
+    /// Groups and ids asked for; empty for all.
+    #[serde(default)]
+    pub claims: Vec<String>,
+    /// Seconds for all claims.
+    pub budget: Option<f64>,
+    /// End of the run where it was given on the command line.
+    pub t_end: Option<f64>,
+    /// Tolerance, likewise.
+    pub tolerance: Option<f64>,
+    /// Method, likewise.
+    pub method: Option<String>,
+    /// Formulation, likewise.
+    pub formulation: Option<String>,
+    /// Whether inadmissible initial data were projected.
+    #[serde(default)]
+    pub project: bool,
+}
+
+/// One verdict.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct VerdictRecord {
+    /// Claim id without subject.
+    pub claim: String,
+    /// Subject, or null.
+    pub subject: Option<String>,
+    /// One of the six words.
+    pub verdict: String,
+    /// `exact`, `modular`, `structural`, or null.
+    pub method: Option<String>,
+    /// Where it holds.
+    pub on: Option<String>,
+    /// Proven bound on the probability of error, as `2^-n`; null for a proof without error.
+    pub error_bound: Option<String>,
+    /// Number of random points or states.
+    pub samples: Option<u64>,
+    /// Seed of the random choices.
+    pub seed: Option<u64>,
+    /// Largest residual of a numerical verdict.
+    pub residual: Option<f64>,
+    /// A counterexample.
+    pub counterexample: Option<CounterexampleRecord>,
+    /// Equations of the subset of a conditional verdict; the failing hypothesis of one that is not applicable.
+    pub condition: Option<String>,
+    /// One sentence a person understands.
+    pub detail: String,
+    /// Time spent.
+    pub seconds: f64,
+    /// Formulas in the text notation.
+    #[serde(default)]
+    pub formulas: Vec<String>,
+    /// Verdicts the model accepts, when it states any.
+    #[serde(default)]
+    pub expected: Vec<String>,
+}
+
+/// A counterexample.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CounterexampleRecord {
+    /// Data, independent first.
+    pub point: Vec<PointRecord>,
+    /// What was evaluated.
+    pub quantity: String,
+    /// Lower and upper bound of the residual.
+    pub residual: [String; 2],
+}
+
+/// A value at a counterexample.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PointRecord {
+    /// Symbol.
+    pub name: String,
+    /// Exact value as "p/q", or null.
+    pub exact: Option<String>,
+    /// Lower and upper bound of dependent data, or null.
+    pub enclosure: Option<[String; 2]>,
+}
+
+/// The motion in numbers; rows are in the CSV and NPZ files.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TrajectoryRecord {
+    /// Formulation integrated.
+    pub formulation: String,
+    /// Method.
+    pub method: String,
+    /// Relative tolerance.
+    pub tolerance: f64,
+    /// Start.
+    pub t_start: f64,
+    /// End asked for.
+    pub t_end: f64,
+    /// Last time reached.
+    pub t: f64,
+    /// Whether the end was reached.
+    pub finished: bool,
+    /// Why the run ended.
+    pub reason: String,
+    /// Time of the end, or the extrapolated time of the singularity it met.
+    pub stop_time: Option<f64>,
+    /// Number of rows.
+    pub rows: u64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Evaluations of the right-hand side.
+    pub evaluations: u64,
+    /// Changes of chart.
+    pub chart_switches: u64,
+    /// Names of the initial state.
+    pub initial: Vec<NamedValue>,
+    /// Values at the last row.
+    #[serde(rename = "final")]
+    pub last: Vec<NamedValue>,
+    /// Estimated global error, relative to 1 + the size of each component.
+    pub global_error: Option<f64>,
+    /// Largest drifts: constraints, energy, integrals.
+    pub drifts: Vec<NamedValue>,
+    /// Files written beside the record.
+    pub files: Vec<String>,
+}
+
+/// A name with a number.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct NamedValue {
+    /// Name.
+    pub name: String,
+    /// Value; null when it is not finite.
+    pub value: Option<f64>,
+}
+
+impl NamedValue {
+    fn new(name: impl Into<String>, value: f64) -> NamedValue {
+        NamedValue {
+            name: name.into(),
+            value: value.is_finite().then_some(value),
+        }
+    }
+}
+
+/// The record of a study.
+pub fn record(study: &Study, files: &[String]) -> Record {
+    let text = &study.model.text;
+    Record {
+        schema: SCHEMA.into(),
+        chetaev: env!("CARGO_PKG_VERSION").into(),
+        model: ModelRecord {
+            path: text.path.clone(),
+            text: text.text.clone(),
+            includes: text
+                .includes
+                .iter()
+                .map(|(path, text)| FileRecord { path: path.clone(), text: text.clone() })
+                .collect(),
+            overrides: text
+                .overrides
+                .iter()
+                .map(|(name, value)| OverrideRecord { name: name.clone(), value: value.clone() })
+                .collect(),
+        },
+        verdicts: study.verdicts.iter().map(|d| verdict_record(study, d)).collect(),
+        trajectory: study.motion.as_ref().map(|m| trajectory_record(study, m, files)),
+        notices: study.notices.clone(),
+        options: OptionsRecord {
+            claims: study.options.claims.words.clone(),
+            budget: Some(study.options.budget),
+            t_end: study.options.t_end,
+            tolerance: study.options.tolerance,
+            method: study.options.method.clone(),
+            formulation: study.options.formulation.clone(),
+            project: study.options.project,
+        },
+    }
+}
+
+/// `2^-n`, rounded to the safe side.
+pub fn bound_text(log2: f64) -> String {
+    format!("2^{}", log2.ceil() as i64)
+}
+
+fn verdict_record(study: &Study, decided: &Decided) -> VerdictRecord {
+    let g = &study.model.graph;
+    let mut record = VerdictRecord {
+        claim: decided.claim.into(),
+        subject: decided.subject.clone(),
+        verdict: decided.finding.verdict.word().into(),
+        detail: decided.finding.verdict.detail().into(),
+        seconds: (decided.seconds * 1e6).round() / 1e6,
+        expected: decided.expected.clone(),
+        formulas: decided
+            .finding
+            .formulas
+            .iter()
+            .map(|f| match f.left {
+                Some(left) => format!("{} = {}", g.text(left), g.text(f.right)),
+                None => g.text(f.right),
+            })
+            .collect(),
+        ..VerdictRecord::default()
+    };
+    match &decided.finding.verdict {
+        Verdict::Proved(proof) => with_proof(&mut record, proof),
+        Verdict::Numerical(evidence) => with_evidence(&mut record, evidence),
+        Verdict::Refuted(counterexample) => record.counterexample = Some(counterexample_record(counterexample)),
+        Verdict::Conditional { condition, proof, counterexample } => {
+            with_proof(&mut record, proof);
+            record.condition = Some(condition.clone());
+            record.counterexample = counterexample.as_ref().map(counterexample_record);
+        }
+        Verdict::NotApplicable { hypothesis, .. } => record.condition = Some(hypothesis.clone()),
+        Verdict::Undecided { .. } => {}
+    }
+    record
+}
+
+fn with_proof(record: &mut VerdictRecord, proof: &Proof) {
+    record.method = Some(proof.method.word().into());
+    record.on = Some(proof.on.clone());
+    record.error_bound = proof.error_bound_log2.map(bound_text);
+    record.samples = (proof.samples > 0).then_some(u64::from(proof.samples));
+    record.seed = proof.seed;
+}
+
+fn with_evidence(record: &mut VerdictRecord, evidence: &Evidence) {
+    record.on = Some(evidence.region.clone());
+    record.samples = Some(u64::from(evidence.samples));
+    record.seed = evidence.seed;
+    record.residual = evidence.residual.is_finite().then_some(evidence.residual);
+}
+
+fn counterexample_record(counterexample: &Counterexample) -> CounterexampleRecord {
+    CounterexampleRecord {
+        point: counterexample
+            .point
+            .iter()
+            .map(|p| PointRecord {
+                name: p.name.clone(),
+                exact: p.exact.as_ref().map(|r| r.to_string()),
+                enclosure: p.enclosure.clone().map(|(low, high)| [low, high]),
+            })
+            .collect(),
+        quantity: counterexample.quantity.clone(),
+        residual: [counterexample.residual.0.clone(), counterexample.residual.1.clone()],
+    }
+}
+
+fn trajectory_record(study: &Study, motion: &Motion, files: &[String]) -> TrajectoryRecord {
+    let evidence = &motion.evidence;
+    let run = &evidence.run;
+    let names: Vec<String> = evidence.start.iter().map(|(name, _)| name.clone()).collect();
+    let last = match run.len().checked_sub(1) {
+        Some(j) => names
+            .iter()
+            .zip(&run.row(j)[..run.layout.v().end])
+            .map(|(name, &x)| NamedValue::new(name.clone(), x))
+            .collect(),
+        None => Vec::new(),
+    };
+    let mut drifts: Vec<NamedValue> = evidence
+        .residuals
+        .iter()
+        .map(|f| NamedValue::new(format!("constraint {}", f.name), f.drift.value))
+        .collect();
+    drifts.push(NamedValue::new("energy", evidence.energy.drift.value));
+    drifts.extend(
+        evidence
+            .integrals
+            .iter()
+            .map(|f| NamedValue::new(format!("integral {}", f.name), f.drift.value)),
+    );
+    let _ = study;
+    TrajectoryRecord {
+        formulation: run.formulation.into(),
+        method: run.method.into(),
+        tolerance: motion.settings.tolerance,
+        t_start: motion.start.t,
+        t_end: motion.settings.t_end,
+        t: run.t,
+        finished: run.ending.finished,
+        reason: run.ending.reason.clone(),
+        stop_time: run.ending.t.is_finite().then_some(run.ending.t),
+        rows: run.len() as u64,
+        steps: run.statistics.steps,
+        rejected: run.statistics.rejected,
+        evaluations: run.statistics.evaluations,
+        chart_switches: run.statistics.chart_switches,
+        initial: evidence.start.iter().map(|(n, x)| NamedValue::new(n.clone(), *x)).collect(),
+        last,
+        global_error: evidence.global_error.filter(|e| e.is_finite()),
+        drifts,
+        files: files.to_vec(),
+    }
+}

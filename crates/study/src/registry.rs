@@ -1,0 +1,14 @@
+//! All claims of the product in one registry.
+
+use crate::motion_claims;
+use chetaev_mechanics::Registry;
+
+/// The claims of all crates, in the order of the catalogue.
+pub fn registry() -> Registry {
+    Registry::new(&[
+        chetaev_mechanics::claims::CLAIMS,
+        chetaev_geometry::CLAIMS,
+        chetaev_principles::CLAIMS,
+        motion_claims::CLAIMS,
+    ])
+}

@@ -1,0 +1,140 @@
+//! The summary for a terminal.
+
+use crate::study::{Decided, Study};
+use chetaev_mechanics::Group;
+use std::fmt::Write as _;
+
+/// Colours of verdicts, or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Style {
+    /// No escape sequences.
+    Plain,
+    /// ANSI colours.
+    Ansi,
+}
+
+/// The system, each claim with its verdict, the trajectory with its drift.
+pub fn summary(study: &Study, style: Style) -> String {
+    let mut text = String::new();
+    heading(&mut text, study, style);
+    claims(&mut text, study, style);
+    trajectory(&mut text, study);
+    for notice in &study.notices {
+        let _ = writeln!(text, "note: {notice}");
+    }
+    text
+}
+
+fn bold(style: Style, words: &str) -> String {
+    match style {
+        Style::Plain => words.into(),
+        Style::Ansi => format!("\u{1b}[1m{words}\u{1b}[0m"),
+    }
+}
+
+fn heading(text: &mut String, study: &Study, style: Style) {
+    let (n, k) = (study.system.n(), study.system.n() - study.prepared.selection.rows.len());
+    let kinds: Vec<String> = study
+        .system
+        .constraints
+        .iter()
+        .map(|c| format!("{} ({}{})", c.name, c.kind.word(), if c.rheonomic { ", rheonomic" } else { "" }))
+        .collect();
+    let _ = writeln!(text, "{}", bold(style, &study.model.name));
+    let names: Vec<&str> = study.system.coordinates.iter().map(|c| c.name.as_str()).collect();
+    let _ = writeln!(text, "  coordinates   n = {n}: {}", shortened(&names.join(", "), 80));
+    if kinds.is_empty() {
+        let _ = writeln!(text, "  constraints   none");
+    } else {
+        let _ = writeln!(text, "  constraints   {}: {}", kinds.len(), shortened(&kinds.join(", "), 80));
+    }
+    let _ = writeln!(text, "  freedom       k = {k} independent velocities");
+    if !study.system.assumptions.is_empty() {
+        let stated: Vec<&str> = study.system.assumptions.iter().map(|a| a.text.as_str()).collect();
+        let _ = writeln!(text, "  assuming      {}", shortened(&stated.join(", "), 80));
+    }
+}
+
+fn shortened(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        return text.into();
+    }
+    let kept: String = text.chars().take(most - 1).collect();
+    format!("{kept}…")
+}
+
+fn claims(text: &mut String, study: &Study, style: Style) {
+    for group in Group::ALL {
+        let of_group: Vec<&Decided> = study.verdicts.iter().filter(|d| d.group == group).collect();
+        if of_group.is_empty() {
+            continue;
+        }
+        let _ = writeln!(text, "\n{}", bold(style, group.word()));
+        for decided in of_group {
+            let word = decided.finding.verdict.word();
+            let mark = if decided.is_as_expected() { " " } else { "!" };
+            let _ = writeln!(
+                text,
+                "{mark} {:<34} {}  {}",
+                decided.full_id(),
+                coloured(style, word),
+                shortened(&detail(decided), 110)
+            );
+            if !decided.is_as_expected() {
+                let _ = writeln!(text, "    the model expects: {}", decided.expected.join(" or "));
+            }
+        }
+    }
+}
+
+fn coloured(style: Style, word: &str) -> String {
+    let padded = format!("{word:<14}");
+    if style == Style::Plain {
+        return padded;
+    }
+    let colour = match word {
+        "proved" => 32,
+        "numerical" => 36,
+        "refuted" => 31,
+        "conditional" => 33,
+        _ => 90,
+    };
+    format!("\u{1b}[{colour}m{padded}\u{1b}[0m")
+}
+
+fn detail(decided: &Decided) -> String {
+    decided.finding.verdict.detail().replace('\n', " ")
+}
+
+fn trajectory(text: &mut String, study: &Study) {
+    let Some(motion) = &study.motion else { return };
+    let evidence = &motion.evidence;
+    let run = &evidence.run;
+    let _ = writeln!(text, "\ntrajectory");
+    let _ = writeln!(
+        text,
+        "  t = {} … {}  {} at tolerance {:.0e}: {} steps ({} rejected), {} evaluations, {} chart changes",
+        motion.start.t,
+        run.t,
+        run.method,
+        motion.settings.tolerance,
+        run.statistics.steps,
+        run.statistics.rejected,
+        run.statistics.evaluations,
+        run.statistics.chart_switches
+    );
+    if !run.ending.finished {
+        let _ = writeln!(text, "  stopped early: {}", run.ending.reason);
+    }
+    let constraint = evidence.residuals.iter().fold(0.0, |m: f64, r| m.max(r.drift.value));
+    let mut drifts = Vec::new();
+    if !evidence.residuals.is_empty() {
+        drifts.push(format!("constraints {constraint:.1e}"));
+    }
+    drifts.push(format!("energy {:.1e}", evidence.energy.drift.value));
+    drifts.extend(evidence.integrals.iter().map(|i| format!("{} {:.1e}", i.name, i.drift.value)));
+    let _ = writeln!(text, "  largest change: {}", drifts.join(", "));
+    if let Some(error) = evidence.global_error {
+        let _ = writeln!(text, "  estimated global error {error:.1e} (second run at a tenth of the tolerance)");
+    }
+}
