@@ -1,8 +1,11 @@
 //! How large an exact computation may become before it is given up.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 use thiserror::Error;
+
+use crate::number::prime::is_prime;
+use crate::number::prime_field::PrimeField;
 
 /// Limits of an exact computation. All limits are inclusive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,10 +23,10 @@ pub struct Budget {
 impl Budget {
     /// Room for what a person would still call a formula: decided in well under a second.
     pub const DISPLAY: Budget = Budget {
-        terms: 4_000,
+        terms: 1_000,
         degree: 200,
         bits: 4_000,
-        work: 8_000_000,
+        work: 1_000_000,
     };
     /// Room for proofs of moderately large identities: a few seconds at most.
     pub const PROOF: Budget = Budget {
@@ -68,6 +71,8 @@ pub enum TooLarge {
 pub struct Meter {
     budget: Budget,
     spent: Cell<u64>,
+    /// The prime fields of the modular algorithms, found once.
+    fields: RefCell<Vec<PrimeField>>,
 }
 
 impl Meter {
@@ -76,6 +81,7 @@ impl Meter {
         Meter {
             budget,
             spent: Cell::new(0),
+            fields: RefCell::default(),
         }
     }
 
@@ -102,6 +108,17 @@ impl Meter {
             });
         }
         Ok(())
+    }
+
+    /// The field of the k-th largest prime below 2^62, counted from 0.
+    pub(super) fn field(&self, k: usize) -> Option<PrimeField> {
+        let mut fields = self.fields.borrow_mut();
+        while fields.len() <= k {
+            let start = fields.last().map_or(1 << 62, PrimeField::modulus);
+            let prime = (3..start).rev().find(|&n| is_prime(n))?;
+            fields.push(PrimeField::new(prime)?);
+        }
+        fields.get(k).copied()
     }
 
     /// The largest total degree allowed; fits an exponent of a monomial.

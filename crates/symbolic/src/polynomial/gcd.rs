@@ -126,7 +126,7 @@ fn degree_bounds(
 ) -> Result<Vec<(usize, u16)>, TooLarge> {
     meter.spend(((a.len() + b.len()) * generators.len()) as u64)?;
     let least = |g: usize| a.degree_in(g).min(b.degree_in(g));
-    let Some(field) = univariate::fields().next() else {
+    let Some(field) = meter.field(0) else {
         return Ok(generators.iter().map(|&g| (g, least(g))).collect());
     };
     let mut random = Random::new(0xb0a7);

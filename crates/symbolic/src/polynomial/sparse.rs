@@ -11,7 +11,7 @@ use super::budget::{Meter, TooLarge};
 use super::monomial::Monomial;
 
 /// A polynomial with integer coefficients; its terms are stored in descending order, none is zero.
-#[derive(Clone, PartialEq, Eq, Default)]
+#[derive(Clone, PartialEq, Eq, Hash, Default)]
 pub struct Polynomial {
     terms: Vec<(Monomial, IBig)>,
 }

@@ -2,17 +2,8 @@
 //!
 //! Coefficients ascend; the last one is not zero.
 
-use crate::number::prime::is_prime;
 use crate::number::prime_field::{PrimeField, Residue};
 use crate::number::random::Random;
-
-/// The fields of the largest primes below 2^62, descending.
-pub(super) fn fields() -> impl Iterator<Item = PrimeField> {
-    (3..1u64 << 62)
-        .rev()
-        .filter(|&n| is_prime(n))
-        .filter_map(PrimeField::new)
-}
 
 /// A random non-zero element.
 pub(super) fn random_unit(field: &PrimeField, random: &mut Random) -> Residue {

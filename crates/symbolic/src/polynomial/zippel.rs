@@ -13,7 +13,7 @@ use dashu_int::{IBig, UBig};
 use super::budget::{Meter, TooLarge};
 use super::monomial::Monomial;
 use super::sparse::Polynomial;
-use super::univariate::{self, fields, random_unit};
+use super::univariate::{self, random_unit};
 use crate::number::prime_field::{PrimeField, Residue};
 use crate::number::random::Random;
 
@@ -259,7 +259,7 @@ pub(super) fn search(
 ) -> Result<Option<Polynomial>, TooLarge> {
     const ATTEMPTS: usize = 6;
     let mut random = Random::new(0x5eed);
-    let mut fields = fields();
+    let mut fields = (0..).map_while(|k| meter.field(k));
     let bits = problem.a.coefficient_bits()
         + problem.b.coefficient_bits()
         + problem.gamma.coefficient_bits();

@@ -1,12 +1,12 @@
 //! Sums and products arranged as short as a few natural moves make them.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::cmp::Reverse;
 
 use rustc_hash::FxHashMap;
 
 use super::direction::{by_tangent, fractions, shortened};
-use super::measure::length;
+use super::measure::Lengths;
 use super::Written;
 use crate::polynomial::normal_form::Field;
 use crate::polynomial::{Monomial, Polynomial, RationalFunction};
@@ -15,17 +15,21 @@ use crate::{Expr, Function, Graph};
 
 /// Sums with more terms than this are only factored, not regrouped.
 const MOST_TERMS: usize = 48;
-/// How many generators are tried as a common factor of part of a sum.
-const MOST_TRIALS: usize = 8;
-/// How deep regrouping nests.
-const DEPTH: u32 = 3;
+/// How many generators are tried as a common factor of part of a sum, by depth of nesting from the inside out.
+const TRIALS: [usize; 3] = [2, 3, 6];
+/// How many parts of one polynomial are factored before the rest is written as it is.
+const MOST_FACTORIZATIONS: u32 = 150;
+/// How many arrangements of a numerator or denominator are tried against each other.
+const MOST_CANDIDATES: usize = 3;
 
 /// Arranges elements of one field.
 pub(super) struct Arranger<'a, 'g> {
     field: &'a Field<'g>,
     g: &'g Graph,
     written: Written,
-    lengths: RefCell<FxHashMap<Expr, u64>>,
+    lengths: RefCell<Lengths>,
+    known: RefCell<FxHashMap<(Polynomial, usize), Expr>>,
+    factorizations: Cell<u32>,
     /// Expressions of the generators, with tangents appended where they are in use.
     generators: Vec<Expr>,
 }
@@ -33,22 +37,27 @@ pub(super) struct Arranger<'a, 'g> {
 impl<'a, 'g> Arranger<'a, 'g> {
     pub(super) fn new(field: &'a Field<'g>, written: Written) -> Arranger<'a, 'g> {
         let generators = field.generators().iter().map(|g| g.expr).collect();
+        Arranger::with_generators(field, written, generators)
+    }
+
+    fn with_generators(
+        field: &'a Field<'g>,
+        written: Written,
+        generators: Vec<Expr>,
+    ) -> Arranger<'a, 'g> {
         Arranger {
             field,
             g: field.graph(),
             written,
             lengths: RefCell::default(),
+            known: RefCell::default(),
+            factorizations: Cell::new(0),
             generators,
         }
     }
 
     fn length(&self, e: Expr) -> u64 {
-        if let Some(&known) = self.lengths.borrow().get(&e) {
-            return known;
-        }
-        let value = length(self.g, e);
-        self.lengths.borrow_mut().insert(e, value);
-        value
+        self.lengths.borrow_mut().of(self.g, e)
     }
 
     fn shortest(&self, candidates: impl IntoIterator<Item = Expr>) -> Option<Expr> {
@@ -57,25 +66,75 @@ impl<'a, 'g> Arranger<'a, 'g> {
 
     /// The shortest arrangement of a fraction.
     pub(super) fn fraction(&self, f: &RationalFunction) -> Option<Expr> {
+        self.fraction_times(f, self.g.one())
+    }
+
+    /// The shortest arrangement of a fraction times a factor that stays outside.
+    pub(super) fn fraction_times(&self, f: &RationalFunction, factor: Expr) -> Option<Expr> {
         let fractions = fractions(self.field, f);
-        let mut candidates: Vec<Expr> = fractions.iter().map(|f| self.quotient(f)).collect();
+        let mut candidates: Vec<Expr> = fractions
+            .iter()
+            .filter_map(|f| self.quotient(f, factor))
+            .collect();
+        candidates.extend(
+            fractions
+                .iter()
+                .filter_map(|f| self.term_by_term(f, factor)),
+        );
         if self.written.tangent || self.written.secant {
-            candidates.extend(fractions.iter().filter_map(|f| self.with_tangents(f)));
+            candidates.extend(
+                fractions
+                    .iter()
+                    .filter_map(|f| self.with_tangents(f, factor)),
+            );
         }
         self.shortest(candidates)
     }
 
-    fn quotient(&self, f: &RationalFunction) -> Expr {
+    fn quotient(&self, f: &RationalFunction, factor: Expr) -> Option<Expr> {
+        let bottoms = self.candidates(f.denominator());
+        let tops = self.candidates(f.numerator());
+        let pairs = tops
+            .iter()
+            .flat_map(|&top| bottoms.iter().map(move |&bottom| (top, bottom)));
+        self.shortest(pairs.map(|(top, bottom)| self.g.div(self.g.mul(&[top, factor]), bottom)))
+    }
+
+    /// A sum of fractions with different denominators, where the common one has powers of generators that not every
+    /// term needs.
+    fn term_by_term(&self, f: &RationalFunction, factor: Expr) -> Option<Expr> {
         let (n, d) = (f.numerator(), f.denominator());
-        let top = self.polynomial(n, DEPTH);
-        if d.is_one() {
-            return top;
+        let below = d.monomial_content();
+        if below.is_one() || n.len() < 2 || n.len() > MOST_TERMS || !self.g.is_one(factor) {
+            return None;
         }
-        self.g.div(top, self.polynomial(d, DEPTH))
+        let rest = d.quotient_by_monomial(&below)?;
+        let mut groups: Vec<(Monomial, Vec<_>)> = Vec::new();
+        for (monomial, coefficient) in n.terms() {
+            let needed = below.quotient(&monomial.gcd(&below))?;
+            match groups.iter_mut().find(|(m, _)| *m == needed) {
+                Some((_, terms)) => terms.push((monomial.clone(), coefficient.clone())),
+                None => groups.push((needed, vec![(monomial.clone(), coefficient.clone())])),
+            }
+        }
+        if groups.len() < 2 {
+            return None;
+        }
+        let meter = self.field.meter();
+        let mut parts = Vec::new();
+        for (_, terms) in groups {
+            let whole = rest
+                .mul(&Polynomial::term(below.clone(), 1.into()), meter)
+                .ok()?;
+            let part =
+                RationalFunction::new(Polynomial::from_terms(terms), whole, meter).ok()??;
+            parts.push(self.quotient(&part, factor)?);
+        }
+        Some(self.g.add(&parts))
     }
 
     /// With `sin = tan cos` for every circular pair, and secants for reciprocal cosines where the user wrote them.
-    fn with_tangents(&self, f: &RationalFunction) -> Option<Expr> {
+    fn with_tangents(&self, f: &RationalFunction, factor: Expr) -> Option<Expr> {
         let mut current = f.clone();
         let mut generators = self.generators.clone();
         let mut secants = Vec::new();
@@ -95,20 +154,14 @@ impl<'a, 'g> Arranger<'a, 'g> {
             current = by_tangent(self.field, &current, &pair, tangent)?;
             secants.push((pair.cosine, angle));
         }
-        let inner = Arranger {
-            field: self.field,
-            g: self.g,
-            written: Written::default(),
-            lengths: RefCell::default(),
-            generators,
-        };
-        let plain = inner.quotient(&current);
+        let inner = Arranger::with_generators(self.field, Written::default(), generators);
+        let plain = inner.quotient(&current, factor)?;
         if !self.written.secant {
             return Some(plain);
         }
         // A power of the cosine below becomes a power of the secant above.
         let mut denominator = current.denominator().clone();
-        let mut above = Vec::new();
+        let mut above = vec![factor];
         for (cosine, angle) in secants {
             let power = denominator.monomial_content().exponent(cosine);
             if power > 0 {
@@ -117,49 +170,79 @@ impl<'a, 'g> Arranger<'a, 'g> {
                 above.push(self.g.powi(secant, i64::from(power)));
             }
         }
-        above.push(inner.polynomial(current.numerator(), DEPTH));
-        let with_secants = self
-            .g
-            .div(self.g.mul(&above), inner.polynomial(&denominator, DEPTH));
+        let rest =
+            RationalFunction::new(current.numerator().clone(), denominator, self.field.meter())
+                .ok()??;
+        let with_secants = inner.quotient(&rest, self.g.mul(&above))?;
         self.shortest([plain, with_secants])
     }
 
-    /// The shortest arrangement found for a polynomial.
-    pub(super) fn polynomial(&self, p: &Polynomial, depth: u32) -> Expr {
-        if p.len() <= 1 {
-            return self.expanded(p);
-        }
+    /// The shortest few arrangements of a polynomial: which of them is best may depend on what stands beside it.
+    fn candidates(&self, p: &Polynomial) -> Vec<Expr> {
+        self.factorizations.set(0);
+        let depth = TRIALS.len();
         let mut candidates = vec![self.factored(p, depth)];
-        let short = shortened(self.field, p);
-        if short != *p {
+        if p.len() > 1 {
+            let short = shortened(self.field, p);
             candidates.push(self.factored(&short, depth));
-        }
-        for pair in self.field.pythagoras() {
-            if p.degree_in(pair.cosine) >= 2 {
-                if let Ok(other) = self.field.by_sine(p, &pair) {
+            for pair in self
+                .field
+                .pythagoras()
+                .iter()
+                .filter(|pair| p.degree_in(pair.cosine) >= 2)
+            {
+                if let Ok(other) = self.field.by_sine(p, pair) {
                     candidates.push(self.factored(&other, depth));
                 }
             }
+            candidates.push(self.expanded(&short));
         }
-        candidates.push(self.expanded(&short));
-        self.shortest(candidates)
-            .unwrap_or_else(|| self.expanded(p))
+        candidates.sort_by_key(|&e| self.length(e));
+        candidates.dedup();
+        candidates.truncate(MOST_CANDIDATES);
+        candidates
     }
 
-    fn factored(&self, p: &Polynomial, depth: u32) -> Expr {
-        let Ok(factorization) = p.factorize(self.field.meter()) else {
+    /// The shortest arrangement found for part of a polynomial.
+    fn part(&self, p: &Polynomial, depth: usize) -> Expr {
+        let short = shortened(self.field, p);
+        let factored = self.factored(&short, depth);
+        let plain = self.expanded(&short);
+        self.shortest([factored, plain]).unwrap_or(plain)
+    }
+
+    fn factored(&self, p: &Polynomial, depth: usize) -> Expr {
+        if p.len() <= 1 {
             return self.expanded(p);
+        }
+        if let Some(&known) = self.known.borrow().get(&(p.clone(), depth)) {
+            return known;
+        }
+        let count = self.factorizations.get();
+        self.factorizations.set(count + 1);
+        let affordable = count < MOST_FACTORIZATIONS || depth == TRIALS.len();
+        let factorization = if affordable {
+            p.factorize(self.field.meter()).ok()
+        } else {
+            None
         };
-        let factor = |(f, multiplicity): &(Polynomial, u32)| {
-            self.g.powi(self.sum(f, depth), i64::from(*multiplicity))
+        let result = match factorization {
+            None => self.expanded(p),
+            Some(factorization) => {
+                let factor = |(f, multiplicity): &(Polynomial, u32)| {
+                    self.g.powi(self.sum(f, depth), i64::from(*multiplicity))
+                };
+                let factors: Vec<Expr> = factorization.factors.iter().map(factor).collect();
+                let content = Rational::from(factorization.content);
+                self.g.scale(&content, self.g.mul(&factors))
+            }
         };
-        let factors: Vec<Expr> = factorization.factors.iter().map(factor).collect();
-        let content = Rational::from(factorization.content);
-        self.g.scale(&content, self.g.mul(&factors))
+        self.known.borrow_mut().insert((p.clone(), depth), result);
+        result
     }
 
     /// A sum without common factor: terms that share a generator are put together where this is shorter.
-    fn sum(&self, p: &Polynomial, depth: u32) -> Expr {
+    fn sum(&self, p: &Polynomial, depth: usize) -> Expr {
         let plain = self.expanded(p);
         if p.len() <= 2 || depth == 0 || p.len() > MOST_TERMS {
             return plain;
@@ -173,7 +256,7 @@ impl<'a, 'g> Arranger<'a, 'g> {
                     g,
                 )
             })
-            .filter(|&(count, _)| count >= 2)
+            .filter(|&(count, _)| count >= 2 && count < p.len())
             .collect();
         // Among equally short arrangements the one with velocities outside is what a person writes.
         let order = |g: usize| {
@@ -182,7 +265,7 @@ impl<'a, 'g> Arranger<'a, 'g> {
                 .map_or(0, |s| self.g.symbol_order(s))
         };
         shared.sort_by_key(|&(count, g)| (Reverse(count), Reverse(order(g)), g));
-        shared.truncate(MOST_TRIALS);
+        shared.truncate(TRIALS[depth - 1]);
         let mut candidates = vec![plain];
         for (_, generator) in shared {
             let (with, without): (Vec<_>, Vec<_>) = p
@@ -191,11 +274,7 @@ impl<'a, 'g> Arranger<'a, 'g> {
                 .cloned()
                 .partition(|(m, _)| m.exponent(generator) > 0);
             let with = self.factored(&Polynomial::from_terms(with), depth - 1);
-            if without.is_empty() {
-                candidates.push(with);
-                continue;
-            }
-            let without = self.polynomial(&Polynomial::from_terms(without), depth - 1);
+            let without = self.part(&Polynomial::from_terms(without), depth - 1);
             candidates.push(self.g.add(&[with, without]));
         }
         self.shortest(candidates).unwrap_or(plain)

@@ -57,10 +57,8 @@ fn collected(g: &Graph, e: Expr, groups: &[&[Expr]], options: &Options) -> Optio
             if monomial.is_one() {
                 free = part;
             } else {
-                parts.push(g.mul(&[
-                    arranger.fraction(&part)?,
-                    field.monomial_expression(&monomial),
-                ]));
+                let factor = field.monomial_expression(&monomial);
+                parts.push(arranger.fraction_times(&part, factor)?);
             }
         }
         rest = free;

@@ -7,6 +7,9 @@ use dashu_int::IBig;
 use crate::polynomial::normal_form::{Field, Pythagoras};
 use crate::polynomial::{Monomial, Polynomial, RationalFunction, TooLarge};
 
+/// How many representatives of a fraction are arranged.
+const MOST_FRACTIONS: usize = 3;
+
 /// Fractions equal to `f`: as reduced, by sines where that cancels or is shorter, with roots out of the denominator.
 pub(super) fn fractions(field: &Field<'_>, f: &RationalFunction) -> Vec<RationalFunction> {
     let mut found = vec![f.clone()];
@@ -26,11 +29,16 @@ pub(super) fn fractions(field: &Field<'_>, f: &RationalFunction) -> Vec<Rational
     }
     for generator in f.denominator().generators() {
         if let Some(Ok(Some(other))) = rationalized(field, f, generator) {
-            if !found.contains(&other) && size(&other) <= 2 * size(f) {
+            if !found.contains(&other) {
                 found.push(other);
             }
         }
     }
+    // Arranging is the expensive step; a representative half as long again rarely wins.
+    found.sort_by_key(size);
+    let least = found.first().map_or(0, size);
+    found.retain(|f| 2 * size(f) <= 3 * least);
+    found.truncate(MOST_FRACTIONS);
     found
 }
 

@@ -10,12 +10,35 @@ use crate::{Expr, Graph, Node, Rational};
 /// Symbols count one sign and one for each prime or subscript, a function name one, because it is read as one;
 /// parentheses and operators count as they are printed. Saturates instead of overflowing.
 pub fn length(g: &Graph, e: Expr) -> u64 {
-    let mut known: FxHashMap<Expr, u64> = FxHashMap::default();
-    for node in g.reachable(&[e]) {
-        let value = node_length(g, node, &known);
-        known.insert(node, value);
+    Lengths::default().of(g, e)
+}
+
+/// Lengths already computed, of every node met; for one graph.
+#[derive(Debug, Default)]
+pub(super) struct Lengths(FxHashMap<Expr, u64>);
+
+impl Lengths {
+    /// The [`length`]; costs time in proportion to the nodes not met before.
+    pub(super) fn of(&mut self, g: &Graph, e: Expr) -> u64 {
+        if let Some(&known) = self.0.get(&e) {
+            return known;
+        }
+        let mut stack = vec![(e, false)];
+        while let Some((node, children_done)) = stack.pop() {
+            if self.0.contains_key(&node) {
+                continue;
+            }
+            if children_done {
+                let value = node_length(g, node, &self.0);
+                self.0.insert(node, value);
+            } else {
+                stack.push((node, true));
+                g.node(node)
+                    .for_each_child(|child| stack.push((child, false)));
+            }
+        }
+        self.0.get(&e).copied().unwrap_or(0)
     }
-    known.get(&e).copied().unwrap_or(0)
 }
 
 fn node_length(g: &Graph, e: Expr, known: &FxHashMap<Expr, u64>) -> u64 {

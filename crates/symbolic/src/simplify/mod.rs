@@ -3,7 +3,8 @@
 //! Candidates are made from the exact [normal form](crate::polynomial::normal_form): common factors cancelled and
 //! pulled out, `sin² + cos²` used in whichever direction is shorter, small linear solves in closed form, tangents kept
 //! where the user wrote them. The shortest candidate by [`length`] wins, the input among them, so the result is never
-//! longer than the input; where the budget does not suffice, the input is returned. No sign is ever assumed.
+//! longer than the input, unless it replaces a linear solve; where the budget does not suffice, the input is returned.
+//! No sign is ever assumed.
 //!
 //! Every rewriting used is an identity of the normal form's field: the result equals the input wherever both are
 //! defined.
@@ -16,7 +17,7 @@ mod polynomial_view;
 
 use rustc_hash::FxHashMap;
 
-use crate::polynomial::normal_form::{self, normal_forms, Field};
+use crate::polynomial::normal_form::{normal_forms, Field, Options as Reading};
 use crate::polynomial::{Budget, RationalFunction};
 use crate::substitute::SolveCache;
 use crate::{Expr, Function, Graph, Node};
@@ -52,7 +53,8 @@ impl Default for Options {
     }
 }
 
-/// The expression as a textbook would print it; never longer than the input by [`length`].
+/// The expression as a textbook would print it; never longer than the input by [`length`], unless the input contains
+/// linear solves that have a closed form within [`Options::max_closed_form`].
 ///
 /// ```
 /// use chetaev_symbolic::simplify::{simplify, Options};
@@ -76,33 +78,50 @@ pub fn simplify_all(g: &Graph, es: &[Expr], options: &Options) -> Vec<Expr> {
         };
     }
     let inner = simplify_arguments(g, es, options);
-    let mut best: Vec<Expr> = es
-        .iter()
-        .zip(&inner)
-        .map(|(&e, &i)| if length(g, i) < length(g, e) { i } else { e })
-        .collect();
-    for reading in readings(g, &inner, options) {
-        let candidates = match read(g, &inner, &reading) {
-            Some(candidates) => candidates,
-            None if inner.len() > 1 => inner
-                .iter()
-                .map(|&e| read(g, &[e], &reading).and_then(|mut c| c.pop()).flatten())
-                .collect(),
-            None => continue,
-        };
-        for (place, candidate) in best.iter_mut().zip(candidates) {
+    let mut best: Vec<Expr> = es.to_vec();
+    let mut offer = |candidates: Option<Vec<Option<Expr>>>, ties: bool| {
+        for (place, candidate) in best.iter_mut().zip(candidates.unwrap_or_default()) {
             if let Some(candidate) = candidate {
-                *place = better(g, *place, candidate, options);
+                *place = better(g, *place, candidate, ties, options);
             }
         }
+    };
+    offer(Some(inner.iter().map(|&e| Some(e)).collect()), false);
+    let found = Found::in_expressions(g, &inner);
+    let literal = Reading::display(options.budget);
+    // At equal length the arranged form is preferred to an accidental one.
+    offer(read_each(g, &inner, &literal), true);
+    let expand_solves = found.largest_solve > 0 && found.largest_solve <= options.max_solve;
+    if expand_solves {
+        offer(
+            read(
+                g,
+                &inner,
+                &Reading {
+                    expand_solves,
+                    ..literal.clone()
+                },
+            ),
+            false,
+        );
+    }
+    for base_angles in orders_of_angles(g, &found.angles, &literal) {
+        let reading = Reading {
+            expand_solves,
+            expand_angles: true,
+            base_angles,
+            ..literal.clone()
+        };
+        offer(read(g, &inner, &reading), false);
     }
     best
 }
 
-/// The expression with its small linear solves in closed form, simplified; the input when a closed form would be longer
-/// than [`Options::max_closed_form`].
-pub fn expand_solve(g: &Graph, e: Expr, options: &Options) -> Expr {
-    simplify(g, e, options)
+/// The simplified expression without linear solves; `None` when a closed form would be longer than
+/// [`Options::max_closed_form`] or beyond the budget, so that the solve is better stated as the system it is.
+pub fn closed_form(g: &Graph, e: Expr, options: &Options) -> Option<Expr> {
+    let simple = simplify(g, e, options);
+    (!contains_solve(g, simple)).then_some(simple)
 }
 
 /// Substitutes (solved dependent velocities, say) and simplifies.
@@ -110,12 +129,16 @@ pub fn eliminate(g: &Graph, e: Expr, solved: &[(Expr, Expr)], options: &Options)
     simplify(g, g.substitute(e, solved), options)
 }
 
-/// The shorter of two; a closed form replaces a solve when it is short enough, however short the solve's notation.
-fn better(g: &Graph, old: Expr, new: Expr, options: &Options) -> Expr {
+/// The shorter of two; a closed form replaces a solve whenever it is short enough, since a solve takes several lines to
+/// state. `ties` says whether the new one wins at equal length.
+fn better(g: &Graph, old: Expr, new: Expr, ties: bool, options: &Options) -> Expr {
     let (old_length, new_length) = (length(g, old), length(g, new));
-    let opens = contains_solve(g, old) && !contains_solve(g, new);
-    let shorter = new_length < old_length || (new_length == old_length && old != new);
-    if shorter && (!opens || new_length <= options.max_closed_form) {
+    let takes_new = if contains_solve(g, old) && !contains_solve(g, new) {
+        new_length <= options.max_closed_form
+    } else {
+        new_length < old_length || (ties && new_length == old_length)
+    };
+    if takes_new {
         new
     } else {
         old
@@ -128,38 +151,83 @@ fn contains_solve(g: &Graph, e: Expr) -> bool {
         .any(|n| matches!(g.node(n), Node::Solve { .. }))
 }
 
-/// The ways to read the expressions as rational functions, from the most literal on.
-fn readings(g: &Graph, es: &[Expr], options: &Options) -> Vec<normal_form::Options> {
-    let literal = normal_form::Options::display(options.budget);
-    let mut order = 0;
-    let mut angles = Vec::new();
-    for e in g.reachable(es) {
-        match g.node(e) {
-            Node::Solve { rhs, .. } => order = order.max(rhs.len()),
-            Node::Apply {
-                function,
-                arguments,
-            } if is_circular(*function) => angles.push(arguments[0]),
-            _ => {}
+/// What the expressions contain that can be read in more than one way.
+struct Found {
+    largest_solve: usize,
+    /// Different arguments of circular functions, in canonical order.
+    angles: Vec<Expr>,
+}
+
+impl Found {
+    fn in_expressions(g: &Graph, es: &[Expr]) -> Found {
+        let mut found = Found {
+            largest_solve: 0,
+            angles: Vec::new(),
+        };
+        for e in g.reachable(es) {
+            match g.node(e) {
+                Node::Solve { rhs, .. } => found.largest_solve = found.largest_solve.max(rhs.len()),
+                Node::Apply {
+                    function,
+                    arguments,
+                } if is_circular(*function) => found.angles.push(arguments[0]),
+                _ => {}
+            }
+        }
+        // Single symbols first, then by structure: the order must not depend on how the graph came about.
+        found.add_parts_of_angles(g);
+        let key = |e: Expr| {
+            g.as_symbol(e)
+                .map_or((1, String::new()), |s| (0, g.symbol_text(s)))
+        };
+        found
+            .angles
+            .sort_by(|&a, &b| key(a).cmp(&key(b)).then_with(|| g.compare(a, b)));
+        found.angles.dedup();
+        found
+    }
+}
+
+impl Found {
+    /// Symbols that occur in sums of angles are angles worth expanding in, even where they do not occur alone.
+    fn add_parts_of_angles(&mut self, g: &Graph) {
+        let mut distinct = self.angles.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
+        if distinct.len() < 2 {
+            return;
+        }
+        for angle in distinct {
+            if let Node::Sum { terms, .. } = g.node(angle) {
+                self.angles.extend(
+                    terms
+                        .iter()
+                        .map(|(term, _)| *term)
+                        .filter(|&t| g.as_symbol(t).is_some()),
+                );
+            }
         }
     }
-    angles.sort_unstable();
-    angles.dedup();
-    let mut readings = vec![literal.clone()];
-    if order > 0 && order <= options.max_solve {
-        readings.push(normal_form::Options {
-            expand_solves: true,
-            ..literal.clone()
-        });
+}
+
+/// Orders of base angles to try for expansion by the addition theorems; none when no angle is a combination of others.
+fn orders_of_angles(g: &Graph, angles: &[Expr], literal: &Reading) -> Vec<Vec<Expr>> {
+    const MOST_ANGLES: usize = 6;
+    if angles.len() < 2 || angles.len() > MOST_ANGLES {
+        return Vec::new();
     }
-    if angles.len() > 1 {
-        let last = readings.last().cloned().unwrap_or(literal);
-        readings.push(normal_form::Options {
-            expand_angles: true,
-            ..last
-        });
+    let reading = Reading {
+        expand_angles: true,
+        base_angles: angles.to_vec(),
+        ..literal.clone()
+    };
+    let dependent = normal_forms(g, &[], &reading)
+        .is_ok_and(|(field, _)| field.base_angle_count() < angles.len());
+    if !dependent {
+        return Vec::new();
     }
-    readings
+    let rotated = |k: usize| [&angles[k..], &angles[..k]].concat();
+    (0..angles.len()).map(rotated).collect()
 }
 
 fn is_circular(function: Function) -> bool {
@@ -168,8 +236,11 @@ fn is_circular(function: Function) -> bool {
 }
 
 /// The best arrangement of each expression under one reading; `None` when the reading exceeds the budget.
-fn read(g: &Graph, es: &[Expr], reading: &normal_form::Options) -> Option<Vec<Option<Expr>>> {
+fn read(g: &Graph, es: &[Expr], reading: &Reading) -> Option<Vec<Option<Expr>>> {
     let (field, values) = normal_forms(g, es, reading).ok()?;
+    if field.divides_angles() {
+        return None;
+    }
     let arranger = Arranger::new(&field, Written::of(g, es));
     Some(
         values
@@ -177,6 +248,15 @@ fn read(g: &Graph, es: &[Expr], reading: &normal_form::Options) -> Option<Vec<Op
             .map(|value| arranger.fraction(value))
             .collect(),
     )
+}
+
+/// [`read`], one by one where all together exceed the budget.
+fn read_each(g: &Graph, es: &[Expr], reading: &Reading) -> Option<Vec<Option<Expr>>> {
+    let together = read(g, es, reading);
+    if together.is_some() || es.len() < 2 {
+        return together;
+    }
+    Some(es.iter().map(|&e| read(g, &[e], reading)?.pop()?).collect())
 }
 
 /// Which of the derived circular functions the user wrote; only these are offered.
@@ -249,7 +329,7 @@ fn replace_argument(g: &Graph, e: Expr, argument: Expr) -> Expr {
 
 /// One literal reading; arguments inside have been simplified before.
 fn simplify_flat(g: &Graph, e: Expr, options: &Options) -> Expr {
-    let literal = normal_form::Options::display(options.budget);
+    let literal = Reading::display(options.budget);
     match read(g, &[e], &literal).and_then(|mut c| c.pop()).flatten() {
         Some(candidate) if length(g, candidate) < length(g, e) => candidate,
         _ => e,

@@ -323,3 +323,33 @@ fn large_input_is_returned_quickly() {
     }
     assert_eq!(simplify(&g, e, &Options::default()), e);
 }
+
+#[test]
+fn closed_forms_are_given_where_they_are_short() {
+    let g = Graph::new();
+    let names = |prefix: &str, n: usize| -> Vec<Expr> {
+        (0..n)
+            .map(|i| g.symbol(&format!("{prefix}{i}"), 0))
+            .collect()
+    };
+    let small = g.solve(&names("a", 4), &names("b", 2)).unwrap()[0];
+    let form = closed_form(&g, small, &Options::default()).expect("a quotient of two determinants");
+    assert_eq!(
+        g.text(form),
+        g.text(read(&g, "(a3 b0 - a1 b1)/(a0 a3 - a1 a2)"))
+    );
+    let large = g.solve(&names("a", 36), &names("b", 6)).unwrap()[0];
+    assert_eq!(closed_form(&g, large, &Options::default()), None);
+    assert_eq!(simplify(&g, large, &Options::default()), large);
+}
+
+/// With θ and φ + θ both in the data, the difference of the two angles is what the formula is about.
+#[test]
+fn addition_theorems_are_used_backwards() {
+    check(
+        "sin(theta + phi) cos(theta) - cos(theta + phi) sin(theta)",
+        "sin(phi)",
+    );
+    check("a cos(theta + phi) sin(theta + phi) + b (cos(theta + phi) cos(phi) + sin(theta + phi) sin(phi))",
+          "a cos(theta + phi) sin(theta + phi) + b cos(theta)");
+}

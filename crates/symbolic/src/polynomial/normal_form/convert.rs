@@ -24,6 +24,12 @@ impl Field<'_> {
                 self.nonnegative.push(sign.primitive_part());
             }
         }
+        for angle in self.options.base_angles.clone() {
+            self.convert_below(angle, &mut forms, &mut solved)?;
+            if let Some(form) = forms.get(&angle).cloned() {
+                self.pair(Pair::Circular, &form, angle)?;
+            }
+        }
         let mut results = Vec::with_capacity(es.len());
         for &e in es {
             self.convert_below(e, &mut forms, &mut solved)?;

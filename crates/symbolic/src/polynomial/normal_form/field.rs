@@ -150,6 +150,7 @@ impl<'g> Field<'g> {
     fn add_symbols(&mut self, es: &[Expr]) {
         let mut roots = es.to_vec();
         roots.extend_from_slice(&self.options.positive);
+        roots.extend_from_slice(&self.options.base_angles);
         for symbol in self.g.symbols_in(&roots) {
             self.add_generator(self.g.symbol_expr(symbol), Kind::Free);
         }
@@ -188,6 +189,16 @@ impl<'g> Field<'g> {
         let mut all = pairs(&self.angles, true);
         all.extend(pairs(&self.hyperbolic, false));
         all
+    }
+
+    /// The number of base angles.
+    pub fn base_angle_count(&self) -> usize {
+        self.angles.len()
+    }
+
+    /// Whether fractions of arguments of the expressions had to be taken as base angles.
+    pub fn divides_angles(&self) -> bool {
+        self.angles.iter().any(|a| a.subdivision > 1)
     }
 
     /// The value of the square of a generator that is algebraic of order two.

@@ -46,6 +46,8 @@ pub struct Options {
     /// Whether squares are taken out of roots, with absolute values, and dependent roots expressed by each other. A
     /// proof needs this; otherwise a root is kept as it stands.
     pub split_roots: bool,
+    /// Arguments of sines and cosines to be taken as base angles first, in this order.
+    pub base_angles: Vec<Expr>,
 }
 
 impl Options {
@@ -58,6 +60,7 @@ impl Options {
             expand_solves: true,
             expand_hyperbolic: true,
             split_roots: true,
+            base_angles: Vec::new(),
         }
     }
 
