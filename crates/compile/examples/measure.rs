@@ -284,7 +284,7 @@ fn measure(model: &Model, form: &str, (variables, outputs): (Vec<Symbol>, Vec<Ex
     let program = lowering.lower().unwrap();
     let (prologue, body) = (program.prologue.len(), program.body.len());
     let temporaries = program.layout.temporaries;
-    if std::env::var_os("SHOW").is_some() {
+    if std::env::var_os("SHOW_PROGRAMS").is_some() {
         println!("{program}");
     }
     let interpreter = Interpreter::new(program).unwrap();
@@ -295,7 +295,7 @@ fn measure(model: &Model, form: &str, (variables, outputs): (Vec<Symbol>, Vec<Ex
     let mut workspace = interpreter.workspace();
     interpreter.prepare(&parameters, &mut workspace).unwrap();
     let mut values = vec![0.0; outputs.len()];
-    let repeats = 2_000_000 / (body + 100) + 1;
+    let repeats = 20_000 / (body + 100) + 1;
     let single = least(
         || {
             let point = std::hint::black_box(&point);
@@ -305,7 +305,7 @@ fn measure(model: &Model, form: &str, (variables, outputs): (Vec<Symbol>, Vec<Ex
             std::hint::black_box(&values);
         },
         repeats,
-        30,
+        500,
     );
     let splat =
         |values: &[f64]| -> Vec<Lanes> { values.iter().map(|&v| Lanes::splat(v)).collect() };
@@ -326,8 +326,8 @@ fn measure(model: &Model, form: &str, (variables, outputs): (Vec<Symbol>, Vec<Ex
                 .unwrap();
             std::hint::black_box(&values);
         },
-        repeats.div_ceil(16),
-        30,
+        repeats.div_ceil(4),
+        500,
     );
     println!(
         "{:<10} {form:<9} {prologue:>5} {body:>6} {temporaries:>5} {:>10.1} {:>9.0} {:>9.1}",

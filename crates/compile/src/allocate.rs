@@ -48,7 +48,7 @@ pub(crate) fn allocate(
         variables: variables.len(),
         ..Layout::default()
     };
-    let mut program = Program {
+    let program = Program {
         variables,
         parameters,
         constants: emitter.constants,
@@ -59,10 +59,15 @@ pub(crate) fn allocate(
         solves: emitter.solves,
         outputs: Vec::new(),
     };
+    place(program, emitter.origins, groups)
+}
+
+/// The program in single-assignment form, with places; the layout counts its constants, parameters and variables.
+pub(crate) fn place(mut program: Program, origins: Vec<Origin>, groups: Vec<Group>) -> Program {
     let mut allocation = Allocation {
-        places: vec![NOWHERE; emitter.origins.len()],
-        last_read: vec![0; emitter.origins.len()],
-        origins: emitter.origins,
+        places: vec![NOWHERE; origins.len()],
+        last_read: vec![0; origins.len()],
+        origins,
         base: 0,
         temporaries: 0,
         free: Vec::new(),

@@ -1,48 +1,120 @@
-//! Instructions as the interpreters read them: one flat enumeration, so that each costs one indirect jump.
+//! Programs as the interpreters read them: runs of one operation, and the registers of each instruction.
 
-use crate::program::{Binary, Fused, Instruction, Unary};
+use crate::program::{Binary, Fused, Instruction, Program, Register, Unary};
 use chetaev_symbolic::Function;
 
-/// `out`, then the registers read.
+/// What the instructions of a run do.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Operation {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    MulAdd,
+    MulSub,
+    NegMulAdd,
+    Neg,
+    Square,
+    Sqrt,
+    Pow,
+    Atan2,
+    SinCos,
+    Function(Function),
+    Factor,
+    Solve,
+}
+
+/// The register written, and up to three that are read; the fourth is the second one written by
+/// [`Operation::SinCos`].
+pub(crate) type Operands = [u32; 4];
+
+/// Instructions with the same operation, one after the other.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Step {
-    Add(u32, u32, u32),
-    Sub(u32, u32, u32),
-    Mul(u32, u32, u32),
-    Div(u32, u32, u32),
-    MulAdd(u32, u32, u32, u32),
-    MulSub(u32, u32, u32, u32),
-    NegMulAdd(u32, u32, u32, u32),
-    Neg(u32, u32),
-    Square(u32, u32),
-    Sqrt(u32, u32),
-    Pow(u32, u32, u32),
-    Atan2(u32, u32, u32),
-    /// Sine, cosine, angle.
-    SinCos(u32, u32, u32),
-    Sin(u32, u32),
-    Cos(u32, u32),
-    Function(Function, u32, u32),
-    Factor(u32),
-    Solve(u32),
+pub(crate) struct Run {
+    pub(crate) operation: Operation,
+    /// First of the operands; of a factorization or a solution, its index in the program.
+    pub(crate) start: usize,
+    /// End of the operands.
+    pub(crate) end: usize,
 }
 
-pub(crate) fn decode(code: &[Instruction]) -> Vec<Step> {
-    code.iter().map(|&instruction| step(instruction)).collect()
+/// A program and its runs.
+#[derive(Clone, Debug)]
+pub(crate) struct Code {
+    pub(crate) program: Program,
+    pub(crate) operands: Vec<Operands>,
+    pub(crate) prologue: Vec<Run>,
+    /// By group of outputs: what runs before it.
+    pub(crate) groups: Vec<Vec<Run>>,
 }
 
-fn step(instruction: Instruction) -> Step {
+impl Code {
+    /// The runs of a well formed program.
+    pub(crate) fn of(program: Program) -> Code {
+        let mut operands = Vec::with_capacity(program.prologue.len() + program.body.len());
+        let prologue = runs(&program.prologue, &mut operands);
+        let mut done = 0;
+        let mut groups = Vec::with_capacity(program.outputs.len());
+        for group in &program.outputs {
+            groups.push(runs(&program.body[done..group.end], &mut operands));
+            done = group.end;
+        }
+        Code {
+            program,
+            operands,
+            prologue,
+            groups,
+        }
+    }
+}
+
+fn runs(code: &[Instruction], operands: &mut Vec<Operands>) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for &instruction in code {
+        let (operation, registers) = match decode(instruction) {
+            Decoded::Scalar(operation, registers) => (operation, registers),
+            Decoded::System(operation, index) => {
+                let start = index as usize;
+                runs.push(Run {
+                    operation,
+                    start,
+                    end: start,
+                });
+                continue;
+            }
+        };
+        operands.push(registers);
+        match runs.last_mut() {
+            Some(run) if run.operation == operation => run.end = operands.len(),
+            _ => runs.push(Run {
+                operation,
+                start: operands.len() - 1,
+                end: operands.len(),
+            }),
+        }
+    }
+    runs
+}
+
+enum Decoded {
+    Scalar(Operation, Operands),
+    /// The index of a matrix or a system.
+    System(Operation, u32),
+}
+
+fn decode(instruction: Instruction) -> Decoded {
+    let scalar = |operation, registers: [Register; 4]| {
+        Decoded::Scalar(operation, registers.map(|register| register.0))
+    };
     match instruction {
         Instruction::Unary { operation, out, a } => {
-            let (out, a) = (out.0, a.0);
-            match operation {
-                Unary::Neg => Step::Neg(out, a),
-                Unary::Square => Step::Square(out, a),
-                Unary::Sqrt => Step::Sqrt(out, a),
-                Unary::Function(Function::Sin) => Step::Sin(out, a),
-                Unary::Function(Function::Cos) => Step::Cos(out, a),
-                Unary::Function(function) => Step::Function(function, out, a),
-            }
+            let operation = match operation {
+                Unary::Neg => Operation::Neg,
+                Unary::Square => Operation::Square,
+                Unary::Sqrt => Operation::Sqrt,
+                Unary::Function(function) => Operation::Function(function),
+            };
+            scalar(operation, [out, a, a, a])
         }
         Instruction::Binary {
             operation,
@@ -50,15 +122,15 @@ fn step(instruction: Instruction) -> Step {
             a,
             b,
         } => {
-            let (out, a, b) = (out.0, a.0, b.0);
-            match operation {
-                Binary::Add => Step::Add(out, a, b),
-                Binary::Sub => Step::Sub(out, a, b),
-                Binary::Mul => Step::Mul(out, a, b),
-                Binary::Div => Step::Div(out, a, b),
-                Binary::Pow => Step::Pow(out, a, b),
-                Binary::Atan2 => Step::Atan2(out, a, b),
-            }
+            let operation = match operation {
+                Binary::Add => Operation::Add,
+                Binary::Sub => Operation::Sub,
+                Binary::Mul => Operation::Mul,
+                Binary::Div => Operation::Div,
+                Binary::Pow => Operation::Pow,
+                Binary::Atan2 => Operation::Atan2,
+            };
+            scalar(operation, [out, a, b, b])
         }
         Instruction::Fused {
             operation,
@@ -67,15 +139,15 @@ fn step(instruction: Instruction) -> Step {
             b,
             c,
         } => {
-            let (out, a, b, c) = (out.0, a.0, b.0, c.0);
-            match operation {
-                Fused::MulAdd => Step::MulAdd(out, a, b, c),
-                Fused::MulSub => Step::MulSub(out, a, b, c),
-                Fused::NegMulAdd => Step::NegMulAdd(out, a, b, c),
-            }
+            let operation = match operation {
+                Fused::MulAdd => Operation::MulAdd,
+                Fused::MulSub => Operation::MulSub,
+                Fused::NegMulAdd => Operation::NegMulAdd,
+            };
+            scalar(operation, [out, a, b, c])
         }
-        Instruction::SinCos { sin, cos, a } => Step::SinCos(sin.0, cos.0, a.0),
-        Instruction::Factor { matrix } => Step::Factor(matrix),
-        Instruction::Solve { solve } => Step::Solve(solve),
+        Instruction::SinCos { sin, cos, a } => scalar(Operation::SinCos, [sin, a, a, cos]),
+        Instruction::Factor { matrix } => Decoded::System(Operation::Factor, matrix),
+        Instruction::Solve { solve } => Decoded::System(Operation::Solve, solve),
     }
 }

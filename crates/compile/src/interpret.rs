@@ -3,12 +3,13 @@
 //! One loop serves single states and blocks; in a block each instruction is applied to
 //! [`LANES`](crate::LANES) states before the next is read, so that the cost of reading it is shared.
 
-use crate::decode::{decode, Step};
+use crate::decode::{Code, Operands, Operation, Run};
 use crate::evaluate::{BlockEvaluator, EvaluateFailure, Evaluator, PivotRange};
 use crate::factor::{Factored, Fault};
 use crate::kernel;
 use crate::lanes::{Lanes, Word};
 use crate::program::Program;
+use crate::schedule;
 use crate::verify::VerifyError;
 use chetaev_symbolic::evaluate::apply;
 use chetaev_symbolic::Function;
@@ -17,8 +18,10 @@ use chetaev_symbolic::Function;
 #[derive(Clone, Debug)]
 pub struct Interpreter {
     program: Program,
-    prologue: Vec<Step>,
-    body: Vec<Step>,
+    /// For single states: in an order that suits the processor's prediction of jumps.
+    single: Code,
+    /// For blocks: in the order of the program, which needs the fewest registers.
+    block: Code,
 }
 
 impl Interpreter {
@@ -29,8 +32,8 @@ impl Interpreter {
     pub fn new(program: Program) -> Result<Interpreter, VerifyError> {
         program.verify()?;
         Ok(Interpreter {
-            prologue: decode(&program.prologue),
-            body: decode(&program.body),
+            single: Code::of(schedule::in_runs(&program)),
+            block: Code::of(program.clone()),
             program,
         })
     }
@@ -83,7 +86,7 @@ impl Evaluator for Interpreter {
     }
 
     fn workspace(&self) -> Workspace {
-        Workspace(State::new(&self.program))
+        Workspace(State::new(&self.single.program))
     }
 
     fn prepare(
@@ -92,7 +95,7 @@ impl Evaluator for Interpreter {
         workspace: &mut Workspace,
     ) -> Result<(), EvaluateFailure> {
         let state = &mut workspace.0;
-        state.prepare(&self.program, &self.prologue, parameters)?;
+        state.prepare(&self.single, parameters)?;
         state.is_prepared = state.failures.is_empty();
         state.first_failure()
     }
@@ -105,14 +108,14 @@ impl Evaluator for Interpreter {
         outputs: &mut [f64],
     ) -> Result<(), EvaluateFailure> {
         let state = &mut workspace.0;
-        state.evaluate((&self.program, &self.body), groups, variables, outputs)?;
+        state.evaluate(&self.single, groups, variables, outputs)?;
         state.first_failure()
     }
 }
 
 impl BlockEvaluator for Interpreter {
     fn block_workspace(&self) -> BlockWorkspace {
-        BlockWorkspace(State::new(&self.program))
+        BlockWorkspace(State::new(&self.block.program))
     }
 
     fn prepare_block(
@@ -120,9 +123,7 @@ impl BlockEvaluator for Interpreter {
         parameters: &[Lanes],
         workspace: &mut BlockWorkspace,
     ) -> Result<(), EvaluateFailure> {
-        workspace
-            .0
-            .prepare(&self.program, &self.prologue, parameters)
+        workspace.0.prepare(&self.block, parameters)
     }
 
     fn evaluate_block(
@@ -132,9 +133,8 @@ impl BlockEvaluator for Interpreter {
         workspace: &mut BlockWorkspace,
         outputs: &mut [Lanes],
     ) -> Result<(), EvaluateFailure> {
-        workspace
-            .0
-            .evaluate((&self.program, &self.body), groups, variables, outputs)
+        let state = &mut workspace.0;
+        state.evaluate(&self.block, groups, variables, outputs)
     }
 }
 
@@ -173,17 +173,13 @@ impl<W: Word> State<W> {
         }
     }
 
-    fn prepare(
-        &mut self,
-        program: &Program,
-        code: &[Step],
-        parameters: &[W],
-    ) -> Result<(), EvaluateFailure> {
-        check_length("parameters", program.layout.parameters, parameters.len())?;
-        self.check_shape(program)?;
+    fn prepare(&mut self, code: &Code, parameters: &[W]) -> Result<(), EvaluateFailure> {
+        let layout = &code.program.layout;
+        check_length("parameters", layout.parameters, parameters.len())?;
+        self.check_shape(&code.program)?;
         self.failures.clear();
-        self.file[program.layout.parameter_range()].copy_from_slice(parameters);
-        self.run(program, code);
+        self.file[layout.parameter_range()].copy_from_slice(parameters);
+        self.run(code, &code.prologue);
         self.lasting = self.failures.len();
         self.is_prepared = true;
         Ok(())
@@ -201,11 +197,12 @@ impl<W: Word> State<W> {
 
     fn evaluate(
         &mut self,
-        (program, code): (&Program, &[Step]),
+        code: &Code,
         groups: usize,
         variables: &[W],
         outputs: &mut [W],
     ) -> Result<(), EvaluateFailure> {
+        let program = &code.program;
         check_length("variables", program.layout.variables, variables.len())?;
         check_length("outputs", program.output_count_of(groups), outputs.len())?;
         self.check_shape(program)?;
@@ -215,12 +212,10 @@ impl<W: Word> State<W> {
         self.failures.truncate(self.lasting);
         self.file[program.layout.variable_range()].copy_from_slice(variables);
         let mut outputs = outputs.iter_mut();
-        let mut done = 0;
-        for group in program.outputs.iter().take(groups) {
-            if !self.run(program, &code[done..group.end]) {
+        for (group, runs) in program.outputs.iter().zip(&code.groups).take(groups) {
+            if !self.run(code, runs) {
                 return Ok(());
             }
-            done = group.end;
             for (register, output) in group.registers.iter().zip(&mut outputs) {
                 *output = self.file[register.index()];
             }
@@ -229,26 +224,23 @@ impl<W: Word> State<W> {
     }
 
     /// Runs instructions in order; `false` when no state is left that could go on.
-    fn run(&mut self, program: &Program, code: &[Step]) -> bool {
-        let mut rest = code;
-        // Linear systems need the whole state; what lies between them needs the register file only.
-        loop {
-            rest = run_scalar(&mut self.file, rest);
-            match rest.split_first() {
-                Some((Step::Factor(matrix), after)) => {
-                    self.factor(program, *matrix as usize);
+    fn run(&mut self, code: &Code, runs: &[Run]) -> bool {
+        for run in runs {
+            match run.operation {
+                Operation::Factor => {
+                    self.factor(&code.program, run.start);
                     if W::LANES == 1 && !self.failures.is_empty() {
                         return false;
                     }
-                    rest = after;
                 }
-                Some((Step::Solve(solve), after)) => {
-                    self.solve(program, *solve as usize);
-                    rest = after;
+                Operation::Solve => self.solve(&code.program, run.start),
+                operation => {
+                    let operands = &code.operands[run.start..run.end];
+                    execute(&mut self.file, operation, operands);
                 }
-                _ => return true,
             }
         }
+        true
     }
 
     fn factor(&mut self, program: &Program, index: usize) {
@@ -296,79 +288,77 @@ fn failure(matrix: usize, fault: Fault) -> EvaluateFailure {
     }
 }
 
-/// Runs instructions up to the next linear system; returns what is left.
-fn run_scalar<'c, W: Word>(file: &mut [W], code: &'c [Step]) -> &'c [Step] {
-    let place = |register: u32| register as usize;
-    for (i, step) in code.iter().enumerate() {
-        match *step {
-            Step::Add(out, a, b) => W::binary(file, place(out), place(a), place(b), |a, b| a + b),
-            Step::Sub(out, a, b) => W::binary(file, place(out), place(a), place(b), |a, b| a - b),
-            Step::Mul(out, a, b) => W::binary(file, place(out), place(a), place(b), |a, b| a * b),
-            Step::Div(out, a, b) => W::binary(file, place(out), place(a), place(b), |a, b| a / b),
-            Step::MulAdd(out, a, b, c) => {
-                let abc = (place(a), place(b), place(c));
-                W::ternary(file, place(out), abc, |a, b, c| a * b + c);
-            }
-            Step::MulSub(out, a, b, c) => {
-                let abc = (place(a), place(b), place(c));
-                W::ternary(file, place(out), abc, |a, b, c| a * b - c);
-            }
-            Step::NegMulAdd(out, a, b, c) => {
-                let abc = (place(a), place(b), place(c));
-                W::ternary(file, place(out), abc, |a, b, c| c - a * b);
-            }
-            Step::Neg(out, a) => W::unary(file, place(out), place(a), |a| -a),
-            Step::Square(out, a) => W::unary(file, place(out), place(a), |a| a * a),
-            Step::Sqrt(out, a) => W::unary(file, place(out), place(a), f64::sqrt),
-            Step::Pow(out, a, b) => power(file, place(out), place(a), place(b)),
-            Step::Atan2(out, a, b) => angle(file, place(out), place(a), place(b)),
-            Step::SinCos(sin, cos, a) => sin_cos(file, place(sin), place(cos), place(a)),
-            Step::Sin(out, a) => sin(file, place(out), place(a)),
-            Step::Cos(out, a) => cos(file, place(out), place(a)),
-            Step::Function(function, out, a) => elementary(file, function, place(out), place(a)),
-            Step::Factor(_) | Step::Solve(_) => return &code[i..],
-        }
+/// Applies one operation to registers, for one instruction after the other.
+fn execute<W: Word>(file: &mut [W], operation: Operation, operands: &[Operands]) {
+    match operation {
+        Operation::Add => binary(file, operands, |a, b| a + b),
+        Operation::Sub => binary(file, operands, |a, b| a - b),
+        Operation::Mul => binary(file, operands, |a, b| a * b),
+        Operation::Div => binary(file, operands, |a, b| a / b),
+        Operation::MulAdd => ternary(file, operands, |a, b, c| a * b + c),
+        Operation::MulSub => ternary(file, operands, |a, b, c| a * b - c),
+        Operation::NegMulAdd => ternary(file, operands, |a, b, c| c - a * b),
+        Operation::Neg => unary(file, operands, |a| -a),
+        Operation::Square => unary(file, operands, |a| a * a),
+        Operation::Sqrt => unary(file, operands, f64::sqrt),
+        Operation::Pow => binary(file, operands, f64::powf),
+        Operation::Atan2 => binary(file, operands, f64::atan2),
+        Operation::SinCos => sin_cos(file, operands),
+        Operation::Function(Function::Sin) => sin(file, operands),
+        Operation::Function(Function::Cos) => cos(file, operands),
+        Operation::Function(function) => unary(file, operands, |a| apply(function, a)),
+        Operation::Factor | Operation::Solve => {}
     }
-    &[]
 }
 
-// Out of line, so that the loop above stays small.
-
-#[inline(never)]
-fn power<W: Word>(file: &mut [W], out: usize, a: usize, b: usize) {
-    W::binary(file, out, a, b, f64::powf);
+#[inline(always)]
+fn unary<W: Word>(file: &mut [W], operands: &[Operands], f: impl Fn(f64) -> f64 + Copy) {
+    for &[out, a, _, _] in operands {
+        W::unary(file, out as usize, a as usize, f);
+    }
 }
 
-#[inline(never)]
-fn angle<W: Word>(file: &mut [W], out: usize, a: usize, b: usize) {
-    W::binary(file, out, a, b, f64::atan2);
+#[inline(always)]
+fn binary<W: Word>(file: &mut [W], operands: &[Operands], f: impl Fn(f64, f64) -> f64 + Copy) {
+    for &[out, a, b, _] in operands {
+        W::binary(file, out as usize, a as usize, b as usize, f);
+    }
 }
 
-#[inline(never)]
-fn elementary<W: Word>(file: &mut [W], function: Function, out: usize, a: usize) {
-    W::unary(file, out, a, |a| apply(function, a));
+#[inline(always)]
+fn ternary<W: Word>(
+    file: &mut [W],
+    operands: &[Operands],
+    f: impl Fn(f64, f64, f64) -> f64 + Copy,
+) {
+    for &[out, a, b, c] in operands {
+        W::ternary(file, out as usize, (a as usize, b as usize, c as usize), f);
+    }
 }
 
-#[inline(never)]
-fn sin_cos<W: Word>(file: &mut [W], sin: usize, cos: usize, a: usize) {
+fn sin_cos<W: Word>(file: &mut [W], operands: &[Operands]) {
     let (quick, slow) = (kernel::sin_cos_quick, kernel::sin_cos_library);
-    W::pair(file, (sin, cos), a, quick, slow);
+    for &[sin, a, _, cos] in operands {
+        W::pair(file, (sin as usize, cos as usize), a as usize, quick, slow);
+    }
 }
 
-#[inline(never)]
-fn sin<W: Word>(file: &mut [W], out: usize, a: usize) {
+fn sin<W: Word>(file: &mut [W], operands: &[Operands]) {
     let quick = |a| {
         let (sin, _, is_good) = kernel::sin_cos_quick(a);
         (sin, is_good)
     };
-    W::guarded(file, out, a, quick, f64::sin);
+    for &[out, a, _, _] in operands {
+        W::guarded(file, out as usize, a as usize, quick, f64::sin);
+    }
 }
 
-#[inline(never)]
-fn cos<W: Word>(file: &mut [W], out: usize, a: usize) {
+fn cos<W: Word>(file: &mut [W], operands: &[Operands]) {
     let quick = |a| {
         let (_, cos, is_good) = kernel::sin_cos_quick(a);
         (cos, is_good)
     };
-    W::guarded(file, out, a, quick, f64::cos);
+    for &[out, a, _, _] in operands {
+        W::guarded(file, out as usize, a as usize, quick, f64::cos);
+    }
 }

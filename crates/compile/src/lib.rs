@@ -45,6 +45,7 @@ mod kernel;
 mod lanes;
 pub mod lower;
 pub mod program;
+mod schedule;
 pub mod verify;
 
 pub use evaluate::{BlockEvaluator, EvaluateFailure, Evaluator};

@@ -12,10 +12,10 @@ use chetaev_mechanics::claims::formulation::{derive, manifold, REFERENCE};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::equations::Equations;
 use chetaev_mechanics::{Manifold, System};
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{simplify, Expr, Verdict};
 
-/// The largest graph of dH/dt, in nodes, that is printed with the multipliers inserted.
-const PRINTED: usize = 120;
+/// The longest dH/dt that is printed with the multipliers inserted.
+const PRINTED: u64 = 120;
 
 /// `energy.integral`.
 #[derive(Clone, Copy, Debug)]
@@ -125,12 +125,13 @@ pub fn force_power(system: &System) -> Expr {
     g.add(&products)
 }
 
-/// One of the three hypotheses, as it is for this system.
+/// One of the three hypotheses, as it is for this system; `{}` in the words stands for the constraints it is about.
 struct Hypothesis {
     /// Its term of the power balance.
     term: Expr,
     holding: String,
     failing: String,
+    constraint: Option<String>,
     verdict: Verdict,
 }
 
@@ -165,6 +166,7 @@ fn hypotheses(cx: &Context<'_>) -> Vec<Hypothesis> {
         term: explicit,
         holding: "∂L/∂t = 0".into(),
         failing: "L depends on the time".into(),
+        constraint: None,
         verdict: cx.prover.identity(
             system,
             &[explicit],
@@ -182,36 +184,44 @@ fn hypotheses(cx: &Context<'_>) -> Vec<Hypothesis> {
             "the forces Q do no work, Σ Q v = 0".into()
         },
         failing: "the forces Q do work".into(),
+        constraint: None,
         verdict: on_motion(cx, &[power]),
     });
     for &row in &cx.selection.rows {
         let constraint = &system.constraints[cx.terms.constraint_index[row]];
         let time = if constraint.rheonomic {
-            ", although it contains the time"
+            ", although the time occurs there"
         } else {
             ""
         };
         let speed = reaction_speed(cx, row);
         all.push(Hypothesis {
             term: g.mul(&[multiplier_symbol(system, &constraint.name), speed]),
-            holding: format!("∂f/∂v · v = 0 where f = 0 for `{}`{time}", constraint.name),
-            failing: format!(
-                "∂f/∂v · v does not vanish for `{}`, so its reaction can do work",
-                constraint.name
-            ),
+            holding: format!("∂f/∂v · v = 0 where f = 0 for {{}}{time}"),
+            failing: "∂f/∂v · v does not vanish for {}, so the reaction can do work".into(),
+            constraint: Some(format!("`{}`", constraint.name)),
             verdict: on_motion(cx, &[speed]),
         });
     }
     all
 }
 
+/// The words for some of the hypotheses; constraints of which the same is said are named together.
 fn phrases(hypotheses: &[Hypothesis], which: impl Fn(&Hypothesis) -> bool) -> String {
-    let phrases: Vec<String> = hypotheses
-        .iter()
-        .filter(|h| which(h))
-        .map(Hypothesis::phrase)
+    let mut said: Vec<(String, Vec<&str>)> = Vec::new();
+    for hypothesis in hypotheses.iter().filter(|h| which(h)) {
+        let phrase = hypothesis.phrase();
+        let name = hypothesis.constraint.as_deref();
+        match said.iter_mut().find(|(known, _)| *known == phrase) {
+            Some((_, names)) => names.extend(name),
+            None => said.push((phrase, name.into_iter().collect())),
+        }
+    }
+    let said: Vec<String> = said
+        .into_iter()
+        .map(|(phrase, names)| phrase.replace("{}", &names.join(", ")))
         .collect();
-    phrases.join("; ")
+    said.join("; ")
 }
 
 fn why_conserved(hypotheses: &[Hypothesis]) -> String {
@@ -256,8 +266,9 @@ fn power_balance(
             )
         })
         .collect();
-    let inserted = g.substitute(stated, &values);
-    if inserted != stated && g.reachable(&[inserted]).len() <= PRINTED {
+    let options = simplify::Options::default();
+    let inserted = simplify::simplify(g, g.substitute(stated, &values), &options);
+    if inserted != stated && simplify::length(g, inserted) <= PRINTED {
         formulas.push(Formula {
             caption: "dH/dt with the multipliers inserted".into(),
             left: None,

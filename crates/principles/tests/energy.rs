@@ -39,7 +39,7 @@ const CASES: &[Case] = &[
             constraints: &[("turning", "y' - t x'")],
         },
         rate: "0",
-        says: "although it contains the time",
+        says: "although the time occurs there",
     },
     Case {
         name: "affine",
@@ -83,7 +83,7 @@ const CASES: &[Case] = &[
             constraints: &[("cone", "z' - (1 + t^2) sqrt(x'^2 + y'^2)")],
         },
         rate: "0",
-        says: "although it contains the time",
+        says: "although the time occurs there",
     },
     Case {
         name: "constant speed in gravity",
@@ -149,7 +149,7 @@ const CASES: &[Case] = &[
             constraints: &[("lift", "y - t^2")],
         },
         rate: "2 t (2 + g)",
-        says: "its reaction can do work",
+        says: "so the reaction can do work",
     },
     Case {
         name: "a reaction that is not needed",

@@ -10,9 +10,9 @@ use chetaev_mechanics::{Context, Equations, Finding, Prover};
 use chetaev_model::drawing::Shape as Drawn;
 use chetaev_motion::observe::Observer;
 use chetaev_report::data::{
-    Animation, Assumption, ChartSwitch, Claim, Element, Equation, EquationSection, Fact, Figure, Formula, InitialValue,
-    ModelSource, Origin, Parameter, Portrait, Report, Reproducibility, Series, SeriesGroup, Shape, Source, SourceFile,
-    Stop, Tint, Trajectory, Verdict as Word,
+    Animation, Assumption, ChartSwitch, Claim, Element, Equation, EquationSection, Fact, Figure,
+    Formula, InitialValue, ModelSource, Origin, Parameter, Portrait, Report, Reproducibility,
+    Series, SeriesGroup, Shape, Source, SourceFile, Stop, Tint, Trajectory, Verdict as Word,
 };
 use chetaev_symbolic::print::Options;
 use chetaev_symbolic::{rational, simplify, Expr, Verdict};
@@ -31,13 +31,24 @@ pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Repor
         subtitle: Some(subtitle(study)),
         description: paragraphs(&model.description),
         history: paragraphs(&model.history),
-        sources: model.source.iter().map(|text| Source { text: text.clone(), link: None }).collect(),
+        sources: model
+            .source
+            .iter()
+            .map(|text| Source {
+                text: text.clone(),
+                link: None,
+            })
+            .collect(),
         facts: facts(study),
         parameters: parameters(study, &options),
         assumptions: assumptions(study),
         initial: initial(study, &options),
         sections: sections(study, &options),
-        claims: study.verdicts.iter().map(|d| claim(study, d, &options)).collect(),
+        claims: study
+            .verdicts
+            .iter()
+            .map(|d| claim(study, d, &options))
+            .collect(),
         trajectory: study.motion.as_ref().map(|m| trajectory(study, m, files)),
         figures: study.motion.as_ref().map(figures).unwrap_or_default(),
         animation: study.motion.as_ref().and_then(|m| animation(study, m)),
@@ -54,7 +65,11 @@ pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Repor
 
 /// `chaplygin-sleigh` becomes "Chaplygin sleigh"; a name with spaces stays.
 fn title(name: &str) -> String {
-    let spaced = if name.contains(' ') { name.to_string() } else { name.replace('-', " ") };
+    let spaced = if name.contains(' ') {
+        name.to_string()
+    } else {
+        name.replace('-', " ")
+    };
     let mut letters = spaced.chars();
     match letters.next() {
         Some(first) => first.to_uppercase().chain(letters).collect(),
@@ -63,12 +78,21 @@ fn title(name: &str) -> String {
 }
 
 fn subtitle(study: &Study) -> String {
-    let (n, k) = (study.system.n(), study.system.n() - study.prepared.selection.rows.len());
-    format!("{n} coordinates, {} constraints, {k} independent velocities", study.system.constraints.len())
+    let (n, k) = (
+        study.system.n(),
+        study.system.n() - study.prepared.selection.rows.len(),
+    );
+    format!(
+        "{n} coordinates, {} constraints, {k} independent velocities",
+        study.system.constraints.len()
+    )
 }
 
 fn paragraphs(text: &str) -> Vec<String> {
-    text.split("\n\n").map(|p| p.trim().replace('\n', " ")).filter(|p| !p.is_empty()).collect()
+    text.split("\n\n")
+        .map(|p| p.trim().replace('\n', " "))
+        .filter(|p| !p.is_empty())
+        .collect()
 }
 
 fn fact(label: &str, value: String, symbol: Option<&str>, claim: Option<&str>) -> Fact {
@@ -86,13 +110,37 @@ fn facts(study: &Study) -> Vec<Fact> {
     let r = study.prepared.selection.rows.len();
     let names: Vec<&str> = system.coordinates.iter().map(|c| c.name.as_str()).collect();
     let mut facts = vec![
-        fact("Coordinates", format!("{}: {}", system.n(), names.join(", ")), Some("n"), None),
-        fact("Independent constraints", r.to_string(), Some("r"), Some("model.constraints-independent")),
-        fact("Independent velocities", (system.n() - r).to_string(), Some("k"), Some("model.accelerations-unique")),
+        fact(
+            "Coordinates",
+            format!("{}: {}", system.n(), names.join(", ")),
+            Some("n"),
+            None,
+        ),
+        fact(
+            "Independent constraints",
+            r.to_string(),
+            Some("r"),
+            Some("model.constraints-independent"),
+        ),
+        fact(
+            "Independent velocities",
+            (system.n() - r).to_string(),
+            Some("k"),
+            Some("model.accelerations-unique"),
+        ),
     ];
     for c in &system.constraints {
-        let time = if c.rheonomic { "rheonomic" } else { "scleronomic" };
-        facts.push(fact(&format!("Constraint {}", c.name), format!("{}, {time}", c.kind.word()), None, Some("model.constraints-linear")));
+        let time = if c.rheonomic {
+            "rheonomic"
+        } else {
+            "scleronomic"
+        };
+        facts.push(fact(
+            &format!("Constraint {}", c.name),
+            format!("{}, {time}", c.kind.word()),
+            None,
+            Some("model.constraints-linear"),
+        ));
     }
     facts
 }
@@ -110,13 +158,19 @@ fn parameters(study: &Study, options: &Options) -> Vec<Parameter> {
         .parameters
         .iter()
         .map(|p| {
-            let number = p.value.and_then(|v| g.evaluate_f64(&[v], &|_| None).ok()).map(|v| v[0]);
+            let number = p
+                .value
+                .and_then(|v| g.evaluate_f64(&[v], &|_| None).ok())
+                .map(|v| v[0]);
             let value = p.value.map(|v| match (g.as_number(v), number) {
                 (Some(exact), _) if exact.is_int() => exact.to_string(),
                 (_, Some(number)) => significant(number),
                 _ => g.text(v),
             });
-            let stated = p.definition.filter(|&d| g.as_number(d).is_none()).map(|d| g.text(d));
+            let stated = p
+                .definition
+                .filter(|&d| g.as_number(d).is_none())
+                .map(|d| g.text(d));
             Parameter {
                 name: symbol(study, &p.name, options),
                 value: match (value, stated) {
@@ -124,7 +178,9 @@ fn parameters(study: &Study, options: &Options) -> Vec<Parameter> {
                     (value, stated) => value.or(stated),
                 },
                 unit: p.unit.as_ref().map(|u| u.text.clone()),
-                range: p.range.map(|(low, high)| format!("{} … {}", g.text(low), g.text(high))),
+                range: p
+                    .range
+                    .map(|(low, high)| format!("{} … {}", g.text(low), g.text(high))),
                 description: (!p.description.is_empty()).then(|| p.description.clone()),
             }
         })
@@ -133,7 +189,11 @@ fn parameters(study: &Study, options: &Options) -> Vec<Parameter> {
 
 /// Ten significant digits without trailing zeros.
 fn significant(x: f64) -> String {
-    let magnitude = if x == 0.0 { 0 } else { x.abs().log10().floor() as i32 };
+    let magnitude = if x == 0.0 {
+        0
+    } else {
+        x.abs().log10().floor() as i32
+    };
     if !(-4..12).contains(&magnitude) {
         return format!("{x:.6e}");
     }
@@ -152,14 +212,19 @@ fn assumptions(study: &Study) -> Vec<Assumption> {
         .assumptions
         .iter()
         .map(|a| Assumption {
-            formula: Formula { text: a.text.clone(), ..Formula::default() },
+            formula: Formula {
+                text: a.text.clone(),
+                ..Formula::default()
+            },
             note: None,
         })
         .collect()
 }
 
 fn initial(study: &Study, options: &Options) -> Vec<InitialValue> {
-    let Some(motion) = &study.motion else { return Vec::new() };
+    let Some(motion) = &study.motion else {
+        return Vec::new();
+    };
     let model = &study.model;
     let n = study.system.n();
     motion
@@ -169,7 +234,11 @@ fn initial(study: &Study, options: &Options) -> Vec<InitialValue> {
         .enumerate()
         .map(|(place, (name, value))| {
             let given = model.initial.values.get(&(place % n, (place / n) as u32));
-            let projected = motion.start.completed.iter().any(|(changed, _)| changed == name);
+            let projected = motion
+                .start
+                .completed
+                .iter()
+                .any(|(changed, _)| changed == name);
             InitialValue {
                 name: symbol(study, name, options),
                 value: *value,
@@ -192,7 +261,13 @@ fn sections(study: &Study, options: &Options) -> Vec<EquationSection> {
     }
     let known = crate::registry::registry();
     let prepared = &study.prepared;
-    let cx = Context::new(&study.system, &prepared.terms, &prepared.selection, &known, Prover::default());
+    let cx = Context::new(
+        &study.system,
+        &prepared.terms,
+        &prepared.selection,
+        &known,
+        Prover::default(),
+    );
     if let Ok(routh) = derive(&cx, "routh") {
         sections.push(formulation(study, &routh, options, "Routh's equations with multipliers", &[
             "Lagrange's equations of all coordinates; the reaction of each constraint f = left − right is λ ∂f/∂q′.",
@@ -220,11 +295,21 @@ fn lagrangian(study: &Study, options: &Options) -> EquationSection {
         }
     }
     if study.model.kinetic.is_none() {
-        equations.push(typeset::equation(g, g.symbol("L", 0), study.model.lagrangian, options));
+        equations.push(typeset::equation(
+            g,
+            g.symbol("L", 0),
+            study.model.lagrangian,
+            options,
+        ));
     }
     for (c, &force) in study.system.coordinates.iter().zip(&study.system.forces) {
         if !g.is_zero(force) {
-            equations.push(typeset::equation(g, g.symbol(&format!("Q_{}", c.name), 0), force, options));
+            equations.push(typeset::equation(
+                g,
+                g.symbol(&format!("Q_{}", c.name), 0),
+                force,
+                options,
+            ));
         }
     }
     for d in &study.model.defines {
@@ -261,7 +346,13 @@ fn constraints(study: &Study, options: &Options) -> EquationSection {
     }
 }
 
-fn formulation(study: &Study, derived: &Equations, options: &Options, title: &str, explanation: &[&str]) -> EquationSection {
+fn formulation(
+    study: &Study,
+    derived: &Equations,
+    options: &Options,
+    title: &str,
+    explanation: &[&str],
+) -> EquationSection {
     let g = &study.model.graph;
     let mut equations = Vec::new();
     for group in &derived.groups {
@@ -312,7 +403,10 @@ fn multipliers(study: &Study, routh: &Equations, options: &Options) -> EquationS
 }
 
 fn word(verdict: &str) -> Word {
-    Word::ALL.into_iter().find(|w| w.key() == verdict).unwrap_or(Word::Undecided)
+    Word::ALL
+        .into_iter()
+        .find(|w| w.key() == verdict)
+        .unwrap_or(Word::Undecided)
 }
 
 fn claim(study: &Study, decided: &Decided, options: &Options) -> Claim {
@@ -336,7 +430,10 @@ fn claim(study: &Study, decided: &Decided, options: &Options) -> Claim {
                     Some(left) => typeset::equation(g, left, short, options),
                     None => typeset::expression(g, short, options),
                 };
-                Equation { caption: Some(f.caption.clone()), ..printed }
+                Equation {
+                    caption: Some(f.caption.clone()),
+                    ..printed
+                }
             })
             .collect(),
         ..Claim::default()
@@ -371,8 +468,15 @@ fn evidence(claim: &mut Claim, verdict: &Verdict) {
                     _ => p.name.clone(),
                 })
                 .collect();
-            let at = if point.is_empty() { String::new() } else { format!("at {}: ", point.join(", ")) };
-            claim.counterexample = Some(format!("{at}{} in [{}, {}]", c.quantity, c.residual.0, c.residual.1));
+            let at = if point.is_empty() {
+                String::new()
+            } else {
+                format!("at {}: ", point.join(", "))
+            };
+            claim.counterexample = Some(format!(
+                "{at}{} in [{}, {}]",
+                c.quantity, c.residual.0, c.residual.1
+            ));
         }
         Verdict::NotApplicable { hypothesis, .. } => claim.condition = Some(hypothesis.clone()),
         Verdict::Undecided { .. } => {}
@@ -397,7 +501,14 @@ fn trajectory(study: &Study, motion: &Motion, files: &[String]) -> Trajectory {
             _ if name == "energy" => SeriesGroup::Energy,
             _ => SeriesGroup::Integrals,
         };
-        let unit = (i <= n).then(|| study.model.coordinates[i - 1].unit.as_ref().map(|u| u.text.clone())).flatten();
+        let unit = (i <= n)
+            .then(|| {
+                study.model.coordinates[i - 1]
+                    .unit
+                    .as_ref()
+                    .map(|u| u.text.clone())
+            })
+            .flatten();
         series.push(Series {
             name: name.clone(),
             group,
@@ -409,11 +520,19 @@ fn trajectory(study: &Study, motion: &Motion, files: &[String]) -> Trajectory {
     let followed = std::iter::once(&evidence.energy).chain(&evidence.integrals);
     for f in followed {
         let start = f.values.first().copied().unwrap_or(0.0);
-        series.push(drift(&format!("{} − start", f.name), f.values.iter().map(|x| (x - start).abs()).collect(), evidence.tolerance));
+        series.push(drift(
+            &format!("{} − start", f.name),
+            f.values.iter().map(|x| (x - start).abs()).collect(),
+            evidence.tolerance,
+        ));
     }
     for f in &evidence.residuals {
         let name = format!("constraint {}", f.name);
-        series.push(drift(&name, f.values.iter().map(|x| x.abs()).collect(), evidence.tolerance));
+        series.push(drift(
+            &name,
+            f.values.iter().map(|x| x.abs()).collect(),
+            evidence.tolerance,
+        ));
     }
     Trajectory {
         times: run.times.clone(),
@@ -430,7 +549,10 @@ fn trajectory(study: &Study, motion: &Motion, files: &[String]) -> Trajectory {
             .iter()
             .map(|(t, c)| ChartSwitch {
                 time: *t,
-                detail: format!("other independent velocities: smallest pivot {:.2e} → {:.2e}", c.pivot_before, c.pivot_after),
+                detail: format!(
+                    "other independent velocities: smallest pivot {:.2e} → {:.2e}",
+                    c.pivot_before, c.pivot_after
+                ),
             })
             .collect(),
         portraits: portraits(study),
@@ -453,16 +575,41 @@ fn statistics(motion: &Motion) -> Vec<Fact> {
     let run = &evidence.run;
     let s = &run.statistics;
     let mut facts = vec![
-        fact("Equations integrated", run.formulation.into(), None, Some("motion.formulations-agree")),
-        fact("Method", run.method.into(), None, Some("motion.method-order")),
-        fact("Tolerance", format!("{:.0e}", motion.settings.tolerance), None, None),
-        fact("Steps", format!("{} accepted, {} rejected", s.steps, s.rejected), None, None),
+        fact(
+            "Equations integrated",
+            run.formulation.into(),
+            None,
+            Some("motion.formulations-agree"),
+        ),
+        fact(
+            "Method",
+            run.method.into(),
+            None,
+            Some("motion.method-order"),
+        ),
+        fact(
+            "Tolerance",
+            format!("{:.0e}", motion.settings.tolerance),
+            None,
+            None,
+        ),
+        fact(
+            "Steps",
+            format!("{} accepted, {} rejected", s.steps, s.rejected),
+            None,
+            None,
+        ),
         fact("Evaluations", s.evaluations.to_string(), None, None),
         fact("Factorizations", s.factorizations.to_string(), None, None),
         fact("Chart changes", s.chart_switches.to_string(), None, None),
     ];
     if let Some(error) = evidence.global_error {
-        facts.push(fact("Estimated global error", format!("{error:.1e}"), None, None));
+        facts.push(fact(
+            "Estimated global error",
+            format!("{error:.1e}"),
+            None,
+            None,
+        ));
     }
     for note in &run.notes {
         if let Note::Stiff { t, steps_ahead, .. } = note {
@@ -479,7 +626,12 @@ fn statistics(motion: &Motion) -> Vec<Fact> {
 
 /// The path in the first two coordinates, and each of the first coordinates against its velocity.
 fn portraits(study: &Study) -> Vec<Portrait> {
-    let names: Vec<&str> = study.system.coordinates.iter().map(|c| c.name.as_str()).collect();
+    let names: Vec<&str> = study
+        .system
+        .coordinates
+        .iter()
+        .map(|c| c.name.as_str())
+        .collect();
     let mut portraits = Vec::new();
     if names.len() >= 2 {
         portraits.push(Portrait {
@@ -502,9 +654,14 @@ fn portraits(study: &Study) -> Vec<Portrait> {
 
 /// Error against step size.
 fn figures(motion: &Motion) -> Vec<Figure> {
-    let Some(orders) = &motion.evidence.orders else { return Vec::new() };
+    let Some(orders) = &motion.evidence.orders else {
+        return Vec::new();
+    };
     let explanation = match orders.observed {
-        Some(observed) => format!("A piece of the motion with fixed steps: observed order {observed:.2}, nominal {}.", orders.nominal),
+        Some(observed) => format!(
+            "A piece of the motion with fixed steps: observed order {observed:.2}, nominal {}.",
+            orders.nominal
+        ),
         None => "A piece of the motion with fixed steps: all errors are at round-off.".into(),
     };
     vec![Figure {
@@ -530,9 +687,18 @@ fn figures(motion: &Motion) -> Vec<Figure> {
 fn animation(study: &Study, motion: &Motion) -> Option<Animation> {
     let drawing = study.model.drawing.as_ref()?;
     let run = &motion.evidence.run;
-    let expressions: Vec<Expr> = drawing.elements.iter().flat_map(|e| e.shape.expressions()).collect();
-    let mut observer =
-        Observer::new(&study.system, &study.prepared.terms, &motion.binding, &expressions).ok()?;
+    let expressions: Vec<Expr> = drawing
+        .elements
+        .iter()
+        .flat_map(|e| e.shape.expressions())
+        .collect();
+    let mut observer = Observer::new(
+        &study.system,
+        &study.prepared.terms,
+        &motion.binding,
+        &expressions,
+    )
+    .ok()?;
     let series = observer.along(run);
     let mut start = 0;
     let elements = drawing
@@ -546,7 +712,9 @@ fn animation(study: &Study, motion: &Motion) -> Option<Animation> {
                 name: element.name.clone(),
                 shape: shape(&element.shape),
                 tint: tint(&element.color),
-                values: (0..run.len()).flat_map(|j| columns.iter().map(move |c| c[j])).collect(),
+                values: (0..run.len())
+                    .flat_map(|j| columns.iter().map(move |c| c[j]))
+                    .collect(),
             }
         })
         .collect();
@@ -555,10 +723,15 @@ fn animation(study: &Study, motion: &Motion) -> Option<Animation> {
         times: run.times.clone(),
         elements,
         bounds: drawing.bounds.as_ref().map(|b| {
-            b.iter().map(|(low, high)| [rational::to_f64(low), rational::to_f64(high)]).collect()
+            b.iter()
+                .map(|(low, high)| [rational::to_f64(low), rational::to_f64(high)])
+                .collect()
         }),
         ground: drawing.ground,
-        camera: drawing.camera.as_ref().map(|(a, b)| [rational::to_f64(a), rational::to_f64(b)]),
+        camera: drawing
+            .camera
+            .as_ref()
+            .map(|(a, b)| [rational::to_f64(a), rational::to_f64(b)]),
         unit: None,
         description: (!drawing.description.is_empty()).then(|| drawing.description.clone()),
     })
@@ -573,7 +746,11 @@ fn shape(drawn: &Drawn) -> Shape {
         Drawn::Sphere { .. } => Shape::Sphere,
         Drawn::Wheel { .. } => Shape::Wheel,
         Drawn::Blade { .. } => Shape::Blade,
-        Drawn::Polyline { points, closed, filled } => Shape::Polyline {
+        Drawn::Polyline {
+            points,
+            closed,
+            filled,
+        } => Shape::Polyline {
             points: points.len(),
             closed: *closed,
             filled: *filled,
@@ -597,10 +774,20 @@ fn tint(name: &str) -> Tint {
 
 fn source(study: &Study) -> ModelSource {
     let text = &study.model.text;
-    let mut files = vec![SourceFile { name: text.path.clone(), text: text.text.clone() }];
-    files.extend(text.includes.iter().map(|(name, text)| SourceFile { name: name.clone(), text: text.clone() }));
+    let mut files = vec![SourceFile {
+        name: text.path.clone(),
+        text: text.text.clone(),
+    }];
+    files.extend(text.includes.iter().map(|(name, text)| SourceFile {
+        name: name.clone(),
+        text: text.clone(),
+    }));
     ModelSource {
         files,
-        overrides: text.overrides.iter().map(|(name, value)| format!("{name} = {value}")).collect(),
+        overrides: text
+            .overrides
+            .iter()
+            .map(|(name, value)| format!("{name} = {value}"))
+            .collect(),
     }
 }

@@ -214,16 +214,29 @@ pub fn record(study: &Study, files: &[String]) -> Record {
             includes: text
                 .includes
                 .iter()
-                .map(|(path, text)| FileRecord { path: path.clone(), text: text.clone() })
+                .map(|(path, text)| FileRecord {
+                    path: path.clone(),
+                    text: text.clone(),
+                })
                 .collect(),
             overrides: text
                 .overrides
                 .iter()
-                .map(|(name, value)| OverrideRecord { name: name.clone(), value: value.clone() })
+                .map(|(name, value)| OverrideRecord {
+                    name: name.clone(),
+                    value: value.clone(),
+                })
                 .collect(),
         },
-        verdicts: study.verdicts.iter().map(|d| verdict_record(study, d)).collect(),
-        trajectory: study.motion.as_ref().map(|m| trajectory_record(study, m, files)),
+        verdicts: study
+            .verdicts
+            .iter()
+            .map(|d| verdict_record(study, d))
+            .collect(),
+        trajectory: study
+            .motion
+            .as_ref()
+            .map(|m| trajectory_record(study, m, files)),
         notices: study.notices.clone(),
         options: OptionsRecord {
             claims: study.options.claims.words.clone(),
@@ -265,8 +278,14 @@ fn verdict_record(study: &Study, decided: &Decided) -> VerdictRecord {
     match &decided.finding.verdict {
         Verdict::Proved(proof) => with_proof(&mut record, proof),
         Verdict::Numerical(evidence) => with_evidence(&mut record, evidence),
-        Verdict::Refuted(counterexample) => record.counterexample = Some(counterexample_record(counterexample)),
-        Verdict::Conditional { condition, proof, counterexample } => {
+        Verdict::Refuted(counterexample) => {
+            record.counterexample = Some(counterexample_record(counterexample))
+        }
+        Verdict::Conditional {
+            condition,
+            proof,
+            counterexample,
+        } => {
             with_proof(&mut record, proof);
             record.condition = Some(condition.clone());
             record.counterexample = counterexample.as_ref().map(counterexample_record);
@@ -304,14 +323,21 @@ fn counterexample_record(counterexample: &Counterexample) -> CounterexampleRecor
             })
             .collect(),
         quantity: counterexample.quantity.clone(),
-        residual: [counterexample.residual.0.clone(), counterexample.residual.1.clone()],
+        residual: [
+            counterexample.residual.0.clone(),
+            counterexample.residual.1.clone(),
+        ],
     }
 }
 
 fn trajectory_record(study: &Study, motion: &Motion, files: &[String]) -> TrajectoryRecord {
     let evidence = &motion.evidence;
     let run = &evidence.run;
-    let names: Vec<String> = evidence.start.iter().map(|(name, _)| name.clone()).collect();
+    let names: Vec<String> = evidence
+        .start
+        .iter()
+        .map(|(name, _)| name.clone())
+        .collect();
     let last = match run.len().checked_sub(1) {
         Some(j) => names
             .iter()
@@ -348,7 +374,11 @@ fn trajectory_record(study: &Study, motion: &Motion, files: &[String]) -> Trajec
         rejected: run.statistics.rejected,
         evaluations: run.statistics.evaluations,
         chart_switches: run.statistics.chart_switches,
-        initial: evidence.start.iter().map(|(n, x)| NamedValue::new(n.clone(), *x)).collect(),
+        initial: evidence
+            .start
+            .iter()
+            .map(|(n, x)| NamedValue::new(n.clone(), *x))
+            .collect(),
         last,
         global_error: evidence.global_error.filter(|e| e.is_finite()),
         drifts,

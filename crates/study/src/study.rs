@@ -10,8 +10,8 @@ use chetaev_mechanics::{Context, Finding, Group, Prepared, Prover, System, Syste
 use chetaev_model::model::{Model, Output, StateKind as ModelState};
 use chetaev_motion::run::equal_times;
 use chetaev_motion::{
-    consistent_state, Binding, ConsistentState, InitialData, InitialError, NumericError, NumericSystem, Run, RunError,
-    RunSettings, StateKind, Subject, Watcher,
+    consistent_state, Binding, ConsistentState, InitialData, InitialError, NumericError,
+    NumericSystem, Run, RunError, RunSettings, StateKind, Subject, Watcher,
 };
 use chetaev_symbolic::{rational, Expr, Graph, Verdict};
 use std::ops::ControlFlow;
@@ -46,7 +46,11 @@ impl Decided {
 
     /// Whether the model's expectation is met; true when it has none.
     pub fn is_as_expected(&self) -> bool {
-        self.expected.is_empty() || self.expected.iter().any(|w| w == self.finding.verdict.word())
+        self.expected.is_empty()
+            || self
+                .expected
+                .iter()
+                .any(|w| w == self.finding.verdict.word())
     }
 }
 
@@ -154,7 +158,11 @@ pub const INTEGRABLE: &[&str] = &["routh", "maggi"];
 ///
 /// # Errors
 /// [`StudyError`] when the input is wrong in a way that leaves nothing to study.
-pub fn study(model: Model, options: StudyOptions, hooks: &mut Hooks<'_>) -> Result<Study, StudyError> {
+pub fn study(
+    model: Model,
+    options: StudyOptions,
+    hooks: &mut Hooks<'_>,
+) -> Result<Study, StudyError> {
     let system = System::from_model(&model)?;
     (hooks.progress)("deriving", None);
     let terms = chetaev_mechanics::MotionTerms::new(&system);
@@ -174,7 +182,9 @@ pub fn study(model: Model, options: StudyOptions, hooks: &mut Hooks<'_>) -> Resu
     let known = registry();
     let wants_motion = options.motion && options.claims.wants_group(Group::Motion, known.claims());
     let motion = match numeric {
-        Some(numeric) if wants_motion => Some(compute(&model, &system, &prepared, numeric, &options, hooks)?),
+        Some(numeric) if wants_motion => Some(compute(
+            &model, &system, &prepared, numeric, &options, hooks,
+        )?),
         Some(_) => None,
         None => {
             notices.push(no_motion(&model, &system));
@@ -243,7 +253,10 @@ fn no_motion(model: &Model, system: &System) -> String {
     if open.is_empty() {
         "no motion was computed: a control has no law".into()
     } else {
-        format!("no motion was computed: no value for {}; give values in the model or with --set", open.join(", "))
+        format!(
+            "no motion was computed: no value for {}; give values in the model or with --set",
+            open.join(", ")
+        )
     }
 }
 
@@ -260,7 +273,12 @@ fn notices(model: &Model, system: &System, start: Option<&Start>) -> Vec<String>
     }
     let Some(start) = start else { return notices };
     if !start.start.redundant.is_empty() {
-        let names: Vec<String> = start.start.redundant.iter().map(|n| format!("`{n}`")).collect();
+        let names: Vec<String> = start
+            .start
+            .redundant
+            .iter()
+            .map(|n| format!("`{n}`"))
+            .collect();
         notices.push(format!(
             "redundant constraints: {} depend{} on the others at the initial state (rank {} of {}); motion and reactions are unique, the single multipliers are not, and those of the constraints left out are given as zero",
             names.join(", "),
@@ -276,8 +294,15 @@ fn notices(model: &Model, system: &System, start: Option<&Start>) -> Vec<String>
         .map(|(name, value)| format!("{name} = {value}"))
         .collect();
     if !free.is_empty() {
-        let how = if start.data.project { "projected on" } else { "completed from" };
-        notices.push(format!("initial data {how} the constraints: {}", free.join(", ")));
+        let how = if start.data.project {
+            "projected on"
+        } else {
+            "completed from"
+        };
+        notices.push(format!(
+            "initial data {how} the constraints: {}",
+            free.join(", ")
+        ));
     }
     notices
 }
@@ -289,12 +314,20 @@ pub(crate) fn number(g: &Graph, e: Expr, values: &[(Expr, Expr)]) -> Option<f64>
     value.is_finite().then_some(value)
 }
 
-fn initial_data(model: &Model, system: &System, options: &StudyOptions) -> Result<InitialData, StudyError> {
+fn initial_data(
+    model: &Model,
+    system: &System,
+    options: &StudyOptions,
+) -> Result<InitialData, StudyError> {
     let n = system.n();
     let values = system.parameter_values();
     let g = &model.graph;
     let mut data = InitialData {
-        t: model.simulation.t_start.and_then(|t| number(g, t, &values)).unwrap_or(0.0),
+        t: model
+            .simulation
+            .t_start
+            .and_then(|t| number(g, t, &values))
+            .unwrap_or(0.0),
         q: vec![0.0; n],
         v: vec![0.0; n],
         q_fixed: vec![false; n],
@@ -302,8 +335,15 @@ fn initial_data(model: &Model, system: &System, options: &StudyOptions) -> Resul
         project: options.project || model.initial.project,
     };
     for (&(i, order), given) in &model.initial.values {
-        let name = || format!("{}{}", model.coordinates[i].name, "'".repeat(order as usize));
-        let value = number(g, given.value, &values).ok_or_else(|| StudyError::InitialValue { name: name() })?;
+        let name = || {
+            format!(
+                "{}{}",
+                model.coordinates[i].name,
+                "'".repeat(order as usize)
+            )
+        };
+        let value = number(g, given.value, &values)
+            .ok_or_else(|| StudyError::InitialValue { name: name() })?;
         match order {
             0 => (data.q[i], data.q_fixed[i]) = (value, true),
             1 => (data.v[i], data.v_fixed[i]) = (value, true),
@@ -357,7 +397,9 @@ fn settings(model: &Model, system: &System, t_start: f64, options: &StudyOptions
 fn stepped_times(t_start: f64, t_end: f64, dt: f64) -> Vec<f64> {
     let count = ((t_end - t_start).abs() / dt + 1e-9).floor().min(1e6) as u32;
     let direction = if t_end < t_start { -dt } else { dt };
-    (0..=count).map(|j| t_start + f64::from(j) * direction).collect()
+    (0..=count)
+        .map(|j| t_start + f64::from(j) * direction)
+        .collect()
 }
 
 /// Short names of methods as people write them.
@@ -400,7 +442,14 @@ fn compute(
         times: run.times.clone(),
         ..settings.clone()
     };
-    let comparison = integrate(&subject, other, &reached, "integrating the other form", hooks).ok();
+    let comparison = integrate(
+        &subject,
+        other,
+        &reached,
+        "integrating the other form",
+        hooks,
+    )
+    .ok();
     let finer = if options.global_error {
         let tolerance = (settings.tolerance / 10.0).max(3e-14);
         let finer = RunSettings {
@@ -488,7 +537,10 @@ fn decide(
                 (hooks.progress)(&full, None);
                 let start = (hooks.clock)();
                 let finding = if start - began > options.budget {
-                    let tried = format!("the time budget of {} s was spent before this claim", options.budget);
+                    let tried = format!(
+                        "the time budget of {} s was spent before this claim",
+                        options.budget
+                    );
                     Arc::new(Finding::from(Verdict::undecided(tried)))
                 } else {
                     cx.finding(&full)

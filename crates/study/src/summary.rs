@@ -33,25 +33,58 @@ fn bold(style: Style, words: &str) -> String {
 }
 
 fn heading(text: &mut String, study: &Study, style: Style) {
-    let (n, k) = (study.system.n(), study.system.n() - study.prepared.selection.rows.len());
+    let (n, k) = (
+        study.system.n(),
+        study.system.n() - study.prepared.selection.rows.len(),
+    );
     let kinds: Vec<String> = study
         .system
         .constraints
         .iter()
-        .map(|c| format!("{} ({}{})", c.name, c.kind.word(), if c.rheonomic { ", rheonomic" } else { "" }))
+        .map(|c| {
+            format!(
+                "{} ({}{})",
+                c.name,
+                c.kind.word(),
+                if c.rheonomic { ", rheonomic" } else { "" }
+            )
+        })
         .collect();
     let _ = writeln!(text, "{}", bold(style, &study.model.name));
-    let names: Vec<&str> = study.system.coordinates.iter().map(|c| c.name.as_str()).collect();
-    let _ = writeln!(text, "  coordinates   n = {n}: {}", shortened(&names.join(", "), 80));
+    let names: Vec<&str> = study
+        .system
+        .coordinates
+        .iter()
+        .map(|c| c.name.as_str())
+        .collect();
+    let _ = writeln!(
+        text,
+        "  coordinates   n = {n}: {}",
+        shortened(&names.join(", "), 80)
+    );
     if kinds.is_empty() {
         let _ = writeln!(text, "  constraints   none");
     } else {
-        let _ = writeln!(text, "  constraints   {}: {}", kinds.len(), shortened(&kinds.join(", "), 80));
+        let _ = writeln!(
+            text,
+            "  constraints   {}: {}",
+            kinds.len(),
+            shortened(&kinds.join(", "), 80)
+        );
     }
     let _ = writeln!(text, "  freedom       k = {k} independent velocities");
     if !study.system.assumptions.is_empty() {
-        let stated: Vec<&str> = study.system.assumptions.iter().map(|a| a.text.as_str()).collect();
-        let _ = writeln!(text, "  assuming      {}", shortened(&stated.join(", "), 80));
+        let stated: Vec<&str> = study
+            .system
+            .assumptions
+            .iter()
+            .map(|a| a.text.as_str())
+            .collect();
+        let _ = writeln!(
+            text,
+            "  assuming      {}",
+            shortened(&stated.join(", "), 80)
+        );
     }
 }
 
@@ -81,7 +114,11 @@ fn claims(text: &mut String, study: &Study, style: Style) {
                 shortened(&detail(decided), 110)
             );
             if !decided.is_as_expected() {
-                let _ = writeln!(text, "    the model expects: {}", decided.expected.join(" or "));
+                let _ = writeln!(
+                    text,
+                    "    the model expects: {}",
+                    decided.expected.join(" or ")
+                );
             }
         }
     }
@@ -126,15 +163,26 @@ fn trajectory(text: &mut String, study: &Study) {
     if !run.ending.finished {
         let _ = writeln!(text, "  stopped early: {}", run.ending.reason);
     }
-    let constraint = evidence.residuals.iter().fold(0.0, |m: f64, r| m.max(r.drift.value));
+    let constraint = evidence
+        .residuals
+        .iter()
+        .fold(0.0, |m: f64, r| m.max(r.drift.value));
     let mut drifts = Vec::new();
     if !evidence.residuals.is_empty() {
         drifts.push(format!("constraints {constraint:.1e}"));
     }
     drifts.push(format!("energy {:.1e}", evidence.energy.drift.value));
-    drifts.extend(evidence.integrals.iter().map(|i| format!("{} {:.1e}", i.name, i.drift.value)));
+    drifts.extend(
+        evidence
+            .integrals
+            .iter()
+            .map(|i| format!("{} {:.1e}", i.name, i.drift.value)),
+    );
     let _ = writeln!(text, "  largest change: {}", drifts.join(", "));
     if let Some(error) = evidence.global_error {
-        let _ = writeln!(text, "  estimated global error {error:.1e} (second run at a tenth of the tolerance)");
+        let _ = writeln!(
+            text,
+            "  estimated global error {error:.1e} (second run at a tenth of the tolerance)"
+        );
     }
 }

@@ -23,19 +23,35 @@ impl Table {
         };
         let column = |i: usize| (0..run.len()).map(|j| run.row(j)[i]).collect::<Vec<f64>>();
         let coordinates = &study.system.coordinates;
-        for (primes, range) in [("", run.layout.q()), ("'", run.layout.v()), ("''", run.layout.a())] {
+        for (primes, range) in [
+            ("", run.layout.q()),
+            ("'", run.layout.v()),
+            ("''", run.layout.a()),
+        ] {
             for (c, i) in coordinates.iter().zip(range) {
                 table.push(format!("{}{primes}", c.name), column(i));
             }
         }
         if run.formulation == "routh" {
-            for (&l, i) in study.prepared.terms.constraint_index.iter().zip(run.layout.lambda()) {
-                table.push(format!("lambda_{}", study.system.constraints[l].name), column(i));
+            for (&l, i) in study
+                .prepared
+                .terms
+                .constraint_index
+                .iter()
+                .zip(run.layout.lambda())
+            {
+                table.push(
+                    format!("lambda_{}", study.system.constraints[l].name),
+                    column(i),
+                );
             }
         }
         table.push("energy".into(), motion.evidence.energy.values.clone());
         for followed in &motion.evidence.integrals {
-            table.push(format!("integral_{}", followed.name), followed.values.clone());
+            table.push(
+                format!("integral_{}", followed.name),
+                followed.values.clone(),
+            );
         }
         table
     }
@@ -79,7 +95,10 @@ impl Table {
             writer.extend(column)?;
             writer.finish()?;
         }
-        let mut buffer = archive.zip_writer().finish().map_err(std::io::Error::other)?;
+        let mut buffer = archive
+            .zip_writer()
+            .finish()
+            .map_err(std::io::Error::other)?;
         buffer.flush()?;
         Ok(buffer.into_inner())
     }

@@ -33,7 +33,6 @@ pub fn readable(system: &System, derived: &Equations, equations: &[Equation]) ->
     let options = simplify::Options::default();
     let (rates, velocities) = groups(system, Some(derived));
     let left: Vec<Expr> = equations.iter().map(|e| e.left).collect();
-    let left = simplify::simplify_all(g, &left, &options);
     let left = simplify::collect_all(g, &left, &[&rates, &velocities], &options);
     left.into_iter()
         .zip(equations)
@@ -52,7 +51,8 @@ pub fn expression(g: &Graph, e: Expr, options: &Options) -> Printed {
 }
 
 fn printed(document: &Document) -> Printed {
-    let [mathml, latex, text] = [Format::Mathml, Format::Latex, Format::Text].map(|f| document.parts(f));
+    let [mathml, latex, text] =
+        [Format::Mathml, Format::Latex, Format::Text].map(|f| document.parts(f));
     let formula = |i: usize, of: fn(&chetaev_symbolic::print::Parts) -> &Vec<String>| Formula {
         mathml: of(&mathml).get(i).cloned(),
         text: of(&text).get(i).cloned().unwrap_or_default(),

@@ -66,10 +66,13 @@ pub enum VerifyError {
 /// # Errors
 /// [`VerifyError`].
 pub fn read(text: &str) -> Result<Record, VerifyError> {
-    let value: serde_json::Value = serde_json::from_str(text).map_err(|e| VerifyError::Json(e.to_string()))?;
+    let value: serde_json::Value =
+        serde_json::from_str(text).map_err(|e| VerifyError::Json(e.to_string()))?;
     let schema = value.get("schema").and_then(|s| s.as_str()).unwrap_or("");
     if schema != record::SCHEMA {
-        return Err(VerifyError::Schema { found: schema.into() });
+        return Err(VerifyError::Schema {
+            found: schema.into(),
+        });
     }
     serde_json::from_value(value).map_err(|e| VerifyError::Json(e.to_string()))
 }
@@ -82,15 +85,27 @@ pub fn verify(record: &Record, hooks: &mut Hooks<'_>) -> Result<Vec<Verified>, V
     let text = ModelText {
         path: record.model.path.clone(),
         text: record.model.text.clone(),
-        includes: record.model.includes.iter().map(|f| (f.path.clone(), f.text.clone())).collect(),
-        overrides: record.model.overrides.iter().map(|o| (o.name.clone(), o.value.clone())).collect(),
+        includes: record
+            .model
+            .includes
+            .iter()
+            .map(|f| (f.path.clone(), f.text.clone()))
+            .collect(),
+        overrides: record
+            .model
+            .overrides
+            .iter()
+            .map(|o| (o.name.clone(), o.value.clone()))
+            .collect(),
     };
     let (model, _) = chetaev_model::reload(&text)
         .into_result()
         .map_err(|d| VerifyError::Model(d.render(chetaev_model::Style::Plain)))?;
     let recorded_seed = record.verdicts.iter().find_map(|v| v.seed).unwrap_or(0);
     let options = StudyOptions {
-        claims: ClaimSelection { words: record.options.claims.clone() },
+        claims: ClaimSelection {
+            words: record.options.claims.clone(),
+        },
         budget: record.options.budget.unwrap_or(60.0).max(60.0) * 2.0,
         t_end: record.options.t_end,
         tolerance: record.options.tolerance,
@@ -104,7 +119,11 @@ pub fn verify(record: &Record, hooks: &mut Hooks<'_>) -> Result<Vec<Verified>, V
     };
     let again = study(model, options, hooks)?;
     let replayed = record::record(&again, &[]);
-    let mut lines: Vec<Verified> = record.verdicts.iter().map(|v| compare(v, &replayed)).collect();
+    let mut lines: Vec<Verified> = record
+        .verdicts
+        .iter()
+        .map(|v| compare(v, &replayed))
+        .collect();
     lines.extend(missing(record, &replayed));
     lines.extend(trajectory(record, &replayed));
     Ok(lines)
@@ -123,7 +142,9 @@ fn compare(recorded: &VerdictRecord, replayed: &Record) -> Verified {
             detail: "the embedded model has no claim of this id".into(),
         },
         Some(v) if v.verdict == recorded.verdict => numbers(recorded, v),
-        Some(v) if v.verdict == "undecided" => Replay::Open { tried: v.detail.clone() },
+        Some(v) if v.verdict == "undecided" => Replay::Open {
+            tried: v.detail.clone(),
+        },
         Some(v) => Replay::Differs {
             found: v.verdict.clone(),
             detail: v.detail.clone(),
@@ -139,10 +160,14 @@ fn compare(recorded: &VerdictRecord, replayed: &Record) -> Verified {
 /// A residual far below what the replay finds was not measured.
 fn numbers(recorded: &VerdictRecord, found: &VerdictRecord) -> Replay {
     match (recorded.residual, found.residual) {
-        (Some(a), Some(b)) if (a - b).abs() > 1e-9 + 0.5 * a.abs().max(b.abs()) => Replay::Numbers {
-            what: format!("residual {a:e} recorded, {b:e} found"),
+        (Some(a), Some(b)) if (a - b).abs() > 1e-9 + 0.5 * a.abs().max(b.abs()) => {
+            Replay::Numbers {
+                what: format!("residual {a:e} recorded, {b:e} found"),
+            }
+        }
+        (None, Some(b)) => Replay::Numbers {
+            what: format!("no residual recorded, {b:e} found"),
         },
-        (None, Some(b)) => Replay::Numbers { what: format!("no residual recorded, {b:e} found") },
         _ => Replay::Confirmed,
     }
 }
@@ -179,16 +204,24 @@ fn trajectory(record: &Record, replayed: &Record) -> Vec<Verified> {
     let same = a.last.len() == b.last.len() && a.finished == b.finished && worst <= tolerance;
     vec![Verified {
         claim: "trajectory".into(),
-        recorded: if a.finished { "finished".into() } else { "stopped".into() },
+        recorded: if a.finished {
+            "finished".into()
+        } else {
+            "stopped".into()
+        },
         replay: if same {
             Replay::Confirmed
         } else {
-            Replay::Numbers { what: format!("the final states differ by {worst:e}") }
+            Replay::Numbers {
+                what: format!("the final states differ by {worst:e}"),
+            }
         },
     }]
 }
 
 /// Whether every line is confirmed or open.
 pub fn agrees(lines: &[Verified]) -> bool {
-    lines.iter().all(|l| matches!(l.replay, Replay::Confirmed | Replay::Open { .. }))
+    lines
+        .iter()
+        .all(|l| matches!(l.replay, Replay::Confirmed | Replay::Open { .. }))
 }
