@@ -1,7 +1,10 @@
 //! The driver of the zero test.
 
 use super::assumptions::Assumptions;
+use super::branches;
+use super::eliminate::{eliminate_all, Eliminated};
 use super::evaluate::Parametrization;
+use super::exact::{self, Exact};
 use super::modular::{self, Finding, Outcome, Plan};
 use super::prepare::{prepare, Question};
 use super::program::{Generator, Program};
@@ -38,6 +41,8 @@ pub struct Options {
     pub rotation: Option<(i64, i64)>,
     /// At most so many operations are evaluated by the modular proof.
     pub budget: u64,
+    /// Should small questions be decided by exact normal forms first? A replay leaves this out.
+    pub exact: bool,
     /// Should a counterexample be looked for?
     pub refute: bool,
 }
@@ -49,6 +54,7 @@ impl Default for Options {
             error_bound_log2: -100.0,
             rotation: None,
             budget: 2_000_000_000,
+            exact: true,
             refute: true,
         }
     }
@@ -66,6 +72,7 @@ impl Options {
         Self {
             seed,
             rotation: Some((numerator, 1031)),
+            exact: false,
             ..self
         }
     }
@@ -85,24 +92,182 @@ impl<'a> ZeroTest<'a> {
 }
 
 /// Decides whether all residuals are identically zero.
+///
+/// * `proved` exactly when the difference cancels in canonical form or its normal form is zero (the latter confirmed by the modular
+///   test, which is independent of it); otherwise modularly, with the error bound asked for.
+/// * `refuted` with a verified counterexample.
+/// * `conditional` when a nonlinear constraint factors and the identity holds on some of its components only.
+/// * `numerical` when it vanishes at every point evaluated and no proof was possible; `undecided` otherwise.
 pub fn decide_zero(graph: &Graph, test: &ZeroTest<'_>) -> Verdict {
-    let residuals = match eliminate(graph, test.solved, test.residuals) {
-        Ok(residuals) => residuals,
+    let eliminated = eliminate_all(
+        graph,
+        test.solved,
+        test.residuals,
+        test.implicit,
+        test.assumptions,
+    );
+    let Eliminated {
+        roots,
+        implicit,
+        assumptions,
+    } = match eliminated {
+        Ok(eliminated) => eliminated,
         Err(tried) => return Verdict::undecided(tried),
     };
-    if residuals.iter().all(|&residual| graph.is_zero(residual)) {
+    if roots.iter().all(|&residual| graph.is_zero(residual)) {
         let detail = "the difference cancels in canonical form, by exact rational arithmetic";
         return Verdict::Proved(Proof::exact(place(test, &[]), detail));
     }
-    let question = Question {
-        outputs: &residuals,
-        constraints: test.implicit,
-        assumptions: test.assumptions,
+    let case = Case {
+        graph,
+        test,
+        residuals: &roots,
+        implicit: &implicit,
+        assumptions: &assumptions,
     };
-    let program = prepare(graph, &question);
-    let plan = plan_of(&test.options, 1, residuals.len());
-    let outcome = modular::decide(&program, &plan);
-    conclude(graph, test, &residuals, &program, outcome)
+    case.decide()
+}
+
+/// A question after the elimination of what is solved.
+#[derive(Clone, Copy)]
+struct Case<'a> {
+    graph: &'a Graph,
+    test: &'a ZeroTest<'a>,
+    residuals: &'a [Expr],
+    implicit: &'a [(Expr, Symbol)],
+    assumptions: &'a Assumptions,
+}
+
+impl Case<'_> {
+    fn decide(self) -> Verdict {
+        let exact = match self.test.options.exact {
+            true => exact::decide(self.graph, self.residuals, self.assumptions),
+            false => Exact::Open,
+        };
+        let question = Question {
+            outputs: self.residuals,
+            constraints: self.implicit,
+            assumptions: self.assumptions,
+        };
+        let program = prepare(self.graph, &question);
+        let plan = plan_of(&self.test.options, 1, self.residuals.len());
+        let outcome = modular::decide(&program, &plan);
+        match exact {
+            Exact::Zero => self.confirm(&program, outcome),
+            Exact::Undefined => Verdict::undecided(
+                "the expression is nowhere defined: a denominator vanishes identically",
+            ),
+            Exact::Open => self.conclude(&program, outcome),
+        }
+    }
+
+    /// The normal form is zero: does the modular test agree?
+    fn confirm(self, program: &Program, outcome: Outcome) -> Verdict {
+        let agrees = match &outcome {
+            Outcome::Found(finding) if finding.maximum == 0 => {
+                format!(
+                    ", confirmed at {} random points of prime fields",
+                    finding.samples
+                )
+            }
+            // The modular test may know fewer relations than the normal form; only a counterexample contradicts.
+            Outcome::Found(_) => match self.conclude(program, outcome) {
+                Verdict::Refuted(counterexample) => {
+                    return Verdict::undecided(format!(
+                        "the normal form is zero, but {}: two methods disagree",
+                        counterexample.detail
+                    ))
+                }
+                _ => String::new(),
+            },
+            _ => String::new(),
+        };
+        let detail = format!("the normal form over the field of its generators is zero{agrees}");
+        Verdict::Proved(Proof::exact(place(self.test, &program.conditions), detail))
+    }
+
+    fn conclude(self, program: &Program, outcome: Outcome) -> Verdict {
+        let finding = match outcome {
+            Outcome::Found(finding) => finding,
+            Outcome::Nowhere { samples } => {
+                return Verdict::undecided(format!(
+                    "the expression is nowhere defined: a denominator vanished at each of {samples} random points"
+                ))
+            }
+            Outcome::Empty { samples } => {
+                return Verdict::undecided(format!(
+                    "the constraints have no solution over any of {samples} random points"
+                ))
+            }
+            Outcome::Open { why } => return self.search(&why),
+        };
+        match (finding.minimum, finding.maximum, finding.error_bound_log2) {
+            (0, 0, Some(bound)) => {
+                Verdict::Proved(modular_proof(self.test, program, &finding, bound))
+            }
+            (0, 0, None) => self.search(&finding.why_no_bound),
+            (0, _, _) => self.on_branches(&finding),
+            _ => self.search(&format!(
+                "not zero in the field of its generators ({})",
+                generators(program)
+            )),
+        }
+    }
+
+    fn on_branches(self, finding: &Finding) -> Verdict {
+        if self.implicit.is_empty() {
+            let count = finding.suspects;
+            return self.search(&format!(
+                "zero for some signs of {count} dependent radicals and not for others"
+            ));
+        }
+        let test = ZeroTest {
+            residuals: self.residuals,
+            solved: &[],
+            implicit: self.implicit,
+            assumptions: self.assumptions,
+            options: self.test.options,
+        };
+        if let Some(verdict) = branches::by_factors(self.graph, &test) {
+            return verdict;
+        }
+        let vanishing = finding.parts.get(&0).copied().unwrap_or(0);
+        let all: usize = finding.parts.values().sum();
+        self.search(&format!(
+            "zero on some components of the constraints only: {vanishing} of {all} solutions over a point make it vanish"
+        ))
+    }
+
+    fn search(self, why: &str) -> Verdict {
+        if !self.test.options.refute {
+            return Verdict::undecided(why);
+        }
+        let claim = Claim {
+            residuals: self.residuals,
+            constraints: self.implicit,
+            solved: self.test.solved,
+            assumptions: self.assumptions,
+        };
+        let seed = self.test.options.seed;
+        match refute::search(self.graph, &claim, seed) {
+            Search::Found(counterexample) => Verdict::Refuted(*counterexample),
+            Search::Vanishing {
+                points,
+                largest,
+                bits,
+            } => Verdict::Numerical(Evidence {
+                samples: points,
+                region: "small rational data".to_owned(),
+                digits: (bits as f64 * std::f64::consts::LOG10_2) as u32,
+                residual: largest,
+                seed: Some(seed),
+                why_no_proof: why.to_owned(),
+            }),
+            Search::NoPoint => Verdict::undecided(format!(
+                "{why}; no point with small rational data could be evaluated"
+            )),
+        }
+    }
 }
 
 pub(super) fn plan_of(options: &Options, rows: usize, columns: usize) -> Plan {
@@ -115,102 +280,6 @@ pub(super) fn plan_of(options: &Options, rows: usize, columns: usize) -> Plan {
         budget: options.budget,
         rows,
         columns,
-    }
-}
-
-/// The residuals with the solved symbols replaced, in an order in which each replacement is complete.
-pub(super) fn eliminate(
-    graph: &Graph,
-    solved: &[(Symbol, Expr)],
-    residuals: &[Expr],
-) -> Result<Vec<Expr>, String> {
-    let mut rest: Vec<(Symbol, Expr)> = solved.to_vec();
-    let mut residuals = residuals.to_vec();
-    while !rest.is_empty() {
-        // A symbol that no other replacement uses can be replaced first, by an expression that still uses the others.
-        let used = |symbol: Symbol| rest.iter().any(|(_, e)| graph.contains_any(*e, &[symbol]));
-        let Some(next) = rest.iter().position(|(symbol, _)| !used(*symbol)) else {
-            return Err("the solved symbols depend on each other in a circle".to_owned());
-        };
-        let (symbol, expression) = rest.remove(next);
-        residuals = graph.substitute_all(&residuals, &[(graph.symbol_expr(symbol), expression)]);
-    }
-    Ok(residuals)
-}
-
-fn conclude(
-    graph: &Graph,
-    test: &ZeroTest<'_>,
-    residuals: &[Expr],
-    program: &Program,
-    outcome: Outcome,
-) -> Verdict {
-    let finding = match outcome {
-        Outcome::Found(finding) => finding,
-        Outcome::Nowhere { samples } => {
-            return Verdict::undecided(format!(
-                "the expression is nowhere defined: a denominator vanished at each of {samples} random points"
-            ))
-        }
-        Outcome::Empty { samples } => {
-            return Verdict::undecided(format!(
-                "the constraints have no solution over any of {samples} random points"
-            ))
-        }
-        Outcome::Open { why } => return search(graph, test, residuals, &why),
-    };
-    match (finding.minimum, finding.maximum, finding.error_bound_log2) {
-        (0, 0, Some(bound)) => Verdict::Proved(modular_proof(test, program, &finding, bound)),
-        (0, 0, None) => search(graph, test, residuals, &finding.why_no_bound),
-        (0, _, _) => search(graph, test, residuals, &branches(test, &finding)),
-        _ => {
-            let why = format!(
-                "not zero in the field of its generators ({})",
-                generators(program)
-            );
-            search(graph, test, residuals, &why)
-        }
-    }
-}
-
-/// In words, where the residuals vanish and where not.
-fn branches(test: &ZeroTest<'_>, finding: &Finding) -> String {
-    if test.implicit.is_empty() {
-        let count = finding.suspects;
-        return format!("zero for some signs of {count} dependent radicals and not for others");
-    }
-    let vanishing = finding.parts.get(&0).copied().unwrap_or(0);
-    let all: usize = finding.parts.values().sum();
-    format!("zero on some components of the constraints only: {vanishing} of {all} solutions over a point make it vanish")
-}
-
-fn search(graph: &Graph, test: &ZeroTest<'_>, residuals: &[Expr], why: &str) -> Verdict {
-    if !test.options.refute {
-        return Verdict::undecided(why);
-    }
-    let claim = Claim {
-        residuals,
-        constraints: test.implicit,
-        solved: test.solved,
-        assumptions: test.assumptions,
-    };
-    match refute::search(graph, &claim, test.options.seed) {
-        Search::Found(counterexample) => Verdict::Refuted(*counterexample),
-        Search::Vanishing {
-            points,
-            largest,
-            bits,
-        } => Verdict::Numerical(Evidence {
-            samples: points,
-            region: "small rational data".to_owned(),
-            digits: (bits as f64 * std::f64::consts::LOG10_2) as u32,
-            residual: largest,
-            seed: Some(test.options.seed),
-            why_no_proof: why.to_owned(),
-        }),
-        Search::NoPoint => Verdict::undecided(format!(
-            "{why}; no point with small rational data could be evaluated"
-        )),
     }
 }
 

@@ -10,9 +10,12 @@
 //! * [`enclose`]: evaluation in balls, also for its own sake.
 
 pub mod assumptions;
+mod branches;
 mod decide;
+mod eliminate;
 pub mod enclose;
 mod evaluate;
+mod exact;
 mod expand;
 mod modular;
 mod newton;

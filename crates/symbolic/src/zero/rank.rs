@@ -1,7 +1,8 @@
 //! Ranks of matrices: over a ring at a point, and the generic rank as a public question.
 
 use super::assumptions::Assumptions;
-use super::decide::{eliminate, plan_of, Options};
+use super::decide::{plan_of, Options};
+use super::eliminate::{eliminate_all, Eliminated};
 use super::modular::{self, Finding, Outcome};
 use super::prepare::{prepare, Question};
 use super::ring::Ring;
@@ -110,11 +111,22 @@ pub fn generic_rank(graph: &Graph, test: &RankTest<'_>) -> Result<GenericRank, B
             "the matrix does not have rows times columns entries".to_owned(),
         ));
     }
-    let entries = eliminate(graph, test.solved, test.entries).map_err(undecided)?;
+    let eliminated = eliminate_all(
+        graph,
+        test.solved,
+        test.entries,
+        test.implicit,
+        test.assumptions,
+    );
+    let Eliminated {
+        roots: entries,
+        implicit,
+        assumptions,
+    } = eliminated.map_err(undecided)?;
     let question = Question {
         outputs: &entries,
-        constraints: test.implicit,
-        assumptions: test.assumptions,
+        constraints: &implicit,
+        assumptions: &assumptions,
     };
     let program = prepare(graph, &question);
     let plan = plan_of(&test.options, test.rows, test.columns);
@@ -128,7 +140,8 @@ pub fn generic_rank(graph: &Graph, test: &RankTest<'_>) -> Result<GenericRank, B
         }
         Outcome::Open { why } => return Err(undecided(why)),
     };
-    let certain = program.faithful || is_regular_at_a_point(graph, test, &entries, &finding);
+    let certain =
+        program.faithful || is_regular_at_a_point(graph, test, &entries, &assumptions, &finding);
     Ok(GenericRank {
         minimum: finding.minimum,
         maximum: finding.maximum,
@@ -201,6 +214,7 @@ fn is_regular_at_a_point(
     graph: &Graph,
     test: &RankTest<'_>,
     entries: &[Expr],
+    assumptions: &Assumptions,
     finding: &Finding,
 ) -> bool {
     if !test.implicit.is_empty() || finding.minimum != finding.maximum {
@@ -215,11 +229,6 @@ fn is_regular_at_a_point(
                 .map(move |column| entries[row * test.columns + column])
         })
         .collect();
-    super::refute::is_regular_somewhere(
-        graph,
-        &minor,
-        test.assumptions,
-        &Precision::new(192),
-        test.options.seed,
-    )
+    let precision = Precision::new(192);
+    super::refute::is_regular_somewhere(graph, &minor, assumptions, &precision, test.options.seed)
 }

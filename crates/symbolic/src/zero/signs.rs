@@ -240,7 +240,7 @@ impl<'g> Signs<'g> {
                 range: (None, None),
             };
         }
-        let even = (exponent.numerator() % 2_u8) == 0_u8;
+        let even = exponent.numerator().trailing_zeros() != Some(0);
         let sign = known.sign.power(even, negative);
         let within_one = known.range.0.is_some_and(|low| low >= Rational::NEG_ONE)
             && known.range.1.is_some_and(|high| high <= Rational::ONE);

@@ -178,3 +178,6 @@ impl From<TooLarge> for Stop {
 
 #[cfg(test)]
 pub(crate) mod tests;
+
+#[cfg(test)]
+mod soundness;

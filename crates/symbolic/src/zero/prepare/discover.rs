@@ -94,10 +94,13 @@ impl Builder<'_> {
         } {
             return;
         }
-        let condition = format!(
-            "where the argument of {because} is {}",
-            if strict { "positive" } else { "not negative" }
-        );
+        let text = self.graph.text(e);
+        let relation = if strict { ">" } else { ">=" };
+        let condition = if text.len() <= 80 && !text.contains('\n') {
+            format!("{text} {relation} 0")
+        } else {
+            format!("the argument of {because} {relation} 0")
+        };
         if !self.program.conditions.contains(&condition) {
             self.program.conditions.push(condition);
         }

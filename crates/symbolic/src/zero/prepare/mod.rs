@@ -417,7 +417,7 @@ impl<'g> Builder<'g> {
 
 /// Is the integer even?
 fn is_even(n: &Rational) -> bool {
-    (n.numerator() % 2_u8) == 0_u8
+    n.numerator().trailing_zeros() != Some(0)
 }
 
 fn half() -> Rational {

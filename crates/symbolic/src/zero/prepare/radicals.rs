@@ -261,7 +261,7 @@ fn partial_fractions(p: &IBig, twos: u32, odd: u64) -> (IBig, IBig) {
     // β ≡ p·2^(−twos) (mod odd), found by halving.
     let mut beta = residue;
     for _ in 0..twos {
-        if (&beta % 2_u8) != 0_u8 {
+        if beta.trailing_zeros() == Some(0) {
             beta += &m;
         }
         beta = &beta >> 1_usize;

@@ -57,6 +57,7 @@ fn products_of_roots() {
     proved(&g, "sqrt(x) * sqrt(y) - sqrt(x*y)");
     proved(&g, "sqrt(x) * sqrt(x*y) - x * sqrt(y)");
     proved(&g, "sqrt(2) * sqrt(3) - sqrt(6)");
+    proved(&g, "sqrt(x^(-3)) * sqrt(x^3) - 1");
     proved(&g, "sqrt(4*x^2 + 4*y^2) - 2*sqrt(x^2 + y^2)");
     proved(&g, "x^(1/3) * y^(1/3) - (x*y)^(1/3)");
     proved(&g, "x^(1/6) * x^(1/3) - sqrt(x)");
@@ -71,7 +72,7 @@ fn logarithm_of_a_square() {
     let Verdict::Proved(proof) = decide(&g, parse(&g, "log(x^2) - 2*log(x)")) else {
         panic!()
     };
-    assert!(proof.on.contains("logarithm"), "{}", proof.on);
+    assert!(proof.on.contains("x > 0"), "{}", proof.on);
     refuted(&g, "log(x^2) - log(x)");
     refuted(&g, "log(x + y) - log(x) - log(y)");
     proved(&g, "log(6) - log(2) - log(3)");
@@ -227,6 +228,7 @@ fn multiples_of_pi_and_numerical_radicals() {
     refuted(&g, "cos(pi/5) - (1 - sqrt(5))/4");
     refuted(&g, "sin(x + pi/4) + sqrt(2)/2*(sin(x) + cos(x))");
     proved(&g, "(sqrt(2) + sqrt(3))^2 - 5 - 2*sqrt(6)");
+    proved(&g, "sqrt(x^2 + 2*x*y + y^2) - abs(x + y)");
 }
 
 #[test]

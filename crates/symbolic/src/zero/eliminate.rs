@@ -1,0 +1,91 @@
+//! Replacing the symbols that a system determines exactly.
+
+use rustc_hash::FxHashSet;
+
+use super::assumptions::Assumptions;
+use crate::graph::Graph;
+use crate::node::{Expr, Symbol};
+
+/// Replaces the solved symbols in `roots`, in an order in which each replacement is complete.
+///
+/// # Errors
+/// A sentence when the solved symbols depend on each other in a circle.
+pub(super) fn eliminate(
+    graph: &Graph,
+    solved: &[(Symbol, Expr)],
+    roots: &[Expr],
+) -> Result<Vec<Expr>, String> {
+    let all: FxHashSet<Symbol> = solved.iter().map(|(symbol, _)| *symbol).collect();
+    let mut rest: Vec<(Symbol, Expr, FxHashSet<Symbol>)> = solved
+        .iter()
+        .map(|(symbol, e)| {
+            let used = graph
+                .symbols_in(&[*e])
+                .into_iter()
+                .filter(|s| all.contains(s))
+                .collect();
+            (*symbol, *e, used)
+        })
+        .collect();
+    let mut roots = roots.to_vec();
+    while !rest.is_empty() {
+        // Symbols that no other replacement uses are replaced first, all at once.
+        let used: FxHashSet<Symbol> = rest
+            .iter()
+            .flat_map(|(_, _, used)| used.iter().copied())
+            .collect();
+        let (ready, later): (Vec<_>, Vec<_>) = rest
+            .into_iter()
+            .partition(|(symbol, ..)| !used.contains(symbol));
+        if ready.is_empty() {
+            return Err("the solved symbols depend on each other in a circle".to_owned());
+        }
+        let replacements: Vec<(Expr, Expr)> = ready
+            .into_iter()
+            .map(|(symbol, e, _)| (graph.symbol_expr(symbol), e))
+            .collect();
+        roots = graph.substitute_all(&roots, &replacements);
+        rest = later;
+    }
+    Ok(roots)
+}
+
+/// The conditions of a question after the elimination.
+#[derive(Clone, Debug)]
+pub(super) struct Eliminated {
+    pub(super) roots: Vec<Expr>,
+    pub(super) implicit: Vec<(Expr, Symbol)>,
+    pub(super) assumptions: Assumptions,
+}
+
+/// Replaces the solved symbols in everything a question consists of.
+pub(super) fn eliminate_all(
+    graph: &Graph,
+    solved: &[(Symbol, Expr)],
+    roots: &[Expr],
+    implicit: &[(Expr, Symbol)],
+    assumptions: &Assumptions,
+) -> Result<Eliminated, String> {
+    let mut everything = roots.to_vec();
+    everything.extend(implicit.iter().map(|(f, _)| *f));
+    everything.extend(assumptions.list().iter().flat_map(|a| [a.left, a.right]));
+    let mut everything = eliminate(graph, solved, &everything)?.into_iter();
+    let roots = everything.by_ref().take(roots.len()).collect();
+    let constraints: Vec<Expr> = everything.by_ref().take(implicit.len()).collect();
+    let implicit = constraints
+        .into_iter()
+        .zip(implicit)
+        .map(|(f, (_, symbol))| (f, *symbol))
+        .collect();
+    let mut kept = Assumptions::new();
+    for assumption in assumptions.list() {
+        if let (Some(left), Some(right)) = (everything.next(), everything.next()) {
+            kept.assume(left, assumption.relation, right);
+        }
+    }
+    Ok(Eliminated {
+        roots,
+        implicit,
+        assumptions: kept,
+    })
+}
