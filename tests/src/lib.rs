@@ -1,1 +1,13 @@
-//! Helpers shared by the integration tests.
+//! Helpers shared by the integration tests: the published cases, the gallery, the command line.
+#![allow(
+    clippy::expect_used,
+    clippy::unwrap_used,
+    reason = "test code fails where it stands"
+)]
+
+pub mod cases;
+pub mod checks;
+pub mod places;
+pub mod rejections;
+pub mod runs;
+pub mod words;

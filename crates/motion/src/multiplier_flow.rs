@@ -36,6 +36,8 @@ pub struct MultiplierFlow {
     /// Largest residuals found at accepted steps, before projection.
     pub drift: Drift,
     reference_gradient: Vec<f64>,
+    /// Pivot of the chart at the last accepted state.
+    accepted_pivot: f64,
     /// Quantities whose vanishing makes the equations singular.
     pub watch: Watch,
 }
@@ -44,7 +46,7 @@ pub struct MultiplierFlow {
 const DEGRADED: f64 = 0.1;
 /// A new chart must be better by this factor, or charts would chatter.
 const HYSTERESIS: f64 = 3.0;
-/// A stage whose pivot fell below this fraction rejects the step.
+/// A stage whose pivot fell below this fraction of its value where the step began rejects the step.
 const UNUSABLE: f64 = 1e-3;
 /// A gradient counts as vanished below this fraction of its largest length so far.
 const VANISHED: f64 = 1e-8;
@@ -71,6 +73,7 @@ impl MultiplierFlow {
             chart_number: 0,
             drift: Drift::new(&system),
             reference_gradient: vec![0.0; system.r],
+            accepted_pivot: start.chart.pivot,
             accelerations: Accelerations::default(),
             completion: Completion::default(),
             project: project && kind == StateKind::Full,
@@ -182,6 +185,7 @@ impl MultiplierFlow {
             pivot_after: next.pivot,
         };
         self.chart_number += 1;
+        self.accepted_pivot = next.pivot;
         self.chart = next;
         let packed = self.pack(&self.q.clone(), &self.v.clone());
         y.copy_from_slice(&packed);
@@ -280,7 +284,7 @@ impl System for MultiplierFlow {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure> {
         self.evaluate(t, y)?;
         if self.system.r > 0 {
-            let ratio = self.quality() / self.chart.pivot;
+            let ratio = self.quality() / self.accepted_pivot;
             if ratio < UNUSABLE {
                 return Err(EvaluationFailure::PivotDegraded { ratio });
             }
@@ -322,6 +326,7 @@ impl System for MultiplierFlow {
             Control::Continue
         };
         let before = self.quality();
+        self.accepted_pivot = before;
         if before >= DEGRADED * self.chart.pivot {
             return unchanged;
         }

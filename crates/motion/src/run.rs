@@ -359,7 +359,13 @@ impl Subject<'_> {
     /// The final (q, v) of Routh's equations by fixed steps of magnitude h; `None` when the run does not get there.
     pub fn routh_fixed(&self, settings: &RunSettings, h: f64) -> Option<Vec<f64>> {
         let watch = Watch::new(self.system, self.terms, self.binding).ok()?;
-        let mut flow = MultiplierFlow::new(self.numeric.clone(), self.start, settings.state, false, watch);
+        let mut flow = MultiplierFlow::new(
+            self.numeric.clone(),
+            self.start,
+            settings.state,
+            false,
+            watch,
+        );
         let y0 = flow.pack(&self.start.q, &self.start.v);
         let mut options = Options::fixed_step(method(&settings.method).ok()?, h);
         options.output = Output::End;

@@ -38,7 +38,7 @@ pub struct Watch {
 /// Only the neighbourhood of zero is looked at: values below this fraction of the largest seen.
 const NEAR: f64 = 1e-2;
 /// A minimum below this fraction of the largest value counts as zero; the quantities are squares of lengths.
-const ZERO: f64 = 1e-10;
+const ZERO: f64 = 1e-12;
 const MOST: usize = 12;
 
 impl Watch {
