@@ -17,7 +17,11 @@ impl Files for Disk {
 /// Reads a model; prints all diagnostics and returns `None` when there are errors.
 pub(crate) fn model(arguments: &ModelArguments) -> Option<Model> {
     let (model, diagnostics) = load(arguments)?;
-    let style = if terminal::error_colours() { Style::Ansi } else { Style::Plain };
+    let style = if terminal::error_colours() {
+        Style::Ansi
+    } else {
+        Style::Plain
+    };
     if !diagnostics.list.is_empty() {
         terminal::err(&diagnostics.render(style));
     }
@@ -56,7 +60,9 @@ fn overrides(set: &[String]) -> Option<Vec<(String, String)>> {
                 pairs.push((name.trim().to_string(), value.trim().to_string()));
             }
             _ => {
-                terminal::err(&format!("error: --set {item}: write NAME=VALUE, for example --set a=0.3"));
+                terminal::err(&format!(
+                    "error: --set {item}: write NAME=VALUE, for example --set a=0.3"
+                ));
                 return None;
             }
         }
@@ -66,7 +72,10 @@ fn overrides(set: &[String]) -> Option<Vec<(String, String)>> {
 
 /// `out/NAME`, where NAME is the folder of `model.toml` or the stem of another file.
 pub(crate) fn default_folder(model: &Path) -> PathBuf {
-    let stem = model.file_stem().and_then(|s| s.to_str()).unwrap_or("study");
+    let stem = model
+        .file_stem()
+        .and_then(|s| s.to_str())
+        .unwrap_or("study");
     let folder = model
         .parent()
         .and_then(Path::file_name)

@@ -16,16 +16,36 @@ impl System {
         let parts = SystemParts {
             name: model.name.clone(),
             coordinates: model.coordinates.iter().map(|c| c.name.clone()).collect(),
-            parameters: model.parameters.iter().map(|p| (p.name.clone(), p.value)).collect(),
-            controls: model.controls.iter().map(|u| (u.name.clone(), u.law)).collect(),
+            parameters: model
+                .parameters
+                .iter()
+                .map(|p| (p.name.clone(), p.value))
+                .collect(),
+            controls: model
+                .controls
+                .iter()
+                .map(|u| (u.name.clone(), u.law))
+                .collect(),
             kinetic: model.kinetic,
             potential: model.potential,
             lagrangian: Some(model.lagrangian),
-            forces: model.forces.iter().map(|f| (name_of(f.coordinate), f.value)).collect(),
+            forces: model
+                .forces
+                .iter()
+                .map(|f| (name_of(f.coordinate), f.value))
+                .collect(),
             rayleigh: model.rayleigh,
-            constraints: model.constraints.iter().map(|c| (c.name.clone(), c.f)).collect(),
+            constraints: model
+                .constraints
+                .iter()
+                .map(|c| (c.name.clone(), c.f))
+                .collect(),
             independent: independent.into_iter().map(name_of).collect(),
-            quasi_velocities: model.quasi_velocities.iter().map(|u| (u.name.clone(), u.value)).collect(),
+            quasi_velocities: model
+                .quasi_velocities
+                .iter()
+                .map(|u| (u.name.clone(), u.value))
+                .collect(),
             assumptions: model.assumptions.iter().filter_map(assumption).collect(),
         };
         System::new(Arc::clone(&model.graph), parts)

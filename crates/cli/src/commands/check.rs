@@ -15,7 +15,11 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         let text = serde_json::to_string_pretty(&diagnostics.to_data()).unwrap_or_default();
         terminal::out(&format!("{text}\n"));
     } else if !diagnostics.list.is_empty() {
-        let style = if terminal::error_colours() { Style::Ansi } else { Style::Plain };
+        let style = if terminal::error_colours() {
+            Style::Ansi
+        } else {
+            Style::Plain
+        };
         terminal::err(&diagnostics.render(style));
     }
     match (model, system) {

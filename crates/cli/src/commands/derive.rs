@@ -17,7 +17,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         Some(name) if formulation(name).is_some() => vec![name],
         Some(name) => {
             let known: Vec<&str> = FORMULATIONS.iter().map(|f| f.card().name).collect();
-            error(format!("there is no formulation `{name}`; known are {}", known.join(", ")));
+            error(format!(
+                "there is no formulation `{name}`; known are {}",
+                known.join(", ")
+            ));
             return INPUT;
         }
         None => FORMULATIONS.iter().map(|f| f.card().name).collect(),
@@ -37,11 +40,19 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         }
     };
     let known = registry();
-    let cx = Context::new(&system, &prepared.terms, &prepared.selection, &known, Prover::default());
+    let cx = Context::new(
+        &system,
+        &prepared.terms,
+        &prepared.selection,
+        &known,
+        Prover::default(),
+    );
     let mut json = Vec::new();
     for name in names {
         match derive(&cx, name) {
-            Ok(equations) if arguments.notation == Notation::Json => json.push(as_json(&system, &equations)),
+            Ok(equations) if arguments.notation == Notation::Json => {
+                json.push(as_json(&system, &equations))
+            }
             Ok(equations) => terminal::out(&printed(&system, &equations, arguments.notation)),
             Err(problem) => {
                 error(format!("{name}: {problem}"));
@@ -50,7 +61,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         }
     }
     if arguments.notation == Notation::Json {
-        terminal::out(&format!("{}\n", serde_json::to_string_pretty(&json).unwrap_or_default()));
+        terminal::out(&format!(
+            "{}\n",
+            serde_json::to_string_pretty(&json).unwrap_or_default()
+        ));
     }
     DONE
 }
@@ -60,11 +74,20 @@ fn statements(system: &System, equations: &Equations) -> Vec<(String, Vec<(Expr,
     let mut groups: Vec<(String, Vec<(Expr, Expr)>)> = equations
         .groups
         .iter()
-        .map(|group| (group.title.clone(), typeset::readable(system, equations, &group.equations)))
+        .map(|group| {
+            (
+                group.title.clone(),
+                typeset::readable(system, equations, &group.equations),
+            )
+        })
         .collect();
     if !equations.multipliers.is_empty() {
         let g = &system.graph;
-        let values: Vec<Expr> = equations.multipliers.iter().map(|(_, value)| *value).collect();
+        let values: Vec<Expr> = equations
+            .multipliers
+            .iter()
+            .map(|(_, value)| *value)
+            .collect();
         let short = simplify::simplify_all(g, &values, &simplify::Options::default());
         let pairs = equations
             .objects

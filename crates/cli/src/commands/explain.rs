@@ -19,7 +19,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             DONE
         }
         None => {
-            error(format!("there is no claim `{id}`{}", nearest(id, known.claims())));
+            error(format!(
+                "there is no claim `{id}`{}",
+                nearest(id, known.claims())
+            ));
             INPUT
         }
     }
@@ -41,8 +44,16 @@ fn list(claims: &[&'static dyn Claim]) -> String {
 }
 
 fn explained(claim: &'static dyn Claim, wanted: &str) -> String {
-    let mut text = format!("{}\n{}\n\n{}\n", claim.id(), claim.title(), wrapped(claim.explanation()));
-    let subject = wanted.split_once('#').map(|(_, s)| s).or(Some("maggi").filter(|_| claim.id() == "formulation.equivalent"));
+    let mut text = format!(
+        "{}\n{}\n\n{}\n",
+        claim.id(),
+        claim.title(),
+        wrapped(claim.explanation())
+    );
+    let subject = wanted
+        .split_once('#')
+        .map(|(_, s)| s)
+        .or(Some("maggi").filter(|_| claim.id() == "formulation.equivalent"));
     let requires = claim.requires(subject);
     if !requires.is_empty() {
         text.push_str(&format!("\nRequires: {}\n", requires.join(", ")));
@@ -72,7 +83,9 @@ fn nearest(id: &str, claims: &[&'static dyn Claim]) -> String {
     let close: Vec<&str> = claims
         .iter()
         .map(|c| c.id())
-        .filter(|known| known.contains(tail) || tail.len() > 3 && known.contains(&tail[..tail.len() - 1]))
+        .filter(|known| {
+            known.contains(tail) || tail.len() > 3 && known.contains(&tail[..tail.len() - 1])
+        })
         .collect();
     if close.is_empty() {
         "; `chetaev explain` lists them".into()

@@ -25,7 +25,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             None => unknown(name),
         },
         Some(GalleryAction::Copy { name, folder }) => match find(name) {
-            Some(entry) => copy(entry, &folder.clone().unwrap_or_else(|| PathBuf::from(name))),
+            Some(entry) => copy(
+                entry,
+                &folder.clone().unwrap_or_else(|| PathBuf::from(name)),
+            ),
             None => unknown(name),
         },
     }
@@ -37,8 +40,17 @@ fn find(name: &str) -> Option<&'static Entry> {
 
 fn list() -> u8 {
     for entry in ENTRIES {
-        let readme = entry.files.iter().find(|(file, _)| *file == "README.md").map_or("", |(_, text)| text);
-        let title = readme.lines().next().unwrap_or("").trim_start_matches('#').trim();
+        let readme = entry
+            .files
+            .iter()
+            .find(|(file, _)| *file == "README.md")
+            .map_or("", |(_, text)| text);
+        let title = readme
+            .lines()
+            .next()
+            .unwrap_or("")
+            .trim_start_matches('#')
+            .trim();
         terminal::out(&format!("{:<24} {title}\n", entry.name));
     }
     DONE
@@ -46,13 +58,19 @@ fn list() -> u8 {
 
 fn unknown(name: &str) -> u8 {
     let names: Vec<&str> = ENTRIES.iter().map(|e| e.name).collect();
-    error(format!("there is no model `{name}` in the gallery; there are {}", names.join(", ")));
+    error(format!(
+        "there is no model `{name}` in the gallery; there are {}",
+        names.join(", ")
+    ));
     INPUT
 }
 
 fn copy(entry: &Entry, folder: &Path) -> u8 {
     if folder.exists() {
-        error(format!("{} exists already; nothing was written", folder.display()));
+        error(format!(
+            "{} exists already; nothing was written",
+            folder.display()
+        ));
         return INPUT;
     }
     for (name, text) in entry.files {

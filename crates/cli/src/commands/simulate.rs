@@ -12,7 +12,9 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     };
     let options = StudyOptions {
         claims: ClaimSelection {
-            words: ["motion.constraint-drift", "motion.integral-drift"].map(String::from).to_vec(),
+            words: ["motion.constraint-drift", "motion.integral-drift"]
+                .map(String::from)
+                .to_vec(),
         },
         ..options(&arguments.motion)
     };
@@ -27,7 +29,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         error(study.notices.join("\n"));
         return INPUT;
     };
-    let folder = arguments.out.clone().unwrap_or_else(|| files::default_folder(&arguments.model.model));
+    let folder = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| files::default_folder(&arguments.model.model));
     let table = Table::new(&study, motion);
     let written = table
         .to_npz()
@@ -44,9 +49,16 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         terminal::out(&serde_json::to_string_pretty(&trajectory).unwrap_or_default());
         terminal::out("\n");
     } else {
-        let style = if terminal::colours() { summary::Style::Ansi } else { summary::Style::Plain };
+        let style = if terminal::colours() {
+            summary::Style::Ansi
+        } else {
+            summary::Style::Plain
+        };
         terminal::out(&summary::summary(&study, style));
-        terminal::out(&format!("\ntrajectory: {}\n", folder.join("trajectory.csv").display()));
+        terminal::out(&format!(
+            "\ntrajectory: {}\n",
+            folder.join("trajectory.csv").display()
+        ));
     }
     study.outcome.exit_status()
 }

@@ -35,7 +35,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             return INPUT;
         }
     };
-    let folder = arguments.out.clone().unwrap_or_else(|| files::default_folder(&arguments.model.model));
+    let folder = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| files::default_folder(&arguments.model.model));
     let written = match write_all(&study, &folder, &arguments.model.model) {
         Ok(written) => written,
         Err(problem) => {
@@ -46,9 +49,16 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     if arguments.json {
         terminal::out(&json(&study, &written));
     } else {
-        let style = if terminal::colours() { Style::Ansi } else { Style::Plain };
+        let style = if terminal::colours() {
+            Style::Ansi
+        } else {
+            Style::Plain
+        };
         terminal::out(&summary::summary(&study, style));
-        terminal::out(&format!("\nreport: {}\n", folder.join("report.html").display()));
+        terminal::out(&format!(
+            "\nreport: {}\n",
+            folder.join("report.html").display()
+        ));
     }
     study.outcome.exit_status()
 }

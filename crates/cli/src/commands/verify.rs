@@ -9,7 +9,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let text = match std::fs::read_to_string(&arguments.record) {
         Ok(text) => text,
         Err(problem) => {
-            error(format!("{} cannot be read: {problem}", arguments.record.display()));
+            error(format!(
+                "{} cannot be read: {problem}",
+                arguments.record.display()
+            ));
             return INPUT;
         }
     };
@@ -39,14 +42,23 @@ fn report(lines: &[Verified], json: bool) {
                 serde_json::json!({"claim": l.claim, "recorded": l.recorded, "result": result, "detail": detail})
             })
             .collect();
-        terminal::out(&format!("{}\n", serde_json::to_string_pretty(&data).unwrap_or_default()));
+        terminal::out(&format!(
+            "{}\n",
+            serde_json::to_string_pretty(&data).unwrap_or_default()
+        ));
         return;
     }
     for line in lines {
         let (result, detail) = words(&line.replay);
-        terminal::out(&format!("{result:<10} {:<36} {:<14} {detail}\n", line.claim, line.recorded));
+        terminal::out(&format!(
+            "{result:<10} {:<36} {:<14} {detail}\n",
+            line.claim, line.recorded
+        ));
     }
-    let confirmed = lines.iter().filter(|l| l.replay == Replay::Confirmed).count();
+    let confirmed = lines
+        .iter()
+        .filter(|l| l.replay == Replay::Confirmed)
+        .count();
     terminal::out(&format!("{confirmed} of {} confirmed\n", lines.len()));
 }
 
@@ -54,7 +66,9 @@ fn words(replay: &Replay) -> (&'static str, String) {
     match replay {
         Replay::Confirmed => ("confirmed", String::new()),
         Replay::Open { tried } => ("open", tried.clone()),
-        Replay::Differs { found, detail } => ("DISAGREES", format!("replay finds {found}: {detail}")),
+        Replay::Differs { found, detail } => {
+            ("DISAGREES", format!("replay finds {found}: {detail}"))
+        }
         Replay::Numbers { what } => ("DISAGREES", what.clone()),
     }
 }
