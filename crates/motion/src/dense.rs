@@ -165,8 +165,8 @@ impl Symmetric {
             let sum: f64 = (0..i).map(|j| self.l[i * n + j] * b[j]).sum();
             b[i] -= sum;
         }
-        for i in 0..n {
-            b[i] /= self.l[i * n + i];
+        for (i, value) in b.iter_mut().enumerate().take(n) {
+            *value /= self.l[i * n + i];
         }
         for i in (0..n).rev() {
             let sum: f64 = (i + 1..n).map(|j| self.l[j * n + i] * b[j]).sum();

@@ -267,7 +267,7 @@ impl Search<'_> {
         self.contradiction()?;
         self.evaluate()?;
         let rows: Vec<usize> = (0..self.system.r).collect();
-        let worst = self.violations(&rows, &self.system.residual().to_vec());
+        let worst = self.violations(&rows, self.system.residual());
         let all: Vec<usize> = (0..self.system.n).collect();
         if !self.search_velocities(&all) {
             return Err(self.no_real_velocity(&given));

@@ -490,7 +490,7 @@ pub(crate) fn integrate(
     let progress = &mut *hooks.progress;
     let mut report = |p: Progress| {
         let span = p.t_end - p.t_start;
-        if p.steps % 256 == 0 && span != 0.0 {
+        if p.steps.is_multiple_of(256) && span != 0.0 {
             progress(what, Some((p.t - p.t_start) / span));
         }
         ControlFlow::Continue(())

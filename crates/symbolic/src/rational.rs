@@ -127,7 +127,7 @@ pub fn content<'a>(values: impl Iterator<Item = &'a Rational>) -> Rational {
             (&numerator).gcd(&magnitude)
         };
         let shared = (&denominator).gcd(value.denominator());
-        denominator = denominator * (value.denominator() / shared);
+        denominator *= value.denominator() / shared;
     }
     Rational::from_parts(IBig::from(numerator), denominator)
 }

@@ -102,26 +102,34 @@ impl Graph {
             return e;
         };
         let new_matrix = child(*matrix);
-        if !solved.0.contains_key(&of) {
-            let new_rhs: Vec<Expr> = rhs.iter().map(|&b| child(b)).collect();
-            let values = if new_matrix == *matrix && new_rhs[..] == rhs[..] {
-                None
-            } else {
-                let Node::Matrix { entries, .. } = self.node(new_matrix) else {
-                    return e;
-                };
-                // A matrix that became structurally singular stays a solve: evaluating it reports the singularity.
-                Some(match self.solve(entries, &new_rhs) {
-                    Ok(values) => values,
-                    Err(_) => self.solve_entries(new_matrix, &new_rhs),
-                })
-            };
-            solved.0.insert(of, values);
+        let values = solved
+            .0
+            .entry(of)
+            .or_insert_with(|| self.rebuild_solve(*matrix, rhs, new_matrix, child));
+        match values {
+            Some(values) => values.get(index as usize).copied().unwrap_or(e),
+            None => e,
         }
-        match solved.0.get(&of) {
-            Some(Some(values)) => values.get(index as usize).copied().unwrap_or(e),
-            _ => e,
+    }
+
+    /// The solution with everything replaced; `None` when nothing changes.
+    fn rebuild_solve(
+        &self,
+        matrix: Expr,
+        rhs: &[Expr],
+        new_matrix: Expr,
+        child: &mut dyn FnMut(Expr) -> Expr,
+    ) -> Option<Vec<Expr>> {
+        let new_rhs: Vec<Expr> = rhs.iter().map(|&b| child(b)).collect();
+        if new_matrix == matrix && new_rhs[..] == rhs[..] {
+            return None;
         }
+        let Node::Matrix { entries, .. } = self.node(new_matrix) else {
+            return None;
+        };
+        // A matrix that became structurally singular stays a solve: evaluating it reports the singularity.
+        let values = self.solve(entries, &new_rhs);
+        Some(values.unwrap_or_else(|_| self.solve_entries(new_matrix, &new_rhs)))
     }
 }
 
