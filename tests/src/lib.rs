@@ -8,6 +8,8 @@
 pub mod cases;
 pub mod checks;
 pub mod places;
+pub mod program;
 pub mod rejections;
 pub mod runs;
+pub mod studied;
 pub mod words;
