@@ -1,2 +1,77 @@
-//! House tasks.
-fn main() {}
+//! House tasks: `cargo xtask test`, `cargo xtask laws`.
+
+mod browser;
+mod laws;
+// The arguments of the laws are read here too, so that a slip is refused before anything is built.
+#[path = "../../crates/laws/src/arguments.rs"]
+#[allow(unreachable_pub, reason = "public in its own crate")]
+mod laws_arguments;
+mod summary;
+mod test;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+const HELP: &str = "\
+House tasks
+
+Usage: cargo xtask <TASK> [ARGUMENTS]
+
+  test    all tests of the workspace; installs what they need
+  laws    random systems and the laws they must obey
+  help    this text
+
+`cargo xtask <TASK> --help` says more.
+";
+
+/// The arguments are wrong.
+const USAGE: u8 = 2;
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let (task, rest) = match words.split_first() {
+        Some((task, rest)) => (task.as_str(), rest),
+        None => ("help", &[][..]),
+    };
+    let status = match task {
+        "test" => test::run(rest),
+        "laws" => laws::run(rest),
+        "help" | "--help" | "-h" => {
+            out(HELP);
+            0
+        }
+        _ => refuse(&format!("there is no task `{task}`\n\n{HELP}")),
+    };
+    ExitCode::from(status)
+}
+
+/// Prints to standard output. A closed pipe is no reason to fail.
+fn out(text: &str) {
+    let mut stdout = std::io::stdout();
+    let _ = stdout.write_all(text.as_bytes());
+    let _ = stdout.flush();
+}
+
+/// Prints to standard error.
+fn err(text: &str) {
+    let _ = std::io::stderr().write_all(text.as_bytes());
+}
+
+/// Says what is wrong with the arguments.
+fn refuse(problem: &str) -> u8 {
+    err(&format!("error: {}\n", problem.trim_end()));
+    USAGE
+}
+
+/// The exit status of a command as one of ours; ended by a signal counts as failed.
+fn status_of(status: std::process::ExitStatus) -> u8 {
+    match status.code() {
+        Some(code) => u8::try_from(code).unwrap_or(1),
+        None => 1,
+    }
+}
+
+/// Cargo itself, the one that runs this task.
+fn cargo() -> std::process::Command {
+    std::process::Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}

@@ -1,0 +1,177 @@
+//! The motion does not depend on the coordinates that describe it.
+
+use super::{Expected, Subject, Trial};
+use chetaev_mechanics::formulations::{Basis, Formulation, Routh};
+use chetaev_mechanics::{Characteristics, Prepared, System, SystemParts};
+use chetaev_symbolic::number::random::Random;
+use chetaev_symbolic::{Expr, Graph, Verdict};
+
+/// Accelerations and multipliers of the system in new coordinates s, `q = Φ(s, t)`, are those of the system itself:
+/// `D²Φ = a(Φ, DΦ, t)` and equal λ, as f is only rewritten, not multiplied.
+pub(super) fn invariance(subject: &Subject<'_>) -> Option<Trial> {
+    let change = Change::new(subject);
+    let verdict = match change.verdict(subject) {
+        Ok(verdict) => verdict,
+        Err(problem) => Verdict::undecided(problem),
+    };
+    Some(Trial {
+        law: "the motion is the same in other coordinates",
+        about: change.text(subject),
+        expected: Expected::Proved,
+        verdict,
+    })
+}
+
+/// A triangular change of coordinates: `qᵢ = sᵢ + a polynomial in later s and t`, invertible everywhere.
+struct Change {
+    names: Vec<String>,
+    /// Φ(s, t).
+    q: Vec<Expr>,
+    /// DΦ.
+    v: Vec<Expr>,
+}
+
+impl Change {
+    fn new(subject: &Subject<'_>) -> Change {
+        let system = subject.cx.system;
+        let g = &system.graph;
+        let n = system.n();
+        let mut random = Random::stream(subject.seed, 0xc00d);
+        let names: Vec<String> = (1..=n).map(|i| format!("s_{i}")).collect();
+        let s: Vec<Expr> = names.iter().map(|name| g.symbol(name, 0)).collect();
+        let t = system
+            .is_rheonomic(system.lagrangian)
+            .then(|| g.symbol("t", 0));
+        let q: Vec<Expr> = (0..n)
+            .map(|i| g.add(&[s[i], shift(g, &mut random, &s[i + 1..], t)]))
+            .collect();
+        let moves = |name: &str| names.iter().any(|s| s == name);
+        let v = q.iter().map(|&e| g.total_derivative(e, &moves)).collect();
+        Change { names, q, v }
+    }
+
+    /// Rewrites functions of (q, v, t).
+    fn rewrite(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
+        let mut pairs = Vec::new();
+        for (i, c) in system.coordinates.iter().enumerate() {
+            pairs.push((c.q, self.q[i]));
+            pairs.push((c.v, self.v[i]));
+        }
+        system.graph.substitute_all(es, &pairs)
+    }
+
+    /// The system in the new coordinates: forces are covectors.
+    fn system(&self, system: &System) -> Result<System, String> {
+        let g = &system.graph;
+        let forces = self.rewrite(system, &system.forces);
+        let forces = self
+            .names
+            .iter()
+            .map(|name| {
+                let symbol = g.intern_symbol(name, 0);
+                let parts: Vec<Expr> = forces
+                    .iter()
+                    .zip(&self.q)
+                    .map(|(&force, &q)| g.mul(&[force, g.diff(q, symbol)]))
+                    .collect();
+                (name.clone(), g.add(&parts))
+            })
+            .collect();
+        let stated: Vec<Expr> = system.constraints.iter().map(|c| c.f).collect();
+        let parts = SystemParts {
+            name: system.name.clone(),
+            coordinates: self.names.clone(),
+            parameters: system
+                .parameters
+                .iter()
+                .map(|p| (p.name.clone(), p.value))
+                .collect(),
+            lagrangian: Some(self.rewrite(system, &[system.lagrangian])[0]),
+            forces,
+            constraints: system
+                .constraints
+                .iter()
+                .map(|c| c.name.clone())
+                .zip(self.rewrite(system, &stated))
+                .collect(),
+            assumptions: system.assumptions.clone(),
+            ..SystemParts::default()
+        };
+        System::new(system.graph.clone(), parts).map_err(|problem| problem.to_string())
+    }
+
+    fn verdict(&self, subject: &Subject<'_>) -> Result<Verdict, String> {
+        let old = subject.cx.system;
+        let new = self.system(old)?;
+        let prepared = Prepared::new(&new).map_err(|problem| problem.to_string())?;
+        let basis = Basis {
+            system: &new,
+            terms: &prepared.terms,
+            selection: &prepared.selection,
+            characteristics: None,
+        };
+        let routh = Routh.equations(&basis).map_err(|p| p.to_string())?;
+        let chart =
+            Characteristics::independent_velocities(&new, &prepared.terms, &prepared.selection)
+                .map_err(|problem| problem.to_string())?;
+        let g = &new.graph;
+        let motion: Vec<(Expr, Expr)> = new
+            .coordinates
+            .iter()
+            .zip(&routh.accelerations)
+            .map(|(c, &a)| (c.a, a))
+            .collect();
+        let second: Vec<Expr> = self.v.iter().map(|&v| new.total_derivative(v)).collect();
+        let mut here = g.substitute_all(&second, &motion);
+        let mut there = subject.routh.accelerations.clone();
+        for (l, lambda) in &routh.multipliers {
+            let same = subject.routh.multipliers.iter().find(|(m, _)| m == l);
+            let (_, other) = same.ok_or("another constraint was left out")?;
+            here.push(*lambda);
+            there.push(*other);
+        }
+        let there = self.rewrite(old, &there);
+        let residuals: Vec<Expr> = here
+            .iter()
+            .zip(&there)
+            .map(|(&a, &b)| g.sub(a, b))
+            .collect();
+        let residuals = chart.restrict(&new, &residuals);
+        let on = "on the constraint manifold in the new coordinates";
+        Ok(subject
+            .cx
+            .prover
+            .identity(&new, &residuals, &chart.manifold, on))
+    }
+
+    fn text(&self, subject: &Subject<'_>) -> String {
+        let system = subject.cx.system;
+        let equations: Vec<String> = system
+            .coordinates
+            .iter()
+            .zip(&self.q)
+            .map(|(c, &q)| format!("{} = {}", c.name, system.graph.text(q)))
+            .collect();
+        equations.join(", ")
+    }
+}
+
+/// A polynomial of degree at most two in the later coordinates.
+fn shift(g: &Graph, random: &mut Random, later: &[Expr], t: Option<Expr>) -> Expr {
+    let mut parts = Vec::new();
+    if let Some(t) = t.filter(|_| random.below(3) == 0) {
+        parts.push(g.powi(t, random.between(1, 2)));
+    }
+    if !later.is_empty() {
+        let mut pick = || later[random.below(later.len() as u64) as usize];
+        let (a, b) = (pick(), pick());
+        let scale = g.integer(random.between(1, 3));
+        let term = if random.below(2) == 0 {
+            a
+        } else {
+            g.mul(&[a, b])
+        };
+        parts.push(g.mul(&[scale, term]));
+    }
+    g.add(&parts)
+}

@@ -1,0 +1,168 @@
+//! The laws: statements that hold for every system, and wrong equations that hold for none.
+
+mod coordinates;
+mod numbers;
+mod power;
+mod reduced;
+mod rewrite;
+mod wrong;
+
+use chetaev_mechanics::claims::formulation::{derive, residuals};
+use chetaev_mechanics::formulations::DeriveError;
+use chetaev_mechanics::{Characteristics, Context, Equations};
+use chetaev_symbolic::verdict::Verdict;
+use chetaev_symbolic::{Expr, Symbol};
+
+/// What a law demands of a verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Expected {
+    /// The statement is true.
+    Proved,
+    /// The statement is false.
+    Refuted,
+}
+
+impl Expected {
+    /// The word of the verdict.
+    pub fn word(self) -> &'static str {
+        match self {
+            Expected::Proved => "proved",
+            Expected::Refuted => "refuted",
+        }
+    }
+}
+
+/// One law tried on one system.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    /// The law, in a few words.
+    pub law: &'static str,
+    /// What was done to the equations, where they are wrong.
+    pub about: String,
+    /// What the verdict must be.
+    pub expected: Expected,
+    /// What it is.
+    pub verdict: Verdict,
+}
+
+impl Trial {
+    /// Whether the verdict is the expected one.
+    pub fn holds(&self) -> bool {
+        self.verdict.word() == self.expected.word()
+    }
+}
+
+/// Both forms of the equations of one system: what the laws look at.
+pub(crate) struct Subject<'a> {
+    pub(crate) cx: &'a Context<'a>,
+    pub(crate) routh: Equations,
+    pub(crate) maggi: Equations,
+    pub(crate) chart: Characteristics,
+    /// Distinguishes the random choices of the laws from those of the generator.
+    pub(crate) seed: u64,
+}
+
+impl<'a> Subject<'a> {
+    pub(crate) fn new(cx: &'a Context<'a>, seed: u64) -> Result<Subject<'a>, DeriveError> {
+        let routh = derive(cx, "routh")?;
+        let mut maggi = derive(cx, "maggi")?;
+        let chart = match maggi.characteristics.take() {
+            Some(chart) => chart,
+            None => Characteristics::independent_velocities(cx.system, cx.terms, cx.selection)?,
+        };
+        maggi.characteristics = Some(chart.clone());
+        Ok(Subject {
+            cx,
+            routh,
+            maggi,
+            chart,
+            seed,
+        })
+    }
+
+    /// Distinct nodes of the difference between the two forms.
+    pub(crate) fn size(&self) -> usize {
+        let difference = residuals(self.cx, &self.routh, &self.maggi);
+        self.cx.system.graph.reachable(&difference).len()
+    }
+
+    /// Indices of the independent velocities.
+    fn independent(&self) -> Vec<usize> {
+        self.cx.selection.independent(self.cx.system.n())
+    }
+
+    /// Replaces velocities and accelerations by those of the chart: functions of (q, P, P', t).
+    fn on_jet(&self, es: &[Expr]) -> Vec<Expr> {
+        let system = self.cx.system;
+        let mut jet: Vec<(Expr, Expr)> = Vec::new();
+        for (i, c) in system.coordinates.iter().enumerate() {
+            jet.push((c.v, self.chart.velocities[i]));
+            jet.push((c.a, self.chart.accelerations[i]));
+        }
+        system.graph.substitute_all(es, &jet)
+    }
+
+    /// The accelerations that k equations on the jet give, linear in P'; `None` where they do not determine P'.
+    fn motion_of(&self, equations: &[Expr]) -> Option<Equations> {
+        let g = &self.cx.system.graph;
+        let symbols: Vec<Symbol> = self
+            .chart
+            .parameters
+            .iter()
+            .map(|p| p.rate_symbol)
+            .collect();
+        let matrix = g.jacobian(equations, &symbols).concat();
+        let at_rest: Vec<(Expr, Expr)> = self
+            .chart
+            .parameters
+            .iter()
+            .map(|p| (p.rate, g.zero()))
+            .collect();
+        let rhs: Vec<Expr> = g
+            .substitute_all(equations, &at_rest)
+            .into_iter()
+            .map(|e| g.neg(e))
+            .collect();
+        let rates = g.solve(&matrix, &rhs).ok()?;
+        let known: Vec<(Expr, Expr)> = self
+            .chart
+            .parameters
+            .iter()
+            .zip(&rates)
+            .map(|(p, &rate)| (p.rate, rate))
+            .collect();
+        Some(Equations {
+            formulation: "maggi",
+            groups: Vec::new(),
+            objects: Vec::new(),
+            characteristics: Some(self.chart.clone()),
+            accelerations: g.substitute_all(&self.chart.accelerations, &known),
+            rates,
+            multipliers: Vec::new(),
+        })
+    }
+}
+
+/// Tries every law.
+pub(crate) fn all(subject: &Subject<'_>) -> Vec<Trial> {
+    let mut trials = vec![equivalence(subject), power::balance(subject)];
+    trials.extend(coordinates::invariance(subject));
+    trials.extend(wrong::dropped_term(subject));
+    trials.extend(wrong::wrong_sign(subject));
+    trials.extend(reduced::lagrange_of_restricted(subject));
+    trials
+}
+
+/// Routh's and Maggi's equations are the same, by the claim that every study decides.
+fn equivalence(subject: &Subject<'_>) -> Trial {
+    Trial {
+        law: "Routh's equations are Maggi's",
+        about: String::new(),
+        expected: Expected::Proved,
+        verdict: subject
+            .cx
+            .finding("formulation.equivalent#maggi")
+            .verdict
+            .clone(),
+    }
+}

@@ -1,0 +1,148 @@
+//! Lagrange's equations for L*, the Lagrangian with the dependent velocities substituted, are wrong by Voronets' term.
+//!
+//! With `v_d = φ_d(q, v, t)` and `B = ∂φ/∂v` the equations of motion are (T1 (7), (10) for constraints of any form)
+//! `D(∂L*/∂v_s) - ∂L*/∂q_s - Σ_d B_ds ∂L*/∂q_d - Q*_s = Σ_d p_d ( D B_ds - ∂φ_d/∂q_s - Σ_e B_es ∂φ_d/∂q_e )`.
+//! The right side is evaluated from φ alone. Where it vanishes, as for an integrable constraint, the equations without
+//! it are right and must be proved; elsewhere they must be refuted.
+
+use super::numbers::{differ, Seen};
+use super::{Expected, Subject, Trial};
+use chetaev_mechanics::claims::formulation::equivalence;
+use chetaev_symbolic::{Expr, Symbol, Verdict};
+
+const LAW: &str = "Lagrange's equations of the reduced L*";
+
+/// The trial; `None` without constraints.
+pub(super) fn lagrange_of_restricted(subject: &Subject<'_>) -> Option<Trial> {
+    if subject.chart.dependent.is_empty() {
+        return None;
+    }
+    let reduction = Reduction::new(subject)?;
+    let missing = subject.on_jet(&reduction.voronets());
+    let zeros = vec![subject.cx.system.graph.zero(); missing.len()];
+    let seen = differ(subject, &missing, &zeros, &[]);
+    let wrong = subject.motion_of(&subject.on_jet(&reduction.equations()));
+    let (expected, about) = match seen {
+        Seen::Zero => (Expected::Proved, "Voronets' term vanishes"),
+        _ => (Expected::Refuted, "Voronets' term is missing"),
+    };
+    let verdict = match (seen, wrong) {
+        (Seen::Unclear, _) => {
+            Verdict::undecided("double precision cannot tell Voronets' term from zero")
+        }
+        (_, None) => {
+            Verdict::undecided("Lagrange's equations of L* do not determine the accelerations")
+        }
+        (_, Some(wrong)) => equivalence(subject.cx, &subject.routh, &wrong),
+    };
+    Some(Trial {
+        law: LAW,
+        about: about.to_string(),
+        expected,
+        verdict,
+    })
+}
+
+/// The derivatives of φ and L, as functions of (q, v, t) on the constraints.
+struct Reduction<'a> {
+    subject: &'a Subject<'a>,
+    /// Indices of the independent velocities.
+    independent: Vec<usize>,
+    /// ∂L/∂v, length n.
+    momentum: Vec<Expr>,
+    /// ∂φ_d/∂q_j for each dependent velocity and each of the n coordinates.
+    slope: Vec<Vec<Expr>>,
+}
+
+impl<'a> Reduction<'a> {
+    fn new(subject: &'a Subject<'a>) -> Option<Reduction<'a>> {
+        let system = subject.cx.system;
+        let g = &system.graph;
+        Some(Reduction {
+            subject,
+            independent: subject.independent(),
+            momentum: g.gradient(system.lagrangian, &system.velocity_symbols()),
+            slope: slopes(subject)?,
+        })
+    }
+
+    /// `D(∂L*/∂v_s) - ∂L*/∂q_s - Σ_d B_ds ∂L*/∂q_d - Q*_s`.
+    fn equations(&self) -> Vec<Expr> {
+        let system = self.subject.cx.system;
+        let g = &system.graph;
+        let basis = &self.subject.chart.basis;
+        let gradient: Vec<Expr> = (0..system.n())
+            .map(|j| self.restricted_gradient(j))
+            .collect();
+        (0..self.independent.len())
+            .map(|sigma| {
+                let momentum: Vec<Expr> = (0..system.n())
+                    .map(|i| g.mul(&[self.momentum[i], basis[i][sigma]]))
+                    .collect();
+                let mut parts = vec![system.total_derivative(g.add(&momentum))];
+                for i in 0..system.n() {
+                    let along = g.add(&[gradient[i], system.forces[i]]);
+                    parts.push(g.neg(g.mul(&[along, basis[i][sigma]])));
+                }
+                g.add(&parts)
+            })
+            .collect()
+    }
+
+    /// `∂L*/∂q_j = ∂L/∂q_j + Σ_d p_d ∂φ_d/∂q_j`.
+    fn restricted_gradient(&self, j: usize) -> Expr {
+        let system = self.subject.cx.system;
+        let g = &system.graph;
+        let mut parts = vec![g.diff(system.lagrangian, system.coordinates[j].q_symbol)];
+        for (&d, slope) in self.subject.chart.dependent.iter().zip(&self.slope) {
+            parts.push(g.mul(&[self.momentum[d], slope[j]]));
+        }
+        g.add(&parts)
+    }
+
+    /// `Σ_d p_d ( D B_ds - ∂φ_d/∂q_s - Σ_e B_es ∂φ_d/∂q_e )`.
+    fn voronets(&self) -> Vec<Expr> {
+        let system = self.subject.cx.system;
+        let g = &system.graph;
+        let chart = &self.subject.chart;
+        (0..self.independent.len())
+            .map(|sigma| {
+                let mut parts = Vec::new();
+                for (&d, slope) in chart.dependent.iter().zip(&self.slope) {
+                    let mut curvature = vec![system.total_derivative(chart.basis[d][sigma])];
+                    for (row, &slope) in chart.basis.iter().zip(slope) {
+                        curvature.push(g.neg(g.mul(&[row[sigma], slope])));
+                    }
+                    parts.push(g.mul(&[self.momentum[d], g.add(&curvature)]));
+                }
+                g.add(&parts)
+            })
+            .collect()
+    }
+}
+
+/// `∂φ/∂q = -J_d⁻¹ ∂f/∂q`, from f(q, φ, t) = 0.
+fn slopes(subject: &Subject<'_>) -> Option<Vec<Vec<Expr>>> {
+    let (cx, system) = (subject.cx, subject.cx.system);
+    let g = &system.graph;
+    let chart = &subject.chart;
+    let f: Vec<Expr> = chart
+        .rows
+        .iter()
+        .map(|&row| cx.terms.constraints[row])
+        .collect();
+    let dependent: Vec<Symbol> = chart
+        .dependent
+        .iter()
+        .map(|&d| system.coordinates[d].v_symbol)
+        .collect();
+    let matrix = g.jacobian(&f, &dependent).concat();
+    let mut slopes = vec![Vec::new(); dependent.len()];
+    for c in &system.coordinates {
+        let rhs: Vec<Expr> = f.iter().map(|&f| g.neg(g.diff(f, c.q_symbol))).collect();
+        for (row, value) in slopes.iter_mut().zip(g.solve(&matrix, &rhs).ok()?) {
+            row.push(value);
+        }
+    }
+    Some(slopes)
+}
