@@ -7,6 +7,7 @@
 
 pub mod cases;
 pub mod checks;
+pub mod literature;
 pub mod places;
 pub mod program;
 pub mod rejections;
