@@ -70,7 +70,8 @@ fn many(families: &[Family], count: u64) -> Vec<Outcome> {
 fn story(outcome: &Outcome) -> String {
     let mut text = format!("{}\n", outcome.text);
     for trial in &outcome.trials {
-        text.push_str(&format!("{}: {}\n", trial.law, trial.verdict.word()));
+        let (word, seconds) = (trial.verdict.word(), trial.seconds);
+        text.push_str(&format!("{}: {word}, {seconds:.2} s\n", trial.law));
         for line in [&trial.about[..], trial.verdict.detail()] {
             if !line.is_empty() {
                 text.push_str(&format!("    {line}\n"));

@@ -19,6 +19,7 @@ pub(super) fn invariance(subject: &Subject<'_>) -> Option<Trial> {
         about: change.text(subject),
         expected: Expected::Proved,
         verdict,
+        seconds: 0.0,
     })
 }
 

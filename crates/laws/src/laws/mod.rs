@@ -12,6 +12,7 @@ use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::{Characteristics, Context, Equations};
 use chetaev_symbolic::verdict::Verdict;
 use chetaev_symbolic::{Expr, Symbol};
+use std::time::Instant;
 
 /// What a law demands of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +44,8 @@ pub struct Trial {
     pub expected: Expected,
     /// What it is.
     pub verdict: Verdict,
+    /// Wall time, the search for a slip that makes a difference included.
+    pub seconds: f64,
 }
 
 impl Trial {
@@ -143,19 +146,32 @@ impl<'a> Subject<'a> {
     }
 }
 
+/// A law: a trial on the subject, or `None` where there is nothing to try.
+type Law = fn(&Subject<'_>) -> Option<Trial>;
+
+const LAWS: [Law; 6] = [
+    equivalence,
+    power::balance,
+    coordinates::invariance,
+    wrong::dropped_term,
+    wrong::wrong_sign,
+    reduced::lagrange_of_restricted,
+];
+
 /// Tries every law.
 pub(crate) fn all(subject: &Subject<'_>) -> Vec<Trial> {
-    let mut trials = vec![equivalence(subject), power::balance(subject)];
-    trials.extend(coordinates::invariance(subject));
-    trials.extend(wrong::dropped_term(subject));
-    trials.extend(wrong::wrong_sign(subject));
-    trials.extend(reduced::lagrange_of_restricted(subject));
-    trials
+    let timed = |law: &Law| {
+        let start = Instant::now();
+        let trial = law(subject)?;
+        let seconds = start.elapsed().as_secs_f64();
+        Some(Trial { seconds, ..trial })
+    };
+    LAWS.iter().filter_map(timed).collect()
 }
 
 /// Routh's and Maggi's equations are the same, by the claim that every study decides.
-fn equivalence(subject: &Subject<'_>) -> Trial {
-    Trial {
+fn equivalence(subject: &Subject<'_>) -> Option<Trial> {
+    Some(Trial {
         law: "Routh's equations are Maggi's",
         about: String::new(),
         expected: Expected::Proved,
@@ -164,5 +180,6 @@ fn equivalence(subject: &Subject<'_>) -> Trial {
             .finding("formulation.equivalent#maggi")
             .verdict
             .clone(),
-    }
+        seconds: 0.0,
+    })
 }

@@ -4,7 +4,7 @@ use super::{Expected, Subject, Trial};
 use chetaev_symbolic::Expr;
 
 /// `DH = Σ Qᵢ vⁱ - ∂L/∂t + Σ λ_l Σ vⁱ ∂f^l/∂vⁱ` with `H = Σ pᵢ vⁱ - L`, on the motion by Routh's equations.
-pub(super) fn balance(subject: &Subject<'_>) -> Trial {
+pub(super) fn balance(subject: &Subject<'_>) -> Option<Trial> {
     let (cx, system) = (subject.cx, subject.cx.system);
     let g = &system.graph;
     let motion: Vec<(Expr, Expr)> = system
@@ -27,12 +27,13 @@ pub(super) fn balance(subject: &Subject<'_>) -> Trial {
     let residual = g.sub(rate, g.add(&power));
     let residual = subject.chart.restrict(system, &[residual]);
     let on = "on the motions of the constrained system";
-    Trial {
+    Some(Trial {
         law: "the energy changes by the power",
         about: String::new(),
         expected: Expected::Proved,
         verdict: cx
             .prover
             .identity(system, &residual, &subject.chart.manifold, on),
-    }
+        seconds: 0.0,
+    })
 }

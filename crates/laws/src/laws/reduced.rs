@@ -40,6 +40,7 @@ pub(super) fn lagrange_of_restricted(subject: &Subject<'_>) -> Option<Trial> {
         about: about.to_string(),
         expected,
         verdict,
+        seconds: 0.0,
     })
 }
 

@@ -33,6 +33,7 @@ fn trial(subject: &Subject<'_>, slip: Slip, law: &'static str) -> Option<Trial> 
             about,
             expected: Expected::Refuted,
             verdict: equivalence(subject.cx, &subject.routh, &wrong),
+            seconds: 0.0,
         })
     })
 }

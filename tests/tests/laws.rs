@@ -1,0 +1,84 @@
+//! Fifty random systems of each family obey the laws: true statements are proved, wrong equations are refuted.
+//!
+//! `cargo xtask laws --full` takes five hundred; `cargo xtask laws --family NAME --seed N` repeats one.
+
+use chetaev::mechanics::System;
+use chetaev::model::{load, NoFiles, Style};
+use chetaev_laws::arguments::USUAL_COUNT;
+use chetaev_laws::{check_all, failures, generate, table, Expected, Family};
+
+fn obeys_the_laws(family: Family) {
+    let outcomes = check_all(&[family], USUAL_COUNT, &|_, _| ());
+    assert_eq!(outcomes.len() as u64, USUAL_COUNT);
+    let report = format!("{}{}", table(&outcomes), failures(&outcomes));
+    assert!(outcomes.iter().all(|o| o.holds()), "{report}");
+    // A law that is tried on nothing holds too: each system has proofs, and all but a few have wrong equations.
+    let tried = |expected| {
+        outcomes
+            .iter()
+            .filter(move |o| o.tally(expected).0 > 1)
+            .count()
+    };
+    assert_eq!(tried(Expected::Proved), outcomes.len(), "{report}");
+    assert!(
+        tried(Expected::Refuted) * 10 >= outcomes.len() * 9,
+        "{report}"
+    );
+}
+
+#[test]
+fn polynomial_lagrangians_with_linear_constraints() {
+    obeys_the_laws(Family::PolynomialLinear);
+}
+
+#[test]
+fn trigonometric_lagrangians_with_linear_constraints() {
+    obeys_the_laws(Family::TrigonometricLinear);
+}
+
+#[test]
+fn polynomial_lagrangians_with_nonlinear_constraints() {
+    obeys_the_laws(Family::PolynomialNonlinear);
+}
+
+#[test]
+fn trigonometric_lagrangians_with_nonlinear_constraints() {
+    obeys_the_laws(Family::TrigonometricNonlinear);
+}
+
+#[test]
+fn lagrangians_that_are_not_quadratic() {
+    obeys_the_laws(Family::Nonquadratic);
+}
+
+#[test]
+fn affine_constraints_that_depend_on_the_time() {
+    obeys_the_laws(Family::RheonomicAffine);
+}
+
+/// The text that comes with a failure is the system that failed.
+#[test]
+fn the_text_of_a_system_is_a_model_of_it() {
+    for family in Family::ALL {
+        for seed in 0..10 {
+            let random = generate(family, seed).unwrap();
+            let loaded = load("model.toml", &random.text, &NoFiles, &[]);
+            let (model, _) = loaded
+                .into_result()
+                .unwrap_or_else(|d| panic!("{}{}", random.text, d.render(Style::Plain)));
+            let read = System::from_model(&model).unwrap();
+            assert_eq!(meaning(&read), meaning(&random.system), "{}", random.text);
+        }
+    }
+}
+
+/// Everything a system states, independent of the graph it lives in.
+fn meaning(system: &System) -> Vec<u128> {
+    let g = &system.graph;
+    let mut all = vec![system.lagrangian];
+    all.extend(&system.forces);
+    all.extend(system.constraints.iter().map(|c| c.stated));
+    all.extend(system.parameter_values().iter().map(|(_, value)| *value));
+    all.extend(system.assumptions.iter().flat_map(|a| [a.left, a.right]));
+    all.into_iter().map(|e| g.digest(e)).collect()
+}
