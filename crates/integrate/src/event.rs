@@ -82,6 +82,14 @@ impl<'a> Event<'a> {
         self
     }
 
+    /// Whether a zero near (t, y) matters.
+    pub(crate) fn matters(&self, system: &mut dyn System, t: f64, y: &[f64]) -> bool {
+        match self.switching {
+            Switching::Function(_) => true,
+            Switching::OfSystem(index) => system.is_event(index, t, y),
+        }
+    }
+
     pub(crate) fn value(
         &mut self,
         system: &mut dyn System,

@@ -159,6 +159,10 @@ impl Locator {
             if !counts(event.direction, candidate.kind) {
                 continue;
             }
+            step.dense.at_theta(candidate.theta, &mut self.y);
+            if !event.matters(system, step.time(candidate.theta), &self.y) {
+                continue;
+            }
             self.refine(system, event, (step, next), candidate, &mut restarted);
             if self.record(system, candidate, solution)? {
                 event.count += 1;

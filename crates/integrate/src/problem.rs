@@ -146,6 +146,13 @@ pub trait System {
         Err(EvaluationFailure::Domain { operation: index })
     }
 
+    /// Whether a zero of switching function number `index` of the system near (t, y) is an event at all, asked before it is
+    /// located exactly. For functions that have many zeros of which few matter (minima of a distance, say).
+    fn is_event(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
+        let _ = (index, t, y);
+        true
+    }
+
     /// Number of factorizations made so far, for the statistics.
     fn factorizations(&self) -> u64 {
         0

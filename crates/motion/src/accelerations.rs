@@ -85,6 +85,14 @@ impl Accelerations {
         Ok(())
     }
 
+    /// Replaces accelerations that are not known after a failed solve by zero.
+    pub(crate) fn fill_unknown(&mut self, n: usize) {
+        self.a.resize(n, 0.0);
+        for a in self.a.iter_mut().filter(|a| !a.is_finite()) {
+            *a = 0.0;
+        }
+    }
+
     /// Factors `J_d` and forms `B_d = -J_d⁻¹ J_i`.
     fn factor_dependent(
         &mut self,

@@ -2,6 +2,7 @@
 
 use crate::accelerations::{Accelerations, SolveFailure};
 use crate::chart::{self, Chart};
+use crate::least_norm::{identity, least_step, norm};
 use crate::numeric::NumericSystem;
 
 /// Given and free initial data of the coordinates and velocities.
@@ -80,6 +81,16 @@ pub enum InitialError {
         /// Number of starting points.
         starts: usize,
     },
+    /// No position found for holonomic constraints.
+    #[error("no position satisfies {names}: they contradict each other, or the best of {starts} searches missed it; it leaves the residual {residual:.3e}")]
+    NoPosition {
+        /// The constraints.
+        names: String,
+        /// The residual left.
+        residual: f64,
+        /// Number of starting points.
+        starts: usize,
+    },
     /// A gradient vanishes.
     #[error("the gradient of constraint `{name}` by the velocities vanishes at the initial state: its rank is 0 there, so it is singular and determines no reaction{hint}")]
     VanishingGradient {
@@ -89,7 +100,7 @@ pub enum InitialError {
         hint: String,
     },
     /// Accelerations are not determined.
-    #[error("the accelerations are not determined at the initial state: the mass matrix is singular in the direction of {direction}, which has no inertia and is not held by a constraint (degenerate Lagrangian or zero mass)")]
+    #[error("the accelerations are not determined at the initial state: the mass matrix restricted to the velocities that the constraints admit is singular, a velocity along {direction} has no inertia (zero mass, a degenerate Lagrangian, or coordinates that are singular at this position)")]
     NoInertia {
         /// Coordinate names.
         direction: String,
@@ -165,14 +176,17 @@ impl Search<'_> {
         let movable = self.movable(&self.data.q_fixed);
         let all: Vec<usize> = (0..self.system.n).collect();
         let t = self.data.t;
-        self.newton_positions(t, &movable)?;
-        let residual = self.largest_position_residual()?;
-        if residual <= tolerance(&self.q) {
+        if self.search_positions(t, &movable)? {
             return Ok(());
         }
-        self.q = given.clone();
         let worst = self.position_violations()?;
-        self.newton_positions(t, &all)?;
+        if !self.search_positions(t, &all)? {
+            return Err(InitialError::NoPosition {
+                names: worst.0,
+                residual: worst.1,
+                starts: STARTS,
+            });
+        }
         let nearest = self.describe(&given, &self.q.clone(), "");
         Err(InitialError::Inconsistent {
             kind: "position",
@@ -180,6 +194,29 @@ impl Search<'_> {
             residual: worst.1,
             advice: advice(&nearest),
         })
+    }
+
+    /// Newton from several starting points; leaves q as it was when none converges.
+    fn search_positions(&mut self, t: f64, movable: &[usize]) -> Result<bool, InitialError> {
+        let start = self.q.clone();
+        let mut generator = chetaev_mechanics::sample::Generator::new(5);
+        for attempt in 0..STARTS {
+            self.q.clone_from(&start);
+            if attempt > 0 {
+                perturb(&mut self.q, movable, &mut generator);
+            }
+            // A start outside the domain of a function is no reason to give up, unless it is the given one.
+            let outcome = self
+                .newton_positions(t, movable)
+                .and_then(|()| self.largest_position_residual());
+            match outcome {
+                Ok(residual) if residual <= tolerance(&self.q) => return Ok(true),
+                Err(error) if attempt == 0 => return Err(error),
+                _ => {}
+            }
+        }
+        self.q = start;
+        Ok(false)
     }
 
     fn newton_positions(&mut self, t: f64, movable: &[usize]) -> Result<(), InitialError> {
@@ -260,10 +297,9 @@ impl Search<'_> {
         }
         let given = self.v.clone();
         let movable = self.movable(&self.data.v_fixed);
-        if self.newton_velocities(&movable) {
+        if self.search_velocities(&movable) {
             return Ok(());
         }
-        self.v = given.clone();
         self.contradiction()?;
         self.evaluate()?;
         let rows: Vec<usize> = (0..self.system.r).collect();
@@ -286,7 +322,7 @@ impl Search<'_> {
         let n = self.system.n;
         let mut best = f64::INFINITY;
         let mut stalled = 0;
-        for _ in 0..80 {
+        for step in 0..80 {
             if self.evaluate().is_err() {
                 return false;
             }
@@ -295,7 +331,8 @@ impl Search<'_> {
             let jacobian = self.system.jacobian().to_vec();
             let scale = largest(&jacobian) * (1.0 + largest(&self.v));
             if size <= 4.0 * f64::EPSILON * scale.max(f64::MIN_POSITIVE) {
-                return true;
+                // A state that is given may be singular and is diagnosed as such; one that is searched for must not be.
+                return step == 0 || self.has_gradients();
             }
             stalled = if size < 0.9 * best { 0 } else { stalled + 1 };
             best = best.min(size);
@@ -303,25 +340,24 @@ impl Search<'_> {
                 break;
             }
             let metric = self.system.mass().to_vec();
-            let step = least_step(&jacobian, &residual, n, movable, &metric);
-            for (x, dx) in self.v.iter_mut().zip(&step) {
+            let change = least_step(&jacobian, &residual, n, movable, &metric);
+            for (x, dx) in self.v.iter_mut().zip(&change) {
                 *x -= dx;
             }
         }
         self.evaluate().is_ok()
+            && self.has_gradients()
             && largest(self.system.residual()) <= 2e-12 * (1.0 + largest(&self.v))
     }
 
-    /// Newton from several starting points.
+    /// Newton from several starting points; leaves v as it was when none converges.
     fn search_velocities(&mut self, movable: &[usize]) -> bool {
         let start = self.v.clone();
         let mut generator = chetaev_mechanics::sample::Generator::new(7);
         for attempt in 0..STARTS {
             self.v = start.clone();
             if attempt > 0 {
-                for x in &mut self.v {
-                    *x += generator.between(-1.0, 1.0) * (1.0 + x.abs());
-                }
+                perturb(&mut self.v, movable, &mut generator);
             }
             if self.newton_velocities(movable) {
                 return true;
@@ -435,21 +471,25 @@ impl Search<'_> {
     }
 
     fn check_gradients(&self) -> Result<(), InitialError> {
+        match self.vanishing_gradient() {
+            None => Ok(()),
+            Some(row) => Err(InitialError::VanishingGradient {
+                name: self.system.constraints[row].clone(),
+                hint: "; if it is a square such as (x' - y)^2 = 0, write the base alone: x' = y"
+                    .to_string(),
+            }),
+        }
+    }
+
+    fn has_gradients(&self) -> bool {
+        self.vanishing_gradient().is_none()
+    }
+
+    /// A row whose gradient vanishes at the state last evaluated.
+    fn vanishing_gradient(&self) -> Option<usize> {
         let (system, n) = (&*self.system, self.system.n);
         let scale = largest(system.jacobian()).max(1e-3);
-        for row in 0..system.r {
-            let gradient = &system.jacobian()[row * n..(row + 1) * n];
-            if norm(gradient) <= 1e-7 * scale {
-                let hint =
-                    "; if it is a square such as (x' - y)^2 = 0, write the base alone: x' = y"
-                        .to_string();
-                return Err(InitialError::VanishingGradient {
-                    name: system.constraints[row].clone(),
-                    hint,
-                });
-            }
-        }
-        Ok(())
+        (0..system.r).find(|&row| norm(&system.jacobian()[row * n..(row + 1) * n]) <= 1e-7 * scale)
     }
 
     fn check_inertia(&self, chart: &Chart) -> Result<(), InitialError> {
@@ -508,6 +548,13 @@ impl Search<'_> {
     }
 }
 
+/// Moves the movable components by up to one and their own size.
+fn perturb(x: &mut [f64], movable: &[usize], generator: &mut chetaev_mechanics::sample::Generator) {
+    for &i in movable {
+        x[i] += generator.between(-1.0, 1.0) * (1.0 + x[i].abs());
+    }
+}
+
 fn advice(nearest: &str) -> String {
     if nearest.is_empty() {
         "give other initial data, or set `project = true`".to_string()
@@ -530,110 +577,6 @@ fn largest(x: &[f64]) -> f64 {
     })
 }
 
-fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|v| v * v).sum::<f64>().sqrt()
-}
-
 fn pivot_column(line: &[f64]) -> Option<usize> {
     (0..line.len()).max_by(|&i, &j| line[i].abs().total_cmp(&line[j].abs()))
-}
-
-fn identity(n: usize) -> Vec<f64> {
-    let mut matrix = vec![0.0; n * n];
-    for i in 0..n {
-        matrix[i * n + i] = 1.0;
-    }
-    matrix
-}
-
-/// The step x of the movable components with `J x = f` (in the least-squares sense where rows depend) and least
-/// `xᵀ M x`; the metric falls back to the identity where M is not positive definite on the movable components.
-pub(crate) fn least_step(
-    jacobian: &[f64],
-    f: &[f64],
-    n: usize,
-    movable: &[usize],
-    metric: &[f64],
-) -> Vec<f64> {
-    let m = movable.len();
-    let mut step = vec![0.0; n];
-    if m == 0 || f.is_empty() {
-        return step;
-    }
-    let mut sub: Vec<f64> = Vec::with_capacity(m * m);
-    for &i in movable {
-        sub.extend(movable.iter().map(|&j| metric[i * n + j]));
-    }
-    let factor = cholesky(&sub, m).unwrap_or_else(|| identity(m));
-    // With x = L⁻ᵀ y the norm is Euclidean; rows of J L⁻ᵀ by forward substitution.
-    let mut basis: Vec<(Vec<f64>, f64)> = Vec::new();
-    for (row, &target) in jacobian.chunks(n).zip(f) {
-        let mut direction: Vec<f64> = movable.iter().map(|&i| row[i]).collect();
-        forward(&factor, &mut direction);
-        let original = norm(&direction);
-        let mut value = target;
-        for (unit, component) in &basis {
-            let along: f64 = direction.iter().zip(unit).map(|(a, b)| a * b).sum();
-            direction
-                .iter_mut()
-                .zip(unit)
-                .for_each(|(a, b)| *a -= along * b);
-            value -= along * component;
-        }
-        let length = norm(&direction);
-        if length > 1e-10 * original && length > 0.0 {
-            direction.iter_mut().for_each(|x| *x /= length);
-            basis.push((direction, value / length));
-        }
-    }
-    let mut y = vec![0.0; m];
-    for (unit, component) in basis {
-        y.iter_mut()
-            .zip(unit)
-            .for_each(|(a, u)| *a += component * u);
-    }
-    backward(&factor, &mut y);
-    for (&i, &x) in movable.iter().zip(&y) {
-        step[i] = x;
-    }
-    step
-}
-
-/// L with `L Lᵀ = A`; `None` when A is not safely positive definite.
-fn cholesky(a: &[f64], m: usize) -> Option<Vec<f64>> {
-    let mut l = vec![0.0; m * m];
-    let scale = (0..m).fold(0.0, |s: f64, i| s.max(a[i * m + i].abs()));
-    for i in 0..m {
-        for j in 0..=i {
-            let sum: f64 = (0..j).map(|k| l[i * m + k] * l[j * m + k]).sum();
-            let value = a[i * m + j] - sum;
-            if i == j {
-                if value.is_nan() || value <= 1e-12 * scale {
-                    return None;
-                }
-                l[i * m + i] = value.sqrt();
-            } else {
-                l[i * m + j] = value / l[j * m + j];
-            }
-        }
-    }
-    Some(l)
-}
-
-/// `x ← L⁻¹ x`.
-fn forward(l: &[f64], x: &mut [f64]) {
-    let m = x.len();
-    for i in 0..m {
-        let sum: f64 = (0..i).map(|j| l[i * m + j] * x[j]).sum();
-        x[i] = (x[i] - sum) / l[i * m + i];
-    }
-}
-
-/// `x ← L⁻ᵀ x`.
-fn backward(l: &[f64], x: &mut [f64]) {
-    let m = x.len();
-    for i in (0..m).rev() {
-        let sum: f64 = (i + 1..m).map(|j| l[j * m + i] * x[j]).sum();
-        x[i] = (x[i] - sum) / l[i * m + i];
-    }
 }

@@ -9,6 +9,7 @@ pub mod dense;
 pub mod drift;
 pub mod functions;
 pub mod initial;
+mod least_norm;
 pub mod maggi_flow;
 pub mod multiplier_flow;
 pub mod numeric;

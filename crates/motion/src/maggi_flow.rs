@@ -6,7 +6,8 @@
 
 use crate::chart;
 use crate::functions::{Functions, FunctionsError};
-use crate::initial::{least_step, ConsistentState};
+use crate::initial::ConsistentState;
+use crate::least_norm::least_step;
 use crate::numeric::{Binding, NumericSystem};
 use crate::row::RowLayout;
 use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System as Flow};

@@ -6,7 +6,8 @@
 use crate::accelerations::Accelerations;
 use crate::chart::{self, Chart};
 use crate::drift::Drift;
-use crate::initial::{least_step, ConsistentState};
+use crate::initial::ConsistentState;
+use crate::least_norm::least_step;
 use crate::numeric::{Completion, NumericSystem};
 use crate::row::RowLayout;
 use crate::watch::Watch;
@@ -377,9 +378,20 @@ impl System for MultiplierFlow {
     }
 
     fn switching(&mut self, index: usize, t: f64, y: &[f64]) -> Result<f64, EvaluationFailure> {
-        self.evaluate(t, y)?;
+        // At the singularity itself there are no accelerations, and the last known ones are as good as any: the rate of what
+        // vanishes there is zero.
+        if let Err(failure) = self.evaluate(t, y) {
+            if !self.watch.is_near(index, t, &self.q, &self.v) {
+                return Err(failure);
+            }
+            self.accelerations.fill_unknown(self.system.n);
+        }
         self.watch
             .switching(index, t, &self.q, &self.v, &self.accelerations.a)
+    }
+
+    fn is_event(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
+        self.unpack(t, y).is_err() || self.watch.is_near(index, t, &self.q, &self.v)
     }
 
     fn factorizations(&self) -> u64 {

@@ -39,6 +39,8 @@ pub struct Watch {
 const NEAR: f64 = 1e-2;
 /// A minimum below this fraction of the largest value counts as zero; the quantities are squares of lengths.
 const ZERO: f64 = 1e-12;
+/// Rates below this, relative to the largest value, count as none.
+const FLAT: f64 = 1e-12;
 const MOST: usize = 12;
 
 impl Watch {
@@ -101,7 +103,7 @@ impl Watch {
             .position(|(value, reference)| value.abs() <= ZERO * reference)
     }
 
-    /// A switching function that rises through zero where quantity `index` has a local minimum close to zero.
+    /// The rate of quantity `index`, which rises through zero at its minima.
     ///
     /// # Errors
     /// When a value is not finite.
@@ -114,14 +116,20 @@ impl Watch {
         a: &[f64],
     ) -> Result<f64, EvaluationFailure> {
         self.functions.evaluate(t, &[q, v])?;
-        let value = self.functions.group(0)[index].abs();
-        let reference = self.reference[index];
-        if value > NEAR * reference {
-            return Ok(-1.0);
-        }
+        let reference = self.reference[index].max(f64::MIN_POSITIVE);
         let slope = &self.functions.group(2)[index * self.n..(index + 1) * self.n];
         let along: f64 = slope.iter().zip(a).map(|(s, a)| s * a).sum();
-        Ok((self.functions.group(1)[index] + along) / reference.max(f64::MIN_POSITIVE))
+        let rate = (self.functions.group(1)[index] + along) / reference;
+        // The rate of a constant is rounding: its zeros are none.
+        Ok(if rate.abs() < FLAT { -FLAT } else { rate })
+    }
+
+    /// Whether quantity `index` is small enough at (t, q, v) for its minimum to be looked at closely.
+    pub fn is_near(&mut self, index: usize, t: f64, q: &[f64], v: &[f64]) -> bool {
+        match self.functions.evaluate(t, &[q, v]) {
+            Ok(()) => self.functions.group(0)[index].abs() <= NEAR * self.reference[index],
+            Err(_) => true,
+        }
     }
 
     /// Whether quantity `index` is zero at (t, q, v), measured by its size along the run.

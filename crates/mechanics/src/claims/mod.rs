@@ -108,6 +108,12 @@ pub trait Claim: Sync {
         vec![None]
     }
 
+    /// The highest order of constraints that the rule of this claim takes into account. A system with constraints of
+    /// higher order is another system without them: the claim is then not decided at all.
+    fn highest_order(&self) -> u32 {
+        1
+    }
+
     /// Decides the claim; its hypotheses hold.
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding;
 }
@@ -249,7 +255,10 @@ impl<'a> Context<'a> {
             return Arc::new(verdict.into());
         }
         lock(&self.in_progress).push(full.to_string());
-        let finding = match self.failed_hypothesis(&claim.requires(subject)) {
+        let obstacle = self
+            .constraint_beyond(claim.highest_order())
+            .or_else(|| self.failed_hypothesis(&claim.requires(subject)));
+        let finding = match obstacle {
             Some(verdict) => verdict.into(),
             None => claim.decide(self, subject),
         };
@@ -257,6 +266,14 @@ impl<'a> Context<'a> {
         let finding = Arc::new(finding);
         lock(&self.decided).insert(full.to_string(), finding.clone());
         finding
+    }
+
+    fn constraint_beyond(&self, order: u32) -> Option<Verdict> {
+        let constraint = self.system.constraints.iter().find(|c| c.order > order)?;
+        Some(Verdict::undecided(format!(
+            "the constraint `{}` is of order {}, and this claim is decided for constraints up to order {order} only: without it the system would be another one",
+            constraint.name, constraint.order
+        )))
     }
 
     fn failed_hypothesis(&self, hypotheses: &[String]) -> Option<Verdict> {

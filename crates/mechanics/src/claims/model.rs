@@ -30,6 +30,10 @@ impl Claim for HessianRegular {
          give unique accelerations once the constraints are used: that is `model.accelerations-unique`."
     }
 
+    fn highest_order(&self) -> u32 {
+        u32::MAX
+    }
+
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         let verdict = cx.prover.nonsingular(
             cx.system,
@@ -227,7 +231,8 @@ impl Claim for ConstraintsLinear {
     }
 
     fn explanation(&self) -> &'static str {
-        "All second derivatives ∂²f/∂v∂v vanish identically: every constraint has the form a(q,t)·v + a₀(q,t) = 0. \
+        "Every constraint has the form a(q,t)·v + a₀(q,t) = 0: its derivatives by the velocities contain no velocities, or \
+         f(v) + f(w) = f(v + w) + f(0) identically. \
          Affine constraints (a₀ ≠ 0) count as linear here; `model.constraints-homogeneous` tells them apart."
     }
 
@@ -235,15 +240,21 @@ impl Claim for ConstraintsLinear {
         if cx.terms.constraints.is_empty() {
             return no_constraints().into();
         }
-        let g = &cx.system.graph;
-        let velocities = cx.system.velocity_symbols();
-        let residuals: Vec<Expr> = cx
-            .terms
-            .jacobian
-            .iter()
-            .flat_map(|row| g.jacobian(row, &velocities).concat())
-            .filter(|&e| !g.is_zero(e))
+        let rows = 0..cx.terms.constraints.len();
+        let residuals: Vec<Expr> = rows
+            .filter(|&row| {
+                !cx.system.constraints[cx.terms.constraint_index[row]].is_affine_in_velocities()
+            })
+            .map(|row| additivity(cx, cx.terms.constraints[row]))
+            .filter(|&e| !cx.system.graph.is_zero(e))
             .collect();
+        if residuals.is_empty() {
+            let proof = Proof::structural(
+                "identically in q, v, t",
+                "no derivative of a constraint by a velocity contains velocities",
+            );
+            return Verdict::Proved(proof).into();
+        }
         cx.prover
             .identity(
                 cx.system,
@@ -253,6 +264,25 @@ impl Claim for ConstraintsLinear {
             )
             .into()
     }
+}
+
+/// `f(v) + f(w) - f(v + w) - f(0)`, which vanishes for affine functions only; unlike second derivatives it sees the corner
+/// of |x'|.
+fn additivity(cx: &Context<'_>, f: Expr) -> Expr {
+    let g = &cx.system.graph;
+    let coordinates = &cx.system.coordinates;
+    let other = |name: &str| g.symbol(&format!("{name}_other"), 1);
+    let at = |value: &dyn Fn(Expr, &str) -> Expr| {
+        let pairs: Vec<(Expr, Expr)> = coordinates
+            .iter()
+            .map(|c| (c.v, value(c.v, &c.name)))
+            .collect();
+        g.substitute(f, &pairs)
+    };
+    let of_other = at(&|_, name| other(name));
+    let of_sum = at(&|v, name| g.add(&[v, other(name)]));
+    let at_rest = at(&|_, _| g.zero());
+    g.add(&[f, of_other, g.neg(of_sum), g.neg(at_rest)])
 }
 
 /// `model.constraints-homogeneous`.

@@ -110,6 +110,7 @@ pub fn decide_zero(graph: &Graph, test: &ZeroTest<'_>) -> Verdict {
         roots,
         implicit,
         assumptions,
+        solved,
     } = match eliminated {
         Ok(eliminated) => eliminated,
         Err(tried) => return Verdict::undecided(tried),
@@ -124,6 +125,7 @@ pub fn decide_zero(graph: &Graph, test: &ZeroTest<'_>) -> Verdict {
         residuals: &roots,
         implicit: &implicit,
         assumptions: &assumptions,
+        solved: &solved,
     };
     case.decide()
 }
@@ -136,6 +138,7 @@ struct Case<'a> {
     residuals: &'a [Expr],
     implicit: &'a [(Expr, Symbol)],
     assumptions: &'a Assumptions,
+    solved: &'a [(Symbol, Expr)],
 }
 
 impl Case<'_> {
@@ -245,7 +248,7 @@ impl Case<'_> {
         let claim = Claim {
             residuals: self.residuals,
             constraints: self.implicit,
-            solved: self.test.solved,
+            solved: self.solved,
             assumptions: self.assumptions,
         };
         let seed = self.test.options.seed;

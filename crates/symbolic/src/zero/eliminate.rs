@@ -50,12 +50,15 @@ pub(super) fn eliminate(
     Ok(roots)
 }
 
-/// The conditions of a question after the elimination.
+/// A question after the elimination.
 #[derive(Clone, Debug)]
 pub(super) struct Eliminated {
     pub(super) roots: Vec<Expr>,
+    /// Each contains, of the symbols that others determine, only those determined before it, where such an order exists.
     pub(super) implicit: Vec<(Expr, Symbol)>,
     pub(super) assumptions: Assumptions,
+    /// What was replaced: the solved symbols, and those of affine constraints that stood in the way of an order.
+    pub(super) solved: Vec<(Symbol, Expr)>,
 }
 
 /// Replaces the solved symbols in everything a question consists of.
@@ -66,10 +69,32 @@ pub(super) fn eliminate_all(
     implicit: &[(Expr, Symbol)],
     assumptions: &Assumptions,
 ) -> Result<Eliminated, String> {
+    let (mut solved, mut implicit) = (solved.to_vec(), implicit.to_vec());
+    loop {
+        let mut result = replaced(graph, solved.clone(), roots, &implicit, assumptions)?;
+        let unordered = in_triangular_order(graph, &mut result.implicit);
+        let affine = (unordered..result.implicit.len())
+            .find_map(|i| Some((i, affine_solution(graph, result.implicit[i])?)));
+        let Some((index, solution)) = affine else {
+            return Ok(result);
+        };
+        let (_, symbol) = result.implicit.remove(index);
+        solved.push((symbol, solution));
+        implicit = result.implicit;
+    }
+}
+
+fn replaced(
+    graph: &Graph,
+    solved: Vec<(Symbol, Expr)>,
+    roots: &[Expr],
+    implicit: &[(Expr, Symbol)],
+    assumptions: &Assumptions,
+) -> Result<Eliminated, String> {
     let mut everything = roots.to_vec();
     everything.extend(implicit.iter().map(|(f, _)| *f));
     everything.extend(assumptions.list().iter().flat_map(|a| [a.left, a.right]));
-    let mut everything = eliminate(graph, solved, &everything)?.into_iter();
+    let mut everything = eliminate(graph, &solved, &everything)?.into_iter();
     let roots = everything.by_ref().take(roots.len()).collect();
     let constraints: Vec<Expr> = everything.by_ref().take(implicit.len()).collect();
     let implicit = constraints
@@ -87,5 +112,34 @@ pub(super) fn eliminate_all(
         roots,
         implicit,
         assumptions: kept,
+        solved,
     })
+}
+
+/// Puts first the constraints that contain, of the symbols that others determine, only those determined before; returns how
+/// many could be ordered so.
+fn in_triangular_order(graph: &Graph, implicit: &mut Vec<(Expr, Symbol)>) -> usize {
+    let mut rest = std::mem::take(implicit);
+    while let Some(next) = (0..rest.len()).find(|&i| {
+        let others: Vec<Symbol> = (0..rest.len())
+            .filter(|&j| j != i)
+            .map(|j| rest[j].1)
+            .collect();
+        !graph.contains_any(rest[i].0, &others)
+    }) {
+        implicit.push(rest.remove(next));
+    }
+    let ordered = implicit.len();
+    implicit.extend(rest);
+    ordered
+}
+
+/// The symbol of an affine constraint by the others, where its coefficient is not zero.
+fn affine_solution(graph: &Graph, (f, symbol): (Expr, Symbol)) -> Option<Expr> {
+    let coefficient = graph.diff(f, symbol);
+    if graph.is_zero(coefficient) || graph.contains_any(coefficient, &[symbol]) {
+        return None;
+    }
+    let rest = graph.substitute(f, &[(graph.symbol_expr(symbol), graph.zero())]);
+    Some(graph.neg(graph.div(rest, coefficient)))
 }

@@ -122,6 +122,7 @@ pub fn generic_rank(graph: &Graph, test: &RankTest<'_>) -> Result<GenericRank, B
         roots: entries,
         implicit,
         assumptions,
+        ..
     } = eliminated.map_err(undecided)?;
     let question = Question {
         outputs: &entries,

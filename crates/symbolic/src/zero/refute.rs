@@ -164,6 +164,8 @@ impl<'a> Hunt<'a> {
                 .iter()
                 .flat_map(|a| [a.left, a.right]),
         );
+        // Of the eliminated symbols too, so that the whole point can be stated.
+        roots.extend(claim.solved.iter().map(|(_, e)| *e));
         let dependent = |symbol: &Symbol| claim.constraints.iter().any(|(_, s)| s == symbol);
         let eliminated = |symbol: &Symbol| claim.solved.iter().any(|(s, _)| s == symbol);
         let mut independent = graph.symbols_in(&roots);
@@ -390,7 +392,7 @@ impl<'a> Hunt<'a> {
         Counterexample {
             point: values,
             detail: format!(
-                "{quantity} lies between {lower} and {upper} at the point stated, not at zero"
+                "{quantity} lies between {lower} and {upper} at the point stated, whatever the variables not stated there, not at zero"
             ),
             quantity,
             residual: (lower, upper),

@@ -139,6 +139,11 @@ fn several_constraints_one_after_another() {
     );
     assert_eq!(decide_on(&g, "z'^2*(y' - x') - 1", &f).word(), "proved");
     assert_eq!(decide_on(&g, "z'^2*(y' + x') - 1", &f).word(), "refuted");
+    let linear_first = [("x'^2 - y^2*z'^2", "x'"), ("z' - 1", "z'")];
+    assert_eq!(decide_on(&g, "x'^2 - y^2", &linear_first).word(), "proved");
+    let mixed = [("x' + z' - y", "x'"), ("x'^2 + z'^2 - 1", "z'")];
+    assert_eq!(decide_on(&g, "2*x'*z' - y^2 + 1", &mixed).word(), "proved");
+    assert_eq!(decide_on(&g, "2*x'*z' - y^2", &mixed).word(), "refuted");
     let tangled = [("y' - z'^2", "y'"), ("z'^3 - y' - x'", "z'")];
     let verdict = decide_on(&g, "y' - z'^2", &tangled);
     assert!(!matches!(verdict, Verdict::Refuted(_)), "{verdict:?}");

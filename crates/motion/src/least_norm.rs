@@ -1,0 +1,107 @@
+//! Steps of least kinetic norm onto linearized constraints.
+
+/// Euclidean length.
+pub(crate) fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// The n × n identity, row by row.
+pub(crate) fn identity(n: usize) -> Vec<f64> {
+    let mut matrix = vec![0.0; n * n];
+    for i in 0..n {
+        matrix[i * n + i] = 1.0;
+    }
+    matrix
+}
+
+/// The step x of the movable components with `J x = f` (in the least-squares sense where rows depend) and least
+/// `xᵀ M x`; the metric falls back to the identity where M is not positive definite on the movable components.
+pub(crate) fn least_step(
+    jacobian: &[f64],
+    f: &[f64],
+    n: usize,
+    movable: &[usize],
+    metric: &[f64],
+) -> Vec<f64> {
+    let m = movable.len();
+    let mut step = vec![0.0; n];
+    if m == 0 || f.is_empty() {
+        return step;
+    }
+    let mut sub: Vec<f64> = Vec::with_capacity(m * m);
+    for &i in movable {
+        sub.extend(movable.iter().map(|&j| metric[i * n + j]));
+    }
+    let factor = cholesky(&sub, m).unwrap_or_else(|| identity(m));
+    // With x = L⁻ᵀ y the norm is Euclidean; rows of J L⁻ᵀ by forward substitution.
+    let mut basis: Vec<(Vec<f64>, f64)> = Vec::new();
+    for (row, &target) in jacobian.chunks(n).zip(f) {
+        let mut direction: Vec<f64> = movable.iter().map(|&i| row[i]).collect();
+        forward(&factor, &mut direction);
+        let original = norm(&direction);
+        let mut value = target;
+        for (unit, component) in &basis {
+            let along: f64 = direction.iter().zip(unit).map(|(a, b)| a * b).sum();
+            direction
+                .iter_mut()
+                .zip(unit)
+                .for_each(|(a, b)| *a -= along * b);
+            value -= along * component;
+        }
+        let length = norm(&direction);
+        if length > 1e-10 * original && length > 0.0 {
+            direction.iter_mut().for_each(|x| *x /= length);
+            basis.push((direction, value / length));
+        }
+    }
+    let mut y = vec![0.0; m];
+    for (unit, component) in basis {
+        y.iter_mut()
+            .zip(unit)
+            .for_each(|(a, u)| *a += component * u);
+    }
+    backward(&factor, &mut y);
+    for (&i, &x) in movable.iter().zip(&y) {
+        step[i] = x;
+    }
+    step
+}
+
+/// L with `L Lᵀ = A`; `None` when A is not safely positive definite.
+fn cholesky(a: &[f64], m: usize) -> Option<Vec<f64>> {
+    let mut l = vec![0.0; m * m];
+    let scale = (0..m).fold(0.0, |s: f64, i| s.max(a[i * m + i].abs()));
+    for i in 0..m {
+        for j in 0..=i {
+            let sum: f64 = (0..j).map(|k| l[i * m + k] * l[j * m + k]).sum();
+            let value = a[i * m + j] - sum;
+            if i == j {
+                if value.is_nan() || value <= 1e-12 * scale {
+                    return None;
+                }
+                l[i * m + i] = value.sqrt();
+            } else {
+                l[i * m + j] = value / l[j * m + j];
+            }
+        }
+    }
+    Some(l)
+}
+
+/// `x ← L⁻¹ x`.
+fn forward(l: &[f64], x: &mut [f64]) {
+    let m = x.len();
+    for i in 0..m {
+        let sum: f64 = (0..i).map(|j| l[i * m + j] * x[j]).sum();
+        x[i] = (x[i] - sum) / l[i * m + i];
+    }
+}
+
+/// `x ← L⁻ᵀ x`.
+fn backward(l: &[f64], x: &mut [f64]) {
+    let m = x.len();
+    for i in (0..m).rev() {
+        let sum: f64 = (i + 1..m).map(|j| l[j * m + i] * x[j]).sum();
+        x[i] = (x[i] - sum) / l[i * m + i];
+    }
+}
