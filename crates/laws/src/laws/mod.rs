@@ -1,13 +1,14 @@
 //! The laws: statements that hold for every system, and wrong equations that hold for none.
 
 mod coordinates;
+mod counterexample;
 mod numbers;
 mod power;
 mod reduced;
 mod rewrite;
 mod wrong;
 
-use chetaev_mechanics::claims::formulation::{derive, residuals};
+use chetaev_mechanics::claims::formulation::{self, derive, residuals};
 use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::{Characteristics, Context, Equations};
 use chetaev_symbolic::verdict::Verdict;
@@ -105,6 +106,12 @@ impl<'a> Subject<'a> {
         system.graph.substitute_all(es, &jet)
     }
 
+    /// Whether other equations give the accelerations of Routh's; a refutation is looked at again.
+    fn compared(&self, other: &Equations) -> Verdict {
+        let verdict = formulation::equivalence(self.cx, &self.routh, other);
+        counterexample::looked_at_again(self, other, verdict)
+    }
+
     /// The accelerations that k equations on the jet give, linear in P'; `None` where they do not determine P'.
     fn motion_of(&self, equations: &[Expr]) -> Option<Equations> {
         let g = &self.cx.system.graph;
@@ -182,4 +189,82 @@ fn equivalence(subject: &Subject<'_>) -> Option<Trial> {
             .clone(),
         seconds: 0.0,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::{generate, Family};
+    use chetaev_mechanics::claims::CLAIMS;
+    use chetaev_mechanics::{Prepared, Prover, Registry};
+    use chetaev_symbolic::verdict::Counterexample;
+
+    /// Looks at a system after something was spoilt in it.
+    fn spoilt(family: Family, spoil: impl Fn(&mut Subject<'_>), look: impl Fn(&Subject<'_>)) {
+        let random = generate(family, 1).unwrap();
+        let prepared = Prepared::new(&random.system).unwrap();
+        let registry = Registry::new(&[CLAIMS]);
+        let (terms, selection) = (&prepared.terms, &prepared.selection);
+        let prover = Prover::default();
+        let cx = Context::new(&random.system, terms, selection, &registry, prover);
+        let mut subject = Subject::new(&cx, 1).unwrap();
+        spoil(&mut subject);
+        look(&subject);
+    }
+
+    /// Adds the square of a coordinate to the accelerations of Routh's equations.
+    fn shift(subject: &mut Subject<'_>) {
+        let g = &subject.cx.system.graph;
+        let extra = g.powi(subject.cx.system.coordinates[0].q, 2);
+        for a in &mut subject.routh.accelerations {
+            *a = g.add(&[*a, extra]);
+        }
+    }
+
+    #[test]
+    fn true_laws_fail_for_wrong_accelerations() {
+        for family in [Family::PolynomialLinear, Family::TrigonometricNonlinear] {
+            spoilt(family, shift, |subject| {
+                for law in [power::balance, coordinates::invariance] {
+                    let trial = law(subject).unwrap();
+                    assert_eq!(trial.verdict.word(), "refuted", "{}", trial.law);
+                    assert!(!trial.holds());
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn a_multiplier_of_the_wrong_sign_breaks_the_law_of_coordinates() {
+        let flip = |subject: &mut Subject<'_>| {
+            let g = &subject.cx.system.graph;
+            for (_, lambda) in &mut subject.routh.multipliers {
+                *lambda = g.neg(*lambda);
+            }
+        };
+        spoilt(Family::RheonomicAffine, flip, |subject| {
+            let trial = coordinates::invariance(subject).unwrap();
+            assert_eq!(trial.verdict.word(), "refuted");
+        });
+    }
+
+    #[test]
+    fn a_counterexample_that_does_not_stand_is_found() {
+        let false_one = || {
+            Verdict::Refuted(Counterexample {
+                point: Vec::new(),
+                quantity: "the residual".into(),
+                residual: ("0.25".into(), "0.26".into()),
+                detail: "said to differ".into(),
+            })
+        };
+        spoilt(
+            Family::PolynomialLinear,
+            |_| (),
+            |subject| {
+                let seen = counterexample::looked_at_again(subject, &subject.routh, false_one());
+                assert_eq!(seen.word(), "undecided");
+            },
+        );
+    }
 }

@@ -7,7 +7,6 @@
 
 use super::numbers::{differ, Seen};
 use super::{Expected, Subject, Trial};
-use chetaev_mechanics::claims::formulation::equivalence;
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 
 const LAW: &str = "Lagrange's equations of the reduced L*";
@@ -33,7 +32,7 @@ pub(super) fn lagrange_of_restricted(subject: &Subject<'_>) -> Option<Trial> {
         (_, None) => {
             Verdict::undecided("Lagrange's equations of L* do not determine the accelerations")
         }
-        (_, Some(wrong)) => equivalence(subject.cx, &subject.routh, &wrong),
+        (_, Some(wrong)) => subject.compared(&wrong),
     };
     Some(Trial {
         law: LAW,

@@ -3,7 +3,6 @@
 use super::numbers::{differ, Seen};
 use super::rewrite::{places, slipped, Slip};
 use super::{Expected, Subject, Trial};
-use chetaev_mechanics::claims::formulation::equivalence;
 use chetaev_mechanics::Equations;
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::Expr;
@@ -32,7 +31,7 @@ fn trial(subject: &Subject<'_>, slip: Slip, law: &'static str) -> Option<Trial> 
             law,
             about,
             expected: Expected::Refuted,
-            verdict: equivalence(subject.cx, &subject.routh, &wrong),
+            verdict: subject.compared(&wrong),
             seconds: 0.0,
         })
     })
