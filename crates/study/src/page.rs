@@ -15,7 +15,7 @@ use chetaev_report::data::{
     Series, SeriesGroup, Shape, Source, SourceFile, Stop, Tint, Trajectory, Verdict as Word,
 };
 use chetaev_symbolic::print::Options;
-use chetaev_symbolic::{rational, simplify, Expr, Verdict};
+use chetaev_symbolic::{rational, Expr, Verdict};
 
 /// The HTML page of a study.
 pub fn page(study: &Study, command: Option<String>, files: &[String]) -> String {
@@ -381,11 +381,13 @@ fn formulation(
 fn multipliers(study: &Study, routh: &Equations, options: &Options) -> EquationSection {
     let g = &study.model.graph;
     let values: Vec<Expr> = routh.multipliers.iter().map(|(_, value)| *value).collect();
-    let short = simplify::simplify_all(g, &values, &simplify::Options::default());
+    let short = typeset::simplified(&study.system, &values);
+    let closed = short.iter().all(|&value| typeset::is_legible(g, value));
     let equations = routh
         .objects
         .iter()
         .zip(short)
+        .filter(|(_, value)| typeset::is_legible(g, *value))
         .map(|(object, value)| Equation {
             caption: Some(object.meaning.clone()),
             ..typeset::equation(g, g.symbol(&object.name, 0), value, options)
@@ -394,9 +396,11 @@ fn multipliers(study: &Study, routh: &Equations, options: &Options) -> EquationS
     EquationSection {
         id: "reactions".into(),
         title: "Reactions".into(),
-        explanation: vec![
-            "The multipliers as functions of coordinates and velocities, from the equations of motion and the constraints differentiated once.".into(),
-        ],
+        explanation: vec![if closed {
+            "The multipliers as functions of coordinates and velocities, from the equations of motion and the constraints differentiated once.".into()
+        } else {
+            "Multipliers that are too long to read as formulas are the solution of a linear system: Routh's equations above together with the constraints differentiated once.".into()
+        }],
         equations,
         ..EquationSection::default()
     }
@@ -425,7 +429,7 @@ fn claim(study: &Study, decided: &Decided, options: &Options) -> Claim {
             .formulas
             .iter()
             .map(|f| {
-                let short = simplify::simplify(g, f.right, &simplify::Options::default());
+                let short = typeset::simplified(&study.system, &[f.right])[0];
                 let printed = match f.left {
                     Some(left) => typeset::equation(g, left, short, options),
                     None => typeset::expression(g, short, options),

@@ -7,7 +7,7 @@ use chetaev::mechanics::claims::formulation::derive;
 use chetaev::mechanics::{formulation, Context, Equations, Prepared, Prover, System, FORMULATIONS};
 use chetaev::study::{registry, typeset};
 use chetaev::symbolic::print::{Document, Format};
-use chetaev::symbolic::{simplify, Expr};
+use chetaev::symbolic::Expr;
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let Some(model) = files::model(&arguments.model) else {
@@ -88,7 +88,7 @@ fn statements(system: &System, equations: &Equations) -> Vec<(String, Vec<(Expr,
             .iter()
             .map(|(_, value)| *value)
             .collect();
-        let short = simplify::simplify_all(g, &values, &simplify::Options::default());
+        let short = typeset::simplified(system, &values);
         let pairs = equations
             .objects
             .iter()

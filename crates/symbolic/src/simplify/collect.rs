@@ -78,10 +78,13 @@ pub(super) fn polynomial_generators(
 ) -> Option<Vec<usize>> {
     let g = field.graph();
     let symbols: Vec<_> = group.iter().filter_map(|&e| g.as_symbol(e)).collect();
-    let inside: Vec<usize> = group
-        .iter()
-        .filter_map(|&e| field.generator_of(e))
-        .collect();
+    let mut inside: Vec<usize> = Vec::with_capacity(group.len());
+    for &e in group {
+        // Named twice, a generator would be divided out twice.
+        if let Some(i) = field.generator_of(e).filter(|i| !inside.contains(i)) {
+            inside.push(i);
+        }
+    }
     let occurs = |p: &Polynomial, generator: usize| p.degree_in(generator) > 0;
     for (i, generator) in field.generators().iter().enumerate() {
         if inside.contains(&i) {

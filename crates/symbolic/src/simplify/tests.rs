@@ -353,3 +353,13 @@ fn addition_theorems_are_used_backwards() {
     check("a cos(theta + phi) sin(theta + phi) + b (cos(theta + phi) cos(phi) + sin(theta + phi) sin(phi))",
           "a cos(theta + phi) sin(theta + phi) + b cos(theta)");
 }
+
+#[test]
+fn a_name_given_twice_in_a_group_is_collected_once() {
+    let g = Graph::new();
+    let e = read(&g, "m*(1 + y^2)*x'' + m*x''*c + m*y*x'*y'");
+    let x2 = g.symbol("x", 2);
+    let collected = collect(&g, e, &[&[x2, x2], &[]], &Options::default());
+    let difference = g.sub(e, collected);
+    assert!(g.is_zero(simplify(&g, difference, &Options::default())));
+}
