@@ -63,14 +63,7 @@ fn build() -> PathBuf {
         Some(name) => name,
     };
     let built = Command::new(env!("CARGO"))
-        .args([
-            "build",
-            "--quiet",
-            "--package",
-            "chetaev-cli",
-            "--bin",
-            "chetaev",
-        ])
+        .args(["build", "--quiet", "--workspace", "--bin", "chetaev"])
         .args(["--profile", profile, "--target-dir"])
         .arg(target)
         .current_dir(places::root())

@@ -52,10 +52,22 @@ const CLAIMS: &[&str] = &[
 /// Claims that may stay undecided, with the reason that the study itself must give.
 const UNDECIDED: &[(&str, &str, &str)] = &[
     // Polynomials in t and uniform rotations are integrated exactly by a method of order 8: no error, hence no order.
-    ("appell-hamel/model.toml", "motion.method-order", "too simple"),
-    ("appell-hamel/to-rest.toml", "motion.method-order", "too simple"),
+    (
+        "appell-hamel/model.toml",
+        "motion.method-order",
+        "too simple",
+    ),
+    (
+        "appell-hamel/to-rest.toml",
+        "motion.method-order",
+        "too simple",
+    ),
     ("heavy-top/steady.toml", "motion.method-order", "too simple"),
-    ("moving-knife-edge/lift.toml", "motion.method-order", "too simple"),
+    (
+        "moving-knife-edge/lift.toml",
+        "motion.method-order",
+        "too simple",
+    ),
 ];
 
 fn studies() -> &'static [Studied] {

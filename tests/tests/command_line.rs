@@ -1,0 +1,643 @@
+//! The command line as people and programs use it: exit statuses, help, files, JSON, pipes, interruption, determinism.
+
+use chetaev_tests::places::{gallery, root, scratch};
+use chetaev_tests::program::{command, finish, run, run_in, text, Finished};
+use serde_json::Value;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+const COMMANDS: &[&str] = &[
+    "study",
+    "derive",
+    "simulate",
+    "check",
+    "explain",
+    "verify",
+    "new",
+    "gallery",
+    "completions",
+];
+const SKATE: &str = "gallery/skate-incline/model.toml";
+
+fn ok(arguments: &[&str]) -> Finished {
+    let finished = run(arguments);
+    assert_eq!(
+        finished.status,
+        Some(0),
+        "{arguments:?}: {}",
+        finished.both()
+    );
+    finished
+}
+
+/// A model below a scratch folder.
+fn model(folder: &Path, name: &str, content: &str) -> PathBuf {
+    let path = folder.join(format!("{name}.toml"));
+    std::fs::write(&path, content).expect("a scratch file");
+    path
+}
+
+/// A particle whose motion ends at t = 1, where the root becomes singular, with more text below.
+fn falling_apart(name: &str, rest: &str) -> String {
+    format!(
+        "name = \"{name}\"\ncoordinates = [\"x\"]\n[lagrangian]\nT = \"1/2 x'^2\"\nV = \"-sqrt(1 - x)\"\n[initial]\nx = 0\n\"x'\" = 2\n[simulation]\nt_end = 5\n{rest}"
+    )
+}
+
+#[test]
+fn exit_statuses_are_documented_and_kept() {
+    let help = ok(&["--help"]).out;
+    for line in [
+        "0  done",
+        "1  a claim",
+        "2  the input is wrong",
+        "3  the run stopped",
+    ] {
+        assert!(help.contains(line), "{line} is not in\n{help}");
+    }
+    assert!(help.contains("highest of 2, 3, 1"), "{help}");
+
+    let folder = scratch("exit");
+    let status = |name: &str, content: &str| {
+        let path = model(&folder, name, content);
+        let out = folder.join(format!("out-{name}"));
+        let finished = run(&["study", text(&path), "--out", text(&out)]);
+        assert!(!finished.panicked(), "{}", finished.both());
+        (finished.status, finished)
+    };
+    let good = "name = \"good\"\ncoordinates = [\"x\"]\nlagrangian = \"x'^2/2\"\n[initial]\n\"x'\" = 1\n[simulation]\nt_end = 1\n";
+    let unmet = "[expect]\n\"energy.integral\" = \"refuted\"\n";
+    let cases = [
+        ("done", good.to_owned(), 0),
+        ("unmet", format!("{good}{unmet}"), 1),
+        ("input", format!("{good}[expect]\nnobody = 1\n"), 2),
+        ("stopped", falling_apart("stopped", ""), 3),
+        // 3 wins over 1.
+        (
+            "stopped-and-unmet",
+            falling_apart("stopped-and-unmet", unmet),
+            3,
+        ),
+        (
+            "expected-stop",
+            falling_apart("expected-stop", "[expect]\nstop = true\n"),
+            0,
+        ),
+        (
+            "other-stop",
+            falling_apart("other-stop", "[expect]\nstop = { at = 4 }\n"),
+            3,
+        ),
+        ("no-stop", format!("{good}[expect]\nstop = true\n"), 1),
+    ];
+    for (name, content, expected) in cases {
+        let (found, finished) = status(name, &content);
+        assert_eq!(found, Some(expected), "{name}: {}", finished.both());
+    }
+}
+
+#[test]
+fn an_expectation_about_a_claim_that_does_not_exist_is_not_met_silently() {
+    let folder = scratch("unknown-claim");
+    let content = "name = \"typo\"\ncoordinates = [\"x\"]\nlagrangian = \"x'^2/2\"\n[simulation]\nt_end = 1\n[expect]\n\"energy.integrl\" = \"proved\"\n";
+    let path = model(&folder, "typo", content);
+    let finished = run(&["study", text(&path), "--out", text(&folder.join("out"))]);
+    assert!(
+        matches!(finished.status, Some(1 | 2)),
+        "{}",
+        finished.both()
+    );
+    assert!(
+        finished.both().contains("energy.integrl"),
+        "{}",
+        finished.both()
+    );
+}
+
+#[test]
+fn usage_errors_exit_with_2() {
+    let cases: [&[&str]; 12] = [
+        &[],
+        &["study"],
+        &["fly"],
+        &["study", "nowhere.toml"],
+        &["study", "gallery/skate-incline"],
+        &["study", SKATE, "--claims", "weather"],
+        &["study", SKATE, "--set", "nobody=1"],
+        &["study", SKATE, "--set", "W"],
+        &["study", SKATE, "--method", "magic"],
+        &["simulate", SKATE, "--formulation", "magic"],
+        &["derive", SKATE, "--formulation", "magic"],
+        &["explain", "energy.intgral"],
+    ];
+    let folder = scratch("usage");
+    std::fs::create_dir_all(folder.join("gallery/skate-incline")).expect("a folder");
+    std::fs::copy(root().join(SKATE), folder.join(SKATE)).expect("a copy");
+    for arguments in cases {
+        let finished = run_in(&folder, arguments);
+        assert_eq!(
+            finished.status,
+            Some(2),
+            "{arguments:?}: {}",
+            finished.both()
+        );
+        assert!(
+            !finished.err.is_empty() && !finished.panicked(),
+            "{arguments:?}: {}",
+            finished.both()
+        );
+    }
+    assert!(
+        !folder.join("out").exists(),
+        "a refused command writes nothing"
+    );
+}
+
+#[test]
+fn every_command_has_help_with_examples() {
+    for name in COMMANDS {
+        for flag in ["--help", "-h"] {
+            let help = ok(&[name, flag]).out;
+            let (_, examples) = help
+                .split_once("Example")
+                .unwrap_or_else(|| panic!("{name} {flag} has no examples"));
+            assert!(examples.contains(&format!("\n  chetaev {name}")), "{help}");
+        }
+        assert!(
+            ok(&["--help"]).out.contains(&format!("\n  {name} ")),
+            "{name} is not listed"
+        );
+    }
+    assert!(ok(&["--version"]).out.starts_with("chetaev 0."));
+}
+
+#[test]
+fn shells_get_completions() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = ok(&["completions", shell]).out;
+        for name in COMMANDS {
+            assert!(script.contains(name), "{shell} does not complete {name}");
+        }
+        assert!(
+            script.contains("tolerance"),
+            "{shell} does not complete options"
+        );
+    }
+}
+
+#[test]
+fn what_a_program_reads_is_json() {
+    let out = scratch("json");
+    let out = text(&out);
+    let study = ok(&["study", SKATE, "--out", out, "--json"]).json();
+    let written = std::fs::read_to_string(Path::new(out).join("study.json")).expect("study.json");
+    assert_eq!(
+        serde_json::from_str::<Value>(&written).expect("JSON"),
+        study
+    );
+    let simulated = ok(&["simulate", SKATE, "--out", out, "--json"]).json();
+    assert_eq!(simulated["finished"], true);
+    assert_eq!(
+        ok(&["check", SKATE, "--json"]).json(),
+        serde_json::json!([])
+    );
+    let record = format!("{out}/study.json");
+    assert!(ok(&["verify", &record, "--json"])
+        .json()
+        .as_array()
+        .is_some_and(|l| l.len() > 10));
+    let derived = ok(&["derive", SKATE, "--as", "json"]).json();
+    let names: Vec<&Value> = derived
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|d| &d["formulation"])
+        .collect();
+    assert_eq!(names, ["routh", "maggi"]);
+}
+
+#[test]
+fn results_go_where_they_are_asked_for() {
+    let folder = scratch("folders");
+    let skate = root().join(SKATE).canonicalize().expect("a path");
+    let finished = run_in(&folder, &["study", text(&skate), "--t-end", "1"]);
+    assert_eq!(finished.status, Some(0), "{}", finished.both());
+    let mut names: Vec<String> = std::fs::read_dir(folder.join("out/skate-incline"))
+        .expect("out/NAME")
+        .map(|e| {
+            e.expect("an entry")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
+    names.sort();
+    assert_eq!(
+        names,
+        [
+            "report.html",
+            "study.json",
+            "trajectory.csv",
+            "trajectory.npz"
+        ]
+    );
+    let finished = run_in(
+        &folder,
+        &["study", text(&skate), "--t-end", "1", "--out", "a/b c/ü"],
+    );
+    assert_eq!(finished.status, Some(0), "{}", finished.both());
+    assert!(folder.join("a/b c/ü/report.html").is_file());
+    assert!(
+        finished.out.contains("a/b c/ü/report.html"),
+        "{}",
+        finished.out
+    );
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_an_error() {
+    let folder = scratch("unwritable");
+    let file = folder.join("file");
+    std::fs::write(&file, "not a folder").expect("a file");
+    for name in ["study", "simulate"] {
+        let finished = run(&[name, SKATE, "--t-end", "1", "--out", text(&file)]);
+        assert_eq!(finished.status, Some(2), "{}", finished.both());
+        assert!(
+            finished.err.contains("cannot be written") && finished.err.contains("unwritable"),
+            "{}",
+            finished.err
+        );
+        assert!(!finished.panicked());
+    }
+    assert_eq!(
+        std::fs::read_to_string(&file).expect("the file"),
+        "not a folder"
+    );
+}
+
+#[test]
+fn set_replaces_a_parameter_exactly() {
+    let out = scratch("set");
+    let record = ok(&[
+        "study",
+        "gallery/chaplygin-sleigh/model.toml",
+        "--set",
+        "a=0.3",
+        "--out",
+        text(&out),
+        "--json",
+    ])
+    .json();
+    assert_eq!(
+        record["model"]["overrides"],
+        serde_json::json!([{"name": "a", "value": "0.3"}])
+    );
+    // Of the final speed W sqrt((J + m a²)/m), with m = 3/2, J = 2/5, W = 21/10, a = 3/10.
+    let last = record["trajectory"]["final"].as_array().expect("a state");
+    let value = |name: &str| {
+        last.iter()
+            .find(|v| v["name"] == name)
+            .and_then(|v| v["value"].as_f64())
+            .expect("a value")
+    };
+    let speed = value("x'").hypot(value("y'"));
+    assert!(
+        (speed - 2.1 * ((0.4 + 1.5 * 0.09) / 1.5_f64).sqrt()).abs() < 1e-8,
+        "{speed}"
+    );
+}
+
+#[test]
+fn a_closed_pipe_is_no_panic() {
+    for arguments in [
+        vec!["explain"],
+        vec!["derive", "gallery/snakeboard/model.toml"],
+        vec!["study", SKATE, "--t-end", "1", "--out", "SCRATCH", "--json"],
+        vec!["gallery", "describe", "trailer"],
+        vec!["completions", "zsh"],
+    ] {
+        let out = scratch("pipe");
+        let arguments: Vec<&str> = arguments
+            .into_iter()
+            .map(|a| if a == "SCRATCH" { text(&out) } else { a })
+            .collect();
+        let mut child = command(&root(), &arguments)
+            .spawn()
+            .expect("the program starts");
+        drop(child.stdout.take());
+        let finished = finish(child, &arguments);
+        assert!(!finished.panicked(), "{arguments:?}: {}", finished.both());
+        assert_eq!(finished.err, "", "{arguments:?}");
+    }
+}
+
+/// Waits until the program says on standard error that it is integrating, and returns what it said.
+fn until_integrating(stream: &mut impl Read) -> String {
+    let began = Instant::now();
+    let mut said = String::new();
+    let mut buffer = [0_u8; 256];
+    while !said.contains("integrating") && began.elapsed() < Duration::from_secs(60) {
+        match stream.read(&mut buffer) {
+            Ok(0) | Err(_) => break,
+            Ok(count) => said.push_str(&String::from_utf8_lossy(&buffer[..count])),
+        }
+    }
+    said
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_keeps_what_it_has() {
+    let out = scratch("interrupt");
+    let arguments = [
+        "study",
+        "gallery/double-pendulum/model.toml",
+        "--t-end",
+        "1000000",
+        "--out",
+        text(&out),
+    ];
+    let mut child = command(&root(), &arguments)
+        .spawn()
+        .expect("the program starts");
+    let mut err = child.stderr.take().expect("a pipe");
+    let said = until_integrating(&mut err);
+    assert!(said.contains("integrating"), "no progress is shown: {said}");
+    let interrupted = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(interrupted.expect("kill runs").success());
+    let drain = std::thread::spawn(move || {
+        let mut rest = String::new();
+        let _ = err.read_to_string(&mut rest);
+        rest
+    });
+    let finished = finish(child, &arguments);
+    let rest = drain.join().expect("standard error");
+    assert_eq!(finished.status, Some(3), "{}{rest}", finished.both());
+    let record: Value =
+        serde_json::from_str(&std::fs::read_to_string(out.join("study.json")).expect("study.json"))
+            .expect("whole JSON");
+    let trajectory = &record["trajectory"];
+    assert_eq!(trajectory["finished"], false);
+    let reached = trajectory["t"].as_f64().expect("a time");
+    assert!(reached > 0.0 && reached < 1e6, "{reached}");
+    assert!(
+        trajectory["reason"]
+            .as_str()
+            .is_some_and(|r| r.contains("interrupt")),
+        "{trajectory}"
+    );
+    let report = std::fs::read_to_string(out.join("report.html")).expect("report.html");
+    assert!(report.trim_end().ends_with("</html>"));
+    let (_, rows) = csv(&out.join("trajectory.csv"));
+    assert_eq!(Some(rows.len() as u64), trajectory["rows"].as_u64());
+    assert!(!std::fs::read_dir(&out).expect("the folder").any(|e| e
+        .expect("an entry")
+        .path()
+        .extension()
+        .is_some_and(|e| e == "partial")));
+}
+
+#[test]
+fn a_new_model_studies_at_once() {
+    let folder = scratch("new");
+    let finished = run_in(&folder, &["new", "my-robot"]);
+    assert_eq!(finished.status, Some(0), "{}", finished.both());
+    let template = std::fs::read_to_string(folder.join("my-robot/model.toml")).expect("a model");
+    assert!(
+        template.contains("name = \"my-robot\"")
+            && template.lines().filter(|l| l.starts_with('#')).count() > 5
+    );
+    let finished = run_in(&folder, &["check", "my-robot/model.toml"]);
+    assert_eq!(
+        (finished.status, finished.err.as_str()),
+        (Some(0), ""),
+        "{}",
+        finished.both()
+    );
+    let finished = run_in(&folder, &["study", "my-robot/model.toml"]);
+    assert_eq!(finished.status, Some(0), "{}", finished.both());
+    assert!(folder.join("out/my-robot/report.html").is_file());
+    let again = run_in(&folder, &["new", "my-robot"]);
+    assert_eq!(
+        again.status,
+        Some(2),
+        "an existing model is not overwritten"
+    );
+    assert_eq!(
+        std::fs::read_to_string(folder.join("my-robot/model.toml")).expect("the model"),
+        template
+    );
+}
+
+#[test]
+fn names_with_special_letters_make_a_right_template() {
+    let folder = scratch("new-names");
+    for name in ["Röllchen 2", "a\"b", "back\\slash"] {
+        let finished = run_in(&folder, &["new", name]);
+        assert_eq!(finished.status, Some(0), "{}", finished.both());
+        let path = folder.join(name).join("model.toml");
+        let finished = run_in(&folder, &["check", text(&path)]);
+        assert_eq!(finished.status, Some(0), "{name}: {}", finished.both());
+    }
+}
+
+#[test]
+fn the_gallery_is_in_the_program() {
+    let listed = ok(&["gallery", "list"]).out;
+    assert_eq!(ok(&["gallery"]).out, listed);
+    let folder = scratch("gallery-copy");
+    for path in gallery() {
+        let source = path.parent().expect("a folder");
+        let name = source.file_name().and_then(|n| n.to_str()).expect("a name");
+        assert!(
+            listed
+                .lines()
+                .any(|l| l.split_whitespace().next() == Some(name)),
+            "{name} is not listed"
+        );
+        let described = ok(&["gallery", "describe", name]).out;
+        assert_eq!(
+            described.trim(),
+            std::fs::read_to_string(source.join("README.md"))
+                .expect("a README")
+                .trim()
+        );
+        assert_eq!(run_in(&folder, &["gallery", "copy", name]).status, Some(0));
+        for entry in std::fs::read_dir(source).expect("the folder") {
+            let original = entry.expect("an entry").path();
+            let copy = folder
+                .join(name)
+                .join(original.file_name().expect("a name"));
+            assert_eq!(
+                std::fs::read(&copy).ok(),
+                std::fs::read(&original).ok(),
+                "{}",
+                copy.display()
+            );
+        }
+    }
+    let copied = run_in(
+        &folder,
+        &[
+            "study",
+            "trailer/model-8.toml",
+            "--t-end",
+            "1",
+            "--claims",
+            "motion.constraint-drift",
+        ],
+    );
+    assert_eq!(copied.status, Some(0), "{}", copied.both());
+    assert_eq!(
+        run_in(&folder, &["gallery", "copy", "trailer"]).status,
+        Some(2),
+        "nothing is overwritten"
+    );
+    let unknown = run(&["gallery", "describe", "perpetuum-mobile"]);
+    assert_eq!(unknown.status, Some(2));
+    assert!(unknown.err.contains("chaplygin-sleigh"), "{}", unknown.err);
+}
+
+#[test]
+fn every_claim_is_explained() {
+    let listed = ok(&["explain"]).out;
+    let ids: Vec<&str> = listed
+        .lines()
+        .filter_map(|l| l.strip_prefix("  ")?.split_whitespace().next())
+        .collect();
+    assert!(ids.len() >= 15, "{listed}");
+    for id in ids {
+        let explained = ok(&["explain", id]).out;
+        assert!(
+            explained.starts_with(&format!("{id}\n")) && explained.lines().count() > 3,
+            "{explained}"
+        );
+    }
+    assert!(ok(&["explain", "formulation.equivalent#maggi"])
+        .out
+        .contains("model."));
+}
+
+/// Header and rows.
+fn csv(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
+    let content = std::fs::read_to_string(path).expect("the trajectory");
+    let mut lines = content.lines();
+    let names = lines
+        .next()
+        .expect("a header")
+        .split(',')
+        .map(str::to_owned)
+        .collect();
+    let number = |cell: &str| cell.parse::<f64>().expect("a number");
+    (
+        names,
+        lines
+            .map(|line| line.split(',').map(number).collect())
+            .collect(),
+    )
+}
+
+#[test]
+fn csv_and_npz_hold_the_same_numbers_in_the_columns_documented() {
+    let out = scratch("trajectory");
+    ok(&["simulate", SKATE, "--out", text(&out)]);
+    let (names, rows) = csv(&out.join("trajectory.csv"));
+    let expected = "t,x,y,phi,x',y',phi',x'',y'',phi'',lambda_blade,energy,integral_yaw_rate,integral_speed_of_fall";
+    assert_eq!(names.join(","), expected);
+    assert_eq!(rows.len(), 501);
+    let bytes = std::fs::read(out.join("trajectory.npz")).expect("the archive");
+    let mut archive = npyz::npz::NpzArchive::new(std::io::Cursor::new(bytes)).expect("an archive");
+    let arrays: Vec<String> = archive.array_names().map(str::to_owned).collect();
+    assert_eq!(arrays.len(), names.len());
+    for (i, name) in names.iter().enumerate() {
+        let primes = name.matches('\'').count();
+        let array = match primes {
+            0 => name.clone(),
+            _ => format!("{}_{}", name.trim_end_matches('\''), "d".repeat(primes)),
+        };
+        let stored = archive
+            .by_name(&array)
+            .expect("the archive is whole")
+            .unwrap_or_else(|| panic!("{array} in {arrays:?}"));
+        assert_eq!(stored.shape(), &[rows.len() as u64]);
+        let values: Vec<f64> = stored.into_vec().expect("double precision");
+        let column: Vec<f64> = rows.iter().map(|row| row[i]).collect();
+        assert_eq!(values, column, "{name}");
+    }
+    // x = gs/(2 W²) sin²(W t), at t = 4.
+    let at_4 = rows
+        .iter()
+        .find(|row| row[0] == 4.0)
+        .expect("a row at t = 4");
+    assert!((at_4[1] - 0.923_659_323_921_437).abs() < 1e-8);
+}
+
+/// Every number that is a time spent, set to zero.
+fn without_seconds(mut record: Value) -> Value {
+    for verdict in record["verdicts"].as_array_mut().expect("verdicts") {
+        verdict["seconds"] = serde_json::json!(0);
+    }
+    record
+}
+
+#[test]
+fn two_studies_are_equal_but_for_the_time_they_took() {
+    let folder = scratch("twice");
+    for file in [
+        "falling-rolling-disc/model.toml",
+        "redundant-constraints/model.toml",
+    ] {
+        let study = |out: &str| {
+            let out = folder.join(out);
+            let record = ok(&[
+                "study",
+                &format!("gallery/{file}"),
+                "--out",
+                text(&out),
+                "--json",
+            ])
+            .json();
+            let read = |name: &str| std::fs::read(out.join(name)).expect("a file");
+            (
+                without_seconds(record),
+                read("trajectory.csv"),
+                read("trajectory.npz"),
+            )
+        };
+        assert!(
+            study("one") == study("two"),
+            "{file} is studied differently the second time"
+        );
+        let derive = || ok(&["derive", &format!("gallery/{file}")]).out;
+        assert_eq!(derive(), derive());
+    }
+}
+
+#[test]
+fn progress_is_on_standard_error_and_a_summary_on_standard_output() {
+    let out = scratch("summary");
+    let finished = ok(&[
+        "study",
+        "gallery/chaplygin-sleigh/model.toml",
+        "--out",
+        text(&out),
+    ]);
+    for part in [
+        "chaplygin-sleigh",
+        "energy.integral",
+        "proved",
+        "formulation.equivalent#maggi",
+        "drift",
+        "report.html",
+    ] {
+        assert!(
+            finished.out.contains(part),
+            "{part} is not in\n{}",
+            finished.out
+        );
+    }
+    assert!(!finished.out.contains('\u{1b}'), "no colours in a pipe");
+}
