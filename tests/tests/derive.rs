@@ -121,22 +121,19 @@ fn printed_text_reads_back_as_the_same_expression() {
             panic!("{} is right", path.display());
         };
         for side in sides(&path) {
-            let first = model.expression(&side);
-            let Ok(first) = first else {
-                // Multipliers and accelerations of groups that a model file has no names for are not expressions of the model.
-                assert!(
-                    side.contains("lambda_"),
-                    "{}: `{side}` cannot be read",
-                    path.display()
-                );
+            // A solution of a linear system is printed with a list of what its names stand for, which is no expression.
+            if side.contains("\nwhere\n") {
                 continue;
-            };
+            }
+            let first = model
+                .expression(&side)
+                .unwrap_or_else(|d| panic!("{}: {}", path.display(), d.render(Style::Plain)));
             let again: Expr = model
                 .expression(&model.graph.text(first))
                 .unwrap_or_else(|d| panic!("{}", d.render(Style::Plain)));
             assert_eq!(first, again, "{}: {side}", path.display());
             // Names that are definitions are read as what they stand for, and print as that.
-            if model.quasi_velocities.is_empty() && model.define.is_empty() {
+            if model.quasi_velocities.is_empty() && model.defines.is_empty() {
                 assert_eq!(model.graph.text(first), side, "{}", path.display());
             }
             seen += 1;

@@ -378,3 +378,76 @@ fn mutants_are_the_same_in_every_run_and_differ_from_their_seeds() {
     let changed = again.iter().filter(|m| !seeds.contains(m)).count();
     assert!(changed > 40, "{changed} of 50 are changed");
 }
+
+/// Slips of one letter that would keep a program busy for ever, or fill its memory.
+#[test]
+fn hostile_models_are_answered_in_a_moment() {
+    let base = "name = \"hostile\"\ncoordinates = [\"x\", \"y\"]\n[lagrangian]\n";
+    let deep = |open: &str, close: &str| {
+        let depth = 50_000;
+        format!(
+            "{base}L = \"x'^2/2 + {}x{}\"\n",
+            open.repeat(depth),
+            close.repeat(depth)
+        )
+    };
+    let trailer = std::fs::read_to_string(places::root().join("gallery/trailer/model.toml"))
+        .expect("the trailer");
+    let hostile = [
+        ("a family too large", trailer.replace("n = 3", "n = 100000")),
+        (
+            "a sum too large",
+            format!("{base}L = \"x'^2/2 + sum(i = 1..1000000000, x^i)\"\n"),
+        ),
+        (
+            "sums in sums",
+            format!("{base}L = \"x'^2/2 + sum(i = 1..3000, sum(j = 1..3000, x/(i + j)))\"\n"),
+        ),
+        (
+            "a power tower",
+            format!("{base}L = \"x'^2/2 + 10^10^10^10\"\n"),
+        ),
+        (
+            "a power of a sum",
+            format!("{base}L = \"x'^2/2 + (x + y + 1)^100000\"\n"),
+        ),
+        (
+            "a large exponent",
+            format!("{base}L = \"x'^2/2 + 1e99999999 x\"\n"),
+        ),
+        (
+            "a large factorial of primes",
+            format!("{base}L = \"x{}^2\"\n", "'".repeat(20_000)),
+        ),
+        ("parentheses", deep("(", ")")),
+        ("unclosed parentheses", deep("(", "")),
+        ("functions", deep("sin(", ")")),
+        ("signs", deep("-", "")),
+        ("powers", deep("x^", "")),
+        ("brackets", format!("coordinates = {}", "[".repeat(50_000))),
+        (
+            "a long line",
+            format!("{base}L = \"x'^2{}\"\n", " + x".repeat(100_000)),
+        ),
+        (
+            "many errors",
+            format!("{base}L = \"x'^2{}\"\n", " + q".repeat(2_000)),
+        ),
+    ];
+    let answered: Vec<Result<String, String>> = in_parallel(&hostile, |(name, text)| {
+        let (name, text) = ((*name).to_owned(), text.clone());
+        let (send, receive) = std::sync::mpsc::channel();
+        // A thread of its own: one that does not end must not keep the test.
+        let _ = std::thread::Builder::new().spawn(move || {
+            let loaded = load("hostile.toml", &text, &Disk, &[]);
+            let _ = send.send(placed(&loaded.diagnostics));
+        });
+        match receive.recv_timeout(LIMIT) {
+            Ok(Ok(())) => Ok(name),
+            Ok(Err(problem)) => Err(format!("{name}: {problem}")),
+            Err(problem) => Err(format!("{name}: {problem}")),
+        }
+    });
+    let failures: Vec<&String> = answered.iter().filter_map(|a| a.as_ref().err()).collect();
+    assert!(failures.is_empty(), "{failures:#?}");
+}
