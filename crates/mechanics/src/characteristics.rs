@@ -159,7 +159,13 @@ fn pivot_cost(system: &System, entry: Expr, j: usize) -> usize {
     } else {
         2000
     };
-    wanted + kind + size
+    // A velocity in which the constraint is affine can always be solved for; a root may not be real.
+    let nonlinear = if g.contains_any(entry, &[system.coordinates[j].v_symbol]) {
+        100_000
+    } else {
+        0
+    };
+    wanted + nonlinear + kind + size
 }
 
 /// Gaussian elimination that takes, among pivots that are not small, the cheapest.

@@ -35,11 +35,17 @@ impl Generator {
 pub type Point = BTreeMap<Symbol, f64>;
 
 /// Draws a state that satisfies the first-order constraints to rounding, within simple bounds of the assumptions;
-/// `None` when twenty draws fail.
+/// `None` when two hundred draws fail. Later draws reach further in the velocities, as some constraints need.
 pub fn admissible_point(system: &System, terms: &MotionTerms, seed: u64) -> Option<Point> {
     let mut generator = Generator::new(seed);
-    (0..20).find_map(|_| {
+    (0..200).find_map(|attempt| {
         let mut point = free_point(system, terms, &mut generator)?;
+        if attempt >= 10 {
+            let reach = f64::from(1 << (attempt % 5));
+            for c in &system.coordinates {
+                point.entry(c.v_symbol).and_modify(|v| *v *= reach);
+            }
+        }
         project_velocities(system, terms, &mut point).then_some(point)
     })
 }
@@ -116,31 +122,44 @@ fn bounds(system: &System, symbol: Symbol, default: (f64, f64)) -> (f64, f64) {
     }
 }
 
-/// Newton steps of least norm on the velocities until every constraint is satisfied.
+/// Newton steps of least norm on the velocities, halved until they help, until every constraint is satisfied.
 fn project_velocities(system: &System, terms: &MotionTerms, point: &mut Point) -> bool {
-    let g = &system.graph;
     if terms.constraints.is_empty() {
         return true;
     }
-    let n = system.n();
+    let (n, r) = (system.n(), terms.constraints.len());
     let mut roots = terms.constraints.clone();
     roots.extend(terms.jacobian.concat());
+    let values_at = |point: &Point| {
+        let values = system
+            .graph
+            .evaluate_f64(&roots, &|s| point.get(&s).copied())
+            .ok()?;
+        values.iter().all(|v| v.is_finite()).then_some(values)
+    };
+    let size = |values: &[f64]| values[..r].iter().map(|x| x * x).sum::<f64>();
+    let Some(mut values) = values_at(point) else {
+        return false;
+    };
     for _ in 0..60 {
-        let Ok(values) = g.evaluate_f64(&roots, &|s| point.get(&s).copied()) else {
-            return false;
-        };
-        if !values.iter().all(|v| v.is_finite()) {
-            return false;
-        }
-        let (f, jacobian) = values.split_at(terms.constraints.len());
+        let (f, jacobian) = values.split_at(r);
         if f.iter().all(|x| x.abs() < 1e-11) {
             return true;
         }
         let step = least_norm_step(jacobian, f, n);
-        for (c, dv) in system.coordinates.iter().zip(step) {
-            if let Some(v) = point.get_mut(&c.v_symbol) {
-                *v -= dv;
+        let next = (0..6).find_map(|halving| {
+            let mut next = point.clone();
+            for (c, dv) in system.coordinates.iter().zip(&step) {
+                if let Some(v) = next.get_mut(&c.v_symbol) {
+                    *v -= dv * 0.5_f64.powi(halving);
+                }
             }
+            let found = values_at(&next)?;
+            (size(&found) < size(&values)).then_some((next, found))
+        });
+        match next {
+            Some((next, found)) => (*point, values) = (next, found),
+            None => return false,
         }
     }
     false

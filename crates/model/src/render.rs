@@ -144,27 +144,53 @@ fn excerpt(
         at.line,
         at.column
     );
-    let line = line_around(&source.text, place.span.start);
-    let before: String = line
-        .chars()
-        .take(at.column - 1)
-        .map(|c| if c == '\t' { ' ' } else { c })
-        .collect();
+    let line = line_around(&source.text, place.span.start).replace('\t', " ");
     let marked = place.span.text(&source.text).lines().next().unwrap_or("");
-    let marks: String = std::iter::repeat_n(mark, columns(marked).max(1)).collect();
+    let window = Window::around(&line, at.column - 1, columns(marked).max(1));
+    let marks: String = std::iter::repeat_n(mark, window.marks).collect();
     let bar = style.paint("1;34", "|");
     let number = style.paint("1;34", &format!("{:>width$}", at.line));
     let _ = writeln!(out, "{:width$} {bar}", "");
-    let _ = writeln!(out, "{number} {bar} {}", line.replace('\t', " "));
+    let _ = writeln!(out, "{number} {bar} {}", window.text);
     let under = format!("{marks} {label}");
+    let blank = " ".repeat(columns(&window.before));
     let _ = writeln!(
         out,
-        "{:width$} {bar} {:pad$}{}",
+        "{:width$} {bar} {blank}{}",
         "",
-        "",
-        style.severity(severity, under.trim_end()),
-        pad = columns(&before)
+        style.severity(severity, under.trim_end())
     );
+}
+
+/// The part of a line that is shown: all of it, or what is around the mark.
+struct Window {
+    text: String,
+    /// What stands before the mark.
+    before: String,
+    marks: usize,
+}
+
+impl Window {
+    /// `start` counts characters.
+    fn around(line: &str, start: usize, marks: usize) -> Window {
+        const MOST: usize = 200;
+        const BEFORE: usize = 60;
+        let length = line.chars().count();
+        let first = if length <= MOST {
+            0
+        } else {
+            start.saturating_sub(BEFORE).min(length - MOST)
+        };
+        let cut = if first > 0 { "…" } else { "" };
+        let more = if first + MOST < length { "…" } else { "" };
+        let shown: String = line.chars().skip(first).take(MOST).collect();
+        let before: String = line.chars().skip(first).take(start - first).collect();
+        Window {
+            before: format!("{cut}{before}"),
+            marks: marks.min(MOST - (start - first).min(MOST - 1)),
+            text: format!("{cut}{shown}{more}"),
+        }
+    }
 }
 
 /// The line with the suggestion carried out, where it stands on one line.

@@ -5,6 +5,7 @@ use std::cmp::Reverse;
 
 use rustc_hash::FxHashMap;
 
+use super::contract::Angles;
 use super::direction::{by_tangent, fractions, shortened};
 use super::measure::Lengths;
 use super::Written;
@@ -30,8 +31,8 @@ pub(super) struct Arranger<'a, 'g> {
     lengths: RefCell<Lengths>,
     known: RefCell<FxHashMap<(Polynomial, usize), Expr>>,
     factorizations: Cell<u32>,
-    /// Expressions of the generators, with tangents appended where they are in use.
-    generators: Vec<Expr>,
+    /// Expressions of the generators, with tangents and functions of sums of angles appended where they are in use.
+    angles: RefCell<Angles>,
 }
 
 impl<'a, 'g> Arranger<'a, 'g> {
@@ -52,7 +53,7 @@ impl<'a, 'g> Arranger<'a, 'g> {
             lengths: RefCell::default(),
             known: RefCell::default(),
             factorizations: Cell::new(0),
-            generators,
+            angles: RefCell::new(Angles::new(field, generators)),
         }
     }
 
@@ -136,7 +137,7 @@ impl<'a, 'g> Arranger<'a, 'g> {
     /// With `sin = tan cos` for every circular pair, and secants for reciprocal cosines where the user wrote them.
     fn with_tangents(&self, f: &RationalFunction, factor: Expr) -> Option<Expr> {
         let mut current = f.clone();
-        let mut generators = self.generators.clone();
+        let mut generators = self.angles.borrow().expressions().to_vec();
         let mut secants = Vec::new();
         for pair in self
             .field
@@ -244,8 +245,14 @@ impl<'a, 'g> Arranger<'a, 'g> {
     /// A sum without common factor: terms that share a generator are put together where this is shorter.
     fn sum(&self, p: &Polynomial, depth: usize) -> Expr {
         let plain = self.expanded(p);
-        if p.len() <= 2 || depth == 0 || p.len() > MOST_TERMS {
-            return plain;
+        let mut candidates = vec![plain];
+        let contracted = self.angles.borrow_mut().contracted(self.g, p);
+        if let Some(contracted) = &contracted {
+            candidates.push(self.factored(contracted, depth));
+        }
+        let done = contracted.is_some() && depth < TRIALS.len();
+        if p.len() <= 2 || depth == 0 || p.len() > MOST_TERMS || done {
+            return self.shortest(candidates).unwrap_or(plain);
         }
         let mut shared: Vec<(usize, usize)> = p
             .generators()
@@ -261,12 +268,11 @@ impl<'a, 'g> Arranger<'a, 'g> {
         // Among equally short arrangements the one with velocities outside is what a person writes.
         let order = |g: usize| {
             self.g
-                .as_symbol(self.generators[g])
+                .as_symbol(self.expression(g))
                 .map_or(0, |s| self.g.symbol_order(s))
         };
         shared.sort_by_key(|&(count, g)| (Reverse(count), Reverse(order(g)), g));
         shared.truncate(TRIALS[depth - 1]);
-        let mut candidates = vec![plain];
         for (_, generator) in shared {
             let (with, without): (Vec<_>, Vec<_>) = p
                 .terms()
@@ -278,6 +284,10 @@ impl<'a, 'g> Arranger<'a, 'g> {
             candidates.push(self.g.add(&[with, without]));
         }
         self.shortest(candidates).unwrap_or(plain)
+    }
+
+    fn expression(&self, generator: usize) -> Expr {
+        self.angles.borrow().expression(generator)
     }
 
     fn expanded(&self, p: &Polynomial) -> Expr {
@@ -292,7 +302,7 @@ impl<'a, 'g> Arranger<'a, 'g> {
     fn monomial(&self, m: &Monomial) -> Expr {
         let powers: Vec<Expr> = m
             .iter()
-            .map(|(g, e)| self.g.powi(self.generators[g], i64::from(e)))
+            .map(|(g, e)| self.g.powi(self.expression(g), i64::from(e)))
             .collect();
         self.g.mul(&powers)
     }

@@ -11,6 +11,7 @@
 
 mod arrange;
 mod collect;
+mod contract;
 mod direction;
 mod measure;
 mod polynomial_view;

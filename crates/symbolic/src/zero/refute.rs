@@ -45,6 +45,8 @@ pub(super) enum Search {
 
 /// Points tried.
 const POINTS: u32 = 24;
+/// So many times as many data are tried when points are hard to find.
+const TRIES: u32 = 8;
 /// Bits of the first evaluation at a point; they are increased as long as it is not decided.
 const FIRST_PRECISION: usize = 96;
 /// Evaluations at one point.
@@ -55,6 +57,8 @@ const ENOUGH: usize = 400;
 const MOST_BITS: usize = 600_000_000;
 /// Evaluating less than this many nodes at every precision is cheap; beyond it fewer points are tried.
 const CHEAP: usize = 20_000;
+/// For less than this many nodes more points cost nothing that is noticed.
+const TINY: usize = 300;
 /// Numbers a person can check by hand.
 const SMALL: [(i64, i64); 20] = [
     (1, 1),
@@ -82,13 +86,17 @@ const SMALL: [(i64, i64); 20] = [
 /// Looks for a point where a residual is not zero.
 pub(super) fn search(graph: &Graph, claim: &Claim<'_>, seed: u64) -> Search {
     let mut hunt = Hunt::new(graph, claim, seed);
-    let points = if graph.reachable(claim.residuals).len() > CHEAP {
-        POINTS / 6
-    } else {
-        POINTS
+    let points = match graph.reachable(claim.residuals).len() {
+        nodes if nodes > CHEAP => POINTS / 6,
+        nodes if nodes < TINY => 3 * POINTS,
+        _ => POINTS,
     };
     let (mut vanishing, mut largest) = (0, 0.0_f64);
-    for attempt in 0..points {
+    // On a bounded variety many data have no real solution above them: those attempts are cheap and do not count.
+    for attempt in 0..TRIES * points {
+        if vanishing >= points {
+            break;
+        }
         match hunt.attempt(attempt) {
             Attempt::Found(counterexample) => return Search::Found(counterexample),
             Attempt::Vanishes(bound) => {
@@ -245,6 +253,11 @@ impl<'a> Hunt<'a> {
     /// A small rational number within the simple bounds of the symbol.
     fn choose(&mut self, symbol: Symbol, attempt: u32) -> Rational {
         let (low, high) = self.bounds(symbol);
+        // Small data lie within bounded varieties, and in the neighbourhood of one are the corners of roots.
+        let scale = match (self.claim.constraints.is_empty(), attempt % 3) {
+            (true, _) | (false, 0) => 1,
+            (false, shrink) => 1 << (1 + shrink + attempt % 5),
+        };
         let inside =
             |value: f64| low.is_none_or(|low| low < value) && high.is_none_or(|high| value < high);
         if attempt % 4 == 3 {
@@ -257,8 +270,15 @@ impl<'a> Hunt<'a> {
         }
         // Later attempts reach further into the list.
         let reach = (4 + attempt as usize).min(SMALL.len());
+        let wide = match (self.claim.constraints.is_empty(), attempt % 8) {
+            (true, 5) => 512,
+            (true, 6) => 32,
+            _ => 1,
+        };
         for _ in 0..16 {
             let (numerator, denominator) = SMALL[self.random.below(reach as u64) as usize];
+            let numerator = numerator * wide;
+            let denominator = denominator * scale;
             if inside(numerator as f64 / denominator as f64) {
                 return ratio(numerator, denominator);
             }

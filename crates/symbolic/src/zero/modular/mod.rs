@@ -104,6 +104,8 @@ const MOST_RADICALS: u32 = 11;
 const CUT: f64 = 26.0;
 /// Refusals by poles after which a program is called nowhere defined.
 const POLES_FOR_NOWHERE: u32 = 6;
+/// Over half the points of a prime field a quadratic constraint has no solution; over so many in a row, none at all.
+const EMPTY_FOR_NONE: u32 = 40;
 /// Trials where no bound is to be had: enough to see what is not zero.
 const TRIALS_WITHOUT_BOUND: u32 = 3;
 
@@ -318,7 +320,7 @@ impl Session<'_> {
             if poles >= POLES_FOR_NOWHERE {
                 return Trial::Stopped(Outcome::Nowhere { samples: poles });
             }
-            if empty >= POLES_FOR_NOWHERE {
+            if empty >= EMPTY_FOR_NONE {
                 return Trial::Stopped(Outcome::Empty { samples: empty });
             }
         }

@@ -94,8 +94,17 @@ impl Builder<'_> {
         } {
             return;
         }
-        let text = self.graph.text(e);
         let relation = if strict { ">" } else { ">=" };
+        self.state_condition(e, relation, because);
+    }
+
+    /// Where `e` is zero its sign is neither 1 nor −1: that set is left out.
+    pub(super) fn exclude_zero(&mut self, e: Expr) {
+        self.state_condition(e, "!=", "a sign");
+    }
+
+    fn state_condition(&mut self, e: Expr, relation: &str, because: &str) {
+        let text = self.graph.text(e);
         let condition = if text.len() <= 80 && !text.contains('\n') {
             format!("{text} {relation} 0")
         } else {

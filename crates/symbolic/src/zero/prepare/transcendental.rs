@@ -204,6 +204,9 @@ impl Builder<'_> {
     /// sign x = x/|x|, where x ≠ 0.
     pub(super) fn sign(&mut self, x: Expr) -> Result<Value, Missing> {
         let known = self.signs.sign(x);
+        if !known.is_nonzero() {
+            self.exclude_zero(x);
+        }
         if known.is_nonnegative() || known.is_nonpositive() {
             let one = if known.is_nonnegative() {
                 Rational::ONE

@@ -240,3 +240,25 @@ fn inverse_functions_inside_of_angles() {
     proved(&g, "cos(atan2(y, x)/2)^2 - (1 + x/sqrt(x^2 + y^2))/2");
     proved(&g, "asin(x) + acos(x) - pi/2");
 }
+
+#[test]
+fn a_root_of_a_square_on_its_other_side() {
+    let g = Graph::new();
+    refuted(&g, "sqrt(x^2 + 2*x + 1) - x - 1");
+    refuted(&g, "y*x'*(sqrt(x^2 + 2*x + 1) - (x + 1))");
+    refuted(&g, "(x + 1)/sqrt(x^2 + 2*x + 1) - 1");
+    refuted(&g, "sqrt((x + 50)^2) - x - 50");
+    refuted(
+        &g,
+        "sqrt((x^2 - 100)^2) - 100 + x^2 + abs(x^2 - 100) - abs(100 - x^2)",
+    );
+}
+
+#[test]
+fn the_sign_of_zero_is_excluded() {
+    let g = Graph::new();
+    let Verdict::Proved(proof) = decide(&g, parse(&g, "sign(x)^2 - 1")) else {
+        panic!()
+    };
+    assert!(proof.on.contains("x != 0"), "{}", proof.on);
+}

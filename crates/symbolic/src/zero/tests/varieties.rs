@@ -181,3 +181,16 @@ fn solved_symbols_are_replaced_in_order() {
     };
     assert_eq!(decide_zero(&g, &test).word(), "undecided");
 }
+
+#[test]
+fn counterexamples_on_bounded_varieties_are_found() {
+    let g = Graph::new();
+    let sphere = [("x'^2 + y'^2 + z'^2 - 1", "x'")];
+    assert_eq!(decide_on(&g, "z'", &sphere).word(), "refuted");
+    assert_eq!(decide_on(&g, "z'*y'", &sphere).word(), "refuted");
+    let quartic = [("x'^4 + y'^4 + z'^4 - 1", "z'")];
+    assert_eq!(decide_on(&g, "x'*y'", &quartic).word(), "refuted");
+    assert_eq!(decide_on(&g, "z' - 1", &quartic).word(), "refuted");
+    let small = [("x'^2 + y'^2 + z'^2 - 1/100", "z'")];
+    assert_eq!(decide_on(&g, "x' - 2*y'", &small).word(), "refuted");
+}
