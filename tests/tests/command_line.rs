@@ -1,4 +1,5 @@
 //! The command line as people and programs use it: exit statuses, help, files, JSON, pipes, interruption, determinism.
+#![allow(clippy::expect_used, reason = "test code fails where it stands")]
 
 use chetaev_tests::places::{gallery, root, scratch};
 use chetaev_tests::program::{command, finish, run, run_in, text, Finished};

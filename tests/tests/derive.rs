@@ -1,4 +1,5 @@
 //! The equations that `derive` prints: every notation, and a text that reads back as the same expression.
+#![allow(clippy::expect_used, reason = "test code fails where it stands")]
 
 use chetaev::model::{Loaded, ModelBuilder, Style};
 use chetaev::symbolic::Expr;

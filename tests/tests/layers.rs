@@ -1,4 +1,5 @@
 //! The edges between crates are those of ARCHITECTURE.md, and no others: the manifests are read, not the intentions.
+#![allow(clippy::expect_used, reason = "test code fails where it stands")]
 
 use chetaev_tests::places::root;
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,4 +1,5 @@
 //! `study.json` follows its schema, the schema is strict, and the page about it explains every field.
+#![allow(clippy::expect_used, reason = "test code fails where it stands")]
 
 use boon::{Compiler, SchemaIndex, Schemas};
 use chetaev_tests::places::{root, scratch};

@@ -1,5 +1,6 @@
 //! The models that are wrong on purpose: each is refused with exit status 2 and the words of its first line, at its place, and
 //! leaves nothing behind.
+#![allow(clippy::expect_used, reason = "test code fails where it stands")]
 
 use chetaev_tests::places;
 use chetaev_tests::program::{run, text, Finished};
