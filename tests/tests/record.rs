@@ -7,6 +7,7 @@ use chetaev_tests::program::{run, text};
 use chetaev_tests::studied::{study_gallery, verdicts};
 use serde_json::{json, Value};
 use std::collections::BTreeSet;
+use std::sync::OnceLock;
 
 const LOCATION: &str = "study.schema.json";
 
@@ -107,15 +108,13 @@ fn records_follow_the_schema() {
 }
 
 fn record() -> Value {
-    let out = scratch("record-one");
-    run(&[
-        "study",
-        "gallery/sphere-on-turntable/model.toml",
-        "--out",
-        text(&out),
-        "--json",
-    ])
-    .json()
+    static RECORD: OnceLock<Value> = OnceLock::new();
+    let study = || {
+        let out = scratch("record-one");
+        let model = "gallery/sphere-on-turntable/model.toml";
+        run(&["study", model, "--out", text(&out), "--json"]).json()
+    };
+    RECORD.get_or_init(study).clone()
 }
 
 /// Position of the first verdict with this word.
