@@ -85,7 +85,10 @@ pub(crate) struct MotionArguments {
     /// Relative tolerance
     #[arg(long)]
     pub(crate) tolerance: Option<f64>,
-    /// dormand-prince-853 (dop853), tsitouras-5 (tsit5) or runge-kutta-4
+    /// Fixed step, required by runge-kutta-4
+    #[arg(long, value_name = "H")]
+    pub(crate) step: Option<f64>,
+    /// dormand-prince-853 (dop853), tsitouras-5 (tsit5) or runge-kutta-4 (rk4, with --step)
     #[arg(long)]
     pub(crate) method: Option<String>,
     /// The equations that are integrated: routh or maggi

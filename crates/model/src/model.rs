@@ -239,6 +239,8 @@ pub struct Simulation {
     pub tolerance: Option<Rational>,
     /// Absolute tolerance.
     pub absolute_tolerance: Option<Rational>,
+    /// Fixed step, for methods without an error estimate; an expression of parameters.
+    pub step: Option<Expr>,
     /// Name of the method.
     pub method: Option<String>,
     /// When to put out the state.

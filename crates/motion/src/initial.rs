@@ -286,7 +286,7 @@ impl Search<'_> {
         let (q, v) = (self.q.clone(), self.v.clone());
         self.system
             .evaluate(self.data.t, &q, &v)
-            .map_err(|_| self.not_finite("the equations of motion"))
+            .map_err(|_| self.not_finite("a term of the equations of motion"))
     }
 
     /// Moves free velocities until f = 0.

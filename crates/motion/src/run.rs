@@ -24,6 +24,8 @@ pub struct RunSettings {
     pub tolerance: f64,
     /// Absolute tolerance.
     pub absolute_tolerance: f64,
+    /// Fixed step size; required by methods without an error estimate, and taken with any method where given.
+    pub step: Option<f64>,
     /// Name of the method.
     pub method: String,
     /// Times of the rows.
@@ -43,6 +45,7 @@ impl RunSettings {
             t_end,
             tolerance: 1e-10,
             absolute_tolerance: 1e-10,
+            step: None,
             method: "dormand-prince-853".into(),
             times: equal_times(t_start, t_end, 500),
             max_steps: 2_000_000,
@@ -278,7 +281,10 @@ impl Subject<'_> {
                 }
             })
             .collect();
-        let mut options = Options::tolerance(settings.tolerance);
+        let mut options = match settings.step {
+            Some(h) => Options::fixed_step(method(&settings.method)?, h),
+            None => Options::tolerance(settings.tolerance),
+        };
         options.method = method(&settings.method)?;
         options.error = ErrorControl {
             rtol: settings.tolerance,

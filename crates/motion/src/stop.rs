@@ -138,7 +138,7 @@ pub fn ending(stop: &Stop, names: &Names<'_>, pivot: f64) -> Ending {
             *t,
         ),
         Stop::StepLimit { t, limit } => early(
-            format!("the limit of {limit} steps was reached at t = {t:.9}; raise `max_steps` or the tolerance"),
+            format!("the limit of {limit} steps was reached at t = {t:.9}; raise `max_steps` or the tolerance; where a force jumps (sign, abs) the steps chatter across the jump and more of them do not help: smooth the jump, for example by tanh(v/eps)"),
             *t,
         ),
         Stop::Stiff { t, steps, steps_ahead } => early(

@@ -4,11 +4,14 @@
 //! [`page`] the report, [`table`] the trajectory, [`summary`] the text for a terminal; [`verify`] replays a record.
 //! Clocks, files and interruption come from outside.
 
+pub mod method_order;
 pub mod motion_claims;
+mod notices;
 pub mod options;
 pub mod page;
 pub mod record;
 pub mod registry;
+mod start;
 pub mod study;
 pub mod summary;
 pub mod table;

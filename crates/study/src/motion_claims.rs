@@ -3,7 +3,7 @@
 //! A drift is a number, not a proof: these verdicts are `numerical` with the largest residual found, or `refuted` with the
 //! time at which the bound was exceeded.
 
-use crate::options::Hooks;
+use crate::method_order::Orders;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::Manifold;
 use chetaev_model::model::Model;
@@ -39,19 +39,6 @@ pub struct Followed {
     pub drift: Extreme,
     /// Largest sum of the sizes of its terms along the run: by it deviations are measured.
     pub scale: f64,
-}
-
-/// Observed order of convergence at fixed steps.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Orders {
-    /// Step sizes.
-    pub steps: Vec<f64>,
-    /// Largest error at the end of the interval for each.
-    pub errors: Vec<f64>,
-    /// Slope between the two finest pairs above round-off.
-    pub observed: Option<f64>,
-    /// Nominal order.
-    pub nominal: f64,
 }
 
 /// Everything about a run that its claims look at.
@@ -260,75 +247,6 @@ fn start_values(subject: &Subject<'_>) -> Vec<(String, f64)> {
     q.chain(v).collect()
 }
 
-/// Fixed steps of decreasing size over a short piece at the start of the run, against a finer one. The size of the piece
-/// is reduced until the errors show a slope above round-off.
-pub fn observed_order(
-    subject: &Subject<'_>,
-    settings: &RunSettings,
-    run: &Run,
-    hooks: &mut Hooks<'_>,
-) -> Option<Orders> {
-    let nominal =
-        chetaev_integrate::method(&settings.method).map_or(8.0, |m| f64::from(m.card().order));
-    let span = run.t - subject.start.t;
-    if span == 0.0 || !span.is_finite() {
-        return None;
-    }
-    let average = span / run.statistics.steps.max(1) as f64;
-    let counts = [4u32, 6, 8, 12, 16, 32];
-    let mut best: Option<Orders> = None;
-    for halving in 0..8 {
-        (hooks.progress)("measuring the order of the method", None);
-        let length = (16.0 * average).abs().min(span.abs()) * span.signum() * 0.5f64.powi(halving);
-        let fixed = RunSettings {
-            t_end: subject.start.t + length,
-            times: vec![subject.start.t + length],
-            ..settings.clone()
-        };
-        let finals: Option<Vec<Vec<f64>>> = counts
-            .iter()
-            .map(|&count| subject.routh_fixed(&fixed, (length / f64::from(count)).abs()))
-            .collect();
-        let Some(finals) = finals else { continue };
-        let found = orders(&finals, &counts, length, nominal);
-        let asymptotic = found.observed.is_some_and(|p| (p - nominal).abs() < 1.0);
-        if found.observed.is_some() || best.is_none() {
-            best = Some(found);
-        }
-        if asymptotic {
-            break;
-        }
-    }
-    best
-}
-
-fn orders(finals: &[Vec<f64>], counts: &[u32], length: f64, nominal: f64) -> Orders {
-    let reference = &finals[finals.len() - 1];
-    let mut steps = Vec::new();
-    let mut errors = Vec::new();
-    for (result, &count) in finals.iter().zip(counts).take(finals.len() - 1) {
-        let error = result
-            .iter()
-            .zip(reference)
-            .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs() / (1.0 + b.abs())));
-        steps.push((length / f64::from(count)).abs());
-        errors.push(error);
-    }
-    let usable: Vec<usize> = (0..errors.len())
-        .filter(|&i| errors[i] > 1e-13 && errors[i] < 0.1)
-        .collect();
-    let observed = match usable[..] {
-        [.., i, j] => Some((errors[i] / errors[j]).ln() / (steps[i] / steps[j]).ln()),
-        _ => None,
-    };
-    Orders {
-        steps,
-        errors,
-        observed,
-        nominal,
-    }
-}
-
 fn evidence(cx: &Context<'_>) -> Option<Arc<MotionEvidence>> {
     cx.extension::<MotionEvidence>()
 }
@@ -424,8 +342,13 @@ impl Claim for InitialStateAdmissible {
         };
         let (n, r) = (cx.system.n(), cx.selection.rows.len());
         let needed = format!(
-            "{n} coordinates and {} independent velocities are needed",
-            n - r
+            "{n} coordinates and {} independent {} needed",
+            n - r,
+            if n - r == 1 {
+                "velocity is"
+            } else {
+                "velocities are"
+            }
         );
         if cx.system.constraints.is_empty() {
             return Verdict::Proved(Proof::structural(
@@ -485,17 +408,17 @@ impl Claim for ConstraintDrift {
     );
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        if cx.terms.constraints.is_empty() {
-            Vec::new()
-        } else {
-            subject_if_motion(cx)
-        }
+        subject_if_motion(cx)
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         let Some(evidence) = evidence(cx) else {
             return no_motion();
         };
+        if evidence.residuals.is_empty() {
+            let proof = Proof::structural("along the motion", "the system has no constraints");
+            return Verdict::Proved(proof).into();
+        }
         let mut worst = Extreme::default();
         for followed in &evidence.residuals {
             worst.record(followed.drift.value, followed.drift.t);
@@ -680,10 +603,23 @@ impl Claim for MethodOrder {
         };
         let Some(observed) = orders.observed else {
             return Verdict::undecided(
-                "the errors of all step sizes tried are at round-off: the motion is too simple for the order to show",
+                "between the steps that are too large and those whose errors are round-off no range was found in which the errors fall regularly: the motion is too simple or too short for the order to show",
             )
             .into();
         };
+        let sentence = format!("observed order {observed:.2}, nominal {}", orders.nominal);
+        if observed < orders.nominal - 1.5 {
+            return Verdict::Refuted(Counterexample {
+                point: Vec::new(),
+                quantity: "nominal minus observed order".into(),
+                residual: (
+                    format!("{:.2}", orders.nominal - observed),
+                    format!("{:.2}", orders.nominal - observed),
+                ),
+                detail: format!("{sentence}: the right-hand side is not smooth enough there"),
+            })
+            .into();
+        }
         Verdict::Numerical(Evidence {
             samples: orders.steps.len() as u32,
             region: format!(
@@ -694,7 +630,7 @@ impl Claim for MethodOrder {
             digits: 16,
             residual: (observed - orders.nominal).abs(),
             seed: None,
-            why_no_proof: format!("observed order {observed:.2}, nominal {}", orders.nominal),
+            why_no_proof: sentence,
         })
         .into()
     }

@@ -66,6 +66,8 @@ pub struct StudyOptions {
     pub t_end: Option<f64>,
     /// Relative tolerance.
     pub tolerance: Option<f64>,
+    /// Fixed step, for methods without an error estimate.
+    pub step: Option<f64>,
     /// Name of the method.
     pub method: Option<String>,
     /// Formulation that is integrated for the trajectory.
@@ -89,6 +91,7 @@ impl Default for StudyOptions {
             budget: 60.0,
             t_end: None,
             tolerance: None,
+            step: None,
             method: None,
             formulation: None,
             project: false,

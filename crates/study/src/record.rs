@@ -72,6 +72,9 @@ pub struct OptionsRecord {
     pub t_end: Option<f64>,
     /// Tolerance, likewise.
     pub tolerance: Option<f64>,
+    /// Fixed step, likewise.
+    #[serde(default)]
+    pub step: Option<f64>,
     /// Method, likewise.
     pub method: Option<String>,
     /// Formulation, likewise.
@@ -184,6 +187,13 @@ pub struct TrajectoryRecord {
     pub files: Vec<String>,
 }
 
+impl TrajectoryRecord {
+    /// Whether a person ended the run.
+    pub fn is_interrupted(&self) -> bool {
+        !self.finished && self.reason.starts_with("interrupted")
+    }
+}
+
 /// A name with a number.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct NamedValue {
@@ -233,16 +243,14 @@ pub fn record(study: &Study, files: &[String]) -> Record {
             .iter()
             .map(|d| verdict_record(study, d))
             .collect(),
-        trajectory: study
-            .motion
-            .as_ref()
-            .map(|m| trajectory_record(study, m, files)),
+        trajectory: study.motion.as_ref().map(|m| trajectory_record(m, files)),
         notices: study.notices.clone(),
         options: OptionsRecord {
             claims: study.options.claims.words.clone(),
             budget: Some(study.options.budget),
             t_end: study.options.t_end,
             tolerance: study.options.tolerance,
+            step: study.options.step,
             method: study.options.method.clone(),
             formulation: study.options.formulation.clone(),
             project: study.options.project,
@@ -268,9 +276,16 @@ fn verdict_record(study: &Study, decided: &Decided) -> VerdictRecord {
             .finding
             .formulas
             .iter()
-            .map(|f| match f.left {
-                Some(left) => format!("{} = {}", g.text(left), g.text(f.right)),
-                None => g.text(f.right),
+            .map(|f| {
+                let right = if crate::typeset::is_legible(g, f.right) {
+                    g.text(f.right)
+                } else {
+                    "…".to_owned()
+                };
+                match f.left {
+                    Some(left) => format!("{} = {right}", g.text(left)),
+                    None => right,
+                }
             })
             .collect(),
         ..VerdictRecord::default()
@@ -330,7 +345,7 @@ fn counterexample_record(counterexample: &Counterexample) -> CounterexampleRecor
     }
 }
 
-fn trajectory_record(study: &Study, motion: &Motion, files: &[String]) -> TrajectoryRecord {
+fn trajectory_record(motion: &Motion, files: &[String]) -> TrajectoryRecord {
     let evidence = &motion.evidence;
     let run = &evidence.run;
     let names: Vec<String> = evidence
@@ -358,7 +373,6 @@ fn trajectory_record(study: &Study, motion: &Motion, files: &[String]) -> Trajec
             .iter()
             .map(|f| NamedValue::new(format!("integral {}", f.name), f.drift.value)),
     );
-    let _ = study;
     TrajectoryRecord {
         formulation: run.formulation.into(),
         method: run.method.into(),

@@ -1,20 +1,23 @@
 //! One model through its claims and its motion.
 
 use crate::motion_claims::MotionEvidence;
+use crate::notices::{left_assumptions, notices};
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
+use crate::start::{check_rank, no_motion, number, settings, start_of_motion, Start};
 use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::{CharacteristicsError, Selection};
-use chetaev_mechanics::claims::full_id;
+use chetaev_mechanics::claims::{full_id, Registry};
 use chetaev_mechanics::{Context, Finding, Group, Prepared, Prover, System, SystemError};
-use chetaev_model::model::{Model, Output, StateKind as ModelState};
-use chetaev_motion::run::equal_times;
+use chetaev_model::model::Model;
 use chetaev_motion::{
-    consistent_state, Binding, ConsistentState, InitialData, InitialError, NumericError,
-    NumericSystem, Run, RunError, RunSettings, StateKind, Subject, Watcher,
+    Binding, ConsistentState, InitialError, NumericError, Run, RunError, RunSettings, Subject,
+    Watcher,
 };
-use chetaev_symbolic::{rational, Expr, Graph, Verdict};
+use chetaev_symbolic::syntax::names;
+use chetaev_symbolic::{Expr, Verdict};
 use std::ops::ControlFlow;
+use std::sync::atomic::Ordering;
 use std::sync::Arc;
 
 /// A claim with its verdict.
@@ -143,6 +146,81 @@ pub enum StudyError {
         /// Names.
         known: String,
     },
+    /// A motion is asked for, but something has no value.
+    #[error("no value for {names}: the model states initial data or a time span, so a motion is wanted; give a value in the model or with --set NAME=VALUE, or leave [initial] and [simulation] out to derive only")]
+    MissingValues {
+        /// Names in quotes.
+        names: String,
+    },
+    /// The constraints have less than their rank at the start.
+    #[error("the constraints {names} are rank-deficient at the initial state: their rank is {rank} there and {generic} at almost all admissible states, so the reactions and the motion are not determined; start elsewhere")]
+    RankDeficient {
+        /// Names in quotes.
+        names: String,
+        /// Rank at the start.
+        rank: usize,
+        /// Rank elsewhere.
+        generic: usize,
+    },
+    /// The start contradicts an assumption.
+    #[error("the initial state contradicts the assumption `{text}`: the left side is {left}, the right side {right}; what is proved under it would say nothing of this motion")]
+    Assumption {
+        /// As written.
+        text: String,
+        /// Left side.
+        left: f64,
+        /// Right side.
+        right: f64,
+    },
+    /// A tolerance out of range.
+    #[error("the tolerance {tolerance:e} is out of range: it must lie between 2.3e-14 (double precision) and 0.1")]
+    Tolerance {
+        /// As given.
+        tolerance: f64,
+    },
+    /// A fixed step that is not positive.
+    #[error("the fixed step must be a positive number")]
+    Step,
+    /// A method without error estimate and no step.
+    #[error("`{method}` has no error estimate: give it a fixed step, `step = 0.01` in [simulation] or --step 0.01")]
+    StepMissing {
+        /// The method.
+        method: String,
+    },
+    /// Too many rows.
+    #[error(
+        "`output` asks for {rows:.0} rows; at most {most:.0} are written, choose a larger step"
+    )]
+    TooManyRows {
+        /// Asked for.
+        rows: f64,
+        /// Allowed.
+        most: f64,
+    },
+    /// An output time outside the run.
+    #[error("the output time {t} lies outside the run from {t_start} to {t_end}")]
+    OutputTime {
+        /// As given.
+        t: f64,
+        /// Start of the run.
+        t_start: f64,
+        /// End of the run.
+        t_end: f64,
+    },
+    /// Output times that do not follow each other.
+    #[error("the output times must follow each other in the direction of the run")]
+    OutputOrder,
+    /// An output step that is not positive.
+    #[error("the output step must be a positive number")]
+    OutputStep,
+    /// An expectation about a claim that does not exist.
+    #[error("[expect] names the claim `{claim}`, which does not exist{hint}; `chetaev explain` lists all")]
+    UnknownClaim {
+        /// As written.
+        claim: String,
+        /// The nearest one.
+        hint: String,
+    },
     /// Initial data of a kind the first-order theory has no use for.
     #[error("the initial value of `{name}` is not used: a first-order system is determined by coordinates and velocities")]
     UnusedInitialValue {
@@ -163,6 +241,8 @@ pub fn study(
     options: StudyOptions,
     hooks: &mut Hooks<'_>,
 ) -> Result<Study, StudyError> {
+    let known = registry();
+    check_expectations(&model, &known)?;
     let system = System::from_model(&model)?;
     (hooks.progress)("deriving", None);
     let terms = chetaev_mechanics::MotionTerms::new(&system);
@@ -177,9 +257,11 @@ pub fn study(
             None => return Err(error.into()),
         },
     };
+    if let Some(start) = &numeric {
+        check_rank(start, selection.rows.len())?;
+    }
     let prepared = Prepared { terms, selection };
     let mut notices = notices(&model, &system, numeric.as_ref());
-    let known = registry();
     let wants_motion = options.motion && options.claims.wants_group(Group::Motion, known.claims());
     let motion = match numeric {
         Some(numeric) if wants_motion => Some(compute(
@@ -187,10 +269,13 @@ pub fn study(
         )?),
         Some(_) => None,
         None => {
-            notices.push(no_motion(&model, &system));
+            notices.push(no_motion(&system));
             None
         }
     };
+    if let Some(motion) = &motion {
+        notices.extend(left_assumptions(&system, &prepared, motion));
+    }
     let verdicts = decide(&model, &system, &prepared, motion.as_ref(), &options, hooks);
     let outcome = outcome(&model, &verdicts, motion.as_ref());
     Ok(Study {
@@ -205,213 +290,6 @@ pub fn study(
     })
 }
 
-/// Everything numeric that is known before the run.
-struct Start {
-    binding: Binding,
-    numeric: NumericSystem,
-    start: ConsistentState,
-    data: InitialData,
-}
-
-fn start_of_motion(
-    model: &Model,
-    system: &System,
-    terms: &chetaev_mechanics::MotionTerms,
-    options: &StudyOptions,
-) -> Result<Option<Start>, StudyError> {
-    let symbolic = system.parameters.iter().any(|p| p.value.is_none())
-        || system.controls.iter().any(|u| u.law.is_none());
-    let higher = system.constraints.iter().any(|c| c.order > 1);
-    if symbolic || higher {
-        return Ok(None);
-    }
-    let binding = Binding::new(system)?;
-    let mut numeric = NumericSystem::new(system, terms, &binding)?;
-    let data = initial_data(model, system, options)?;
-    let start = consistent_state(&mut numeric, &data)?;
-    Ok(Some(Start {
-        binding,
-        numeric,
-        start,
-        data,
-    }))
-}
-
-fn no_motion(model: &Model, system: &System) -> String {
-    if let Some(c) = system.constraints.iter().find(|c| c.order > 1) {
-        return format!(
-            "no motion was computed: constraint `{}` is of order {}; constraints of higher order are classified, their dynamics is not built in yet",
-            c.name, c.order
-        );
-    }
-    let open: Vec<&str> = model
-        .parameters
-        .iter()
-        .filter(|p| p.value.is_none())
-        .map(|p| p.name.as_str())
-        .collect();
-    if open.is_empty() {
-        "no motion was computed: a control has no law".into()
-    } else {
-        format!(
-            "no motion was computed: no value for {}; give values in the model or with --set",
-            open.join(", ")
-        )
-    }
-}
-
-fn notices(model: &Model, system: &System, start: Option<&Start>) -> Vec<String> {
-    let mut notices = Vec::new();
-    for constraint in &system.constraints {
-        if constraint.order == 0 {
-            notices.push(format!(
-                "constraint `{}` contains no velocities: it is taken as holonomic, {} is kept on the initial level and differentiated once for the reaction",
-                constraint.name,
-                model.graph.text(constraint.stated)
-            ));
-        }
-    }
-    let Some(start) = start else { return notices };
-    if !start.start.redundant.is_empty() {
-        let names: Vec<String> = start
-            .start
-            .redundant
-            .iter()
-            .map(|n| format!("`{n}`"))
-            .collect();
-        notices.push(format!(
-            "redundant constraints: {} depend{} on the others at the initial state (rank {} of {}); motion and reactions are unique, the single multipliers are not, and those of the constraints left out are given as zero",
-            names.join(", "),
-            if names.len() == 1 { "s" } else { "" },
-            start.start.chart.rank(),
-            start.numeric.r,
-        ));
-    }
-    let free: Vec<String> = start
-        .start
-        .completed
-        .iter()
-        .map(|(name, value)| format!("{name} = {value}"))
-        .collect();
-    if !free.is_empty() {
-        let how = if start.data.project {
-            "projected on"
-        } else {
-            "completed from"
-        };
-        notices.push(format!(
-            "initial data {how} the constraints: {}",
-            free.join(", ")
-        ));
-    }
-    notices
-}
-
-/// The value of an expression without moving symbols.
-pub(crate) fn number(g: &Graph, e: Expr, values: &[(Expr, Expr)]) -> Option<f64> {
-    let closed = g.substitute(e, values);
-    let value = g.evaluate_f64(&[closed], &|_| None).ok()?[0];
-    value.is_finite().then_some(value)
-}
-
-fn initial_data(
-    model: &Model,
-    system: &System,
-    options: &StudyOptions,
-) -> Result<InitialData, StudyError> {
-    let n = system.n();
-    let values = system.parameter_values();
-    let g = &model.graph;
-    let mut data = InitialData {
-        t: model
-            .simulation
-            .t_start
-            .and_then(|t| number(g, t, &values))
-            .unwrap_or(0.0),
-        q: vec![0.0; n],
-        v: vec![0.0; n],
-        q_fixed: vec![false; n],
-        v_fixed: vec![false; n],
-        project: options.project || model.initial.project,
-    };
-    for (&(i, order), given) in &model.initial.values {
-        let name = || {
-            format!(
-                "{}{}",
-                model.coordinates[i].name,
-                "'".repeat(order as usize)
-            )
-        };
-        let value = number(g, given.value, &values)
-            .ok_or_else(|| StudyError::InitialValue { name: name() })?;
-        match order {
-            0 => (data.q[i], data.q_fixed[i]) = (value, true),
-            1 => (data.v[i], data.v_fixed[i]) = (value, true),
-            _ => return Err(StudyError::UnusedInitialValue { name: name() }),
-        }
-    }
-    Ok(data)
-}
-
-fn settings(model: &Model, system: &System, t_start: f64, options: &StudyOptions) -> RunSettings {
-    let values = system.parameter_values();
-    let g = &model.graph;
-    let simulation = &model.simulation;
-    let t_end = options
-        .t_end
-        .or_else(|| simulation.t_end.and_then(|t| number(g, t, &values)))
-        .unwrap_or(t_start + 10.0);
-    let mut settings = RunSettings::new(t_start, t_end);
-    let stated = simulation.tolerance.as_ref().map(rational::to_f64);
-    settings.tolerance = options.tolerance.or(stated).unwrap_or(1e-10);
-    settings.absolute_tolerance = simulation
-        .absolute_tolerance
-        .as_ref()
-        .map_or(settings.tolerance, rational::to_f64);
-    if let Some(method) = options.method.as_ref().or(simulation.method.as_ref()) {
-        settings.method = method_name(method);
-    }
-    settings.times = match &simulation.output {
-        Some(Output::Points(points)) => equal_times(t_start, t_end, *points),
-        Some(Output::Times(times)) => times
-            .iter()
-            .filter_map(|&t| number(g, t, &values))
-            .filter(|&t| (t >= t_start && t <= t_end) || (t <= t_start && t >= t_end))
-            .collect(),
-        Some(Output::Step(step)) => match number(g, *step, &values) {
-            Some(dt) if dt > 0.0 => stepped_times(t_start, t_end, dt),
-            _ => equal_times(t_start, t_end, 500),
-        },
-        None => equal_times(t_start, t_end, 500),
-    };
-    settings.max_steps = simulation.max_steps.unwrap_or(settings.max_steps);
-    settings.state = match simulation.state {
-        Some(ModelState::Full) => StateKind::Full,
-        _ => StateKind::Reduced,
-    };
-    settings.project = simulation.project.unwrap_or(true);
-    settings
-}
-
-/// `t_start + j dt`, at most a million of them.
-fn stepped_times(t_start: f64, t_end: f64, dt: f64) -> Vec<f64> {
-    let count = ((t_end - t_start).abs() / dt + 1e-9).floor().min(1e6) as u32;
-    let direction = if t_end < t_start { -dt } else { dt };
-    (0..=count)
-        .map(|j| t_start + f64::from(j) * direction)
-        .collect()
-}
-
-/// Short names of methods as people write them.
-fn method_name(name: &str) -> String {
-    match name.to_ascii_lowercase().as_str() {
-        "dop853" | "dormand-prince" => "dormand-prince-853".into(),
-        "tsit5" | "tsitouras" => "tsitouras-5".into(),
-        "rk4" => "runge-kutta-4".into(),
-        other => other.into(),
-    }
-}
-
 fn compute(
     model: &Model,
     system: &System,
@@ -420,7 +298,13 @@ fn compute(
     options: &StudyOptions,
     hooks: &mut Hooks<'_>,
 ) -> Result<Motion, StudyError> {
-    let settings = settings(model, system, numeric.start.t, options);
+    let settings = settings(model, system, numeric.start.t, options)?;
+    let method = chetaev_integrate::method(&settings.method).map_err(RunError::from)?;
+    if !method.card().adaptive && settings.step.is_none() {
+        return Err(StudyError::StepMissing {
+            method: settings.method,
+        });
+    }
     let subject = Subject {
         system,
         terms: &prepared.terms,
@@ -450,18 +334,19 @@ fn compute(
         hooks,
     )
     .ok();
-    let finer = if options.global_error {
+    let finer = if options.global_error && !run.ending.interrupted {
         let tolerance = (settings.tolerance / 10.0).max(3e-14);
         let finer = RunSettings {
             tolerance,
             absolute_tolerance: tolerance,
+            step: settings.step.map(|h| h / 2.0),
             ..reached.clone()
         };
         integrate(&subject, name, &finer, "estimating the global error", hooks).ok()
     } else {
         None
     };
-    let orders = crate::motion_claims::observed_order(&subject, &settings, &run, hooks);
+    let orders = crate::method_order::observed_order(&subject, &settings, &run, hooks);
     let evidence = MotionEvidence::new(model, &subject, run, comparison, finer, orders, &settings)?;
     Ok(Motion {
         start: numeric.start,
@@ -477,6 +362,20 @@ fn last_time(run: &Run, t_end: f64) -> f64 {
         t_end
     } else {
         run.times.last().copied().unwrap_or(t_end)
+    }
+}
+
+/// Every claim of which the model expects something exists.
+fn check_expectations(model: &Model, known: &Registry) -> Result<(), StudyError> {
+    let ids = || known.claims().iter().map(|c| c.id());
+    let unknown = |claim: &str| !ids().any(|id| id == claim);
+    match model.expect.verdicts.iter().find(|e| unknown(&e.claim)) {
+        None => Ok(()),
+        Some(expected) => Err(StudyError::UnknownClaim {
+            hint: names::closest(&expected.claim, ids())
+                .map_or(String::new(), |near| format!("; did you mean `{near}`?")),
+            claim: expected.claim.clone(),
+        }),
     }
 }
 
@@ -536,7 +435,12 @@ fn decide(
                 }
                 (hooks.progress)(&full, None);
                 let start = (hooks.clock)();
-                let finding = if start - began > options.budget {
+                let interrupted = hooks.interrupt.is_some_and(|i| i.load(Ordering::Relaxed));
+                let finding = if interrupted {
+                    Arc::new(Finding::from(Verdict::undecided(
+                        "interrupted before this claim",
+                    )))
+                } else if start - began > options.budget {
                     let tried = format!(
                         "the time budget of {} s was spent before this claim",
                         options.budget

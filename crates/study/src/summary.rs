@@ -72,7 +72,8 @@ fn heading(text: &mut String, study: &Study, style: Style) {
             shortened(&kinds.join(", "), 80)
         );
     }
-    let _ = writeln!(text, "  freedom       k = {k} independent velocities");
+    let velocities = if k == 1 { "velocity" } else { "velocities" };
+    let _ = writeln!(text, "  freedom       k = {k} independent {velocities}");
     if !study.system.assumptions.is_empty() {
         let stated: Vec<&str> = study
             .system
@@ -111,7 +112,7 @@ fn claims(text: &mut String, study: &Study, style: Style) {
                 "{mark} {:<34} {}  {}",
                 decided.full_id(),
                 coloured(style, word),
-                shortened(&detail(decided), 110)
+                for_width(style, &detail(decided))
             );
             if !decided.is_as_expected() {
                 let _ = writeln!(
@@ -121,6 +122,14 @@ fn claims(text: &mut String, study: &Study, style: Style) {
                 );
             }
         }
+    }
+}
+
+/// Evidence in one line on a terminal; whole where a file or a program reads it.
+fn for_width(style: Style, text: &str) -> String {
+    match style {
+        Style::Ansi => shortened(text, 110),
+        Style::Plain => text.into(),
     }
 }
 
@@ -150,11 +159,14 @@ fn trajectory(text: &mut String, study: &Study) {
     let _ = writeln!(text, "\ntrajectory");
     let _ = writeln!(
         text,
-        "  t = {} … {}  {} at tolerance {:.0e}: {} steps ({} rejected), {} evaluations, {} chart changes",
+        "  t = {} … {}  {} at {}: {} steps ({} rejected), {} evaluations, {} chart changes",
         motion.start.t,
         run.t,
         run.method,
-        motion.settings.tolerance,
+        match motion.settings.step {
+            Some(h) => format!("step {h}"),
+            None => format!("tolerance {:.0e}", motion.settings.tolerance),
+        },
         run.statistics.steps,
         run.statistics.rejected,
         run.statistics.evaluations,
@@ -176,13 +188,18 @@ fn trajectory(text: &mut String, study: &Study) {
         evidence
             .integrals
             .iter()
-            .map(|i| format!("{} {:.1e}", i.name, i.drift.value)),
+            .map(|i| format!("integral `{}` {:.1e}", i.name, i.drift.value)),
     );
     let _ = writeln!(text, "  largest change: {}", drifts.join(", "));
-    if let Some(error) = evidence.global_error {
-        let _ = writeln!(
+    let _ = match (evidence.global_error, motion.settings.step) {
+        (Some(error), None) => writeln!(
             text,
             "  estimated global error {error:.1e} (second run at a tenth of the tolerance)"
-        );
-    }
+        ),
+        (Some(error), Some(_)) => writeln!(
+            text,
+            "  estimated global error {error:.1e} (second run at half the step)"
+        ),
+        (None, _) => writeln!(text, "  global error not estimated"),
+    };
 }

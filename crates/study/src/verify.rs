@@ -1,9 +1,11 @@
 //! Replays the verdicts of a record from the embedded model (theory 6.6).
 
+mod trajectory;
+
 use crate::options::{ClaimSelection, Hooks, StudyOptions};
 use crate::record::{self, Record, VerdictRecord};
 use crate::study::{study, StudyError};
-use chetaev_model::model::ModelText;
+use chetaev_model::model::{Model, ModelText};
 
 /// What the replay says of one verdict.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -77,11 +79,31 @@ pub fn read(text: &str) -> Result<Record, VerifyError> {
     serde_json::from_value(value).map_err(|e| VerifyError::Json(e.to_string()))
 }
 
-/// Replays every verdict of a record with other random choices and another parametrization.
+/// Replays every verdict of a record twice: by the same random choices, which must give the same evidence, and by others
+/// with another parametrization, which must not contradict it.
 ///
 /// # Errors
 /// [`VerifyError`] when the record cannot be replayed at all; disagreements are in the result.
 pub fn verify(record: &Record, hooks: &mut Hooks<'_>) -> Result<Vec<Verified>, VerifyError> {
+    let recorded_seed = record.verdicts.iter().find_map(|v| v.seed);
+    let same = study(model(record)?, options(record, recorded_seed, false), hooks)?;
+    let same = record::record(&same, &[]);
+    let other_seed = recorded_seed.unwrap_or(0) ^ 0x5eed_0fa0_7e57_ab1e;
+    let mut independent = options(record, Some(other_seed), true);
+    independent.motion = false;
+    let other = study(model(record)?, independent, hooks)?;
+    let other = record::record(&other, &[]);
+    let mut lines: Vec<Verified> = record
+        .verdicts
+        .iter()
+        .map(|v| compare(v, record, &same, &other))
+        .collect();
+    lines.extend(missing(record, &same));
+    lines.extend(trajectory::compare(record, &same));
+    Ok(lines)
+}
+
+fn model(record: &Record) -> Result<Model, VerifyError> {
     let text = ModelText {
         path: record.model.path.clone(),
         text: record.model.text.clone(),
@@ -101,53 +123,62 @@ pub fn verify(record: &Record, hooks: &mut Hooks<'_>) -> Result<Vec<Verified>, V
     let (model, _) = chetaev_model::reload(&text)
         .into_result()
         .map_err(|d| VerifyError::Model(d.render(chetaev_model::Style::Plain)))?;
-    let recorded_seed = record.verdicts.iter().find_map(|v| v.seed).unwrap_or(0);
-    let options = StudyOptions {
+    Ok(model)
+}
+
+fn options(record: &Record, seed: Option<u64>, replay: bool) -> StudyOptions {
+    let asked = &record.options;
+    let interrupted = record.trajectory.as_ref().filter(|t| t.is_interrupted());
+    StudyOptions {
         claims: ClaimSelection {
-            words: record.options.claims.clone(),
+            words: asked.claims.clone(),
         },
-        budget: record.options.budget.unwrap_or(60.0).max(60.0) * 2.0,
-        t_end: record.options.t_end,
-        tolerance: record.options.tolerance,
-        method: record.options.method.clone(),
-        formulation: record.options.formulation.clone(),
-        project: record.options.project,
-        seed: Some(recorded_seed ^ 0x5eed_0fa0_7e57_ab1e),
-        replay: true,
+        budget: asked.budget.unwrap_or(60.0).max(60.0) * 2.0,
+        t_end: interrupted.map(|t| t.t).or(asked.t_end),
+        tolerance: asked.tolerance,
+        step: asked.step,
+        method: asked.method.clone(),
+        formulation: asked.formulation.clone(),
+        project: asked.project,
+        seed,
+        replay,
         motion: record.trajectory.is_some(),
         ..StudyOptions::default()
-    };
-    let again = study(model, options, hooks)?;
-    let replayed = record::record(&again, &[]);
-    let mut lines: Vec<Verified> = record
-        .verdicts
-        .iter()
-        .map(|v| compare(v, &replayed))
-        .collect();
-    lines.extend(missing(record, &replayed));
-    lines.extend(trajectory(record, &replayed));
-    Ok(lines)
+    }
 }
 
 fn full(verdict: &VerdictRecord) -> String {
     chetaev_mechanics::claims::full_id(&verdict.claim, verdict.subject.as_deref())
 }
 
-fn compare(recorded: &VerdictRecord, replayed: &Record) -> Verified {
+fn find<'r>(record: &'r Record, claim: &str) -> Option<&'r VerdictRecord> {
+    record.verdicts.iter().find(|v| full(v) == claim)
+}
+
+fn compare(recorded: &VerdictRecord, record: &Record, same: &Record, other: &Record) -> Verified {
     let claim = full(recorded);
-    let found = replayed.verdicts.iter().find(|v| full(v) == claim);
-    let replay = match found {
-        None => Replay::Differs {
-            found: "no such claim".into(),
-            detail: "the embedded model has no claim of this id".into(),
-        },
-        Some(v) if v.verdict == recorded.verdict => numbers(recorded, v),
-        Some(v) if v.verdict == "undecided" => Replay::Open {
+    let times = record.verdicts.iter().filter(|v| full(v) == claim).count();
+    let replay = match find(same, &claim) {
+        None => differs(
+            "no such claim",
+            "the embedded model has no claim of this id",
+        ),
+        Some(_) if times > 1 => {
+            differs("one verdict", "the record states this claim more than once")
+        }
+        Some(v) if v.verdict != recorded.verdict && v.verdict == "undecided" => Replay::Open {
             tried: v.detail.clone(),
         },
-        Some(v) => Replay::Differs {
-            found: v.verdict.clone(),
-            detail: v.detail.clone(),
+        Some(v) if v.verdict != recorded.verdict => differs(&v.verdict, &v.detail),
+        Some(v) => match (
+            evidence(recorded, v, record.chetaev == same.chetaev),
+            find(other, &claim),
+        ) {
+            (Some(what), _) => Replay::Numbers { what },
+            (None, Some(w)) if contradicts(&recorded.verdict, &w.verdict) => {
+                differs(&w.verdict, &w.detail)
+            }
+            _ => Replay::Confirmed,
         },
     };
     Verified {
@@ -157,18 +188,77 @@ fn compare(recorded: &VerdictRecord, replayed: &Record) -> Verified {
     }
 }
 
-/// A residual far below what the replay finds was not measured.
-fn numbers(recorded: &VerdictRecord, found: &VerdictRecord) -> Replay {
-    match (recorded.residual, found.residual) {
-        (Some(a), Some(b)) if (a - b).abs() > 1e-9 + 0.5 * a.abs().max(b.abs()) => {
-            Replay::Numbers {
-                what: format!("residual {a:e} recorded, {b:e} found"),
-            }
+fn differs(found: &str, detail: &str) -> Replay {
+    Replay::Differs {
+        found: found.into(),
+        detail: detail.into(),
+    }
+}
+
+/// Whether two verdicts cannot both be right. A weaker one does not contradict: other random choices may decide less.
+fn contradicts(recorded: &str, found: &str) -> bool {
+    let known = |word: &str| matches!(word, "proved" | "refuted" | "conditional");
+    let open = |word: &str| matches!(word, "numerical" | "undecided" | "not-applicable");
+    recorded != found
+        && known(found)
+        && !(open(recorded) && recorded != "numerical")
+        && !(recorded == "numerical" && found == "proved")
+}
+
+/// What of the evidence is not what the same choices give again. Texts are compared for the version that wrote them.
+fn evidence(recorded: &VerdictRecord, found: &VerdictRecord, same_version: bool) -> Option<String> {
+    if let Some(what) = numbers(recorded.residual, found.residual) {
+        return Some(format!("residual {what}"));
+    }
+    let fields = [
+        ("method", recorded.method != found.method),
+        ("on", recorded.on != found.on),
+        ("error_bound", recorded.error_bound != found.error_bound),
+        ("samples", recorded.samples != found.samples),
+        ("seed", recorded.seed != found.seed),
+        ("condition", recorded.condition != found.condition),
+        ("formulas", recorded.formulas != found.formulas),
+        ("expected", recorded.expected != found.expected),
+        // Measured numbers stand in the sentence of a numerical verdict.
+        (
+            "detail",
+            recorded.residual.is_none()
+                && !is_measured(recorded)
+                && recorded.detail != found.detail,
+        ),
+        (
+            "counterexample",
+            if is_measured(recorded) {
+                recorded.counterexample.is_some() != found.counterexample.is_some()
+            } else {
+                recorded.counterexample != found.counterexample
+            },
+        ),
+    ];
+    let (name, _) = fields
+        .iter()
+        .find(|(_, changed)| *changed && same_version)?;
+    Some(format!("`{name}` is not what the replay finds"))
+}
+
+/// Verdicts on a motion are about floating-point numbers, which may differ in their last digits between machines.
+fn is_measured(verdict: &VerdictRecord) -> bool {
+    verdict.claim.starts_with("motion.")
+}
+
+/// Two measured numbers agree within a factor of ten, or are both rounding.
+fn numbers(recorded: Option<f64>, found: Option<f64>) -> Option<String> {
+    match (recorded, found) {
+        (None, None) => None,
+        (Some(a), Some(b)) => {
+            let (a, b) = (a.abs(), b.abs());
+            let agree = a.max(b) <= 1e-14 || (a <= 10.0 * b && b <= 10.0 * a);
+            (!agree).then(|| format!("{a:e} recorded, {b:e} found"))
         }
-        (None, Some(b)) => Replay::Numbers {
-            what: format!("no residual recorded, {b:e} found"),
-        },
-        _ => Replay::Confirmed,
+        (a, b) => {
+            let word = |x: Option<f64>| x.map_or("none".to_owned(), |x| format!("{x:e}"));
+            Some(format!("{} recorded, {} found", word(a), word(b)))
+        }
     }
 }
 
@@ -187,36 +277,6 @@ fn missing(record: &Record, replayed: &Record) -> Vec<Verified> {
             },
         })
         .collect()
-}
-
-/// The final state again, to the accuracy of the run.
-fn trajectory(record: &Record, replayed: &Record) -> Vec<Verified> {
-    let (Some(a), Some(b)) = (&record.trajectory, &replayed.trajectory) else {
-        return Vec::new();
-    };
-    let tolerance = (1e4 * a.tolerance).max(1e-9);
-    let worst = a
-        .last
-        .iter()
-        .zip(&b.last)
-        .filter_map(|(x, y)| Some((x.value? - y.value?).abs() / (1.0 + x.value?.abs())))
-        .fold(0.0, f64::max);
-    let same = a.last.len() == b.last.len() && a.finished == b.finished && worst <= tolerance;
-    vec![Verified {
-        claim: "trajectory".into(),
-        recorded: if a.finished {
-            "finished".into()
-        } else {
-            "stopped".into()
-        },
-        replay: if same {
-            Replay::Confirmed
-        } else {
-            Replay::Numbers {
-                what: format!("the final states differ by {worst:e}"),
-            }
-        },
-    }]
 }
 
 /// Whether every line is confirmed or open.

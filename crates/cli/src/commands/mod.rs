@@ -50,6 +50,7 @@ fn options(motion: &MotionArguments) -> StudyOptions {
     StudyOptions {
         t_end: motion.t_end,
         tolerance: motion.tolerance,
+        step: motion.step,
         method: motion.method.clone(),
         formulation: motion.formulation.clone(),
         project: motion.project,

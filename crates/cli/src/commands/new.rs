@@ -20,7 +20,8 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         .file_name()
         .and_then(|n| n.to_str())
         .unwrap_or("my-system");
-    match files::write(&path, TEMPLATE.replace("MY-SYSTEM", name).as_bytes()) {
+    let name = in_quotation_marks(name);
+    match files::write(&path, TEMPLATE.replace("MY-SYSTEM", &name).as_bytes()) {
         Ok(()) => {
             terminal::out(&format!(
                 "wrote {}\ntry:  chetaev study {}\n",
@@ -34,4 +35,16 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             INPUT
         }
     }
+}
+
+/// The text as it stands between the quotation marks of a TOML string.
+fn in_quotation_marks(name: &str) -> String {
+    name.chars()
+        .map(|c| match c {
+            '"' => "\\\"".to_owned(),
+            '\\' => "\\\\".to_owned(),
+            c if c.is_control() => format!("\\u{:04X}", u32::from(c)),
+            c => c.to_string(),
+        })
+        .collect()
 }

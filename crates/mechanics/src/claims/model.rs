@@ -445,15 +445,10 @@ impl Claim for Chaplygin {
          coordinates; choices are tried until one fits, and the verdict names it."
     }
 
-    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        if cx.terms.constraints.is_empty() {
-            Vec::new()
-        } else {
-            vec![None]
-        }
-    }
-
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        if cx.terms.constraints.is_empty() {
+            return no_constraints().into();
+        }
         let chosen = chaplygin_choice(cx);
         let dependent = chosen.as_ref().unwrap_or(&cx.selection.dependent);
         let names: Vec<&str> = dependent

@@ -32,7 +32,7 @@ pub(crate) struct Instance {
 }
 
 /// Most members of a family.
-const MOST_INSTANCES: i128 = 20_000;
+const MOST_INSTANCES: i128 = 5_000;
 
 impl Resolver {
     // ---- sizes and indices

@@ -130,6 +130,7 @@ impl Resolver {
             "t_end",
             "tolerance",
             "absolute_tolerance",
+            "step",
             "method",
             "output",
             "max_steps",
@@ -146,6 +147,7 @@ impl Resolver {
         simulation.tolerance = self.tolerance(table, "tolerance", "the tolerance");
         simulation.absolute_tolerance =
             self.tolerance(table, "absolute_tolerance", "the absolute tolerance");
+        simulation.step = self.time_value(table.get("step"), "the step");
         simulation.method = self.optional_text(table, "method").map(|text| text.content);
         simulation.output = table.get("output").and_then(|raw| self.output(raw));
         simulation.project = self.optional_truth(table, "project");
@@ -179,6 +181,14 @@ impl Resolver {
                 raw.place,
                 format!("{what} must be positive"),
             ));
+            return None;
+        }
+        let number = chetaev_symbolic::rational::to_f64(&value);
+        if !(2.3e-14..=0.1).contains(&number) {
+            let message = format!(
+                "{what} is out of range: it must lie between 2.3e-14 (double precision) and 0.1"
+            );
+            self.push(Diagnostic::error("out-of-range", raw.place, message));
             return None;
         }
         Some(value)

@@ -1,0 +1,301 @@
+//! What is known before a run: numbers, consistent initial data, settings.
+
+use crate::options::StudyOptions;
+use crate::study::StudyError;
+use chetaev_mechanics::system::Relation;
+use chetaev_mechanics::{MotionTerms, System};
+use chetaev_model::model::{Model, Output, StateKind as ModelState};
+use chetaev_motion::run::equal_times;
+use chetaev_motion::{
+    consistent_state, Binding, ConsistentState, InitialData, NumericSystem, RunSettings, StateKind,
+};
+use chetaev_symbolic::{rational, Expr, Graph};
+
+/// Everything numeric that is known before the run.
+pub(crate) struct Start {
+    pub(crate) binding: Binding,
+    pub(crate) numeric: NumericSystem,
+    pub(crate) start: ConsistentState,
+    pub(crate) data: InitialData,
+}
+
+/// `None` when no motion can be computed and the model does not ask for one.
+pub(crate) fn start_of_motion(
+    model: &Model,
+    system: &System,
+    terms: &MotionTerms,
+    options: &StudyOptions,
+) -> Result<Option<Start>, StudyError> {
+    let symbolic = system.parameters.iter().any(|p| p.value.is_none())
+        || system.controls.iter().any(|u| u.law.is_none());
+    let higher = system.constraints.iter().any(|c| c.order > 1);
+    if higher {
+        return Ok(None);
+    }
+    if symbolic {
+        return match asks_for_motion(model) && options.motion {
+            true => Err(StudyError::MissingValues {
+                names: open_names(system),
+            }),
+            false => Ok(None),
+        };
+    }
+    let binding = Binding::new(system)?;
+    let mut numeric = NumericSystem::new(system, terms, &binding)?;
+    let data = initial_data(model, system, options)?;
+    let start = consistent_state(&mut numeric, &data)?;
+    check_assumptions(system, &start)?;
+    Ok(Some(Start {
+        binding,
+        numeric,
+        start,
+        data,
+    }))
+}
+
+/// Initial data or a time span say that a motion is wanted.
+fn asks_for_motion(model: &Model) -> bool {
+    let s = &model.simulation;
+    !model.initial.values.is_empty() || s.t_end.is_some() || s.output.is_some()
+}
+
+/// Parameters and controls without a value, in quotes.
+fn open_names(system: &System) -> String {
+    let parameters = system.parameters.iter().filter(|p| p.value.is_none());
+    let controls = system.controls.iter().filter(|u| u.law.is_none());
+    let names: Vec<String> = parameters
+        .map(|p| format!("`{}`", p.name))
+        .chain(controls.map(|u| format!("the control `{}`", u.name)))
+        .collect();
+    names.join(", ")
+}
+
+/// Why there is no motion although the model does not insist on one.
+pub(crate) fn no_motion(system: &System) -> String {
+    match system.constraints.iter().find(|c| c.order > 1) {
+        Some(c) => format!(
+            "no motion was computed: constraint `{}` is of order {}; constraints of higher order are classified, their dynamics is not built in yet",
+            c.name, c.order
+        ),
+        None => format!(
+            "no motion was computed: no value for {}; give values in the model or with --set",
+            open_names(system)
+        ),
+    }
+}
+
+/// The initial state lies where the model says that motions are.
+fn check_assumptions(system: &System, start: &ConsistentState) -> Result<(), StudyError> {
+    let g = &system.graph;
+    let parameters = system.parameter_values();
+    for assumption in &system.assumptions {
+        let sides = g.substitute_all(&[assumption.left, assumption.right], &parameters);
+        if g.symbols_in(&sides).is_empty() {
+            continue; // compared by the model
+        }
+        let value = |s| {
+            let (name, order) = (g.symbol_name(s), g.symbol_order(s));
+            match (system.coordinate_index(name), order) {
+                (Some(i), 0) => Some(start.q[i]),
+                (Some(i), 1) => Some(start.v[i]),
+                (None, 0) if name == "t" => Some(start.t),
+                _ => None,
+            }
+        };
+        let Ok(sides) = g.evaluate_f64(&sides, &value) else {
+            continue;
+        };
+        if !holds(assumption.relation, sides[1] - sides[0]) {
+            return Err(StudyError::Assumption {
+                text: assumption.text.clone(),
+                left: sides[0],
+                right: sides[1],
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Whether right − left satisfies the relation, up to rounding for relations that are not strict.
+pub(crate) fn holds(relation: Relation, difference: f64) -> bool {
+    match relation {
+        Relation::Less => difference > 0.0,
+        Relation::LessOrEqual => difference >= -1e-12,
+        Relation::NotEqual => difference != 0.0,
+    }
+}
+
+/// The start has the rank that almost all admissible states have.
+pub(crate) fn check_rank(start: &Start, generic: usize) -> Result<(), StudyError> {
+    let rank = start.start.chart.rank();
+    if rank >= generic {
+        return Ok(());
+    }
+    let names: Vec<String> = start
+        .numeric
+        .constraints
+        .iter()
+        .map(|name| format!("`{name}`"))
+        .collect();
+    Err(StudyError::RankDeficient {
+        names: names.join(", "),
+        rank,
+        generic,
+    })
+}
+
+/// The value of an expression without moving symbols.
+pub(crate) fn number(g: &Graph, e: Expr, values: &[(Expr, Expr)]) -> Option<f64> {
+    let closed = g.substitute(e, values);
+    let value = g.evaluate_f64(&[closed], &|_| None).ok()?[0];
+    value.is_finite().then_some(value)
+}
+
+fn initial_data(
+    model: &Model,
+    system: &System,
+    options: &StudyOptions,
+) -> Result<InitialData, StudyError> {
+    let n = system.n();
+    let values = system.parameter_values();
+    let g = &model.graph;
+    let mut data = InitialData {
+        t: model
+            .simulation
+            .t_start
+            .and_then(|t| number(g, t, &values))
+            .unwrap_or(0.0),
+        q: vec![0.0; n],
+        v: vec![0.0; n],
+        q_fixed: vec![false; n],
+        v_fixed: vec![false; n],
+        project: options.project || model.initial.project,
+    };
+    for (&(i, order), given) in &model.initial.values {
+        let name = || {
+            format!(
+                "{}{}",
+                model.coordinates[i].name,
+                "'".repeat(order as usize)
+            )
+        };
+        let value = number(g, given.value, &values)
+            .ok_or_else(|| StudyError::InitialValue { name: name() })?;
+        match order {
+            0 => (data.q[i], data.q_fixed[i]) = (value, true),
+            1 => (data.v[i], data.v_fixed[i]) = (value, true),
+            _ => return Err(StudyError::UnusedInitialValue { name: name() }),
+        }
+    }
+    Ok(data)
+}
+
+/// How the motion is computed: options, else the model, else the program decides.
+pub(crate) fn settings(
+    model: &Model,
+    system: &System,
+    t_start: f64,
+    options: &StudyOptions,
+) -> Result<RunSettings, StudyError> {
+    let values = system.parameter_values();
+    let g = &model.graph;
+    let simulation = &model.simulation;
+    let t_end = options
+        .t_end
+        .or_else(|| simulation.t_end.and_then(|t| number(g, t, &values)))
+        .unwrap_or(t_start + 10.0);
+    let mut settings = RunSettings::new(t_start, t_end);
+    let stated = simulation.tolerance.as_ref().map(rational::to_f64);
+    settings.tolerance = options.tolerance.or(stated).unwrap_or(1e-10);
+    settings.absolute_tolerance = simulation
+        .absolute_tolerance
+        .as_ref()
+        .map_or(settings.tolerance, rational::to_f64);
+    if let Some(method) = options.method.as_ref().or(simulation.method.as_ref()) {
+        settings.method = method_name(method);
+    }
+    for tolerance in [settings.tolerance, settings.absolute_tolerance] {
+        if !(SHARPEST..=LOOSEST).contains(&tolerance) {
+            return Err(StudyError::Tolerance { tolerance });
+        }
+    }
+    let step = simulation.step.and_then(|h| number(g, h, &values));
+    settings.step = options.step.or(step);
+    if settings.step.is_some_and(|h| h <= 0.0 || !h.is_finite()) {
+        return Err(StudyError::Step);
+    }
+    settings.times = output_times(model, &values, t_start, t_end)?;
+    settings.max_steps = simulation.max_steps.unwrap_or(settings.max_steps);
+    settings.state = match simulation.state {
+        Some(ModelState::Full) => StateKind::Full,
+        _ => StateKind::Reduced,
+    };
+    settings.project = simulation.project.unwrap_or(true);
+    Ok(settings)
+}
+
+/// Tolerances that double precision and the error bounds of the verdicts make sense of.
+const SHARPEST: f64 = 2.3e-14;
+const LOOSEST: f64 = 0.1;
+/// More rows than these no longer fit what is done with them.
+const MOST_ROWS: f64 = 1e6;
+
+fn output_times(
+    model: &Model,
+    values: &[(Expr, Expr)],
+    t_start: f64,
+    t_end: f64,
+) -> Result<Vec<f64>, StudyError> {
+    let g = &model.graph;
+    let rows = |rows: f64| match rows <= MOST_ROWS {
+        true => Ok(()),
+        false => Err(StudyError::TooManyRows {
+            rows,
+            most: MOST_ROWS,
+        }),
+    };
+    match &model.simulation.output {
+        Some(Output::Points(points)) => {
+            rows(f64::from(*points))?;
+            Ok(equal_times(t_start, t_end, *points))
+        }
+        Some(Output::Times(times)) => {
+            let times: Vec<f64> = times.iter().filter_map(|&t| number(g, t, values)).collect();
+            let forward = if t_end < t_start { -1.0 } else { 1.0 };
+            let ordered = times.windows(2).all(|w| (w[1] - w[0]) * forward > 0.0);
+            let (low, high) = (t_start.min(t_end), t_start.max(t_end));
+            match times.iter().find(|&&t| t < low || t > high) {
+                _ if !ordered => Err(StudyError::OutputOrder),
+                Some(&t) => Err(StudyError::OutputTime { t, t_start, t_end }),
+                None => Ok(times),
+            }
+        }
+        Some(Output::Step(step)) => match number(g, *step, values) {
+            Some(dt) if dt > 0.0 => {
+                rows((t_end - t_start).abs() / dt)?;
+                Ok(stepped_times(t_start, t_end, dt))
+            }
+            _ => Err(StudyError::OutputStep),
+        },
+        None => Ok(equal_times(t_start, t_end, 500)),
+    }
+}
+
+/// `t_start + j dt`.
+fn stepped_times(t_start: f64, t_end: f64, dt: f64) -> Vec<f64> {
+    let count = ((t_end - t_start).abs() / dt + 1e-9).floor() as u32;
+    let direction = if t_end < t_start { -dt } else { dt };
+    (0..=count)
+        .map(|j| t_start + f64::from(j) * direction)
+        .collect()
+}
+
+/// Short names of methods as people write them.
+fn method_name(name: &str) -> String {
+    match name.to_ascii_lowercase().as_str() {
+        "dop853" | "dormand-prince" => "dormand-prince-853".into(),
+        "tsit5" | "tsitouras" => "tsitouras-5".into(),
+        "rk4" => "runge-kutta-4".into(),
+        other => other.into(),
+    }
+}

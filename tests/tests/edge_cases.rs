@@ -1,0 +1,196 @@
+//! Systems that are singular, redundant, contradictory or out of bounds in one way each, and what must be said of them.
+
+use chetaev::model::{load, Files};
+use chetaev_tests::runs::{ended, Ask, Ended};
+
+struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&self, _: &str) -> Result<String, String> {
+        Err("no files here".into())
+    }
+}
+
+fn study(text: &str) -> Ended {
+    ended(load("edge.toml", text, &NoFiles, &[]), &Ask::default())
+}
+
+fn verdict(ended: &Ended, claim: &str) -> String {
+    let study = ended
+        .study
+        .as_ref()
+        .unwrap_or_else(|| panic!("{}", ended.text));
+    let decided = study.verdicts.iter().find(|d| d.full_id() == claim);
+    let decided = decided.unwrap_or_else(|| panic!("no verdict of {claim}"));
+    decided.finding.verdict.word().to_owned()
+}
+
+fn system(body: &str) -> String {
+    format!("coordinates = [\"x\", \"y\", \"z\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2\"\n{body}")
+}
+
+/// The derivative of |x'| by x' is constant almost everywhere, and yet |x'| is not linear.
+#[test]
+fn a_corner_is_not_linear() {
+    let ended = study(&system(
+        "constraints = [\"z' = sqrt(x'^2)\"]\n[initial]\n\"x'\" = 1\n",
+    ));
+    assert_eq!(verdict(&ended, "model.constraints-linear"), "refuted");
+}
+
+/// Nothing is proved of a system as if a constraint on accelerations were not there.
+#[test]
+fn a_constraint_of_higher_order_is_not_forgotten() {
+    let ended = study(&system("constraints = [\"x''' = -y'\"]\n"));
+    for claim in [
+        "energy.integral",
+        "formulation.equivalent#maggi",
+        "model.accelerations-unique",
+    ] {
+        assert_eq!(verdict(&ended, claim), "undecided", "{claim}");
+    }
+}
+
+/// On |v|² = 1 the height changes: H = 1/2 + z.
+#[test]
+fn energy_on_a_bounded_variety() {
+    let text = "coordinates = [\"x\", \"y\", \"z\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2 - z\"\n\
+        constraints = [\"x'^2 + y'^2 + z'^2 = 1\"]\n[initial]\n\"x'\" = 0.6\n\"z'\" = 0.8\n\"y'\" = 0\n";
+    assert_eq!(verdict(&study(text), "energy.integral"), "refuted");
+}
+
+/// A root of a square is the other branch where the motion begins.
+#[test]
+fn the_other_branch_of_a_root_is_looked_at() {
+    let constraint = "constraints = [\"z' = (sqrt(x^2 + 2 x + 1) - (x + 1)) y x'\"]\n";
+    let ended = study(&system(&format!(
+        "{constraint}[initial]\nx = -3\ny = 1\n\"x'\" = 1\n"
+    )));
+    assert_eq!(
+        verdict(&ended, "model.constraints-integrable#weak"),
+        "refuted"
+    );
+}
+
+/// Branches meet, and a gradient vanishes, between two steps.
+#[test]
+fn a_vanishing_gradient_between_steps_stops_the_run() {
+    let meeting = "constraints = [\"(y' - 1) (y' - t) = 0\"]\n[initial]\n\"x'\" = -1\n\"y'\" = 0\n";
+    let crossing = "constraints = [\"x y = 0\"]\n[initial]\ny = 1\n\"y'\" = -1\n";
+    let factor =
+        "constraints = [\"x (z' - y x') = 0\"]\n[initial]\nx = -1\n\"x'\" = 1\n\"y'\" = 1\n";
+    // √(1 + y²) x' is an integral and y = t, so x = arsinh t − 1 vanishes at t = sinh 1.
+    let when = [1.0, 1.0, 1.0_f64.sinh()];
+    for (body, when) in [meeting, crossing, factor].into_iter().zip(when) {
+        let ended = study(&system(body));
+        assert_eq!(ended.exit, 3, "{body}: {}", ended.text);
+        let study = ended.study.as_ref().expect("a study");
+        let stopped = study
+            .motion
+            .as_ref()
+            .expect("a motion")
+            .evidence
+            .run
+            .ending
+            .t;
+        assert!((stopped - when).abs() < 1e-6, "{body}: {stopped}");
+        assert!(ended.text.contains("gradient"), "{}", ended.text);
+    }
+}
+
+/// Redundant at the start only: neither dropped for good nor passed over.
+#[test]
+fn rank_deficiency_at_the_start_is_refused() {
+    let text = "coordinates = [\"x\", \"y\", \"z\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2 + x\"\n\
+        constraints = [\"x' = y'\", \"x' cos(x) - y' = 0\"]\n[initial]\nx = 0\n";
+    let ended = study(text);
+    assert_eq!(ended.exit, 2);
+    assert!(ended.text.contains("rank"), "{}", ended.text);
+}
+
+/// The free part is found although the constraint has no gradient where the search begins.
+#[test]
+fn what_is_free_is_found_from_other_starts() {
+    for constraint in [
+        "x'^2 + y'^2 + z'^2 = 3",
+        "x'^2 + y'^2 - z'^2 = 0",
+        "x'^2 = y'^2",
+    ] {
+        let ended = study(&system(&format!(
+            "constraints = [\"{constraint}\"]\n[initial]\n\"x'\" = 1\n"
+        )));
+        let study = ended
+            .study
+            .as_ref()
+            .unwrap_or_else(|| panic!("{constraint}: {}", ended.text));
+        let start = &study.motion.as_ref().expect("a motion").start;
+        assert_eq!(start.v[0], 1.0, "{constraint}");
+        assert!(
+            start.v[1].abs() + start.v[2].abs() > 1e-3,
+            "{constraint}: {:?}",
+            start.v
+        );
+    }
+}
+
+#[test]
+fn contradictory_positions_are_called_so() {
+    let ended = study(&system("constraints = [\"x = 1\", \"x = 2\"]\n"));
+    assert_eq!(ended.exit, 2);
+    assert!(ended.text.contains("contradict"), "{}", ended.text);
+}
+
+/// A run that loses everything does not pass by the size of what it reached.
+#[test]
+fn a_blown_up_run_is_refuted() {
+    let text = "coordinates = [\"x\"]\nlagrangian = \"x'^2/2 - x^2\"\n[initial]\n\"x'\" = 1\n\
+        [simulation]\nt_end = 1000\ntolerance = 0.1\n";
+    assert_eq!(verdict(&study(text), "motion.energy-drift"), "refuted");
+    let wide = text.replace("tolerance = 0.1", "tolerance = 1000");
+    assert_eq!(study(&wide).exit, 2);
+}
+
+#[test]
+fn assumptions_hold_where_the_motion_is() {
+    let body = |x: &str| {
+        system(&format!(
+            "assumptions = [\"x > 0\"]\n[initial]\nx = {x}\n\"x'\" = -1\n[simulation]\nt_end = 5\n"
+        ))
+    };
+    let refused = study(&body("-2"));
+    assert_eq!(refused.exit, 2);
+    assert!(refused.text.contains("x > 0"), "{}", refused.text);
+    let left = study(&body("2"));
+    assert_eq!(left.exit, 0);
+    assert!(left.text.contains("leaves the assumption"), "{}", left.text);
+}
+
+#[test]
+fn too_many_rows_are_refused_not_cut() {
+    let ended = study(&system(
+        "[simulation]\nt_end = 10\noutput = { step = 1e-9 }\n",
+    ));
+    assert_eq!(ended.exit, 2);
+    assert!(ended.text.contains("rows"), "{}", ended.text);
+}
+
+/// The classical method of order 4 has no error estimate: it asks for a step, and shows its order with one.
+#[test]
+fn a_fixed_step_is_asked_for_and_used() {
+    let text = "coordinates = [\"x\"]\nlagrangian = \"x'^2/2 + cos(x)\"\n[initial]\nx = 1\n\
+        [simulation]\nt_end = 5\nmethod = \"runge-kutta-4\"\n";
+    let refused = study(text);
+    assert_eq!(refused.exit, 2);
+    assert!(refused.text.contains("step"), "{}", refused.text);
+    let ended = study(&format!("{text}step = 0.01\n"));
+    assert_eq!(ended.exit, 0, "{}", ended.text);
+    let study = ended.study.as_ref().expect("a study");
+    let evidence = &study.motion.as_ref().expect("a motion").evidence;
+    let observed = evidence
+        .orders
+        .as_ref()
+        .and_then(|o| o.observed)
+        .expect("an order");
+    assert!((observed - 4.0).abs() < 0.5, "{observed}");
+    assert_eq!(evidence.run.statistics.steps, 500);
+}
