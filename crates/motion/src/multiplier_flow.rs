@@ -41,6 +41,8 @@ pub struct MultiplierFlow {
     accepted_pivot: f64,
     /// Quantities whose vanishing makes the equations singular.
     pub watch: Watch,
+    /// Whether the watched quantity asked for last vanishes at the state interpolated there.
+    zero_between: bool,
 }
 
 /// A chart is replaced when its pivot fell below this fraction of its value at the time of choice (theory 5.2).
@@ -80,6 +82,7 @@ impl MultiplierFlow {
             project: project && kind == StateKind::Full,
             kind,
             watch,
+            zero_between: false,
             system,
         }
     }
@@ -99,9 +102,10 @@ impl MultiplierFlow {
         self.kind
     }
 
-    /// Whether watched quantity `index` vanishes at the state y.
+    /// Whether watched quantity `index` vanishes at the state y, where the integrator has found its minimum. The state that
+    /// is interpolated there counts too: a step to the singularity itself evaluates the equations where they have no value.
     pub fn vanishes(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
-        if self.unpack(t, y).is_err() {
+        if self.zero_between || self.unpack(t, y).is_err() {
             return true;
         }
         self.watch.vanishes(index, t, &self.q, &self.v)
@@ -391,7 +395,12 @@ impl System for MultiplierFlow {
     }
 
     fn is_event(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
-        self.unpack(t, y).is_err() || self.watch.is_near(index, t, &self.q, &self.v)
+        if self.unpack(t, y).is_err() {
+            self.zero_between = true;
+            return true;
+        }
+        self.zero_between = self.watch.vanishes(index, t, &self.q, &self.v);
+        self.watch.is_near(index, t, &self.q, &self.v)
     }
 
     fn factorizations(&self) -> u64 {

@@ -194,3 +194,33 @@ fn pursuit_stops_at_capture_where_the_gradient_vanishes() {
     );
     assert!(routh.ending.reason.contains("aim"));
 }
+
+/// (y' − 1)(y' − t) = 0: the branches meet at t = 1, where ∂f/∂v vanishes although the motion on one branch is smooth.
+#[test]
+fn branches_that_meet_stop_the_run() {
+    let system = |g: &Graph| {
+        let one = number(g, "1");
+        let f = g.mul(&[g.sub(s(g, "y'"), one), g.sub(s(g, "y'"), s(g, "t"))]);
+        SystemParts {
+            coordinates: ["x", "y", "z"].map(String::from).to_vec(),
+            parameters: vec![("m".into(), Some(one))],
+            lagrangian: Some(g.add(&kinetic(g, &[("m", "x'"), ("m", "y'"), ("m", "z'")]))),
+            constraints: vec![("branches".into(), f)],
+            ..SystemParts::default()
+        }
+    };
+    for end in [1.7, 3.0, 10.0] {
+        let (routh, _) = run(
+            system,
+            &[0.0; 3],
+            &[-1.0, 0.0, 0.0],
+            RunSettings::new(0.0, end),
+        );
+        assert!(!routh.ending.finished, "{end}: {}", routh.ending.reason);
+        assert!(
+            (routh.ending.t - 1.0).abs() < 1e-5,
+            "{end}: {}",
+            routh.ending.reason
+        );
+    }
+}
