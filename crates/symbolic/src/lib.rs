@@ -9,6 +9,7 @@ pub mod evaluate;
 pub mod functions;
 pub mod graph;
 pub mod linear;
+pub mod matrix;
 pub mod node;
 pub mod number;
 pub mod polynomial;
