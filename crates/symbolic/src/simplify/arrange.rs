@@ -3,6 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::cmp::Reverse;
 
+use dashu_int::IBig;
 use rustc_hash::FxHashMap;
 
 use super::contract::Angles;
@@ -18,6 +19,8 @@ use crate::{Expr, Function, Graph};
 const MOST_TERMS: usize = 48;
 /// How many generators are tried as a common factor of part of a sum, by depth of nesting from the inside out.
 const TRIALS: [usize; 3] = [2, 3, 6];
+/// Polynomials with more terms than this are searched for no factors but generators and numbers.
+const MOST_FACTORED: usize = 200;
 /// How many parts of one polynomial are factored before the rest is written as it is.
 const MOST_FACTORIZATIONS: u32 = 150;
 /// How many arrangements of a numerator or denominator are tried against each other.
@@ -31,14 +34,24 @@ pub(super) struct Arranger<'a, 'g> {
     lengths: RefCell<Lengths>,
     known: RefCell<FxHashMap<(Polynomial, usize), Expr>>,
     factorizations: Cell<u32>,
+    contracts: bool,
     /// Expressions of the generators, with tangents and functions of sums of angles appended where they are in use.
     angles: RefCell<Angles>,
 }
 
 impl<'a, 'g> Arranger<'a, 'g> {
+    /// Without addition theorems.
     pub(super) fn new(field: &'a Field<'g>, written: Written) -> Arranger<'a, 'g> {
         let generators = field.generators().iter().map(|g| g.expr).collect();
         Arranger::with_generators(field, written, generators)
+    }
+
+    /// With sums of products of sines and cosines of two angles written as functions of their sum or difference.
+    pub(super) fn contracting(field: &'a Field<'g>, written: Written) -> Arranger<'a, 'g> {
+        Arranger {
+            contracts: true,
+            ..Arranger::new(field, written)
+        }
     }
 
     fn with_generators(
@@ -50,9 +63,10 @@ impl<'a, 'g> Arranger<'a, 'g> {
             field,
             g: field.graph(),
             written,
-            lengths: RefCell::default(),
+            lengths: RefCell::new(Lengths::written()),
             known: RefCell::default(),
             factorizations: Cell::new(0),
+            contracts: false,
             angles: RefCell::new(Angles::new(field, generators)),
         }
     }
@@ -98,7 +112,9 @@ impl<'a, 'g> Arranger<'a, 'g> {
         let pairs = tops
             .iter()
             .flat_map(|&top| bottoms.iter().map(move |&bottom| (top, bottom)));
-        self.shortest(pairs.map(|(top, bottom)| self.g.div(self.g.mul(&[top, factor]), bottom)))
+        let quotients = pairs.map(|(top, bottom)| self.g.div(self.g.mul(&[top, factor]), bottom));
+        // Of two equally long forms the one with a common factor outside has fewer nodes.
+        quotients.min_by_key(|&e| (self.length(e), self.g.tree_size(e)))
     }
 
     /// A sum of fractions with different denominators, where the common one has powers of generators that not every
@@ -155,7 +171,10 @@ impl<'a, 'g> Arranger<'a, 'g> {
             current = by_tangent(self.field, &current, &pair, tangent)?;
             secants.push((pair.cosine, angle));
         }
-        let inner = Arranger::with_generators(self.field, Written::default(), generators);
+        let inner = Arranger {
+            contracts: self.contracts,
+            ..Arranger::with_generators(self.field, Written::default(), generators)
+        };
         let plain = inner.quotient(&current, factor)?;
         if !self.written.secant {
             return Some(plain);
@@ -219,6 +238,16 @@ impl<'a, 'g> Arranger<'a, 'g> {
         if let Some(&known) = self.known.borrow().get(&(p.clone(), depth)) {
             return known;
         }
+        if let Some(contracted) = self.contracted(p) {
+            let result = self.factored(&contracted, depth);
+            self.known.borrow_mut().insert((p.clone(), depth), result);
+            return result;
+        }
+        if p.len() > MOST_FACTORED || is_linear_somewhere(p) {
+            let result = self.without_monomial(p, depth);
+            self.known.borrow_mut().insert((p.clone(), depth), result);
+            return result;
+        }
         let count = self.factorizations.get();
         self.factorizations.set(count + 1);
         let affordable = count < MOST_FACTORIZATIONS || depth == TRIALS.len();
@@ -242,17 +271,33 @@ impl<'a, 'g> Arranger<'a, 'g> {
         result
     }
 
+    /// The polynomial with its factors that are generators or numbers outside.
+    fn without_monomial(&self, p: &Polynomial, depth: usize) -> Expr {
+        let common = p.monomial_content();
+        let content = IBig::from(p.integer_content());
+        let content = if p.is_negative() { -content } else { content };
+        let terms = p
+            .terms()
+            .iter()
+            .filter_map(|(m, c)| Some((m.quotient(&common)?, c / &content)));
+        let rest = Polynomial::from_terms(terms.collect());
+        let product = self
+            .g
+            .mul(&[self.monomial(&common), self.sum(&rest, depth)]);
+        self.g.scale(&Rational::from(content), product)
+    }
+
+    fn contracted(&self, p: &Polynomial) -> Option<Polynomial> {
+        self.contracts
+            .then(|| self.angles.borrow_mut().contracted(self.g, p))
+            .flatten()
+    }
+
     /// A sum without common factor: terms that share a generator are put together where this is shorter.
     fn sum(&self, p: &Polynomial, depth: usize) -> Expr {
         let plain = self.expanded(p);
-        let mut candidates = vec![plain];
-        let contracted = self.angles.borrow_mut().contracted(self.g, p);
-        if let Some(contracted) = &contracted {
-            candidates.push(self.factored(contracted, depth));
-        }
-        let done = contracted.is_some() && depth < TRIALS.len();
-        if p.len() <= 2 || depth == 0 || p.len() > MOST_TERMS || done {
-            return self.shortest(candidates).unwrap_or(plain);
+        if p.len() <= 2 || depth == 0 || p.len() > MOST_TERMS {
+            return plain;
         }
         let mut shared: Vec<(usize, usize)> = p
             .generators()
@@ -273,6 +318,7 @@ impl<'a, 'g> Arranger<'a, 'g> {
         };
         shared.sort_by_key(|&(count, g)| (Reverse(count), Reverse(order(g)), g));
         shared.truncate(TRIALS[depth - 1]);
+        let mut candidates = vec![plain];
         for (_, generator) in shared {
             let (with, without): (Vec<_>, Vec<_>) = p
                 .terms()
@@ -291,6 +337,9 @@ impl<'a, 'g> Arranger<'a, 'g> {
     }
 
     fn expanded(&self, p: &Polynomial) -> Expr {
+        if let Some(contracted) = self.contracted(p) {
+            return self.expanded(&contracted);
+        }
         let terms: Vec<Expr> = p
             .terms()
             .iter()
@@ -306,4 +355,21 @@ impl<'a, 'g> Arranger<'a, 'g> {
             .collect();
         self.g.mul(&powers)
     }
+}
+
+/// Whether some generator occurs in one term only, and there to the first power: `m x + R`, where R is free of x, has no
+/// factors but those of m, which are generators.
+fn is_linear_somewhere(p: &Polynomial) -> bool {
+    let mut uses: Vec<(u32, u16)> = Vec::new();
+    for (monomial, _) in p.terms() {
+        for (generator, exponent) in monomial.iter() {
+            if uses.len() <= generator {
+                uses.resize(generator + 1, (0, 0));
+            }
+            let (count, power) = &mut uses[generator];
+            *count += 1;
+            *power = (*power).max(exponent);
+        }
+    }
+    uses.contains(&(1, 1))
 }

@@ -5,6 +5,11 @@ use rustc_hash::FxHashMap;
 use crate::rational;
 use crate::{Expr, Graph, Node, Rational};
 
+/// Longer parts all count the same, so that sums cannot overflow.
+const LONGEST: u64 = u64::MAX / 8;
+/// A name with a subscript.
+const NAME: u64 = 2;
+
 /// The approximate number of signs that a person reads, shared parts counted as often as they are printed.
 ///
 /// Symbols count one sign and one for each prime or subscript, a function name one, because it is read as one;
@@ -13,36 +18,56 @@ pub fn length(g: &Graph, e: Expr) -> u64 {
     Lengths::default().of(g, e)
 }
 
+/// The [`length`] with a name for each component of a solution of a linear system, which is stated but once.
+pub(super) fn written_length(g: &Graph, e: Expr) -> u64 {
+    Lengths::written().of(g, e)
+}
+
 /// Lengths already computed, of every node met; for one graph.
 #[derive(Debug, Default)]
-pub(super) struct Lengths(FxHashMap<Expr, u64>);
+pub(super) struct Lengths {
+    known: FxHashMap<Expr, u64>,
+    /// Whether components of solutions count as the names they are printed by.
+    named: bool,
+}
 
 impl Lengths {
+    pub(super) fn written() -> Lengths {
+        Lengths {
+            named: true,
+            ..Lengths::default()
+        }
+    }
+
     /// The [`length`]; costs time in proportion to the nodes not met before.
     pub(super) fn of(&mut self, g: &Graph, e: Expr) -> u64 {
-        if let Some(&known) = self.0.get(&e) {
+        if let Some(&known) = self.known.get(&e) {
             return known;
         }
         let mut stack = vec![(e, false)];
         while let Some((node, children_done)) = stack.pop() {
-            if self.0.contains_key(&node) {
+            if self.known.contains_key(&node) {
+                continue;
+            }
+            if self.named && matches!(g.node(node), Node::Entry { .. }) {
+                self.known.insert(node, NAME);
                 continue;
             }
             if children_done {
-                let value = node_length(g, node, &self.0);
-                self.0.insert(node, value);
+                let value = node_length(g, node, &self.known);
+                self.known.insert(node, value);
             } else {
                 stack.push((node, true));
                 g.node(node)
                     .for_each_child(|child| stack.push((child, false)));
             }
         }
-        self.0.get(&e).copied().unwrap_or(0)
+        self.known.get(&e).copied().unwrap_or(0)
     }
 }
 
 fn node_length(g: &Graph, e: Expr, known: &FxHashMap<Expr, u64>) -> u64 {
-    let of = |e: &Expr| known.get(e).copied().unwrap_or(0);
+    let of = |e: &Expr| known.get(e).copied().unwrap_or(0).min(LONGEST);
     match g.node(e) {
         Node::Number(value) => number_length(value),
         Node::Pi => 1,

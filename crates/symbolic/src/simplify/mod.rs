@@ -26,6 +26,7 @@ use arrange::Arranger;
 
 pub use collect::{collect, collect_all};
 pub use measure::length;
+use measure::written_length;
 pub use polynomial_view::{
     homogeneity, homogeneous_parts, linear_form, HomogeneousPart, LinearForm,
 };
@@ -133,7 +134,7 @@ pub fn eliminate(g: &Graph, e: Expr, solved: &[(Expr, Expr)], options: &Options)
 /// The shorter of two; a closed form replaces a solve whenever it is short enough, since a solve takes several lines to
 /// state. `ties` says whether the new one wins at equal length.
 fn better(g: &Graph, old: Expr, new: Expr, ties: bool, options: &Options) -> Expr {
-    let (old_length, new_length) = (length(g, old), length(g, new));
+    let (old_length, new_length) = (written_length(g, old), written_length(g, new));
     let takes_new = if contains_solve(g, old) && !contains_solve(g, new) {
         new_length <= options.max_closed_form
     } else {
@@ -238,17 +239,79 @@ fn is_circular(function: Function) -> bool {
 
 /// The best arrangement of each expression under one reading; `None` when the reading exceeds the budget.
 fn read(g: &Graph, es: &[Expr], reading: &Reading) -> Option<Vec<Option<Expr>>> {
-    let (field, values) = normal_forms(g, es, reading).ok()?;
-    if field.divides_angles() {
+    let (fields, values) = Fields::read(g, es, reading)?;
+    if fields.plain.divides_angles() {
         return None;
     }
-    let arranger = Arranger::new(&field, Written::of(g, es));
+    let arrangers = Arrangers::new(&fields, Written::of(g, es));
     Some(
         values
             .iter()
-            .map(|value| arranger.fraction(value))
+            .map(|value| arrangers.fraction(value))
             .collect(),
     )
+}
+
+/// The same field twice, so that addition theorems have a budget of their own and cannot make anything worse.
+pub(crate) struct Fields<'g> {
+    plain: Field<'g>,
+    contracting: Option<Field<'g>>,
+}
+
+impl<'g> Fields<'g> {
+    fn read(
+        g: &'g Graph,
+        es: &[Expr],
+        reading: &Reading,
+    ) -> Option<(Fields<'g>, Vec<RationalFunction>)> {
+        let (plain, values) = normal_forms(g, es, reading).ok()?;
+        let contracting = if plain.base_angle_count() > 1 {
+            normal_forms(g, es, reading).ok().map(|(field, _)| field)
+        } else {
+            None
+        };
+        Some((Fields { plain, contracting }, values))
+    }
+}
+
+/// Arrangements with and without addition theorems; the shorter one is taken.
+struct Arrangers<'a, 'g> {
+    g: &'g Graph,
+    plain: Option<Arranger<'a, 'g>>,
+    contracting: Option<Arranger<'a, 'g>>,
+}
+
+impl<'a, 'g> Arrangers<'a, 'g> {
+    fn new(fields: &'a Fields<'g>, written: Written) -> Arrangers<'a, 'g> {
+        let contracting = fields.contracting.as_ref();
+        Arrangers {
+            g: fields.plain.graph(),
+            plain: Some(Arranger::new(&fields.plain, written)),
+            contracting: contracting.map(|field| Arranger::contracting(field, written)),
+        }
+    }
+
+    /// One way only, where the expressions are large.
+    fn quick(fields: &'a Fields<'g>, written: Written) -> Arrangers<'a, 'g> {
+        let both = Arrangers::new(fields, written);
+        Arrangers {
+            plain: both.plain.filter(|_| both.contracting.is_none()),
+            ..both
+        }
+    }
+
+    fn fraction(&self, f: &RationalFunction) -> Option<Expr> {
+        self.fraction_times(f, self.g.one())
+    }
+
+    fn fraction_times(&self, f: &RationalFunction, factor: Expr) -> Option<Expr> {
+        let ways = [&self.plain, &self.contracting];
+        let arranged = ways
+            .into_iter()
+            .flatten()
+            .filter_map(|arranger| arranger.fraction_times(f, factor));
+        arranged.min_by_key(|&e| written_length(self.g, e))
+    }
 }
 
 /// [`read`], one by one where all together exceed the budget.
@@ -332,7 +395,7 @@ fn replace_argument(g: &Graph, e: Expr, argument: Expr) -> Expr {
 fn simplify_flat(g: &Graph, e: Expr, options: &Options) -> Expr {
     let literal = Reading::display(options.budget);
     match read(g, &[e], &literal).and_then(|mut c| c.pop()).flatten() {
-        Some(candidate) if length(g, candidate) < length(g, e) => candidate,
+        Some(candidate) if written_length(g, candidate) < written_length(g, e) => candidate,
         _ => e,
     }
 }

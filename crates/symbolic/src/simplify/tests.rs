@@ -363,3 +363,106 @@ fn a_name_given_twice_in_a_group_is_collected_once() {
     let difference = g.sub(e, collected);
     assert!(g.is_zero(simplify(&g, difference, &Options::default())));
 }
+
+#[test]
+fn products_of_two_angles_become_functions_of_sums_and_differences() {
+    check(
+        "m l (cos(alpha) cos(beta) + sin(alpha) sin(beta))",
+        "m l cos(alpha - beta)",
+    );
+    check(
+        "sin(alpha) cos(beta) + cos(alpha) sin(beta)",
+        "sin(alpha + beta)",
+    );
+    check(
+        "cos(alpha) sin(beta) - sin(alpha) cos(beta)",
+        "-sin(alpha - beta)",
+    );
+    check(
+        "a cos(alpha) cos(beta) - a sin(alpha) sin(beta) + b sin(alpha)",
+        "a cos(alpha + beta) + b sin(alpha)",
+    );
+    check(
+        "cos(alpha) cos(beta) cos(gamma) - sin(alpha) sin(beta) cos(gamma) - sin(alpha) cos(beta) sin(gamma) - cos(alpha) sin(beta) sin(gamma)",
+        "cos(alpha + beta + gamma)",
+    );
+    for text in [
+        "2 cos(alpha) cos(beta) + sin(alpha) sin(beta)",
+        "a cos(alpha) cos(beta) + b sin(alpha) sin(beta)",
+    ] {
+        check(text, text);
+    }
+}
+
+/// landau1976, sec. 5, problem 1, as Lagrange's equations give it from Cartesian coordinates.
+#[test]
+fn double_pendulum_equation() {
+    let g = Graph::new();
+    let e = read(
+        &g,
+        "l (m (l a'' cos(a) - l a'^2 sin(a) + l b'' cos(b) - l b'^2 sin(b)) cos(a) + m (l a'' sin(a) + l a'^2 cos(a) + l b'' sin(b) + l b'^2 cos(b)) sin(a) + m g sin(a))",
+    );
+    let accelerations = symbols(&g, &[("a", 2), ("b", 2)]);
+    let velocities = symbols(&g, &[("a", 1), ("b", 1)]);
+    let found = collect(&g, e, &[&accelerations, &velocities], &Options::default());
+    let expected = "m l^2 a'' + m l^2 cos(a - b) b'' + m l^2 sin(a - b) b'^2 + m g l sin(a)";
+    assert_eq!(g.text(found), g.text(read(&g, expected)));
+}
+
+/// A chain of n rods: about n³ terms when multiplied out, about n when ordered.
+#[test]
+fn large_equations_are_ordered_all_the_same() {
+    let g = Graph::new();
+    let n = 24;
+    let name = |letter: &str, i: usize| format!("{letter}_{i}");
+    let angle = |i, order| g.symbol(&name("q", i), order);
+    let length_of = |i| g.symbol(&name("d", i), 0);
+    // Moment of the forces of inertia about the first joint, times the first length.
+    let mut terms = Vec::new();
+    for j in 1..=n {
+        let mut sums = [Vec::new(), Vec::new()];
+        for i in 1..=j {
+            let (s, c) = (g.sin(angle(i, 0)), g.cos(angle(i, 0)));
+            let (v2, a) = (g.powi(angle(i, 1), 2), angle(i, 2));
+            sums[0].push(g.mul(&[length_of(i), g.sub(g.mul(&[a, c]), g.mul(&[v2, s]))]));
+            sums[1].push(g.mul(&[length_of(i), g.add(&[g.mul(&[a, s]), g.mul(&[v2, c])])]));
+        }
+        let (s, c) = (g.sin(angle(1, 0)), g.cos(angle(1, 0)));
+        let across = g.add(&[g.mul(&[c, g.add(&sums[0])]), g.mul(&[s, g.add(&sums[1])])]);
+        terms.push(g.mul(&[g.symbol(&name("M", j), 0), across]));
+    }
+    let e = g.add(&terms);
+    let accelerations: Vec<Expr> = (1..=n).map(|i| angle(i, 2)).collect();
+    let velocities: Vec<Expr> = (1..=n).map(|i| angle(i, 1)).collect();
+    let found = collect(&g, e, &[&accelerations, &velocities], &Options::default());
+    // Σ_i (M_i + … + M_n) d_i (q_i'' cos(q_1 - q_i) + q_i'^2 sin(q_1 - q_i))
+    let expected: Vec<Expr> = (1..=n)
+        .flat_map(|i| {
+            let mass: Vec<Expr> = (i..=n).map(|j| g.symbol(&name("M", j), 0)).collect();
+            let common = g.mul(&[g.add(&mass), length_of(i)]);
+            let difference = g.sub(angle(1, 0), angle(i, 0));
+            let v2 = g.powi(angle(i, 1), 2);
+            [
+                g.mul(&[common, angle(i, 2), g.cos(difference)]),
+                g.mul(&[common, v2, g.sin(difference)]),
+            ]
+        })
+        .collect();
+    assert_eq!(g.text(found), g.text(g.add(&expected)));
+}
+
+/// d_i = sin(d_(i-1)) d_(i-1): as a tree 2^300 nodes.
+#[test]
+fn definitions_nested_hundreds_deep_are_printed_with_names() {
+    let g = Graph::new();
+    let mut d = g.symbol("x", 1);
+    for _ in 0..300 {
+        d = g.mul(&[g.sin(d), d]);
+    }
+    assert_eq!(g.tree_size(d), u64::MAX);
+    assert_eq!(simplify(&g, d, &Options::default()), d);
+    let velocity = g.symbol("x", 1);
+    assert_eq!(collect(&g, d, &[&[], &[velocity]], &Options::default()), d);
+    let text = g.text(d);
+    assert!(text.len() < 1_000_000, "{} signs", text.len());
+}
