@@ -1,7 +1,7 @@
 //! Equations ordered by accelerations, then velocities.
 
 use super::measure::written_length as length;
-use super::{contains_solve, simplify, Arrangers, Fields, Options, Written};
+use super::{contains_solve, is_hopeless, simplify, Arrangers, Fields, Options, Written};
 use crate::polynomial::normal_form::{Field, Options as Reading};
 use crate::polynomial::{Budget, Monomial, Polynomial, RationalFunction};
 use crate::{Expr, Graph};
@@ -23,7 +23,7 @@ const ORDERED: Budget = Budget {
 /// all terms comes out, and the input when nothing shorter than it was found.
 pub fn collect(g: &Graph, e: Expr, groups: &[&[Expr]], options: &Options) -> Expr {
     let nodes = g.reachable(&[e]).len();
-    if nodes > options.max_nodes.max(MOST_NODES) {
+    if nodes > options.max_nodes.max(MOST_NODES) || is_hopeless(g, &[e]) {
         return e;
     }
     if let Some(ordered) = large(g, e, groups) {

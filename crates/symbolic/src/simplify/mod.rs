@@ -72,7 +72,7 @@ pub fn simplify(g: &Graph, e: Expr, options: &Options) -> Expr {
 
 /// [`simplify`] for several expressions, which share the work on common solves.
 pub fn simplify_all(g: &Graph, es: &[Expr], options: &Options) -> Vec<Expr> {
-    if g.reachable(es).len() > options.max_nodes {
+    if g.reachable(es).len() > options.max_nodes || is_hopeless(g, es) {
         return match es {
             [_] | [] => es.to_vec(),
             // Together too large; perhaps not each by itself.
@@ -145,6 +145,13 @@ fn better(g: &Graph, old: Expr, new: Expr, ties: bool, options: &Options) -> Exp
     } else {
         old
     }
+}
+
+/// A tree so much larger than its graph that no rewriting makes it legible; it is printed with names for its parts.
+fn is_hopeless(g: &Graph, es: &[Expr]) -> bool {
+    const MOST_SIGNS: u64 = 1_000_000;
+    let mut lengths = measure::Lengths::written();
+    es.iter().any(|&e| lengths.of(g, e) > MOST_SIGNS)
 }
 
 fn contains_solve(g: &Graph, e: Expr) -> bool {
@@ -350,10 +357,14 @@ impl Written {
     }
 }
 
+/// Arguments of functions with more signs than these are left alone.
+const LONGEST_ARGUMENT: u64 = 2_000;
+
 /// The same expressions with simplified arguments of functions and bases of roots, innermost first.
 fn simplify_arguments(g: &Graph, es: &[Expr], options: &Options) -> Vec<Expr> {
     let mut image: FxHashMap<Expr, Expr> = FxHashMap::default();
     let mut solved = SolveCache::default();
+    let mut lengths = measure::Lengths::written();
     for e in g.reachable(es) {
         let mut rebuilt = g.rebuild(e, &mut |c| image.get(&c).copied().unwrap_or(c), &mut solved);
         let inner = match g.node(rebuilt) {
@@ -361,7 +372,8 @@ fn simplify_arguments(g: &Graph, es: &[Expr], options: &Options) -> Vec<Expr> {
             Node::Power { base, exponent } if g.as_integer(*exponent).is_none() => Some(*base),
             _ => None,
         };
-        if let Some(inner) = inner.filter(|&i| is_compound(g, i)) {
+        let short = |&i: &Expr| is_compound(g, i) && lengths.of(g, i) <= LONGEST_ARGUMENT;
+        if let Some(inner) = inner.filter(short) {
             let simple = simplify_flat(g, inner, options);
             if simple != inner {
                 rebuilt = replace_argument(g, rebuilt, simple);
