@@ -89,8 +89,14 @@ fn orders(finals: &[Vec<f64>], length: f64, nominal: f64) -> Orders {
         .windows(2)
         .map(|w| (w[0].1 - w[1].1) / (w[0].0 - w[1].0))
         .collect();
+    // From the coarsest steps on, as far as the errors fall regularly: beyond is the rounding of the equations themselves.
+    let regular = slopes
+        .iter()
+        .take_while(|&&slope| (slope - slopes[0]).abs() <= REGULAR)
+        .count();
+    let (slopes, logs) = (&slopes[..regular], &logs[..logs.len().min(regular + 1)]);
     let extreme = |start: f64, pick: fn(f64, f64) -> f64| slopes.iter().copied().fold(start, pick);
-    let spread = match slopes.len() {
+    let spread = match regular {
         0 | 1 => f64::INFINITY,
         _ => extreme(f64::NEG_INFINITY, f64::max) - extreme(f64::INFINITY, f64::min),
     };
