@@ -14,8 +14,8 @@ use super::unknown::unknown_name;
 
 /// Most terms of one `sum`, and most steps of one expression. What is larger is a slip of the pen, and would fill
 /// the memory before anybody could say so.
-const MOST_TERMS: i64 = 200_000;
-const MOST_STEPS: usize = 5_000_000;
+const MOST_TERMS: i64 = 100_000;
+const MOST_STEPS: usize = 1_000_000;
 
 /// What a name stands for.
 #[derive(Clone, Debug, PartialEq, Eq)]
