@@ -38,7 +38,9 @@ pub fn collect(g: &Graph, e: Expr, groups: &[&[Expr]], options: &Options) -> Exp
         return simple;
     };
     let (long, short) = (length(g, collected), length(g, simple));
-    if long > length(g, e) || 3 * short < 2 * long {
+    // Lengths with and without solutions of linear systems cannot be compared.
+    let comparable = contains_solve(g, e) == contains_solve(g, collected);
+    if (comparable && long > length(g, e)) || 3 * short < 2 * long {
         simple
     } else {
         collected
@@ -51,7 +53,7 @@ fn large(g: &Graph, e: Expr, groups: &[&[Expr]]) -> Option<Expr> {
     if g.tree_size(e) <= MOST_WHOLE as u64 || contains_solve(g, e) {
         return None;
     }
-    let (fields, values) = Fields::read(g, &[e], &Reading::display(ORDERED))?;
+    let (fields, values) = Fields::read_once(g, e, &Reading::display(ORDERED))?;
     let value = values.first()?;
     if value.numerator().len() <= MOST_WHOLE || value.denominator().len() > MOST_WHOLE {
         return None;

@@ -279,6 +279,17 @@ impl<'g> Fields<'g> {
         };
         Some((Fields { plain, contracting }, values))
     }
+
+    /// With one budget for both, where reading is the greater part of the work.
+    fn read_once(
+        g: &'g Graph,
+        e: Expr,
+        reading: &Reading,
+    ) -> Option<(Fields<'g>, Vec<RationalFunction>)> {
+        let (plain, values) = normal_forms(g, &[e], reading).ok()?;
+        let contracting = (plain.base_angle_count() > 1).then(|| plain.clone());
+        Some((Fields { plain, contracting }, values))
+    }
 }
 
 /// Arrangements with and without addition theorems; the shorter one is taken.
