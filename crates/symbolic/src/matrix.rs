@@ -56,9 +56,9 @@ pub fn ldlt(g: &Graph, a: &[Vec<Expr>]) -> Result<Ldlt, MatrixError> {
     if a.iter().any(|row| row.len() != n) {
         return Err(MatrixError::Shape);
     }
-    for row in 0..n {
-        for column in 0..row {
-            if !vanishes(g, g.sub(a[row][column], a[column][row]))? {
+    for (row, entries) in a.iter().enumerate() {
+        for (column, &entry) in entries.iter().enumerate().take(row) {
+            if !vanishes(g, g.sub(entry, a[column][row]))? {
                 return Err(MatrixError::NotSymmetric { row, column });
             }
         }
@@ -202,9 +202,9 @@ mod tests {
             ],
         );
         let factors = ldlt(&g, &a).unwrap();
-        for i in 0..3 {
-            for j in 0..3 {
-                assert_zero(&g, g.sub(a[i][j], product(&g, &factors, i, j)));
+        for (i, row) in a.iter().enumerate() {
+            for (j, &entry) in row.iter().enumerate() {
+                assert_zero(&g, g.sub(entry, product(&g, &factors, i, j)));
             }
         }
         let expected = read(&g, "m*l^2 + J - m^2*l^2*cos(theta)^2/(m + M)");

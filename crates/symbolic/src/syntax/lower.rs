@@ -15,6 +15,8 @@ use super::unknown::unknown_name;
 /// Most terms of one `sum`, and most steps of one expression. What is larger is a slip of the pen, and would fill
 /// the memory before anybody could say so.
 const MOST_TERMS: i64 = 100_000;
+/// After so many problems of one kind of slip the rest is not looked at.
+const MOST_DIAGNOSTICS: usize = 200;
 const MOST_STEPS: usize = 1_000_000;
 
 /// What a name stands for.
@@ -147,6 +149,11 @@ impl Machine<'_> {
         let mut steps = 0usize;
         while let Some(task) = self.tasks.pop() {
             steps += 1;
+            if self.diagnostics.len() >= MOST_DIAGNOSTICS {
+                // What follows would say the same again.
+                self.failed = true;
+                return;
+            }
             if steps > MOST_STEPS {
                 let whole = Span::empty(0);
                 self.fail(Diagnostic::error(
