@@ -25,6 +25,27 @@ function finish(element, attributes, parent, text) {
   return element;
 }
 
+/** The parts of a name such as `λ_{blade}`: letters, and whether they are a subscript or one letter, set in italics. */
+function nameParts(text) {
+  return text.split(/_\{([^}]*)\}/).flatMap((part, i) => {
+    if (i % 2 === 1) return [{ text: part, isBelow: true, isLetter: false }];
+    // A letter may be followed by its unit.
+    const [, letter, rest] = part.match(/^(\p{L}\p{M}*)(?=$| )(.*)$/u) ?? [null, "", part];
+    return [{ text: letter, isBelow: false, isLetter: true }, { text: rest, isBelow: false, isLetter: false }];
+  }).filter((part) => part.text);
+}
+
+/** A name as plain text, for labels that only speak. */
+const plainName = (text) => text.replace(/_\{([^}]*)\}/g, " $1");
+
+/** Sets a name in an element of HTML. */
+function setName(element, text) {
+  for (const part of nameParts(text)) {
+    if (part.isBelow || part.isLetter) make(part.isBelow ? "sub" : "i", {}, element, part.text);
+    else element.append(part.text);
+  }
+}
+
 /** A template of the table of words with its places filled in. */
 function fill(template, ...values) {
   return template.replace(/\{\}/g, () => values.shift() ?? "");

@@ -18,6 +18,19 @@ function setUpPlots() {
   }
 }
 
+/** Sets a name in an SVG text. */
+function drawName(element, text) {
+  let isLow = false;
+  for (const part of nameParts(text)) {
+    draw("tspan", {
+      dy: part.isBelow === isLow ? 0 : part.isBelow ? 3 : -3,
+      ...(part.isBelow ? { class: "below" } : {}),
+      ...(part.isLetter ? { "font-style": "italic" } : {}),
+    }, element, part.text);
+    isLow = part.isBelow;
+  }
+}
+
 class Plot {
   constructor(figure, spec, curves, times) {
     this.figure = figure;
@@ -35,8 +48,10 @@ class Plot {
     const { spec } = this;
     const unit = (name, u) => (u ? `${name} / ${u}` : name);
     if (this.isPortrait) {
-      const [h, v] = spec.series.map((i) => curves[i]);
-      this.times = times;
+      let [h, v] = spec.series.map((i) => curves[i]);
+      const { path } = spec;
+      this.times = path ? numbers(path.times) : times;
+      if (path) [h, v] = [{ ...h, y: numbers(path.x) }, { ...v, y: numbers(path.y) }];
       this.curves = [{ ...v, x: h.y, raw: v.y, hue: 0, visible: true }];
       this.names = [unit(h.label, h.unit), unit(v.label, v.unit)];
       this.parts = [h, v];
@@ -52,7 +67,7 @@ class Plot {
       : [unit("t", data.trajectory.timeUnit), spec.unit ?? ""];
     this.curves = list.map((curve, hue) => ({
       ...curve,
-      x: spec.logHorizontal ? logarithms(x) : x,
+      x: spec.logHorizontal ? logarithms(x) : curve.times ? numbers(curve.times) : x,
       raw: curve.y,
       y: spec.log ? logarithms(curve.y) : curve.y,
       hue,
@@ -89,7 +104,7 @@ class Plot {
   }
 
   build() {
-    const label = fill(words.plotLabel, this.names[1] || this.spec.title, this.names[0]);
+    const label = fill(words.plotLabel, plainName(this.names[1] || this.spec.title), plainName(this.names[0]));
     this.svg = draw("svg", { role: "img", tabindex: 0, "aria-label": label });
     this.figure.append(this.svg);
     const id = `clip-${this.figure.dataset.plot}`;
@@ -102,10 +117,16 @@ class Plot {
     this.dots = draw("g", { class: "dots" }, inside);
     this.selection = draw("rect", { class: "selection", visibility: "hidden" }, inside);
     for (const curve of this.curves) {
-      curve.path = draw("path", { class: `curve hue-${curve.hue % 8}${curve.hue >= 8 ? " dashed" : ""}` }, this.lines);
+      curve.path = draw("path", { class: `curve ${this.styleOf(curve)}` }, this.lines);
       curve.dot = draw("circle", { r: 3.5, class: `dot hue-${curve.hue % 8}`, visibility: "hidden" }, this.dots);
     }
     this.buildLegend();
+  }
+
+  /** Color and dashes: curves of drifts often lie on each other, and dashes let the lower one show. */
+  styleOf({ hue }) {
+    const dash = this.spec.log && this.overTime && hue % 4 > 0 ? ` dash-${hue % 4}` : hue >= 8 ? " dashed" : "";
+    return `hue-${hue % 8}${dash}`;
   }
 
   /** Names with the values under the cursor; each switches its curve. */
@@ -119,11 +140,12 @@ class Plot {
       const button = make("button", {
         type: "button",
         "aria-pressed": curve.visible,
-        "aria-label": fill(words.showSeries, curve.label),
-        title: curve.description ?? fill(words.showSeries, curve.label),
+        "aria-label": fill(words.showSeries, plainName(curve.label)),
+        title: curve.description ?? fill(words.showSeries, plainName(curve.label)),
       }, this.legend);
-      make("i", { class: `swatch hue-${curve.hue % 8}${curve.hue >= 8 ? " dashed" : ""}`, "aria-hidden": "true" }, button);
-      make("span", {}, button, curve.label);
+      const swatch = draw("svg", { class: "swatch", viewBox: "0 0 26 6", "aria-hidden": "true" }, button);
+      draw("path", { class: `sample ${this.styleOf(curve)}`, d: "M1 3H25" }, swatch);
+      setName(make("span", {}, button), curve.label);
       curve.value = make("span", { class: "reading" }, button);
       button.addEventListener("click", () => {
         curve.visible = !curve.visible;
@@ -223,9 +245,9 @@ class Plot {
       draw("text", { x: left - 7, y: y + 4, "text-anchor": "end" }, this.axes, tick.text);
     }
     const heads = [ticksY.head, this.names[1], this.spec.log ? words.logScale : ""].filter(Boolean).join("   ");
-    draw("text", { class: "name", x: left, y: 14 }, this.axes, heads);
+    drawName(draw("text", { class: "name", x: left, y: 14 }, this.axes), heads);
     const foots = [ticksX.head, this.names[0]].filter(Boolean).join("   ");
-    draw("text", { class: "name", x: width - right, y: height - 5, "text-anchor": "end" }, this.axes, foots);
+    drawName(draw("text", { class: "name", x: width - right, y: height - 5, "text-anchor": "end" }, this.axes), foots);
     if (this.isZero) draw("text", { class: "name", x: left + 10, y: foot - 10 }, this.axes, words.identicallyZero);
   }
 
@@ -300,10 +322,12 @@ class Plot {
       ? { x1: at, x2: at, y1: this.box.top, y2: this.box.height - this.box.bottom, visibility: "visible" }
       : { visibility: "hidden" });
     for (const curve of this.curves) {
-      const [x, y] = [curve.x[index], curve.y[index]];
-      const isVisible = index >= 0 && curve.visible && Number.isFinite(x) && Number.isFinite(y);
+      // A thinned curve has times of its own.
+      const place = index >= 0 && curve.times ? nearest(curve.x, time) : index;
+      const [x, y] = [curve.x[place], curve.y[place]];
+      const isVisible = place >= 0 && curve.visible && Number.isFinite(x) && Number.isFinite(y);
       finish(curve.dot, isVisible ? { cx: this.toX(x), cy: this.toY(y), visibility: "visible" } : { visibility: "hidden" });
-      if (curve.value) curve.value.textContent = index >= 0 ? readable(curve.raw[index]) : "";
+      if (curve.value) curve.value.textContent = place >= 0 ? readable(curve.raw[place]) : "";
     }
     if (this.position) this.position.textContent = index >= 0 && this.hovered !== undefined ? this.placeText(index) : "";
     if (this.readout) this.readout.textContent = index >= 0 ? this.portraitText(index) : " ";
@@ -314,7 +338,7 @@ class Plot {
   }
 
   portraitText(index) {
-    const part = ({ label, unit, y }) => `${label} = ${readable(y[index], 4)}${unit ? ` ${unit}` : ""}`;
+    const part = ({ label, unit, y }) => `${plainName(label)} = ${readable(y[index], 4)}${unit ? ` ${unit}` : ""}`;
     return `t = ${readable(this.times[index], 4)},  ${this.parts.map(part).join(",  ")}`;
   }
 

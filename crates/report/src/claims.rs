@@ -1,9 +1,13 @@
 //! The claims: a tally by verdict, then every claim with its evidence.
 
+use std::borrow::Cow;
+
 use crate::data::{Claim, Report, Verdict};
 use crate::equations::{definitions, equation_body};
 use crate::html::{fragment, Html};
-use crate::number::{raised, readable};
+use crate::number::{printed_powers, raised, readable};
+use crate::prose::sentence;
+use crate::system::ROWS;
 use crate::words::{fill, look_up, Words};
 
 /// The section of all claims.
@@ -142,11 +146,12 @@ fn one(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
             .text("!")
             .raw("</span>");
     }
-    html.wrap("<span class=\"detail\">", &claim.detail, "</span>")
-        .raw("</span></summary>\n<div class=\"evidence\">\n<dl>\n");
+    html.raw("<span class=\"detail\">");
+    sentence(html, &shortened(&claim.detail));
+    html.raw("</span></span></summary>\n<div class=\"evidence\">\n<dl>\n");
     evidence(html, claim, report, words);
     html.raw("</dl>\n");
-    for equation in &claim.formulas {
+    for equation in claim.formulas.iter().take(ROWS) {
         html.raw("<div class=\"equation\">");
         equation_body(html, equation, None, words);
         html.raw("</div>\n");
@@ -155,6 +160,17 @@ fn one(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
     html.raw("<p class=\"permalink\"><a")
         .attribute("href", fragment(&id))
         .wrap(">", words.link_to_claim, "</a></p>\n</div>\n</details>\n");
+}
+
+/// Signs of one sentence or counterexample; `study.json` has all of them.
+const SIGNS: usize = 3_000;
+
+/// The text, or its beginning where nobody would read to its end.
+fn shortened(text: &str) -> Cow<'_, str> {
+    match text.char_indices().nth(SIGNS) {
+        Some((end, _)) => format!("{} …", &text[..end]).into(),
+        None => text.into(),
+    }
 }
 
 /// The rows of the evidence that are there.
@@ -168,7 +184,10 @@ fn evidence(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
         (words.error_bound, claim.error_bound.as_deref().map(raised)),
         (words.samples, claim.samples.map(|n| n.to_string())),
         (words.seed, claim.seed.map(|n| n.to_string())),
-        (words.residual, claim.residual.clone()),
+        (
+            words.residual,
+            claim.residual.as_deref().map(printed_powers),
+        ),
         (words.expected, expectation(claim, words)),
         (words.time_spent, seconds),
     ];
@@ -193,7 +212,11 @@ fn evidence(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
     }
     if let Some(counterexample) = &claim.counterexample {
         html.wrap("<div class=\"wide\"><dt>", words.counterexample, "</dt>")
-            .wrap("<dd><pre>", counterexample, "</pre></dd></div>\n");
+            .wrap(
+                "<dd><pre>",
+                shortened(counterexample),
+                "</pre></dd></div>\n",
+            );
     }
     if !claim.requires.is_empty() {
         html.wrap("<div class=\"wide\"><dt>", words.requires, "</dt><dd><ul>");

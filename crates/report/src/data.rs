@@ -59,6 +59,8 @@ pub struct Fact {
     pub label: String,
     /// Its value in words or digits.
     pub value: String,
+    /// Formulas after the value, separated by commas.
+    pub formulas: Vec<Formula>,
     /// The letter used for it, for example "k" (shown in italics).
     pub symbol: Option<String>,
     /// One explaining sentence.
@@ -98,6 +100,8 @@ pub struct Parameter {
     pub name: Formula,
     /// Its value as written or computed ("3/2", "0.25").
     pub value: Option<String>,
+    /// The expression that it is the value of, if the model states one.
+    pub stated: Option<Formula>,
     /// Its unit, if stated.
     pub unit: Option<String>,
     /// Its range, if stated.
@@ -125,8 +129,8 @@ pub struct InitialValue {
     /// The value used by the computation.
     #[serde(with = "crate::number::scalar")]
     pub value: f64,
-    /// The value as the model states it ("W", "pi/6"), when it is an expression.
-    pub stated: Option<String>,
+    /// The value as the model states it (W, π/6), when it is not the number itself.
+    pub stated: Option<Formula>,
     /// Its unit, if known.
     pub unit: Option<String>,
     /// Who chose it.
@@ -176,6 +180,10 @@ pub struct Equation {
     pub formula: Formula,
     /// What it belongs to: a coordinate, a constraint's name.
     pub label: Option<String>,
+    /// The label as a formula, shown in its place.
+    pub name: Option<Formula>,
+    /// A sentence shown in place of a formula that is not printed.
+    pub omitted: Option<String>,
     /// A sentence under the equation.
     pub caption: Option<String>,
     /// The "where …" list of this equation.
@@ -321,7 +329,8 @@ pub struct Trajectory {
 pub struct Series {
     /// Its name, unique in the trajectory, as in the model file (`x'`, `lambda_blade`).
     pub name: String,
-    /// How it is shown, for example "λ blade"; the name where absent.
+    /// How it is shown, for example "λ_{blade}", where `_{…}` stands for a subscript; the name
+    /// where absent.
     pub label: Option<String>,
     /// Its unit, if known.
     pub unit: Option<String>,
@@ -334,6 +343,9 @@ pub struct Series {
     pub description: Option<String>,
     /// The bound that the magnitude is measured against, drawn as a line (drifts).
     pub tolerance: Option<f64>,
+    /// Full id of the claim whose verdict is shown beside the largest magnitude (drifts); without
+    /// it the magnitude is compared with the bound.
+    pub claim: Option<String>,
 }
 
 /// Which plot a series belongs to; within a group, series of different unit are drawn apart.

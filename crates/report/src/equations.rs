@@ -4,6 +4,8 @@ use crate::claims;
 use crate::data::{Definition, Equation, EquationSection, Formula, Report};
 use crate::html::Html;
 use crate::mathml::math;
+use crate::prose::{name, paragraphs, sentence};
+use crate::system::{more, ROWS};
 use crate::words::{fill, Words};
 
 /// A formula within a line of text.
@@ -21,19 +23,27 @@ pub(crate) fn equation_body(
     number: Option<usize>,
     words: &Words,
 ) {
-    if let Some(label) = &equation.label {
-        html.wrap("<span class=\"label\">", label, "</span>");
+    html.raw("<span class=\"label\">");
+    match (&equation.name, &equation.label) {
+        (Some(formula), _) => inline(html, formula),
+        (None, Some(label)) => name(html, label),
+        (None, None) => {}
     }
-    html.raw("<div class=\"formula\">");
-    match equation
-        .formula
-        .mathml
-        .as_deref()
-        .filter(|m| !m.trim().is_empty())
-    {
-        Some(source) => html.safe(&math(source, true)),
-        None => html.wrap("<pre>", &equation.formula.text, "</pre>"),
-    };
+    html.raw("</span><div class=\"formula\">");
+    let mathml = equation.formula.mathml.as_deref();
+    match (&equation.omitted, mathml.filter(|m| !m.trim().is_empty())) {
+        (Some(omitted), _) => {
+            html.raw("<p class=\"quiet\">");
+            sentence(html, omitted);
+            html.raw("</p>");
+        }
+        (None, Some(source)) => {
+            html.safe(&math(source, true));
+        }
+        (None, None) => {
+            html.wrap("<pre>", &equation.formula.text, "</pre>");
+        }
+    }
     html.raw("</div><span class=\"margin\">");
     let shown = number.map(|n| n.to_string()).unwrap_or_default();
     if let Some(latex) = &equation.formula.latex {
@@ -47,7 +57,9 @@ pub(crate) fn equation_body(
     }
     html.raw("</span>");
     if let Some(caption) = &equation.caption {
-        html.wrap("<p class=\"caption\">", caption, "</p>");
+        html.raw("<p class=\"caption\">");
+        sentence(html, caption);
+        html.raw("</p>");
     }
 }
 
@@ -136,8 +148,8 @@ fn body(
         }
         html.raw("</p>\n");
     }
-    html.paragraphs(&section.explanation);
-    for equation in &section.equations {
+    paragraphs(html, &section.explanation);
+    for equation in section.equations.iter().take(ROWS) {
         *number += 1;
         html.raw("<div class=\"equation\"")
             .attribute("id", format!("equation-{number}"))
@@ -146,5 +158,12 @@ fn body(
         html.raw("</div>\n");
         definitions(html, &equation.definitions, words);
     }
+    more(
+        html,
+        section.equations.len(),
+        "<p class=\"quiet\">",
+        "</p>\n",
+        words,
+    );
     definitions(html, &section.definitions, words);
 }

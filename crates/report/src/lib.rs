@@ -12,6 +12,7 @@
 //! assert!(render(&report).contains("<h1>Skate &lt;level&gt;</h1>"));
 //! ```
 
+mod breaking;
 mod claims;
 pub mod data;
 mod digest;
@@ -22,9 +23,11 @@ mod motion;
 mod number;
 mod page;
 mod payload;
+mod prose;
 mod scene;
 mod source;
 mod system;
+mod thinning;
 mod words;
 
 pub use data::Report;

@@ -4,6 +4,7 @@
 //! script on the page, so everything but the elements and attributes listed here (MathML Core,
 //! W3C 2025) is shown as text, and elements left open are closed.
 
+use crate::breaking::pieces;
 use crate::html::{escaped, Safe};
 
 const ELEMENTS: [&str; 29] = [
@@ -74,16 +75,29 @@ const ATTRIBUTES: [&str; 30] = [
 /// A `<math>` element, in its own line (`block`) or within text.
 ///
 /// The input is a `<math>` element or its content; the attributes of an outer `<math>` are
-/// replaced.
+/// replaced. A long formula is written in several elements, between which lines may break.
 pub(crate) fn math(source: &str, block: bool) -> Safe {
-    let mut out = String::with_capacity(source.len() + 64);
-    out.push_str(if block {
-        "<math display=\"block\">"
+    let mut content = String::with_capacity(source.len());
+    filter(source, &mut content);
+    let (whole, piece) = if block {
+        ("<math display=\"block\">", "<math displaystyle=\"true\">")
     } else {
-        "<math>"
-    });
-    filter(source, &mut out);
-    out.push_str("</math>");
+        ("<math>", "<math>")
+    };
+    let pieces = pieces(&content);
+    let open = if pieces.len() > 1 { piece } else { whole };
+    let mut out = String::with_capacity(content.len() + 64);
+    for (place, piece) in pieces.iter().enumerate() {
+        if place > 0 {
+            out.push_str("<wbr>");
+        }
+        out.push_str(open);
+        out.push_str(piece);
+        out.push_str("</math>");
+    }
+    if pieces.is_empty() {
+        out.push_str("<math></math>");
+    }
     Safe(out)
 }
 

@@ -1,12 +1,13 @@
 //! The computed motion: places for the plots, statistics and drifts in tables.
 
 use crate::claims;
-use crate::data::{Report, SeriesGroup, Trajectory};
-use crate::html::Html;
-use crate::number::readable;
+use crate::data::{Report, Series, SeriesGroup, Trajectory};
+use crate::html::{fragment, Html};
+use crate::number::{brief, readable};
 use crate::payload::{label, Payload, PlotKind};
-use crate::system::facts;
-use crate::words::Words;
+use crate::prose::{name, paragraphs, sentence};
+use crate::system::{facts, more, ROWS};
+use crate::words::{fill, Words};
 
 /// The section of the motion.
 pub(crate) fn section(html: &mut Html, report: &Report, payload: &Payload<'_>, words: &Words) {
@@ -20,13 +21,13 @@ pub(crate) fn section(html: &mut Html, report: &Report, payload: &Payload<'_>, w
         html.wrap("<p class=\"hint\">", words.plots_hint, "</p>\n")
             .wrap("<noscript><p>", words.no_script, "</p></noscript>\n");
     }
-    plots(html, payload, PlotKind::Time);
+    plots(html, payload, PlotKind::Time, words);
     if payload.plots(PlotKind::Portrait).next().is_some() {
         html.wrap("<h3 id=\"portraits\">", words.portraits, "</h3>\n");
-        plots(html, payload, PlotKind::Portrait);
+        plots(html, payload, PlotKind::Portrait, words);
     }
     html.raw("<div class=\"columns\">\n");
-    drifts(html, trajectory, words);
+    drifts(html, trajectory, report, words);
     if !trajectory.statistics.is_empty() {
         html.wrap("<div><h3>", words.statistics, "</h3>\n");
         facts(html, &trajectory.statistics, report, words);
@@ -58,8 +59,8 @@ pub(crate) fn figures(html: &mut Html, report: &Report, payload: &Payload<'_>, w
     for (figure, (index, _)) in report.figures.iter().zip(payload.plots(PlotKind::Figure)) {
         html.raw("<figure class=\"plot\"")
             .attribute("data-plot", index)
-            .wrap("><figcaption><h4>", &figure.title, "</h4>")
-            .paragraphs(&figure.explanation);
+            .wrap("><figcaption><h4>", &figure.title, "</h4>");
+        paragraphs(html, &figure.explanation);
         if let Some(claim) = &figure.claim {
             html.wrap("<p>", words.proved_by, ": ");
             claims::reference(html, claim, report, words);
@@ -73,27 +74,24 @@ pub(crate) fn figures(html: &mut Html, report: &Report, payload: &Payload<'_>, w
 fn stop(html: &mut Html, trajectory: &Trajectory, words: &Words) {
     let stop = &trajectory.stop;
     match (stop.early, stop.expected) {
-        (true, false) => html
-            .wrap(
-                "<p class=\"notice\"><strong>",
-                words.stopped_early,
-                ".</strong> ",
-            )
-            .text(&stop.reason),
-        (true, true) => html
-            .wrap(
-                "<p class=\"stop\"><strong>",
-                words.stopped_expected,
-                ".</strong> ",
-            )
-            .text(&stop.reason),
-        (false, _) => html.wrap("<p class=\"stop\">", &stop.reason, ""),
+        (true, false) => html.wrap(
+            "<p class=\"notice\"><strong>",
+            words.stopped_early,
+            ".</strong> ",
+        ),
+        (true, true) => html.wrap(
+            "<p class=\"stop\"><strong>",
+            words.stopped_expected,
+            ".</strong> ",
+        ),
+        (false, _) => html.raw("<p class=\"stop\">"),
     };
+    sentence(html, &stop.reason);
     html.raw("</p>\n");
 }
 
 /// A figure for each plot of a kind; the script draws into it.
-fn plots(html: &mut Html, payload: &Payload<'_>, kind: PlotKind) {
+fn plots(html: &mut Html, payload: &Payload<'_>, kind: PlotKind, words: &Words) {
     let open = match kind {
         PlotKind::Portrait => "<div class=\"plots portraits\">\n",
         _ => "<div class=\"plots\">\n",
@@ -102,17 +100,21 @@ fn plots(html: &mut Html, payload: &Payload<'_>, kind: PlotKind) {
     for (index, plot) in payload.plots(kind) {
         html.raw("<figure class=\"plot\"")
             .attribute("data-plot", index)
-            .wrap(
-                "><figcaption><h4>",
-                &plot.title,
-                "</h4></figcaption></figure>\n",
-            );
+            .raw("><figcaption><h4>");
+        name(html, &plot.title);
+        html.raw("</h4>");
+        let shown = plot.shown();
+        if shown < plot.of {
+            let [shown, of] = [shown, plot.of].map(|n| n.to_string());
+            html.wrap("<p>", fill(words.some_curves, &[&shown, &of]), "</p>");
+        }
+        html.raw("</figcaption></figure>\n");
     }
     html.raw("</div>\n");
 }
 
 /// The largest drift of each recorded one against its tolerance.
-fn drifts(html: &mut Html, trajectory: &Trajectory, words: &Words) {
+fn drifts(html: &mut Html, trajectory: &Trajectory, report: &Report, words: &Words) {
     let mut drifts = trajectory
         .series
         .iter()
@@ -133,33 +135,62 @@ fn drifts(html: &mut Html, trajectory: &Trajectory, words: &Words) {
         words.tolerance,
         "</th><th></th></tr></thead>\n<tbody>\n",
     );
-    for series in drifts {
-        let magnitudes = series
-            .values
-            .iter()
-            .filter(|v| v.is_finite())
-            .map(|v| v.abs());
-        let largest = magnitudes.fold(0.0, f64::max);
-        html.wrap("<tr><td>", label(series), "</td>").wrap(
-            "<td class=\"numeric\">",
-            readable(largest),
-            "</td><td class=\"numeric\">",
-        );
-        match series.tolerance {
-            Some(tolerance) if largest <= tolerance => html.text(readable(tolerance)).wrap(
-                "</td><td class=\"within\">",
-                words.within,
-                "</td></tr>\n",
-            ),
-            Some(tolerance) => html.text(readable(tolerance)).wrap(
-                "</td><td class=\"exceeded\">",
-                words.exceeded,
-                "</td></tr>\n",
-            ),
-            None => html.raw("</td><td></td></tr>\n"),
-        };
+    let count = trajectory
+        .series
+        .iter()
+        .filter(|series| series.group == SeriesGroup::Drifts)
+        .count();
+    for series in drifts.take(ROWS) {
+        drift(html, series, report, words);
     }
+    more(
+        html,
+        count,
+        "<tr><td class=\"quiet\" colspan=\"4\">",
+        "</td></tr>\n",
+        words,
+    );
     html.raw("</tbody></table></div></div>\n");
+}
+
+/// One row: how far a quantity went, the bound, and the verdict of the claim about it.
+fn drift(html: &mut Html, series: &Series, report: &Report, words: &Words) {
+    let magnitudes = series
+        .values
+        .iter()
+        .filter(|v| v.is_finite())
+        .map(|v| v.abs());
+    let largest = magnitudes.fold(0.0, f64::max);
+    html.raw("<tr><td>");
+    name(html, label(series));
+    html.wrap("</td><td class=\"numeric\">", brief(largest), "</td>")
+        .raw("<td class=\"numeric\">");
+    if let Some(bound) = series.tolerance {
+        html.text(brief(bound));
+    }
+    html.raw("</td>");
+    let decided = series
+        .claim
+        .as_ref()
+        .and_then(|id| report.claims.iter().find(|claim| claim.id() == *id));
+    match (decided, series.tolerance) {
+        (Some(claim), _) => {
+            html.raw("<td><a class=\"verdict\"")
+                .attribute("href", fragment(&claim.id()))
+                .raw(">");
+            claims::chip(html, claim.verdict, words);
+            html.raw("</a></td></tr>\n");
+        }
+        (None, Some(bound)) if largest <= bound => {
+            html.wrap("<td class=\"within\">", words.within, "</td></tr>\n");
+        }
+        (None, Some(_)) => {
+            html.wrap("<td class=\"exceeded\">", words.exceeded, "</td></tr>\n");
+        }
+        (None, None) => {
+            html.raw("<td></td></tr>\n");
+        }
+    }
 }
 
 fn switches(html: &mut Html, trajectory: &Trajectory, words: &Words) {
@@ -171,12 +202,21 @@ fn switches(html: &mut Html, trajectory: &Trajectory, words: &Words) {
         words.chart_switches,
         "</h3>\n<ol class=\"switches\">\n",
     );
-    for switch in &trajectory.chart_switches {
+    for switch in trajectory.chart_switches.iter().take(ROWS) {
         html.wrap("<li><span class=\"when\">t = ", readable(switch.time), "");
         if let Some(unit) = &trajectory.time_unit {
             html.wrap(" ", unit, "");
         }
-        html.wrap("</span> ", &switch.detail, "</li>\n");
+        html.raw("</span> ");
+        sentence(html, &switch.detail);
+        html.raw("</li>\n");
     }
+    more(
+        html,
+        trajectory.chart_switches.len(),
+        "<li class=\"quiet\">",
+        "</li>\n",
+        words,
+    );
     html.raw("</ol>\n");
 }

@@ -27,6 +27,69 @@ pub(crate) fn readable(value: f64) -> String {
     text.replace('-', "−")
 }
 
+/// Three significant digits: for what is compared by its order of magnitude.
+pub(crate) fn brief(value: f64) -> String {
+    match format!("{value:.2e}").parse() {
+        Ok(rounded) => readable(rounded),
+        Err(_) => readable(value),
+    }
+}
+
+/// Numbers written with `e` set as in print: `1.07e-10` becomes `1.07 × 10⁻¹⁰`. What is part of a
+/// name stays.
+pub(crate) fn printed_powers(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    let mut before = ' ';
+    while let Some(c) = rest.chars().next() {
+        let is_word = before.is_alphanumeric() || matches!(before, '_' | '.');
+        match scientific(rest).filter(|_| !is_word) {
+            Some((mantissa, exponent, length)) => {
+                let raised: String = exponent.chars().map(superscript).collect();
+                match (trimmed(mantissa).as_str(), exponent) {
+                    ("0", _) => out.push('0'),
+                    (mantissa, "0") => out.push_str(mantissa),
+                    ("1", _) => out.push_str(&format!("10{raised}")),
+                    (mantissa, _) => out.push_str(&format!("{mantissa} × 10{raised}")),
+                }
+                before = '0';
+                rest = &rest[length..];
+            }
+            None => {
+                out.push(c);
+                before = c;
+                rest = &rest[c.len_utf8()..];
+            }
+        }
+    }
+    out
+}
+
+/// Mantissa, exponent and length in bytes of a number like `1.07e-10` at the start.
+fn scientific(text: &str) -> Option<(&str, &str, usize)> {
+    let digits = |s: &str| s.bytes().take_while(u8::is_ascii_digit).count();
+    let mut end = digits(text);
+    if end == 0 {
+        return None;
+    }
+    if text[end..].starts_with('.') {
+        let decimals = digits(&text[end + 1..]);
+        if decimals == 0 {
+            return None;
+        }
+        end += 1 + decimals;
+    }
+    let mantissa = &text[..end];
+    let exponent = text[end..].strip_prefix('e')?;
+    let sign = usize::from(exponent.starts_with('-'));
+    let count = digits(&exponent[sign..]);
+    let after = exponent[sign + count..].chars().next();
+    if count == 0 || after.is_some_and(|c| c.is_alphanumeric() || c == '_') {
+        return None;
+    }
+    Some((mantissa, &exponent[..sign + count], end + 1 + sign + count))
+}
+
 /// Powers written with a caret set as in print: `2^-104` becomes `2⁻¹⁰⁴`.
 pub(crate) fn raised(text: &str) -> String {
     let mut is_exponent = false;
@@ -99,9 +162,31 @@ pub(crate) mod vector {
     }
 }
 
+/// A vector of numbers rounded to what a drawing can show, for `#[serde(serialize_with = …)]`.
+pub(crate) mod rounded {
+    use serde::Serializer;
+
+    /// Nine significant digits: enough to zoom into a curve a million times.
+    pub(crate) fn fine<S: Serializer>(values: &[f64], to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(values.iter().map(|v| round(*v, 8)))
+    }
+
+    /// Six significant digits: less than a pixel.
+    pub(crate) fn coarse<S: Serializer>(values: &[f64], to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(values.iter().map(|v| round(*v, 5)))
+    }
+
+    fn round(value: f64, decimals: usize) -> Option<f64> {
+        if !value.is_finite() {
+            return None;
+        }
+        format!("{value:.decimals$e}").parse().ok()
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{raised, readable};
+    use super::{printed_powers, raised, readable};
     use crate::data::{Report, Series, Trajectory};
 
     #[test]
@@ -147,6 +232,21 @@ mod tests {
             (f64::NAN, "—"),
         ] {
             assert_eq!(readable(value), expected);
+        }
+    }
+
+    #[test]
+    fn numbers_with_an_exponent_are_set_as_in_print() {
+        for (text, expected) in [
+            (
+                "drift 1.07e-10, asked 1e-11",
+                "drift 1.07 × 10⁻¹⁰, asked 10⁻¹¹",
+            ),
+            ("0.00e0 and 2.50e0", "0 and 2.5"),
+            ("-5.98e10", "-5.98 × 10¹⁰"),
+            ("x1e5 1e5x 1e 2.e3", "x1e5 1e5x 1e 2.e3"),
+        ] {
+            assert_eq!(printed_powers(text), expected);
         }
     }
 

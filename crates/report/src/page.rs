@@ -5,6 +5,7 @@ use crate::data::Report;
 use crate::digest::source_expression;
 use crate::html::{fragment, Html};
 use crate::payload::{Payload, PlotKind};
+use crate::prose::paragraphs;
 use crate::words::{fill, Words};
 use crate::{equations, motion, source, system};
 
@@ -134,9 +135,9 @@ fn title(html: &mut Html, report: &Report, words: &Words) {
     if !report.notices.is_empty() {
         html.raw("<aside class=\"notice\"")
             .attribute("aria-label", words.notices)
-            .raw(">\n")
-            .paragraphs(&report.notices)
-            .raw("</aside>\n");
+            .raw(">\n");
+        paragraphs(html, &report.notices);
+        html.raw("</aside>\n");
     }
     html.raw("</header>\n");
 }

@@ -4,9 +4,19 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
-use crate::data::{Animation, Report, Series, SeriesGroup, Trajectory};
+use crate::data::{Animation, Report, Series, SeriesGroup, Shape, Tint, Trajectory};
 use crate::html::Safe;
+use crate::thinning::{even, pick, rows};
 use crate::words::{fill, look_up, Words};
+
+/// A drawing with more curves than these cannot be read.
+const CURVES: usize = 16;
+/// Samples of one curve, or frames of the animation.
+const SAMPLES: usize = 1_500;
+/// Numbers in all curves, and as many in the animation: about a megabyte each.
+const NUMBERS: usize = 100_000;
+/// Drawn elements of the animation.
+const ELEMENTS: usize = 300;
 
 /// What the script gets.
 #[derive(Serialize)]
@@ -17,7 +27,7 @@ pub(crate) struct Payload<'a> {
     trajectory: Option<Motion<'a>>,
     plots: Vec<Plot<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    animation: Option<&'a Animation>,
+    animation: Option<Frames<'a>>,
     /// Numbers per frame of each element of the animation.
     strides: Vec<usize>,
 }
@@ -25,12 +35,35 @@ pub(crate) struct Payload<'a> {
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Motion<'a> {
-    #[serde(with = "crate::number::vector")]
-    times: &'a Vec<f64>,
+    #[serde(serialize_with = "crate::number::rounded::fine")]
+    times: Vec<f64>,
     time_unit: Option<&'a str>,
     series: Vec<Curve<'a>>,
-    #[serde(with = "crate::number::vector")]
+    #[serde(serialize_with = "crate::number::rounded::fine")]
     switches: Vec<f64>,
+}
+
+/// The moving picture with the frames that are shown.
+#[derive(Serialize)]
+struct Frames<'a> {
+    spatial: bool,
+    #[serde(serialize_with = "crate::number::rounded::fine")]
+    times: Vec<f64>,
+    elements: Vec<Drawn<'a>>,
+    bounds: &'a Option<Vec<[f64; 2]>>,
+    ground: bool,
+    camera: &'a Option<[f64; 2]>,
+    unit: Option<&'a str>,
+    description: Option<&'a str>,
+}
+
+#[derive(Serialize)]
+struct Drawn<'a> {
+    name: &'a str,
+    shape: &'a Shape,
+    tint: Tint,
+    #[serde(serialize_with = "crate::number::rounded::coarse")]
+    values: Vec<f64>,
 }
 
 /// One drawing; the page has an element for each, found by its position in the list.
@@ -45,11 +78,24 @@ pub(crate) struct Plot<'a> {
     log_horizontal: bool,
     marks: bool,
     equal: bool,
-    /// Positions in the series of the trajectory; for a portrait, horizontal then vertical.
+    /// Positions in the list of curves; for a portrait, horizontal then vertical.
     series: Vec<usize>,
+    /// How many curves the group has; only the first are drawn.
+    #[serde(skip)]
+    pub(crate) of: usize,
+    /// A portrait of a long record has its own samples.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    path: Option<Path>,
     /// A figure brings its own abscissae and curves.
     #[serde(skip_serializing_if = "Option::is_none")]
     own: Option<Own<'a>>,
+}
+
+impl Plot<'_> {
+    /// How many curves are drawn.
+    pub(crate) fn shown(&self) -> usize {
+        self.series.len()
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Serialize)]
@@ -58,6 +104,17 @@ pub(crate) enum PlotKind {
     Time,
     Portrait,
     Figure,
+}
+
+/// Samples of a portrait.
+#[derive(Serialize)]
+struct Path {
+    #[serde(serialize_with = "crate::number::rounded::fine")]
+    times: Vec<f64>,
+    #[serde(serialize_with = "crate::number::rounded::fine")]
+    x: Vec<f64>,
+    #[serde(serialize_with = "crate::number::rounded::fine")]
+    y: Vec<f64>,
 }
 
 #[derive(Serialize)]
@@ -79,9 +136,16 @@ struct Curve<'a> {
     description: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tolerance: Option<f64>,
-    #[serde(with = "crate::number::vector")]
-    values: &'a Vec<f64>,
+    /// Times of the values where they are not those of the trajectory.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    times: Option<Times>,
+    #[serde(serialize_with = "crate::number::rounded::fine")]
+    values: Vec<f64>,
 }
+
+#[derive(Serialize)]
+#[serde(transparent)]
+struct Times(#[serde(serialize_with = "crate::number::rounded::fine")] Vec<f64>);
 
 impl<'a> Curve<'a> {
     fn new(series: &'a Series) -> Self {
@@ -90,7 +154,21 @@ impl<'a> Curve<'a> {
             unit: series.unit.as_deref(),
             description: series.description.as_deref(),
             tolerance: series.tolerance,
-            values: &series.values,
+            times: None,
+            values: series.values.clone(),
+        }
+    }
+
+    /// With the samples that a drawing can show.
+    fn thinned(series: &'a Series, times: &[f64], limit: usize) -> Self {
+        let whole = Self::new(series);
+        match rows(&[&series.values], limit) {
+            None => whole,
+            Some(kept) => Self {
+                times: Some(Times(pick(times, &kept))),
+                values: pick(&series.values, &kept),
+                ..whole
+            },
         }
     }
 }
@@ -102,24 +180,25 @@ pub(crate) fn label(series: &Series) -> &str {
 
 impl<'a> Payload<'a> {
     pub(crate) fn new(report: &'a Report, words: &'a Words) -> Self {
-        let trajectory = report.trajectory.as_ref();
         let mut plots = Vec::new();
-        if let Some(trajectory) = trajectory {
+        let mut motion = None;
+        if let Some(trajectory) = report.trajectory.as_ref() {
             plots.extend(time_plots(trajectory, words));
             plots.extend(portraits(trajectory, words));
+            motion = Some(drawn_motion(trajectory, &mut plots));
         }
         plots.extend(report.figures.iter().map(figure));
+        let (animation, strides) = report
+            .animation
+            .as_ref()
+            .map(frames)
+            .map_or((None, Vec::new()), |(f, s)| (Some(f), s));
         Self {
             words: &words.script,
-            trajectory: trajectory.map(|t| Motion {
-                times: &t.times,
-                time_unit: t.time_unit.as_deref(),
-                series: t.series.iter().map(Curve::new).collect(),
-                switches: t.chart_switches.iter().map(|switch| switch.time).collect(),
-            }),
+            trajectory: motion,
             plots,
-            strides: report.animation.iter().flat_map(strides).collect(),
-            animation: report.animation.as_ref(),
+            strides,
+            animation,
         }
     }
 
@@ -143,11 +222,82 @@ impl<'a> Payload<'a> {
     }
 }
 
-fn strides(animation: &Animation) -> impl Iterator<Item = usize> + '_ {
-    animation
+/// The curves that some plot shows, in the order of the trajectory, thinned; the plots then name them by their place in
+/// this list.
+fn drawn_motion<'a>(trajectory: &'a Trajectory, plots: &mut [Plot<'a>]) -> Motion<'a> {
+    let mut used: Vec<usize> = plots.iter().flat_map(|plot| plot.series.clone()).collect();
+    used.sort_unstable();
+    used.dedup();
+    let limit = (NUMBERS / used.len().max(1)).clamp(100, SAMPLES);
+    let times = &trajectory.times;
+    for plot in plots.iter_mut() {
+        if let (PlotKind::Portrait, &[h, v]) = (plot.kind, &plot.series[..]) {
+            let [x, y] = [h, v].map(|i| trajectory.series[i].values.as_slice());
+            plot.path = rows(&[x, y], limit).map(|kept| Path {
+                times: pick(times, &kept),
+                x: pick(x, &kept),
+                y: pick(y, &kept),
+            });
+        }
+        for place in &mut plot.series {
+            *place = used.partition_point(|known| known < place);
+        }
+    }
+    Motion {
+        times: pick(times, &even(times.len(), limit)),
+        time_unit: trajectory.time_unit.as_deref(),
+        series: used
+            .iter()
+            .map(|&i| Curve::thinned(&trajectory.series[i], times, limit))
+            .collect(),
+        switches: trajectory
+            .chart_switches
+            .iter()
+            .map(|switch| switch.time)
+            .take(CURVES * 16)
+            .collect(),
+    }
+}
+
+/// The frames that are shown, and the numbers that each element has in one of them.
+fn frames(animation: &Animation) -> (Frames<'_>, Vec<usize>) {
+    let mut total = 0;
+    let drawn: Vec<_> = animation
         .elements
         .iter()
-        .map(|element| element.shape.stride(animation.spatial))
+        .take(ELEMENTS)
+        .map(|element| (element, element.shape.stride(animation.spatial)))
+        .take_while(|(_, stride)| {
+            total += stride;
+            total <= NUMBERS / 40
+        })
+        .collect();
+    let width: usize = drawn.iter().map(|(_, stride)| stride).sum();
+    let limit = (NUMBERS / width.max(1)).clamp(2, SAMPLES);
+    let kept = even(animation.times.len(), limit);
+    let elements = drawn.iter().map(|(element, stride)| Drawn {
+        name: &element.name,
+        shape: &element.shape,
+        tint: element.tint,
+        values: kept
+            .iter()
+            .flat_map(|frame| {
+                let numbers = element.values.iter().skip(frame * stride).take(*stride);
+                numbers.copied()
+            })
+            .collect(),
+    });
+    let frames = Frames {
+        spatial: animation.spatial,
+        elements: elements.collect(),
+        times: pick(&animation.times, &kept),
+        bounds: &animation.bounds,
+        ground: animation.ground,
+        camera: &animation.camera,
+        unit: animation.unit.as_deref(),
+        description: animation.description.as_deref(),
+    };
+    (frames, drawn.iter().map(|(_, stride)| *stride).collect())
 }
 
 /// One plot for each group and unit, in the order of the groups, then of first appearance.
@@ -159,7 +309,12 @@ fn time_plots<'a>(trajectory: &'a Trajectory, words: &'a Words) -> Vec<Plot<'a>>
             .iter_mut()
             .find(|(group, plot)| *group == series.group && plot.unit == unit);
         match found {
-            Some((_, plot)) => plot.series.push(index),
+            Some((_, plot)) => {
+                plot.of += 1;
+                if plot.series.len() < CURVES {
+                    plot.series.push(index);
+                }
+            }
             None => plots.push((
                 series.group,
                 Plot {
@@ -173,6 +328,8 @@ fn time_plots<'a>(trajectory: &'a Trajectory, words: &'a Words) -> Vec<Plot<'a>>
                     marks: false,
                     equal: false,
                     series: vec![index],
+                    of: 1,
+                    path: None,
                     own: None,
                 },
             )),
@@ -204,6 +361,8 @@ fn portraits<'a>(trajectory: &'a Trajectory, words: &'a Words) -> Vec<Plot<'a>> 
                 marks: false,
                 equal: portrait.equal,
                 series: vec![horizontal, vertical],
+                of: 2,
+                path: None,
                 own: None,
             })
         })
@@ -220,6 +379,8 @@ fn figure(figure: &crate::data::Figure) -> Plot<'_> {
         marks: figure.marks,
         equal: false,
         series: (0..figure.series.len()).collect(),
+        of: figure.series.len(),
+        path: None,
         own: Some(Own {
             name: &figure.horizontal,
             unit: figure.horizontal_unit.as_deref(),

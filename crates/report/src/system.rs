@@ -1,11 +1,12 @@
 //! The system in words: description, facts, parameters, assumptions, initial state, sources.
 
 use crate::claims;
-use crate::data::{Fact, Origin, Report};
+use crate::data::{Fact, Origin, Parameter, Report};
 use crate::equations::inline;
 use crate::html::Html;
-use crate::number::readable;
-use crate::words::{look_up, Words};
+use crate::number::{printed_powers, raised, readable};
+use crate::prose::sentence;
+use crate::words::{fill, look_up, Words};
 
 /// The section that introduces the system.
 pub(crate) fn section(html: &mut Html, report: &Report, words: &Words) {
@@ -37,6 +38,23 @@ pub(crate) fn is_present(report: &Report) -> bool {
         && report.sources.is_empty())
 }
 
+/// Rows of a table or items of a list; a page with more is no easier to read.
+pub(crate) const ROWS: usize = 60;
+
+/// The line that stands for the rows left out.
+pub(crate) fn more(
+    html: &mut Html,
+    count: usize,
+    open: &'static str,
+    close: &'static str,
+    words: &Words,
+) {
+    if count > ROWS {
+        let rest = (count - ROWS).to_string();
+        html.wrap(open, fill(words.more_rows, &[&rest]), close);
+    }
+}
+
 /// Labelled values in a grid.
 pub(crate) fn facts(html: &mut Html, facts: &[Fact], report: &Report, words: &Words) {
     if facts.is_empty() {
@@ -48,7 +66,12 @@ pub(crate) fn facts(html: &mut Html, facts: &[Fact], report: &Report, words: &Wo
         if let Some(symbol) = &fact.symbol {
             html.wrap(" <var>", symbol, "</var>");
         }
-        html.wrap("</dt><dd>", &fact.value, "");
+        html.raw("</dt><dd>");
+        sentence(html, &fact.value);
+        for (place, formula) in fact.formulas.iter().enumerate() {
+            html.raw(if place == 0 { ": " } else { ", " });
+            inline(html, formula);
+        }
         if let Some(note) = &fact.note {
             html.wrap(" <small>", note, "</small>");
         }
@@ -84,13 +107,11 @@ fn parameters(html: &mut Html, report: &Report, words: &Words) {
         html.wrap("<th>", words.meaning, "</th>");
     }
     html.raw("</tr></thead>\n<tbody>\n");
-    for row in rows {
+    for row in rows.iter().take(ROWS) {
         html.raw("<tr><td>");
         inline(html, &row.name);
-        html.wrap("</td><td>", row.value.as_deref().unwrap_or("—"), "");
-        if let Some(unit) = &row.unit {
-            html.wrap(" <span class=\"unit\">", unit, "</span>");
-        }
+        html.raw("</td><td>");
+        parameter_value(html, row);
         html.raw("</td>");
         if has_range {
             html.wrap("<td>", row.range.as_deref().unwrap_or_default(), "</td>");
@@ -101,7 +122,33 @@ fn parameters(html: &mut Html, report: &Report, words: &Words) {
         }
         html.raw("</tr>\n");
     }
+    more(
+        html,
+        rows.len(),
+        "<tr><td class=\"quiet\" colspan=\"4\">",
+        "</td></tr>\n",
+        words,
+    );
     html.raw("</tbody></table></div>\n");
+}
+
+/// The value with its unit, then the expression it is the value of.
+fn parameter_value(html: &mut Html, row: &Parameter) {
+    let value = row.value.as_deref();
+    if value.is_some() || row.stated.is_none() {
+        html.text(raised(&printed_powers(value.unwrap_or("—"))));
+        unit(html, row.unit.as_deref());
+    }
+    if let Some(stated) = &row.stated {
+        html.raw(if value.is_some() { " = " } else { "" });
+        inline(html, stated);
+    }
+}
+
+fn unit(html: &mut Html, unit: Option<&str>) {
+    if let Some(unit) = unit {
+        html.wrap(" <span class=\"unit\">", raised(unit), "</span>");
+    }
 }
 
 fn initial(html: &mut Html, report: &Report, words: &Words) {
@@ -116,17 +163,16 @@ fn initial(html: &mut Html, report: &Report, words: &Words) {
     .wrap("<thead><tr><th>", words.quantity, "</th>")
     .wrap("<th>", words.value, "</th>")
     .wrap("<th>", words.origin, "</th></tr></thead>\n<tbody>\n");
-    for row in &report.initial {
+    for row in report.initial.iter().take(ROWS) {
         html.raw("<tr><td>");
         inline(html, &row.name);
         html.raw("</td><td>");
         if let Some(stated) = &row.stated {
-            html.wrap("<code>", stated, "</code> = ");
+            inline(html, stated);
+            html.raw(" = ");
         }
         html.text(readable(row.value));
-        if let Some(unit) = &row.unit {
-            html.wrap(" <span class=\"unit\">", unit, "</span>");
-        }
+        unit(html, row.unit.as_deref());
         let class = match row.origin {
             Origin::Given => "</td><td>",
             Origin::Default => "</td><td class=\"quiet\">",
@@ -135,6 +181,13 @@ fn initial(html: &mut Html, report: &Report, words: &Words) {
         let origin = look_up(&words.origins, &row.origin).unwrap_or_default();
         html.wrap(class, origin, "</td></tr>\n");
     }
+    more(
+        html,
+        report.initial.len(),
+        "<tr><td class=\"quiet\" colspan=\"3\">",
+        "</td></tr>\n",
+        words,
+    );
     html.raw("</tbody></table></div></div>\n");
 }
 
@@ -147,7 +200,7 @@ fn assumptions(html: &mut Html, report: &Report, words: &Words) {
         words.assumptions,
         "</h3>\n<ul class=\"assumptions\">\n",
     );
-    for assumption in &report.assumptions {
+    for assumption in report.assumptions.iter().take(ROWS) {
         html.raw("<li>");
         inline(html, &assumption.formula);
         if let Some(note) = &assumption.note {
@@ -155,6 +208,13 @@ fn assumptions(html: &mut Html, report: &Report, words: &Words) {
         }
         html.raw("</li>\n");
     }
+    more(
+        html,
+        report.assumptions.len(),
+        "<li class=\"quiet\">",
+        "</li>\n",
+        words,
+    );
     html.raw("</ul></div>\n");
 }
 

@@ -5,7 +5,10 @@ use chetaev_mechanics::{Manifold, Prover, System};
 use chetaev_report::data::{Definition, Equation as Printed, Formula};
 use chetaev_symbolic::print::{Document, Format, Options};
 use chetaev_symbolic::simplify;
+use chetaev_symbolic::syntax::names::greek_letter;
 use chetaev_symbolic::{Expr, Graph, Verdict};
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 
 /// Printing options of a system: its coordinates and parameters in the order of the model.
 pub fn print_options(system: &System) -> Options {
@@ -81,34 +84,225 @@ pub fn is_legible(g: &Graph, e: Expr) -> bool {
     simplify::length(g, e) <= LEGIBLE
 }
 
+/// What the formulas of one page may take: a page that nobody could load would be no report.
+#[derive(Clone, Copy, Debug)]
+struct Room {
+    /// Bytes of all formulas in all notations.
+    bytes: usize,
+    /// Signs of all expressions handed to the simplification, whose cost grows faster than their length.
+    signs: u64,
+}
+
+const PAGE: Room = Room {
+    bytes: 1_200_000,
+    signs: 60_000,
+};
+
+/// Sets the formulas of one page in MathML, LaTeX and text, as long as there is room; then announces them.
+pub struct Typesetter<'a> {
+    system: &'a System,
+    options: Options,
+    room: Cell<Room>,
+    /// Lengths already measured; a deep graph takes seconds.
+    lengths: RefCell<BTreeMap<Expr, u64>>,
+}
+
+impl<'a> Typesetter<'a> {
+    /// For the page of a system.
+    pub fn new(system: &'a System) -> Typesetter<'a> {
+        Typesetter {
+            system,
+            options: print_options(system),
+            room: Cell::new(PAGE),
+            lengths: RefCell::default(),
+        }
+    }
+
+    fn graph(&self) -> &'a Graph {
+        &self.system.graph
+    }
+
+    /// The total length of expressions.
+    fn signs(&self, es: &[Expr]) -> u64 {
+        es.iter().fold(0u64, |sum, &e| {
+            let mut lengths = self.lengths.borrow_mut();
+            let length = lengths
+                .entry(e)
+                .or_insert_with(|| simplify::length(self.graph(), e));
+            sum.saturating_add(*length)
+        })
+    }
+
+    /// Whether a formula is short enough for a page.
+    pub fn is_legible(&self, e: Expr) -> bool {
+        self.signs(&[e]) <= LEGIBLE
+    }
+
+    /// Whether expressions of this total length may still be simplified; takes the room if so.
+    fn may_simplify(&self, es: &[Expr]) -> bool {
+        let signs = self.signs(es);
+        let room = self.room.get();
+        // A formula several times too long may become legible, one far beyond that will not.
+        let is_promising =
+            signs <= 4 * LEGIBLE.saturating_mul(es.len() as u64) && signs <= room.signs;
+        if is_promising {
+            self.room.set(Room {
+                signs: room.signs - signs,
+                ..room
+            });
+        }
+        is_promising
+    }
+
+    /// [`readable`], for what has a chance to become legible; the rest is left as it was derived.
+    pub fn readable(&self, derived: &Equations, equations: &[Equation]) -> Vec<(Expr, Expr)> {
+        equations
+            .iter()
+            .flat_map(|e| {
+                if self.may_simplify(&[e.left, e.right]) {
+                    readable(self.system, derived, std::slice::from_ref(e))
+                } else {
+                    vec![(e.left, e.right)]
+                }
+            })
+            .collect()
+    }
+
+    /// [`simplified`], for what has a chance to become legible; the rest is left as it was derived.
+    pub fn simplified(&self, es: &[Expr]) -> Vec<Expr> {
+        if self.may_simplify(es) {
+            return simplified(self.system, es);
+        }
+        es.iter()
+            .flat_map(|&e| {
+                if self.may_simplify(&[e]) {
+                    simplified(self.system, &[e])
+                } else {
+                    vec![e]
+                }
+            })
+            .collect()
+    }
+
+    /// One equation with the definitions of names it needs; one that is too long to read is only announced.
+    pub fn equation(&self, left: Expr, right: Expr) -> Printed {
+        let g = self.graph();
+        self.set(&[left, right], || {
+            Document::equations(g, &[(left, right)], &self.options)
+        })
+    }
+
+    /// One expression, likewise.
+    pub fn expression(&self, e: Expr) -> Printed {
+        self.set(&[e], || {
+            Document::expressions(self.graph(), &[e], &self.options)
+        })
+    }
+
+    /// A short expression within a line; without MathML where there is no room left.
+    pub fn inline(&self, e: Expr) -> Formula {
+        let printed = self.expression(e);
+        match printed.omitted {
+            Some(_) => Formula {
+                text: "…".into(),
+                ..Formula::default()
+            },
+            None => printed.formula,
+        }
+    }
+
+    /// A name with as many primes as it has derivatives, as a formula.
+    pub fn name(&self, name: &str) -> Formula {
+        let g = self.graph();
+        let (bare, order) = split(name);
+        let symbol = g.symbol(bare, order);
+        printed(&Document::expressions(g, &[symbol], &self.options)).formula
+    }
+
+    fn set(&self, es: &[Expr], document: impl FnOnce() -> Document) -> Printed {
+        let signs = self.signs(es);
+        let room = self.room.get();
+        if signs > LEGIBLE || room.bytes == 0 {
+            return announced(signs);
+        }
+        let printed = printed(&document());
+        let bytes = size(&printed);
+        self.room.set(Room {
+            bytes: room.bytes.saturating_sub(bytes),
+            ..room
+        });
+        printed
+    }
+}
+
+/// Bytes of an equation on the page.
+fn size(printed: &Printed) -> usize {
+    let of = |f: &Formula| {
+        f.text.len()
+            + f.mathml.as_ref().map_or(0, String::len)
+            + f.latex.as_ref().map_or(0, String::len)
+    };
+    of(&printed.formula)
+        + printed
+            .definitions
+            .iter()
+            .map(|d| of(&d.formula))
+            .sum::<usize>()
+}
+
 /// What stands on a page in place of a formula that nobody would read.
-fn too_long(signs: u64) -> Printed {
-    let text = format!("an expression of about {signs} signs; `chetaev derive` prints it");
+fn announced(signs: u64) -> Printed {
+    let length = if signs > 1_000_000 {
+        "more than a million signs".into()
+    } else {
+        format!("about {signs} signs")
+    };
     Printed {
-        formula: Formula {
-            text,
-            ..Formula::default()
-        },
+        omitted: Some(format!(
+            "An expression of {length}, not printed here; `chetaev derive` prints it."
+        )),
         ..Printed::default()
     }
 }
 
-/// One equation in every notation, with the definitions of names it needs; one that is too long to read is only announced.
-pub fn equation(g: &Graph, left: Expr, right: Expr, options: &Options) -> Printed {
-    let signs = simplify::length(g, left).saturating_add(simplify::length(g, right));
-    if signs > LEGIBLE {
-        return too_long(signs);
-    }
-    printed(&Document::equations(g, &[(left, right)], options))
+/// `phi''` is `phi` with two derivatives.
+fn split(name: &str) -> (&str, u32) {
+    let bare = name.trim_end_matches('\'');
+    (bare, (name.len() - bare.len()) as u32)
 }
 
-/// One expression in every notation.
-pub fn expression(g: &Graph, e: Expr, options: &Options) -> Printed {
-    let signs = simplify::length(g, e);
-    if signs > LEGIBLE {
-        return too_long(signs);
+/// A name in letters: `theta_1'` is "θ̇_{1}", where `_{…}` stands for a subscript.
+pub fn letters(name: &str) -> String {
+    let (bare, order) = split(name);
+    let mut parts = bare.split('_').filter(|part| !part.is_empty());
+    let Some(first) = parts.next() else {
+        return name.to_owned();
+    };
+    let stem = first.trim_end_matches(|c: char| c.is_ascii_digit());
+    let (stem, digits) = match stem {
+        "" => (first, ""),
+        stem => (stem, &first[stem.len()..]),
+    };
+    let sign = |part: &str| greek_letter(part).map_or_else(|| part.to_owned(), String::from);
+    let mut out = sign(stem);
+    let is_letter = out.chars().count() == 1;
+    match (order, is_letter) {
+        (0, _) => {}
+        (1, true) => out.push('\u{307}'),
+        (2, true) => out.push('\u{308}'),
+        _ => out.push_str(&"′".repeat(order as usize)),
     }
-    printed(&Document::expressions(g, &[e], options))
+    let below: Vec<String> = Some(digits)
+        .filter(|d| !d.is_empty())
+        .into_iter()
+        .chain(parts)
+        .map(sign)
+        .collect();
+    if below.is_empty() {
+        out
+    } else {
+        format!("{out}_{{{}}}", below.join(" "))
+    }
 }
 
 fn printed(document: &Document) -> Printed {
@@ -128,5 +322,28 @@ fn printed(document: &Document) -> Printed {
             })
             .collect(),
         ..Printed::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::letters;
+
+    #[test]
+    fn names_are_written_in_letters_with_dots_and_subscripts() {
+        for (name, expected) in [
+            ("x", "x"),
+            ("phi", "φ"),
+            ("phi'", "φ\u{307}"),
+            ("theta_1''", "θ\u{308}_{1}"),
+            ("theta1", "θ_{1}"),
+            ("lambda_blade", "λ_{blade}"),
+            ("lambda_roll_x", "λ_{roll x}"),
+            ("W_phi", "W_{φ}"),
+            ("angle'", "angle′"),
+            ("_", "_"),
+        ] {
+            assert_eq!(letters(name), expected);
+        }
     }
 }

@@ -438,6 +438,7 @@ pub(crate) fn report() -> Report {
                 unit: Some(unit.into()),
                 range: Some("> 0".into()),
                 description: Some(description.into()),
+                ..Parameter::default()
             })
             .into(),
         assumptions: ["m", "J", "a"]
@@ -450,7 +451,7 @@ pub(crate) fn report() -> Report {
             InitialValue { name: letter("x"), unit: Some("m".into()), origin: Origin::Default, ..InitialValue::default() },
             InitialValue { name: letter("y"), unit: Some("m".into()), origin: Origin::Default, ..InitialValue::default() },
             InitialValue { name: letter("φ"), unit: Some("rad".into()), ..InitialValue::default() },
-            InitialValue { name: formula("phi'", DPHI, "x"), value: W, stated: Some("W".into()), unit: Some("rad/s".into()), ..InitialValue::default() },
+            InitialValue { name: formula("phi'", DPHI, "x"), value: W, stated: Some(Formula { text: "W".into(), ..Formula::default() }), unit: Some("rad/s".into()), ..InitialValue::default() },
             InitialValue { name: formula("y'", DY, "x"), unit: Some("m/s".into()), origin: Origin::Projected, ..InitialValue::default() },
         ],
         sections: vec![lagrangian(), routh(), maggi()],

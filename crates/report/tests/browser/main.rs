@@ -12,6 +12,7 @@ mod chromium;
 mod disc;
 #[path = "../../examples/demo/long.rs"]
 mod long;
+mod names;
 #[path = "../../examples/demo/sleigh.rs"]
 mod sleigh;
 
@@ -34,7 +35,7 @@ fn assert_quiet(page: &mut Page) {
 fn formulas_and_plots_are_drawn_and_nothing_is_asked_for() {
     let report = sleigh::report();
     let mut page = open(&report);
-    let formulas = page.number("document.querySelectorAll('.equation math').length");
+    let formulas = page.number("document.querySelectorAll('.equation .formula:has(math)').length");
     let expected: usize = report.sections.iter().map(|s| s.equations.len()).sum();
     assert_eq!(formulas, expected as f64);
     let flat = page.number(
@@ -302,5 +303,48 @@ fn a_hundred_thousand_samples_are_drawn_with_what_the_screen_can_show() {
          })()",
     );
     assert_eq!(lost, 0.0, "columns without their extremes");
+    assert_quiet(&mut page);
+}
+
+#[test]
+fn long_equations_break_between_terms_on_every_width() {
+    for width in [1200, 390] {
+        let view = View {
+            width,
+            ..View::default()
+        };
+        let mut page = Page::open(&render(&names::report()), &view);
+        let overflow = "[...document.querySelectorAll('.formula')].filter((f) => f.scrollWidth > f.clientWidth + 1).length";
+        assert_eq!(page.number(overflow), 0.0, "at {width}");
+        let lines = page.number(
+            "new Set([...document.querySelectorAll('.formula math')].map((m) => Math.round(m.getBoundingClientRect().bottom / 8))).size",
+        );
+        assert!(lines > 1.0, "one line at {width}");
+        assert_quiet(&mut page);
+    }
+}
+
+#[test]
+fn names_are_set_as_mathematics_in_legends_and_axes() {
+    let mut page = open(&names::report());
+    let legend = "[...document.querySelectorAll('.legend button')].map((b) => b.innerHTML).join()";
+    let legends = page.text(legend);
+    assert!(legends.contains("<i>φ\u{307}</i>"), "{legends}");
+    assert!(legends.contains("<i>λ</i><sub>blade</sub>"), "{legends}");
+    assert!(!page.holds("document.querySelector('main').innerText.includes('_{')"));
+    assert_quiet(&mut page);
+}
+
+#[test]
+fn a_drift_is_judged_by_its_claim_and_curves_on_each_other_can_be_told_apart() {
+    let mut page = open(&names::report());
+    let verdicts =
+        "[...document.querySelectorAll('#motion td .chip')].map((c) => c.className).join()";
+    assert_eq!(page.text(verdicts), "chip numerical,chip refuted");
+    assert!(page.holds(
+        "document.querySelector('#claims .detail').textContent.includes('3.9 × 10⁻⁹, bound 10⁻⁸')"
+    ));
+    let dashes = "new Set([...document.querySelector('[data-plot=\"2\"]').querySelectorAll('svg[role] path.curve')].map((p) => getComputedStyle(p).strokeDasharray)).size";
+    assert_eq!(page.number(dashes), 2.0);
     assert_quiet(&mut page);
 }

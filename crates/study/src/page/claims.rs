@@ -1,0 +1,92 @@
+//! The claims with their evidence, for the page.
+
+use crate::record::bound_text;
+use crate::study::Decided;
+use crate::typeset::Typesetter;
+use chetaev_mechanics::Finding;
+use chetaev_report::data::{Claim, Equation, Verdict as Word};
+use chetaev_symbolic::Verdict;
+
+pub(super) fn word(verdict: &str) -> Word {
+    Word::ALL
+        .into_iter()
+        .find(|w| w.key() == verdict)
+        .unwrap_or(Word::Undecided)
+}
+
+/// One claim.
+pub(super) fn claim(decided: &Decided, set: &Typesetter<'_>) -> Claim {
+    let finding: &Finding = &decided.finding;
+    let mut claim = Claim {
+        claim: decided.claim.into(),
+        subject: decided.subject.clone(),
+        title: Some(decided.title.into()),
+        verdict: word(finding.verdict.word()),
+        detail: finding.verdict.detail().into(),
+        requires: decided.requires.clone(),
+        expected: decided.expected.first().map(|w| word(w)),
+        seconds: Some(decided.seconds),
+        formulas: finding
+            .formulas
+            .iter()
+            .map(|f| {
+                let short = set.simplified(&[f.right]).pop().unwrap_or(f.right);
+                let printed = match f.left {
+                    Some(left) => set.equation(left, short),
+                    None => set.expression(short),
+                };
+                Equation {
+                    caption: Some(f.caption.clone()),
+                    ..printed
+                }
+            })
+            .collect(),
+        ..Claim::default()
+    };
+    evidence(&mut claim, &finding.verdict);
+    claim
+}
+
+fn evidence(claim: &mut Claim, verdict: &Verdict) {
+    match verdict {
+        Verdict::Proved(proof) | Verdict::Conditional { proof, .. } => {
+            claim.method = Some(proof.method.word().into());
+            claim.on = Some(proof.on.clone());
+            claim.error_bound = proof.error_bound_log2.map(bound_text);
+            claim.samples = (proof.samples > 0).then_some(u64::from(proof.samples));
+            claim.seed = proof.seed;
+        }
+        Verdict::Numerical(evidence) => {
+            claim.on = Some(evidence.region.clone());
+            claim.samples = Some(u64::from(evidence.samples));
+            claim.residual = Some(format!("{:.2e}", evidence.residual));
+            claim.seed = evidence.seed;
+        }
+        Verdict::Refuted(c) => {
+            let point: Vec<String> = c
+                .point
+                .iter()
+                .map(|p| match (&p.exact, &p.enclosure) {
+                    (Some(exact), _) => format!("{} = {exact}", p.name),
+                    (None, Some((low, high))) if low == high => format!("{} = {low}", p.name),
+                    (None, Some((low, high))) => format!("{} in [{low}, {high}]", p.name),
+                    _ => p.name.clone(),
+                })
+                .collect();
+            let at = if point.is_empty() {
+                String::new()
+            } else {
+                format!("at {}: ", point.join(", "))
+            };
+            claim.counterexample = Some(format!(
+                "{at}{} in [{}, {}]",
+                c.quantity, c.residual.0, c.residual.1
+            ));
+        }
+        Verdict::NotApplicable { hypothesis, .. } => claim.condition = Some(hypothesis.clone()),
+        Verdict::Undecided { .. } => {}
+    }
+    if let Verdict::Conditional { condition, .. } = verdict {
+        claim.condition = Some(condition.clone());
+    }
+}

@@ -1,0 +1,254 @@
+//! The computed motion: curves, drifts with the verdicts on them, the course of the run.
+
+use super::claims::word;
+use super::{fact, unit};
+use crate::study::{stop_is_expected, Motion, Study};
+use crate::table::Table;
+use crate::typeset::letters;
+use chetaev_integrate::Note;
+use chetaev_report::data::{
+    ChartSwitch, Fact, Figure, Portrait, Series, SeriesGroup, Stop, Trajectory, Verdict as Word,
+};
+
+/// The motion.
+pub(super) fn trajectory(study: &Study, motion: &Motion, files: &[String]) -> Trajectory {
+    let run = &motion.evidence.run;
+    let mut series = curves(study, motion);
+    series.extend(drifts(study, motion));
+    Trajectory {
+        times: run.times.clone(),
+        time_unit: study.model.has_units.then(|| "s".into()),
+        series,
+        stop: Stop {
+            reason: run.ending.reason.clone(),
+            early: !run.ending.finished,
+            expected: stop_is_expected(&study.model, motion),
+        },
+        statistics: statistics(motion),
+        chart_switches: run
+            .chart_changes
+            .iter()
+            .map(|(t, c)| ChartSwitch {
+                time: *t,
+                detail: format!(
+                    "other velocities are taken as independent: the smallest pivot rises from {:.2e} to {:.2e}",
+                    c.pivot_before, c.pivot_after
+                ),
+            })
+            .collect(),
+        portraits: portraits(study),
+        files: files.to_vec(),
+    }
+}
+
+/// What was recorded, but for the accelerations.
+fn curves(study: &Study, motion: &Motion) -> Vec<Series> {
+    let table = Table::new(study, motion);
+    let n = study.system.n();
+    let mut series = Vec::new();
+    for (i, (name, values)) in table.names.iter().zip(table.columns).enumerate().skip(1) {
+        let group = match i {
+            i if i <= n => SeriesGroup::Coordinates,
+            i if i <= 2 * n => SeriesGroup::Velocities,
+            i if i <= 3 * n => continue,
+            _ if name.starts_with("lambda_") => SeriesGroup::Multipliers,
+            _ if name == "energy" => SeriesGroup::Energy,
+            _ => SeriesGroup::Integrals,
+        };
+        let label = match group {
+            SeriesGroup::Energy => None,
+            SeriesGroup::Integrals => name.strip_prefix("integral_").map(str::to_owned),
+            _ => Some(letters(name)),
+        };
+        series.push(Series {
+            name: name.clone(),
+            label,
+            group,
+            values,
+            unit: (i <= 2 * n)
+                .then(|| unit(study, (i - 1) % n, (i - 1) / n))
+                .flatten(),
+            ..Series::default()
+        });
+    }
+    series
+}
+
+/// Deviations of energy and integrals from their initial values and residuals of the constraints, each with the claim
+/// that judges it. What is no integral does not drift, it changes, and is left out.
+fn drifts(study: &Study, motion: &Motion) -> Vec<Series> {
+    let evidence = &motion.evidence;
+    let mut series = Vec::new();
+    let mut push = |label: String, values: Vec<f64>, claim: String| {
+        let decided = study.verdicts.iter().find(|d| d.full_id() == claim);
+        let verdict = decided.map(|d| word(d.finding.verdict.word()));
+        if verdict == Some(Word::NotApplicable) {
+            return;
+        }
+        series.push(Series {
+            name: format!("drift of {label}"),
+            label: Some(label),
+            group: SeriesGroup::Drifts,
+            values,
+            tolerance: decided.and_then(|d| bound_of(d.finding.verdict.detail())),
+            claim: decided.map(|_| claim),
+            ..Series::default()
+        });
+    };
+    let from_start = |values: &[f64]| {
+        let start = values.first().copied().unwrap_or(0.0);
+        values.iter().map(|x| (x - start).abs()).collect()
+    };
+    let energy = from_start(&evidence.energy.values);
+    push("energy".into(), energy, "motion.energy-drift".into());
+    for f in &evidence.integrals {
+        push(
+            format!("integral {}", f.name),
+            from_start(&f.values),
+            format!("motion.integral-drift#{}", f.name),
+        );
+    }
+    for f in &evidence.residuals {
+        push(
+            format!("constraint {}", f.name),
+            f.values.iter().map(|x| x.abs()).collect(),
+            "motion.constraint-drift".into(),
+        );
+    }
+    series
+}
+
+/// The bound that a verdict on a drift names at the end of its sentence.
+fn bound_of(detail: &str) -> Option<f64> {
+    let (_, bound) = detail.rsplit_once("bound ")?;
+    bound.trim().parse().ok()
+}
+
+fn statistics(motion: &Motion) -> Vec<Fact> {
+    let evidence = &motion.evidence;
+    let run = &evidence.run;
+    let s = &run.statistics;
+    let mut facts = vec![
+        fact(
+            "Equations integrated",
+            match run.formulation {
+                "routh" => "Routh".into(),
+                "maggi" => "Maggi".into(),
+                other => other.into(),
+            },
+            None,
+            Some("motion.formulations-agree"),
+        ),
+        fact(
+            "Method",
+            run.method.into(),
+            None,
+            Some("motion.method-order"),
+        ),
+        fact(
+            "Tolerance",
+            format!("{:.0e}", motion.settings.tolerance),
+            None,
+            None,
+        ),
+        fact(
+            "Steps",
+            format!("{} accepted, {} rejected", s.steps, s.rejected),
+            None,
+            None,
+        ),
+        fact("Evaluations", s.evaluations.to_string(), None, None),
+        fact("Factorizations", s.factorizations.to_string(), None, None),
+        fact("Chart changes", s.chart_switches.to_string(), None, None),
+    ];
+    if let Some(error) = evidence.global_error {
+        facts.push(fact(
+            "Estimated global error",
+            format!("{error:.1e}"),
+            None,
+            None,
+        ));
+    }
+    for note in &run.notes {
+        if let Note::Stiff { t, steps_ahead, .. } = note {
+            facts.push(fact(
+                "Advice",
+                format!("the problem looks stiff from t = {t:.4} on (about {steps_ahead:.0} more steps); an implicit method would need far fewer"),
+                None,
+                None,
+            ));
+        }
+    }
+    facts
+}
+
+/// The path in the first two coordinates, and each of the first coordinates against its velocity.
+fn portraits(study: &Study) -> Vec<Portrait> {
+    let names: Vec<&str> = study
+        .system
+        .coordinates
+        .iter()
+        .map(|c| c.name.as_str())
+        .collect();
+    let mut portraits = Vec::new();
+    if names.len() >= 2 {
+        portraits.push(Portrait {
+            horizontal: names[0].into(),
+            vertical: names[1].into(),
+            title: None,
+            equal: true,
+        });
+    }
+    for name in names.iter().rev().take(3).rev() {
+        portraits.push(Portrait {
+            horizontal: (*name).into(),
+            vertical: format!("{name}'"),
+            title: None,
+            equal: false,
+        });
+    }
+    portraits
+}
+
+/// Error against step size.
+pub(super) fn figures(motion: &Motion) -> Vec<Figure> {
+    let Some(orders) = &motion.evidence.orders else {
+        return Vec::new();
+    };
+    let explanation = match orders.observed {
+        Some(observed) => format!(
+            "A piece of the motion with fixed steps: observed order {observed:.2}, nominal {}.",
+            orders.nominal
+        ),
+        None => "A piece of the motion with fixed steps: all errors are at round-off.".into(),
+    };
+    vec![Figure {
+        title: "Order of the method on this model".into(),
+        explanation: vec![explanation],
+        horizontal: "step".into(),
+        abscissae: orders.steps.clone(),
+        series: vec![Series {
+            name: "error".into(),
+            group: SeriesGroup::Errors,
+            values: orders.errors.clone(),
+            ..Series::default()
+        }],
+        logarithmic_horizontal: true,
+        logarithmic_vertical: true,
+        marks: true,
+        claim: Some("motion.method-order".into()),
+        ..Figure::default()
+    }]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bound_of;
+
+    #[test]
+    fn the_bound_of_a_drift_is_read_from_its_verdict() {
+        let detail = "largest drift of the energy: 1.07e-10 at t = 2.3 over 601 states, tolerance asked 1e-11, bound 1.1e-8";
+        assert_eq!(bound_of(detail), Some(1.1e-8));
+        assert_eq!(bound_of("no motion was computed"), None);
+    }
+}
