@@ -1,4 +1,9 @@
 //! Models that must be refused because of their text, after the section "Rejections" of the published reference cases.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "test code fails where it stands"
+)]
 
 use chetaev_model::{load, Loaded, NoFiles, Severity, Style};
 

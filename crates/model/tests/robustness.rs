@@ -1,4 +1,9 @@
 //! Whatever the text, reading ends with a model or with a diagnostic, never with a panic.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "test code fails where it stands"
+)]
 
 use chetaev_model::{load, reload, ModelBuilder, NoFiles, Severity, Style};
 

@@ -1,4 +1,9 @@
 //! Units: values in SI base units, dimensions checked everywhere.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "test code fails where it stands"
+)]
 
 use chetaev_model::{load, Loaded, NoFiles, Severity};
 
