@@ -93,7 +93,7 @@ pub fn command(folder: &Path, arguments: &[&str]) -> Command {
 /// Runs the program in `folder` to its end.
 ///
 /// # Panics
-/// When it cannot be started or runs longer than [`LIMIT`].
+/// When it cannot be started or runs longer than two minutes.
 pub fn run_in(folder: &Path, arguments: &[&str]) -> Finished {
     let child = command(folder, arguments).spawn();
     finish(child.expect("the program starts"), arguments)
@@ -107,7 +107,7 @@ pub fn run(arguments: &[&str]) -> Finished {
 /// Waits for a started process and reads its streams.
 ///
 /// # Panics
-/// When it runs longer than [`LIMIT`].
+/// When it runs longer than two minutes.
 pub fn finish(mut child: Child, arguments: &[&str]) -> Finished {
     let out = child.stdout.take().map(reader);
     let err = child.stderr.take().map(reader);

@@ -1,6 +1,6 @@
 //! Random systems and the laws they must obey.
 //!
-//! A [`Family`] and a seed make one system, always the same ([`generate`]). [`check`] holds it to every law of
+//! A [`Family`] and a seed make one system, always the same ([`generate()`]). [`check`] holds it to every law of
 //! [`laws`]: true statements must be *proved*, deliberately wrong equations must be *refuted*; anything else, also
 //! `undecided` and `numerical`, is a failure and carries the seed and the model as text, so that anybody can repeat it.
 

@@ -164,10 +164,12 @@ function setUpClaims() {
 
 /** Formulas wider than the page scroll; those that do can be reached with the keyboard. */
 function setUpFormulas() {
-  const boxes = findAll(".formula, .scroll, .listing");
+  const boxes = findAll(".formula, .where li, .scroll, .listing");
   const look = () => {
     for (const box of boxes) {
-      if (box.scrollWidth > box.clientWidth + 1) box.tabIndex = 0;
+      const isWide = box.scrollWidth > box.clientWidth + 1;
+      box.classList.toggle("wide", isWide);
+      if (isWide) box.tabIndex = 0;
       else box.removeAttribute("tabindex");
     }
   };

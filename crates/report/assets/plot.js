@@ -259,10 +259,15 @@ class Plot {
     const { left, right, top, bottom, width, height } = this.box;
     if (this.spec.log) {
       const levels = new Set(this.curves.filter((c) => c.visible && c.tolerance > 0).map((c) => c.tolerance));
-      for (const level of levels) {
+      let last = -Infinity;
+      for (const level of [...levels].sort((a, b) => b - a)) {
         const y = this.toY(Math.log10(level));
         draw("line", { class: "level", x1: left, x2: width - right, y1: y, y2: y }, this.levels);
-        draw("text", { x: width - right - 6, y: y - 4, "text-anchor": "end" }, this.levels, `${words.tolerance} ${readable(level, 2)}`);
+        // A name where there is room for it: below the line at the top, never on another name.
+        const foot = y - 16 < top ? y + 12 : y - 4;
+        if (foot < last + 14) continue;
+        last = foot;
+        draw("text", { x: width - right - 6, y: foot, "text-anchor": "end" }, this.levels, `${words.tolerance} ${readable(level, 2)}`);
       }
     }
     if (this.overTime) {

@@ -4,8 +4,8 @@
 //! `<math>` elements, each beginning with a relation or with the sign of a term, and flows like
 //! the words of a sentence: on any width, and on paper.
 
-/// Signs of a formula that fits into a line of any screen.
-const LINE: usize = 36;
+/// Signs of a formula that fits into a line of any screen, of a phone too.
+const LINE: usize = 28;
 
 /// The pieces of the content of a `<math>` element that [`filter`](crate::mathml) has balanced;
 /// one piece where it is short or cannot be broken.
@@ -35,6 +35,12 @@ fn spread(content: &str, depth: usize, out: &mut Vec<String>) {
         let inner = part
             .strip_prefix("<mrow>")
             .and_then(|rest| rest.strip_suffix("</mrow>"));
+        // A product that goes on and on may also break before a factor in parentheses.
+        let before = out.last().map_or(0, |last| width(last));
+        if before > LINE / 2 && part.starts_with("<mrow><mo>(</mo>") && before + width(part) > LINE
+        {
+            out.push(String::new());
+        }
         match (inner, wide_fraction(part)) {
             (Some(inner), _) if width(inner) > LINE && depth < 12 => spread(inner, depth + 1, out),
             (_, Some((numerator, denominator))) if depth < 12 => {

@@ -6,7 +6,7 @@ use crate::data::{Claim, Report, Verdict};
 use crate::equations::{definitions, equation_body};
 use crate::html::{fragment, Html};
 use crate::number::{printed_powers, raised, readable};
-use crate::prose::sentence;
+use crate::prose::capitalized;
 use crate::system::ROWS;
 use crate::words::{fill, look_up, Words};
 
@@ -147,7 +147,7 @@ fn one(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
             .raw("</span>");
     }
     html.raw("<span class=\"detail\">");
-    sentence(html, &shortened(&claim.detail));
+    capitalized(html, &shortened(&claim.detail));
     html.raw("</span></span></summary>\n<div class=\"evidence\">\n<dl>\n");
     evidence(html, claim, report, words);
     html.raw("</dl>\n");

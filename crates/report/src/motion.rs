@@ -5,7 +5,7 @@ use crate::data::{Report, Series, SeriesGroup, Trajectory};
 use crate::html::{fragment, Html};
 use crate::number::{brief, readable};
 use crate::payload::{label, Payload, PlotKind};
-use crate::prose::{name, paragraphs, sentence};
+use crate::prose::{capitalized, name, paragraphs, sentence};
 use crate::system::{facts, more, ROWS};
 use crate::words::{fill, Words};
 
@@ -26,14 +26,12 @@ pub(crate) fn section(html: &mut Html, report: &Report, payload: &Payload<'_>, w
         html.wrap("<h3 id=\"portraits\">", words.portraits, "</h3>\n");
         plots(html, payload, PlotKind::Portrait, words);
     }
-    html.raw("<div class=\"columns\">\n");
     drifts(html, trajectory, report, words);
     if !trajectory.statistics.is_empty() {
         html.wrap("<div><h3>", words.statistics, "</h3>\n");
         facts(html, &trajectory.statistics, report, words);
         html.raw("</div>\n");
     }
-    html.raw("</div>\n");
     switches(html, trajectory, words);
     if !trajectory.files.is_empty() {
         html.wrap("<p>", words.full_data, ":");
@@ -86,7 +84,7 @@ fn stop(html: &mut Html, trajectory: &Trajectory, words: &Words) {
         ),
         (false, _) => html.raw("<p class=\"stop\">"),
     };
-    sentence(html, &stop.reason);
+    capitalized(html, &stop.reason);
     html.raw("</p>\n");
 }
 

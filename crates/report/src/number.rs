@@ -48,7 +48,9 @@ pub(crate) fn printed_powers(text: &str) -> String {
                 let raised: String = exponent.chars().map(superscript).collect();
                 match (trimmed(mantissa).as_str(), exponent) {
                     ("0", _) => out.push('0'),
-                    (mantissa, "0") => out.push_str(mantissa),
+                    (mantissa, _) if plain(mantissa, exponent).is_some() => {
+                        out.push_str(&plain(mantissa, exponent).unwrap_or_default());
+                    }
                     ("1", _) => out.push_str(&format!("10{raised}")),
                     (mantissa, _) => out.push_str(&format!("{mantissa} × 10{raised}")),
                 }
@@ -63,6 +65,28 @@ pub(crate) fn printed_powers(text: &str) -> String {
         }
     }
     out
+}
+
+/// The number without a power where that is as short: all digits stay as they are.
+fn plain(mantissa: &str, exponent: &str) -> Option<String> {
+    let exponent: i32 = exponent.parse().ok()?;
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let places = i32::try_from(whole.len()).ok()? + exponent;
+    if !(-3..=5).contains(&exponent) {
+        return None;
+    }
+    let digits = format!("{whole}{fraction}");
+    let shifted = match usize::try_from(places) {
+        Ok(0) | Err(_) => {
+            let zeros = "0".repeat(usize::try_from(-places).unwrap_or(0));
+            format!("0.{zeros}{digits}")
+        }
+        Ok(places) if places >= digits.len() => {
+            format!("{digits}{}", "0".repeat(places - digits.len()))
+        }
+        Ok(places) => format!("{}.{}", &digits[..places], &digits[places..]),
+    };
+    Some(trimmed(&shifted))
 }
 
 /// Mantissa, exponent and length in bytes of a number like `1.07e-10` at the start.
@@ -244,6 +268,9 @@ mod tests {
             ),
             ("0.00e0 and 2.50e0", "0 and 2.5"),
             ("-5.98e10", "-5.98 × 10¹⁰"),
+            ("3.535533905e-1", "0.3535533905"),
+            ("7.5e-2, 1e-3, 1e-4", "0.075, 0.001, 10⁻⁴"),
+            ("2.5e3 and 1.25e1", "2500 and 12.5"),
             ("x1e5 1e5x 1e 2.e3", "x1e5 1e5x 1e 2.e3"),
         ] {
             assert_eq!(printed_powers(text), expected);

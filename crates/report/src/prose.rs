@@ -20,11 +20,23 @@ pub(crate) fn sentence(html: &mut Html, text: &str) {
     }
 }
 
+/// A sentence that stands by itself begins with a capital, unless it begins with a symbol.
+pub(crate) fn capitalized(html: &mut Html, text: &str) {
+    let first = text.split(' ').next().unwrap_or_default();
+    let is_word =
+        first.len() > 1 && first != "det" && first.bytes().all(|b| b.is_ascii_lowercase());
+    if is_word || first == "a" && text.len() > 1 {
+        sentence(html, &(text[..1].to_ascii_uppercase() + &text[1..]));
+    } else {
+        sentence(html, text);
+    }
+}
+
 /// One `<p>` for each paragraph of sentences.
 pub(crate) fn paragraphs(html: &mut Html, paragraphs: &[String]) {
     for paragraph in paragraphs {
         html.raw("<p>");
-        sentence(html, paragraph);
+        capitalized(html, paragraph);
         html.raw("</p>\n");
     }
 }
@@ -60,7 +72,7 @@ fn is_letter(text: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{name, sentence};
+    use super::{capitalized, name, sentence};
     use crate::html::Html;
 
     fn set(write: fn(&mut Html, &str), text: &str) -> String {
@@ -75,6 +87,14 @@ mod tests {
         assert_eq!(set(name, "φ\u{307}"), "<i>φ\u{307}</i>");
         assert_eq!(set(name, "energy"), "energy");
         assert_eq!(set(name, "a_{<b"), "a_{&lt;b");
+    }
+
+    #[test]
+    fn a_sentence_begins_with_a_capital() {
+        assert_eq!(set(capitalized, "the end"), "The end");
+        for text in ["det W", "x' = 1", "∂L/∂t = 0", "", "Done"] {
+            assert_eq!(set(capitalized, text), text.replace('\'', "&#39;"));
+        }
     }
 
     #[test]

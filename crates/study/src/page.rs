@@ -203,7 +203,7 @@ fn parameters(study: &Study, set: &Typesetter<'_>) -> Vec<Parameter> {
                 .and_then(|v| g.evaluate_f64(&[v], &|_| None).ok())
                 .map(|v| v[0]);
             let value = p.value.map(|v| match (g.as_number(v), number) {
-                (Some(exact), _) if exact.is_int() => exact.to_string(),
+                (Some(exact), _) if exact.is_int() => exact.to_string().replace('-', "−"),
                 (_, Some(number)) => significant(number),
                 _ => g.text(v),
             });
@@ -212,10 +212,15 @@ fn parameters(study: &Study, set: &Typesetter<'_>) -> Vec<Parameter> {
                 name: set.name(&p.name),
                 value,
                 stated: stated.map(|d| set.inline(d)),
-                unit: p.unit.as_ref().map(|u| u.text.clone()),
-                range: p
-                    .range
-                    .map(|(low, high)| format!("{} to {}", g.text(low), g.text(high))),
+                unit: p.unit.as_ref().map(|u| u.text.clone()).filter(|u| u != "1"),
+                range: p.range.map(|(low, high)| {
+                    let [low, high] =
+                        [low, high].map(|end| match g.evaluate_f64(&[end], &|_| None) {
+                            Ok(value) => significant(value[0]),
+                            Err(_) => g.text(end),
+                        });
+                    format!("{low} to {high}")
+                }),
                 description: (!p.description.is_empty()).then(|| p.description.clone()),
             }
         })
@@ -235,9 +240,11 @@ fn significant(x: f64) -> String {
     let decimals = (9 - magnitude).max(0) as usize;
     let text = format!("{x:.decimals$}");
     if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_string()
+        text.trim_end_matches('0')
+            .trim_end_matches('.')
+            .replace('-', "−")
     } else {
-        text
+        text.replace('-', "−")
     }
 }
 

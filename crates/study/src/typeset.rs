@@ -3,7 +3,7 @@
 use chetaev_mechanics::equations::{Equation, Equations};
 use chetaev_mechanics::{Manifold, Prover, System};
 use chetaev_report::data::{Definition, Equation as Printed, Formula};
-use chetaev_symbolic::print::{Document, Format, Options};
+use chetaev_symbolic::print::{Document, Format, Options, Parts};
 use chetaev_symbolic::simplify;
 use chetaev_symbolic::syntax::names::greek_letter;
 use chetaev_symbolic::{Expr, Graph, Verdict};
@@ -192,6 +192,34 @@ impl<'a> Typesetter<'a> {
         })
     }
 
+    /// Several equations with the definitions that they share; each that is too long to read is only announced.
+    pub fn equations(&self, equations: &[(Expr, Expr)]) -> (Vec<Printed>, Vec<Definition>) {
+        let room = self.room.get();
+        let is_long = equations
+            .iter()
+            .any(|&(l, r)| self.signs(&[l, r]) > LEGIBLE);
+        if is_long || room.bytes == 0 {
+            let alone = equations.iter().map(|&(l, r)| self.equation(l, r));
+            return (alone.collect(), Vec::new());
+        }
+        let document = Document::equations(self.graph(), equations, &self.options);
+        let (statements, definitions) = parts(&document);
+        let printed: Vec<Printed> = statements
+            .into_iter()
+            .map(|formula| Printed {
+                formula,
+                ..Printed::default()
+            })
+            .collect();
+        let bytes = printed.iter().map(size).sum::<usize>()
+            + definitions.iter().map(|d| bytes(&d.formula)).sum::<usize>();
+        self.room.set(Room {
+            bytes: room.bytes.saturating_sub(bytes),
+            ..room
+        });
+        (printed, definitions)
+    }
+
     /// One expression, likewise.
     pub fn expression(&self, e: Expr) -> Printed {
         self.set(&[e], || {
@@ -237,17 +265,14 @@ impl<'a> Typesetter<'a> {
 
 /// Bytes of an equation on the page.
 fn size(printed: &Printed) -> usize {
-    let of = |f: &Formula| {
-        f.text.len()
-            + f.mathml.as_ref().map_or(0, String::len)
-            + f.latex.as_ref().map_or(0, String::len)
-    };
-    of(&printed.formula)
-        + printed
-            .definitions
-            .iter()
-            .map(|d| of(&d.formula))
-            .sum::<usize>()
+    let definitions = printed.definitions.iter().map(|d| bytes(&d.formula));
+    bytes(&printed.formula) + definitions.sum::<usize>()
+}
+
+fn bytes(formula: &Formula) -> usize {
+    let notations = [&formula.mathml, &formula.latex];
+    let marked: usize = notations.into_iter().flatten().map(String::len).sum();
+    marked + formula.text.len()
 }
 
 /// What stands on a page in place of a formula that nobody would read.
@@ -306,23 +331,33 @@ pub fn letters(name: &str) -> String {
 }
 
 fn printed(document: &Document) -> Printed {
+    let (mut statements, definitions) = parts(document);
+    Printed {
+        formula: statements.pop().unwrap_or_default(),
+        definitions,
+        ..Printed::default()
+    }
+}
+
+/// Statements and definitions in every notation. A linear system is one definition of several lines.
+fn parts(document: &Document) -> (Vec<Formula>, Vec<Definition>) {
     let [mathml, latex, text] =
         [Format::Mathml, Format::Latex, Format::Text].map(|f| document.parts(f));
-    let formula = |i: usize, of: fn(&chetaev_symbolic::print::Parts) -> &Vec<String>| Formula {
+    let formula = |i: usize, of: fn(&Parts) -> &Vec<String>| Formula {
         mathml: of(&mathml).get(i).cloned(),
         text: of(&text).get(i).cloned().unwrap_or_default(),
         latex: of(&latex).get(i).cloned(),
     };
-    Printed {
-        formula: formula(0, |p| &p.statements),
-        definitions: (0..document.definition_count())
-            .map(|i| Definition {
-                formula: formula(i, |p| &p.definitions),
-                text: None,
-            })
-            .collect(),
-        ..Printed::default()
-    }
+    let statements = (0..mathml.statements.len())
+        .map(|i| formula(i, |p| &p.statements))
+        .collect();
+    let definitions = (0..mathml.definitions.len())
+        .map(|i| Definition {
+            formula: formula(i, |p| &p.definitions),
+            text: None,
+        })
+        .collect();
+    (statements, definitions)
 }
 
 #[cfg(test)]

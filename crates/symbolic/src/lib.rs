@@ -1,4 +1,4 @@
-//! Exact expressions: an interned graph, its calculus, zero testing and printing; owns [`Verdict`](verdict::Verdict).
+//! Exact expressions: an interned graph, its calculus, zero testing and printing; owns [`Verdict`].
 //!
 //! Nothing here knows mechanics: symbols carry a name and an order of differentiation, and that is all.
 

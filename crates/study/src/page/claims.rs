@@ -24,7 +24,11 @@ pub(super) fn claim(decided: &Decided, set: &Typesetter<'_>) -> Claim {
         verdict: word(finding.verdict.word()),
         detail: finding.verdict.detail().into(),
         requires: decided.requires.clone(),
-        expected: decided.expected.first().map(|w| word(w)),
+        // Of several verdicts that the model accepts, the one found.
+        expected: match decided.expected.first() {
+            Some(_) if decided.is_as_expected() => Some(word(finding.verdict.word())),
+            first => first.map(|w| word(w)),
+        },
         seconds: Some(decided.seconds),
         formulas: finding
             .formulas

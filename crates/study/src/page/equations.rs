@@ -132,14 +132,20 @@ fn multipliers(study: &Study, routh: &Equations, set: &Typesetter<'_>) -> Equati
     let values: Vec<Expr> = routh.multipliers.iter().map(|(_, value)| *value).collect();
     let short = set.simplified(&values);
     let closed = short.iter().all(|&value| set.is_legible(value));
-    let equations = routh
+    let (objects, stated): (Vec<_>, Vec<_>) = routh
         .objects
         .iter()
         .zip(short)
         .filter(|(_, value)| set.is_legible(*value))
-        .map(|(object, value)| Equation {
+        .map(|(object, value)| (object, (g.symbol(&object.name, 0), value)))
+        .unzip();
+    let (equations, definitions) = set.equations(&stated);
+    let equations = objects
+        .into_iter()
+        .zip(equations)
+        .map(|(object, equation)| Equation {
             caption: Some(object.meaning.clone()),
-            ..set.equation(g.symbol(&object.name, 0), value)
+            ..equation
         })
         .collect();
     EquationSection {
@@ -151,6 +157,7 @@ fn multipliers(study: &Study, routh: &Equations, set: &Typesetter<'_>) -> Equati
             "Multipliers that are too long to read as formulas are the solution of a linear system: Routh's equations above together with the constraints differentiated once.".into()
         }],
         equations,
+        definitions,
         ..EquationSection::default()
     }
 }

@@ -31,13 +31,22 @@ pub(super) fn trajectory(study: &Study, motion: &Motion, files: &[String]) -> Tr
             .map(|(t, c)| ChartSwitch {
                 time: *t,
                 detail: format!(
-                    "other velocities are taken as independent: the smallest pivot rises from {:.2e} to {:.2e}",
-                    c.pivot_before, c.pivot_after
+                    "other velocities are taken as independent: the smallest pivot changes from {} to {}",
+                    pivot(c.pivot_before),
+                    pivot(c.pivot_after)
                 ),
             })
             .collect(),
         portraits: portraits(study),
         files: files.to_vec(),
+    }
+}
+
+fn pivot(value: f64) -> String {
+    if value.abs() < 1e-3 {
+        format!("{value:.1e}")
+    } else {
+        format!("{value:.3}")
     }
 }
 
