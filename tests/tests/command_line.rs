@@ -550,8 +550,8 @@ fn csv_and_npz_hold_the_same_numbers_in_the_columns_documented() {
     assert_eq!(names.join(","), expected);
     assert_eq!(rows.len(), 501);
     let bytes = std::fs::read(out.join("trajectory.npz")).expect("the archive");
-    let mut archive = npyz::npz::NpzArchive::new(std::io::Cursor::new(bytes)).expect("an archive");
-    let arrays: Vec<String> = archive.array_names().map(str::to_owned).collect();
+    let mut archive = zip::ZipArchive::new(std::io::Cursor::new(bytes)).expect("an archive");
+    let arrays: Vec<String> = archive.file_names().map(str::to_owned).collect();
     assert_eq!(arrays.len(), names.len());
     for (i, name) in names.iter().enumerate() {
         let primes = name.matches('\'').count();
@@ -560,9 +560,9 @@ fn csv_and_npz_hold_the_same_numbers_in_the_columns_documented() {
             _ => format!("{}_{}", name.trim_end_matches('\''), "d".repeat(primes)),
         };
         let stored = archive
-            .by_name(&array)
-            .expect("the archive is whole")
-            .unwrap_or_else(|| panic!("{array} in {arrays:?}"));
+            .by_name(&format!("{array}.npy"))
+            .unwrap_or_else(|e| panic!("{array} in {arrays:?}: {e}"));
+        let stored = npyz::NpyFile::new(stored).expect("an array");
         assert_eq!(stored.shape(), &[rows.len() as u64]);
         let values: Vec<f64> = stored.into_vec().expect("double precision");
         let column: Vec<f64> = rows.iter().map(|row| row[i]).collect();

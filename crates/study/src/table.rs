@@ -3,6 +3,8 @@
 use crate::study::{Motion, Study};
 use std::fmt::Write as _;
 use std::io::{Cursor, Write};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
 
 /// Named columns of equal length, the time first.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,27 +85,33 @@ impl Table {
     /// # Errors
     /// What the archive writer reports.
     pub fn to_npz(&self) -> std::io::Result<Vec<u8>> {
-        use npyz::WriterBuilder;
-        let mut archive = npyz::npz::NpzWriter::new(Cursor::new(Vec::new()));
+        // No clock: the same run gives the same bytes.
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Stored)
+            .last_modified_time(DateTime::default());
+        let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
         for (name, column) in self.names.iter().zip(&self.columns) {
-            // No clock: the same run gives the same bytes.
-            let options = npyz::zip::write::FileOptions::default()
-                .last_modified_time(npyz::zip::DateTime::default());
-            let mut writer = archive
-                .array(&array_name(name), options)?
-                .default_dtype()
-                .shape(&[column.len() as u64])
-                .begin_nd()?;
-            writer.extend(column)?;
-            writer.finish()?;
+            archive.start_file(format!("{}.npy", array_name(name)), options)?;
+            archive.write_all(&npy(column))?;
         }
-        let mut buffer = archive
-            .zip_writer()
-            .finish()
-            .map_err(std::io::Error::other)?;
-        buffer.flush()?;
-        Ok(buffer.into_inner())
+        Ok(archive.finish()?.into_inner())
     }
+}
+
+/// One array of doubles in the NPY format, version 1.0 (NumPy, `numpy.lib.format`): the header is padded so that the
+/// data begin at a multiple of 64 bytes.
+fn npy(column: &[f64]) -> Vec<u8> {
+    const BEFORE: usize = 10;
+    let header = format!(
+        "{{'descr': '<f8', 'fortran_order': False, 'shape': ({},), }}",
+        column.len()
+    );
+    let padded = (BEFORE + header.len() + 1).next_multiple_of(64) - BEFORE;
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((padded as u16).to_le_bytes());
+    bytes.extend(format!("{header:<0$}\n", padded - 1).as_bytes());
+    bytes.extend(column.iter().flat_map(|x| x.to_le_bytes()));
+    bytes
 }
 
 fn array_name(name: &str) -> String {

@@ -16,6 +16,7 @@ mod names;
 #[path = "../../examples/demo/sleigh.rs"]
 mod sleigh;
 
+use chetaev_report::data::Formula;
 use chetaev_report::{render, Report};
 use chromium::{Page, View};
 
@@ -230,9 +231,15 @@ fn a_phone_shows_the_page_without_scrolling_sideways() {
         dark: true,
         ..View::default()
     };
-    let mut page = Page::open(&render(&sleigh::report()), &view);
+    let mut report = sleigh::report();
+    let unbreakable = Formula {
+        mathml: Some(format!("<mi>{}</mi>", "omega".repeat(20))),
+        ..Formula::default()
+    };
+    report.sections[0].equations[0].formula = unbreakable;
+    let mut page = Page::open(&render(&report), &view);
     assert_eq!(page.number("document.documentElement.scrollWidth"), 390.0);
-    // The long formula scrolls within itself, and the keyboard can reach it.
+    // What cannot be broken scrolls within itself, and the keyboard can reach it.
     assert!(page.holds(
         "[...document.querySelectorAll('.formula')].some((f) => f.scrollWidth > f.clientWidth && f.tabIndex === 0)"
     ));
