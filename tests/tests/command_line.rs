@@ -551,7 +551,10 @@ fn csv_and_npz_hold_the_same_numbers_in_the_columns_documented() {
     assert_eq!(rows.len(), 501);
     let bytes = std::fs::read(out.join("trajectory.npz")).expect("the archive");
     let mut archive = zip::ZipArchive::new(std::io::Cursor::new(bytes)).expect("an archive");
-    let arrays: Vec<String> = archive.file_names().map(str::to_owned).collect();
+    let arrays: Vec<String> = archive
+        .file_names()
+        .map(|name| name.expect("a name").into_owned())
+        .collect();
     assert_eq!(arrays.len(), names.len());
     for (i, name) in names.iter().enumerate() {
         let primes = name.matches('\'').count();

@@ -25,13 +25,13 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     match (model, system) {
         (Some(model), Some(Ok(system))) => {
             if !arguments.json {
-                terminal::out(&format!(
-                    "{}: {} coordinates, {} constraints, {} parameters: no errors\n",
-                    model.name,
-                    system.n(),
-                    system.constraints.len(),
-                    system.parameters.len()
-                ));
+                let counts = [
+                    counted(system.n(), "coordinate"),
+                    counted(system.constraints.len(), "constraint"),
+                    counted(system.parameters.len(), "parameter"),
+                ];
+                let counts = counts.join(", ");
+                terminal::out(&format!("{}: {counts}: no errors\n", model.name));
             }
             DONE
         }
@@ -40,5 +40,14 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             INPUT
         }
         _ => INPUT,
+    }
+}
+
+/// "no constraints", "1 constraint", "2 constraints".
+fn counted(count: usize, one: &str) -> String {
+    match count {
+        0 => format!("no {one}s"),
+        1 => format!("1 {one}"),
+        count => format!("{count} {one}s"),
     }
 }

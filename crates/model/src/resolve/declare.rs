@@ -117,7 +117,7 @@ impl Resolver {
         let Node::Name { parts, .. } = parsed.tree.node(parsed.root()) else {
             let message = format!("`{}` cannot be the name of {what}", key.content);
             self.push(Diagnostic::error("bad-name", key.place, message).hint(
-                "names are made of letters, digits and underscores, as in theta_1 or theta_{i}",
+                "names are made of Latin and Greek letters, digits and underscores, as in theta_1 or theta_{i}",
             ));
             return Vec::new();
         };
@@ -260,7 +260,7 @@ impl Resolver {
             let message = format!("`{}` cannot be the name of {what}", key.content);
             self.push(
                 Diagnostic::error("bad-name", key.place, message)
-                    .hint("names are made of letters, digits and underscores"),
+                    .hint("names are made of Latin letters, digits and underscores"),
             );
             return false;
         }

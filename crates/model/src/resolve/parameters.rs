@@ -170,6 +170,25 @@ impl Resolver {
         values.first().copied().filter(|value| value.is_finite())
     }
 
+    /// Numbers for expressions of parameters, if all have values.
+    pub(crate) fn known_values(&self, expressions: &[Expr]) -> Option<Vec<f64>> {
+        let closed = self
+            .graph
+            .substitute_all(expressions, &self.parameter_values());
+        closed
+            .into_iter()
+            .map(|value| self.constant_f64(value))
+            .collect()
+    }
+
+    /// Symbols of the parameters that have values, with these.
+    fn parameter_values(&self) -> Vec<(Expr, Expr)> {
+        self.parameters
+            .iter()
+            .filter_map(|parameter| Some((parameter.symbol, parameter.value?)))
+            .collect()
+    }
+
     fn close_parameters(&mut self) {
         let graph = Arc::clone(&self.graph);
         let uses: Vec<Vec<usize>> = self
@@ -250,11 +269,7 @@ impl Resolver {
 
     /// Reports assumptions that the values of the parameters contradict: what is proved under them says nothing then.
     pub(crate) fn check_assumptions(&mut self, assumptions: &[Assumption]) {
-        let known: Vec<(Expr, Expr)> = self
-            .parameters
-            .iter()
-            .filter_map(|parameter| Some((parameter.symbol, parameter.value?)))
-            .collect();
+        let known = self.parameter_values();
         for assumption in assumptions {
             let sides = self
                 .graph
@@ -287,6 +302,62 @@ impl Resolver {
                 );
             }
         }
+        self.check_bounds(assumptions, &known);
+    }
+
+    /// Reports bounds on one symbol that no number meets: everything could be proved under them.
+    fn check_bounds(&mut self, assumptions: &[Assumption], known: &[(Expr, Expr)]) {
+        let mut lower: Vec<(Expr, Bound)> = Vec::new();
+        let mut upper: Vec<(Expr, Bound)> = Vec::new();
+        for (at, assumption) in assumptions.iter().enumerate() {
+            let sides = self
+                .graph
+                .substitute_all(&[assumption.left, assumption.right], known);
+            let (symbol, value, relation) =
+                match (self.constant_f64(sides[0]), self.constant_f64(sides[1])) {
+                    (None, Some(value)) => (sides[0], value, assumption.relation),
+                    (Some(value), None) => (sides[1], value, mirrored(assumption.relation)),
+                    _ => continue,
+                };
+            let is_strict = matches!(relation, Relation::Less | Relation::Greater);
+            let bound = Bound {
+                value,
+                is_strict,
+                at,
+            };
+            if matches!(
+                relation,
+                Relation::Greater | Relation::GreaterOrEqual | Relation::Equal
+            ) {
+                lower.push((symbol, bound));
+            }
+            if matches!(
+                relation,
+                Relation::Less | Relation::LessOrEqual | Relation::Equal
+            ) {
+                upper.push((symbol, bound));
+            }
+        }
+        let empty = lower.iter().find_map(|(symbol, low)| {
+            upper
+                .iter()
+                .filter(|(other, _)| other == symbol)
+                .find(|(_, high)| {
+                    low.value > high.value
+                        || low.value == high.value && (low.is_strict || high.is_strict)
+                })
+                .map(|(_, high)| (low.at.min(high.at), low.at.max(high.at)))
+        });
+        if let Some((first, second)) = empty {
+            let [first, second] = [first, second].map(|at| &assumptions[at]);
+            let message = format!(
+                "no number meets both `{}` and `{}`",
+                first.text, second.text
+            );
+            let diagnostic = Diagnostic::error("contradictory-assumptions", second.place, message)
+                .related(first.place, "assumed here");
+            self.push(diagnostic);
+        }
     }
 
     /// The sign of a difference without symbols: exact for rational numbers, and not decided for other numbers that
@@ -301,5 +372,25 @@ impl Resolver {
             .sum::<Option<f64>>()?;
         let value = self.constant_f64(difference)?;
         (value.abs() > 1e-9 * scale).then(|| value.total_cmp(&0.0))
+    }
+}
+
+/// One end of the range that assumptions leave to an expression.
+#[derive(Clone, Copy)]
+struct Bound {
+    value: f64,
+    is_strict: bool,
+    /// Number of the assumption.
+    at: usize,
+}
+
+/// The relation with its sides exchanged.
+fn mirrored(relation: Relation) -> Relation {
+    match relation {
+        Relation::Less => Relation::Greater,
+        Relation::LessOrEqual => Relation::GreaterOrEqual,
+        Relation::Greater => Relation::Less,
+        Relation::GreaterOrEqual => Relation::LessOrEqual,
+        same => same,
     }
 }

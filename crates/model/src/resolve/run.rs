@@ -1,6 +1,6 @@
 //! The motion asked for: initial data, simulation, and what is expected of it.
 
-use chetaev_symbolic::Rational;
+use chetaev_symbolic::{Expr, Rational};
 
 use super::declare::Instance;
 use super::formula::Expected;
@@ -150,6 +150,9 @@ impl Resolver {
         simulation.step = self.time_value(table.get("step"), "the step");
         simulation.method = self.optional_text(table, "method").map(|text| text.content);
         simulation.output = table.get("output").and_then(|raw| self.output(raw));
+        if let (Some(raw), Some(Output::Times(times))) = (table.get("output"), &simulation.output) {
+            self.check_times(raw, times, &simulation);
+        }
         simulation.project = self.optional_truth(table, "project");
         simulation.max_steps = table
             .get("max_steps")
@@ -242,6 +245,43 @@ impl Resolver {
                 self.push(Diagnostic::error("wrong-kind", raw.place, ADVICE));
                 None
             }
+        }
+    }
+
+    /// Output times follow each other in the direction of the run and lie within it, as far as all are known.
+    fn check_times(&mut self, raw: &Raw, times: &[Expr], simulation: &Simulation) {
+        let Some(Raw {
+            kind: Kind::Array(items),
+            ..
+        }) = raw.table().and_then(|table| table.get("times"))
+        else {
+            return;
+        };
+        let Some(values) = self.known_values(times) else {
+            return;
+        };
+        let ends = simulation
+            .t_end
+            .and_then(|end| self.known_values(&[end]))
+            .map(|end| end[0]);
+        let start = match simulation.t_start {
+            None => Some(0.0),
+            Some(start) => self.known_values(&[start]).map(|start| start[0]),
+        };
+        let is_backward = matches!((start, ends), (Some(start), Some(end)) if end < start);
+        let sign = if is_backward { -1.0 } else { 1.0 };
+        for (i, (item, &time)) in items.iter().zip(&values).enumerate() {
+            let message = if i > 0 && sign * time <= sign * values[i - 1] {
+                let before = values[i - 1];
+                format!("the output times must follow each other in the direction of the run, and {time} follows {before}")
+            } else if start.is_some_and(|start| sign * time < sign * start) {
+                format!("the output time {time} lies before the start of the run")
+            } else if ends.is_some_and(|end| sign * time > sign * end) {
+                format!("the output time {time} lies after the end of the run")
+            } else {
+                continue;
+            };
+            self.push(Diagnostic::error("out-of-range", item.place, message));
         }
     }
 

@@ -54,10 +54,12 @@ pub(super) fn by_factors(graph: &Graph, test: &ZeroTest<'_>) -> Option<Verdict> 
         .collect::<Vec<_>>()
         .join(" or ");
     let (_, mut proof) = proved.into_iter().next()?;
-    proof.on = format!(
-        "on the component {condition} of the constraint; {}",
-        proof.on
-    );
+    // The proof speaks of the variety of the one factor, which is a component of the whole.
+    let domain = proof
+        .on
+        .trim_start_matches("on every component of the constraint manifold, ")
+        .trim_start_matches("on the constraint manifold, ");
+    proof.on = format!("on the component {condition} of the constraint, {domain}");
     Some(Verdict::Conditional {
         condition,
         proof,
