@@ -108,7 +108,7 @@ fn kind_in_velocities(system: &System, f: Expr) -> (ConstraintKind, bool) {
     let g = &system.graph;
     let velocities = system.velocity_symbols();
     let gradient = g.gradient(f, &velocities);
-    let linear = gradient.iter().all(|&df| !g.contains_any(df, &velocities));
+    let linear = !g.any_contains_any(&gradient, &velocities);
     if !linear {
         return (ConstraintKind::Nonlinear, false);
     }

@@ -4,6 +4,7 @@
 
 use crate::constraint::{Constraint, ConstraintKind};
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A generalized coordinate with its jet.
@@ -188,6 +189,8 @@ pub struct System {
     pub quasi_velocities: Vec<QuasiVelocity>,
     /// Assumptions of the model.
     pub assumptions: Vec<Assumption>,
+    /// Places of the coordinates by name.
+    places: BTreeMap<String, usize>,
 }
 
 impl System {
@@ -227,8 +230,9 @@ impl System {
             forces[i] = g.add(&[forces[i], *force]);
         }
         if let Some(r) = parts.rayleigh {
-            for (force, coordinate) in forces.iter_mut().zip(&coordinates) {
-                *force = g.sub(*force, g.diff(r, coordinate.v_symbol));
+            let velocities: Vec<Symbol> = coordinates.iter().map(|c| c.v_symbol).collect();
+            for (force, slope) in forces.iter_mut().zip(g.gradient(r, &velocities)) {
+                *force = g.sub(*force, slope);
             }
         }
         let independent = parts
@@ -257,6 +261,7 @@ impl System {
                 .map(|(name, definition)| QuasiVelocity { name, definition })
                 .collect(),
             assumptions: parts.assumptions,
+            places: places(&parts.coordinates),
             coordinates,
             graph: graph.clone(),
         };
@@ -297,7 +302,7 @@ impl System {
 
     /// The index of the coordinate called `name`.
     pub fn coordinate_index(&self, name: &str) -> Option<usize> {
-        self.coordinates.iter().position(|c| c.name == name)
+        self.places.get(name).copied()
     }
 
     /// Whether the symbol called `name` moves: a coordinate or a control.
@@ -360,10 +365,12 @@ impl System {
     /// The energy `H = Σ pᵢ vⁱ - L` as a function of (q, v, t).
     pub fn energy(&self) -> Expr {
         let g = &self.graph;
+        let momenta = g.gradient(self.lagrangian, &self.velocity_symbols());
         let mut parts: Vec<Expr> = self
             .coordinates
             .iter()
-            .map(|c| g.mul(&[g.diff(self.lagrangian, c.v_symbol), c.v]))
+            .zip(momenta)
+            .map(|(c, momentum)| g.mul(&[momentum, c.v]))
             .collect();
         parts.push(g.neg(self.lagrangian));
         g.add(&parts)
@@ -372,17 +379,23 @@ impl System {
     /// Euler's operator with the sign of Lagrange's left side: `D(∂L/∂vⁱ) - ∂L/∂qⁱ` on the jet (q, v, a, t).
     pub fn lagrange_left_sides(&self) -> Vec<Expr> {
         let g = &self.graph;
-        self.coordinates
-            .iter()
-            .map(|c| {
-                let momentum = g.diff(self.lagrangian, c.v_symbol);
-                g.sub(
-                    self.total_derivative(momentum),
-                    g.diff(self.lagrangian, c.q_symbol),
-                )
-            })
+        let momenta = g.gradient(self.lagrangian, &self.velocity_symbols());
+        let slopes = g.gradient(self.lagrangian, &self.coordinate_symbols());
+        momenta
+            .into_iter()
+            .zip(slopes)
+            .map(|(momentum, slope)| g.sub(self.total_derivative(momentum), slope))
             .collect()
     }
+}
+
+/// Places by name; the first of equal names counts.
+fn places(names: &[String]) -> BTreeMap<String, usize> {
+    let mut places = BTreeMap::new();
+    for (i, name) in names.iter().enumerate() {
+        places.entry(name.clone()).or_insert(i);
+    }
+    places
 }
 
 fn parameters(g: &Graph, stated: Vec<(String, Option<Expr>)>) -> Vec<Parameter> {

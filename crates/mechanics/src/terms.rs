@@ -28,14 +28,11 @@ impl MotionTerms {
         let momenta: Vec<Expr> = g.gradient(system.lagrangian, &velocities);
         let mass_matrix = g.jacobian(&momenta, &velocities);
         let drift = freeze_accelerations(system, &momenta);
-        let force = system
-            .coordinates
-            .iter()
+        let force = g
+            .gradient(system.lagrangian, &system.coordinate_symbols())
+            .into_iter()
             .enumerate()
-            .map(|(i, c)| {
-                let gradient = g.diff(system.lagrangian, c.q_symbol);
-                g.add(&[gradient, system.forces[i], g.neg(drift[i])])
-            })
+            .map(|(i, slope)| g.add(&[slope, system.forces[i], g.neg(drift[i])]))
             .collect();
         let (constraint_index, constraints): (Vec<usize>, Vec<Expr>) = system
             .first_order_constraints()

@@ -64,11 +64,9 @@ impl Accelerations {
         self.particular(system, chart);
         self.project_mass(system, chart);
         let k = chart.independent.len();
-        let matrix = std::mem::take(&mut self.matrix);
         self.factorizations += 1;
-        let factored = self.reduced.factor(k, &matrix);
-        self.matrix = matrix;
-        factored.map_err(SolveFailure::Inertia)?;
+        self.factor_reduced(system, chart)
+            .map_err(SolveFailure::Inertia)?;
         let mut c = std::mem::take(&mut self.rhs);
         self.reduced.solve(&mut c);
         for (sigma, &i) in chart.independent.iter().enumerate() {
@@ -146,6 +144,11 @@ impl Accelerations {
     fn project_mass(&mut self, system: &NumericSystem, chart: &Chart) {
         let (n, mass) = (system.n, system.mass());
         let k = chart.independent.len();
+        if is_free(system, chart) {
+            self.rhs.clear();
+            self.rhs.extend_from_slice(system.force());
+            return;
+        }
         self.mass_basis.clear();
         self.mass_basis.resize(n * k, 0.0);
         for i in 0..n {
@@ -175,6 +178,18 @@ impl Accelerations {
             }
             self.rhs[sigma] = value;
         }
+    }
+
+    fn factor_reduced(&mut self, system: &NumericSystem, chart: &Chart) -> Result<(), SmallPivot> {
+        if !is_free(system, chart) {
+            return self.reduced.factor(chart.independent.len(), &self.matrix);
+        }
+        let factored = self.reduced.factor(system.n, system.mass());
+        if factored.is_err() {
+            self.matrix.clear();
+            self.matrix.extend_from_slice(system.mass());
+        }
+        factored
     }
 
     /// `(b - M a)_i` with the present a.
@@ -217,6 +232,11 @@ impl Accelerations {
         }
         Some(direction)
     }
+}
+
+/// Whether all velocities are independent: then `Bᵀ M B` is M, which needs no copy, and a* = 0.
+fn is_free(system: &NumericSystem, chart: &Chart) -> bool {
+    chart.dependent.is_empty() && chart.independent.iter().copied().eq(0..system.n)
 }
 
 /// A unit null vector by complete pivoting; `None` for a regular matrix.

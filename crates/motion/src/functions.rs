@@ -30,7 +30,11 @@ pub struct Functions {
     interpreter: Arc<Interpreter>,
     workspace: Workspace,
     inputs: Vec<f64>,
+    /// All values, those that are zero identically included.
     outputs: Vec<f64>,
+    /// The values computed, and where each belongs: a large mass matrix is mostly zero.
+    computed: Vec<f64>,
+    places: Vec<usize>,
     groups: Vec<Range<usize>>,
 }
 
@@ -48,10 +52,18 @@ impl Functions {
         let (symbols, values): (Vec<Symbol>, Vec<f64>) = binding.parameters.iter().copied().unzip();
         let mut lowering = Lowering::new(g).variables(variables).parameters(&symbols);
         let mut ranges = Vec::with_capacity(groups.len());
+        let mut places = Vec::new();
         let mut start = 0;
         for (name, values) in groups {
             let values = g.substitute_all(values, &binding.controls);
-            lowering = lowering.output(name, &values);
+            let (here, present): (Vec<usize>, Vec<Expr>) = values
+                .iter()
+                .enumerate()
+                .filter(|(_, &value)| !g.is_zero(value))
+                .map(|(i, &value)| (start + i, value))
+                .unzip();
+            lowering = lowering.output(name, &present);
+            places.extend(here);
             ranges.push(start..start + values.len());
             start += values.len();
         }
@@ -63,6 +75,8 @@ impl Functions {
             workspace,
             inputs: vec![0.0; variables.len()],
             outputs: vec![0.0; start],
+            computed: vec![0.0; places.len()],
+            places,
             groups: ranges,
         })
     }
@@ -80,9 +94,16 @@ impl Functions {
             *input = value;
         }
         self.interpreter
-            .evaluate(&self.inputs, &mut self.workspace, &mut self.outputs)
+            .evaluate(&self.inputs, &mut self.workspace, &mut self.computed)
             .map_err(failure)?;
-        match self.outputs.iter().position(|x| !x.is_finite()) {
+        let mut infinite = None;
+        for (&place, &value) in self.places.iter().zip(&self.computed) {
+            self.outputs[place] = value;
+            if !value.is_finite() {
+                infinite = infinite.or(Some(place));
+            }
+        }
+        match infinite {
             Some(component) => Err(EvaluationFailure::NotFinite { component }),
             None => Ok(()),
         }

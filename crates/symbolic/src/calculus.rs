@@ -3,7 +3,10 @@
 use crate::graph::Graph;
 use crate::node::{Expr, Function, Node, Symbol};
 use crate::rational::{self, Rational};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// Products of more varying factors than this are differentiated by halves.
+const MOST_VARYING: usize = 16;
 
 impl Graph {
     /// The partial derivative `∂e/∂symbol`.
@@ -15,15 +18,21 @@ impl Graph {
 
     /// The row of partial derivatives by several symbols.
     pub fn gradient(&self, e: Expr, symbols: &[Symbol]) -> Vec<Expr> {
-        symbols.iter().map(|&s| self.diff(e, s)).collect()
+        self.jacobian(&[e], symbols).swap_remove(0)
     }
 
     /// `∂eᵢ/∂symbolⱼ`, one row per expression.
+    ///
+    /// Each column costs time in proportion to what depends on its symbol, not to the whole graph.
     pub fn jacobian(&self, es: &[Expr], symbols: &[Symbol]) -> Vec<Vec<Expr>> {
         let one = self.one();
+        let dependents = Dependents::below(self, es);
         let columns: Vec<Vec<Expr>> = symbols
             .iter()
-            .map(|&symbol| self.derive(es, &|s| (s == symbol).then_some(one)))
+            .map(|&symbol| {
+                let nodes = dependents.of(self.symbol_expr(symbol));
+                self.derive_in_order(&nodes, es, &|s| (s == symbol).then_some(one))
+            })
             .collect();
         (0..es.len())
             .map(|i| columns.iter().map(|column| column[i]).collect())
@@ -34,9 +43,19 @@ impl Graph {
     ///
     /// Linear solves are differentiated as solves with the same matrix: `A x' = b' - A' x`.
     pub fn derive(&self, es: &[Expr], value: &dyn Fn(Symbol) -> Option<Expr>) -> Vec<Expr> {
+        self.derive_in_order(&self.reachable(es), es, value)
+    }
+
+    /// [`derive`](Graph::derive) where all that has a rate is among `nodes`, children before parents.
+    fn derive_in_order(
+        &self,
+        nodes: &[Expr],
+        es: &[Expr],
+        value: &dyn Fn(Symbol) -> Option<Expr>,
+    ) -> Vec<Expr> {
         let mut scalar: FxHashMap<Expr, Expr> = FxHashMap::default();
         let mut vector: FxHashMap<Expr, Vec<Expr>> = FxHashMap::default();
-        for e in self.reachable(es) {
+        for &e in nodes {
             match self.node(e) {
                 Node::Matrix { entries, .. } => {
                     if entries.iter().any(|a| scalar.contains_key(a)) {
@@ -161,6 +180,9 @@ impl Graph {
         factors: &[Expr],
         scalar: &FxHashMap<Expr, Expr>,
     ) -> Option<Expr> {
+        if factors.iter().filter(|f| scalar.contains_key(f)).count() > MOST_VARYING {
+            return self.derive_halves(coefficient, factors, scalar);
+        }
         let mut parts = Vec::new();
         for (i, factor) in factors.iter().enumerate() {
             let Some(&rate) = scalar.get(factor) else {
@@ -170,6 +192,27 @@ impl Graph {
             product[i] = rate;
             product.push(self.number(coefficient.clone()));
             parts.push(self.mul(&product));
+        }
+        (!parts.is_empty()).then(|| self.add(&parts))
+    }
+
+    /// `(A B)' = A' B + A B'` with the halves A and B: a product of k factors would become k products of k factors, and
+    /// definitions nested in each other would grow with the cube of their number.
+    fn derive_halves(
+        &self,
+        coefficient: &Rational,
+        factors: &[Expr],
+        scalar: &FxHashMap<Expr, Expr>,
+    ) -> Option<Expr> {
+        let (first, second) = factors.split_at(factors.len() / 2);
+        let mut parts = Vec::with_capacity(2);
+        for (half, other) in [(first, second), (second, first)] {
+            if let Some(rate) = self.derive_product(&Rational::ONE, half, scalar) {
+                let mut product = other.to_vec();
+                product.push(rate);
+                product.push(self.number(coefficient.clone()));
+                parts.push(self.mul(&product));
+            }
         }
         (!parts.is_empty()).then(|| self.add(&parts))
     }
@@ -251,9 +294,74 @@ impl Graph {
             .any(|n| self.as_symbol(n).is_some_and(occurs))
     }
 
+    /// Whether any of `symbols` occurs in any of `es`, in one pass over all.
+    pub fn any_contains_any(&self, es: &[Expr], symbols: &[Symbol]) -> bool {
+        let wanted: FxHashSet<Symbol> = symbols.iter().copied().collect();
+        self.reachable(es)
+            .into_iter()
+            .any(|n| self.as_symbol(n).is_some_and(|s| wanted.contains(&s)))
+    }
+
     /// The number `r` when `e` is `r`; convenience over [`Graph::as_number`] for small integers.
     pub fn as_integer(&self, e: Expr) -> Option<i64> {
         self.as_number(e).and_then(rational::to_i64)
+    }
+}
+
+/// Which nodes depend on which, for derivatives by many symbols.
+struct Dependents {
+    /// Ascending: children before parents.
+    nodes: Vec<Expr>,
+    /// The parents of node i are `parents[start[i]..start[i + 1]]`, by place.
+    start: Vec<u32>,
+    parents: Vec<u32>,
+}
+
+impl Dependents {
+    fn below(g: &Graph, roots: &[Expr]) -> Dependents {
+        let nodes = g.reachable(roots);
+        let place = |e: Expr| nodes.binary_search(&e).unwrap_or_default();
+        let mut edges: Vec<(u32, u32)> = Vec::new();
+        for (i, &e) in nodes.iter().enumerate() {
+            g.node(e)
+                .for_each_child(|child| edges.push((place(child) as u32, i as u32)));
+        }
+        edges.sort_unstable();
+        edges.dedup();
+        let mut start = vec![0u32; nodes.len() + 1];
+        for &(child, _) in &edges {
+            start[child as usize + 1] += 1;
+        }
+        for i in 0..nodes.len() {
+            start[i + 1] += start[i];
+        }
+        Dependents {
+            nodes,
+            start,
+            parents: edges.into_iter().map(|(_, parent)| parent).collect(),
+        }
+    }
+
+    /// `e` and all that depends on it, children before parents; empty where it does not occur.
+    fn of(&self, e: Expr) -> Vec<Expr> {
+        let Ok(first) = self.nodes.binary_search(&e) else {
+            return Vec::new();
+        };
+        let mut seen = FxHashSet::default();
+        seen.insert(first as u32);
+        let mut found = vec![first as u32];
+        let mut next = 0;
+        while let Some(&i) = found.get(next) {
+            next += 1;
+            let above = self.start[i as usize] as usize..self.start[i as usize + 1] as usize;
+            for &parent in &self.parents[above] {
+                if seen.insert(parent) {
+                    found.push(parent);
+                }
+            }
+        }
+        found.sort_unstable();
+        found.into_iter().map(|i| self.nodes[i as usize]).collect()
     }
 }
 
