@@ -2,7 +2,9 @@
 
 use crate::arguments::ModelArguments;
 use crate::terminal;
-use chetaev::model::{self, Diagnostics, Files, Model, Style};
+use chetaev::model::{self, Diagnostics, Files, Model, Sources, Style};
+use chetaev::study::placed;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// The file system for included files.
@@ -14,9 +16,36 @@ impl Files for Disk {
     }
 }
 
+/// A model with the texts it was read from.
+pub(crate) struct Read {
+    /// The model.
+    pub(crate) model: Model,
+    /// The texts.
+    sources: Sources,
+}
+
+impl Read {
+    /// Prints a problem of the mechanics at the places of what it names.
+    pub(crate) fn refuse(&self, problem: impl Display) {
+        report(&Diagnostics {
+            sources: self.sources.clone(),
+            list: vec![placed(&problem.to_string(), &self.model)],
+        });
+    }
+}
+
 /// Reads a model; prints all diagnostics and returns `None` when there are errors.
-pub(crate) fn model(arguments: &ModelArguments) -> Option<Model> {
+pub(crate) fn model(arguments: &ModelArguments) -> Option<Read> {
     let (model, diagnostics) = load(arguments)?;
+    report(&diagnostics);
+    Some(Read {
+        model: model?,
+        sources: diagnostics.sources,
+    })
+}
+
+/// Prints diagnostics, if there are any.
+pub(crate) fn report(diagnostics: &Diagnostics) {
     let style = if terminal::error_colours() {
         Style::Ansi
     } else {
@@ -25,7 +54,6 @@ pub(crate) fn model(arguments: &ModelArguments) -> Option<Model> {
     if !diagnostics.list.is_empty() {
         terminal::err(&diagnostics.render(style));
     }
-    model
 }
 
 /// Reads a model with its diagnostics; `None` when the file or an override cannot be read at all.

@@ -74,6 +74,14 @@ pub enum CharacteristicsError {
         /// The constraints.
         names: String,
     },
+    /// Constraints with dependent gradients that do not follow from the others.
+    #[error("the constraints contradict each other, or hide a condition that is not stated: the gradients of {names} depend on those of the others, and where the others hold {names} demand{s} {demands}; state that as a constraint of its own, or leave {names} out", s = if names.contains(',') { "" } else { "s" })]
+    Contradiction {
+        /// Names in quotes.
+        names: String,
+        /// What they demand, as equations.
+        demands: String,
+    },
     /// The wrong number of independent velocities.
     #[error("{found} independent velocities were chosen, the system has {expected}")]
     WrongNumber {

@@ -1,6 +1,7 @@
 //! The bridge between claims about systems and zero tests of expressions.
 
 use crate::characteristics::Manifold;
+use crate::redundancy::LeftOut;
 use crate::system::{Relation, System};
 use chetaev_symbolic::verdict::Counterexample;
 use chetaev_symbolic::zero::assumptions::{Assumptions, Relation as Sign};
@@ -124,28 +125,27 @@ impl Prover {
         }
     }
 
-    /// The verdict on independence when some constraints were left out: `follows` says whether they vanish where the
-    /// `rank` independent ones do.
-    pub fn dependent_rows(
-        &self,
-        _system: &System,
-        follows: Verdict,
-        names: &str,
-        rank: usize,
-    ) -> Verdict {
-        match follows {
+    /// The verdict on independence when some constraints were left out and `rank` independent ones kept.
+    pub fn dependent_rows(&self, left_out: LeftOut, rank: usize) -> Verdict {
+        let names = left_out.quoted();
+        let (follow, are, do_not) = if left_out.names.len() == 1 {
+            ("follows", "is", "does not")
+        } else {
+            ("follow", "are", "do not")
+        };
+        match left_out.follows {
             Verdict::Proved(proof) => Verdict::Refuted(Counterexample {
                 point: Vec::new(),
                 quantity: "constraints minus rank".into(),
-                residual: ("1".into(), "1".into()),
+                residual: (left_out.names.len().to_string(), left_out.names.len().to_string()),
                 detail: format!(
-                    "the rank is {rank}: {names} follow from the other constraints and are left out ({})",
+                    "the rank is {rank}: {names} {follow} from the other constraints and {are} left out ({})",
                     proof.detail
                 ),
             }),
             Verdict::Refuted(counterexample) => Verdict::Refuted(Counterexample {
                 detail: format!(
-                    "the gradients of {names} depend on those of the other constraints, but {names} do not vanish where those do: they contradict each other except on a subset"
+                    "the gradients of {names} depend on those of the other constraints, but {names} {do_not} vanish where those do: they contradict each other except on a subset"
                 ),
                 ..counterexample
             }),

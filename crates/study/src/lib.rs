@@ -9,6 +9,7 @@ pub mod motion_claims;
 mod notices;
 pub mod options;
 pub mod page;
+mod placed;
 pub mod record;
 pub mod registry;
 mod start;
@@ -19,5 +20,6 @@ pub mod typeset;
 pub mod verify;
 
 pub use options::{ClaimSelection, Hooks, StudyOptions};
+pub use placed::placed;
 pub use registry::registry;
-pub use study::{study, Decided, Motion, Outcome, Study, StudyError};
+pub use study::{check, study, Decided, Motion, Outcome, Study, StudyError};

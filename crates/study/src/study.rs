@@ -232,6 +232,44 @@ pub enum StudyError {
 /// Formulations that can be integrated by themselves.
 pub const INTEGRABLE: &[&str] = &["routh", "maggi"];
 
+/// Everything that [`study`] finds wrong before it begins: expectations, constraints that contradict each other, values
+/// that a motion needs, an initial state that cannot be used.
+///
+/// # Errors
+/// The first problem.
+pub fn check(model: &Model, hooks: &mut Hooks<'_>) -> Result<(), StudyError> {
+    prepare(model, &StudyOptions::default(), hooks).map(|_| ())
+}
+
+/// The system, its terms with independent constraints, and the start of the motion if one is asked for.
+fn prepare(
+    model: &Model,
+    options: &StudyOptions,
+    hooks: &mut Hooks<'_>,
+) -> Result<(System, Prepared, Option<Start>), StudyError> {
+    check_expectations(model, &registry())?;
+    let system = System::from_model(model)?;
+    (hooks.progress)("deriving", None);
+    let terms = chetaev_mechanics::MotionTerms::new(&system);
+    let start = start_of_motion(model, &system, &terms, options)?;
+    let selection = match chetaev_mechanics::characteristics::select(&system, &terms) {
+        Ok(selection) => selection,
+        Err(error) => match &start {
+            Some(n) => Selection {
+                rows: n.start.chart.rows.clone(),
+                dependent: n.start.chart.dependent.clone(),
+            },
+            None => return Err(error.into()),
+        },
+    };
+    if let Some(start) = &start {
+        check_rank(start, selection.rows.len())?;
+    }
+    let prepared = Prepared { terms, selection };
+    prepared.left_out(&system)?;
+    Ok((system, prepared, start))
+}
+
 /// Takes a model through its claims and its motion.
 ///
 /// # Errors
@@ -242,25 +280,7 @@ pub fn study(
     hooks: &mut Hooks<'_>,
 ) -> Result<Study, StudyError> {
     let known = registry();
-    check_expectations(&model, &known)?;
-    let system = System::from_model(&model)?;
-    (hooks.progress)("deriving", None);
-    let terms = chetaev_mechanics::MotionTerms::new(&system);
-    let numeric = start_of_motion(&model, &system, &terms, &options)?;
-    let selection = match chetaev_mechanics::characteristics::select(&system, &terms) {
-        Ok(selection) => selection,
-        Err(error) => match &numeric {
-            Some(n) => Selection {
-                rows: n.start.chart.rows.clone(),
-                dependent: n.start.chart.dependent.clone(),
-            },
-            None => return Err(error.into()),
-        },
-    };
-    if let Some(start) = &numeric {
-        check_rank(start, selection.rows.len())?;
-    }
-    let prepared = Prepared { terms, selection };
+    let (system, prepared, numeric) = prepare(&model, &options, hooks)?;
     let mut notices = notices(&model, &system, numeric.as_ref());
     let wants_motion = options.motion && options.claims.wants_group(Group::Motion, known.claims());
     let motion = match numeric {

@@ -1,46 +1,44 @@
 //! `chetaev check`.
 
-use super::error;
+use super::with_hooks;
 use crate::arguments::Check as Arguments;
 use crate::{files, terminal, DONE, INPUT};
-use chetaev::mechanics::System;
-use chetaev::model::Style;
+use chetaev::model::Model;
+use chetaev::study::{check, placed};
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
-    let Some((model, diagnostics)) = files::load(&arguments.model) else {
+    let Some((model, mut diagnostics)) = files::load(&arguments.model) else {
         return INPUT;
     };
-    let system = model.as_ref().map(System::from_model);
+    if let Some(model) = &model {
+        if let Err(problem) = with_hooks(|hooks| check(model, hooks)) {
+            diagnostics.list.push(placed(&problem.to_string(), model));
+        }
+    }
     if arguments.json {
         let text = serde_json::to_string_pretty(&diagnostics.to_data()).unwrap_or_default();
         terminal::out(&format!("{text}\n"));
-    } else if !diagnostics.list.is_empty() {
-        let style = if terminal::error_colours() {
-            Style::Ansi
-        } else {
-            Style::Plain
-        };
-        terminal::err(&diagnostics.render(style));
+    } else {
+        files::report(&diagnostics);
     }
-    match (model, system) {
-        (Some(model), Some(Ok(system))) => {
+    match model {
+        Some(model) if !diagnostics.has_errors() => {
             if !arguments.json {
-                let counts = [
-                    counted(system.n(), "coordinate"),
-                    counted(system.constraints.len(), "constraint"),
-                    counted(system.parameters.len(), "parameter"),
-                ];
-                let counts = counts.join(", ");
-                terminal::out(&format!("{}: {counts}: no errors\n", model.name));
+                terminal::out(&summary(&model));
             }
             DONE
         }
-        (_, Some(Err(problem))) => {
-            error(problem);
-            INPUT
-        }
         _ => INPUT,
     }
+}
+
+fn summary(model: &Model) -> String {
+    let counts = [
+        counted(model.coordinates.len(), "coordinate"),
+        counted(model.constraints.len(), "constraint"),
+        counted(model.parameters.len(), "parameter"),
+    ];
+    format!("{}: {}: no errors\n", model.name, counts.join(", "))
 }
 
 /// "no constraints", "1 constraint", "2 constraints".

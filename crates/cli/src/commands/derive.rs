@@ -10,7 +10,7 @@ use chetaev::symbolic::print::{Document, Format};
 use chetaev::symbolic::Expr;
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
-    let Some(model) = files::model(&arguments.model) else {
+    let Some(read) = files::model(&arguments.model) else {
         return INPUT;
     };
     let names: Vec<&str> = match &arguments.formulation {
@@ -25,17 +25,29 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         }
         None => FORMULATIONS.iter().map(|f| f.card().name).collect(),
     };
-    let system = match System::from_model(&model) {
+    let system = match System::from_model(&read.model) {
         Ok(system) => system,
         Err(problem) => {
-            error(problem);
+            read.refuse(problem);
             return INPUT;
         }
     };
-    let prepared = match Prepared::new(&system) {
-        Ok(prepared) => prepared,
+    let prepared = Prepared::new(&system).and_then(|prepared| {
+        prepared
+            .left_out(&system)
+            .map(|left_out| (prepared, left_out))
+    });
+    let prepared = match prepared {
+        Ok((prepared, None)) => prepared,
+        Ok((prepared, Some(left_out))) => {
+            terminal::err(&format!(
+                "note: redundant constraints: {} left out, the others imply what they say\n",
+                left_out.quoted()
+            ));
+            prepared
+        }
         Err(problem) => {
-            error(problem);
+            read.refuse(problem);
             return INPUT;
         }
     };

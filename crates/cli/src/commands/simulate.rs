@@ -7,7 +7,7 @@ use chetaev::study::table::Table;
 use chetaev::study::{record, study, summary, ClaimSelection, StudyOptions};
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
-    let Some(model) = files::model(&arguments.model) else {
+    let Some(read) = files::model(&arguments.model) else {
         return INPUT;
     };
     let options = StudyOptions {
@@ -18,10 +18,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         },
         ..options(&arguments.motion)
     };
-    let study = match with_hooks(|hooks| study(model, options, hooks)) {
+    let study = match with_hooks(|hooks| study(read.model.clone(), options, hooks)) {
         Ok(study) => study,
         Err(problem) => {
-            error(format!("{}: {problem}", arguments.model.model.display()));
+            read.refuse(problem);
             return INPUT;
         }
     };

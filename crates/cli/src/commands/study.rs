@@ -9,7 +9,7 @@ use chetaev::study::{page, record, registry, study, summary, ClaimSelection, Stu
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
-    let Some(model) = files::model(&arguments.model) else {
+    let Some(read) = files::model(&arguments.model) else {
         return INPUT;
     };
     let mut options = StudyOptions {
@@ -27,11 +27,11 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             }
         }
     }
-    let result = with_hooks(|hooks| study(model, options, hooks));
+    let result = with_hooks(|hooks| study(read.model.clone(), options, hooks));
     let study = match result {
         Ok(study) => study,
         Err(problem) => {
-            error(format!("{}: {problem}", arguments.model.model.display()));
+            read.refuse(problem);
             return INPUT;
         }
     };

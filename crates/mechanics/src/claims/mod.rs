@@ -9,6 +9,7 @@ pub mod model;
 
 use crate::characteristics::{self, Selection};
 use crate::prover::Prover;
+use crate::redundancy::LeftOut;
 use crate::system::System;
 use crate::terms::MotionTerms;
 use chetaev_symbolic::{Expr, Verdict};
@@ -328,5 +329,20 @@ impl Prepared {
         let terms = MotionTerms::new(system);
         let selection = characteristics::select(system, &terms)?;
         Ok(Prepared { terms, selection })
+    }
+
+    /// The constraints that are left out because they follow from the others.
+    ///
+    /// # Errors
+    /// When they contradict the others.
+    pub fn left_out(
+        &self,
+        system: &System,
+    ) -> Result<Option<LeftOut>, characteristics::CharacteristicsError> {
+        let left_out = LeftOut::find(system, &self.terms, &self.selection, &Prover::default());
+        if let Some(left_out) = &left_out {
+            left_out.check(system)?;
+        }
+        Ok(left_out)
     }
 }

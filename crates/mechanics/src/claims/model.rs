@@ -3,6 +3,8 @@
 use super::{Claim, Context, Finding, Formula, Group};
 use crate::characteristics::Manifold;
 use crate::claims::formulation::manifold;
+use crate::constraint::Constraint;
+use crate::redundancy::LeftOut;
 use crate::sample;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Rational, Verdict};
@@ -96,15 +98,15 @@ impl Claim for ConstraintsIndependent {
         if cx.terms.constraints.is_empty() {
             return no_constraints().into();
         }
-        let verdict = if cx.selection.rows.len() == cx.terms.constraints.len() {
-            cx.prover.nonsingular(
+        let left_out = LeftOut::find(cx.system, cx.terms, cx.selection, &cx.prover);
+        let verdict = match left_out {
+            None => cx.prover.nonsingular(
                 cx.system,
                 &dependent_block(cx),
                 &manifold(cx),
                 "the minor of ∂f/∂v by the dependent velocities",
-            )
-        } else {
-            redundancy(cx)
+            ),
+            Some(left_out) => cx.prover.dependent_rows(left_out, cx.selection.rows.len()),
         };
         verdict.into()
     }
@@ -124,35 +126,6 @@ fn dependent_block(cx: &Context<'_>) -> Vec<Vec<Expr>> {
                 .collect()
         })
         .collect()
-}
-
-/// The rows left out depend on the others: f of a left-out row vanishes where the selected ones do.
-fn redundancy(cx: &Context<'_>) -> Verdict {
-    let dropped: Vec<usize> = (0..cx.terms.constraints.len())
-        .filter(|row| !cx.selection.rows.contains(row))
-        .collect();
-    let residuals: Vec<Expr> = dropped
-        .iter()
-        .map(|&row| cx.terms.constraints[row])
-        .collect();
-    let names: Vec<String> = dropped
-        .iter()
-        .map(|&row| {
-            format!(
-                "`{}`",
-                cx.system.constraints[cx.terms.constraint_index[row]].name
-            )
-        })
-        .collect();
-    let names = names.join(", ");
-    let follows = cx.prover.identity(
-        cx.system,
-        &residuals,
-        &manifold(cx),
-        "on the constraint manifold",
-    );
-    cx.prover
-        .dependent_rows(cx.system, follows, &names, cx.selection.rows.len())
 }
 
 /// `model.accelerations-unique`.
@@ -232,20 +205,25 @@ impl Claim for ConstraintsLinear {
 
     fn explanation(&self) -> &'static str {
         "Every constraint has the form a(q,t)·v + a₀(q,t) = 0: its derivatives by the velocities contain no velocities, or \
-         f(v) + f(w) = f(v + w) + f(0) identically. \
+         f(v) + f(w) = f(v + w) + f(0) identically. A constraint of order m is linear if it is so in its derivatives of \
+         order m. \
          Affine constraints (a₀ ≠ 0) count as linear here; `model.constraints-homogeneous` tells them apart."
     }
 
+    fn highest_order(&self) -> u32 {
+        u32::MAX
+    }
+
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
-        if cx.terms.constraints.is_empty() {
+        if cx.system.constraints.is_empty() {
             return no_constraints().into();
         }
-        let rows = 0..cx.terms.constraints.len();
-        let residuals: Vec<Expr> = rows
-            .filter(|&row| {
-                !cx.system.constraints[cx.terms.constraint_index[row]].is_affine_in_velocities()
-            })
-            .map(|row| additivity(cx, cx.terms.constraints[row]))
+        let residuals: Vec<Expr> = cx
+            .system
+            .constraints
+            .iter()
+            .filter(|constraint| !constraint.is_affine_in_velocities())
+            .map(|constraint| additivity(cx, constraint))
             .filter(|&e| !cx.system.graph.is_zero(e))
             .collect();
         if residuals.is_empty() {
@@ -266,16 +244,21 @@ impl Claim for ConstraintsLinear {
     }
 }
 
-/// `f(v) + f(w) - f(v + w) - f(0)`, which vanishes for affine functions only; unlike second derivatives it sees the corner
-/// of |x'|.
-fn additivity(cx: &Context<'_>, f: Expr) -> Expr {
-    let g = &cx.system.graph;
-    let coordinates = &cx.system.coordinates;
-    let other = |name: &str| g.symbol(&format!("{name}_other"), 1);
+/// `f(v) + f(w) - f(v + w) - f(0)` in the highest derivatives v, which vanishes for affine functions only; unlike second
+/// derivatives it sees the corner of |x'|.
+fn additivity(cx: &Context<'_>, constraint: &Constraint) -> Expr {
+    let (g, f) = (&cx.system.graph, constraint.f);
+    let order = constraint.order.max(1);
+    let other = |name: &str| g.symbol(&format!("{name}_other"), order);
     let at = |value: &dyn Fn(Expr, &str) -> Expr| {
-        let pairs: Vec<(Expr, Expr)> = coordinates
+        let pairs: Vec<(Expr, Expr)> = cx
+            .system
+            .coordinates
             .iter()
-            .map(|c| (c.v, value(c.v, &c.name)))
+            .map(|c| {
+                let highest = g.symbol(&c.name, order);
+                (highest, value(highest, &c.name))
+            })
             .collect();
         g.substitute(f, &pairs)
     };
@@ -393,18 +376,23 @@ impl Claim for ConstraintsScleronomic {
     }
 
     fn explanation(&self) -> &'static str {
-        "∂f/∂t vanishes identically for every constraint; controls u(t) count as explicit time."
+        "∂f/∂t vanishes identically for every constraint as it is stated, for a holonomic one g(q, t) = 0 that of g; controls \
+         u(t) count as explicit time."
+    }
+
+    fn highest_order(&self) -> u32 {
+        u32::MAX
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
-        if cx.terms.constraints.is_empty() {
+        if cx.system.constraints.is_empty() {
             return no_constraints().into();
         }
         let residuals: Vec<Expr> = cx
-            .terms
+            .system
             .constraints
             .iter()
-            .map(|&f| cx.system.time_derivative(f))
+            .map(|constraint| cx.system.time_derivative(constraint.stated))
             .filter(|&e| !cx.system.graph.is_zero(e))
             .collect();
         if residuals.is_empty() {

@@ -1,0 +1,46 @@
+//! Problems of the mechanics shown where the model states what they name.
+
+use chetaev_model::model::Model;
+use chetaev_model::{Diagnostic, Place};
+
+/// A diagnostic at the places of the constraints, parameters, controls, initial values and coordinates that `problem`
+/// names in quotes (`` `roll` ``); where it names none, at the initial data or at the beginning of the file.
+pub fn placed(problem: &str, model: &Model) -> Diagnostic {
+    let mut places: Vec<Place> = Vec::new();
+    for name in problem.split('`').skip(1).step_by(2) {
+        if let Some(place) = place_of(name, model) {
+            if !places.contains(&place) {
+                places.push(place);
+            }
+        }
+    }
+    let mut places = places.into_iter();
+    let first = places
+        .next()
+        .or_else(|| model.initial.values.values().map(|given| given.place).min())
+        .unwrap_or_default();
+    places.fold(
+        Diagnostic::error("mechanics", first, problem),
+        |diagnostic, place| diagnostic.related(place, "and here"),
+    )
+}
+
+fn place_of(name: &str, model: &Model) -> Option<Place> {
+    let base = name.trim_end_matches('\'');
+    let order = u32::try_from(name.len() - base.len()).ok()?;
+    let coordinate = model.coordinates.iter().position(|c| c.name == base);
+    let constraint = model.constraints.iter().find(|c| c.name == name);
+    let parameter = model.parameters.iter().find(|p| p.name == name);
+    let control = model.controls.iter().find(|u| u.name == name);
+    let assumption = model.assumptions.iter().find(|a| a.text == name);
+    constraint
+        .map(|c| c.place)
+        .or_else(|| parameter.map(|p| p.place))
+        .or_else(|| control.map(|u| u.place))
+        .or_else(|| assumption.map(|a| a.place))
+        .or_else(|| {
+            let given = model.initial.values.get(&(coordinate?, order));
+            given.map(|value| value.place)
+        })
+        .or_else(|| Some(model.coordinates[coordinate?].place))
+}
