@@ -1,117 +1,331 @@
-//! The observed order of a method on a model: a piece of the motion by fixed steps of decreasing size.
+//! The observed order of a method on a model: pieces of the motion by fixed steps of decreasing size.
+//!
+//! The order is the limit of the slope of the error against the step. Long steps have not come to that limit and short ones
+//! drown in rounding, so stretches of several lengths and places are tried until the slopes of neighbouring steps agree.
+//! Where a motion crosses a corner of its equations the stretch across the corner is measured instead.
+
+mod corners;
 
 use crate::options::Hooks;
-use chetaev_motion::{Run, RunSettings, StateKind, Subject};
+use chetaev_motion::{chart, ConsistentState, Run, RunSettings, StateKind, Subject};
+pub use corners::Corner;
 
 /// Observed order of convergence at fixed steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Orders {
     /// Step sizes.
     pub steps: Vec<f64>,
-    /// Largest error at the end of the interval for each.
+    /// Errors on the stretch: root of the mean square over places and components, each relative to 1 + its size.
     pub errors: Vec<f64>,
-    /// Slope of the errors that lie above round-off; none where fewer than three do or they do not fall regularly.
+    /// Slope of the errors where neighbouring slopes agree; across a corner, of all of them. None where they never agree.
     pub observed: Option<f64>,
-    /// Largest difference of the slopes between neighbouring step sizes.
+    /// Largest difference of the slopes used; across a corner, twice the standard error of the slope.
     pub spread: f64,
     /// Nominal order.
     pub nominal: f64,
+    /// The stretch of time measured.
+    pub stretch: (f64, f64),
+    /// Where the equations are not smooth on the stretch.
+    pub corner: Option<Corner>,
+    /// Stretches tried.
+    pub tried: usize,
 }
 
-/// Numbers of steps over the piece; the last gives the reference.
-const COUNTS: [u32; 6] = [4, 6, 8, 12, 16, 40];
-/// Slopes that differ by more do not show an order.
-const REGULAR: f64 = 2.5;
-/// Pieces tried, each shorter than the one before.
-const PIECES: i32 = 20;
+impl Orders {
+    /// Whether the order falls short of the nominal one for a reason found in the equations themselves.
+    pub fn falls_short(&self) -> bool {
+        self.corner.is_some()
+            && self
+                .observed
+                .is_some_and(|observed| observed + self.spread <= self.nominal - SHORT)
+    }
 
-/// Fixed steps of decreasing size over a short piece at the start of the run, against a finer one. The piece is shortened
-/// until the errors fall regularly above round-off. All velocities are integrated, so that charts do not matter.
+    /// Whether the nominal order was reached.
+    pub fn is_shown(&self) -> bool {
+        self.observed
+            .is_some_and(|observed| observed >= self.nominal - 2.0 * NEAR)
+    }
+}
+
+/// Numbers of steps over a stretch, multiples of the number of places at which errors are taken.
+const COUNTS: [u32; 6] = [4, 8, 12, 16, 24, 32];
+/// Steps of the reference.
+const REFERENCE: u32 = 64;
+/// Places along a stretch where errors are taken: the error of one place may change sign.
+const PLACES: u32 = 4;
+/// Numbers of steps across a corner, and of their reference. The error depends on where the corner falls in a step, so that
+/// only many halvings show a slope.
+const HALVINGS: [u32; 6] = [8, 16, 32, 64, 128, 256];
+const CORNER_REFERENCE: u32 = 2048;
+/// Slopes that differ by more than this fraction of the nominal order do not show an order.
+const REGULAR: f64 = 0.125;
+/// Slopes needed side by side.
+const SLOPES: usize = 3;
+/// An observed order this near to the nominal one ends the search.
+const NEAR: f64 = 0.5;
+/// An order that is lower by this much falls short.
+const SHORT: f64 = 1.5;
+/// Errors outside of these bounds are rounding or have no order yet.
+const ROUNDING: f64 = 2e-13;
+const LARGE: f64 = 1e-2;
+/// Most fixed steps spent.
+const MOST_STEPS: u32 = 4000;
+/// Lengths of stretches over that of 24 average steps of the run, in the order tried.
+const LENGTHS: [f64; 12] = [
+    1.0, 0.6, 0.36, 1.7, 0.2, 2.8, 0.1, 8.0, 0.05, 0.02, 30.0, 0.005,
+];
+
+/// The order of the method on this motion; `None` where no stretch can be integrated by fixed steps. All velocities are
+/// integrated, so that charts do not matter.
 pub(crate) fn observed_order(
     subject: &Subject<'_>,
     settings: &RunSettings,
     run: &Run,
     hooks: &mut Hooks<'_>,
 ) -> Option<Orders> {
-    let nominal =
-        chetaev_integrate::method(&settings.method).map_or(8.0, |m| f64::from(m.card().order));
+    (hooks.progress)("measuring the order of the method", None);
     let span = run.t - subject.start.t;
     if span == 0.0 || !span.is_finite() {
         return None;
     }
-    let average = span / run.statistics.steps.max(1) as f64;
-    let mut best: Option<Orders> = None;
-    for piece in 0..PIECES {
-        (hooks.progress)("measuring the order of the method", None);
-        let longest = (64.0 * average).abs().min(span.abs());
-        let length = longest * span.signum() * 0.75f64.powi(piece);
-        let fixed = RunSettings {
-            t_end: subject.start.t + length,
-            times: vec![subject.start.t + length],
-            state: StateKind::Full,
-            ..settings.clone()
-        };
-        let finals: Option<Vec<Vec<f64>>> = COUNTS
-            .iter()
-            .map(|&count| subject.routh_fixed(&fixed, (length / f64::from(count)).abs()))
-            .collect();
-        let Some(finals) = finals else { continue };
-        let found = orders(&finals, length, nominal);
-        if best.as_ref().is_none_or(|b| found.spread < b.spread) {
-            best = Some(found);
-        }
-        if best.as_ref().is_some_and(|b| b.spread < 0.7) {
-            break;
-        }
-    }
-    best
-}
-
-fn orders(finals: &[Vec<f64>], length: f64, nominal: f64) -> Orders {
-    let reference = &finals[finals.len() - 1];
-    let mut steps = Vec::new();
-    let mut errors = Vec::new();
-    for (result, &count) in finals.iter().zip(&COUNTS).take(finals.len() - 1) {
-        let error = result
-            .iter()
-            .zip(reference)
-            .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs() / (1.0 + b.abs())));
-        steps.push((length / f64::from(count)).abs());
-        errors.push(error);
-    }
-    let logs: Vec<(f64, f64)> = steps
-        .iter()
-        .zip(&errors)
-        .filter(|(_, &error)| error > 2e-13 && error < 1e-2)
-        .map(|(h, error)| (h.ln(), error.ln()))
-        .collect();
-    let slopes: Vec<f64> = logs
-        .windows(2)
-        .map(|w| (w[0].1 - w[1].1) / (w[0].0 - w[1].0))
-        .collect();
-    // From the coarsest steps on, as far as the errors fall regularly: beyond is the rounding of the equations themselves.
-    let regular = slopes
-        .iter()
-        .take_while(|&&slope| (slope - slopes[0]).abs() <= REGULAR)
-        .count();
-    let (slopes, logs) = (&slopes[..regular], &logs[..logs.len().min(regular + 1)]);
-    let extreme = |start: f64, pick: fn(f64, f64) -> f64| slopes.iter().copied().fold(start, pick);
-    let spread = match regular {
-        0 | 1 => f64::INFINITY,
-        _ => extreme(f64::NEG_INFINITY, f64::max) - extreme(f64::INFINITY, f64::min),
-    };
-    Orders {
-        // The finest steps are nearest to the limit in which the order is defined.
-        observed: (spread <= REGULAR).then(|| slope(&logs[logs.len().saturating_sub(3)..])),
-        steps,
-        errors,
-        spread,
+    let nominal =
+        chetaev_integrate::method(&settings.method).map_or(8.0, |m| f64::from(m.card().order));
+    let laboratory = Laboratory {
+        subject,
+        settings,
+        run,
         nominal,
+        average: span / run.statistics.steps.max(1) as f64,
+    };
+    match corners::first(subject, run) {
+        Some(corner) => laboratory.across(corner),
+        None => laboratory.search(),
     }
 }
 
-/// The slope of the straight line of least squares.
-fn slope(points: &[(f64, f64)]) -> f64 {
+struct Laboratory<'a> {
+    subject: &'a Subject<'a>,
+    settings: &'a RunSettings,
+    run: &'a Run,
+    nominal: f64,
+    /// Signed average step of the run.
+    average: f64,
+}
+
+impl Laboratory<'_> {
+    /// Stretches of several lengths at several places, until one shows the nominal order.
+    fn search(&self) -> Option<Orders> {
+        let rows = self.run.len();
+        let mut places = vec![0, rows / 2, rows / 4, rows * 3 / 4];
+        places.dedup();
+        let mut best: Option<Orders> = None;
+        let (mut spent, mut tried) = (0, 0);
+        'all: for length in LENGTHS {
+            for &place in &places {
+                let Some(start) = self.start_at(place) else {
+                    continue;
+                };
+                let room = self.run.t - start.t;
+                let length = (24.0 * self.average * length).abs().min(room.abs());
+                if length <= 1e-9 * (1.0 + start.t.abs()) || spent >= MOST_STEPS {
+                    continue;
+                }
+                spent += COUNTS.iter().sum::<u32>() + REFERENCE;
+                let Some(found) = self.measure(&start, length * room.signum()) else {
+                    continue;
+                };
+                tried += 1;
+                if best.as_ref().is_none_or(|b| better(&found, b)) {
+                    best = Some(found);
+                }
+                let near = |o: f64| (o - self.nominal).abs() <= NEAR;
+                if best.as_ref().is_some_and(|b| b.observed.is_some_and(near)) {
+                    break 'all;
+                }
+            }
+        }
+        best.map(|best| Orders { tried, ..best })
+    }
+
+    /// The state of a row as a start.
+    fn start_at(&self, row: usize) -> Option<ConsistentState> {
+        if row == 0 {
+            return Some(self.subject.start.clone());
+        }
+        let (values, layout) = (self.run.row(row), self.run.layout);
+        let (q, v) = (values[layout.q()].to_vec(), values[layout.v()].to_vec());
+        let mut numeric = self.subject.numeric.clone();
+        let t = self.run.times[row];
+        numeric.evaluate(t, &q, &v).ok()?;
+        let chart = chart::choose(
+            numeric.jacobian(),
+            numeric.r,
+            numeric.n,
+            &numeric.mass_diagonal(),
+        );
+        let same = chart.rank() == self.subject.start.chart.rank();
+        let start = self.subject.start.clone();
+        same.then_some(ConsistentState {
+            t,
+            q,
+            v,
+            chart,
+            ..start
+        })
+    }
+
+    fn measure(&self, start: &ConsistentState, length: f64) -> Option<Orders> {
+        let reference = self.states(start, length, REFERENCE, PLACES)?;
+        let mut points = Vec::new();
+        for count in COUNTS {
+            let states = self.states(start, length, count, PLACES)?;
+            points.push((
+                (length / f64::from(count)).abs(),
+                error(&states, &reference),
+            ));
+        }
+        let (observed, spread) = settled(&points, self.nominal);
+        Some(self.orders(
+            points,
+            (observed, spread),
+            (start.t, start.t + length),
+            None,
+        ))
+    }
+
+    /// Errors at the end of a stretch with a corner inside, over many halvings of the step.
+    fn across(&self, corner: Corner) -> Option<Orders> {
+        let margin = 2.0 * self.average;
+        let forward = margin.signum();
+        let before = |t: f64| (corner.t - margin - t) * forward >= 0.0;
+        let rows = self.run.times.iter().take_while(|&&t| before(t)).count();
+        let start = self.start_at(rows.saturating_sub(1))?;
+        let room = (self.run.t - start.t).abs();
+        let length = (corner.t + margin - start.t).abs().min(room) * forward;
+        let reference = self.states(&start, length, CORNER_REFERENCE, 1)?;
+        let mut points = Vec::new();
+        for count in HALVINGS {
+            let states = self.states(&start, length, count, 1)?;
+            points.push((
+                (length / f64::from(count)).abs(),
+                error(&states, &reference),
+            ));
+        }
+        let logs = logarithms(&points);
+        let slope = (logs.len() + 1 >= HALVINGS.len()).then(|| line(&logs));
+        let stretch = (start.t, start.t + length);
+        let found = (
+            slope.map(|s| s.0),
+            slope.map_or(f64::INFINITY, |s| 2.0 * s.1),
+        );
+        Some(self.orders(points, found, stretch, Some(corner)))
+    }
+
+    /// (q, v) at equal parts of the stretch by `count` fixed steps; `None` when the run does not get there.
+    fn states(
+        &self,
+        start: &ConsistentState,
+        length: f64,
+        count: u32,
+        places: u32,
+    ) -> Option<Vec<f64>> {
+        let part = length / f64::from(places);
+        let n = self.subject.numeric.n;
+        let mut here = start.clone();
+        let mut states = Vec::new();
+        for place in 1..=places {
+            let end = start.t + f64::from(place) * part;
+            let fixed = RunSettings {
+                t_end: end,
+                times: vec![end],
+                state: StateKind::Full,
+                ..self.settings.clone()
+            };
+            let subject = Subject {
+                start: &here,
+                ..*self.subject
+            };
+            let state = subject.routh_fixed(&fixed, (length / f64::from(count)).abs())?;
+            here.t = end;
+            here.q.copy_from_slice(&state[..n]);
+            here.v.copy_from_slice(&state[n..]);
+            states.extend(state);
+        }
+        Some(states)
+    }
+
+    fn orders(
+        &self,
+        points: Vec<(f64, f64)>,
+        (observed, spread): (Option<f64>, f64),
+        stretch: (f64, f64),
+        corner: Option<Corner>,
+    ) -> Orders {
+        let (steps, errors) = points.into_iter().unzip();
+        Orders {
+            steps,
+            errors,
+            observed,
+            spread,
+            nominal: self.nominal,
+            stretch,
+            corner,
+            tried: 1,
+        }
+    }
+}
+
+/// Whether `a` shows an order more clearly than `b`: nearer to the nominal one, which smooth equations have in the limit.
+fn better(a: &Orders, b: &Orders) -> bool {
+    match (a.observed, b.observed) {
+        (Some(x), Some(y)) => (x - a.nominal).abs() < (y - b.nominal).abs(),
+        (seen, before) => seen.is_some() && before.is_none(),
+    }
+}
+
+fn error(states: &[f64], reference: &[f64]) -> f64 {
+    let squares: f64 = states
+        .iter()
+        .zip(reference)
+        .map(|(a, b)| ((a - b) / (1.0 + b.abs())).powi(2))
+        .sum();
+    (squares / states.len().max(1) as f64).sqrt()
+}
+
+fn logarithms(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let usable = |&&(_, error): &&(f64, f64)| error > ROUNDING && error < LARGE;
+    points
+        .iter()
+        .filter(usable)
+        .map(|(h, error)| (h.ln(), error.ln()))
+        .collect()
+}
+
+/// The slope where neighbouring slopes agree, and their spread: of the finest such steps, or of those nearest to the nominal
+/// order, since rounding can look regular too.
+fn settled(points: &[(f64, f64)], nominal: f64) -> (Option<f64>, f64) {
+    let logs = logarithms(points);
+    let mut found = (None, f64::INFINITY);
+    for window in logs.windows(SLOPES + 1) {
+        let slopes = window
+            .windows(2)
+            .map(|w| (w[0].1 - w[1].1) / (w[0].0 - w[1].0));
+        let (least, most) = slopes.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), s| {
+            (a.min(s), b.max(s))
+        });
+        let (slope, _) = line(window);
+        let nearer = found
+            .0
+            .is_none_or(|x: f64| (slope - nominal).abs() <= (x - nominal).abs());
+        if most - least <= REGULAR * nominal && nearer {
+            found = (Some(slope), most - least);
+        }
+    }
+    found
+}
+
+/// The slope of the straight line of least squares and its standard error.
+fn line(points: &[(f64, f64)]) -> (f64, f64) {
     let n = points.len() as f64;
     let (mx, my) = points
         .iter()
@@ -121,5 +335,10 @@ fn slope(points: &[(f64, f64)]) -> f64 {
         xy += (x - mx) * (y - my);
         xx += (x - mx) * (x - mx);
     }
-    xy / xx
+    let slope = xy / xx;
+    let rest: f64 = points
+        .iter()
+        .map(|(x, y)| (y - my - slope * (x - mx)).powi(2))
+        .sum();
+    (slope, (rest / (n - 2.0).max(1.0) / xx).sqrt())
 }
