@@ -184,7 +184,9 @@ impl Accelerations {
         if !is_free(system, chart) {
             return self.reduced.factor(chart.independent.len(), &self.matrix);
         }
-        let factored = self.reduced.factor(system.n, system.mass());
+        let factored = self
+            .reduced
+            .factor_within(system.n, system.mass(), system.mass_envelope());
         if factored.is_err() {
             self.matrix.clear();
             self.matrix.extend_from_slice(system.mass());

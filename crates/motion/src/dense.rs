@@ -116,6 +116,10 @@ pub struct Symmetric {
     l: Vec<f64>,
     /// The column of the first entry of each row.
     first: Vec<usize>,
+    /// The rows below the diagonal that reach column j are `below[start[j]..start[j + 1]]`, ascending.
+    start: Vec<usize>,
+    below: Vec<usize>,
+    scan: Vec<usize>,
     definite: bool,
     lu: Lu,
 }
@@ -126,7 +130,32 @@ impl Symmetric {
     /// # Errors
     /// [`SmallPivot`] when the matrix is numerically singular.
     pub fn factor(&mut self, n: usize, a: &[f64]) -> Result<(), SmallPivot> {
+        let first = |i: usize| {
+            let row = &a[i * n..i * n + i];
+            row.iter().position(|&x| x != 0.0).unwrap_or(i)
+        };
+        let mut scan = std::mem::take(&mut self.scan);
+        scan.clear();
+        scan.extend((0..n).map(first));
+        let factored = self.factor_within(n, a, &scan);
+        self.scan = scan;
+        factored
+    }
+
+    /// [`factor`](Self::factor) where the entries of row i left of column `first[i]` are known to be zero.
+    ///
+    /// # Errors
+    /// [`SmallPivot`] when the matrix is numerically singular.
+    pub fn factor_within(
+        &mut self,
+        n: usize,
+        a: &[f64],
+        first: &[usize],
+    ) -> Result<(), SmallPivot> {
         self.n = n;
+        if self.first != first {
+            self.enter(first);
+        }
         self.definite = self.factor_definite(a);
         if self.definite {
             Ok(())
@@ -135,33 +164,45 @@ impl Symmetric {
         }
     }
 
+    fn enter(&mut self, first: &[usize]) {
+        self.first.clear();
+        self.first.extend_from_slice(first);
+        let mut columns = vec![Vec::new(); first.len()];
+        for (i, &from) in first.iter().enumerate() {
+            for column in &mut columns[from..i] {
+                column.push(i);
+            }
+        }
+        self.start.clear();
+        self.start.push(0);
+        self.below.clear();
+        for column in columns {
+            self.below.extend(column);
+            self.start.push(self.below.len());
+        }
+    }
+
     fn factor_definite(&mut self, a: &[f64]) -> bool {
         let n = self.n;
         self.l.resize(n * n, 0.0);
-        self.first.clear();
-        for i in 0..n {
-            let row = &a[i * n..i * n + i + 1];
-            let first = row.iter().position(|&x| x != 0.0).unwrap_or(i);
-            self.first.push(first);
-            self.l[i * n + first..i * n + i + 1].copy_from_slice(&row[first..]);
+        for (i, &from) in self.first.iter().enumerate() {
+            let row = i * n + from..i * n + i + 1;
+            self.l[row.clone()].copy_from_slice(&a[row]);
         }
         let largest = (0..n).fold(0.0, |m: f64, i| m.max(a[i * n + i].abs()));
         for j in 0..n {
-            let start = self.first[j];
+            let from = self.first[j];
             let mut d = self.l[j * n + j];
-            for m in start..j {
+            for m in from..j {
                 d -= self.l[j * n + m] * self.l[j * n + m] * self.l[m * n + m];
             }
             if d.is_nan() || d <= negligible(n) * largest {
                 return false;
             }
             self.l[j * n + j] = d;
-            for i in j + 1..n {
-                if self.first[i] > j {
-                    continue;
-                }
+            for &i in &self.below[self.start[j]..self.start[j + 1]] {
                 let mut value = a[i * n + j];
-                for m in start.max(self.first[i])..j {
+                for m in from.max(self.first[i])..j {
                     value -= self.l[i * n + m] * self.l[j * n + m] * self.l[m * n + m];
                 }
                 self.l[i * n + j] = value / d;
@@ -185,8 +226,8 @@ impl Symmetric {
             *value /= self.l[i * n + i];
         }
         for i in (0..n).rev() {
-            let below = (i + 1..n).filter(|&j| self.first[j] <= i);
-            let sum: f64 = below.map(|j| self.l[j * n + i] * b[j]).sum();
+            let below = &self.below[self.start[i]..self.start[i + 1]];
+            let sum: f64 = below.iter().map(|&j| self.l[j * n + i] * b[j]).sum();
             b[i] -= sum;
         }
     }

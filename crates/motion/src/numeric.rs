@@ -43,6 +43,7 @@ pub struct NumericSystem {
     pub affine: Vec<bool>,
     /// Rows of the holonomic constraints.
     pub holonomic: Vec<usize>,
+    mass_envelope: Vec<usize>,
     dynamics: Functions,
     kinematics: Functions,
     positions: Functions,
@@ -163,6 +164,7 @@ impl NumericSystem {
                 .map(|row| constraint(row).is_affine_in_velocities())
                 .collect(),
             holonomic,
+            mass_envelope: envelope(g, &terms.mass_matrix),
             dynamics: Functions::new(g, binding, &binding.variables, &groups)?,
             kinematics: Functions::new(g, binding, &binding.variables, &groups[2..5])?,
             positions: Functions::new(
@@ -225,6 +227,11 @@ impl NumericSystem {
         self.dynamics.group(MASS)
     }
 
+    /// For each row of M the first column that is not zero identically, at most the diagonal.
+    pub fn mass_envelope(&self) -> &[usize] {
+        &self.mass_envelope
+    }
+
     /// b, length n.
     pub fn force(&self) -> &[f64] {
         self.dynamics.group(FORCE)
@@ -264,6 +271,13 @@ impl NumericSystem {
     pub fn is_affine(&self) -> bool {
         self.affine.iter().all(|&a| a)
     }
+}
+
+fn envelope(g: &Graph, mass_matrix: &[Vec<Expr>]) -> Vec<usize> {
+    let first = |(i, row): (usize, &Vec<Expr>)| {
+        row.iter().take(i).position(|&e| !g.is_zero(e)).unwrap_or(i)
+    };
+    mass_matrix.iter().enumerate().map(first).collect()
 }
 
 /// Workspace of [`NumericSystem::complete_velocities`].
