@@ -65,6 +65,9 @@ pub struct Options<'a> {
     pub step: StepSize,
     /// What is recorded.
     pub output: Output,
+    /// Whether a run that ends before the end of its span records the state it has reached although its time was not asked
+    /// for.
+    pub record_last: bool,
     /// Whether the polynomials of all steps are kept ([`Solution::trajectory`]); memory grows with the steps.
     pub keep_trajectory: bool,
     /// Most accepted steps.
@@ -102,6 +105,7 @@ impl<'a> Options<'a> {
                 most: None,
             },
             output: Output::Steps,
+            record_last: false,
             keep_trajectory: false,
             step_limit: 10_000_000,
             stiffness: StiffnessPolicy::StopAfter(100_000),
@@ -142,6 +146,7 @@ impl<'a> Options<'a> {
             error: self.error.clone(),
             step: self.step,
             output: self.output.clone(),
+            record_last: self.record_last,
             keep_trajectory: self.keep_trajectory,
             step_limit: self.step_limit,
             stiffness: self.stiffness,

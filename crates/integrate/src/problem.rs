@@ -33,6 +33,12 @@ pub enum EvaluationFailure {
         /// Index of the first component that is not finite.
         component: usize,
     },
+    /// A constraint that held at the start of the step is violated by a jump: a branch of it has ended in between.
+    #[error("constraint {constraint} jumps away from the motion")]
+    LeftConstraint {
+        /// Number of the constraint.
+        constraint: usize,
+    },
     /// An elementary function was evaluated outside of its domain (log or sqrt of a negative number, x/0, …).
     #[error("operation {operation} is evaluated outside of its domain")]
     Domain {
@@ -57,6 +63,11 @@ pub enum HaltReason {
     /// Constraints that were consistent contradict each other now.
     Contradiction {
         /// Number of the constraint whose residual does not vanish.
+        constraint: usize,
+    },
+    /// A constraint that held at the start of the last step is violated by a jump at its end.
+    LeftConstraint {
+        /// Number of the constraint.
         constraint: usize,
     },
     /// Anything else, by the caller's own code.

@@ -462,7 +462,8 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
     }
 
     fn finish(mut self, stop: Stop) -> Solution {
-        if self.schedule.with_last() {
+        let early = self.options.record_last && stop != Stop::Finished;
+        if self.schedule.with_last() || early {
             // The output may fail where the run failed; the state itself is kept in any case.
             let _ = self.record_state(true);
         }

@@ -3,6 +3,7 @@
 use crate::accelerations::{Accelerations, SolveFailure};
 use crate::chart::{self, Chart};
 use crate::least_norm::{identity, least_step, norm};
+use crate::nearest::{both, draw, perturb, Nearest, DRAWS};
 use crate::numeric::NumericSystem;
 
 /// Given and free initial data of the coordinates and velocities.
@@ -196,27 +197,56 @@ impl Search<'_> {
         })
     }
 
-    /// Newton from several starting points; leaves q as it was when none converges.
+    /// Newton from the start, and where that fails from several starting points, of whose solutions the nearest is taken;
+    /// leaves q as it was when none converges.
     fn search_positions(&mut self, t: f64, movable: &[usize]) -> Result<bool, InitialError> {
-        let start = self.q.clone();
+        if self.solve_positions(t, movable)? {
+            return Ok(true);
+        }
+        let start = self.data.q.clone();
+        let searched = both(movable, &self.system.constrained_positions);
         let mut generator = chetaev_mechanics::sample::Generator::new(5);
-        for attempt in 0..STARTS {
+        let mut nearest = Nearest::default();
+        for _ in 1..STARTS {
             self.q.clone_from(&start);
-            if attempt > 0 {
-                perturb(&mut self.q, movable, &mut generator);
-            }
+            perturb(&mut self.q, &searched, &mut generator);
             // A start outside the domain of a function is no reason to give up, unless it is the given one.
-            let outcome = self
-                .newton_positions(t, movable)
-                .and_then(|()| self.largest_position_residual());
-            match outcome {
-                Ok(residual) if residual <= tolerance(&self.q) => return Ok(true),
-                Err(error) if attempt == 0 => return Err(error),
-                _ => {}
+            if !self.solve_positions(t, movable).unwrap_or(false) {
+                continue;
+            }
+            nearest.offer(&start, &self.q);
+            if self.draw_positions_near(t, &start, movable)
+                && self.solve_positions(t, movable).unwrap_or(false)
+            {
+                nearest.offer(&start, &self.q);
             }
         }
-        self.q = start;
-        Ok(false)
+        let found = nearest.found.is_some();
+        self.q = nearest.found.unwrap_or(start);
+        Ok(found)
+    }
+
+    fn solve_positions(&mut self, t: f64, movable: &[usize]) -> Result<bool, InitialError> {
+        self.newton_positions(t, movable)?;
+        Ok(self.largest_position_residual()? <= tolerance(&self.q))
+    }
+
+    /// Moves q on the constraints towards the point nearest to `start`: half-way, again and again, to the point of the
+    /// linearized constraints with the least change.
+    fn draw_positions_near(&mut self, t: f64, start: &[f64], movable: &[usize]) -> bool {
+        let n = self.system.n;
+        for _ in 0..DRAWS {
+            if self.evaluate_positions(t).is_err() {
+                return false;
+            }
+            let gradient = self.system.position_gradient().to_vec();
+            let residual = self.system.position_residual().to_vec();
+            let metric = self.metric(t);
+            draw(&mut self.q, start, (&gradient, &residual), |f| {
+                least_step(&gradient, f, n, movable, &metric)
+            });
+        }
+        true
     }
 
     fn newton_positions(&mut self, t: f64, movable: &[usize]) -> Result<(), InitialError> {
@@ -350,21 +380,46 @@ impl Search<'_> {
             && largest(self.system.residual()) <= 2e-12 * (1.0 + largest(&self.v))
     }
 
-    /// Newton from several starting points; leaves v as it was when none converges.
+    /// Newton from the start, and where that fails from several starting points, of whose solutions the nearest is taken;
+    /// leaves v as it was when none converges.
     fn search_velocities(&mut self, movable: &[usize]) -> bool {
         let start = self.v.clone();
+        if self.newton_velocities(movable) {
+            return true;
+        }
+        let searched = both(movable, &self.system.constrained_velocities);
         let mut generator = chetaev_mechanics::sample::Generator::new(7);
-        for attempt in 0..STARTS {
-            self.v = start.clone();
-            if attempt > 0 {
-                perturb(&mut self.v, movable, &mut generator);
+        let mut nearest = Nearest::default();
+        for _ in 1..STARTS {
+            self.v.clone_from(&start);
+            perturb(&mut self.v, &searched, &mut generator);
+            if !self.newton_velocities(movable) {
+                continue;
             }
-            if self.newton_velocities(movable) {
-                return true;
+            nearest.offer(&start, &self.v);
+            if self.draw_velocities_near(&start, movable) && self.newton_velocities(movable) {
+                nearest.offer(&start, &self.v);
             }
         }
-        self.v = start;
-        false
+        let found = nearest.found.is_some();
+        self.v = nearest.found.unwrap_or(start);
+        found && self.evaluate().is_ok()
+    }
+
+    fn draw_velocities_near(&mut self, start: &[f64], movable: &[usize]) -> bool {
+        let n = self.system.n;
+        for _ in 0..DRAWS {
+            if self.evaluate().is_err() {
+                return false;
+            }
+            let jacobian = self.system.jacobian().to_vec();
+            let residual = self.system.residual().to_vec();
+            let metric = self.system.mass().to_vec();
+            draw(&mut self.v, start, (&jacobian, &residual), |f| {
+                least_step(&jacobian, f, n, movable, &metric)
+            });
+        }
+        true
     }
 
     fn no_real_velocity(&mut self, given: &[f64]) -> InitialError {
@@ -545,13 +600,6 @@ impl Search<'_> {
             .filter(|(_, (a, b))| (*a - *b).abs() > 1e-13 * (1.0 + a.abs()))
             .map(|(name, (_, b))| (format!("{name}{prime}"), *b))
             .collect()
-    }
-}
-
-/// Moves the movable components by up to one and their own size.
-fn perturb(x: &mut [f64], movable: &[usize], generator: &mut chetaev_mechanics::sample::Generator) {
-    for &i in movable {
-        x[i] += generator.between(-1.0, 1.0) * (1.0 + x[i].abs());
     }
 }
 

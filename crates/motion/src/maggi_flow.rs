@@ -5,9 +5,11 @@
 //! after each step.
 
 use crate::chart;
+use crate::follow::Follow;
 use crate::functions::{Functions, FunctionsError};
 use crate::initial::ConsistentState;
 use crate::least_norm::least_step;
+use crate::leaving::Anchor;
 use crate::numeric::{Binding, NumericSystem};
 use crate::row::RowLayout;
 use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System as Flow};
@@ -54,6 +56,9 @@ pub struct MaggiFlow<'a> {
     chart_number: u32,
     q: Vec<f64>,
     v: Vec<f64>,
+    anchor: Anchor,
+    /// Quantities followed at accepted steps.
+    pub follow: Option<Follow>,
 }
 
 const DEGRADED: f64 = 0.1;
@@ -79,7 +84,9 @@ impl<'a> MaggiFlow<'a> {
         let quasi =
             Characteristics::quasi_velocities(system, terms, &selection).is_some_and(|c| c.is_ok());
         let current = compile(system, terms, binding, selection, start.chart.pivot, quasi)?;
-        Ok(MaggiFlow {
+        let mut flow = MaggiFlow {
+            follow: None,
+            anchor: Anchor::default(),
             implicit: !numeric.is_affine(),
             q: start.q.clone(),
             v: start.v.clone(),
@@ -91,7 +98,9 @@ impl<'a> MaggiFlow<'a> {
             numeric,
             current,
             quasi,
-        })
+        };
+        flow.settle(start.t);
+        Ok(flow)
     }
 
     /// The state vector of (q, v) at time t.
@@ -202,6 +211,33 @@ impl<'a> MaggiFlow<'a> {
         })
     }
 
+    /// Takes the present (q, v) for a state of the motion, from which constraints with jumps do not jump.
+    fn settle(&mut self, t: f64) {
+        if !self.numeric.jumps || self.numeric.evaluate(t, &self.q, &self.v).is_err() {
+            return;
+        }
+        let _ = self.numeric.evaluate_positions(t, &self.q, &self.v);
+        self.anchor.settle(&self.numeric, t, &self.q, &self.v);
+    }
+
+    /// The row of a constraint that lies apart from the last accepted state.
+    fn left(&mut self, t: f64) -> Option<usize> {
+        let apart = if self.implicit {
+            self.numeric.evaluate(t, &self.q, &self.v).ok()?;
+            self.anchor.left(&self.numeric, &self.v)
+        } else {
+            let selection = &self.current.selection;
+            self.anchor
+                .left_velocity(&self.v, &selection.dependent)
+                .map(|index| selection.rows[index])
+        };
+        if apart.is_some() || self.numeric.holonomic.is_empty() {
+            return apart;
+        }
+        self.numeric.evaluate_positions(t, &self.q, &self.v).ok()?;
+        self.anchor.left_position(&self.numeric, &self.q)
+    }
+
     /// Newton on the dependent velocities; true when y changed.
     fn project(&mut self, t: f64, y: &mut [f64]) -> bool {
         let n = self.numeric.n;
@@ -303,6 +339,11 @@ impl Flow for MaggiFlow<'_> {
 
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure> {
         self.evaluate(t, y)?;
+        if self.numeric.jumps {
+            if let Some(constraint) = self.left(t) {
+                return Err(EvaluationFailure::LeftConstraint { constraint });
+            }
+        }
         let n = self.numeric.n;
         dy[..n].copy_from_slice(&self.v);
         let group = if self.implicit { 1 } else { 2 };
@@ -315,10 +356,15 @@ impl Flow for MaggiFlow<'_> {
             return Control::Continue;
         }
         let modified = self.implicit && self.project(t, y);
-        match self.rechoose(t, y, HYSTERESIS) {
+        let control = match self.rechoose(t, y, HYSTERESIS) {
             Control::Continue if modified => Control::StateModified,
             other => other,
+        };
+        if let Some(follow) = &mut self.follow {
+            follow.record(t, &self.q, &self.v);
         }
+        self.settle(t);
+        control
     }
 
     fn repivot(&mut self, t: f64, y: &mut [f64]) -> Control {

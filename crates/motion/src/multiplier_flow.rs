@@ -6,8 +6,10 @@
 use crate::accelerations::Accelerations;
 use crate::chart::{self, Chart};
 use crate::drift::Drift;
+use crate::follow::Follow;
 use crate::initial::ConsistentState;
 use crate::least_norm::least_step;
+use crate::leaving::Anchor;
 use crate::numeric::{Completion, NumericSystem};
 use crate::row::RowLayout;
 use crate::watch::Watch;
@@ -39,6 +41,9 @@ pub struct MultiplierFlow {
     reference_gradient: Vec<f64>,
     /// Pivot of the chart at the last accepted state.
     accepted_pivot: f64,
+    /// Quantities followed at accepted steps.
+    pub follow: Option<Follow>,
+    anchor: Anchor,
     /// Quantities whose vanishing makes the equations singular.
     pub watch: Watch,
     /// Whether the watched quantity asked for last vanishes at the state interpolated there.
@@ -69,7 +74,9 @@ impl MultiplierFlow {
         } else {
             StateKind::Full
         };
-        MultiplierFlow {
+        let mut flow = MultiplierFlow {
+            follow: None,
+            anchor: Anchor::default(),
             q: start.q.clone(),
             v: start.v.clone(),
             chart: start.chart.clone(),
@@ -84,7 +91,41 @@ impl MultiplierFlow {
             watch,
             zero_between: false,
             system,
+        };
+        flow.settle(start.t);
+        flow
+    }
+
+    /// The time of the last accepted state.
+    pub fn settled(&self) -> f64 {
+        self.anchor.t
+    }
+
+    /// Takes the present (q, v) for a state of the motion, from which the constraints do not jump.
+    fn settle(&mut self, t: f64) {
+        if self.system.r == 0 || self.system.evaluate(t, &self.q, &self.v).is_err() {
+            return;
         }
+        if !self.system.holonomic.is_empty() {
+            let _ = self.system.evaluate_positions(t, &self.q, &self.v);
+        }
+        self.anchor.settle(&self.system, t, &self.q, &self.v);
+    }
+
+    /// The row of a constraint that lies apart from the last accepted state, at the state last evaluated.
+    fn left(&mut self, t: f64) -> Option<usize> {
+        let apart = match self.kind {
+            StateKind::Full => self.anchor.left(&self.system, &self.v),
+            StateKind::Reduced => self
+                .anchor
+                .left_velocity(&self.v, &self.chart.dependent)
+                .map(|index| self.chart.rows[index]),
+        };
+        if apart.is_some() || self.system.holonomic.is_empty() {
+            return apart;
+        }
+        self.system.evaluate_positions(t, &self.q, &self.v).ok()?;
+        self.anchor.left_position(&self.system, &self.q)
     }
 
     /// The state vector of (q, v).
@@ -171,6 +212,13 @@ impl MultiplierFlow {
         )
     }
 
+    /// The same without the weights of the masses: where inertias grow or vanish the chart is not to blame.
+    fn geometric_quality(&self) -> f64 {
+        let system = &self.system;
+        let unit = vec![1.0; system.n];
+        chart::quality(&self.chart, system.jacobian(), system.r, system.n, &unit)
+    }
+
     /// Chooses again at the state of the last evaluation of the constraints.
     fn choose(&self) -> Chart {
         let system = &self.system;
@@ -254,6 +302,53 @@ impl MultiplierFlow {
         changed
     }
 
+    /// Records an accepted state, projects it and looks for a better chart.
+    fn settle_and_choose(&mut self, t: f64, y: &mut [f64]) -> Control {
+        if self.unpack(t, y).is_err() || self.system.evaluate(t, &self.q, &self.v).is_err() {
+            return Control::Continue;
+        }
+        self.watch.record(t, &self.q, &self.v);
+        if let Some(index) = self.watch.vanished() {
+            return Control::Stop(HaltReason::Custom(index as u32));
+        }
+        if self.system.r == 0 {
+            return Control::Continue;
+        }
+        if !self.system.holonomic.is_empty() {
+            let _ = self.system.evaluate_positions(t, &self.q, &self.v);
+        }
+        if self.kind == StateKind::Full {
+            if let Some(constraint) = self.anchor.left(&self.system, &self.v) {
+                return Control::Stop(HaltReason::LeftConstraint { constraint });
+            }
+        }
+        self.drift.record(&self.system, t);
+        if let Some(row) = self.vanished_gradient() {
+            return self.rank_drop(self.chart.rank().saturating_sub(1), row);
+        }
+        let unchanged = if self.project && self.project(t, y) {
+            Control::StateModified
+        } else {
+            Control::Continue
+        };
+        let before = self.quality();
+        self.accepted_pivot = before;
+        if before >= DEGRADED * self.chart.pivot {
+            return unchanged;
+        }
+        let next = self.choose();
+        if next.rank() < self.chart.rank() {
+            let missing = (0..self.system.r)
+                .find(|row| !next.rows.contains(row))
+                .unwrap_or(0);
+            return self.rank_drop(next.rank(), missing);
+        }
+        if next.pivot < HYSTERESIS * before {
+            return unchanged;
+        }
+        self.switch(next, before, y)
+    }
+
     fn project_positions(&mut self, t: f64, all: &[usize], changed: &mut bool) {
         if self.system.holonomic.is_empty() {
             return;
@@ -290,8 +385,13 @@ impl System for MultiplierFlow {
         self.evaluate(t, y)?;
         if self.system.r > 0 {
             let ratio = self.quality() / self.accepted_pivot;
-            if ratio < UNUSABLE {
+            if ratio < UNUSABLE && self.geometric_quality() < UNUSABLE {
                 return Err(EvaluationFailure::PivotDegraded { ratio });
+            }
+        }
+        if self.system.jumps {
+            if let Some(constraint) = self.left(t) {
+                return Err(EvaluationFailure::LeftConstraint { constraint });
             }
         }
         let n = self.system.n;
@@ -308,46 +408,19 @@ impl System for MultiplierFlow {
     }
 
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Control {
-        if self.unpack(t, y).is_err() || self.system.evaluate(t, &self.q, &self.v).is_err() {
-            return Control::Continue;
+        let control = self.settle_and_choose(t, y);
+        if matches!(control, Control::Stop(HaltReason::LeftConstraint { .. })) {
+            return control;
         }
-        self.watch.record(t, &self.q, &self.v);
-        if let Some(index) = self.watch.vanished() {
-            return Control::Stop(HaltReason::Custom(index as u32));
+        if let Some(follow) = &mut self.follow {
+            follow.record(t, &self.q, &self.v);
         }
-        if self.system.r == 0 {
-            return Control::Continue;
+        if self.kind == StateKind::Full || self.system.jumps {
+            // The system was last evaluated at this state.
+            self.anchor.settle(&self.system, t, &self.q, &self.v);
         }
-        if !self.system.holonomic.is_empty() {
-            let _ = self.system.evaluate_positions(t, &self.q, &self.v);
-        }
-        self.drift.record(&self.system, t);
-        if let Some(row) = self.vanished_gradient() {
-            return self.rank_drop(self.chart.rank().saturating_sub(1), row);
-        }
-        let unchanged = if self.project && self.project(t, y) {
-            Control::StateModified
-        } else {
-            Control::Continue
-        };
-        let before = self.quality();
-        self.accepted_pivot = before;
-        if before >= DEGRADED * self.chart.pivot {
-            return unchanged;
-        }
-        let next = self.choose();
-        if next.rank() < self.chart.rank() {
-            let missing = (0..self.system.r)
-                .find(|row| !next.rows.contains(row))
-                .unwrap_or(0);
-            return self.rank_drop(next.rank(), missing);
-        }
-        if next.pivot < HYSTERESIS * before {
-            return unchanged;
-        }
-        self.switch(next, before, y)
+        control
     }
-
     fn repivot(&mut self, t: f64, y: &mut [f64]) -> Control {
         if self.unpack(t, y).is_err() || self.system.evaluate(t, &self.q, &self.v).is_err() {
             return Control::Continue;

@@ -5,7 +5,7 @@ use crate::dense::Lu;
 use crate::functions::{Functions, FunctionsError};
 use chetaev_integrate::EvaluationFailure;
 use chetaev_mechanics::{ConstraintKind, MotionTerms, System};
-use chetaev_symbolic::{Expr, Graph, Symbol};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
 
 /// Why a system has no numeric form.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -43,6 +43,12 @@ pub struct NumericSystem {
     pub affine: Vec<bool>,
     /// Rows of the holonomic constraints.
     pub holonomic: Vec<usize>,
+    /// Which velocities occur in the constraints.
+    pub constrained_velocities: Vec<bool>,
+    /// Which coordinates occur in the holonomic constraints.
+    pub constrained_positions: Vec<bool>,
+    /// Whether a constraint contains a function with a jump: an angle with its cut, or a sign.
+    pub jumps: bool,
     mass_envelope: Vec<usize>,
     dynamics: Functions,
     kinematics: Functions,
@@ -164,6 +170,9 @@ impl NumericSystem {
                 .map(|row| constraint(row).is_affine_in_velocities())
                 .collect(),
             holonomic,
+            constrained_velocities: occurring(g, &terms.jacobian.concat(), system.n()),
+            constrained_positions: occurring(g, &gradient, system.n()),
+            jumps: has_jumps(g, &[terms.constraints.clone(), stated.clone()].concat()),
             mass_envelope: envelope(g, &terms.mass_matrix),
             dynamics: Functions::new(g, binding, &binding.variables, &groups)?,
             kinematics: Functions::new(g, binding, &binding.variables, &groups[2..5])?,
@@ -271,6 +280,25 @@ impl NumericSystem {
     pub fn is_affine(&self) -> bool {
         self.affine.iter().all(|&a| a)
     }
+}
+
+/// The columns of a matrix with rows of length n that do not vanish identically.
+fn occurring(g: &Graph, matrix: &[Expr], n: usize) -> Vec<bool> {
+    (0..n)
+        .map(|i| matrix.iter().skip(i).step_by(n).any(|&e| !g.is_zero(e)))
+        .collect()
+}
+
+fn has_jumps(g: &Graph, expressions: &[Expr]) -> bool {
+    g.reachable(expressions).into_iter().any(|e| {
+        matches!(
+            g.node(e),
+            Node::Apply {
+                function: Function::Atan2 | Function::Sign,
+                ..
+            }
+        )
+    })
 }
 
 fn envelope(g: &Graph, mass_matrix: &[Vec<Expr>]) -> Vec<usize> {

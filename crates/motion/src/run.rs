@@ -1,5 +1,6 @@
 //! One run: settings, the trajectory as rows (q, v, a, λ), and why it ended, in words.
 
+use crate::follow::{Deviation, Follow};
 use crate::initial::ConsistentState;
 use crate::maggi_flow::{MaggiError, MaggiFlow};
 use crate::multiplier_flow::{MultiplierFlow, StateKind};
@@ -11,7 +12,8 @@ use chetaev_integrate::{
     integrate, method, ChartChange, Direction, ErrorControl, Event, HaltReason, IntegrateError,
     Note, Options, Output, Progress, Solution, Statistics, StiffnessPolicy, Stop,
 };
-use chetaev_mechanics::{MotionTerms, System};
+use chetaev_mechanics::{ConstraintKind, MotionTerms, System};
+use chetaev_symbolic::Expr;
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
 
@@ -36,6 +38,9 @@ pub struct RunSettings {
     pub state: StateKind,
     /// Whether the state is projected on the constraints after each step.
     pub project: bool,
+    /// Quantities in (t, q, v) whose deviation from their initial values is measured at every step, and with them those of
+    /// the constraints; nothing is measured when empty.
+    pub follow: Vec<Expr>,
 }
 
 impl RunSettings {
@@ -51,6 +56,7 @@ impl RunSettings {
             max_steps: 2_000_000,
             state: StateKind::Reduced,
             project: false,
+            follow: Vec::new(),
         }
     }
 }
@@ -109,6 +115,10 @@ pub struct Run {
     pub notes: Vec<Note>,
     /// Largest violation of each constraint before projection; `None` when constraints hold by construction.
     pub drift: Option<crate::drift::Drift>,
+    /// Deviations over all steps of the quantities of [`RunSettings::follow`] and of [`Subject::residuals`].
+    pub followed: Vec<Deviation>,
+    /// Whether the last row is the state where an early end was met, at a time that was not asked for.
+    pub ends_between: bool,
 }
 
 impl Run {
@@ -121,6 +131,11 @@ impl Run {
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.times.len()
+    }
+
+    /// Number of rows at times that were asked for.
+    pub fn asked(&self) -> usize {
+        self.len() - usize::from(self.ends_between)
     }
 
     /// Whether there are no rows.
@@ -181,6 +196,7 @@ impl Subject<'_> {
             settings.project,
             watch,
         );
+        flow.follow = self.follow(settings)?;
         let y0 = flow.pack(&self.start.q, &self.start.v);
         let mut pieces: Vec<Solution> = Vec::new();
         let (mut t, mut y) = (self.start.t, y0);
@@ -189,15 +205,28 @@ impl Subject<'_> {
                 .map(|index| Event::of_system(index).direction(Direction::Up).terminal())
                 .collect();
             let options = self.options(settings, t, y.len(), watcher)?;
-            let solution = integrate(&mut flow, (t, settings.t_end), &y, &mut events, options)?;
+            let mut solution = integrate(&mut flow, (t, settings.t_end), &y, &mut events, options)?;
             (t, y) = (solution.t, solution.state.clone());
             let stop = solution.stop;
+            if let Stop::Halted {
+                reason: HaltReason::LeftConstraint { .. },
+                ..
+            } = stop
+            {
+                keep_until(&mut solution, flow.settled());
+            }
             pieces.push(solution);
             if let Stop::Event { index, t } = stop {
                 if flow.vanishes(index, t, &y) {
                     break stop::vanished(&watched[index], t, &self.numeric.constraints);
                 }
                 if t != settings.t_end {
+                    // Nothing ends here: the row is kept only where it was asked for.
+                    if let Some(piece) = pieces.last_mut() {
+                        if piece.times.last() == Some(&t) && !settings.times.contains(&t) {
+                            forget_last(piece);
+                        }
+                    }
                     continue;
                 }
             }
@@ -222,7 +251,8 @@ impl Subject<'_> {
         let drift = (self.numeric.r > 0
             && (kind == StateKind::Full || !self.numeric.holonomic.is_empty()))
         .then(|| flow.drift.clone());
-        Ok(self.collect("routh", pieces, ending, drift))
+        let followed = flow.follow.take();
+        Ok(self.collect("routh", settings, pieces, ending, (drift, followed)))
     }
 
     /// Integrates Maggi's equations.
@@ -241,6 +271,7 @@ impl Subject<'_> {
             self.numeric.clone(),
             self.start,
         )?;
+        flow.follow = self.follow(settings)?;
         let y0 = flow
             .pack(self.start.t, &self.start.q, &self.start.v)
             .map_err(|_| RunError::Start)?;
@@ -258,7 +289,33 @@ impl Subject<'_> {
             state,
         };
         let ending = stop::ending(&solution.stop, &names, 1.0);
-        Ok(self.collect("maggi", vec![solution], ending, None))
+        let followed = flow.follow.take();
+        Ok(self.collect("maggi", settings, vec![solution], ending, (None, followed)))
+    }
+
+    /// Residuals of the constraints by row, then those of the holonomic ones as stated.
+    pub fn residuals(&self) -> Vec<Expr> {
+        let constraints = self.terms.constraint_index.iter();
+        let holonomic = constraints
+            .map(|&l| &self.system.constraints[l])
+            .filter(|c| c.kind == ConstraintKind::Holonomic)
+            .map(|c| c.stated);
+        self.terms
+            .constraints
+            .iter()
+            .copied()
+            .chain(holonomic)
+            .collect()
+    }
+
+    fn follow(&self, settings: &RunSettings) -> Result<Option<Follow>, RunError> {
+        if settings.follow.is_empty() {
+            return Ok(None);
+        }
+        let start = (self.start.t, &self.start.q[..], &self.start.v[..]);
+        let kept = [settings.follow.clone(), self.residuals()].concat();
+        let follow = Follow::new(self.system, self.binding, &kept, start)?;
+        Ok(Some(follow))
     }
 
     fn options<'o>(
@@ -293,6 +350,7 @@ impl Subject<'_> {
             absolute: self.cyclic(dimension),
         };
         options.output = Output::Times(times);
+        options.record_last = true;
         options.step_limit = settings.max_steps;
         options.stiffness = StiffnessPolicy::StopAfter(50_000);
         options.interrupt = watcher.interrupt;
@@ -323,9 +381,10 @@ impl Subject<'_> {
     fn collect(
         &self,
         formulation: &'static str,
+        settings: &RunSettings,
         pieces: Vec<Solution>,
         ending: Ending,
-        drift: Option<crate::drift::Drift>,
+        (drift, followed): (Option<crate::drift::Drift>, Option<Follow>),
     ) -> Run {
         let mut run = Run {
             formulation,
@@ -339,6 +398,8 @@ impl Subject<'_> {
             chart_changes: Vec::new(),
             notes: Vec::new(),
             drift,
+            followed: followed.map_or(Vec::new(), |f| f.deviations),
+            ends_between: false,
         };
         for piece in pieces {
             run.times.extend(&piece.times);
@@ -347,8 +408,27 @@ impl Subject<'_> {
             run.notes.extend(&piece.notes);
             add(&mut run.statistics, &piece.statistics);
         }
+        let last = run.times.last();
+        run.ends_between = last.is_some_and(|t| !settings.times.contains(t));
         run
     }
+}
+
+/// Drops the rows after time t.
+fn keep_until(solution: &mut Solution, t: f64) {
+    while solution
+        .times
+        .last()
+        .is_some_and(|&last| (last - t) * (solution.t - t).signum() > 0.0)
+    {
+        forget_last(solution);
+    }
+}
+
+fn forget_last(solution: &mut Solution) {
+    solution.times.pop();
+    let rows = solution.times.len() * solution.width;
+    solution.rows.truncate(rows);
 }
 
 fn add(total: &mut Statistics, part: &Statistics) {

@@ -114,6 +114,14 @@ pub fn ending(stop: &Stop, names: &Names<'_>, pivot: f64) -> Ending {
             reason: "the end of the time span was reached".into(),
             t: *t,
         },
+        Stop::Singular {
+            t,
+            failure: EvaluationFailure::LeftConstraint { constraint },
+        }
+        | Stop::Halted {
+            t,
+            reason: HaltReason::LeftConstraint { constraint },
+        } => early(left(*constraint, *t, names), *t),
         Stop::Singular { t, failure } => early(
             format!("singular state at t = {t:.9}: {}{rank}", singular(failure)),
             *t,
@@ -169,6 +177,13 @@ fn singular(failure: &EvaluationFailure) -> String {
         }
         other => other.to_string(),
     }
+}
+
+fn left(constraint: usize, t: f64, names: &Names<'_>) -> String {
+    format!(
+        "the motion left the constraint `{}` at t = {t:.9}: it has no continuation there, the two sides of the constraint jump apart (a branch of a root or of an angle ends, or a sign changes)",
+        names.constraints.get(constraint).cloned().unwrap_or_default()
+    )
 }
 
 fn halted(reason: &HaltReason, t: f64, names: &Names<'_>) -> String {

@@ -1,0 +1,115 @@
+//! Quantities that should keep their initial values, followed at every accepted step: rows may lie far apart.
+
+use crate::drift::Extreme;
+use crate::functions::{Functions, FunctionsError};
+use crate::numeric::Binding;
+use chetaev_mechanics::System;
+use chetaev_symbolic::{rational, Expr, Function, Graph, Node};
+use std::collections::BTreeMap;
+
+/// What became of a quantity over a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Deviation {
+    /// Largest deviation from the value at the start; infinite where there was none.
+    pub drift: Extreme,
+    /// Largest sum of the sizes of its terms.
+    pub scale: f64,
+}
+
+/// Quantities in (t, q, v), compiled.
+#[derive(Clone, Debug)]
+pub struct Follow {
+    functions: Functions,
+    initial: Vec<f64>,
+    /// One per quantity, in order. Quantities that contain accelerations or multipliers are left at zero.
+    pub deviations: Vec<Deviation>,
+}
+
+impl Follow {
+    /// Compiles the quantities and takes their values at (t, q, v) for those to keep.
+    ///
+    /// # Errors
+    /// [`FunctionsError`].
+    pub fn new(
+        system: &System,
+        binding: &Binding,
+        quantities: &[Expr],
+        (t, q, v): (f64, &[f64], &[f64]),
+    ) -> Result<Follow, FunctionsError> {
+        let g = &system.graph;
+        let known = |e: &Expr| {
+            let bound = g.substitute(*e, &binding.controls);
+            g.symbols_in(&[bound]).into_iter().all(|s| {
+                binding.variables.contains(&s) || binding.parameters.iter().any(|(p, _)| *p == s)
+            })
+        };
+        let values: Vec<Expr> = quantities
+            .iter()
+            .map(|e| if known(e) { *e } else { g.zero() })
+            .collect();
+        let sizes = values.iter().map(|&e| magnitude(g, e)).collect();
+        let groups = [("values", values), ("sizes", sizes)];
+        let mut follow = Follow {
+            functions: Functions::new(g, binding, &binding.variables, &groups)?,
+            initial: Vec::new(),
+            deviations: vec![Deviation::default(); quantities.len()],
+        };
+        // A value that is not finite belongs to one quantity; the others are still wanted.
+        let _ = follow.functions.evaluate(t, &[q, v]);
+        follow.initial = follow.functions.group(0).to_vec();
+        Ok(follow)
+    }
+
+    /// Takes the values at (t, q, v) into account.
+    pub fn record(&mut self, t: f64, q: &[f64], v: &[f64]) {
+        let _ = self.functions.evaluate(t, &[q, v]);
+        let values = self.functions.group(0).iter().zip(&self.initial);
+        for ((deviation, size), (value, initial)) in self
+            .deviations
+            .iter_mut()
+            .zip(self.functions.group(1))
+            .zip(values)
+        {
+            let change = value - initial;
+            let known = if change.is_nan() {
+                f64::INFINITY
+            } else {
+                change
+            };
+            deviation.drift.record(known, t);
+            deviation.scale = deviation.scale.max(*size);
+        }
+    }
+}
+
+/// The expression with every term of every sum replaced by its absolute value: the size by which a difference of its values
+/// is judged, which does not vanish where terms cancel.
+pub fn magnitude(g: &Graph, e: Expr) -> Expr {
+    let mut sizes: BTreeMap<Expr, Expr> = BTreeMap::new();
+    let absolute = |part: Expr| g.apply(Function::Abs, &[part]);
+    for part in g.reachable(&[e]) {
+        let of = |child: &Expr| sizes.get(child).copied().unwrap_or(*child);
+        let size = match g.node(part) {
+            Node::Sum { constant, terms } => {
+                let constant = g.number(rational::abs(constant));
+                let terms = terms.iter().map(|(t, c)| g.scale(&rational::abs(c), of(t)));
+                g.add(&std::iter::once(constant).chain(terms).collect::<Vec<_>>())
+            }
+            Node::Product {
+                coefficient,
+                factors,
+            } => {
+                let factors: Vec<Expr> = factors.iter().map(of).collect();
+                g.scale(&rational::abs(coefficient), g.mul(&factors))
+            }
+            Node::Power { base, exponent } => match g.as_number(*exponent) {
+                Some(power) if !rational::is_negative(power) => g.pow(of(base), *exponent),
+                _ => absolute(part),
+            },
+            Node::Matrix { .. } | Node::Solve { .. } => part,
+            _ => absolute(part),
+        };
+        sizes.insert(part, size);
+    }
+    sizes.get(&e).copied().unwrap_or(e)
+}
