@@ -5,15 +5,15 @@
 
 use crate::method_order::Orders;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
-use chetaev_mechanics::Manifold;
+use chetaev_mechanics::{ConstraintKind, Manifold};
 use chetaev_model::model::Model;
 use chetaev_motion::drift::Extreme;
+use chetaev_motion::follow::magnitude;
 use chetaev_motion::functions::FunctionsError;
 use chetaev_motion::observe::Observer;
 use chetaev_motion::{Run, RunError, RunSettings, Subject};
 use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue, Proof};
-use chetaev_symbolic::{rational, Expr, Function, Graph, Node, Verdict};
-use std::collections::BTreeMap;
+use chetaev_symbolic::{Expr, Verdict};
 use std::sync::Arc;
 
 /// The claims of this module.
@@ -52,10 +52,14 @@ pub struct MotionEvidence {
     pub global_error: Option<f64>,
     /// Energy.
     pub energy: Followed,
+    /// Its rate by the computed accelerations, of systems with few coordinates.
+    pub energy_rate: Option<Followed>,
     /// Integrals stated by the model.
     pub integrals: Vec<Followed>,
     /// Constraint residuals at the rows, by row of the terms.
     pub residuals: Vec<Followed>,
+    /// Residuals of the holonomic constraints as stated.
+    pub positions: Vec<Followed>,
     /// Largest difference of the two formulations over the scale of each component, with its time.
     pub disagreement: Option<Extreme>,
     /// Observed order.
@@ -85,19 +89,27 @@ impl MotionEvidence {
         settings: &RunSettings,
     ) -> Result<MotionEvidence, RunError> {
         let system = subject.system;
-        let mut followed = vec![("energy".to_string(), system.energy())];
-        followed.extend(model.integrals.iter().map(|i| (i.name.clone(), i.value)));
-        let mut followed = follow(subject, &run, followed, true)?;
+        let mut kept = vec![system.energy()];
+        kept.extend(model.integrals.iter().map(|i| i.value));
+        kept.extend(subject.residuals());
+        let kept = kept_names(model, subject).into_iter().zip(kept).collect();
+        let constant = 1 + model.integrals.len();
+        let mut followed = follow(subject, &run, kept, constant)?;
+        for (quantity, all) in followed.iter_mut().zip(&run.followed) {
+            quantity.drift.record(all.drift.value, all.drift.t);
+            quantity.scale = quantity.scale.max(all.scale);
+        }
+        let positions = followed.split_off(constant + subject.terms.constraints.len());
+        let residuals = followed.split_off(constant);
         let integrals = followed.split_off(1);
-        let constraints = subject
-            .terms
-            .constraint_index
-            .iter()
-            .zip(&subject.terms.constraints)
-            .map(|(&l, &f)| (system.constraints[l].name.clone(), f))
-            .collect();
-        let residuals = follow(subject, &run, constraints, false)?;
         let energy = followed.swap_remove(0);
+        let energy_rate = match system.n() <= RATE_COORDINATES {
+            true => {
+                let rate = system.total_derivative(system.energy());
+                follow(subject, &run, vec![("dH/dt".into(), rate)], 0)?.pop()
+            }
+            false => None,
+        };
         let start_residual = residuals
             .iter()
             .filter_map(|r| r.values.first())
@@ -110,8 +122,10 @@ impl MotionEvidence {
             start: start_values(subject),
             start_residual,
             energy,
+            energy_rate,
             integrals,
             residuals,
+            positions,
             orders,
             comparison,
             run,
@@ -119,11 +133,26 @@ impl MotionEvidence {
     }
 }
 
+/// The rate of the energy is looked at for systems of up to this many coordinates.
+const RATE_COORDINATES: usize = 24;
+
+/// The names of what a motion should keep: energy, integrals, and [`Subject::residuals`].
+fn kept_names(model: &Model, subject: &Subject<'_>) -> Vec<String> {
+    let constraint = |l: &usize| &subject.system.constraints[*l];
+    let rows = || subject.terms.constraint_index.iter().map(constraint);
+    let holonomic = rows().filter(|c| c.kind == ConstraintKind::Holonomic);
+    std::iter::once("energy".to_string())
+        .chain(model.integrals.iter().map(|i| i.name.clone()))
+        .chain(rows().chain(holonomic).map(|c| c.name.clone()))
+        .collect()
+}
+
+/// Values along the rows; of the first `constant` quantities the deviation from the start counts, of the others the value.
 fn follow(
     subject: &Subject<'_>,
     run: &Run,
     quantities: Vec<(String, Expr)>,
-    from_start: bool,
+    constant: usize,
 ) -> Result<Vec<Followed>, FunctionsError> {
     let g = &subject.system.graph;
     let mut expressions: Vec<Expr> = quantities.iter().map(|(_, e)| *e).collect();
@@ -135,8 +164,9 @@ fn follow(
     let followed = quantities
         .into_iter()
         .zip(series.into_iter().zip(sizes))
-        .map(|((name, expression), (values, sizes))| {
-            let first = values.first().copied().filter(|_| from_start);
+        .enumerate()
+        .map(|(i, ((name, expression), (values, sizes)))| {
+            let first = values.first().copied().filter(|_| i < constant);
             Followed {
                 name,
                 expression,
@@ -162,42 +192,10 @@ fn deviation(times: &[f64], values: &[f64], reference: f64) -> Extreme {
     drift
 }
 
-/// The expression with every term of every sum replaced by its absolute value: the size by which a difference of its values
-/// is judged, which does not vanish where terms cancel.
-fn magnitude(g: &Graph, e: Expr) -> Expr {
-    let mut sizes: BTreeMap<Expr, Expr> = BTreeMap::new();
-    let absolute = |part: Expr| g.apply(Function::Abs, &[part]);
-    for part in g.reachable(&[e]) {
-        let of = |child: &Expr| sizes.get(child).copied().unwrap_or(*child);
-        let size = match g.node(part) {
-            Node::Sum { constant, terms } => {
-                let constant = g.number(rational::abs(constant));
-                let terms = terms.iter().map(|(t, c)| g.scale(&rational::abs(c), of(t)));
-                g.add(&std::iter::once(constant).chain(terms).collect::<Vec<_>>())
-            }
-            Node::Product {
-                coefficient,
-                factors,
-            } => {
-                let factors: Vec<Expr> = factors.iter().map(of).collect();
-                g.scale(&rational::abs(coefficient), g.mul(&factors))
-            }
-            Node::Power { base, exponent } => match g.as_number(*exponent) {
-                Some(power) if !rational::is_negative(power) => g.pow(of(base), *exponent),
-                _ => absolute(part),
-            },
-            Node::Matrix { .. } | Node::Solve { .. } => part,
-            _ => absolute(part),
-        };
-        sizes.insert(part, size);
-    }
-    sizes.get(&e).copied().unwrap_or(e)
-}
-
 /// Largest difference of positions and velocities at common times, each component over 1 + its largest magnitude.
 fn difference(a: &Run, b: &Run) -> Extreme {
     let width = a.layout.v().end;
-    let rows = a.len().min(b.len());
+    let rows = a.asked().min(b.asked());
     let mut largest = Extreme::default();
     for i in 0..width {
         let scale = 1.0 + (0..rows).fold(0.0, |m: f64, j| m.max(a.row(j)[i].abs()));
@@ -292,11 +290,14 @@ fn drift_verdict(what: &str, drift: &Extreme, bound: f64, samples: u32, toleranc
     }
 }
 
-/// Accumulated error may exceed the local tolerance; a thousand times it, on the scale of the quantity, may not. Of loose
-/// tolerances the root is taken, so that no run is measured by a bound as large as what it moves.
+/// Accumulated error may exceed the local tolerance; a thousand times it, on the scale of the quantity, may not. However
+/// loose the tolerance, what changes by more than a thousandth of its size is not kept.
 fn bound(tolerance: f64, scale: f64) -> f64 {
-    (1e3 * tolerance).min(tolerance.sqrt()).clamp(1e-11, 0.1) * scale
+    (1e3 * tolerance).clamp(1e-11, KEPT) * scale
 }
+
+/// The largest change, relative to the size of its terms, of a quantity that counts as kept.
+const KEPT: f64 = 1e-3;
 
 /// Beyond this difference, relative to the largest values, two runs no longer follow the same motion.
 const LOST: f64 = 1e-2;
@@ -341,15 +342,7 @@ impl Claim for InitialStateAdmissible {
             return no_motion();
         };
         let (n, r) = (cx.system.n(), cx.selection.rows.len());
-        let needed = format!(
-            "{n} coordinates and {} independent {} needed",
-            n - r,
-            if n - r == 1 {
-                "velocity is"
-            } else {
-                "velocities are"
-            }
-        );
+        let needed = needed_data(n, n - r);
         if cx.system.constraints.is_empty() {
             return Verdict::Proved(Proof::structural(
                 "at the initial state",
@@ -394,6 +387,13 @@ impl Claim for InitialStateAdmissible {
     }
 }
 
+/// The data that determine a motion, in words.
+fn needed_data(n: usize, k: usize) -> String {
+    let coordinates = if n == 1 { "coordinate" } else { "coordinates" };
+    let velocities = if k == 1 { "velocity" } else { "velocities" };
+    format!("{n} {coordinates} and {k} independent {velocities} are needed")
+}
+
 /// `motion.constraint-drift`.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstraintDrift;
@@ -404,7 +404,8 @@ impl Claim for ConstraintDrift {
         Group::Motion,
         "The computed motion keeps the constraints",
         "The largest residual of any constraint at the accepted steps, before projection, and at the output times, against \
-         the tolerance asked. In the reduced state the velocity constraints hold by construction up to rounding."
+         the tolerance asked: a thousand times it, and at most a thousandth, of the size of the terms of the constraint. In \
+         the reduced state the velocity constraints hold by construction up to rounding."
     );
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
@@ -419,30 +420,47 @@ impl Claim for ConstraintDrift {
             let proof = Proof::structural("along the motion", "the system has no constraints");
             return Verdict::Proved(proof).into();
         }
-        let mut worst = Extreme::default();
-        for followed in &evidence.residuals {
-            worst.record(followed.drift.value, followed.drift.t);
-        }
+        let (worst, bound) = worst_residual(&evidence);
         let mut samples = evidence.run.len() as u32;
         if let Some(drift) = &evidence.run.drift {
             samples += drift.steps as u32;
-            for extreme in drift.velocity.iter().chain(&drift.position) {
-                worst.record(extreme.value, extreme.t);
-            }
         }
-        let scale = evidence
-            .residuals
-            .iter()
-            .fold(0.0, |m: f64, f| m.max(f.scale));
         drift_verdict(
             "the constraints",
             &worst,
-            bound(evidence.tolerance, scale),
+            bound,
             samples,
             evidence.tolerance,
         )
         .into()
     }
+}
+
+/// The residual that is largest against its own bound, and the bound: positions and velocities have different sizes.
+fn worst_residual(evidence: &MotionEvidence) -> (Extreme, f64) {
+    let rows = |of: &[Followed], steps: &[Extreme]| {
+        of.iter()
+            .enumerate()
+            .map(|(i, followed)| {
+                let mut worst = followed.drift;
+                if let Some(step) = steps.get(i) {
+                    worst.record(step.value, step.t);
+                }
+                (worst, bound(evidence.tolerance, followed.scale))
+            })
+            .collect::<Vec<_>>()
+    };
+    let drift = evidence.run.drift.as_ref();
+    let mut found = rows(&evidence.residuals, drift.map_or(&[], |d| &d.velocity));
+    found.extend(rows(
+        &evidence.positions,
+        drift.map_or(&[], |d| &d.position),
+    ));
+    let against = |(worst, bound): &(Extreme, f64)| worst.value / bound.max(f64::MIN_POSITIVE);
+    found
+        .into_iter()
+        .max_by(|a, b| against(a).total_cmp(&against(b)))
+        .unwrap_or_default()
 }
 
 /// `motion.energy-drift`.
@@ -455,7 +473,9 @@ impl Claim for EnergyDrift {
         Group::Motion,
         "The computed motion keeps the energy",
         "Where the energy is an integral (`energy.integral`), its largest deviation from the initial value along the \
-         computed motion, against the tolerance asked."
+         computed motion, at the output times and at every step, against a thousand times the tolerance asked, and at most \
+         a thousandth, of the size of its terms. Where `energy.integral` is conditional and the motion is not where its \
+         condition holds, there is nothing to keep."
     );
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -470,12 +490,39 @@ impl Claim for EnergyDrift {
         let Some(evidence) = evidence(cx) else {
             return no_motion();
         };
+        if let Some(elsewhere) = elsewhere(cx, &evidence) {
+            return elsewhere.into();
+        }
         followed_verdict(&evidence, &evidence.energy, "the energy").into()
     }
 }
 
+/// Where the energy is an integral only on a part of the states, and this motion is not on it, nothing is to be kept.
+fn elsewhere(cx: &Context<'_>, evidence: &MotionEvidence) -> Option<Verdict> {
+    let integral = "energy.integral";
+    let finding = cx.finding(integral);
+    let Verdict::Conditional { condition, .. } = &finding.verdict else {
+        return None;
+    };
+    let Some(rate) = &evidence.energy_rate else {
+        let tried = format!("`{integral}` holds where {condition} only; whether this motion is there was not tested");
+        return Some(Verdict::undecided(tried));
+    };
+    let Extreme { value, t } = rate.drift;
+    (value > NO_RATE * (1.0 + rate.scale)).then(|| {
+        let detail = format!(
+            "`{integral}` is conditional: it holds where {condition}, and this motion is elsewhere (|dH/dt| = {value:.3e} at t = {t:.6})"
+        );
+        Verdict::not_applicable(integral, detail)
+    })
+}
+
+/// A rate of the energy below this, relative to the size of its terms, is rounding and the error of the states.
+const NO_RATE: f64 = 1e-6;
+
 fn followed_verdict(evidence: &MotionEvidence, followed: &Followed, what: &str) -> Verdict {
-    let samples = evidence.run.len() as u32;
+    // Rows, and the ends of all steps.
+    let samples = evidence.run.len() as u32 + evidence.run.statistics.steps as u32;
     let bound = bound(evidence.tolerance, followed.scale);
     drift_verdict(what, &followed.drift, bound, samples, evidence.tolerance)
 }
@@ -543,7 +590,7 @@ impl Claim for FormulationsAgree {
         let (Some(other), Some(gap)) = (&evidence.comparison, &evidence.disagreement) else {
             return Verdict::undecided("the second formulation could not be integrated").into();
         };
-        if other.len() < evidence.run.len() {
+        if other.asked() < evidence.run.asked() {
             let tried = format!(
                 "the run of `{}` ended before that of `{}`: {}",
                 other.formulation, evidence.run.formulation, other.ending.reason

@@ -231,6 +231,10 @@ pub(crate) fn settings(
         _ => StateKind::Reduced,
     };
     settings.project = simulation.project.unwrap_or(true);
+    settings.follow = vec![system.energy()];
+    settings
+        .follow
+        .extend(model.integrals.iter().map(|i| i.value));
     Ok(settings)
 }
 
