@@ -69,7 +69,7 @@ pub enum CharacteristicsError {
         source: SolveError,
     },
     /// No state satisfies the constraints.
-    #[error("no real state satisfying the constraints {names} was found")]
+    #[error("no real state was found that satisfies the constraints {names} and at which their gradients by the velocities do not vanish")]
     NoAdmissibleState {
         /// The constraints.
         names: String,

@@ -1,7 +1,8 @@
 //! Constraints and their classification.
 
 use crate::system::{System, SystemError};
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::factors::factors;
+use chetaev_symbolic::{Expr, Symbol};
 
 /// What kind of constraint, by how it is written (T1 §0).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,6 +81,15 @@ impl Constraint {
             1 => kind_in_velocities(system, f),
             _ => (ConstraintKind::HigherOrder, false),
         };
+        match kind {
+            ConstraintKind::Nonlinear => {
+                refuse_repeated_factor(system, &name, f, &system.velocity_symbols())?;
+            }
+            ConstraintKind::Holonomic => {
+                refuse_repeated_factor(system, &name, stated, &system.coordinate_symbols())?;
+            }
+            _ => {}
+        }
         Ok(Constraint {
             rheonomic: system.is_rheonomic(stated),
             name,
@@ -97,6 +107,30 @@ impl Constraint {
             self.kind,
             ConstraintKind::Holonomic | ConstraintKind::Linear | ConstraintKind::Affine
         )
+    }
+}
+
+/// Where a factor of f that is repeated vanishes, f holds and ∂f/∂v = 0: the constraint is then no condition on
+/// variations, and nothing that is said of the other factors holds there.
+fn refuse_repeated_factor(
+    system: &System,
+    name: &str,
+    f: Expr,
+    symbols: &[Symbol],
+) -> Result<(), SystemError> {
+    let g = &system.graph;
+    let list = factors(g, f, symbols).unwrap_or_default();
+    match list.iter().find(|(_, power)| *power > 1) {
+        None => Ok(()),
+        Some(&(factor, power)) => Err(SystemError::RepeatedFactor {
+            name: name.to_string(),
+            factor: g.text(factor),
+            power: match power {
+                2 => "square".into(),
+                3 => "cube".into(),
+                power => format!("{power}th power"),
+            },
+        }),
     }
 }
 

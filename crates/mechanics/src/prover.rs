@@ -3,10 +3,10 @@
 use crate::characteristics::Manifold;
 use crate::redundancy::LeftOut;
 use crate::system::{Relation, System};
-use chetaev_symbolic::verdict::Counterexample;
+use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::assumptions::{Assumptions, Relation as Sign};
 use chetaev_symbolic::zero::{decide_zero, generic_rank, Options, RankTest, ZeroTest};
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Graph, Verdict};
 
 /// How hard to try, and with which random choices.
 #[derive(Clone, Debug)]
@@ -107,7 +107,10 @@ impl Prover {
         };
         let rank = match generic_rank(&system.graph, &test) {
             Ok(rank) => rank,
-            Err(verdict) => return *verdict,
+            Err(verdict) => {
+                let found = self.determinant_at_a_point(system, matrix, manifold, what);
+                return found.unwrap_or(*verdict);
+            }
         };
         if rank.minimum == size {
             return match rank.at_least {
@@ -122,6 +125,40 @@ impl Prover {
         match rank.at_most {
             Verdict::Proved(proof) => rank_counterexample(what, size, rank.maximum, &proof.detail),
             other => other,
+        }
+    }
+
+    /// Where the constraints have no points in a prime field (they are transcendental): a real point at which the
+    /// determinant is enclosed away from zero.
+    fn determinant_at_a_point(
+        &self,
+        system: &System,
+        matrix: &[Vec<Expr>],
+        manifold: &Manifold,
+        what: &str,
+    ) -> Option<Verdict> {
+        if matrix.len() > LARGEST_DETERMINANT {
+            return None;
+        }
+        let determinant = determinant(&system.graph, matrix);
+        match self.identity(system, &[determinant], manifold, "") {
+            Verdict::Refuted(found)
+            | Verdict::Conditional {
+                counterexample: Some(found),
+                ..
+            } => {
+                let mut proof = Proof::exact(
+                    located(
+                        "outside its zeros",
+                        "almost everywhere on the component of a point found",
+                        system,
+                    ),
+                    format!("{what} does not vanish identically: {}", found.detail),
+                );
+                proof.detail = proof.detail.replace("the residual", "its value");
+                Some(Verdict::Proved(proof))
+            }
+            _ => None,
         }
     }
 
@@ -152,6 +189,27 @@ impl Prover {
             other => other,
         }
     }
+}
+
+/// Cofactors of a larger matrix are too many.
+const LARGEST_DETERMINANT: usize = 8;
+
+/// The determinant by cofactors along the rows, each minor formed once: 2ⁿ of them.
+fn determinant(g: &Graph, matrix: &[Vec<Expr>]) -> Expr {
+    let n = matrix.len();
+    // The minor of the last rows in the columns of a bit set; as many rows as columns.
+    let mut minors = vec![g.one(); 1 << n];
+    for columns in 1..1_usize << n {
+        let row = n - columns.count_ones() as usize;
+        let mut terms = Vec::new();
+        for (position, column) in (0..n).filter(|c| columns >> c & 1 == 1).enumerate() {
+            let minor = minors[columns & !(1 << column)];
+            let term = g.mul(&[matrix[row][column], minor]);
+            terms.push(if position % 2 == 0 { term } else { g.neg(term) });
+        }
+        minors[columns] = g.add(&terms);
+    }
+    minors[(1 << n) - 1]
 }
 
 /// Where a proof holds: the product's words first, then what the zero test adds, then the model's assumptions.

@@ -34,8 +34,9 @@ impl Generator {
 /// A state with values for every symbol of a system.
 pub type Point = BTreeMap<Symbol, f64>;
 
-/// Draws a state that satisfies the first-order constraints to rounding, within simple bounds of the assumptions;
-/// `None` when two hundred draws fail. Later draws reach further in the velocities, as some constraints need.
+/// Draws a regular state that satisfies the first-order constraints to rounding, within simple bounds of the assumptions;
+/// `None` when two hundred draws fail. Later draws reach further in the velocities, as some constraints need. A state at
+/// which the gradient of a constraint vanishes, as that of x'^2 + y'^2 = 0 does wherever it holds, is not regular.
 pub fn admissible_point(system: &System, terms: &MotionTerms, seed: u64) -> Option<Point> {
     let mut generator = Generator::new(seed);
     (0..200).find_map(|attempt| {
@@ -46,8 +47,25 @@ pub fn admissible_point(system: &System, terms: &MotionTerms, seed: u64) -> Opti
                 point.entry(c.v_symbol).and_modify(|v| *v *= reach);
             }
         }
-        project_velocities(system, terms, &mut point).then_some(point)
+        let before = gradient_norms(system, terms, &point)?;
+        if !project_velocities(system, terms, &mut point) {
+            return None;
+        }
+        let after = gradient_norms(system, terms, &point)?;
+        let is_regular = before.iter().zip(&after).all(|(b, a)| *a > 1e-4 * b);
+        is_regular.then_some(point)
     })
+}
+
+/// The lengths of the gradients ∂f/∂v, one per constraint.
+fn gradient_norms(system: &System, terms: &MotionTerms, point: &Point) -> Option<Vec<f64>> {
+    let entries = terms.jacobian.concat();
+    let values = system
+        .graph
+        .evaluate_f64(&entries, &|s| point.get(&s).copied())
+        .ok()?;
+    let norm = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
+    Some(values.chunks(system.n().max(1)).map(norm).collect())
 }
 
 fn free_point(system: &System, terms: &MotionTerms, generator: &mut Generator) -> Option<Point> {

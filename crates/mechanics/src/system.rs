@@ -148,6 +148,16 @@ pub enum SystemError {
         /// The constraint.
         name: String,
     },
+    /// A constraint with a repeated factor.
+    #[error("constraint `{name}` contains the {power} of {factor}: its gradient vanishes wherever {factor} is zero, so it has no rank and no reaction there; write {factor} without the power")]
+    RepeatedFactor {
+        /// The constraint.
+        name: String,
+        /// The factor.
+        factor: String,
+        /// "square", "cube", "4th power".
+        power: String,
+    },
     /// The Lagrangian contains accelerations.
     #[error("the {what} contains `{symbol}`; only coordinates and velocities may occur in it")]
     OrderTooHigh {

@@ -6,6 +6,7 @@ pub mod calculus;
 pub mod construct;
 mod digest;
 pub mod evaluate;
+pub mod factors;
 pub mod functions;
 pub mod graph;
 pub mod linear;

@@ -205,7 +205,7 @@ impl Claim for ConstraintsLinear {
 
     fn explanation(&self) -> &'static str {
         "Every constraint has the form a(q,t)·v + a₀(q,t) = 0: its derivatives by the velocities contain no velocities, or \
-         f(v) + f(w) = f(v + w) + f(0) identically. A constraint of order m is linear if it is so in its derivatives of \
+         f(v) + f(w) = 2 f((v + w)/2) identically. A constraint of order m is linear if it is so in its derivatives of \
          order m. \
          Affine constraints (a₀ ≠ 0) count as linear here; `model.constraints-homogeneous` tells them apart."
     }
@@ -223,7 +223,7 @@ impl Claim for ConstraintsLinear {
             .constraints
             .iter()
             .filter(|constraint| !constraint.is_affine_in_velocities())
-            .map(|constraint| additivity(cx, constraint))
+            .map(|constraint| bend(cx, constraint))
             .filter(|&e| !cx.system.graph.is_zero(e))
             .collect();
         if residuals.is_empty() {
@@ -244,12 +244,14 @@ impl Claim for ConstraintsLinear {
     }
 }
 
-/// `f(v) + f(w) - f(v + w) - f(0)` in the highest derivatives v, which vanishes for affine functions only; unlike second
-/// derivatives it sees the corner of |x'|.
-fn additivity(cx: &Context<'_>, constraint: &Constraint) -> Expr {
+/// `f(v) + f(w) - 2 f((v + w)/2)` in the highest derivatives v, which vanishes for affine functions only (Jensen's
+/// equation); unlike second derivatives it sees the corner of |x'|, and unlike f(v + w) and f(0) it asks for f between
+/// the two only.
+fn bend(cx: &Context<'_>, constraint: &Constraint) -> Expr {
     let (g, f) = (&cx.system.graph, constraint.f);
     let order = constraint.order.max(1);
-    let other = |name: &str| g.symbol(&format!("{name}_other"), order);
+    let other = |name: &str| g.symbol(&format!("w_{name}"), order);
+    let half = g.number(Rational::ONE / Rational::from(2));
     let at = |value: &dyn Fn(Expr, &str) -> Expr| {
         let pairs: Vec<(Expr, Expr)> = cx
             .system
@@ -263,9 +265,8 @@ fn additivity(cx: &Context<'_>, constraint: &Constraint) -> Expr {
         g.substitute(f, &pairs)
     };
     let of_other = at(&|_, name| other(name));
-    let of_sum = at(&|v, name| g.add(&[v, other(name)]));
-    let at_rest = at(&|_, _| g.zero());
-    g.add(&[f, of_other, g.neg(of_sum), g.neg(at_rest)])
+    let between = at(&|v, name| g.mul(&[half, g.add(&[v, other(name)])]));
+    g.add(&[f, of_other, g.neg(between), g.neg(between)])
 }
 
 /// `model.constraints-homogeneous`.

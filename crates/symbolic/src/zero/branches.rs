@@ -1,19 +1,10 @@
 //! An identity that holds on some components of a constraint only: the constraint is factored and each factor asked by itself.
 
 use super::decide::{decide_zero, ZeroTest};
+use crate::factors::factors;
 use crate::graph::Graph;
-use crate::node::{Expr, Symbol};
-use crate::polynomial::normal_form::{normal_forms, Options};
-use crate::polynomial::Budget;
+use crate::node::Expr;
 use crate::verdict::{Counterexample, Proof, Verdict};
-
-/// Room for the factorization of a constraint.
-const BUDGET: Budget = Budget {
-    terms: 2_000,
-    degree: 60,
-    bits: 2_000,
-    work: 2_000_000,
-};
 
 /// Decides the question for each factor of the first constraint that has several; `None` if no constraint factors or a factor
 /// remains undecided.
@@ -23,12 +14,12 @@ pub(super) fn by_factors(graph: &Graph, test: &ZeroTest<'_>) -> Option<Verdict> 
         .iter()
         .enumerate()
         .find_map(|(index, (f, symbol))| {
-            let factors = factors_with(graph, *f, *symbol)?;
+            let factors = factors(graph, *f, &[*symbol])?;
             (factors.len() > 1).then_some((index, factors))
         })?;
     let mut proved: Vec<(Expr, Proof)> = Vec::new();
     let mut refuted: Vec<Counterexample> = Vec::new();
-    for factor in factors {
+    for (factor, _) in factors {
         let mut implicit = test.implicit.to_vec();
         implicit[index].0 = factor;
         match decide_zero(
@@ -65,19 +56,4 @@ pub(super) fn by_factors(graph: &Graph, test: &ZeroTest<'_>) -> Option<Verdict> 
         proof,
         counterexample: Some(counterexample),
     })
-}
-
-/// The factors of a constraint that contain its symbol.
-fn factors_with(graph: &Graph, f: Expr, symbol: Symbol) -> Option<Vec<Expr>> {
-    let (field, values) = normal_forms(graph, &[f], &Options::display(BUDGET)).ok()?;
-    let factorization = values.first()?.numerator().factorize(field.meter()).ok()?;
-    let expressions = factorization
-        .factors
-        .iter()
-        .map(|(factor, _)| field.polynomial_expression(factor));
-    Some(
-        expressions
-            .filter(|&factor| graph.contains_any(factor, &[symbol]))
-            .collect(),
-    )
 }

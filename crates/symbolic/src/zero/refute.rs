@@ -409,10 +409,15 @@ impl<'a> Hunt<'a> {
             count => format!("residual {} of {count}", index + 1),
         };
         let (lower, upper) = residual.to_decimal_interval(10);
+        let where_ = if lower == upper {
+            format!("is {lower}")
+        } else {
+            format!("lies between {lower} and {upper}")
+        };
         Counterexample {
             point: values,
             detail: format!(
-                "{quantity} lies between {lower} and {upper} at the point stated, whatever the variables not stated there, not at zero"
+                "{quantity} {where_} at the point stated, whatever the variables not stated there, not zero"
             ),
             quantity,
             residual: (lower, upper),
