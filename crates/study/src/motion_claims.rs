@@ -666,7 +666,7 @@ fn order_verdict(orders: &Orders) -> Verdict {
     });
     let Some(observed) = orders.observed else {
         return Verdict::undecided(format!(
-            "between the steps that are too large and those whose errors are round-off no range was found in which the errors fall regularly ({} pieces of the motion tried){at_corner}",
+            "between the steps that are too large and those whose errors are round-off no range was found in which the errors fall regularly ({} pieces of the motion tried): it is too simple or too short for the order to show{at_corner}",
             orders.tried
         ));
     };
