@@ -290,56 +290,29 @@ fn unit_of_node(
     values: &[Option<Unit>],
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Unit> {
-    let pure = |factor: Rational| Unit {
-        text: String::new(),
-        dimension: Dimension::none(),
-        factor,
-        pi: 0,
-    };
     let of = |id: NodeId| values.get(index(id)).cloned().flatten();
     match node {
-        Node::Number(value) if !value.is_zero() => Some(pure(value.clone())),
+        Node::Number(value) if !value.is_zero() => {
+            Some(combined(Dimension::none(), value.clone(), 0))
+        }
         Node::Negate(operand) => of(*operand).map(|unit| Unit {
             factor: -unit.factor,
             ..unit
         }),
         Node::Name {
             order: 0, letters, ..
-        } => {
-            let written = names::normalized(letters.text(text));
-            let found = unit_of_symbol(&written);
-            if found.is_none() {
-                let mut diagnostic = Diagnostic::error(
-                    "unknown-unit",
-                    *letters,
-                    format!("unknown unit `{}`", letters.text(text)),
-                );
-                let known: Vec<&str> = NAMED
-                    .iter()
-                    .map(|named| named.symbol)
-                    .chain(["kg", "mm", "cm", "km"])
-                    .collect();
-                if let Some(near) = names::closest(&written, known) {
-                    diagnostic = diagnostic
-                        .hint(format!("did you mean `{near}`?"))
-                        .suggest(*letters, near);
-                }
-                diagnostics.push(diagnostic);
-            }
-            found
-        }
+        } => named_unit(*letters, text, diagnostics),
         Node::Binary {
             operation: Binary::Multiply,
             left,
             right,
         } => {
             let (a, b) = (of(*left)?, of(*right)?);
-            Some(Unit {
-                text: String::new(),
-                dimension: a.dimension.times(&b.dimension),
-                factor: a.factor * b.factor,
-                pi: a.pi + b.pi,
-            })
+            Some(combined(
+                a.dimension.times(&b.dimension),
+                a.factor * b.factor,
+                a.pi + b.pi,
+            ))
         }
         Node::Binary {
             operation: Binary::Divide,
@@ -347,12 +320,11 @@ fn unit_of_node(
             right,
         } => {
             let (a, b) = (of(*left)?, of(*right)?);
-            Some(Unit {
-                text: String::new(),
-                dimension: a.dimension.over(&b.dimension),
-                factor: a.factor / b.factor,
-                pi: a.pi - b.pi,
-            })
+            Some(combined(
+                a.dimension.over(&b.dimension),
+                a.factor / b.factor,
+                a.pi - b.pi,
+            ))
         }
         Node::Binary {
             operation: Binary::Power,
@@ -360,15 +332,39 @@ fn unit_of_node(
             right,
         } => power(&of(*left)?, &of(*right)?, span, diagnostics),
         _ => {
-            let diagnostic = Diagnostic::error(
-                "bad-unit",
-                span,
-                "a unit is made of unit names, products, quotients and powers",
-            );
-            diagnostics.push(diagnostic);
+            let message = "a unit is made of unit names, products, quotients and powers";
+            diagnostics.push(Diagnostic::error("bad-unit", span, message));
             None
         }
     }
+}
+
+/// A unit without a name of its own.
+fn combined(dimension: Dimension, factor: Rational, pi: i32) -> Unit {
+    Unit {
+        text: String::new(),
+        dimension,
+        factor,
+        pi,
+    }
+}
+
+/// The unit of a symbol; an unknown one is reported with the nearest.
+fn named_unit(letters: Span, text: &str, diagnostics: &mut Vec<Diagnostic>) -> Option<Unit> {
+    let written = names::normalized(letters.text(text));
+    let found = unit_of_symbol(&written);
+    if found.is_none() {
+        let message = format!("unknown unit `{}`", letters.text(text));
+        let mut diagnostic = Diagnostic::error("unknown-unit", letters, message);
+        let symbols = NAMED.iter().map(|named| named.symbol);
+        if let Some(near) = names::closest(&written, symbols.chain(["kg", "mm", "cm", "km"])) {
+            diagnostic = diagnostic
+                .hint(format!("did you mean `{near}`?"))
+                .suggest(letters, near);
+        }
+        diagnostics.push(diagnostic);
+    }
+    found
 }
 
 fn power(

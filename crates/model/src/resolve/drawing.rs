@@ -31,6 +31,21 @@ struct ElementTable<'t> {
     bindings: Bindings,
 }
 
+/// The keys of a kind of element, beside those that all have.
+fn keys_of(kind: &str) -> &'static [&'static str] {
+    match kind {
+        "segment" | "arrow" => &["from", "to"],
+        "circle" => &["center", "axis", "radius"],
+        "sphere" => &["center", "radius"],
+        "wheel" => &["center", "axis", "radius", "angle"],
+        "blade" => &["at", "angle", "direction", "length"],
+        "polyline" => &["points", "closed", "filled"],
+        "polygon" => &["points"],
+        "label" => &["at", "text"],
+        _ => &["at"],
+    }
+}
+
 impl Resolver {
     pub(crate) fn drawing(&mut self, root: &Table) -> Option<Drawing> {
         let table = self.section(root, "drawing")?;
@@ -122,29 +137,10 @@ impl Resolver {
             self.wrong_kind(raw, "a drawing element", "a table");
             return;
         };
-        let Some(kind) = self.word_of(table, "kind", KINDS) else {
-            if table.get("kind").is_none() {
-                let diagnostic = Diagnostic::error(
-                    "missing-value",
-                    raw.place,
-                    "a drawing element needs its `kind`",
-                );
-                self.push(diagnostic.hint(format!("one of {}", KINDS.join(", "))));
-            }
+        let Some(kind) = self.kind_of_element(table, raw) else {
             return;
         };
-        let own: &[&str] = match kind {
-            "segment" | "arrow" => &["from", "to"],
-            "circle" => &["center", "axis", "radius"],
-            "sphere" => &["center", "radius"],
-            "wheel" => &["center", "axis", "radius", "angle"],
-            "blade" => &["at", "angle", "direction", "length"],
-            "polyline" => &["points", "closed", "filled"],
-            "polygon" => &["points"],
-            "label" => &["at", "text"],
-            _ => &["at"],
-        };
-        let known = [&["kind", "name", "color", "for"], own].concat();
+        let known = [&["kind", "name", "color", "for"], keys_of(kind)].concat();
         self.known_keys(table, &known, &format!("of a {kind}"));
         let name = self
             .optional_text(table, "name")
@@ -181,6 +177,16 @@ impl Resolver {
                 });
             }
         }
+    }
+
+    fn kind_of_element(&mut self, table: &Table, raw: &Raw) -> Option<&'static str> {
+        let kind = self.word_of(table, "kind", KINDS);
+        if table.get("kind").is_none() {
+            let message = "a drawing element needs its `kind`";
+            let diagnostic = Diagnostic::error("missing-value", raw.place, message);
+            self.push(diagnostic.hint(format!("one of {}", KINDS.join(", "))));
+        }
+        kind
     }
 
     /// `for = "i"` takes the range of the index from [indices], `for = "i = 1..n"` states it here.
@@ -238,27 +244,17 @@ impl Resolver {
                 radius: self.number(element, "radius")?,
                 angle: self.number(element, "angle")?,
             },
-            "blade" => {
-                let direction = if element.dimension == 2 {
-                    vec![self.number(element, "angle")?]
-                } else {
-                    self.point(element, "direction")?
+            "blade" => self.blade(element)?,
+            "polyline" => {
+                let truth = |resolver: &mut Self, key: &str| {
+                    resolver.optional_truth(element.table, key) == Some(true)
                 };
-                Shape::Blade {
-                    at: self.point(element, "at")?,
-                    direction,
-                    length: self.number(element, "length")?,
+                Shape::Polyline {
+                    points: self.points(element)?,
+                    closed: truth(self, "closed"),
+                    filled: truth(self, "filled"),
                 }
             }
-            "polyline" => Shape::Polyline {
-                points: self.points(element)?,
-                closed: self
-                    .optional_truth(element.table, "closed")
-                    .unwrap_or(false),
-                filled: self
-                    .optional_truth(element.table, "filled")
-                    .unwrap_or(false),
-            },
             "polygon" => Shape::Polyline {
                 points: self.points(element)?,
                 closed: true,
@@ -279,6 +275,20 @@ impl Resolver {
             _ => Shape::Point {
                 at: self.point(element, "at")?,
             },
+        })
+    }
+
+    /// In the plane its direction is an angle.
+    fn blade(&mut self, element: &ElementTable<'_>) -> Option<Shape> {
+        let direction = if element.dimension == 2 {
+            vec![self.number(element, "angle")?]
+        } else {
+            self.point(element, "direction")?
+        };
+        Some(Shape::Blade {
+            at: self.point(element, "at")?,
+            direction,
+            length: self.number(element, "length")?,
         })
     }
 

@@ -24,6 +24,9 @@ const VERDICTS: [&str; 6] = [
     "undecided",
 ];
 
+/// What may occur in initial data.
+const INITIAL: Context = Context::constant("the initial data");
+
 impl Resolver {
     // ---- initial data
 
@@ -49,6 +52,7 @@ impl Resolver {
         initial
     }
 
+    /// Whether the other instances of the key are worth looking at.
     fn initial_value(
         &mut self,
         key: &Text,
@@ -57,69 +61,72 @@ impl Resolver {
         constraints: &[Constraint],
         initial: &mut Initial,
     ) -> bool {
-        let Instance {
-            name,
-            order,
-            bindings,
-        } = instance;
-        let context = Context::constant("the initial data");
-        let coordinate = self
-            .coordinates
-            .iter()
-            .position(|coordinate| coordinate.name == *name);
+        let name = &instance.name;
+        let coordinate = self.coordinates.iter().position(|own| own.name == *name);
         if let Some(coordinate) = coordinate {
-            let twice = initial
-                .values
-                .get(&(coordinate, *order))
-                .map(|earlier| earlier.place);
-            if let Some(earlier) = twice {
-                let message = format!("the initial value of `{}` is given twice", key.content);
-                self.push(
-                    Diagnostic::error("stated-twice", key.place, message)
-                        .related(earlier, "first here"),
-                );
-                return false;
-            }
-            let expected = Expected::Quantity(name.clone(), *order);
-            if let Some(value) = self.expression(text, bindings, context, expected) {
-                let text = text.content.clone();
-                initial.values.insert(
-                    (coordinate, *order),
-                    InitialValue {
-                        value,
-                        text,
-                        place: key.place,
-                    },
-                );
-            }
-            return true;
+            return self.initial_coordinate(key, text, instance, coordinate, initial);
         }
         let multiplier = name
             .strip_prefix("lambda_")
             .or_else(|| name.strip_prefix("kappa_"));
         if let Some(of) = multiplier {
             if constraints.iter().any(|constraint| constraint.name == of) {
-                if let Some(value) = self.expression(text, bindings, context, Expected::Anything) {
-                    let (name, order) = (name.clone(), *order);
-                    initial.extra.push(ExtraInitialValue {
-                        name,
-                        order,
-                        value,
-                        place: key.place,
-                    });
-                }
+                self.initial_multiplier(key, text, instance, initial);
             } else {
                 let message = format!("there is no constraint `{of}` with such a multiplier");
                 self.push(Diagnostic::error("unknown-name", key.place, message));
             }
             return true;
         }
-        self.no_coordinate(
-            key,
-            name,
-            "initial data are those of coordinates and their derivatives",
-        );
+        let because = "initial data are those of coordinates and their derivatives";
+        self.no_coordinate(key, name, because);
         false
+    }
+
+    fn initial_coordinate(
+        &mut self,
+        key: &Text,
+        text: &Text,
+        instance: &Instance,
+        coordinate: usize,
+        initial: &mut Initial,
+    ) -> bool {
+        let at = (coordinate, instance.order);
+        if let Some(earlier) = initial.values.get(&at).map(|earlier| earlier.place) {
+            let message = format!("the initial value of `{}` is given twice", key.content);
+            self.push(
+                Diagnostic::error("stated-twice", key.place, message)
+                    .related(earlier, "first here"),
+            );
+            return false;
+        }
+        let expected = Expected::Quantity(instance.name.clone(), instance.order);
+        if let Some(value) = self.expression(text, &instance.bindings, INITIAL, expected) {
+            let text = text.content.clone();
+            let place = key.place;
+            initial
+                .values
+                .insert(at, InitialValue { value, text, place });
+        }
+        true
+    }
+
+    fn initial_multiplier(
+        &mut self,
+        key: &Text,
+        text: &Text,
+        instance: &Instance,
+        initial: &mut Initial,
+    ) {
+        let value = self.expression(text, &instance.bindings, INITIAL, Expected::Anything);
+        if let Some(value) = value {
+            initial.extra.push(ExtraInitialValue {
+                name: instance.name.clone(),
+                order: instance.order,
+                value,
+                place: key.place,
+            });
+        }
     }
 
     // ---- simulation

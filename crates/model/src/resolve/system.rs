@@ -54,6 +54,11 @@ impl Resolver {
             );
             return None;
         };
+        self.stated_lagrangian(table, raw)
+    }
+
+    /// By `T` and `V`, or by `L`.
+    fn stated_lagrangian(&mut self, table: &Table, raw: &Raw) -> Option<Lagrangian> {
         self.known_keys(table, &["T", "V", "L"], "of [lagrangian]");
         let of = |resolver: &mut Self, key: &str, what| {
             table.get(key).map(|raw| resolver.energy(raw, what))
@@ -296,25 +301,7 @@ impl Resolver {
     }
 
     fn constraint(&mut self, raw: &Raw, instances: &[Instance], constraints: &mut Vec<Constraint>) {
-        let mut description = String::new();
-        let mut value = Some(raw);
-        if let Kind::Table(table) = &raw.kind {
-            self.known_keys(
-                table,
-                &["name", "equation", "description"],
-                "of a constraint",
-            );
-            description = self
-                .optional_text(table, "description")
-                .map_or_else(String::new, |text| text.content.trim().to_owned());
-            value = table.get("equation");
-        }
-        let Some(value) = value else {
-            self.push(Diagnostic::error(
-                "missing-value",
-                raw.place,
-                "a constraint needs its `equation`",
-            ));
+        let Some((value, description)) = self.equation_and_description(raw) else {
             return;
         };
         let Kind::Text(text) = &value.kind else {
@@ -357,6 +344,24 @@ impl Resolver {
                 place: text.place,
             });
         }
+    }
+
+    /// A constraint is its equation, or a table with that.
+    fn equation_and_description<'r>(&mut self, raw: &'r Raw) -> Option<(&'r Raw, String)> {
+        let Kind::Table(table) = &raw.kind else {
+            return Some((raw, String::new()));
+        };
+        let known = ["name", "equation", "description"];
+        self.known_keys(table, &known, "of a constraint");
+        let description = self
+            .optional_text(table, "description")
+            .map_or_else(String::new, |text| text.content.trim().to_owned());
+        let equation = table.get("equation");
+        if equation.is_none() {
+            let message = "a constraint needs its `equation`";
+            self.push(Diagnostic::error("missing-value", raw.place, message));
+        }
+        equation.map(|equation| (equation, description))
     }
 
     fn empty_constraint(&mut self, name: &str, f: Expr, text: &Text) {
