@@ -3,6 +3,8 @@
 //! A quantity without a unit, and the number 0, fit everywhere. Nothing is inferred: a parameter without a unit gives
 //! a warning, and what contains it is not checked.
 
+mod expected;
+
 use std::cell::RefCell;
 
 use chetaev_symbolic::syntax::ast::{Binary, Node, NodeId};
@@ -11,12 +13,13 @@ use chetaev_symbolic::syntax::{lower, Builtin, Span, Tree};
 use chetaev_symbolic::Rational;
 
 use crate::diagnostic::Diagnostic;
-use crate::resolve::formula::{Expected, Formula};
+use crate::resolve::formula::Formula;
 use crate::resolve::scope::{Context, ModelScope, NamedKind};
 use crate::resolve::Resolver;
 use crate::source::Place;
 use crate::text::Text;
 use crate::units::{Dimension, Unit};
+use expected::Checked;
 
 /// The dimension of an expression, or none where it fits everywhere.
 type Kind = Option<Dimension>;
@@ -47,7 +50,8 @@ pub(crate) fn check(resolver: &mut Resolver) -> bool {
     }
     let mut warned: Vec<Place> = Vec::new();
     for (name, stated, place, what) in all {
-        if stated || warned.contains(&place) {
+        let excused = resolver.unreadable_units.contains(&place);
+        if stated || excused || warned.contains(&place) {
             continue;
         }
         warned.push(place);
@@ -120,7 +124,13 @@ impl Checker<'_> {
             self.definition(*number, kind, place);
             return;
         }
-        self.expectation(expected, kind, place, bare, &sides);
+        let checked = Checked {
+            kind,
+            place,
+            bare,
+            sides: &sides,
+        };
+        self.expectation(expected, &checked);
     }
 
     fn definition(&mut self, number: usize, kind: Kind, place: Place) {
@@ -139,131 +149,6 @@ impl Checker<'_> {
             }
         }
         self.defines[number] = stated.or(kind);
-    }
-
-    fn expectation(
-        &mut self,
-        expected: &Expected,
-        kind: Kind,
-        place: Place,
-        bare: bool,
-        sides: &[(Kind, Place)],
-    ) {
-        match expected {
-            Expected::Anything => {}
-            Expected::EqualSides => self.equal_sides(sides),
-            Expected::Quantity(name, order) => {
-                let Some(unit) = self.unit_of(name).cloned() else {
-                    return;
-                };
-                if bare {
-                    return;
-                }
-                if *order == 0 && !unit.is_coherent() {
-                    let message = format!(
-                        "a value computed from other quantities is in SI base units, not in `{}`",
-                        unit.text
-                    );
-                    self.found
-                        .push(
-                            Diagnostic::error("incoherent-unit", place, message).hint(format!(
-                                "state the unit of `{name}` as \"{}\"",
-                                unit.dimension
-                            )),
-                        );
-                    return;
-                }
-                let wanted = over_time(unit.dimension, *order);
-                let primes = "'".repeat(*order as usize);
-                self.compare_kind(
-                    &kind,
-                    &wanted,
-                    place,
-                    &format!("`{name}{primes}` has the dimension"),
-                );
-            }
-            Expected::Energy => {
-                let Some(own) = kind else { return };
-                match self.energy.clone() {
-                    None => self.energy = Some((own, place)),
-                    Some((energy, first)) if own != energy => {
-                        let message = format!("this has the dimension {own}, and the rest of the Lagrangian has {energy}");
-                        self.found.push(
-                            mismatch(place, message).related(first, format!("this has {energy}")),
-                        );
-                    }
-                    Some(_) => {}
-                }
-            }
-            Expected::Force(coordinate) => {
-                let (Some((energy, _)), Some(unit)) =
-                    (self.energy.clone(), self.unit_of(coordinate))
-                else {
-                    return;
-                };
-                let wanted = energy.over(&unit.dimension);
-                self.compare_kind(
-                    &kind,
-                    &wanted,
-                    place,
-                    &format!("the force on `{coordinate}` has the dimension of L/{coordinate},"),
-                );
-            }
-            Expected::Power => {
-                let Some((energy, _)) = self.energy.clone() else {
-                    return;
-                };
-                let wanted = energy.over(&Dimension::time());
-                self.compare_kind(
-                    &kind,
-                    &wanted,
-                    place,
-                    "Rayleigh's function has the dimension of L/t,",
-                );
-            }
-            Expected::Time if !bare => {
-                self.compare_kind(&kind, &Dimension::time(), place, "a time has the dimension")
-            }
-            Expected::Number if !bare => self.compare_kind(
-                &kind,
-                &Dimension::none(),
-                place,
-                "a pure number has the dimension",
-            ),
-            Expected::Time | Expected::Number => {}
-        }
-    }
-
-    fn equal_sides(&mut self, sides: &[(Kind, Place)]) {
-        let mut known = sides
-            .iter()
-            .filter_map(|(kind, place)| Some((kind.as_ref()?, *place)));
-        let Some((first, first_place)) = known.next() else {
-            return;
-        };
-        if let Some((other, place)) = known.find(|(kind, _)| *kind != first) {
-            let message = format!("one side has the dimension {first}, the other {other}");
-            self.found.push(
-                mismatch(place, message)
-                    .label(format!("this has {other}"))
-                    .related(first_place, format!("this has {first}")),
-            );
-        }
-    }
-
-    fn compare_kind(&mut self, kind: &Kind, wanted: &Dimension, place: Place, words: &str) {
-        if let Some(kind) = kind {
-            self.compare(kind, wanted, place, words);
-        }
-    }
-
-    fn compare(&mut self, kind: &Dimension, wanted: &Dimension, place: Place, words: &str) {
-        if kind != wanted {
-            self.found.push(
-                mismatch(place, format!("{words} {wanted}, and this has {kind}"))
-                    .label(format!("this has {kind}")),
-            );
-        }
     }
 
     fn unit_of(&self, name: &str) -> Option<&Unit> {
@@ -334,15 +219,12 @@ impl Checker<'_> {
         bindings: &Bindings,
     ) -> Known {
         let of = |id: NodeId| known[id.index()].clone();
-        let pure = Some(Dimension::none());
+        let valued = |kind: Kind| Known { kind, value: None };
         match node {
-            Node::Number(value) => {
-                let kind = if value.is_zero() { None } else { pure };
-                Known {
-                    kind,
-                    value: Some(value.clone()),
-                }
-            }
+            Node::Number(value) => Known {
+                kind: (!value.is_zero()).then(Dimension::none),
+                value: Some(value.clone()),
+            },
             Node::Name { order, .. } => self.name(id, *order, tree, bindings),
             Node::Negate(operand) => {
                 let own = of(*operand);
@@ -352,54 +234,12 @@ impl Checker<'_> {
                 }
             }
             Node::Binary {
-                operation: operation @ (Binary::Add | Binary::Subtract),
+                operation,
                 left,
                 right,
             } => {
-                let (a, b) = (of(*left), of(*right));
                 let spans = (tree.span(*left), tree.span(*right));
-                let kind = self.sum(&a.kind, &b.kind, spans, text);
-                let value = both(a.value, b.value, |a, b| {
-                    if *operation == Binary::Add {
-                        a + b
-                    } else {
-                        a - b
-                    }
-                });
-                Known { kind, value }
-            }
-            Node::Binary {
-                operation: Binary::Multiply,
-                left,
-                right,
-            } => {
-                let (a, b) = (of(*left), of(*right));
-                Known {
-                    kind: both(a.kind, b.kind, |a, b| a.times(&b)),
-                    value: both(a.value, b.value, |a, b| a * b),
-                }
-            }
-            Node::Binary {
-                operation: Binary::Divide,
-                left,
-                right,
-            } => {
-                let (a, b) = (of(*left), of(*right));
-                let value = both(a.value, b.value.filter(|value| !value.is_zero()), |a, b| {
-                    a / b
-                });
-                Known {
-                    kind: both(a.kind, b.kind, |a, b| a.over(&b)),
-                    value,
-                }
-            }
-            Node::Binary {
-                operation: Binary::Power,
-                left,
-                right,
-            } => {
-                let kind = self.power(&of(*left), &of(*right), tree.span(*right), text);
-                Known { kind, value: None }
+                self.binary(*operation, of(*left), of(*right), spans, text)
             }
             Node::Call {
                 function,
@@ -407,21 +247,47 @@ impl Checker<'_> {
                 power,
             } => {
                 let kind = self.call(*function, arguments, tree, text, known);
-                let raised = |kind: Dimension| {
-                    power
-                        .as_ref()
-                        .map_or(kind.clone(), |power| kind.power(power))
-                };
-                Known {
-                    kind: kind.map(raised),
-                    value: None,
-                }
+                valued(match power {
+                    Some(power) => kind.map(|kind| kind.power(power)),
+                    None => kind,
+                })
             }
-            Node::Sum { body, .. } => Known {
-                kind: of(*body).kind,
+            Node::Sum { body, .. } => valued(of(*body).kind),
+            Node::Error => Known::default(),
+        }
+    }
+
+    fn binary(
+        &mut self,
+        operation: Binary,
+        a: Known,
+        b: Known,
+        spans: (Span, Span),
+        text: &Text,
+    ) -> Known {
+        match operation {
+            Binary::Add => Known {
+                kind: self.sum(&a.kind, &b.kind, spans, text),
+                value: both(a.value, b.value, |a, b| a + b),
+            },
+            Binary::Subtract => Known {
+                kind: self.sum(&a.kind, &b.kind, spans, text),
+                value: both(a.value, b.value, |a, b| a - b),
+            },
+            Binary::Multiply => Known {
+                kind: both(a.kind, b.kind, |a, b| a.times(&b)),
+                value: both(a.value, b.value, |a, b| a * b),
+            },
+            Binary::Divide => Known {
+                kind: both(a.kind, b.kind, |a, b| a.over(&b)),
+                value: both(a.value, b.value.filter(|value| !value.is_zero()), |a, b| {
+                    a / b
+                }),
+            },
+            Binary::Power => Known {
+                kind: self.power(&a, &b, spans.1, text),
                 value: None,
             },
-            Node::Error => Known::default(),
         }
     }
 

@@ -178,3 +178,29 @@ fn a_model_without_units_is_not_checked() {
         read("coordinates = [\"x\"]\nparameters = { m = 1 }\nlagrangian = \"m x'^2 + x + sin(m)\"");
     assert!(loaded.model.is_some_and(|model| !model.has_units));
 }
+
+#[test]
+fn a_misspelt_unit_is_one_problem() {
+    let text = "[coordinates]\nx = \"metre\"\ny = \"m\"\nz = \"km\"\n[parameters]\nm = { value = 1, unit = \"kgg\" }\n\
+        k = 2\n[controls]\nu = { value = \"1\", unit = \"New\" }\n[lagrangian]\nT = \"y'^2\"\n";
+    let loaded = read(text);
+    let found: Vec<(&str, usize)> = loaded
+        .diagnostics
+        .list
+        .iter()
+        .zip(loaded.diagnostics.to_data())
+        .map(|(d, data)| (d.code, data.at.line))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            ("unknown-unit", 2),
+            ("incoherent-unit", 4),
+            ("unknown-unit", 6),
+            ("missing-unit", 7),
+            ("unknown-unit", 9)
+        ],
+        "{}",
+        loaded.diagnostics
+    );
+}

@@ -326,6 +326,7 @@ impl Resolver {
             }
             Kind::Table(table) => {
                 for (key, raw) in &table.entries {
+                    let before = self.diagnostics.len();
                     let (unit, description) = match &raw.kind {
                         Kind::Text(unit) => (self.unit(unit), String::new()),
                         Kind::Table(table) => {
@@ -341,6 +342,7 @@ impl Resolver {
                             (None, String::new())
                         }
                     };
+                    self.excuse_unit(key, before);
                     self.declare_coordinate(key, unit, description);
                 }
             }
@@ -367,6 +369,7 @@ impl Resolver {
             } else {
                 own.dimension.to_string()
             };
+            self.unreadable_units.push(key.place);
             self.push(
                 Diagnostic::error("incoherent-unit", key.place, message)
                     .hint(format!("state it in {hint}")),
@@ -409,6 +412,13 @@ impl Resolver {
         }
     }
 
+    /// A quantity whose unit is wrong, as a diagnostic since `before` says, is not blamed for having none.
+    pub(crate) fn excuse_unit(&mut self, key: &Text, before: usize) {
+        if self.diagnostics.len() > before {
+            self.unreadable_units.push(key.place);
+        }
+    }
+
     pub(crate) fn unit_and_description(&mut self, table: &Table) -> (Option<Unit>, String) {
         let unit = self
             .optional_text(table, "unit")
@@ -440,6 +450,7 @@ impl Resolver {
             return;
         };
         for (key, raw) in &table.entries {
+            let before = self.diagnostics.len();
             let (unit, description) = match &raw.kind {
                 Kind::Table(table) => {
                     self.known_keys(table, &["value", "unit", "description"], "of a control");
@@ -447,6 +458,7 @@ impl Resolver {
                 }
                 _ => (None, String::new()),
             };
+            self.excuse_unit(key, before);
             for instance in self.instances(key, "a control", &[]) {
                 if instance.order > 0 {
                     let message = format!(

@@ -65,6 +65,8 @@ pub(crate) struct Resolver {
     pub(crate) contents: RefCell<BTreeMap<(usize, u32), Contents>>,
     /// Every expression with what its dimension should be.
     pub(crate) formulas: Vec<Formula>,
+    /// Keys of quantities whose unit is stated, but wrong.
+    pub(crate) unreadable_units: Vec<Place>,
 }
 
 /// The keys of the file, in the order in which the documentation explains them.
@@ -115,6 +117,7 @@ pub(crate) fn resolve(
         defines: Vec::new(),
         contents: RefCell::default(),
         formulas: Vec::new(),
+        unreadable_units: Vec::new(),
     };
     resolver.known_keys(root, SECTIONS, "of a model file");
     let model = resolver.model(root, file, sources, text);
@@ -133,15 +136,7 @@ impl Resolver {
         sources: Sources,
         text: ModelText,
     ) -> Option<Model> {
-        self.declare_sizes(root);
-        self.declare_coordinates(root, file);
-        self.declare_controls(root);
-        self.declare_parameters(root);
-        self.declare_defines(root);
-        self.resolve_parameters();
-        self.resolve_defines();
-        self.resolve_controls(root);
-        self.unused_overrides();
+        self.names_and_values(root, file);
         let assumptions = self.assumptions(root);
         self.check_assumptions(&assumptions);
         let lagrangian = self.lagrangian(root, file);
@@ -157,26 +152,10 @@ impl Resolver {
         let name = self
             .optional_text(root, "name")
             .map_or_else(|| name_of_path(&text.path), |text| text.content);
-        let description = self
-            .optional_text(root, "description")
-            .map_or_else(String::new, |text| text.content.trim().to_owned());
-        let history = self
-            .optional_text(root, "history")
-            .map_or_else(String::new, |text| text.content.trim().to_owned());
+        let description = self.prose(root, "description");
+        let history = self.prose(root, "history");
         let source = self.references(root);
         let lagrangian = lagrangian?;
-        let definitions = |quasi: bool| -> Vec<Definition> {
-            let mut chosen: Vec<&define::Define> = self
-                .defines
-                .iter()
-                .filter(|define| define.quasi == quasi)
-                .collect();
-            chosen.sort_by_key(|define| if quasi { 0 } else { define.rank });
-            chosen
-                .into_iter()
-                .filter_map(define::Define::definition)
-                .collect()
-        };
         Some(Model {
             time: self.graph.symbol("t", 0),
             graph: Arc::clone(&self.graph),
@@ -188,7 +167,7 @@ impl Resolver {
             parameters: std::mem::take(&mut self.parameters),
             controls: std::mem::take(&mut self.controls),
             assumptions,
-            defines: definitions(false),
+            defines: self.definitions(false),
             kinetic: lagrangian.kinetic,
             potential: lagrangian.potential,
             lagrangian: lagrangian.total,
@@ -196,7 +175,7 @@ impl Resolver {
             rayleigh,
             constraints,
             independent,
-            quasi_velocities: definitions(true),
+            quasi_velocities: self.definitions(true),
             initial,
             simulation,
             integrals,
@@ -207,6 +186,39 @@ impl Resolver {
             sources,
             text,
         })
+    }
+
+    /// Declares every name and gives it its value.
+    fn names_and_values(&mut self, root: &Table, file: Place) {
+        self.declare_sizes(root);
+        self.declare_coordinates(root, file);
+        self.declare_controls(root);
+        self.declare_parameters(root);
+        self.declare_defines(root);
+        self.resolve_parameters();
+        self.resolve_defines();
+        self.resolve_controls(root);
+        self.unused_overrides();
+    }
+
+    /// Definitions in the order of their use, or quasi-velocities in the order of the file.
+    fn definitions(&self, quasi: bool) -> Vec<Definition> {
+        let mut chosen: Vec<&define::Define> = self
+            .defines
+            .iter()
+            .filter(|define| define.quasi == quasi)
+            .collect();
+        chosen.sort_by_key(|define| if quasi { 0 } else { define.rank });
+        chosen
+            .into_iter()
+            .filter_map(define::Define::definition)
+            .collect()
+    }
+
+    /// A text for people; empty where there is none.
+    fn prose(&mut self, table: &Table, key: &str) -> String {
+        self.optional_text(table, key)
+            .map_or_else(String::new, |text| text.content.trim().to_owned())
     }
 
     pub(crate) fn push(&mut self, diagnostic: Diagnostic) {

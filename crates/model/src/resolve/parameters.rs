@@ -55,7 +55,9 @@ impl Resolver {
                 &["value", "unit", "range", "description"],
                 "of a parameter",
             );
+            let before = self.diagnostics.len();
             (unit, description) = self.unit_and_description(table);
+            self.excuse_unit(key, before);
             value = table.get("value");
             range = table.get("range");
         }
