@@ -1,11 +1,11 @@
 //! Expressions of a finished model: what a check, a command line or a report asks about.
 
-use chetaev_symbolic::syntax::{lower, parse_expression, Resolution, Scope};
+use chetaev_symbolic::syntax::{lower, parse_expression, Resolution, Scope, Span};
 use chetaev_symbolic::Expr;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Model;
-use crate::source::Sources;
+use crate::source::{Place, Sources};
 use crate::text::Text;
 
 /// Highest derivative of a definition that is taken.
@@ -98,8 +98,12 @@ impl Model {
     /// # Errors
     /// Everything that is wrong with the text, each at its place; the text is shown under the name `expression`.
     pub fn expression(&self, text: &str) -> Result<Expr, Diagnostics> {
+        self.labelled_expression("expression", text)
+    }
+
+    fn labelled_expression(&self, label: &str, text: &str) -> Result<Expr, Diagnostics> {
         let mut sources = Sources::default();
-        let source = sources.add("expression", text);
+        let source = sources.add(label, text);
         let located = Text::verbatim(text, source, 0);
         let parsed = parse_expression(text);
         let mut found = parsed.diagnostics.clone();
@@ -120,6 +124,43 @@ impl Model {
             Some(value) if !diagnostics.has_errors() => Ok(value),
             _ => Err(diagnostics),
         }
+    }
+
+    /// The value of an expression of numbers and parameters, as the command line takes it: `2 pi`, `10 sqrt(l/g)`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the text, at its place and under the name `label`: unknown names, names without a
+    /// value, a value that is not finite.
+    pub fn constant_value(&self, label: &str, text: &str) -> Result<f64, Diagnostics> {
+        let value = self.labelled_expression(label, text)?;
+        let closed = self.graph.substitute(value, &self.parameter_values());
+        let open: Vec<String> = self
+            .graph
+            .symbols_in(&[closed])
+            .into_iter()
+            .map(|symbol| format!("`{}`", self.graph.symbol_text(symbol)))
+            .collect();
+        let message = if open.is_empty() {
+            match self.graph.evaluate_f64(&[closed], &|_| None) {
+                Ok(values) if values[0].is_finite() => return Ok(values[0]),
+                _ => "this is not a finite real number".to_owned(),
+            }
+        } else {
+            format!(
+                "a number is needed here, and {} {} no value",
+                open.join(", "),
+                if open.len() == 1 { "has" } else { "have" }
+            )
+        };
+        let mut sources = Sources::default();
+        let source = sources.add(label, text);
+        let place = Place {
+            source,
+            span: Span::new(0, text.len()),
+        };
+        let list = vec![Diagnostic::error("not-a-number", place, message)
+            .hint("numbers, pi, functions and parameters with a value may stand here")];
+        Err(Diagnostics { sources, list })
     }
 
     /// The total derivative with respect to the time of an expression of coordinates, controls and t.

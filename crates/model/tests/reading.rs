@@ -396,3 +396,54 @@ fn a_model_can_be_shared_between_threads() {
     shared::<Model>();
     shared::<Loaded>();
 }
+
+#[test]
+fn two_equality_signs_are_one() {
+    let with = |sign: &str| {
+        let text = format!("coordinates = [\"x\", \"y\"]\nlagrangian = \"x'^2 + y'^2\"\nconstraints = [\"y' {sign} 2 x'\"]\n");
+        let (model, diagnostics) = load("model.toml", &text, &NoFiles, &[])
+            .into_result()
+            .unwrap_or_else(|problems| panic!("{problems}"));
+        assert!(diagnostics.list.is_empty(), "{diagnostics}");
+        model.graph.text(model.constraints[0].f)
+    };
+    assert_eq!(with("=="), with("="));
+}
+
+#[test]
+fn output_is_a_number_of_intervals_in_two_notations() {
+    let with = |output: &str| {
+        let text = format!("coordinates = [\"x\"]\nlagrangian = \"x'^2\"\n[simulation]\nt_end = 1\noutput = {output}\n");
+        let loaded = load("model.toml", &text, &NoFiles, &[]);
+        let model = loaded
+            .model
+            .unwrap_or_else(|| panic!("{}", loaded.diagnostics));
+        format!("{:?}", model.simulation.output)
+    };
+    assert_eq!(with("{ points = 40 }"), with("40"));
+    assert_ne!(with("{ points = 40 }"), with("41"));
+}
+
+#[test]
+fn constants_are_read_with_the_parameters_of_the_model() {
+    let text = "coordinates = [\"x\"]\nlagrangian = \"x'^2/2\"\n[parameters]\nl = 9\nk = {}\n";
+    let (model, _) = load("model.toml", text, &NoFiles, &[])
+        .into_result()
+        .unwrap_or_else(|problems| panic!("{problems}"));
+    let value = |text: &str| model.constant_value("--t-end", text);
+    assert_eq!(value("sqrt(l)/2"), Ok(1.5));
+    assert_eq!(value("0.1"), Ok(0.1));
+    assert_eq!(value("-2 pi"), Ok(-std::f64::consts::TAU));
+    for (wrong, words) in [
+        ("k", "`k` has no value"),
+        ("x' + t", "have no value"),
+        ("sqrt(-l)", "finite real"),
+        ("", "--t-end"),
+        ("1e400", "finite"),
+    ] {
+        let problem = value(wrong)
+            .expect_err(wrong)
+            .render(chetaev_model::Style::Plain);
+        assert!(problem.contains(words), "{wrong}: {problem}");
+    }
+}
