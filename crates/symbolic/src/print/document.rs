@@ -51,6 +51,19 @@ pub struct Document {
     pub(crate) display: std::collections::BTreeMap<String, String>,
 }
 
+impl Document {
+    /// The names that the definitions introduce, in their order.
+    pub(crate) fn defined(&self) -> Vec<&str> {
+        self.definitions
+            .iter()
+            .flat_map(|definition| match definition {
+                Definition::Shared { name, .. } => vec![name.as_str()],
+                Definition::System(system) => system.unknowns.iter().map(String::as_str).collect(),
+            })
+            .collect()
+    }
+}
+
 impl LinearSystem {
     /// The equations of the system one by one: left and right sides, zero coefficients left out.
     pub(crate) fn rows(&self) -> Vec<(Formula, &Formula)> {

@@ -22,6 +22,7 @@ mod text;
 mod tests;
 
 pub use document::Document;
+pub use sympy::{sympy_module, PythonSection};
 
 use crate::graph::Graph;
 use crate::node::Expr;

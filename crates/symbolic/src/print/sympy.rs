@@ -36,42 +36,166 @@ impl Document {
             return only.clone();
         }
         let mut out = String::new();
-        for line in &parts.definitions {
-            out.push_str(line);
-            out.push('\n');
-        }
-        out.push_str("statements = [\n");
-        for line in &parts.statements {
-            out.push_str(&format!("    {line},\n"));
-        }
-        out.push_str("]\n");
+        Sympy::new(self).assignment(self, "statements", &mut out);
         out
     }
 
     /// A complete Python module: imports, declarations of all names, definitions, and a list called `statements`.
     pub fn sympy_script(&self) -> String {
-        let writer = Sympy::new(self);
-        let mut out = String::from("import sympy as sp\n\nt = sp.Symbol('t', real=True)\n");
-        for name in self.names.iter().filter(|name| name.name != "t") {
-            let (python, quoted) = (writer.name(&name.name), quoted(&name.name));
-            out.push_str(&if name.moves {
-                format!("{python} = sp.Function({quoted}, real=True)(t)\n")
-            } else {
-                format!("{python} = sp.Symbol({quoted}, real=True)\n")
-            });
-        }
-        let parts = self.sympy_parts();
-        for line in &parts.definitions {
-            out.push_str(line);
-            out.push('\n');
-        }
-        out.push_str("statements = [\n");
-        for line in &parts.statements {
-            out.push_str(&format!("    {line},\n"));
-        }
-        out.push_str("]\n");
+        let names = PythonNames::new(&[self], &[], &["statements"]);
+        let mut out = names.heading();
+        names.writer(self).assignment(self, "statements", &mut out);
         out
     }
+}
+
+/// One part of a Python module: a dictionary called `name` of lists of statements by their headings.
+#[derive(Clone, Debug)]
+pub struct PythonSection<'a> {
+    /// Name of the dictionary; no other may be given the same.
+    pub name: &'a str,
+    /// A comment above it.
+    pub title: &'a str,
+    /// Headings, which become the keys, with what stands below them.
+    pub groups: Vec<(&'a str, &'a Document)>,
+}
+
+/// A complete Python module: the import of SymPy, the declaration of every name once, and a dictionary for each section.
+///
+/// `moving` lists names that depend on the time even where no derivative of them is printed. A linear system that a group
+/// needs is stated, not solved, under the heading of the group with ": linear systems"; solving it in symbols could
+/// take SymPy for ever.
+pub fn sympy_module(sections: &[PythonSection<'_>], moving: &[String]) -> String {
+    let documents: Vec<&Document> = sections
+        .iter()
+        .flat_map(|section| section.groups.iter().map(|(_, document)| *document))
+        .collect();
+    let own: Vec<&str> = sections.iter().map(|section| section.name).collect();
+    let names = PythonNames::new(&documents, moving, &own);
+    let mut unknowns = names.taken.clone();
+    let mut out = names.heading();
+    for section in sections {
+        let name = identifier(section.name);
+        out.push_str(&format!("\n{}{name} = {{}}\n", comment(section.title)));
+        for (heading, document) in &section.groups {
+            let writer = names.writer_in(&name, document, &mut unknowns);
+            out.push_str(&comment(heading));
+            let systems = writer.definitions(document, &mut out);
+            let statements = document.statements.iter().map(|s| writer.statement(s));
+            push_list(
+                &format!("{name}[{}]", quoted(heading)),
+                statements.collect(),
+                &mut out,
+            );
+            if !systems.is_empty() {
+                let key = quoted(&format!("{heading}: linear systems"));
+                push_list(&format!("{name}[{key}]"), systems, &mut out);
+            }
+        }
+    }
+    out
+}
+
+/// The names of the model in a module, the same in all of its documents.
+struct PythonNames {
+    /// Names of the model with their Python names, and whether they depend on the time; in alphabetic order.
+    declared: BTreeMap<String, (String, bool)>,
+    /// Python names that no definition may take.
+    taken: BTreeSet<String>,
+}
+
+impl PythonNames {
+    fn new(documents: &[&Document], moving: &[String], reserved: &[&str]) -> PythonNames {
+        let mut moves: BTreeMap<&str, bool> = BTreeMap::new();
+        for name in documents.iter().flat_map(|document| &document.names) {
+            *moves.entry(&name.name).or_default() |= name.moves || moving.contains(&name.name);
+        }
+        let mut taken: BTreeSet<String> = ["sp", "t"].map(String::from).into();
+        taken.extend(reserved.iter().map(|name| identifier(name)));
+        let mut declared = BTreeMap::from([("t".to_string(), ("t".to_string(), false))]);
+        for (name, moves) in moves {
+            if name != "t" {
+                declared.insert(name.to_string(), (free(name, &mut taken), moves));
+            }
+        }
+        PythonNames { declared, taken }
+    }
+
+    /// The import and the declarations.
+    fn heading(&self) -> String {
+        let mut out = String::from("import sympy as sp\n\nt = sp.Symbol('t', real=True)\n");
+        for (name, (python, moves)) in &self.declared {
+            let quoted = quoted(name);
+            match (name.as_str(), moves) {
+                ("t", _) => {}
+                (_, true) => {
+                    out.push_str(&format!("{python} = sp.Function({quoted}, real=True)(t)\n"))
+                }
+                (_, false) => out.push_str(&format!("{python} = sp.Symbol({quoted}, real=True)\n")),
+            }
+        }
+        out
+    }
+
+    /// The definitions of a document have names of their own: one document may define what another declares.
+    fn writer(&self, document: &Document) -> Sympy {
+        let mut names: BTreeMap<String, String> = self
+            .declared
+            .iter()
+            .map(|(name, (python, _))| (name.clone(), python.clone()))
+            .collect();
+        let mut taken = self.taken.clone();
+        for name in document.defined() {
+            names.insert(name.to_string(), free(name, &mut taken));
+        }
+        Sympy { names }
+    }
+
+    /// The same, where the unknowns of linear systems stay symbols: their names are those of a section and used once.
+    fn writer_in(
+        &self,
+        section: &str,
+        document: &Document,
+        unknowns: &mut BTreeSet<String>,
+    ) -> Sympy {
+        let mut writer = self.writer(document);
+        for definition in &document.definitions {
+            if let Definition::System(system) = definition {
+                for name in &system.unknowns {
+                    let own = free(&format!("{section}_{name}"), unknowns);
+                    writer.names.insert(name.clone(), own);
+                }
+            }
+        }
+        writer
+    }
+}
+
+/// A list of one line for each entry.
+fn push_list(name: &str, entries: Vec<String>, out: &mut String) {
+    out.push_str(&format!("{name} = [\n"));
+    for entry in entries {
+        out.push_str(&format!("    {entry},\n"));
+    }
+    out.push_str("]\n");
+}
+
+/// A Python name that is not taken yet; it then is.
+fn free(name: &str, taken: &mut BTreeSet<String>) -> String {
+    let mut python = identifier(name);
+    while !taken.insert(python.clone()) {
+        python.push('_');
+    }
+    python
+}
+
+/// A line of Python that says something to a person.
+fn comment(text: &str) -> String {
+    let line: String = text
+        .chars()
+        .map(|sign| if sign.is_control() { ' ' } else { sign })
+        .collect();
+    format!("# {line}\n")
 }
 
 struct Sympy {
@@ -80,24 +204,39 @@ struct Sympy {
 
 impl Sympy {
     fn new(document: &Document) -> Sympy {
-        let mut taken: BTreeSet<String> = ["sp", "t", "statements"].map(String::from).into();
-        let mut names = BTreeMap::from([("t".to_string(), "t".to_string())]);
-        let model = document.names.iter().map(|name| name.name.as_str());
-        let defined = document.definitions.iter().flat_map(|d| match d {
-            Definition::Shared { name, .. } => vec![name.as_str()],
-            Definition::System(system) => system.unknowns.iter().map(String::as_str).collect(),
-        });
-        for name in model.chain(defined) {
-            if names.contains_key(name) {
-                continue;
-            }
-            let mut python = identifier(name);
-            while !taken.insert(python.clone()) {
-                python.push('_');
-            }
-            names.insert(name.to_string(), python);
+        PythonNames::new(&[document], &[], &["statements"]).writer(document)
+    }
+
+    /// Definitions, then the statements as a list under a name.
+    fn assignment(&self, document: &Document, list: &str, out: &mut String) {
+        for definition in &document.definitions {
+            out.push_str(&self.definition(definition));
+            out.push('\n');
         }
-        Sympy { names }
+        let statements = document.statements.iter().map(|s| self.statement(s));
+        push_list(list, statements.collect(), out);
+    }
+
+    /// Writes the definitions, the unknowns of linear systems as symbols, and returns the equations of these.
+    fn definitions(&self, document: &Document, out: &mut String) -> Vec<String> {
+        let mut equations = Vec::new();
+        for definition in &document.definitions {
+            let Definition::System(system) = definition else {
+                out.push_str(&format!("{}\n", self.definition(definition)));
+                continue;
+            };
+            for unknown in &system.unknowns {
+                let name = self.name(unknown);
+                out.push_str(&format!(
+                    "{name} = sp.Symbol({}, real=True)\n",
+                    quoted(&name)
+                ));
+            }
+            equations.extend(system.rows().iter().map(|(left, right)| {
+                format!("sp.Eq({}, {})", self.formula(left), self.formula(right))
+            }));
+        }
+        equations
     }
 
     fn name(&self, name: &str) -> String {
