@@ -2,6 +2,7 @@
 
 pub mod card;
 pub mod characteristics;
+pub mod choice;
 pub mod claims;
 pub mod constraint;
 pub mod equations;

@@ -20,6 +20,6 @@ pub mod typeset;
 pub mod verify;
 
 pub use options::{ClaimSelection, Hooks, StudyOptions};
-pub use placed::placed;
+pub use placed::{diagnostics, placed};
 pub use registry::registry;
-pub use study::{check, study, Decided, Motion, Outcome, Study, StudyError};
+pub use study::{check, study, Decided, Motion, Outcome, Study, StudyError, UnknownClaim};

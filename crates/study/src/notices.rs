@@ -2,13 +2,34 @@
 
 use crate::start::{holds, Start};
 use crate::study::Motion;
-use chetaev_mechanics::{Prepared, System};
+use chetaev_mechanics::{choice, Prepared, System};
 use chetaev_model::model::Model;
 use chetaev_motion::observe::Observer;
 use chetaev_symbolic::Expr;
 
-/// Holonomic constraints, redundant ones, completed initial data.
-pub(crate) fn notices(model: &Model, system: &System, start: Option<&Start>) -> Vec<String> {
+/// Holonomic constraints, velocities not used as asked, redundant constraints, completed initial data.
+pub(crate) fn notices(
+    model: &Model,
+    system: &System,
+    prepared: &Prepared,
+    start: Option<&Start>,
+) -> Vec<String> {
+    let mut notices = holonomic(model, system);
+    notices.extend(choice::unheeded(
+        system,
+        &prepared.terms,
+        &prepared.selection,
+    ));
+    notices.extend(unused_multipliers(model));
+    if let Some(start) = start {
+        notices.extend(redundant(start));
+        notices.extend(completed(start));
+    }
+    notices
+}
+
+/// Constraints that contain no velocities.
+fn holonomic(model: &Model, system: &System) -> Vec<String> {
     let mut notices = Vec::new();
     for constraint in &system.constraints {
         if constraint.order == 0 {
@@ -19,40 +40,58 @@ pub(crate) fn notices(model: &Model, system: &System, start: Option<&Start>) -> 
             ));
         }
     }
-    let Some(start) = start else { return notices };
-    if !start.start.redundant.is_empty() {
-        let names: Vec<String> = start
-            .start
-            .redundant
-            .iter()
-            .map(|n| format!("`{n}`"))
-            .collect();
-        notices.push(format!(
+    notices
+}
+
+/// Initial values of multipliers: the state determines them in the formulations that there are.
+fn unused_multipliers(model: &Model) -> Option<String> {
+    let names: Vec<String> = model
+        .initial
+        .extra
+        .iter()
+        .map(|own| format!("`{}{}`", own.name, "'".repeat(own.order as usize)))
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "initial values not used: {}; in Routh's and Maggi's equations the state determines the multipliers",
+            names.join(", ")
+        )
+    })
+}
+
+/// Constraints that depend on the others where the motion begins.
+fn redundant(start: &Start) -> Option<String> {
+    let names: Vec<String> = start
+        .start
+        .redundant
+        .iter()
+        .map(|n| format!("`{n}`"))
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
             "redundant constraints: {} depend{} on the others at the initial state (rank {} of {}); motion and reactions are unique, the single multipliers are not, and those of the constraints left out are given as zero",
             names.join(", "),
             if names.len() == 1 { "s" } else { "" },
             start.start.chart.rank(),
             start.numeric.r,
-        ));
-    }
+        )
+    })
+}
+
+/// Initial data that the constraints determine.
+fn completed(start: &Start) -> Option<String> {
     let free: Vec<String> = start
         .start
         .completed
         .iter()
         .map(|(name, value)| format!("{name} = {value}"))
         .collect();
-    if !free.is_empty() {
-        let how = if start.data.project {
-            "projected on"
-        } else {
-            "completed from"
-        };
-        notices.push(format!(
-            "initial data {how} the constraints: {}",
-            free.join(", ")
-        ));
-    }
-    notices
+    let how = if start.data.project {
+        "projected on"
+    } else {
+        "completed from"
+    };
+    (!free.is_empty()).then(|| format!("initial data {how} the constraints: {}", free.join(", ")))
 }
 
 /// Assumptions that the motion leaves: what was proved under them says nothing of the motion from there on.

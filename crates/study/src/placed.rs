@@ -1,7 +1,26 @@
 //! Problems of the mechanics shown where the model states what they name.
 
+use crate::study::StudyError;
 use chetaev_model::model::Model;
 use chetaev_model::{Diagnostic, Place};
+
+/// What is wrong with the input of a study: one diagnostic for each mistake, at its place.
+pub fn diagnostics(problem: &StudyError, model: &Model) -> Vec<Diagnostic> {
+    let StudyError::UnknownClaims { claims } = problem else {
+        return vec![placed(&problem.to_string(), model)];
+    };
+    claims
+        .iter()
+        .map(|unknown| {
+            let message = format!("there is no claim `{}`", unknown.claim);
+            let hint = match unknown.near {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "`chetaev explain` lists all claims".to_owned(),
+            };
+            Diagnostic::error("unknown-claim", unknown.place, message).hint(hint)
+        })
+        .collect()
+}
 
 /// A diagnostic at the places of the constraints, parameters, controls, initial values and coordinates that `problem`
 /// names in quotes (`` `roll` ``); where it names none, at the initial data or at the beginning of the file.

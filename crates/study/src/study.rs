@@ -10,6 +10,7 @@ use chetaev_mechanics::characteristics::{CharacteristicsError, Selection};
 use chetaev_mechanics::claims::{full_id, Registry};
 use chetaev_mechanics::{Context, Finding, Group, Prepared, Prover, System, SystemError};
 use chetaev_model::model::Model;
+use chetaev_model::Place;
 use chetaev_motion::{
     Binding, ConsistentState, InitialError, NumericError, Run, RunError, RunSettings, Subject,
     Watcher,
@@ -213,13 +214,11 @@ pub enum StudyError {
     /// An output step that is not positive.
     #[error("the output step must be a positive number")]
     OutputStep,
-    /// An expectation about a claim that does not exist.
-    #[error("[expect] names the claim `{claim}`, which does not exist{hint}; `chetaev explain` lists all")]
-    UnknownClaim {
-        /// As written.
-        claim: String,
-        /// The nearest one.
-        hint: String,
+    /// Expectations about claims that do not exist, all of them.
+    #[error("{}; `chetaev explain` lists all claims", sentences(claims))]
+    UnknownClaims {
+        /// In the order of the file.
+        claims: Vec<UnknownClaim>,
     },
     /// Initial data of a kind the first-order theory has no use for.
     #[error("the initial value of `{name}` is not used: a first-order system is determined by coordinates and velocities")]
@@ -227,6 +226,30 @@ pub enum StudyError {
         /// Name with primes.
         name: String,
     },
+}
+
+/// An expectation about a claim that does not exist.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "[expect] names the claim `{claim}`, which does not exist{}",
+    suggestion(near)
+)]
+pub struct UnknownClaim {
+    /// As written.
+    pub claim: String,
+    /// The nearest one.
+    pub near: Option<&'static str>,
+    /// Where it is written.
+    pub place: Place,
+}
+
+fn suggestion(near: &Option<&'static str>) -> String {
+    near.map_or(String::new(), |near| format!("; did you mean `{near}`?"))
+}
+
+fn sentences(claims: &[UnknownClaim]) -> String {
+    let each: Vec<String> = claims.iter().map(UnknownClaim::to_string).collect();
+    each.join("; ")
 }
 
 /// Formulations that can be integrated by themselves.
@@ -249,6 +272,7 @@ fn prepare(
 ) -> Result<(System, Prepared, Option<Start>), StudyError> {
     check_expectations(model, &registry())?;
     let system = System::from_model(model)?;
+    check_initial_data(model, &system)?;
     (hooks.progress)("deriving", None);
     let terms = chetaev_mechanics::MotionTerms::new(&system);
     let start = start_of_motion(model, &system, &terms, options)?;
@@ -281,7 +305,7 @@ pub fn study(
 ) -> Result<Study, StudyError> {
     let known = registry();
     let (system, prepared, numeric) = prepare(&model, &options, hooks)?;
-    let mut notices = notices(&model, &system, numeric.as_ref());
+    let mut notices = notices(&model, &system, &prepared, numeric.as_ref());
     let wants_motion = options.motion && options.claims.wants_group(Group::Motion, known.claims());
     let motion = match numeric {
         Some(numeric) if wants_motion => Some(compute(
@@ -388,13 +412,36 @@ fn last_time(run: &Run, t_end: f64) -> f64 {
 /// Every claim of which the model expects something exists.
 fn check_expectations(model: &Model, known: &Registry) -> Result<(), StudyError> {
     let ids = || known.claims().iter().map(|c| c.id());
-    let unknown = |claim: &str| !ids().any(|id| id == claim);
-    match model.expect.verdicts.iter().find(|e| unknown(&e.claim)) {
+    let claims: Vec<UnknownClaim> = model
+        .expect
+        .verdicts
+        .iter()
+        .filter(|e| ids().all(|id| id != e.claim))
+        .map(|e| UnknownClaim {
+            near: names::closest(&e.claim, ids()),
+            claim: e.claim.clone(),
+            place: e.place,
+        })
+        .collect();
+    match claims.is_empty() {
+        true => Ok(()),
+        false => Err(StudyError::UnknownClaims { claims }),
+    }
+}
+
+/// Coordinates and velocities determine a system of first order; other initial data are refused, not passed over.
+fn check_initial_data(model: &Model, system: &System) -> Result<(), StudyError> {
+    if system.constraints.iter().any(|c| c.order > 1) {
+        return Ok(());
+    }
+    match model.initial.values.keys().find(|(_, order)| *order > 1) {
         None => Ok(()),
-        Some(expected) => Err(StudyError::UnknownClaim {
-            hint: names::closest(&expected.claim, ids())
-                .map_or(String::new(), |near| format!("; did you mean `{near}`?")),
-            claim: expected.claim.clone(),
+        Some(&(i, order)) => Err(StudyError::UnusedInitialValue {
+            name: format!(
+                "{}{}",
+                model.coordinates[i].name,
+                "'".repeat(order as usize)
+            ),
         }),
     }
 }
