@@ -1,5 +1,7 @@
 //! Replays the verdicts of a record from the embedded model (theory 6.6).
 
+mod notices;
+mod texts;
 mod trajectory;
 
 use crate::options::{ClaimSelection, Hooks, StudyOptions};
@@ -26,6 +28,11 @@ pub enum Replay {
     },
     /// A statement about numbers that was tampered with or differs beyond its size.
     Numbers {
+        /// What differs.
+        what: String,
+    },
+    /// Not the same, but as another machine or another version may have it: neither agreement nor contradiction.
+    Remark {
         /// What differs.
         what: String,
     },
@@ -100,6 +107,7 @@ pub fn verify(record: &Record, hooks: &mut Hooks<'_>) -> Result<Vec<Verified>, V
         .collect();
     lines.extend(missing(record, &same));
     lines.extend(trajectory::compare(record, &same));
+    lines.extend(notices::compare(record, &same));
     Ok(lines)
 }
 
@@ -279,9 +287,9 @@ fn missing(record: &Record, replayed: &Record) -> Vec<Verified> {
         .collect()
 }
 
-/// Whether every line is confirmed or open.
+/// Whether no line disagrees: each is confirmed, open or remarked on.
 pub fn agrees(lines: &[Verified]) -> bool {
     lines
         .iter()
-        .all(|l| matches!(l.replay, Replay::Confirmed | Replay::Open { .. }))
+        .all(|l| !matches!(l.replay, Replay::Differs { .. } | Replay::Numbers { .. }))
 }

@@ -70,5 +70,6 @@ fn words(replay: &Replay) -> (&'static str, String) {
             ("DISAGREES", format!("replay finds {found}: {detail}"))
         }
         Replay::Numbers { what } => ("DISAGREES", what.clone()),
+        Replay::Remark { what } => ("remark", what.clone()),
     }
 }

@@ -1,5 +1,6 @@
 //! The computed motion of a record against the same motion again.
 
+use super::texts::{self, Agreement};
 use super::{numbers, Replay, Verified};
 use crate::record::{NamedValue, Record, TrajectoryRecord};
 
@@ -12,7 +13,12 @@ pub(super) fn compare(record: &Record, replayed: &Record) -> Option<Verified> {
         (None, Some(_)) => return Some(line("nothing", Some("the motion is left out".into()))),
     };
     let word = if a.finished { "finished" } else { "stopped" };
-    Some(line(word, difference(a, b)))
+    let mut verified = line(word, difference(a, b));
+    if verified.replay == Replay::Confirmed {
+        let version = (record.chetaev != replayed.chetaev).then_some(record.chetaev.as_str());
+        verified.replay = statistics(a, b, version);
+    }
+    Some(verified)
 }
 
 fn line(recorded: &str, what: Option<String>) -> Verified {
@@ -21,6 +27,51 @@ fn line(recorded: &str, what: Option<String>) -> Verified {
         recorded: recorded.into(),
         replay: what.map_or(Replay::Confirmed, |what| Replay::Numbers { what }),
     }
+}
+
+/// How the integrator got there. On one machine the replay takes the same steps. Elementary functions that round otherwise
+/// may cost or save a few, and another version may choose its steps by other rules: then it is only remarked.
+fn statistics(a: &TrajectoryRecord, b: &TrajectoryRecord, version: Option<&str>) -> Replay {
+    let Some((what, in_reach)) = reason(a, b).or_else(|| counts(a, b)) else {
+        return Replay::Confirmed;
+    };
+    match version {
+        Some(version) => Replay::Remark {
+            what: format!("written by version {version}: {what}"),
+        },
+        None if !in_reach => Replay::Numbers { what },
+        // The replay ends where the run was interrupted, with a step cut to that length.
+        None if a.is_interrupted() => Replay::Confirmed,
+        None => Replay::Remark {
+            what: format!("{what}; another machine may take a few steps more or less"),
+        },
+    }
+}
+
+/// Another reason for the end.
+fn reason(a: &TrajectoryRecord, b: &TrajectoryRecord) -> Option<(String, bool)> {
+    let differs = texts::compare(&a.reason, &b.reason, 1e-6) == Agreement::Other;
+    (differs && !a.is_interrupted())
+        .then(|| ("`reason` is not what the replay finds".to_owned(), false))
+}
+
+/// The first count that differs, and whether all differ by no more than a few steps.
+fn counts(a: &TrajectoryRecord, b: &TrajectoryRecord) -> Option<(String, bool)> {
+    let few = few(a.steps.max(b.steps));
+    let all = [
+        ("steps", a.steps, b.steps, few),
+        ("rejected", a.rejected, b.rejected, few),
+        ("evaluations", a.evaluations, b.evaluations, 20 * few),
+        ("chart_switches", a.chart_switches, b.chart_switches, 1),
+    ];
+    let (name, x, y, _) = all.iter().find(|(_, x, y, _)| x != y)?;
+    let in_reach = all.iter().all(|(_, x, y, most)| x.abs_diff(*y) <= *most);
+    Some((format!("`{name}` is {x}, the replay finds {y}"), in_reach))
+}
+
+/// Steps that differently rounded functions may cost or save: a fiftieth, and three of a short run.
+fn few(steps: u64) -> u64 {
+    (steps / 50).max(3)
 }
 
 fn difference(a: &TrajectoryRecord, b: &TrajectoryRecord) -> Option<String> {
