@@ -79,15 +79,15 @@ pub(crate) struct Study {
 /// How the motion is computed.
 #[derive(Args, Debug)]
 pub(crate) struct MotionArguments {
-    /// End of the run
-    #[arg(long, allow_negative_numbers = true)]
-    pub(crate) t_end: Option<f64>,
+    /// End of the run, an exact expression: --t-end 100 --t-end "20 pi/3" --t-end="-2 pi"
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub(crate) t_end: Option<String>,
     /// Relative tolerance
     #[arg(long)]
     pub(crate) tolerance: Option<f64>,
-    /// Fixed step, required by runge-kutta-4
-    #[arg(long, value_name = "H")]
-    pub(crate) step: Option<f64>,
+    /// Fixed step, an exact expression, required by runge-kutta-4: --step 0.01 --step "pi/400"
+    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    pub(crate) step: Option<String>,
     /// dormand-prince-853 (dop853), tsitouras-5 (tsit5) or runge-kutta-4 (rk4, with --step)
     #[arg(long)]
     pub(crate) method: Option<String>,
@@ -103,7 +103,8 @@ pub(crate) struct MotionArguments {
 #[command(after_help = "Examples:
   chetaev derive gallery/appell-hamel/model.toml
   chetaev derive model.toml --formulation maggi --as latex
-  chetaev derive model.toml --formulation routh --as sympy > equations.py")]
+  chetaev derive model.toml --as sympy > equations.py
+  python3 -i equations.py             then: routh['equations of motion']")]
 pub(crate) struct Derive {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
@@ -156,10 +157,14 @@ pub(crate) struct Check {
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   chetaev explain                     list all claims
-  chetaev explain energy.integral")]
+  chetaev explain energy.integral
+  chetaev explain energy.integral --json")]
 pub(crate) struct Explain {
     /// A claim id; all are listed when left out
     pub(crate) claim: Option<String>,
+    /// Print id, title, group, explanation and requirements as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Args, Debug)]
@@ -185,10 +190,14 @@ pub(crate) struct New {
 #[command(after_help = "Examples:
   chetaev gallery
   chetaev gallery describe snakeboard
-  chetaev gallery copy snakeboard my-snakeboard")]
+  chetaev gallery copy snakeboard my-snakeboard
+  chetaev gallery list --json")]
 pub(crate) struct Gallery {
     #[command(subcommand)]
     pub(crate) action: Option<GalleryAction>,
+    /// Print names, titles, texts and files as JSON
+    #[arg(long, global = true)]
+    pub(crate) json: bool,
 }
 
 #[derive(Subcommand, Debug)]

@@ -2,7 +2,7 @@
 
 use crate::arguments::ModelArguments;
 use crate::terminal;
-use chetaev::model::{self, Diagnostics, Files, Model, Sources, Style};
+use chetaev::model::{self, Diagnostic, Diagnostics, Files, Model, Sources, Style};
 use chetaev::study::placed;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -27,9 +27,14 @@ pub(crate) struct Read {
 impl Read {
     /// Prints a problem of the mechanics at the places of what it names.
     pub(crate) fn refuse(&self, problem: impl Display) {
+        self.refuse_all(vec![placed(&problem.to_string(), &self.model)]);
+    }
+
+    /// Prints problems that have their places.
+    pub(crate) fn refuse_all(&self, list: Vec<Diagnostic>) {
         report(&Diagnostics {
             sources: self.sources.clone(),
-            list: vec![placed(&problem.to_string(), &self.model)],
+            list,
         });
     }
 }

@@ -4,25 +4,25 @@ use super::with_hooks;
 use crate::arguments::Check as Arguments;
 use crate::{files, terminal, DONE, INPUT};
 use chetaev::model::Model;
-use chetaev::study::{check, placed};
+use chetaev::study::{check, diagnostics};
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
-    let Some((model, mut diagnostics)) = files::load(&arguments.model) else {
+    let Some((model, mut found)) = files::load(&arguments.model) else {
         return INPUT;
     };
     if let Some(model) = &model {
         if let Err(problem) = with_hooks(|hooks| check(model, hooks)) {
-            diagnostics.list.push(placed(&problem.to_string(), model));
+            found.list.extend(diagnostics(&problem, model));
         }
     }
     if arguments.json {
-        let text = serde_json::to_string_pretty(&diagnostics.to_data()).unwrap_or_default();
+        let text = serde_json::to_string_pretty(&found.to_data()).unwrap_or_default();
         terminal::out(&format!("{text}\n"));
     } else {
-        files::report(&diagnostics);
+        files::report(&found);
     }
     match model {
-        Some(model) if !diagnostics.has_errors() => {
+        Some(model) if !found.has_errors() => {
             if !arguments.json {
                 terminal::out(&summary(&model));
             }

@@ -5,15 +5,25 @@ use crate::arguments::Explain as Arguments;
 use crate::{terminal, DONE, INPUT};
 use chetaev::mechanics::{Claim, Group};
 use chetaev::study::registry;
+use chetaev::symbolic::syntax::names;
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let known = registry();
     let Some(wanted) = &arguments.claim else {
-        terminal::out(&list(known.claims()));
+        terminal::out(&if arguments.json {
+            let all: Vec<_> = known.claims().iter().map(|c| as_json(*c, c.id())).collect();
+            text_of(&serde_json::json!(all))
+        } else {
+            list(known.claims())
+        });
         return DONE;
     };
     let id = wanted.split('#').next().unwrap_or(wanted);
     match known.find(id) {
+        Some(claim) if arguments.json => {
+            terminal::out(&text_of(&as_json(claim, wanted)));
+            DONE
+        }
         Some(claim) => {
             terminal::out(&explained(claim, wanted));
             DONE
@@ -21,11 +31,28 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         None => {
             error(format!(
                 "there is no claim `{id}`{}",
-                nearest(id, known.claims())
+                did_you_mean(id, known.claims())
             ));
             INPUT
         }
     }
+}
+
+fn text_of(data: &serde_json::Value) -> String {
+    format!(
+        "{}\n",
+        serde_json::to_string_pretty(data).unwrap_or_default()
+    )
+}
+
+fn as_json(claim: &'static dyn Claim, wanted: &str) -> serde_json::Value {
+    serde_json::json!({
+        "id": claim.id(),
+        "title": claim.title(),
+        "group": claim.group().word(),
+        "explanation": claim.explanation(),
+        "requires": requirements(claim, wanted),
+    })
 }
 
 fn list(claims: &[&'static dyn Claim]) -> String {
@@ -50,15 +77,20 @@ fn explained(claim: &'static dyn Claim, wanted: &str) -> String {
         claim.title(),
         wrapped(claim.explanation())
     );
-    let subject = wanted
-        .split_once('#')
-        .map(|(_, s)| s)
-        .or(Some("maggi").filter(|_| claim.id() == "formulation.equivalent"));
-    let requires = claim.requires(subject);
+    let requires = requirements(claim, wanted);
     if !requires.is_empty() {
         text.push_str(&format!("\nRequires: {}\n", requires.join(", ")));
     }
     text
+}
+
+/// The hypotheses of a claim, for the subject after `#` or the usual one.
+fn requirements(claim: &'static dyn Claim, wanted: &str) -> Vec<String> {
+    let subject = wanted
+        .split_once('#')
+        .map(|(_, s)| s)
+        .or(Some("maggi").filter(|_| claim.id() == "formulation.equivalent"));
+    claim.requires(subject)
 }
 
 /// Lines of at most 88 characters.
@@ -78,15 +110,22 @@ fn wrapped(text: &str) -> String {
     lines.join("\n")
 }
 
-fn nearest(id: &str, claims: &[&'static dyn Claim]) -> String {
+/// "; did you mean …?" for a claim that does not exist: the nearest by spelling, else those with the same last word.
+pub(crate) fn did_you_mean(id: &str, claims: &[&'static dyn Claim]) -> String {
+    let ids = || claims.iter().map(|c| c.id());
+    let last = |id: &'static str| id.rsplit('.').next().unwrap_or(id);
     let tail = id.rsplit('.').next().unwrap_or(id);
-    let close: Vec<&str> = claims
-        .iter()
-        .map(|c| c.id())
-        .filter(|known| {
-            known.contains(tail) || tail.len() > 3 && known.contains(&tail[..tail.len() - 1])
-        })
-        .collect();
+    let close: Vec<&str> = match names::closest(id, ids()) {
+        Some(near) => vec![near],
+        None => {
+            let near = names::closest(tail, ids().map(last));
+            ids()
+                .filter(|known| {
+                    Some(last(known)) == near || (tail.len() > 3 && known.contains(tail))
+                })
+                .collect()
+        }
+    };
     if close.is_empty() {
         "; `chetaev explain` lists them".into()
     } else {

@@ -3,6 +3,7 @@
 use super::error;
 use crate::arguments::{Gallery as Arguments, GalleryAction};
 use crate::{files, terminal, DONE, INPUT};
+use chetaev::symbolic::syntax::names;
 use std::path::{Path, PathBuf};
 
 /// Name and files (name, content) of a model.
@@ -13,59 +14,88 @@ struct Entry {
 
 include!(concat!(env!("OUT_DIR"), "/gallery.rs"));
 
+impl Entry {
+    /// The description.
+    fn readme(&self) -> &'static str {
+        let readme = self.files.iter().find(|(file, _)| *file == "README.md");
+        readme.map_or("no description\n", |(_, text)| text)
+    }
+
+    /// The first line of the description.
+    fn title(&self) -> &'static str {
+        let first = self.readme().lines().next().unwrap_or("");
+        first.trim_start_matches('#').trim()
+    }
+
+    fn as_json(&self) -> serde_json::Value {
+        let files: Vec<&str> = self.files.iter().map(|(file, _)| *file).collect();
+        serde_json::json!({"name": self.name, "title": self.title(), "files": files})
+    }
+}
+
 pub(crate) fn run(arguments: &Arguments) -> u8 {
+    let json = arguments.json;
     match &arguments.action {
-        None | Some(GalleryAction::List) => list(),
+        None | Some(GalleryAction::List) => list(json),
         Some(GalleryAction::Describe { name }) => match find(name) {
-            Some(entry) => {
-                let readme = entry.files.iter().find(|(file, _)| *file == "README.md");
-                terminal::out(readme.map_or("no description\n", |(_, text)| text));
-                DONE
-            }
+            Some(entry) => describe(entry, json),
             None => unknown(name),
         },
         Some(GalleryAction::Copy { name, folder }) => match find(name) {
             Some(entry) => copy(
                 entry,
                 &folder.clone().unwrap_or_else(|| PathBuf::from(name)),
+                json,
             ),
             None => unknown(name),
         },
     }
 }
 
+fn print(data: &serde_json::Value) {
+    let text = serde_json::to_string_pretty(data).unwrap_or_default();
+    terminal::out(&format!("{text}\n"));
+}
+
 fn find(name: &str) -> Option<&'static Entry> {
     ENTRIES.iter().find(|e| e.name == name)
 }
 
-fn list() -> u8 {
+fn list(json: bool) -> u8 {
+    if json {
+        let all: Vec<_> = ENTRIES.iter().map(Entry::as_json).collect();
+        print(&serde_json::json!(all));
+        return DONE;
+    }
     for entry in ENTRIES {
-        let readme = entry
-            .files
-            .iter()
-            .find(|(file, _)| *file == "README.md")
-            .map_or("", |(_, text)| text);
-        let title = readme
-            .lines()
-            .next()
-            .unwrap_or("")
-            .trim_start_matches('#')
-            .trim();
-        terminal::out(&format!("{:<24} {title}\n", entry.name));
+        terminal::out(&format!("{:<24} {}\n", entry.name, entry.title()));
+    }
+    DONE
+}
+
+fn describe(entry: &Entry, json: bool) -> u8 {
+    if json {
+        let mut data = entry.as_json();
+        data["description"] = entry.readme().into();
+        print(&data);
+    } else {
+        terminal::out(entry.readme());
     }
     DONE
 }
 
 fn unknown(name: &str) -> u8 {
-    let names: Vec<&str> = ENTRIES.iter().map(|e| e.name).collect();
+    let all: Vec<&str> = ENTRIES.iter().map(|e| e.name).collect();
+    let near = names::closest(name, all.iter().copied());
     error(format!(
-        "there is no model `{name}` in the gallery; there are {}",
-        names.join(", ")
+        "there is no model `{name}` in the gallery; {}there are {}",
+        near.map_or(String::new(), |near| format!("did you mean {near}? ")),
+        all.join(", ")
     ));
     INPUT
 }
 
-fn copy(entry: &Entry, folder: &Path) -> u8 {
+fn copy(entry: &Entry, folder: &Path, json: bool) -> u8 {
     if folder.exists() {
         error(format!(
             "{} exists already; nothing was written",
@@ -79,6 +109,12 @@ fn copy(entry: &Entry, folder: &Path) -> u8 {
             return INPUT;
         }
     }
-    terminal::out(&format!("wrote {}\n", folder.display()));
+    if json {
+        let mut data = entry.as_json();
+        data["folder"] = folder.display().to_string().into();
+        print(&data);
+    } else {
+        terminal::out(&format!("wrote {}\n", folder.display()));
+    }
     DONE
 }

@@ -12,7 +12,8 @@ pub(crate) mod verify;
 
 use crate::arguments::MotionArguments;
 use crate::progress::ProgressLine;
-use crate::terminal;
+use crate::{files, terminal};
+use chetaev::model::Model;
 use chetaev::study::{Hooks, StudyOptions};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -29,32 +30,50 @@ fn listen() {
     });
 }
 
+/// Runs `work` with a progress line.
+fn with_progress<T>(work: impl FnOnce(&ProgressLine) -> T) -> T {
+    work(&ProgressLine::new())
+}
+
 /// Runs `work` with a clock, a progress line and Ctrl-C.
 fn with_hooks<T>(work: impl FnOnce(&mut Hooks<'_>) -> T) -> T {
     listen();
-    let line = ProgressLine::new();
-    let clock = || line.seconds();
-    let mut show = |what: &str, fraction: Option<f64>| line.show(what, fraction);
-    let mut hooks = Hooks {
-        clock: &clock,
-        interrupt: Some(&INTERRUPTED),
-        progress: &mut show,
-    };
-    let result = work(&mut hooks);
-    line.clear();
-    result
+    with_progress(|line| {
+        let clock = || line.seconds();
+        let mut show = |what: &str, fraction: Option<f64>| line.show(what, fraction);
+        work(&mut Hooks {
+            clock: &clock,
+            interrupt: Some(&INTERRUPTED),
+            progress: &mut show,
+        })
+    })
 }
 
-/// Options that come from the motion arguments.
-fn options(motion: &MotionArguments) -> StudyOptions {
-    StudyOptions {
-        t_end: motion.t_end,
-        tolerance: motion.tolerance,
-        step: motion.step,
-        method: motion.method.clone(),
-        formulation: motion.formulation.clone(),
-        project: motion.project,
-        ..StudyOptions::default()
+/// Options that come from the motion arguments; prints what is wrong with them.
+fn options(motion: &MotionArguments, model: &Model) -> Option<StudyOptions> {
+    let number = |flag: &str, text: &Option<String>| match text {
+        None => Ok(None),
+        Some(text) => model.constant_value(flag, text).map(Some),
+    };
+    match (
+        number("--t-end", &motion.t_end),
+        number("--step", &motion.step),
+    ) {
+        (Ok(t_end), Ok(step)) => Some(StudyOptions {
+            t_end,
+            tolerance: motion.tolerance,
+            step,
+            method: motion.method.clone(),
+            formulation: motion.formulation.clone(),
+            project: motion.project,
+            ..StudyOptions::default()
+        }),
+        (t_end, step) => {
+            for problems in [t_end.err(), step.err()].into_iter().flatten() {
+                files::report(&problems);
+            }
+            None
+        }
     }
 }
 

@@ -4,10 +4,13 @@ use super::{error, options, with_hooks};
 use crate::arguments::Simulate as Arguments;
 use crate::{files, terminal, INPUT};
 use chetaev::study::table::Table;
-use chetaev::study::{record, study, summary, ClaimSelection, StudyOptions};
+use chetaev::study::{diagnostics, record, study, summary, ClaimSelection, StudyOptions};
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let Some(read) = files::model(&arguments.model) else {
+        return INPUT;
+    };
+    let Some(motion) = options(&arguments.motion, &read.model) else {
         return INPUT;
     };
     let options = StudyOptions {
@@ -16,12 +19,12 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
                 .map(String::from)
                 .to_vec(),
         },
-        ..options(&arguments.motion)
+        ..motion
     };
     let study = match with_hooks(|hooks| study(read.model.clone(), options, hooks)) {
         Ok(study) => study,
         Err(problem) => {
-            read.refuse(problem);
+            read.refuse_all(diagnostics(&problem, &read.model));
             return INPUT;
         }
     };

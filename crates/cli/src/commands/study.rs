@@ -1,48 +1,43 @@
 //! `chetaev study`.
 
+use super::explain::did_you_mean;
 use super::{error, options, with_hooks};
 use crate::arguments::Study as Arguments;
 use crate::{files, terminal, INPUT};
+use chetaev::model::Model;
 use chetaev::study::summary::Style;
 use chetaev::study::table::Table;
-use chetaev::study::{page, record, registry, study, summary, ClaimSelection, Study, StudyOptions};
+use chetaev::study::{
+    diagnostics, page, record, registry, study, summary, ClaimSelection, Study, StudyError,
+    StudyOptions,
+};
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let Some(read) = files::model(&arguments.model) else {
         return INPUT;
     };
-    let mut options = StudyOptions {
-        budget: arguments.budget,
-        ..options(&arguments.motion)
-    };
-    if let Some(text) = &arguments.claims {
-        match ClaimSelection::parse(text, registry().claims()) {
-            Ok(claims) => options.claims = claims,
-            Err(word) => {
-                error(format!(
-                    "--claims: `{word}` is neither a group (model, formulations, motion, principles, integrals) nor a claim; see `chetaev explain`"
-                ));
-                return INPUT;
-            }
-        }
-    }
-    let result = with_hooks(|hooks| study(read.model.clone(), options, hooks));
-    let study = match result {
-        Ok(study) => study,
-        Err(problem) => {
-            read.refuse(problem);
-            return INPUT;
-        }
+    let Some(options) = asked(arguments, &read.model) else {
+        return INPUT;
     };
     let folder = arguments
         .out
         .clone()
         .unwrap_or_else(|| files::default_folder(&arguments.model.model));
-    let written = match write_all(&study, &folder, &arguments.model.model) {
-        Ok(written) => written,
-        Err(problem) => {
+    let result = with_hooks(|hooks| {
+        let study = study(read.model.clone(), options, hooks)?;
+        (hooks.progress)("writing the report", None);
+        let written = write_all(&study, &folder, &arguments.model.model);
+        Ok::<_, StudyError>((study, written))
+    });
+    let (study, written) = match result {
+        Ok((study, Ok(written))) => (study, written),
+        Ok((_, Err(problem))) => {
             error(problem);
+            return INPUT;
+        }
+        Err(problem) => {
+            read.refuse_all(diagnostics(&problem, &read.model));
             return INPUT;
         }
     };
@@ -61,6 +56,29 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         ));
     }
     study.outcome.exit_status()
+}
+
+/// The options on the command line; prints what is wrong with them.
+fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
+    let options = options(&arguments.motion, model)?;
+    let claims = match &arguments.claims {
+        None => ClaimSelection::all(),
+        Some(text) => match ClaimSelection::parse(text, registry().claims()) {
+            Ok(claims) => claims,
+            Err(word) => {
+                error(format!(
+                    "--claims: `{word}` is neither a group (model, formulations, motion, principles, integrals) nor a claim{}",
+                    did_you_mean(&word, registry().claims())
+                ));
+                return None;
+            }
+        },
+    };
+    Some(StudyOptions {
+        budget: arguments.budget,
+        claims,
+        ..options
+    })
 }
 
 fn json(study: &Study, files: &[String]) -> String {
