@@ -277,7 +277,91 @@ fn a_changed_trajectory_is_caught() {
             t["drifts"][drift]["value"] = json!(value("drifts", drift) * 1e-4)
         }),
         change("global error", &|t| t["global_error"] = json!(1e-15)),
+        change("reason", &|t| t["reason"] = json!("somebody was tired")),
+        change("steps", &|t| t["steps"] = json!(count("steps") * 2)),
+        change("rejected", &|t| {
+            t["rejected"] = json!(count("rejected") + 50)
+        }),
+        change("evaluations", &|t| {
+            t["evaluations"] = json!(count("evaluations") * 3)
+        }),
+        change("charts", &|t| {
+            t["chart_switches"] = json!(count("chart_switches") + 7)
+        }),
     ]);
+}
+
+fn count(field: &str) -> u64 {
+    let count = original()["trajectory"][field].as_u64();
+    count.expect("a count")
+}
+
+/// The lines of `verify --json` that are not confirmed, and the exit status.
+fn remarks(name: &str, change: impl FnOnce(&mut Value)) -> (Option<i32>, Vec<(String, String)>) {
+    let mut record = original().clone();
+    change(&mut record);
+    let path = folder().join(format!("{name}.json"));
+    std::fs::write(&path, record.to_string()).expect("a scratch file");
+    let finished = run(&["verify", text(&path), "--json"]);
+    let lines = finished.json();
+    let word = |line: &Value, field: &str| line[field].as_str().expect("a text").to_owned();
+    let list = lines
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter(|line| line["result"] != "confirmed")
+        .map(|line| (word(line, "claim"), word(line, "result")))
+        .collect();
+    (finished.status, list)
+}
+
+/// What another machine may find is neither confirmed nor denied.
+#[test]
+fn a_step_more_or_less_is_remarked() {
+    let remark = |claim: &str| vec![(claim.to_owned(), "remark".to_owned())];
+    let one_more = |record: &mut Value| {
+        record["trajectory"]["steps"] = json!(count("steps") + 1);
+    };
+    assert_eq!(remarks("a-step", one_more), (Some(0), remark("trajectory")));
+    let other_version = |record: &mut Value| {
+        record["chetaev"] = json!("0.0.1");
+        record["trajectory"]["steps"] = json!(count("steps") * 2);
+    };
+    assert_eq!(
+        remarks("version", other_version),
+        (Some(0), remark("trajectory"))
+    );
+}
+
+#[test]
+fn changed_notices_are_caught() {
+    let model = "gallery/redundant-constraints/model.toml";
+    let out = scratch("verify-notices");
+    let claims = ["--claims", "motion.constraint-drift"];
+    let arguments = ["study", model, "--json", "--out", text(&out)];
+    let record = run(&[&arguments[..], &claims[..]].concat()).json();
+    let stated = record["notices"].as_array().expect("a list").clone();
+    assert!(!stated.is_empty(), "redundant constraints are noted");
+    let verified = |notices: Vec<Value>| {
+        let mut record = record.clone();
+        record["notices"] = json!(notices);
+        let finished = verified(&record.to_string());
+        let line = finished.out.lines().find(|l| l.contains(" notices "));
+        let word = line.and_then(|l| l.split_whitespace().next());
+        (finished.status, word.unwrap_or("").to_owned())
+    };
+    let caught = (Some(1), "DISAGREES".to_owned());
+    assert_eq!(verified(stated.clone()), (Some(0), "confirmed".to_owned()));
+    assert_eq!(verified(Vec::new()), caught);
+    assert_eq!(
+        verified([&stated[..], &[json!("an expert has seen this")]].concat()),
+        caught
+    );
+    let first = stated[0].as_str().expect("a text");
+    let mut other = stated.clone();
+    other[0] = json!(first.replacen("redundant", "necessary", 1));
+    assert_ne!(other, stated);
+    assert_eq!(verified(other), caught);
 }
 
 #[test]
