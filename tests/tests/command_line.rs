@@ -216,6 +216,149 @@ fn what_a_program_reads_is_json() {
         .map(|d| &d["formulation"])
         .collect();
     assert_eq!(names, ["routh", "maggi"]);
+    let claims = ok(&["explain", "--json"]).json();
+    let listed = ok(&["explain"]).out;
+    let claims = claims.as_array().expect("a list");
+    assert!(claims.len() >= 15);
+    for claim in claims {
+        let id = claim["id"].as_str().expect("an id");
+        assert!(listed.contains(&format!("  {id} ")), "{id}");
+        assert!(claim["explanation"].as_str().is_some_and(|e| e.len() > 40));
+        assert!(claim["requires"].is_array() && claim["title"].is_string());
+    }
+    let maggi = ok(&["explain", "formulation.equivalent#maggi", "--json"]).json();
+    assert_eq!(maggi["id"], "formulation.equivalent");
+    assert_eq!(maggi["group"], "formulations");
+    let models = ok(&["gallery", "list", "--json"]).json();
+    assert_eq!(models, ok(&["gallery", "--json"]).json());
+    assert_eq!(models.as_array().map(Vec::len), Some(gallery().len()));
+    let described = ok(&["gallery", "describe", "trailer", "--json"]).json();
+    assert_eq!(
+        described["files"],
+        serde_json::json!(["README.md", "model-8.toml", "model.toml"])
+    );
+    assert_eq!(
+        described["description"].as_str(),
+        Some(ok(&["gallery", "describe", "trailer"]).out.as_str())
+    );
+}
+
+#[test]
+fn misspelt_claims_and_models_are_guessed() {
+    for (arguments, meant) in [
+        (
+            vec!["explain", "energy.integrl"],
+            "did you mean energy.integral?",
+        ),
+        (
+            vec!["explain", "motion.equivalent"],
+            "formulation.equivalent",
+        ),
+        (
+            vec!["explain", "integrable"],
+            "model.constraints-integrable",
+        ),
+        (
+            vec!["study", SKATE, "--claims", "enrgy.integral"],
+            "did you mean energy.integral?",
+        ),
+        (
+            vec!["gallery", "copy", "snakebord"],
+            "did you mean snakeboard?",
+        ),
+    ] {
+        let finished = run(&arguments);
+        assert_eq!(finished.status, Some(2), "{}", finished.both());
+        assert!(finished.err.contains(meant), "{}", finished.both());
+    }
+    let hopeless = run(&["explain", "quantum.entanglement"]);
+    assert!(hopeless.err.contains("lists them"), "{}", hopeless.err);
+}
+
+/// 2π and π/400 as the file takes them; what is no number is shown at its place.
+#[test]
+fn times_on_the_command_line_are_exact_expressions() {
+    let out = scratch("expressions");
+    let content = "coordinates = [\"x\", \"phi\"]\nlagrangian = \"(x'^2 + phi'^2 - x^2)/2\"\n[initial]\nx = 1\n";
+    let path = model(&out, "model", content);
+    let run_to = |t_end: &str, step: &str| {
+        let method = ["--method", "rk4", "--step", step, "--t-end", t_end];
+        let common = ["simulate", text(&path), "--json", "--out", text(&out)];
+        run(&[&common[..], &method[..]].concat())
+    };
+    let finished = run_to("2 pi", "pi/400");
+    assert_eq!(finished.status, Some(0), "{}", finished.both());
+    let record = finished.json();
+    assert_eq!(record["t_end"].as_f64(), Some(std::f64::consts::TAU));
+    assert_eq!(record["steps"].as_u64(), Some(800));
+    assert_eq!(run_to("1/2", "0.01").json()["t_end"].as_f64(), Some(0.5));
+    for (t_end, step, words) in [
+        ("2 pii", "0.1", ["`pii`", "--> --t-end:1:3"]),
+        ("x", "0.1", ["`x` has no value", "--> --t-end:1:1"]),
+        ("1", "phi'", ["`phi'` has no value", "--> --step:1:1"]),
+        ("1", "sqrt(-1)", ["--step", "^"]),
+        ("soon", "late", ["`soon`", "`late`"]),
+    ] {
+        let finished = run_to(t_end, step);
+        assert_eq!(finished.status, Some(2), "{}", finished.both());
+        for word in words {
+            assert!(finished.err.contains(word), "{word}: {}", finished.err);
+        }
+    }
+}
+
+/// A copy of a gallery model links to nothing that was not copied.
+#[test]
+fn descriptions_of_the_gallery_have_no_dead_links() {
+    for path in gallery() {
+        let folder = path.parent().expect("a folder");
+        let readme = std::fs::read_to_string(folder.join("README.md")).expect("a README");
+        for target in readme
+            .split("](")
+            .skip(1)
+            .filter_map(|r| r.split(')').next())
+        {
+            let is_beside = !target.contains("..") && folder.join(target).is_file();
+            assert!(
+                target.starts_with("https://") || is_beside,
+                "{}: {target}",
+                folder.display()
+            );
+        }
+        assert!(!readme.contains("references.bib"), "{}", folder.display());
+    }
+}
+
+/// A terminal of its own, by `script` of util-linux.
+#[cfg(target_os = "linux")]
+#[test]
+fn every_long_command_shows_its_progress_on_a_terminal() {
+    let out = scratch("terminal");
+    let links = ["--set", "n=14"];
+    let trailer = "gallery/trailer/model.toml";
+    let study = ["study", trailer, "--t-end", "1", "--out", text(&out)];
+    let cases = [
+        ([&["derive", trailer][..], &links[..]].concat(), "deriving"),
+        ([&study[..], &links[..]].concat(), "writing the report"),
+    ];
+    let program = text(chetaev_tests::program::path());
+    for (arguments, words) in cases {
+        let line = format!("{program} {}", arguments.join(" "));
+        let shown = std::process::Command::new("script")
+            .args(["--quiet", "--return", "--command", &line, "/dev/null"])
+            .current_dir(root())
+            .stdin(std::process::Stdio::null())
+            .output();
+        let Ok(shown) = shown else {
+            return; // no such tool on this machine
+        };
+        let shown = String::from_utf8_lossy(&shown.stdout);
+        let repainted = shown.matches("\r\u{1b}[2K").count();
+        assert!(
+            repainted > 5 && shown.contains(words),
+            "{repainted} states of the line, {words}: {shown}"
+        );
+    }
 }
 
 #[test]
@@ -313,7 +456,7 @@ fn set_replaces_a_parameter_exactly() {
 fn a_closed_pipe_is_no_panic() {
     for arguments in [
         vec!["explain"],
-        vec!["derive", "gallery/snakeboard/model.toml"],
+        vec!["derive", "gallery/roller-racer/model.toml"],
         vec!["study", SKATE, "--t-end", "1", "--out", "SCRATCH", "--json"],
         vec!["gallery", "describe", "trailer"],
         vec!["completions", "zsh"],
