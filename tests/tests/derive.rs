@@ -7,6 +7,7 @@ use chetaev_tests::places::gallery;
 use chetaev_tests::program::{run, text};
 use chetaev_tests::studied::loaded;
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 fn derived(model: &Path, notation: &str) -> String {
@@ -168,4 +169,177 @@ fn the_skate_has_the_equations_of_the_books() {
             finished.out
         );
     }
+}
+
+/// Titles of the groups of every formulation, with the number of their equations.
+fn groups(model: &Path) -> Vec<(String, String, usize)> {
+    let value: Value = serde_json::from_str(&derived(model, "json")).expect("JSON");
+    let mut found = Vec::new();
+    for formulation in value.as_array().expect("a list") {
+        for group in formulation["groups"].as_array().expect("groups") {
+            found.push((
+                formulation["formulation"].as_str().expect("a name").into(),
+                group["title"].as_str().expect("a title").into(),
+                group["equations"].as_array().expect("equations").len(),
+            ));
+        }
+    }
+    found
+}
+
+/// What is wrong with a module, looked at line by line: every name is assigned before it is used, and no model name twice.
+fn slips(module: &str) -> Vec<String> {
+    let mut known: BTreeSet<&str> = BTreeSet::new();
+    let mut declared: BTreeSet<&str> = BTreeSet::new();
+    let mut found = Vec::new();
+    for line in module.lines() {
+        let code = line.trim_end();
+        if code.is_empty() || code.starts_with('#') {
+            continue;
+        }
+        if let Some(name) = code.strip_prefix("import sympy as ") {
+            known.insert(name);
+            continue;
+        }
+        let (target, value) = match code.split_once(" = ") {
+            Some((target, value)) if !code.starts_with(' ') => (Some(target), value),
+            _ => (None, code),
+        };
+        for word in words(value) {
+            if !known.contains(word) {
+                found.push(format!("`{word}` is not known in `{code}`"));
+            }
+        }
+        if let Some(target) = target {
+            let name = target.split('[').next().unwrap_or(target);
+            let declares = value.starts_with("sp.Symbol(") || value.starts_with("sp.Function(");
+            if declares && !declared.insert(name) {
+                found.push(format!("`{name}` is declared twice"));
+            }
+            known.insert(name);
+        }
+    }
+    found
+}
+
+/// Names that a piece of Python uses: no attributes, keywords of calls, strings or numbers.
+fn words(code: &str) -> Vec<&str> {
+    let outside = code.split('\'').step_by(2);
+    let begins = |c: char| c.is_ascii_alphabetic() || c == '_';
+    let mut found = Vec::new();
+    for piece in outside {
+        let mut rest = piece;
+        while let Some(at) = rest.find(begins) {
+            let attribute = rest[..at].ends_with('.');
+            let tail = &rest[at..];
+            let end = tail
+                .find(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+                .unwrap_or(tail.len());
+            let keyword = tail[end..].starts_with("=True");
+            let constant = &tail[..end] == "True";
+            if !attribute && !keyword && !constant {
+                found.push(&tail[..end]);
+            }
+            rest = &tail[end..];
+        }
+    }
+    found
+}
+
+#[test]
+fn what_is_written_for_sympy_is_one_module_for_every_model() {
+    for model in gallery() {
+        let name = model.display();
+        let module = derived(&model, "sympy");
+        assert!(module.starts_with("import sympy as sp\n"), "{name}");
+        assert_eq!(module.matches("import ").count(), 1, "{name}");
+        assert!(balanced(&module), "{name}");
+        assert_eq!(slips(&module), Vec::<String>::new(), "{name}\n{module}");
+        for (formulation, title, count) in groups(&model) {
+            assert_eq!(
+                module.matches(&format!("\n{formulation} = {{}}\n")).count(),
+                1,
+                "{name}"
+            );
+            let head = format!("\n{formulation}['{title}'] = [");
+            let (_, list) = module
+                .split_once(&head)
+                .unwrap_or_else(|| panic!("{name} has no {head}"));
+            let list = list.split("\n]").next().unwrap_or(list);
+            assert_eq!(
+                list.lines()
+                    .filter(|l| l.trim().starts_with("sp.Eq("))
+                    .count(),
+                count,
+                "{name}: {title}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_slips_of_a_module_are_really_looked_for() {
+    let good = "import sympy as sp\nm = sp.Symbol('m', real=True)\nrouth = {}\nrouth['a'] = [\n    sp.Eq(m, 0),\n]\n";
+    assert_eq!(slips(good), Vec::<String>::new());
+    assert!(!slips(&good.replace("sp.Eq(m", "sp.Eq(k")).is_empty());
+    assert!(!slips(&good.replace("import sympy as sp\n", "")).is_empty());
+    assert!(!slips(&good.replace("routh = {}\n", "m = sp.Symbol('m', real=True)\n")).is_empty());
+}
+
+/// Python names that the model would take, a control, quasi-velocities, and sums longer than Python's compiler bears.
+#[test]
+fn modules_with_awkward_names_and_long_sums_run() {
+    let long: Vec<String> = (1..=300).map(|i| format!("sin({i} x)/{i}")).collect();
+    let system = ModelBuilder::new("awkward")
+        .coordinates(["x", "y", "lambda", "routh"])
+        .parameter("sp", "1")
+        .parameter("w_1", "2")
+        .control("steer", "sin(t)")
+        .lagrangian("1/2 sp (x'^2 + y'^2 + lambda'^2) + 1/2 w_1 routh'^2")
+        .force("x", &format!("steer + {}", long.join(" + ")))
+        .constraint("blade", "y' cos(routh) = x' sin(routh)")
+        .quasi_velocity("u", "x' cos(routh) + y' sin(routh)")
+        .quasi_velocity("w", "routh'")
+        .quasi_velocity("z", "lambda'");
+    let folder = chetaev_tests::places::scratch("derive-module");
+    let path = folder.join("model.toml");
+    std::fs::write(&path, system.to_toml()).expect("a scratch file");
+    let module = derived(&path, "sympy");
+    assert_eq!(slips(&module), Vec::<String>::new(), "{module}");
+    assert!(
+        module.contains("steer = sp.Function('steer', real=True)(t)\n"),
+        "{module}"
+    );
+    assert!(
+        module.contains("routh_ = sp.Function('routh', real=True)(t)\n"),
+        "{module}"
+    );
+    assert!(module.contains("sp.Add("), "{module}");
+    std::fs::write(folder.join("equations.py"), &module).expect("a scratch file");
+    let check = "import sympy as sp, equations as e\n\
+        assert all(isinstance(q, (sp.Eq, sp.logic.boolalg.BooleanAtom)) for d in (e.routh, e.maggi) for l in d.values() for q in l)\n\
+        x, r, l = e.x, e.routh_, e.lambda_blade\n\
+        q = e.routh['equations of motion'][0]\n\
+        s = e.steer + sum(sp.sin(i*x)/i for i in range(1, 301))\n\
+        rest = e.sp_*x.diff(e.t, 2) - s + l*sp.sin(r)\n\
+        d = (q.lhs - q.rhs).subs({l: 2, r: 1, e.steer: 5}).subs(x, 3).doit() - rest.subs({l: 2, r: 1, e.steer: 5}).subs(x, 3).doit()\n\
+        d2 = (q.lhs - q.rhs).subs({l: 2, r: 1, e.steer: 5}).subs(x, 3).doit() + rest.subs({l: 2, r: 1, e.steer: 5}).subs(x, 3).doit()\n\
+        assert min(abs(sp.N(d)), abs(sp.N(d2))) < 1e-9, (d, d2)\n";
+    let python = std::process::Command::new("python3")
+        .args(["-c", "import sympy"])
+        .output();
+    // The structure is tested above; where there is no SymPy, it cannot be run.
+    if !python.is_ok_and(|p| p.status.success()) {
+        return;
+    }
+    let ran = std::process::Command::new("python3")
+        .args(["-c", check])
+        .current_dir(&folder)
+        .output()
+        .expect("python3 runs");
+    assert!(
+        ran.status.success(),
+        "{}\n{module}",
+        String::from_utf8_lossy(&ran.stderr)
+    );
 }
