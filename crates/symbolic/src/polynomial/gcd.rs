@@ -26,8 +26,14 @@ impl Polynomial {
             return Ok(if sum.is_negative() { sum.neg() } else { sum });
         }
         let integer = self.integer_content().gcd(other.integer_content());
+        if self.is_constant() || other.is_constant() {
+            return Ok(Polynomial::term(Monomial::one(), IBig::from(integer)));
+        }
         let monomial = self.monomial_content().gcd(&other.monomial_content());
         let content = Polynomial::term(monomial, IBig::from(integer));
+        if self.len() == 1 || other.len() == 1 {
+            return Ok(content);
+        }
         let (a, b) = (strip(self), strip(other));
         if a.is_constant() || b.is_constant() {
             return Ok(content);

@@ -417,7 +417,14 @@ impl Polynomial {
         let Some(first) = terms.next() else {
             return Monomial::one();
         };
-        terms.fold(first.clone(), |content, m| content.gcd(m))
+        let mut content = first.clone();
+        for m in terms {
+            if content.is_one() {
+                break;
+            }
+            content = content.gcd(m);
+        }
+        content
     }
 
     /// The number of bits of the longest coefficient.

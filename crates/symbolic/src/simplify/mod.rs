@@ -13,6 +13,7 @@ mod arrange;
 mod collect;
 mod contract;
 mod direction;
+mod local;
 mod measure;
 mod polynomial_view;
 
@@ -25,6 +26,7 @@ use crate::{Expr, Function, Graph, Node};
 use arrange::Arranger;
 
 pub use collect::{collect, collect_all};
+use local::{shorten, shorten_systems};
 pub use measure::length;
 use measure::written_length;
 pub use polynomial_view::{
@@ -72,11 +74,19 @@ pub fn simplify(g: &Graph, e: Expr, options: &Options) -> Expr {
 
 /// [`simplify`] for several expressions, which share the work on common solves.
 pub fn simplify_all(g: &Graph, es: &[Expr], options: &Options) -> Vec<Expr> {
-    if g.reachable(es).len() > options.max_nodes || is_hopeless(g, es) {
+    if is_too_large(g, es, options) {
+        // Together too large; perhaps not each by itself.
+        let stated = shorten(g, &shorten_systems(g, es, options));
         return match es {
-            [_] | [] => es.to_vec(),
-            // Together too large; perhaps not each by itself.
-            _ => es.iter().map(|&e| simplify(g, e, options)).collect(),
+            [_] | [] => stated,
+            _ => es
+                .iter()
+                .zip(stated)
+                .map(|(&e, stated)| match is_too_large(g, &[e], options) {
+                    true => stated,
+                    false => simplify(g, e, options),
+                })
+                .collect(),
         };
     }
     let inner = simplify_arguments(g, es, options);
@@ -116,7 +126,14 @@ pub fn simplify_all(g: &Graph, es: &[Expr], options: &Options) -> Vec<Expr> {
         };
         offer(read(g, &inner, &reading), false);
     }
+    if found.largest_solve > 0 {
+        best = shorten_systems(g, &best, options);
+    }
     best
+}
+
+fn is_too_large(g: &Graph, es: &[Expr], options: &Options) -> bool {
+    g.reachable(es).len() > options.max_nodes || is_hopeless(g, es)
 }
 
 /// The simplified expression without linear solves; `None` when a closed form would be longer than
