@@ -19,38 +19,63 @@ pub(crate) struct Start {
     pub(crate) data: InitialData,
 }
 
-/// `None` when no motion can be computed and the model does not ask for one.
+/// The start, or why there is none although nothing is wrong: the model does not ask for a motion, or its theory is not
+/// built in.
 pub(crate) fn start_of_motion(
     model: &Model,
     system: &System,
     terms: &MotionTerms,
     options: &StudyOptions,
-) -> Result<Option<Start>, StudyError> {
+) -> Result<Result<Start, String>, StudyError> {
     let symbolic = system.parameters.iter().any(|p| p.value.is_none())
         || system.controls.iter().any(|u| u.law.is_none());
-    let higher = system.constraints.iter().any(|c| c.order > 1);
-    if higher {
-        return Ok(None);
+    if let Some(constraint) = system.constraints.iter().find(|c| c.order > 1) {
+        return Ok(Err(format!(
+            "no motion was computed: constraint `{}` is of order {}; constraints of higher order are classified, their dynamics is not built in yet",
+            constraint.name, constraint.order
+        )));
     }
     if symbolic {
+        let names = open_names(system);
         return match asks_for_motion(model) && options.motion {
-            true => Err(StudyError::MissingValues {
-                names: open_names(system),
-            }),
-            false => Ok(None),
+            true => Err(StudyError::MissingValues { names }),
+            false => Ok(Err(format!(
+                "no motion was computed: no value for {names}; give values in the model or with --set"
+            ))),
         };
     }
     let binding = Binding::new(system)?;
     let mut numeric = NumericSystem::new(system, terms, &binding)?;
     let data = initial_data(model, system, options)?;
-    let start = consistent_state(&mut numeric, &data)?;
-    check_assumptions(system, &start)?;
-    Ok(Some(Start {
-        binding,
-        numeric,
-        start,
-        data,
-    }))
+    match consistent_state(&mut numeric, &data) {
+        Ok(start) => {
+            check_assumptions(system, &start)?;
+            Ok(Ok(Start {
+                binding,
+                numeric,
+                start,
+                data,
+            }))
+        }
+        Err(problem) if !asks_for_motion(model) && is_regular_elsewhere(&mut numeric, &data) => {
+            Ok(Err(format!(
+                "no motion was computed, as it would begin where all coordinates and velocities are zero: {problem}; state [initial] data"
+            )))
+        }
+        Err(problem) => Err(problem.into()),
+    }
+}
+
+/// Whether motions can begin at other states than the one that nobody asked for.
+fn is_regular_elsewhere(numeric: &mut NumericSystem, data: &InitialData) -> bool {
+    let spread = |i: usize, least: f64| least + 0.37 * ((i + 1) as f64).sin().abs();
+    let elsewhere = InitialData {
+        q: (0..data.q.len()).map(|i| spread(i, 0.4)).collect(),
+        v: (0..data.v.len()).map(|i| spread(i, 0.5)).collect(),
+        project: true,
+        ..data.clone()
+    };
+    consistent_state(numeric, &elsewhere).is_ok()
 }
 
 /// Initial data or a time span say that a motion is wanted.
@@ -68,20 +93,6 @@ fn open_names(system: &System) -> String {
         .chain(controls.map(|u| format!("the control `{}`", u.name)))
         .collect();
     names.join(", ")
-}
-
-/// Why there is no motion although the model does not insist on one.
-pub(crate) fn no_motion(system: &System) -> String {
-    match system.constraints.iter().find(|c| c.order > 1) {
-        Some(c) => format!(
-            "no motion was computed: constraint `{}` is of order {}; constraints of higher order are classified, their dynamics is not built in yet",
-            c.name, c.order
-        ),
-        None => format!(
-            "no motion was computed: no value for {}; give values in the model or with --set",
-            open_names(system)
-        ),
-    }
 }
 
 /// The initial state lies where the model says that motions are.

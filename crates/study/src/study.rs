@@ -4,7 +4,7 @@ use crate::motion_claims::MotionEvidence;
 use crate::notices::{left_assumptions, notices};
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
-use crate::start::{check_rank, no_motion, number, settings, start_of_motion, Start};
+use crate::start::{check_rank, number, settings, start_of_motion, Start};
 use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::{CharacteristicsError, Selection};
 use chetaev_mechanics::claims::{full_id, Registry};
@@ -264,12 +264,12 @@ pub fn check(model: &Model, hooks: &mut Hooks<'_>) -> Result<(), StudyError> {
     prepare(model, &StudyOptions::default(), hooks).map(|_| ())
 }
 
-/// The system, its terms with independent constraints, and the start of the motion if one is asked for.
+/// The system, its terms with independent constraints, and the start of the motion or why there is none.
 fn prepare(
     model: &Model,
     options: &StudyOptions,
     hooks: &mut Hooks<'_>,
-) -> Result<(System, Prepared, Option<Start>), StudyError> {
+) -> Result<(System, Prepared, Result<Start, String>), StudyError> {
     check_expectations(model, &registry())?;
     let system = System::from_model(model)?;
     check_initial_data(model, &system)?;
@@ -279,14 +279,14 @@ fn prepare(
     let selection = match chetaev_mechanics::characteristics::select(&system, &terms) {
         Ok(selection) => selection,
         Err(error) => match &start {
-            Some(n) => Selection {
+            Ok(n) => Selection {
                 rows: n.start.chart.rows.clone(),
                 dependent: n.start.chart.dependent.clone(),
             },
-            None => return Err(error.into()),
+            Err(_) => return Err(error.into()),
         },
     };
-    if let Some(start) = &start {
+    if let Ok(start) = &start {
         check_rank(start, selection.rows.len())?;
     }
     let prepared = Prepared { terms, selection };
@@ -305,15 +305,15 @@ pub fn study(
 ) -> Result<Study, StudyError> {
     let known = registry();
     let (system, prepared, numeric) = prepare(&model, &options, hooks)?;
-    let mut notices = notices(&model, &system, &prepared, numeric.as_ref());
+    let mut notices = notices(&model, &system, &prepared, numeric.as_ref().ok());
     let wants_motion = options.motion && options.claims.wants_group(Group::Motion, known.claims());
     let motion = match numeric {
-        Some(numeric) if wants_motion => Some(compute(
+        Ok(numeric) if wants_motion => Some(compute(
             &model, &system, &prepared, numeric, &options, hooks,
         )?),
-        Some(_) => None,
-        None => {
-            notices.push(no_motion(&system));
+        Ok(_) => None,
+        Err(why) => {
+            notices.push(why);
             None
         }
     };

@@ -229,7 +229,9 @@ pub(super) fn figures(motion: &Motion) -> Vec<Figure> {
             "A piece of the motion with fixed steps: observed order {observed:.2}, nominal {}.",
             orders.nominal
         ),
-        None => "A piece of the motion with fixed steps: all errors are at round-off.".into(),
+        None => {
+            "A piece of the motion with fixed steps: no order could be read off its errors.".into()
+        }
     };
     vec![Figure {
         title: "Order of the method on this model".into(),
