@@ -137,3 +137,22 @@ fn constraints_of_higher_order_are_classified() {
         assert_eq!(found, scleronomic, "{constraint}");
     }
 }
+
+/// A constraint that vanishes as one term, such as sin(u) = 0, is judged by what its argument is made of.
+#[test]
+fn the_drift_of_composed_constraints_has_a_size() {
+    let start = "[initial]\nx = 1\n\"x'\" = 1\n\"y'\" = 1\n";
+    for constraint in [
+        "log(x'/y') = 0",
+        "sin(z' - y x') = 0",
+        "atan(z' - y x') = 0",
+        "x + y + z = 3",
+    ] {
+        let ended = study(&[constraint], start);
+        assert_eq!(
+            verdict(&ended, "motion.constraint-drift"),
+            "numerical",
+            "{constraint}"
+        );
+    }
+}

@@ -12,6 +12,21 @@ fn study(body: &str) -> Ended {
     ended(load("model.toml", body, &NoFiles, &[]), &Ask::default())
 }
 
+/// An expectation about a subject that does not exist can never be met.
+#[test]
+fn an_expectation_of_an_unknown_subject_is_unmet() {
+    let body = "coordinates = [\"x\"]\nlagrangian = \"x'^2/2\"\n[expect]\n";
+    let misspelt = study(&format!(
+        "{body}\"formulation.equivalent#magi\" = \"proved\"\n"
+    ));
+    assert_eq!(misspelt.exit, 1);
+    assert!(misspelt.text.contains("maggi"), "{}", misspelt.text);
+    let right = study(&format!(
+        "{body}\"formulation.equivalent#maggi\" = \"proved\"\n"
+    ));
+    assert_eq!(right.exit, 0, "{}", right.text);
+}
+
 /// Polar coordinates have no inertia in phi at the origin; a model without initial data does not mean to begin there.
 #[test]
 fn a_singular_origin_that_nobody_asked_for_is_a_note() {

@@ -14,6 +14,8 @@ pub struct Deviation {
     pub drift: Extreme,
     /// Largest sum of the sizes of its terms.
     pub scale: f64,
+    /// The deviation before the last state.
+    earlier: Extreme,
 }
 
 /// Quantities in (t, q, v), compiled.
@@ -21,6 +23,8 @@ pub struct Deviation {
 pub struct Follow {
     functions: Functions,
     initial: Vec<f64>,
+    /// The time of the state last recorded.
+    last: Option<f64>,
     /// One per quantity, in order. Quantities that contain accelerations or multipliers are left at zero.
     pub deviations: Vec<Deviation>,
 }
@@ -52,6 +56,7 @@ impl Follow {
         let mut follow = Follow {
             functions: Functions::new(g, binding, &binding.variables, &groups)?,
             initial: Vec::new(),
+            last: None,
             deviations: vec![Deviation::default(); quantities.len()],
         };
         // A value that is not finite belongs to one quantity; the others are still wanted.
@@ -60,9 +65,24 @@ impl Follow {
         Ok(follow)
     }
 
+    /// What became of the quantities; `until_singular` leaves out the last state, at which the equations became singular
+    /// and a quantity may have no value.
+    pub(crate) fn finish(self, until_singular: bool) -> Vec<Deviation> {
+        let regular = |deviation: Deviation| match until_singular {
+            true => Deviation {
+                drift: deviation.earlier,
+                ..deviation
+            },
+            false => deviation,
+        };
+        self.deviations.into_iter().map(regular).collect()
+    }
+
     /// Takes the values at (t, q, v) into account.
     pub fn record(&mut self, t: f64, q: &[f64], v: &[f64]) {
         let _ = self.functions.evaluate(t, &[q, v]);
+        let is_new = self.last != Some(t);
+        self.last = Some(t);
         let values = self.functions.group(0).iter().zip(&self.initial);
         for ((deviation, size), (value, initial)) in self
             .deviations
@@ -76,6 +96,9 @@ impl Follow {
             } else {
                 change
             };
+            if is_new {
+                deviation.earlier = deviation.drift;
+            }
             deviation.drift.record(known, t);
             deviation.scale = deviation.scale.max(*size);
         }
@@ -83,7 +106,8 @@ impl Follow {
 }
 
 /// The expression with every term of every sum replaced by its absolute value: the size by which a difference of its values
-/// is judged, which does not vanish where terms cancel.
+/// is judged, which does not vanish where terms cancel. To the size of a function belongs what the size of its argument
+/// changes in it: log(x/y) is judged by 1 where x = y.
 pub fn magnitude(g: &Graph, e: Expr) -> Expr {
     let mut sizes: BTreeMap<Expr, Expr> = BTreeMap::new();
     let absolute = |part: Expr| g.apply(Function::Abs, &[part]);
@@ -107,9 +131,39 @@ pub fn magnitude(g: &Graph, e: Expr) -> Expr {
                 _ => absolute(part),
             },
             Node::Matrix { .. } | Node::Solve { .. } => part,
+            Node::Apply {
+                function,
+                arguments,
+            } => {
+                let changes = arguments
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, argument)| {
+                        matches!(g.node(**argument), Node::Sum { .. } | Node::Product { .. })
+                    })
+                    .map(|(i, argument)| {
+                        let slope = slope(g, *function, arguments, i);
+                        g.mul(&[absolute(slope), of(argument)])
+                    });
+                let all: Vec<Expr> = std::iter::once(absolute(part)).chain(changes).collect();
+                g.add(&all)
+            }
             _ => absolute(part),
         };
         sizes.insert(part, size);
     }
     sizes.get(&e).copied().unwrap_or(e)
+}
+
+/// ∂F/∂uᵢ of a function of the arguments u.
+fn slope(g: &Graph, function: Function, arguments: &[Expr], i: usize) -> Expr {
+    let names: Vec<Expr> = (0..arguments.len())
+        .map(|j| g.symbol(&format!("argument_{j}"), 0))
+        .collect();
+    let Some(symbol) = g.as_symbol(names[i]) else {
+        return g.zero();
+    };
+    let derivative = g.gradient(g.apply(function, &names), &[symbol])[0];
+    let values: Vec<(Expr, Expr)> = names.into_iter().zip(arguments.iter().copied()).collect();
+    g.substitute(derivative, &values)
 }

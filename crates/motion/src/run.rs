@@ -386,6 +386,7 @@ impl Subject<'_> {
         ending: Ending,
         (drift, followed): (Option<crate::drift::Drift>, Option<Follow>),
     ) -> Run {
+        let ended_early = !ending.finished && !ending.interrupted;
         let mut run = Run {
             formulation,
             method: pieces.first().map_or("", |s| s.method),
@@ -398,7 +399,7 @@ impl Subject<'_> {
             chart_changes: Vec::new(),
             notes: Vec::new(),
             drift,
-            followed: followed.map_or(Vec::new(), |f| f.deviations),
+            followed: followed.map_or(Vec::new(), |f| f.finish(ended_early)),
             ends_between: false,
         };
         for piece in pieces {

@@ -160,6 +160,11 @@ fn follow(
     expressions.extend(sizes);
     let mut observer = Observer::new(subject.system, subject.terms, subject.binding, &expressions)?;
     let mut series = observer.along(run);
+    // The state at which the equations became singular is recorded, but a residual may have no value there.
+    let regular = match run.ending.finished || run.ending.interrupted {
+        true => run.len(),
+        false => run.asked(),
+    };
     let sizes = series.split_off(quantities.len());
     let followed = quantities
         .into_iter()
@@ -170,7 +175,7 @@ fn follow(
             Followed {
                 name,
                 expression,
-                drift: deviation(&run.times, &values, first.unwrap_or(0.0)),
+                drift: deviation(&run.times[..regular], &values, first.unwrap_or(0.0)),
                 scale: sizes.iter().fold(0.0, |m: f64, x| m.max(*x)),
                 values,
             }
@@ -590,6 +595,9 @@ impl Claim for FormulationsAgree {
         let (Some(other), Some(gap)) = (&evidence.comparison, &evidence.disagreement) else {
             return Verdict::undecided("the second formulation could not be integrated").into();
         };
+        if evidence.run.asked().min(other.asked()) < 2 {
+            return Verdict::undecided("both runs ended before the first output time").into();
+        }
         if other.asked() < evidence.run.asked() {
             let tried = format!(
                 "the run of `{}` ended before that of `{}`: {}",

@@ -321,7 +321,12 @@ pub fn study(
         notices.extend(left_assumptions(&system, &prepared, motion));
     }
     let verdicts = decide(&model, &system, &prepared, motion.as_ref(), &options, hooks);
-    let outcome = outcome(&model, &verdicts, motion.as_ref());
+    let unmatched = unmatched(&model, &verdicts, &options);
+    let outcome = match outcome(&model, &verdicts, motion.as_ref()) {
+        Outcome::Done if !unmatched.is_empty() => Outcome::Unmet,
+        outcome => outcome,
+    };
+    notices.extend(unmatched);
     Ok(Study {
         model,
         system,
@@ -558,6 +563,32 @@ fn outcome(model: &Model, verdicts: &[Decided], motion: Option<&Motion>) -> Outc
     } else {
         Outcome::Unmet
     }
+}
+
+/// Expectations about a subject that the claim does not have for this system: they can never be met.
+fn unmatched(model: &Model, verdicts: &[Decided], options: &StudyOptions) -> Vec<String> {
+    let known = registry();
+    let expected = model.expect.verdicts.iter().filter_map(|expected| {
+        let full = full_id(&expected.claim, Some(expected.subject.as_deref()?));
+        let claim = known.find(&expected.claim)?;
+        let of_claim: Vec<&Decided> = verdicts
+            .iter()
+            .filter(|d| d.claim == expected.claim)
+            .collect();
+        let is_decided = of_claim.iter().any(|d| d.subject == expected.subject);
+        if is_decided || of_claim.is_empty() || !options.claims.wants(claim, &full) {
+            return None;
+        }
+        let subjects: Vec<&str> = of_claim
+            .iter()
+            .filter_map(|d| d.subject.as_deref())
+            .collect();
+        Some(format!(
+            "[expect] names `{full}`, which this system does not have; of this claim it has: {}",
+            subjects.join(", ")
+        ))
+    });
+    expected.collect()
 }
 
 /// Whether the model declares the stop that happened.
