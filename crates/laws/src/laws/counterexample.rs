@@ -2,9 +2,11 @@
 
 use super::Subject;
 use chetaev_mechanics::Equations;
+use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::rational::to_f64;
 use chetaev_symbolic::verdict::{Counterexample, PointValue, Verdict};
-use chetaev_symbolic::{Expr, Symbol};
+use chetaev_symbolic::zero::enclose::EncloseError;
+use chetaev_symbolic::{Expr, Graph, Symbol};
 use std::collections::BTreeMap;
 
 /// Dependent data are printed to twelve digits.
@@ -52,7 +54,7 @@ fn slip(
         .copied()
         .collect();
     let value = |s: Symbol| Some(point.get(&*g.symbol_text(s)).copied().unwrap_or(ANY));
-    let values = match g.evaluate_f64(&all, &value) {
+    let values = match values(g, &all, &value) {
         Ok(values) => values,
         Err(problem) => return Some(problem.to_string()),
     };
@@ -69,6 +71,20 @@ fn slip(
         .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
     let enough = 0.999 * stated.abs() - TOLERANCE * size;
     (largest < enough).then(|| format!("the accelerations differ by {largest}, not by {stated}"))
+}
+
+/// In double precision, or in many more digits where a pivot vanishes by its rounding: cosh(40) beside 1.
+fn values(
+    g: &Graph,
+    es: &[Expr],
+    value: &dyn Fn(Symbol) -> Option<f64>,
+) -> Result<Vec<f64>, EncloseError> {
+    const BITS: usize = 512;
+    if let Ok(values) = g.evaluate_f64(es, value) {
+        return Ok(values);
+    }
+    let balls = g.enclose(es, &Precision::new(BITS), &|s| Ball::from_f64(value(s)?))?;
+    Ok(balls.iter().map(Ball::to_f64).collect())
 }
 
 /// An exact value, or the lower end of an enclosure.
