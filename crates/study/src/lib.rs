@@ -6,6 +6,7 @@
 
 pub mod method_order;
 pub mod motion_claims;
+pub mod motion_evidence;
 mod notices;
 pub mod options;
 pub mod page;

@@ -1,6 +1,6 @@
 //! One model through its claims and its motion.
 
-use crate::motion_claims::MotionEvidence;
+use crate::motion_evidence::MotionEvidence;
 use crate::notices::{left_assumptions, notices};
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;

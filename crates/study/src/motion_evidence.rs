@@ -1,0 +1,235 @@
+//! What a computed motion tells: energy, integrals and constraints along it, and how two runs differ.
+
+use crate::method_order::Orders;
+use chetaev_mechanics::ConstraintKind;
+use chetaev_model::model::Model;
+use chetaev_motion::drift::Extreme;
+use chetaev_motion::follow::magnitude;
+use chetaev_motion::functions::FunctionsError;
+use chetaev_motion::observe::Observer;
+use chetaev_motion::{Run, RunError, RunSettings, Subject};
+use chetaev_symbolic::Expr;
+
+/// A quantity followed along the run.
+#[derive(Clone, Debug)]
+pub struct Followed {
+    /// Name.
+    pub name: String,
+    /// Its expression in q, q', t and parameters.
+    pub expression: Expr,
+    /// Values at the rows.
+    pub values: Vec<f64>,
+    /// Largest deviation from the initial value.
+    pub drift: Extreme,
+    /// Largest sum of the sizes of its terms along the run: by it deviations are measured.
+    pub scale: f64,
+}
+
+/// Everything about a run that its claims look at.
+#[derive(Clone, Debug)]
+pub struct MotionEvidence {
+    /// The trajectory.
+    pub run: Run,
+    /// The same motion by another formulation.
+    pub comparison: Option<Run>,
+    /// Estimated global error: largest difference to a run at a tenth of the tolerance, over the scale of each component.
+    pub global_error: Option<f64>,
+    /// Energy.
+    pub energy: Followed,
+    /// Its rate by the computed accelerations, of systems with few coordinates.
+    pub energy_rate: Option<Followed>,
+    /// Integrals stated by the model.
+    pub integrals: Vec<Followed>,
+    /// Constraint residuals at the rows, by row of the terms.
+    pub residuals: Vec<Followed>,
+    /// Residuals of the holonomic constraints as stated.
+    pub positions: Vec<Followed>,
+    /// Largest difference of the two formulations over the scale of each component, with its time.
+    pub disagreement: Option<Extreme>,
+    /// Observed order.
+    pub orders: Option<Orders>,
+    /// Tolerance asked.
+    pub tolerance: f64,
+    /// Data for `model.initial-state-admissible`: exact initial values where all are given exactly.
+    pub exact_start: Option<Vec<(Expr, Expr)>>,
+    /// Initial values as numbers, for messages.
+    pub start: Vec<(String, f64)>,
+    /// Largest constraint residual at the start.
+    pub start_residual: f64,
+}
+
+impl MotionEvidence {
+    /// Evaluates energy, integrals and constraints along the run and compares the runs.
+    ///
+    /// # Errors
+    /// [`RunError`] when an integral contains something that has no value along a motion.
+    pub fn new(
+        model: &Model,
+        subject: &Subject<'_>,
+        run: Run,
+        comparison: Option<Run>,
+        finer: Option<Run>,
+        orders: Option<Orders>,
+        settings: &RunSettings,
+    ) -> Result<MotionEvidence, RunError> {
+        let system = subject.system;
+        let mut kept = vec![system.energy()];
+        kept.extend(model.integrals.iter().map(|i| i.value));
+        kept.extend(subject.residuals());
+        let kept = kept_names(model, subject).into_iter().zip(kept).collect();
+        let constant = 1 + model.integrals.len();
+        let mut followed = follow(subject, &run, kept, constant)?;
+        for (quantity, all) in followed.iter_mut().zip(&run.followed) {
+            quantity.drift.record(all.drift.value, all.drift.t);
+            quantity.scale = quantity.scale.max(all.scale);
+        }
+        let positions = followed.split_off(constant + subject.terms.constraints.len());
+        let residuals = followed.split_off(constant);
+        let integrals = followed.split_off(1);
+        let energy = followed.swap_remove(0);
+        let energy_rate = match system.n() <= RATE_COORDINATES {
+            true => {
+                let rate = system.total_derivative(system.energy());
+                follow(subject, &run, vec![("dH/dt".into(), rate)], 0)?.pop()
+            }
+            false => None,
+        };
+        let start_residual = residuals
+            .iter()
+            .filter_map(|r| r.values.first())
+            .fold(0.0, |m: f64, x| m.max(x.abs()));
+        Ok(MotionEvidence {
+            disagreement: comparison.as_ref().map(|other| difference(&run, other)),
+            global_error: finer.as_ref().map(|other| difference(&run, other).value),
+            tolerance: settings.tolerance,
+            exact_start: exact_start(model, subject),
+            start: start_values(subject),
+            start_residual,
+            energy,
+            energy_rate,
+            integrals,
+            residuals,
+            positions,
+            orders,
+            comparison,
+            run,
+        })
+    }
+}
+
+/// The rate of the energy is looked at for systems of up to this many coordinates.
+const RATE_COORDINATES: usize = 24;
+
+/// The names of what a motion should keep: energy, integrals, and [`Subject::residuals`].
+fn kept_names(model: &Model, subject: &Subject<'_>) -> Vec<String> {
+    let constraint = |l: &usize| &subject.system.constraints[*l];
+    let rows = || subject.terms.constraint_index.iter().map(constraint);
+    let holonomic = rows().filter(|c| c.kind == ConstraintKind::Holonomic);
+    std::iter::once("energy".to_string())
+        .chain(model.integrals.iter().map(|i| i.name.clone()))
+        .chain(rows().chain(holonomic).map(|c| c.name.clone()))
+        .collect()
+}
+
+/// Values along the rows; of the first `constant` quantities the deviation from the start counts, of the others the value.
+fn follow(
+    subject: &Subject<'_>,
+    run: &Run,
+    quantities: Vec<(String, Expr)>,
+    constant: usize,
+) -> Result<Vec<Followed>, FunctionsError> {
+    let g = &subject.system.graph;
+    let mut expressions: Vec<Expr> = quantities.iter().map(|(_, e)| *e).collect();
+    let sizes: Vec<Expr> = expressions.iter().map(|&e| magnitude(g, e)).collect();
+    expressions.extend(sizes);
+    let mut observer = Observer::new(subject.system, subject.terms, subject.binding, &expressions)?;
+    let mut series = observer.along(run);
+    // The state at which the equations became singular is recorded, but a residual may have no value there.
+    let regular = match run.ending.finished || run.ending.interrupted {
+        true => run.len(),
+        false => run.asked(),
+    };
+    let sizes = series.split_off(quantities.len());
+    let followed = quantities
+        .into_iter()
+        .zip(series.into_iter().zip(sizes))
+        .enumerate()
+        .map(|(i, ((name, expression), (values, sizes)))| {
+            let first = values.first().copied().filter(|_| i < constant);
+            Followed {
+                name,
+                expression,
+                drift: deviation(&run.times[..regular], &values, first.unwrap_or(0.0)),
+                scale: sizes.iter().fold(0.0, |m: f64, x| m.max(*x)),
+                values,
+            }
+        });
+    Ok(followed.collect())
+}
+
+fn deviation(times: &[f64], values: &[f64], reference: f64) -> Extreme {
+    let mut drift = Extreme::default();
+    for (&t, &value) in times.iter().zip(values) {
+        let deviation = value - reference;
+        let known = if deviation.is_nan() {
+            f64::INFINITY
+        } else {
+            deviation
+        };
+        drift.record(known, t);
+    }
+    drift
+}
+
+/// Largest difference of positions and velocities at common times, each component over 1 + its largest magnitude.
+fn difference(a: &Run, b: &Run) -> Extreme {
+    let width = a.layout.v().end;
+    let rows = a.asked().min(b.asked());
+    let mut largest = Extreme::default();
+    for i in 0..width {
+        let scale = 1.0 + (0..rows).fold(0.0, |m: f64, j| m.max(a.row(j)[i].abs()));
+        for j in (0..rows).filter(|&j| a.times[j] == b.times[j]) {
+            largest.record((a.row(j)[i] - b.row(j)[i]) / scale, a.times[j]);
+        }
+    }
+    largest
+}
+
+fn exact_start(model: &Model, subject: &Subject<'_>) -> Option<Vec<(Expr, Expr)>> {
+    let g = &model.graph;
+    let values = subject.system.parameter_values();
+    let mut exact = Vec::new();
+    for (i, c) in subject.system.coordinates.iter().enumerate() {
+        for (order, symbol, used) in [(0, c.q, subject.start.q[i]), (1, c.v, subject.start.v[i])] {
+            let given = match model.initial.values.get(&(i, order)) {
+                Some(given) => g.substitute(given.value, &values),
+                None => g.zero(),
+            };
+            let stated = g.evaluate_f64(&[given], &|_| None).ok()?[0];
+            if (stated - used).abs() > 1e-12 * (1.0 + used.abs()) {
+                return None;
+            }
+            exact.push((symbol, given));
+        }
+    }
+    let t = model
+        .simulation
+        .t_start
+        .map_or(g.zero(), |t| g.substitute(t, &values));
+    exact.push((g.symbol("t", 0), t));
+    exact.extend(values);
+    Some(exact)
+}
+
+fn start_values(subject: &Subject<'_>) -> Vec<(String, f64)> {
+    let coordinates = &subject.system.coordinates;
+    let q = coordinates
+        .iter()
+        .zip(&subject.start.q)
+        .map(|(c, &x)| (c.name.clone(), x));
+    let v = coordinates
+        .iter()
+        .zip(&subject.start.v)
+        .map(|(c, &x)| (format!("{}'", c.name), x));
+    q.chain(v).collect()
+}
