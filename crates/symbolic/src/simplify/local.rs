@@ -28,7 +28,7 @@ pub(super) fn shorten_systems(g: &Graph, es: &[Expr], options: &Options) -> Vec<
     let inside: FxHashSet<Expr> = g.reachable(&stated).into_iter().collect();
     let mut image: FxHashMap<Expr, Expr> = FxHashMap::default();
     let mut lengths = Lengths::written();
-    if right_sides.len() <= MOST_RIGHT_SIDES {
+    if g.reachable(&right_sides).len() <= options.max_nodes / 4 {
         for e in right_sides {
             let short = right_side(g, e, options);
             if short != e && lengths.of(g, short) < lengths.of(g, e) {
@@ -74,10 +74,8 @@ fn rebuilt(
         .collect()
 }
 
-/// More right sides than these are not each simplified: nobody reads so large a system term by term.
-const MOST_RIGHT_SIDES: usize = 40;
-
-/// A right side of a stated system is read like an equation of its own, unless it contains systems itself.
+/// A right side of a stated system is read like an equation of its own, unless it contains systems itself. Where they are
+/// too large together nobody reads them term by term.
 fn right_side(g: &Graph, e: Expr, options: &Options) -> Expr {
     let is_plain = |&e: &Expr| !matches!(g.node(e), Node::Solve { .. });
     if g.reachable(&[e]).iter().all(is_plain) {
