@@ -57,6 +57,8 @@ fn a_repeated_factor_is_refused() {
 fn a_definite_form_leaves_no_regular_velocity() {
     let ended = study(&["a (x'^2 + y'^2) = 0"], "parameters = [\"a\"]\n");
     refused(&ended, &["no real state", "gradients"]);
+    let ended = study(&["exp((z' - y x')^2) = 1"], "");
+    refused(&ended, &["no real state", "gradients"]);
 }
 
 /// x' = y and x = t demand y = 1, which nobody stated: with y' = 1 no motion satisfies both.

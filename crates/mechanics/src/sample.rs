@@ -39,6 +39,7 @@ pub type Point = BTreeMap<Symbol, f64>;
 /// which the gradient of a constraint vanishes, as that of x'^2 + y'^2 = 0 does wherever it holds, is not regular.
 pub fn admissible_point(system: &System, terms: &MotionTerms, seed: u64) -> Option<Point> {
     let mut generator = Generator::new(seed);
+    let mut usual = vec![0.0_f64; terms.constraints.len()];
     (0..200).find_map(|attempt| {
         let mut point = free_point(system, terms, &mut generator)?;
         if attempt >= 10 {
@@ -48,11 +49,16 @@ pub fn admissible_point(system: &System, terms: &MotionTerms, seed: u64) -> Opti
             }
         }
         let before = gradient_norms(system, terms, &point)?;
+        for (usual, norm) in usual.iter_mut().zip(&before) {
+            if norm.is_finite() {
+                *usual = norm.max(*usual);
+            }
+        }
         if !project_velocities(system, terms, &mut point) {
             return None;
         }
         let after = gradient_norms(system, terms, &point)?;
-        let is_regular = before.iter().zip(&after).all(|(b, a)| *a > 1e-4 * b);
+        let is_regular = usual.iter().zip(&after).all(|(u, a)| *a > 1e-4 * u);
         is_regular.then_some(point)
     })
 }
