@@ -1,10 +1,11 @@
 //! One model through the public interface, with what the command line would say and how it would exit.
 
 use chetaev::model::model::Output;
-use chetaev::model::{Diagnostics, Loaded, Model, Style};
+use chetaev::model::{load, Diagnostics, Loaded, Model, NoFiles, Style};
 use chetaev::motion::observe::Observer;
 use chetaev::motion::{NumericSystem, Run, RunSettings, Subject, Watcher};
 use chetaev::study::{study, ClaimSelection, Hooks, Study, StudyOptions};
+use chetaev::symbolic::Verdict;
 use std::time::Instant;
 
 /// What is asked of a run.
@@ -31,6 +32,25 @@ pub struct Ended {
     pub text: String,
     /// The study, when the input was good enough for one.
     pub study: Option<Study>,
+}
+
+impl Ended {
+    /// The verdict on a claim, by its full id.
+    ///
+    /// # Panics
+    /// When there is no study or no such verdict.
+    pub fn verdict(&self, claim: &str) -> &Verdict {
+        let study = self.study.as_ref();
+        let study = study.unwrap_or_else(|| panic!("{}", self.text));
+        let decided = study.verdicts.iter().find(|d| d.full_id() == claim);
+        let decided = decided.unwrap_or_else(|| panic!("no verdict of {claim}"));
+        &decided.finding.verdict
+    }
+}
+
+/// Studies a model of one text.
+pub fn ended_text(text: &str, ask: &Ask) -> Ended {
+    ended(load("model.toml", text, &NoFiles, &[]), ask)
 }
 
 /// Studies a model that was read.

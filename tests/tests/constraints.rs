@@ -5,24 +5,17 @@
     reason = "test code fails where it stands"
 )]
 
-use chetaev::model::{load, NoFiles};
-use chetaev_tests::runs::{ended, Ask, Ended};
+use chetaev_tests::runs::{ended_text, Ask, Ended};
 
 fn study(constraints: &[&str], rest: &str) -> Ended {
     let text = format!(
         "coordinates = [\"x\", \"y\", \"z\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2\"\nconstraints = {constraints:?}\n{rest}"
     );
-    ended(load("model.toml", &text, &NoFiles, &[]), &Ask::default())
+    ended_text(&text, &Ask::default())
 }
 
-fn verdict(ended: &Ended, claim: &str) -> String {
-    let study = ended
-        .study
-        .as_ref()
-        .unwrap_or_else(|| panic!("{}", ended.text));
-    let decided = study.verdicts.iter().find(|d| d.full_id() == claim);
-    let decided = decided.unwrap_or_else(|| panic!("no verdict of {claim}"));
-    decided.finding.verdict.word().to_owned()
+fn verdict(ended: &Ended, claim: &str) -> &'static str {
+    ended.verdict(claim).word()
 }
 
 fn refused(ended: &Ended, words: &[&str]) {

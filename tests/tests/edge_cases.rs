@@ -5,29 +5,14 @@
     reason = "test code fails where it stands"
 )]
 
-use chetaev::model::{load, Files};
-use chetaev_tests::runs::{ended, Ask, Ended};
-
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &str) -> Result<String, String> {
-        Err("no files here".into())
-    }
-}
+use chetaev_tests::runs::{ended_text, Ask, Ended};
 
 fn study(text: &str) -> Ended {
-    ended(load("edge.toml", text, &NoFiles, &[]), &Ask::default())
+    ended_text(text, &Ask::default())
 }
 
-fn verdict(ended: &Ended, claim: &str) -> String {
-    let study = ended
-        .study
-        .as_ref()
-        .unwrap_or_else(|| panic!("{}", ended.text));
-    let decided = study.verdicts.iter().find(|d| d.full_id() == claim);
-    let decided = decided.unwrap_or_else(|| panic!("no verdict of {claim}"));
-    decided.finding.verdict.word().to_owned()
+fn verdict(ended: &Ended, claim: &str) -> &'static str {
+    ended.verdict(claim).word()
 }
 
 fn system(body: &str) -> String {

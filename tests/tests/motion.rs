@@ -5,38 +5,22 @@
     reason = "test code fails where it stands"
 )]
 
-use chetaev::model::{load, Files};
+use chetaev::model::{load, NoFiles};
 use chetaev::study::{Hooks, StudyOptions};
-use chetaev_tests::runs::{ended, Ask, Ended};
-
-struct NoFiles;
-
-impl Files for NoFiles {
-    fn read(&self, _: &str) -> Result<String, String> {
-        Err("no files here".into())
-    }
-}
+use chetaev_tests::runs::{ended_text, Ask, Ended};
 
 fn study(text: &str, claims: &[&'static str]) -> Ended {
     let ask = Ask {
         claims: claims.to_vec(),
         ..Ask::default()
     };
-    ended(load("motion.toml", text, &NoFiles, &[]), &ask)
+    ended_text(text, &ask)
 }
 
 /// The word and the sentence of a verdict.
-fn verdict(ended: &Ended, claim: &str) -> (String, String) {
-    let study = ended
-        .study
-        .as_ref()
-        .unwrap_or_else(|| panic!("{}", ended.text));
-    let decided = study.verdicts.iter().find(|d| d.full_id() == claim);
-    let verdict = &decided
-        .unwrap_or_else(|| panic!("no verdict of {claim}"))
-        .finding
-        .verdict;
-    (verdict.word().to_owned(), verdict.detail().to_owned())
+fn verdict(ended: &Ended, claim: &str) -> (&'static str, String) {
+    let verdict = ended.verdict(claim);
+    (verdict.word(), verdict.detail().to_owned())
 }
 
 /// Coordinates, Lagrangian, and the rest of the file.
@@ -152,7 +136,7 @@ fn the_order_of_a_method_is_never_refuted_on_analytic_equations() {
                 false => &["numerical"],
             };
             assert!(
-                allowed.contains(&word.as_str()),
+                allowed.contains(&word),
                 "{method}, {lagrangian}: {word}, {detail}"
             );
         }

@@ -5,11 +5,10 @@
     reason = "test code fails where it stands"
 )]
 
-use chetaev::model::{load, NoFiles};
-use chetaev_tests::runs::{ended, Ask, Ended};
+use chetaev_tests::runs::{ended_text, Ask, Ended};
 
 fn study(body: &str) -> Ended {
-    ended(load("model.toml", body, &NoFiles, &[]), &Ask::default())
+    ended_text(body, &Ask::default())
 }
 
 /// An expectation about a subject that does not exist can never be met.

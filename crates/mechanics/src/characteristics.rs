@@ -7,6 +7,7 @@
 use crate::sample;
 use crate::system::System;
 use crate::terms::MotionTerms;
+use crate::words::quoted;
 use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -142,12 +143,12 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
 }
 
 fn constraint_names(system: &System, terms: &MotionTerms) -> String {
-    let names: Vec<String> = terms
-        .constraint_index
-        .iter()
-        .map(|&l| format!("`{}`", system.constraints[l].name))
-        .collect();
-    names.join(", ")
+    quoted(
+        terms
+            .constraint_index
+            .iter()
+            .map(|&l| &system.constraints[l].name),
+    )
 }
 
 fn pivot_cost(system: &System, entry: Expr, j: usize) -> usize {

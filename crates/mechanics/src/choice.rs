@@ -3,6 +3,7 @@
 use crate::characteristics::{Characteristics, Selection};
 use crate::system::System;
 use crate::terms::MotionTerms;
+use crate::words::quoted;
 use chetaev_symbolic::Symbol;
 
 /// Sentences on every independent velocity and quasi-velocity of the model that cannot be used as asked: which, why, and
@@ -22,7 +23,7 @@ pub fn unheeded(system: &System, terms: &MotionTerms, selection: &Selection) -> 
             .collect();
         sentences.push(format!(
             "the {} {} not used: {}; {}",
-            counted("quasi-velocity", "quasi-velocities", &asked),
+            named("quasi-velocity", "quasi-velocities", &asked),
             are(asked.len()),
             why_not_quasi(system, terms, selection, k),
             instead(system, selection),
@@ -48,7 +49,7 @@ fn independent(
         let names = velocities(system, &refused);
         return Some(format!(
             "the {} asked for as independent {} not used as such: {}; {}",
-            counted("velocity", "velocities", &names),
+            named("velocity", "velocities", &names),
             are(names.len()),
             why_not_independent(system, terms, selection, &kept, &refused, k),
             instead(system, selection),
@@ -62,7 +63,7 @@ fn independent(
             kept.len(),
             quoted(&names),
             are(names.len()),
-            quoted(&velocities(system, &kept)),
+            quoted(velocities(system, &kept)),
         )
     })
 }
@@ -94,7 +95,7 @@ fn why_not_independent(
         (false, true) => "the constraints make them depend on each other".to_owned(),
         (false, false) => format!(
             "the constraints make {them} depend on {}",
-            quoted(&velocities(system, kept))
+            quoted(velocities(system, kept))
         ),
     }
 }
@@ -167,7 +168,7 @@ fn velocities(system: &System, indices: &[usize]) -> Vec<String> {
 }
 
 /// "velocity `x'`", "velocities `x'`, `y'`".
-fn counted(one: &str, many: &str, names: &[String]) -> String {
+fn named(one: &str, many: &str, names: &[String]) -> String {
     let word = if names.len() == 1 { one } else { many };
     format!("{word} {}", quoted(names))
 }
@@ -178,9 +179,4 @@ fn are(count: usize) -> &'static str {
     } else {
         "are"
     }
-}
-
-fn quoted(names: &[String]) -> String {
-    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    quoted.join(", ")
 }

@@ -13,6 +13,7 @@ pub mod redundancy;
 pub mod sample;
 pub mod system;
 pub mod terms;
+pub mod words;
 
 pub use characteristics::{Characteristics, Manifold, Selection};
 pub use claims::{Claim, Context, Finding, Formula, Group, Prepared, Registry};

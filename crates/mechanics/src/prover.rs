@@ -3,10 +3,11 @@
 use crate::characteristics::Manifold;
 use crate::redundancy::LeftOut;
 use crate::system::{Relation, System};
+use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::assumptions::{Assumptions, Relation as Sign};
 use chetaev_symbolic::zero::{decide_zero, generic_rank, Options, RankTest, ZeroTest};
-use chetaev_symbolic::{Expr, Graph, Verdict};
+use chetaev_symbolic::{Expr, Verdict};
 
 /// How hard to try, and with which random choices.
 #[derive(Clone, Debug)]
@@ -193,24 +194,6 @@ impl Prover {
 
 /// Cofactors of a larger matrix are too many.
 const LARGEST_DETERMINANT: usize = 8;
-
-/// The determinant by cofactors along the rows, each minor formed once: 2ⁿ of them.
-fn determinant(g: &Graph, matrix: &[Vec<Expr>]) -> Expr {
-    let n = matrix.len();
-    // The minor of the last rows in the columns of a bit set; as many rows as columns.
-    let mut minors = vec![g.one(); 1 << n];
-    for columns in 1..1_usize << n {
-        let row = n - columns.count_ones() as usize;
-        let mut terms = Vec::new();
-        for (position, column) in (0..n).filter(|c| columns >> c & 1 == 1).enumerate() {
-            let minor = minors[columns & !(1 << column)];
-            let term = g.mul(&[matrix[row][column], minor]);
-            terms.push(if position % 2 == 0 { term } else { g.neg(term) });
-        }
-        minors[columns] = g.add(&terms);
-    }
-    minors[(1 << n) - 1]
-}
 
 /// Where a proof holds: the product's words first, then what the zero test adds, then the model's assumptions.
 fn located(found: &str, on: &str, system: &System) -> String {

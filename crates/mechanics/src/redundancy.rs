@@ -4,6 +4,7 @@ use crate::characteristics::{Characteristics, CharacteristicsError, Selection};
 use crate::prover::Prover;
 use crate::system::System;
 use crate::terms::MotionTerms;
+use crate::words::quoted;
 use chetaev_symbolic::{Expr, Verdict};
 
 /// The constraints that the selection of independent rows leaves out.
@@ -51,8 +52,7 @@ impl LeftOut {
 
     /// The names in quotes.
     pub fn quoted(&self) -> String {
-        let quoted: Vec<String> = self.names.iter().map(|name| format!("`{name}`")).collect();
-        quoted.join(", ")
+        quoted(&self.names)
     }
 
     /// Refuses constraints that do not hold where the others do: no motion satisfies them all, or only one on which a

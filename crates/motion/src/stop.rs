@@ -4,6 +4,7 @@ use crate::chart::Chart;
 use crate::multiplier_flow::StateKind;
 use crate::watch::Watched;
 use chetaev_integrate::{EvaluationFailure, HaltReason, Stop};
+use chetaev_mechanics::words::quoted;
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,8 +66,7 @@ fn of_constraints(constraints: &[String]) -> String {
     if constraints.is_empty() {
         return String::new();
     }
-    let names: Vec<String> = constraints.iter().map(|c| format!("`{c}`")).collect();
-    format!(" (constraints {})", names.join(", "))
+    format!(" (constraints {})", quoted(constraints))
 }
 
 fn early(reason: String, t: f64) -> Ending {

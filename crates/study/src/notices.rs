@@ -2,6 +2,7 @@
 
 use crate::start::{holds, Start};
 use crate::study::Motion;
+use chetaev_mechanics::words::quoted;
 use chetaev_mechanics::{choice, Prepared, System};
 use chetaev_model::model::Model;
 use chetaev_motion::observe::Observer;
@@ -61,16 +62,11 @@ fn unused_multipliers(model: &Model) -> Option<String> {
 
 /// Constraints that depend on the others where the motion begins.
 fn redundant(start: &Start) -> Option<String> {
-    let names: Vec<String> = start
-        .start
-        .redundant
-        .iter()
-        .map(|n| format!("`{n}`"))
-        .collect();
+    let names = &start.start.redundant;
     (!names.is_empty()).then(|| {
         format!(
             "redundant constraints: {} depend{} on the others at the initial state (rank {} of {}); motion and reactions are unique, the single multipliers are not, and those of the constraints left out are given as zero",
-            names.join(", "),
+            quoted(names),
             if names.len() == 1 { "s" } else { "" },
             start.start.chart.rank(),
             start.numeric.r,

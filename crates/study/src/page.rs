@@ -7,6 +7,7 @@ mod motion;
 
 use crate::study::Study;
 use crate::typeset::Typesetter;
+use chetaev_mechanics::words::counted;
 use chetaev_mechanics::Prover;
 use chetaev_model::model::Assumption as Stated;
 use chetaev_model::Relation;
@@ -97,15 +98,6 @@ fn subtitle(study: &Study) -> String {
         ),
     ]
     .join(", ")
-}
-
-/// "no constraints", "1 constraint", "2 constraints".
-fn counted(count: usize, one: &str, many: &str) -> String {
-    match count {
-        0 => format!("no {many}"),
-        1 => format!("1 {one}"),
-        count => format!("{count} {many}"),
-    }
 }
 
 fn paragraphs(text: &str) -> Vec<String> {

@@ -168,6 +168,24 @@ fn vanishes(g: &Graph, e: Expr) -> Result<bool, MatrixError> {
     }
 }
 
+/// The determinant of a square matrix by cofactors along the rows, each minor formed once: 2ⁿ of them, so for small n only.
+pub fn determinant(g: &Graph, matrix: &[Vec<Expr>]) -> Expr {
+    let n = matrix.len();
+    // The minor of the last rows in the columns of a bit set; as many rows as columns.
+    let mut minors = vec![g.one(); 1 << n];
+    for columns in 1..1_usize << n {
+        let row = n - columns.count_ones() as usize;
+        let mut terms = Vec::new();
+        for (position, column) in (0..n).filter(|c| columns >> c & 1 == 1).enumerate() {
+            let minor = minors[columns & !(1 << column)];
+            let term = g.mul(&[matrix[row][column], minor]);
+            terms.push(if position % 2 == 0 { term } else { g.neg(term) });
+        }
+        minors[columns] = g.add(&terms);
+    }
+    minors[(1 << n) - 1]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -267,5 +285,21 @@ mod tests {
         assert_eq!(null_space(&g, &[], 2).unwrap().len(), 2);
         let regular = matrix(&g, &[&["cos(x)", "-sin(x)"], &["sin(x)", "cos(x)"]]);
         assert!(null_space(&g, &regular, 2).unwrap().is_empty());
+    }
+
+    /// Vandermonde's determinant is the product of the differences.
+    #[test]
+    fn determinants_of_vandermonde() {
+        let g = Graph::new();
+        let rows: Vec<Vec<Expr>> = ["a", "b", "c", "d"]
+            .iter()
+            .map(|name| {
+                let x = g.symbol(name, 0);
+                (0..4).map(|power| g.powi(x, power)).collect()
+            })
+            .collect();
+        let product = read(&g, "(b - a) (c - a) (d - a) (c - b) (d - b) (d - c)");
+        assert_zero(&g, g.sub(determinant(&g, &rows), product));
+        assert_eq!(determinant(&g, &[]), g.one());
     }
 }

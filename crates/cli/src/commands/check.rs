@@ -3,6 +3,7 @@
 use super::with_hooks;
 use crate::arguments::Check as Arguments;
 use crate::{files, terminal, DONE, INPUT};
+use chetaev::mechanics::words::counted;
 use chetaev::model::Model;
 use chetaev::study::{check, diagnostics};
 
@@ -34,18 +35,9 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
 
 fn summary(model: &Model) -> String {
     let counts = [
-        counted(model.coordinates.len(), "coordinate"),
-        counted(model.constraints.len(), "constraint"),
-        counted(model.parameters.len(), "parameter"),
+        counted(model.coordinates.len(), "coordinate", "coordinates"),
+        counted(model.constraints.len(), "constraint", "constraints"),
+        counted(model.parameters.len(), "parameter", "parameters"),
     ];
     format!("{}: {}: no errors\n", model.name, counts.join(", "))
-}
-
-/// "no constraints", "1 constraint", "2 constraints".
-fn counted(count: usize, one: &str) -> String {
-    match count {
-        0 => format!("no {one}s"),
-        1 => format!("1 {one}"),
-        count => format!("{count} {one}s"),
-    }
 }
