@@ -39,7 +39,11 @@ pub struct Model {
     pub assumptions: Vec<Assumption>,
     /// Named sub-expressions, each after those that it uses.
     pub defines: Vec<Definition>,
-    /// Kinetic energy T, where the model gives it.
+    /// Particles, in the order of the file.
+    pub particles: Vec<Particle>,
+    /// Whether [`Model::kinetic`] is the sum over the particles, because the model states neither T nor L.
+    pub kinetic_from_particles: bool,
+    /// Kinetic energy T, where the model gives it or its particles.
     pub kinetic: Option<Expr>,
     /// Potential energy V, where the model gives it.
     pub potential: Option<Expr>,
@@ -55,6 +59,8 @@ pub struct Model {
     pub independent: Option<Vec<usize>>,
     /// Quasi-velocities by name, as expressions of q, v, t. The names may be used in every other expression.
     pub quasi_velocities: Vec<Definition>,
+    /// The moving frame, where the model states its fields; field s belongs to quasi-velocity s.
+    pub frame: Option<FrameFields>,
     /// Initial data.
     pub initial: Initial,
     /// How to compute the motion.
@@ -155,6 +161,36 @@ pub struct Definition {
     pub text: String,
     /// A word about it; may be empty.
     pub description: String,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// A particle: a point with a constant mass, moved by the coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Particle {
+    /// Its name.
+    pub name: String,
+    /// Its mass, an expression of parameters.
+    pub mass: Expr,
+    /// Its Cartesian position r(q, t), one to three components; controls may occur.
+    pub position: Vec<Expr>,
+    /// The applied force F(q, v, t), as many components as the position has; zero where none is stated. It is not
+    /// among [`Model::forces`].
+    pub force: Vec<Expr>,
+    /// A word about it; may be empty.
+    pub description: String,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// A moving frame stated by its fields: v = X_0 + Σ η^s X_s, where η^s is the quasi-velocity s.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameFields {
+    /// `fields[s][i]` is the component of the field X_s along coordinate i, a function of q and t. There are as many
+    /// fields as coordinates.
+    pub fields: Vec<Vec<Expr>>,
+    /// The components of X_0, the velocity where all quasi-velocities vanish; functions of q and t.
+    pub drift: Vec<Expr>,
     /// Where it is stated.
     pub place: Place,
 }
