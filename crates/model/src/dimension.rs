@@ -6,6 +6,7 @@
 mod expected;
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 
 use chetaev_symbolic::syntax::ast::{Binary, Node, NodeId};
 use chetaev_symbolic::syntax::lower::{expand_name, Bindings};
@@ -19,7 +20,7 @@ use crate::resolve::Resolver;
 use crate::source::Place;
 use crate::text::Text;
 use crate::units::{Dimension, Unit};
-use expected::Checked;
+use expected::{Checked, Decided};
 
 /// The dimension of an expression, or none where it fits everywhere.
 type Kind = Option<Dimension>;
@@ -63,6 +64,9 @@ pub(crate) fn check(resolver: &mut Resolver) -> bool {
     let mut checker = Checker {
         defines: vec![None; resolver.defines.len()],
         energy: None,
+        mass: None,
+        length: None,
+        speeds: BTreeMap::new(),
         found: Vec::new(),
         resolver,
     };
@@ -80,8 +84,14 @@ struct Checker<'r> {
     resolver: &'r Resolver,
     /// What is known of the definitions; each is checked before it is used.
     defines: Vec<Kind>,
-    /// The dimension of the Lagrangian, and where it was found.
-    energy: Option<(Dimension, Place)>,
+    /// The dimension of the Lagrangian.
+    energy: Option<Decided>,
+    /// The dimension of masses.
+    mass: Option<Decided>,
+    /// The dimension of lengths.
+    length: Option<Decided>,
+    /// Where the components of fields decided for their quasi-velocities, by number of the definition.
+    speeds: BTreeMap<usize, Decided>,
     found: Vec<Diagnostic>,
 }
 

@@ -18,6 +18,22 @@ pub(super) struct Checked<'f> {
     pub(super) sides: &'f [(Kind, Place)],
 }
 
+/// A dimension that the first of several expressions decides for the others.
+#[derive(Clone, Debug)]
+pub(super) struct Decided {
+    pub(super) kind: Dimension,
+    pub(super) place: Place,
+    /// What is said about that place.
+    pub(super) label: String,
+}
+
+impl Decided {
+    fn by(kind: Dimension, place: Place) -> Self {
+        let label = format!("this has {kind}");
+        Decided { kind, place, label }
+    }
+}
+
 impl Checker<'_> {
     pub(super) fn expectation(&mut self, expected: &Expected, checked: &Checked<'_>) {
         match expected {
@@ -27,6 +43,12 @@ impl Checker<'_> {
             Expected::Energy => self.energy(checked),
             Expected::Force(coordinate) => self.force(coordinate, checked),
             Expected::Power => self.rate_of_energy(checked),
+            Expected::Mass => self.mass(checked),
+            Expected::Length => self.length(checked),
+            Expected::ForceOnParticle => self.force_on_particle(checked),
+            Expected::FieldComponent { define, coordinate } => {
+                self.field_component(*define, coordinate, checked)
+            }
             Expected::Time | Expected::Number if checked.bare => {}
             Expected::Time => {
                 self.compare_kind(checked, &Dimension::time(), "a time has the dimension")
@@ -68,28 +90,124 @@ impl Checker<'_> {
 
     /// A part of the Lagrangian: the first one decides for the others.
     fn energy(&mut self, checked: &Checked<'_>) {
-        let (Some(own), place) = (checked.kind.clone(), checked.place) else {
+        let Some(own) = checked.kind.clone() else {
             return;
         };
         match self.energy.clone() {
-            None => self.energy = Some((own, place)),
-            Some((energy, first)) if own != energy => {
+            None => self.energy = Some(Decided::by(own, checked.place)),
+            Some(energy) if own != energy.kind => {
                 let message = format!(
-                    "this has the dimension {own}, and the rest of the Lagrangian has {energy}"
+                    "this has the dimension {own}, and the rest of the Lagrangian has {}",
+                    energy.kind
                 );
                 self.found
-                    .push(mismatch(place, message).related(first, format!("this has {energy}")));
+                    .push(mismatch(checked.place, message).related(energy.place, energy.label));
+            }
+            Some(_) => {}
+        }
+    }
+
+    // ---- particles
+
+    fn mass(&mut self, checked: &Checked<'_>) {
+        match (&checked.kind, self.mass.clone()) {
+            (Some(own), None) => {
+                self.mass = Some(Decided::by(own.clone(), checked.place));
+                self.energy_of_particles();
+            }
+            (Some(own), Some(first)) => self.like_the_first(own, &first, checked, "mass"),
+            (None, _) => {}
+        }
+    }
+
+    fn length(&mut self, checked: &Checked<'_>) {
+        let Some(own) = &checked.kind else { return };
+        if let Some(first) = self.length.clone() {
+            self.like_the_first(own, &first, checked, "length");
+            return;
+        }
+        self.length = Some(Decided::by(own.clone(), checked.place));
+        self.energy_of_particles();
+    }
+
+    /// The kinetic energy has a mass times the square of a velocity.
+    fn energy_of_particles(&mut self) {
+        let (Some(mass), Some(length), None) = (&self.mass, &self.length, &self.energy) else {
+            return;
+        };
+        let square = length.kind.times(&length.kind);
+        let kind = mass.kind.times(&square).over(&square_of_time());
+        let (place, label) = (
+            length.place,
+            format!("the kinetic energy of the particles has {kind}"),
+        );
+        self.energy = Some(Decided { kind, place, label });
+    }
+
+    fn like_the_first(
+        &mut self,
+        own: &Dimension,
+        first: &Decided,
+        checked: &Checked<'_>,
+        word: &str,
+    ) {
+        if *own != first.kind {
+            let message = format!(
+                "this {word} has the dimension {own}, and another one has {}",
+                first.kind
+            );
+            let diagnostic = mismatch(checked.place, message).label(format!("this has {own}"));
+            self.found
+                .push(diagnostic.related(first.place, first.label.clone()));
+        }
+    }
+
+    fn force_on_particle(&mut self, checked: &Checked<'_>) {
+        let (Some(mass), Some(length)) = (&self.mass, &self.length) else {
+            return;
+        };
+        let wanted = mass.kind.times(&length.kind).over(&square_of_time());
+        self.compare_kind(
+            checked,
+            &wanted,
+            "the force on a particle has the dimension",
+        );
+    }
+
+    // ---- frames
+
+    /// The component along q^i is the velocity of q^i over the quasi-velocity.
+    fn field_component(&mut self, define: usize, coordinate: &str, checked: &Checked<'_>) {
+        let (Some(own), Some(unit)) = (&checked.kind, self.unit_of(coordinate)) else {
+            return;
+        };
+        let kind = over_time(unit.dimension.clone(), 1).over(own);
+        let name = &self.resolver.defines[define].name;
+        let label = format!("this makes it {kind}");
+        match self.speeds.get(&define) {
+            None => {
+                self.defines[define] = Some(kind.clone());
+                let (place, label) = (checked.place, label);
+                self.speeds.insert(define, Decided { kind, place, label });
+            }
+            Some(first) if first.kind != kind => {
+                let message = format!(
+                    "the components of a field give `{name}` different dimensions, {} and {kind}",
+                    first.kind
+                );
+                let diagnostic = mismatch(checked.place, message).label(label);
+                self.found
+                    .push(diagnostic.related(first.place, first.label.clone()));
             }
             Some(_) => {}
         }
     }
 
     fn force(&mut self, coordinate: &str, checked: &Checked<'_>) {
-        let (Some((energy, _)), Some(unit)) = (self.energy.clone(), self.unit_of(coordinate))
-        else {
+        let (Some(energy), Some(unit)) = (&self.energy, self.unit_of(coordinate)) else {
             return;
         };
-        let wanted = energy.over(&unit.dimension);
+        let wanted = energy.kind.over(&unit.dimension);
         self.compare_kind(
             checked,
             &wanted,
@@ -99,10 +217,10 @@ impl Checker<'_> {
 
     /// Rayleigh's function.
     fn rate_of_energy(&mut self, checked: &Checked<'_>) {
-        let Some((energy, _)) = self.energy.clone() else {
+        let Some(energy) = &self.energy else {
             return;
         };
-        let wanted = energy.over(&Dimension::time());
+        let wanted = energy.kind.over(&Dimension::time());
         self.compare_kind(
             checked,
             &wanted,
@@ -147,4 +265,9 @@ impl Checker<'_> {
             );
         }
     }
+}
+
+fn square_of_time() -> Dimension {
+    let time = Dimension::time();
+    time.times(&time)
 }

@@ -24,11 +24,31 @@ pub(crate) enum State {
     Failed,
 }
 
+/// Where a named expression comes from.
+#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+pub(crate) enum DefineKind {
+    /// `[define]`.
+    Definition,
+    /// `[quasi_velocities]`.
+    QuasiVelocity,
+    /// `[frame.fields]`; the value follows from all fields together.
+    FrameVelocity,
+}
+
+impl DefineKind {
+    fn word(self) -> &'static str {
+        match self {
+            DefineKind::Definition => "a definition",
+            _ => "a quasi-velocity",
+        }
+    }
+}
+
 /// A named expression while the model is being read.
 #[derive(Clone, Debug)]
 pub(crate) struct Define {
     pub(crate) name: String,
-    pub(crate) quasi: bool,
+    pub(crate) kind: DefineKind,
     pub(crate) text: Text,
     pub(crate) parsed: Rc<Parsed>,
     pub(crate) bindings: Bindings,
@@ -58,22 +78,21 @@ impl Define {
 
 impl Resolver {
     pub(crate) fn declare_defines(&mut self, root: &Table) {
-        for (section, quasi) in [("define", false), ("quasi_velocities", true)] {
+        for (section, kind) in [
+            ("define", DefineKind::Definition),
+            ("quasi_velocities", DefineKind::QuasiVelocity),
+        ] {
             let Some(table) = self.section(root, section) else {
                 continue;
             };
             for (key, raw) in &table.entries {
-                self.declare_define(key, raw, quasi);
+                self.declare_define(key, raw, kind);
             }
         }
     }
 
-    fn declare_define(&mut self, key: &Text, raw: &Raw, quasi: bool) {
-        let what = if quasi {
-            "a quasi-velocity"
-        } else {
-            "a definition"
-        };
+    fn declare_define(&mut self, key: &Text, raw: &Raw, kind: DefineKind) {
+        let what = kind.word();
         let mut unit = None;
         let mut description = String::new();
         let mut value = Some(raw);
@@ -112,7 +131,7 @@ impl Resolver {
             };
             self.defines.push(Define {
                 name: instance.name,
-                quasi,
+                kind,
                 text: text.clone().unwrap_or_else(|| key.clone()),
                 parsed: parsed
                     .clone()
@@ -138,20 +157,7 @@ impl Resolver {
                     chain.pop();
                     continue;
                 }
-                let Define {
-                    text,
-                    parsed,
-                    bindings,
-                    quasi,
-                    ..
-                } = self.defines[number].clone();
-                let context = if quasi {
-                    Context::state("a quasi-velocity")
-                } else {
-                    Context::jet("a definition")
-                };
-                let (value, wanted) =
-                    self.lower_wanting(&text, &parsed, parsed.root(), &bindings, context);
+                let wanted = self.resolve_define(number, &mut rank);
                 if let Some(circular) = wanted.iter().find(|wanted| chain.contains(wanted)) {
                     let start = chain.iter().position(|own| own == circular).unwrap_or(0);
                     self.circle(&chain[start..]);
@@ -163,23 +169,42 @@ impl Resolver {
                 if !wanted.is_empty() {
                     // One at a time keeps the stack a chain; each is asked for at most once more.
                     chain.push(wanted[0]);
-                    continue;
-                }
-                rank += 1;
-                self.defines[number].rank = rank;
-                self.defines[number].state = value.map_or(State::Failed, State::Known);
-                if value.is_some() {
-                    let expected = Expected::Anything;
-                    self.formulas.push(Formula {
-                        text,
-                        parsed,
-                        bindings,
-                        expected,
-                        define: Some(number),
-                    });
                 }
             }
         }
+    }
+
+    /// Gives a definition its value, or says which others it needs first.
+    fn resolve_define(&mut self, number: usize, rank: &mut usize) -> Vec<usize> {
+        let Define {
+            text,
+            parsed,
+            bindings,
+            kind,
+            ..
+        } = self.defines[number].clone();
+        let context = match kind {
+            DefineKind::Definition => Context::jet("a definition"),
+            DefineKind::QuasiVelocity => Context::state("a quasi-velocity"),
+            DefineKind::FrameVelocity => return self.resolve_frame(rank),
+        };
+        let (value, wanted) = self.lower_wanting(&text, &parsed, parsed.root(), &bindings, context);
+        if !wanted.is_empty() {
+            return wanted;
+        }
+        *rank += 1;
+        self.defines[number].rank = *rank;
+        self.defines[number].state = value.map_or(State::Failed, State::Known);
+        if value.is_some() {
+            self.formulas.push(Formula {
+                text,
+                parsed,
+                bindings,
+                expected: Expected::Anything,
+                define: Some(number),
+            });
+        }
+        Vec::new()
     }
 
     fn circle(&mut self, members: &[usize]) {

@@ -28,6 +28,19 @@ pub(crate) enum Expected {
     Force(String),
     /// That of the Lagrangian divided by the time.
     Power,
+    /// That of masses: the first one decides for the others.
+    Mass,
+    /// That of lengths: the first one decides for the others; with the masses and the time it decides for the energy.
+    Length,
+    /// That of a mass times a length over the square of the time.
+    ForceOnParticle,
+    /// That of the coordinate's velocity over that of the quasi-velocity, which the first component decides.
+    FieldComponent {
+        /// The quasi-velocity, by its number among the definitions.
+        define: usize,
+        /// The coordinate.
+        coordinate: String,
+    },
     /// That of the time, where a bare number stands for seconds.
     Time,
     /// A pure number.

@@ -7,7 +7,9 @@ mod declare;
 mod define;
 mod drawing;
 pub(crate) mod formula;
+pub(crate) mod frame;
 mod parameters;
+mod particles;
 mod run;
 pub(crate) mod scope;
 mod sections;
@@ -61,6 +63,8 @@ pub(crate) struct Resolver {
     pub(crate) controls: Vec<Control>,
     /// Definitions and quasi-velocities; both may be used by name.
     pub(crate) defines: Vec<define::Define>,
+    /// The frame, whose quasi-velocities are among the definitions.
+    pub(crate) frame: Option<frame::FrameStated>,
     /// Derivatives of definitions that were taken, by number and order.
     pub(crate) contents: RefCell<BTreeMap<(usize, u32), Contents>>,
     /// Every expression with what its dimension should be.
@@ -83,10 +87,12 @@ const SECTIONS: &[&str] = &[
     "assumptions",
     "define",
     "lagrangian",
+    "particles",
     "forces",
     "constraints",
     "velocities",
     "quasi_velocities",
+    "frame",
     "controls",
     "initial",
     "simulation",
@@ -115,6 +121,7 @@ pub(crate) fn resolve(
         stated: Vec::new(),
         controls: Vec::new(),
         defines: Vec::new(),
+        frame: None,
         contents: RefCell::default(),
         formulas: Vec::new(),
         unreadable_units: Vec::new(),
@@ -139,7 +146,8 @@ impl Resolver {
         self.names_and_values(root, file);
         let assumptions = self.assumptions(root);
         self.check_assumptions(&assumptions);
-        let lagrangian = self.lagrangian(root, file);
+        let particles = self.particles(root);
+        let lagrangian = self.lagrangian(root, file, &particles);
         let (forces, rayleigh) = self.forces(root);
         let constraints = self.constraints(root);
         let independent = self.independent_velocities(root);
@@ -168,8 +176,8 @@ impl Resolver {
             controls: std::mem::take(&mut self.controls),
             assumptions,
             defines: self.definitions(false),
-            particles: Vec::new(),
-            kinetic_from_particles: false,
+            particles,
+            kinetic_from_particles: lagrangian.from_particles,
             kinetic: lagrangian.kinetic,
             potential: lagrangian.potential,
             lagrangian: lagrangian.total,
@@ -178,7 +186,7 @@ impl Resolver {
             constraints,
             independent,
             quasi_velocities: self.definitions(true),
-            frame: None,
+            frame: self.frame.take().and_then(frame::FrameStated::solved),
             initial,
             simulation,
             integrals,
@@ -198,6 +206,7 @@ impl Resolver {
         self.declare_controls(root);
         self.declare_parameters(root);
         self.declare_defines(root);
+        self.declare_frame(root);
         self.resolve_parameters();
         self.resolve_defines();
         self.resolve_controls(root);
@@ -209,7 +218,7 @@ impl Resolver {
         let mut chosen: Vec<&define::Define> = self
             .defines
             .iter()
-            .filter(|define| define.quasi == quasi)
+            .filter(|define| (define.kind != define::DefineKind::Definition) == quasi)
             .collect();
         chosen.sort_by_key(|define| if quasi { 0 } else { define.rank });
         chosen
@@ -324,6 +333,15 @@ fn near_key<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {
         ("potential", "V"),
         ("dissipation", "rayleigh"),
         ("quasi-velocities", "quasi_velocities"),
+        ("masses", "particles"),
+        ("points", "particles"),
+        ("moving_frame", "frame"),
+        ("vectors", "fields"),
+        ("vector_fields", "fields"),
+        ("r", "position"),
+        ("m", "mass"),
+        ("F", "force"),
+        ("X_0", "drift"),
         ("inputs", "controls"),
         ("initial_conditions", "initial"),
         ("solver", "simulation"),

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use chetaev_symbolic::syntax::{Resolution, Scope};
 use chetaev_symbolic::Expr;
 
-use super::define::State;
+use super::define::{DefineKind, State};
 use super::Resolver;
 use crate::source::Place;
 
@@ -52,6 +52,8 @@ pub(crate) struct Context {
     pub(crate) time: bool,
     /// Whether parameters may occur.
     pub(crate) parameters: bool,
+    /// Advice where something that varies occurs and may not; may be empty.
+    pub(crate) hint: &'static str,
 }
 
 impl Context {
@@ -62,7 +64,24 @@ impl Context {
             coordinates: Some(1),
             time: true,
             parameters: true,
+            hint: "",
         }
+    }
+
+    /// A function of q and t.
+    pub(crate) const fn position(what: &'static str) -> Self {
+        Context {
+            what,
+            coordinates: Some(0),
+            time: true,
+            parameters: true,
+            hint: "only coordinates, controls, parameters and the time may occur there",
+        }
+    }
+
+    /// The same with advice for somebody who uses what may not occur.
+    pub(crate) const fn hint(self, hint: &'static str) -> Self {
+        Context { hint, ..self }
     }
 
     /// A function of all derivatives.
@@ -72,6 +91,7 @@ impl Context {
             coordinates: Some(u32::MAX),
             time: true,
             parameters: true,
+            hint: "",
         }
     }
 
@@ -82,6 +102,7 @@ impl Context {
             coordinates: None,
             time: true,
             parameters: true,
+            hint: "",
         }
     }
 
@@ -92,6 +113,7 @@ impl Context {
             coordinates: None,
             time: false,
             parameters: true,
+            hint: "",
         }
     }
 
@@ -102,6 +124,7 @@ impl Context {
             coordinates: None,
             time: false,
             parameters: false,
+            hint: "",
         }
     }
 }
@@ -139,6 +162,7 @@ impl ModelScope<'_> {
             what,
             coordinates,
             time,
+            hint,
             ..
         } = self.context;
         let allowed = if word == "control" {
@@ -150,14 +174,18 @@ impl ModelScope<'_> {
             None => refused(
                 "not-constant",
                 format!("the {word} `{name}` may not occur in {what}, which is constant"),
-                "",
+                hint,
             ),
             Some(most) if order > most => {
                 let primes = "'".repeat(order as usize);
                 refused(
                     "order-too-high",
                     format!("`{name}{primes}` may not occur in {what}"),
-                    "only first derivatives may occur there",
+                    if hint.is_empty() {
+                        "only first derivatives may occur there"
+                    } else {
+                        hint
+                    },
                 )
             }
             Some(_) => Resolution::Known(self.resolver.graph.symbol(name, order)),
@@ -167,6 +195,16 @@ impl ModelScope<'_> {
     fn defined(&self, name: &str, number: usize, order: u32) -> Resolution {
         let resolver = self.resolver;
         let define = &resolver.defines[number];
+        let Context {
+            what,
+            coordinates,
+            hint,
+            ..
+        } = self.context;
+        if define.kind == DefineKind::FrameVelocity && coordinates == Some(0) {
+            let message = format!("`{name}` is a quasi-velocity and may not occur in {what}");
+            return refused("not-allowed-here", message, hint);
+        }
         let value = match define.state {
             State::Known(value) => value,
             State::Failed => return Resolution::Failed,
@@ -186,10 +224,10 @@ impl ModelScope<'_> {
         match self.forbidden(&contents) {
             None => Resolution::Known(contents.value),
             Some(inner) => {
-                let (what, primes) = (self.context.what, "'".repeat(order as usize));
+                let primes = "'".repeat(order as usize);
                 let message =
                     format!("`{name}{primes}` contains `{inner}`, which may not occur in {what}");
-                refused("not-allowed-here", message, "")
+                refused("not-allowed-here", message, hint)
             }
         }
     }
@@ -277,7 +315,7 @@ impl Scope for ModelScope<'_> {
                         "the time `t` may not occur in {}, which is constant",
                         self.context.what
                     ),
-                    "",
+                    self.context.hint,
                 ),
                 _ => refused(
                     "derivative-of-constant",

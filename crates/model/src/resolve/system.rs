@@ -11,7 +11,7 @@ use super::formula::{Expected, Formula};
 use super::scope::Context;
 use super::{start_of, Resolver};
 use crate::diagnostic::Diagnostic;
-use crate::model::{Assumption, Constraint, Definition, Force};
+use crate::model::{Assumption, Constraint, Definition, Force, Particle};
 use crate::raw::{Kind, Raw, Table};
 use crate::source::Place;
 use crate::text::Text;
@@ -21,30 +21,48 @@ pub(crate) struct Lagrangian {
     pub(crate) kinetic: Option<Expr>,
     pub(crate) potential: Option<Expr>,
     pub(crate) total: Expr,
+    pub(crate) from_particles: bool,
+}
+
+impl Lagrangian {
+    /// L stated by itself.
+    fn whole(total: Expr) -> Self {
+        Lagrangian {
+            kinetic: None,
+            potential: None,
+            total,
+            from_particles: false,
+        }
+    }
 }
 
 impl Resolver {
     // ---- the Lagrangian
 
-    pub(crate) fn lagrangian(&mut self, root: &Table, file: Place) -> Option<Lagrangian> {
+    /// As it is stated; the kinetic energy that a model does not state is that of its particles.
+    pub(crate) fn lagrangian(
+        &mut self,
+        root: &Table,
+        file: Place,
+        particles: &[Particle],
+    ) -> Option<Lagrangian> {
+        let has_particles = root
+            .get("particles")
+            .and_then(Raw::table)
+            .is_some_and(|table| !table.entries.is_empty());
         let Some(raw) = root.get("lagrangian") else {
-            self.push(
-                Diagnostic::error(
-                    "missing-section",
-                    start_of(file),
-                    "the model has no Lagrangian",
-                )
-                .hint("add [lagrangian] with `T` and `V`, or with `L`"),
-            );
+            if has_particles {
+                return Some(self.of_particles(particles, None));
+            }
+            let message = "the model has no Lagrangian";
+            let diagnostic = Diagnostic::error("missing-section", start_of(file), message);
+            self.push(diagnostic.hint(
+                "add [lagrangian] with `T` and `V`, or with `L`; or state [particles] with `mass` and `position`",
+            ));
             return None;
         };
         if raw.expression().is_some() {
-            let total = self.energy(raw, "the Lagrangian")?;
-            return Some(Lagrangian {
-                kinetic: None,
-                potential: None,
-                total,
-            });
+            return Some(Lagrangian::whole(self.energy(raw, "the Lagrangian")?));
         }
         let Some(table) = raw.table() else {
             self.wrong_kind(
@@ -54,11 +72,16 @@ impl Resolver {
             );
             return None;
         };
-        self.stated_lagrangian(table, raw)
+        self.stated_lagrangian(table, raw, has_particles.then_some(particles))
     }
 
-    /// By `T` and `V`, or by `L`.
-    fn stated_lagrangian(&mut self, table: &Table, raw: &Raw) -> Option<Lagrangian> {
+    /// By `T` and `V`, by `L`, or by `V` and the particles.
+    fn stated_lagrangian(
+        &mut self,
+        table: &Table,
+        raw: &Raw,
+        particles: Option<&[Particle]>,
+    ) -> Option<Lagrangian> {
         self.known_keys(table, &["T", "V", "L"], "of [lagrangian]");
         let of = |resolver: &mut Self, key: &str, what| {
             table.get(key).map(|raw| resolver.energy(raw, what))
@@ -74,29 +97,43 @@ impl Resolver {
             ));
             return None;
         }
-        let total = match (whole, kinetic, potential) {
-            (Some(whole), ..) => whole?,
-            (None, None, None) => {
+        match (whole, kinetic, potential, particles) {
+            (Some(whole), ..) => Some(Lagrangian::whole(whole?)),
+            (None, None, None, None) => {
                 self.push(
                     Diagnostic::error("missing-section", raw.place, "[lagrangian] is empty")
                         .hint("state `T` and `V`, or `L`"),
                 );
-                return None;
+                None
             }
-            (None, kinetic, potential) => {
+            (None, None, None, Some(particles)) => Some(self.of_particles(particles, None)),
+            (None, None, Some(potential), Some(particles)) => {
+                Some(self.of_particles(particles, Some(potential?)))
+            }
+            (None, kinetic, potential, _) => {
+                let (kinetic, potential) = (or_none(kinetic)?, or_none(potential)?);
                 let zero = self.graph.zero();
-                let (kinetic, potential) = (
-                    kinetic.unwrap_or(Some(zero)),
-                    potential.unwrap_or(Some(zero)),
-                );
-                self.graph.sub(kinetic?, potential?)
+                let total = self
+                    .graph
+                    .sub(kinetic.unwrap_or(zero), potential.unwrap_or(zero));
+                Some(Lagrangian {
+                    kinetic,
+                    potential,
+                    total,
+                    from_particles: false,
+                })
             }
-        };
-        Some(Lagrangian {
-            kinetic: kinetic.flatten(),
-            potential: potential.flatten(),
-            total,
-        })
+        }
+    }
+
+    fn of_particles(&self, particles: &[Particle], potential: Option<Expr>) -> Lagrangian {
+        let kinetic = self.kinetic_of(particles);
+        Lagrangian {
+            kinetic: Some(kinetic),
+            potential,
+            total: potential.map_or(kinetic, |potential| self.graph.sub(kinetic, potential)),
+            from_particles: true,
+        }
     }
 
     fn energy(&mut self, raw: &Raw, what: &'static str) -> Option<Expr> {
@@ -259,7 +296,7 @@ impl Resolver {
                 bindings: Vec::new(),
             }]
         } else {
-            self.constraint_names(key)
+            self.own_names(key, "a constraint")
         };
         for instance in &instances {
             if let Some(earlier) = constraints
@@ -277,8 +314,8 @@ impl Resolver {
         self.constraint(raw, &instances, constraints);
     }
 
-    /// Constraints have their own names: one may be called like a coordinate, or like a function.
-    fn constraint_names(&mut self, key: &Text) -> Vec<Instance> {
+    /// Constraints, integrals and particles have their own names: one may be called like a coordinate, or like a function.
+    pub(crate) fn own_names(&mut self, key: &Text, what: &str) -> Vec<Instance> {
         let plain = chetaev_symbolic::syntax::names::normalized(&key.content);
         if !plain.is_empty()
             && plain
@@ -291,9 +328,9 @@ impl Resolver {
                 bindings: Vec::new(),
             }];
         }
-        let mut instances = self.instances(key, "a constraint", &[]);
+        let mut instances = self.instances(key, what, &[]);
         if instances.iter().any(|instance| instance.order > 0) {
-            let message = format!("`{}` has a prime and cannot name a constraint", key.content);
+            let message = format!("`{}` has a prime and cannot name {what}", key.content);
             self.push(Diagnostic::error("bad-name", key.place, message));
             instances.clear();
         }
@@ -510,7 +547,7 @@ impl Resolver {
                 continue;
             };
             self.parse(&text, parse_expression);
-            for Instance { name, bindings, .. } in self.constraint_names(key) {
+            for Instance { name, bindings, .. } in self.own_names(key, "an integral") {
                 let expected = Expected::Anything;
                 if let Some(value) =
                     self.expression(&text, &bindings, Context::jet("an integral"), expected)
@@ -528,4 +565,9 @@ impl Resolver {
         }
         integrals
     }
+}
+
+/// What is not stated is none; what could not be read ends the matter.
+fn or_none(stated: Option<Option<Expr>>) -> Option<Option<Expr>> {
+    stated.map_or(Some(None), |value| value.map(Some))
 }
