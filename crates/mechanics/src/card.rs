@@ -7,10 +7,27 @@ pub enum Principle {
     DalembertLagrangeChetaev,
     /// Gauss's least constraint.
     Gauss,
-    /// Jourdain.
+    /// Jourdain: virtual velocities.
     Jourdain,
+    /// Hamilton's, in the form of Hölder, Voronets or Suslov, or on the phase space of Helmholtz and Poincaré.
+    Hamilton,
+    /// Jacobi's least action at fixed energy, read in Hölder's sense.
+    Jacobi,
+    /// A principle of the second kind, in which coordinates and velocities vary independently.
+    SecondKind,
     /// The constrained extremum.
     Vakonomic,
+}
+
+/// What is claimed of a formulation beside the reference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// It is what the others are compared with.
+    Reference,
+    /// Its accelerations are those of the reference: `formulation.equivalent#NAME`.
+    Equivalent,
+    /// It is another system, whose motions may coincide with those of the reference: never equivalent in general.
+    Coincidence,
 }
 
 /// A source with its equation numbers.
@@ -33,10 +50,16 @@ pub struct Card {
     pub statement: &'static str,
     /// The principle.
     pub principle: Principle,
+    /// What is claimed of it.
+    pub relation: Relation,
     /// Claim ids that must hold.
     pub requires: &'static [&'static str],
+    /// The identity that holds before any equation of motion is used, `formulation.identity#NAME`, in one sentence.
+    pub identity: Option<&'static str>,
     /// What the equations are solved for.
     pub unknowns: &'static str,
+    /// The highest order of constraints that its rule takes.
+    pub highest_order: u32,
     /// Sources.
     pub sources: &'static [Source],
 }

@@ -1,32 +1,23 @@
 //! Kinematic characteristics: a parametrization of the admissible velocities, and with it the virtual displacements.
 //!
 //! `v = φ(q, P, t)` with `f(q, φ, t) ≡ 0`, `B = ∂φ/∂P` (n × k), `J B = 0` (T2 §2, order 1). The parameters P are k
-//! independent velocities, or quasi-velocities of the user. For a constraint nonlinear in the velocities the dependent
-//! velocity stays a symbol, tied to the others by f = 0 (implicit embedding, T1 §9.6).
+//! independent quasi-velocities of a frame; in the natural frame, independent velocities. For constraints nonlinear in the
+//! velocities the dependent quasi-velocities stay symbols, tied to the others by f = 0 (implicit embedding, T1 §9.6): then
+//! every derivative of a function on the constraint manifold is taken through [`Characteristics::along`].
 
+use crate::frame::{Frame, FrameOrigin, Speed};
 use crate::sample;
+use crate::selection::{eliminate, pivot_cost};
 use crate::system::System;
 use crate::terms::MotionTerms;
-use crate::words::quoted;
 use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::{Expr, Symbol};
+use rustc_hash::FxHashMap;
 
-/// A parameter P of the admissible velocities.
-#[derive(Clone, Debug)]
-pub struct Parameter {
-    /// The name: a velocity such as `x'`, or a quasi-velocity.
-    pub name: String,
-    /// P.
-    pub value: Expr,
-    /// P'.
-    pub rate: Expr,
-    /// The symbol of P.
-    pub symbol: Symbol,
-    /// The symbol of P'.
-    pub rate_symbol: Symbol,
-    /// What P is as a function of (q, v, t); for an independent velocity the velocity itself.
-    pub definition: Expr,
-}
+pub use crate::selection::{select, Selection};
+
+/// A parameter P of the admissible velocities: an independent quasi-velocity.
+pub type Parameter = Speed;
 
 /// The constraint manifold as exact data for a zero test.
 #[derive(Clone, Debug, Default)]
@@ -37,11 +28,30 @@ pub struct Manifold {
     pub implicit: Vec<(Expr, Symbol)>,
 }
 
+/// A direction on the constraint manifold with coordinates (t, q, P).
+#[derive(Clone, Debug)]
+pub struct Direction {
+    /// The rate of t.
+    pub time: Expr,
+    /// The rates of q, length n.
+    pub coordinates: Vec<Expr>,
+    /// The rates of P, length k.
+    pub parameters: Vec<Expr>,
+}
+
 /// A parametrization of the admissible velocities.
 #[derive(Clone, Debug)]
 pub struct Characteristics {
+    /// The frame whose quasi-velocities they are.
+    pub frame: Frame,
     /// P, length k.
     pub parameters: Vec<Parameter>,
+    /// Indices in the frame of the independent quasi-velocities P.
+    pub independent: Vec<usize>,
+    /// Indices in the frame of the dependent quasi-velocities, one per row.
+    pub dependent: Vec<usize>,
+    /// The dependent quasi-velocities on the constraint manifold: F^α(q, P, t), or their symbols where they stay implicit.
+    pub solved: Vec<Expr>,
     /// φ, the velocities as functions of (q, P, t); length n.
     pub velocities: Vec<Expr>,
     /// B = ∂φ/∂P, n × k, row by row.
@@ -50,12 +60,14 @@ pub struct Characteristics {
     pub accelerations: Vec<Expr>,
     /// The part of the accelerations free of P': `a = B P' + a*`; length n.
     pub acceleration_offset: Vec<Expr>,
-    /// Indices of the dependent velocities where P are velocities.
-    pub dependent: Vec<usize>,
     /// Rows of the terms that were used (independent constraints).
     pub rows: Vec<usize>,
-    /// The constraint manifold in these variables.
+    /// What ties the symbols used here to each other: nothing, or the implicit constraints; in the natural frame also the
+    /// dependent velocities as functions of the independent ones.
     pub manifold: Manifold,
+    /// Implicit constraints in the variables (q, η, t), and their gradients by the dependent η; empty where F is explicit.
+    implicit: Vec<Expr>,
+    gradient: Vec<Expr>,
 }
 
 /// Why no characteristics can be formed.
@@ -93,144 +105,6 @@ pub enum CharacteristicsError {
     },
 }
 
-/// The rows of independent constraints and the dependent velocities to solve them for.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Selection {
-    /// Independent rows of the terms.
-    pub rows: Vec<usize>,
-    /// Dependent velocities, one per row.
-    pub dependent: Vec<usize>,
-}
-
-impl Selection {
-    /// The independent velocities of n coordinates.
-    pub fn independent(&self, n: usize) -> Vec<usize> {
-        (0..n).filter(|i| !self.dependent.contains(i)).collect()
-    }
-}
-
-/// Chooses independent rows and dependent velocities: those the user wants independent stay so where possible, then
-/// pivots that are numbers are preferred to parameters, parameters to functions of the state.
-///
-/// The choice is heuristic (one sampled state); that it is regular is a claim of its own.
-///
-/// # Errors
-/// [`CharacteristicsError::NoAdmissibleState`].
-pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, CharacteristicsError> {
-    let n = system.n();
-    let r = terms.constraints.len();
-    if r == 0 {
-        return Ok(Selection {
-            rows: Vec::new(),
-            dependent: Vec::new(),
-        });
-    }
-    let point = sample::admissible_point(system, terms, 0x0c4e_7ae5).ok_or_else(|| {
-        CharacteristicsError::NoAdmissibleState {
-            names: constraint_names(system, terms),
-        }
-    })?;
-    let values = system
-        .graph
-        .evaluate_f64(&terms.jacobian.concat(), &|s| point.get(&s).copied())
-        .unwrap_or_else(|_| vec![f64::NAN; n * r]);
-    let cost: Vec<Vec<usize>> = terms
-        .jacobian
-        .iter()
-        .map(|row| (0..n).map(|j| pivot_cost(system, row[j], j)).collect())
-        .collect();
-    Ok(eliminate(values, cost, n))
-}
-
-fn constraint_names(system: &System, terms: &MotionTerms) -> String {
-    quoted(
-        terms
-            .constraint_index
-            .iter()
-            .map(|&l| &system.constraints[l].name),
-    )
-}
-
-fn pivot_cost(system: &System, entry: Expr, j: usize) -> usize {
-    let g = &system.graph;
-    let wanted = if system.independent.contains(&j) {
-        1_000_000
-    } else {
-        0
-    };
-    let size = g.reachable(&[entry]).len().min(900);
-    let kind = if g.as_number(entry).is_some() {
-        0
-    } else if g.is_free_of(entry, &|s| {
-        system.moves(g.symbol_name(s)) || g.symbol_name(s) == "t"
-    }) {
-        1000
-    } else {
-        2000
-    };
-    // A velocity in which the constraint is affine can always be solved for; a root may not be real.
-    let nonlinear = if g.contains_any(entry, &[system.coordinates[j].v_symbol]) {
-        100_000
-    } else {
-        0
-    };
-    wanted + nonlinear + kind + size
-}
-
-/// Gaussian elimination that takes, among pivots that are not small, the cheapest.
-fn eliminate(mut a: Vec<f64>, cost: Vec<Vec<usize>>, n: usize) -> Selection {
-    let r = cost.len();
-    let scale: Vec<f64> = (0..r)
-        .map(|i| {
-            a[i * n..(i + 1) * n]
-                .iter()
-                .fold(0.0, |m: f64, x| m.max(x.abs()))
-        })
-        .collect();
-    let mut selection = Selection {
-        rows: Vec::new(),
-        dependent: Vec::new(),
-    };
-    let mut open: Vec<usize> = (0..r).collect();
-    while !open.is_empty() {
-        let mut best: Option<(usize, usize, usize)> = None;
-        for &i in &open {
-            for j in (0..n).filter(|j| !selection.dependent.contains(j)) {
-                let usable = a[i * n + j].abs() > 1e-9 * scale[i].max(1e-300);
-                let better = best.is_none_or(|(c, _, _)| cost[i][j] < c);
-                if usable && better {
-                    best = Some((cost[i][j], i, j));
-                }
-            }
-        }
-        let Some((_, i, j)) = best else { break };
-        selection.rows.push(i);
-        selection.dependent.push(j);
-        open.retain(|&o| o != i);
-        for &o in &open {
-            let factor = a[o * n + j] / a[i * n + j];
-            for c in 0..n {
-                a[o * n + c] -= factor * a[i * n + c];
-            }
-            a[o * n + j] = 0.0;
-        }
-    }
-    sort_pairs(&mut selection);
-    selection
-}
-
-/// Rows ascending, so that output follows the order of the model.
-fn sort_pairs(selection: &mut Selection) {
-    let mut pairs: Vec<(usize, usize)> = selection
-        .rows
-        .iter()
-        .copied()
-        .zip(selection.dependent.iter().copied())
-        .collect();
-    pairs.sort_unstable();
-    (selection.rows, selection.dependent) = pairs.into_iter().unzip();
-}
-
 impl Characteristics {
     /// Characteristics by independent velocities.
     ///
@@ -241,62 +115,199 @@ impl Characteristics {
         terms: &MotionTerms,
         selection: &Selection,
     ) -> Result<Characteristics, CharacteristicsError> {
-        let independent = selection.independent(system.n());
-        let parameters: Vec<Parameter> = independent
-            .iter()
-            .map(|&i| {
-                let c = &system.coordinates[i];
-                Parameter {
-                    name: format!("{}'", c.name),
-                    value: c.v,
-                    rate: c.a,
-                    symbol: c.v_symbol,
-                    rate_symbol: c.a_symbol,
-                    definition: c.v,
-                }
-            })
-            .collect();
-        Builder {
-            system,
-            terms,
-            selection,
-            independent,
-        }
-        .by_velocities(parameters)
-        .map_err(|source| not_solvable(system, selection, source))
+        let frame = Frame::natural(system);
+        Characteristics::in_frame(system, terms, &selection.rows, frame, &selection.dependent)
     }
 
-    /// Characteristics by the quasi-velocities of the user; `None` when they do not fit: their number is not k, or they
-    /// or the constraints are not affine in the velocities.
+    /// Characteristics by the quasi-velocities of the model; `None` when they do not fit: there are neither k nor n, or they
+    /// are not affine in the velocities.
     ///
     /// # Errors
-    /// [`CharacteristicsError::NotSolvable`].
+    /// [`CharacteristicsError`].
     pub fn quasi_velocities(
         system: &System,
         terms: &MotionTerms,
         selection: &Selection,
     ) -> Option<Result<Characteristics, CharacteristicsError>> {
-        let k = system.n() - selection.rows.len();
-        let affine = selection
-            .rows
-            .iter()
-            .all(|&row| system.constraints[terms.constraint_index[row]].is_affine_in_velocities());
-        if system.quasi_velocities.len() != k || k == 0 || !affine {
-            return None;
+        let (frame, origin) = match Frame::stated(system, terms, selection)? {
+            Ok(found) => found,
+            Err(source) => return Some(Err(not_solvable(&system.quasi_names(), source))),
+        };
+        Some(Characteristics::of_frame(
+            system, terms, selection, frame, origin,
+        ))
+    }
+
+    /// Characteristics in an adapted frame: the quasi-velocities of the model, or independent velocities beside the
+    /// constraint functions ([`Frame::adapted`]).
+    ///
+    /// # Errors
+    /// [`CharacteristicsError`].
+    pub fn adapted(
+        system: &System,
+        terms: &MotionTerms,
+        selection: &Selection,
+    ) -> Result<Characteristics, CharacteristicsError> {
+        match Frame::adapted(system, terms, selection) {
+            Ok((frame, FrameOrigin::Natural)) => {
+                let (rows, dependent) = (&selection.rows, &selection.dependent);
+                Characteristics::in_frame(system, terms, rows, frame, dependent)
+            }
+            Ok((frame, origin)) => {
+                Characteristics::of_frame(system, terms, selection, frame, origin)
+            }
+            Err(source) => Err(not_solvable(&system.quasi_names(), source)),
         }
-        let builder = Builder {
+    }
+
+    fn of_frame(
+        system: &System,
+        terms: &MotionTerms,
+        selection: &Selection,
+        frame: Frame,
+        origin: FrameOrigin,
+    ) -> Result<Characteristics, CharacteristicsError> {
+        let rows = &selection.rows;
+        if frame.adapted.len() == rows.len() {
+            let dependent: Vec<usize> = rows
+                .iter()
+                .filter_map(|row| frame.adapted.iter().find(|(known, _)| known == row))
+                .map(|&(_, s)| s)
+                .collect();
+            return Characteristics::in_frame(system, terms, rows, frame, &dependent);
+        }
+        let kept = match origin {
+            FrameOrigin::Stated => 0,
+            _ => system.quasi_velocities.len(),
+        };
+        let dependent = choose_dependent(system, terms, rows, &frame, kept)?;
+        Characteristics::in_frame(system, terms, rows, frame, &dependent)
+    }
+
+    /// Characteristics by the quasi-velocities of `frame` other than `dependent`, one of which belongs to each of `rows`.
+    ///
+    /// # Errors
+    /// [`CharacteristicsError::NotSolvable`] when the dependent quasi-velocities are structurally no unknowns.
+    pub fn in_frame(
+        system: &System,
+        terms: &MotionTerms,
+        rows: &[usize],
+        frame: Frame,
+        dependent: &[usize],
+    ) -> Result<Characteristics, CharacteristicsError> {
+        let names: Vec<String> = dependent
+            .iter()
+            .map(|&s| frame.speeds[s].name.clone())
+            .collect();
+        Builder {
             system,
             terms,
-            selection,
-            independent: selection.independent(system.n()),
-        };
-        let result = builder.by_quasi_velocities()?;
-        Some(result.map_err(|source| not_solvable(system, selection, source)))
+            rows,
+            frame,
+            dependent,
+        }
+        .build()
+        .map_err(|source| not_solvable(&names, source))
     }
 
     /// k, the number of independent velocities.
     pub fn k(&self) -> usize {
         self.parameters.len()
+    }
+
+    /// The rates of functions of (t, q, P) along a direction on the constraint manifold; P', P'' and multipliers are
+    /// constants. Through it implicit dependent quasi-velocities change as f = 0 demands (T1 (54)).
+    pub fn along(&self, system: &System, es: &[Expr], direction: &Direction) -> Vec<Expr> {
+        let g = &system.graph;
+        let mut rates: Vec<(Symbol, Expr)> = self
+            .parameters
+            .iter()
+            .zip(&direction.parameters)
+            .map(|(p, &rate)| (p.symbol, rate))
+            .collect();
+        if !self.implicit.is_empty() {
+            let of_f = derive_along(
+                system,
+                &self.implicit,
+                &direction.coordinates,
+                direction.time,
+                &rates,
+            );
+            let right: Vec<Expr> = of_f.into_iter().map(|e| g.neg(e)).collect();
+            // The matrix is nonsingular by form: `build` has solved with it.
+            let dependent = g.solve(&self.gradient, &right).unwrap_or_default();
+            let speeds = self.dependent.iter().map(|&s| self.frame.speeds[s].symbol);
+            rates.extend(speeds.zip(dependent));
+        }
+        derive_along(system, es, &direction.coordinates, direction.time, &rates)
+    }
+
+    /// The partial derivatives `∂e/∂P_σ` on the constraint manifold: one row per expression, one column per parameter.
+    pub fn by_parameters(&self, system: &System, es: &[Expr]) -> Vec<Vec<Expr>> {
+        let columns: Vec<Vec<Expr>> = (0..self.k())
+            .map(|sigma| self.along(system, es, &self.parameter_direction(system, sigma)))
+            .collect();
+        transposed(es.len(), &columns)
+    }
+
+    /// The derivatives `Σ_i w_i ∂e/∂q^i` on the constraint manifold with P and t frozen.
+    pub fn by_coordinates(&self, system: &System, es: &[Expr], weights: &[Expr]) -> Vec<Expr> {
+        let zero = system.graph.zero();
+        let direction = Direction {
+            time: zero,
+            coordinates: weights.to_vec(),
+            parameters: vec![zero; self.k()],
+        };
+        self.along(system, es, &direction)
+    }
+
+    /// `∂e/∂π_σ = Σ_s B_sσ ∂e/∂q^s` with P frozen (T2 (10)): one row per expression, one column per parameter.
+    pub fn by_quasi_coordinates(&self, system: &System, es: &[Expr]) -> Vec<Vec<Expr>> {
+        let columns: Vec<Vec<Expr>> = (0..self.k())
+            .map(|sigma| self.by_coordinates(system, es, &self.column(sigma)))
+            .collect();
+        transposed(es.len(), &columns)
+    }
+
+    /// The total derivatives D along the jet (t, q, P, P').
+    pub fn total_derivative(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
+        let direction = Direction {
+            time: system.graph.one(),
+            coordinates: self.velocities.clone(),
+            parameters: self.parameters.iter().map(|p| p.rate).collect(),
+        };
+        self.along(system, es, &direction)
+    }
+
+    /// The total derivatives with P' = 0: along the velocities with frozen quasi-velocities.
+    pub fn frozen_derivative(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
+        let direction = Direction {
+            time: system.graph.one(),
+            coordinates: self.velocities.clone(),
+            parameters: vec![system.graph.zero(); self.k()],
+        };
+        self.along(system, es, &direction)
+    }
+
+    /// Column σ of B.
+    pub fn column(&self, sigma: usize) -> Vec<Expr> {
+        self.basis.iter().map(|row| row[sigma]).collect()
+    }
+
+    /// `Σ_i w_i B_iσ` for σ = 1..k.
+    pub fn contract(&self, system: &System, covector: &[Expr]) -> Vec<Expr> {
+        let g = &system.graph;
+        (0..self.k())
+            .map(|sigma| {
+                let parts: Vec<Expr> = covector
+                    .iter()
+                    .zip(&self.basis)
+                    .filter(|(_, row)| !g.is_zero(row[sigma]))
+                    .map(|(&w, row)| g.mul(&[w, row[sigma]]))
+                    .collect();
+                g.add(&parts)
+            })
+            .collect()
     }
 
     /// Replaces the velocities by φ and leaves the rest.
@@ -310,254 +321,293 @@ impl Characteristics {
             .collect();
         system.graph.substitute_all(es, &pairs)
     }
+
+    /// Replaces velocities and accelerations by φ and Dφ: functions on the jet (t, q, P, P').
+    pub fn on_jet(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
+        let mut pairs = Vec::new();
+        for (i, c) in system.coordinates.iter().enumerate() {
+            pairs.push((c.v, self.velocities[i]));
+            pairs.push((c.a, self.accelerations[i]));
+        }
+        system.graph.substitute_all(es, &pairs)
+    }
+
+    /// P' from k equations `e = 0` that are linear in P'.
+    ///
+    /// # Errors
+    /// [`SolveError`] where they are structurally dependent.
+    pub fn rates_from(&self, system: &System, equations: &[Expr]) -> Result<Vec<Expr>, SolveError> {
+        let g = &system.graph;
+        let symbols: Vec<Symbol> = self.parameters.iter().map(|p| p.rate_symbol).collect();
+        let matrix = g.jacobian(equations, &symbols).concat();
+        let at_zero: Vec<(Expr, Expr)> =
+            self.parameters.iter().map(|p| (p.rate, g.zero())).collect();
+        let right: Vec<Expr> = g
+            .substitute_all(equations, &at_zero)
+            .into_iter()
+            .map(|e| g.neg(e))
+            .collect();
+        g.solve(&matrix, &right)
+    }
+
+    /// The implicit constraints with the dependent quasi-velocities they determine, as they are kept along a motion.
+    pub fn implicit(&self) -> impl Iterator<Item = (Expr, &Speed)> {
+        let speeds = self.dependent.iter().map(|&s| &self.frame.speeds[s]);
+        self.implicit.iter().copied().zip(speeds)
+    }
+
+    fn parameter_direction(&self, system: &System, sigma: usize) -> Direction {
+        let g = &system.graph;
+        let mut parameters = vec![g.zero(); self.k()];
+        parameters[sigma] = g.one();
+        Direction {
+            time: g.zero(),
+            coordinates: vec![g.zero(); system.n()],
+            parameters,
+        }
+    }
 }
 
-fn not_solvable(
+fn transposed(rows: usize, columns: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
+    (0..rows)
+        .map(|i| columns.iter().map(|column| column[i]).collect())
+        .collect()
+}
+
+/// The rates of functions when q moves along `coordinates`, t at the rate `time`, and further symbols at the rates given;
+/// every other symbol is a constant.
+pub fn derive_along(
     system: &System,
-    selection: &Selection,
-    source: SolveError,
-) -> CharacteristicsError {
-    let names: Vec<String> = selection
-        .dependent
-        .iter()
-        .map(|&j| format!("{}'", system.coordinates[j].name))
-        .collect();
+    es: &[Expr],
+    coordinates: &[Expr],
+    time: Expr,
+    further: &[(Symbol, Expr)],
+) -> Vec<Expr> {
+    let g = &system.graph;
+    let mut rates: FxHashMap<Symbol, Expr> = further.iter().copied().collect();
+    for (c, &rate) in system.coordinates.iter().zip(coordinates) {
+        rates.insert(c.q_symbol, rate);
+    }
+    let known = |rate: Expr| (!g.is_zero(rate)).then_some(rate);
+    g.derive(es, &|s| {
+        if let Some(&rate) = rates.get(&s) {
+            return known(rate);
+        }
+        let (name, order) = (g.symbol_name(s), g.symbol_order(s));
+        if name == "t" && order == 0 {
+            known(time)
+        } else if system.controls.iter().any(|u| u.name == name) {
+            known(g.mul(&[time, g.symbol(name, order + 1)]))
+        } else {
+            None
+        }
+    })
+}
+
+fn not_solvable(names: &[String], source: SolveError) -> CharacteristicsError {
     CharacteristicsError::NotSolvable {
         dependent: names.join(", "),
         source,
     }
 }
 
+/// Dependent quasi-velocities of a frame, by the pivots of ∂f/∂η at a sampled state; the first `kept` stay independent where
+/// possible.
+fn choose_dependent(
+    system: &System,
+    terms: &MotionTerms,
+    rows: &[usize],
+    frame: &Frame,
+    kept: usize,
+) -> Result<Vec<usize>, CharacteristicsError> {
+    let (g, n) = (&system.graph, system.n());
+    let gradient: Vec<Vec<Expr>> = rows
+        .iter()
+        .map(|&row| speed_gradient(system, &terms.jacobian[row], frame))
+        .collect();
+    let names = || CharacteristicsError::NoAdmissibleState {
+        names: crate::words::quoted(
+            rows.iter()
+                .map(|&row| &system.constraints[terms.constraint_index[row]].name),
+        ),
+    };
+    let point = sample::admissible_point(system, terms, 0x0c4e_7ae5).ok_or_else(names)?;
+    let values = g
+        .evaluate_f64(&gradient.concat(), &|s| point.get(&s).copied())
+        .map_err(|_| names())?;
+    let cost: Vec<Vec<usize>> = gradient
+        .iter()
+        .map(|row| {
+            let penalty = |s| if s < kept { 10_000_000 } else { 0 };
+            (0..n)
+                .map(|s| penalty(s) + pivot_cost(system, row[s], usize::MAX))
+                .collect()
+        })
+        .collect();
+    let chosen = eliminate(values, cost, n);
+    match chosen.dependent.len() == rows.len() {
+        true => Ok(chosen.dependent),
+        false => Err(names()),
+    }
+}
+
+/// `∂f/∂η^s = Σ_i ∂f/∂v^i X_s^i`, as a function of (q, v, t).
+fn speed_gradient(system: &System, by_velocities: &[Expr], frame: &Frame) -> Vec<Expr> {
+    let g = &system.graph;
+    frame
+        .fields
+        .iter()
+        .map(|field| {
+            let parts: Vec<Expr> = by_velocities
+                .iter()
+                .zip(field)
+                .filter(|(&a, &x)| !g.is_zero(a) && !g.is_zero(x))
+                .map(|(&a, &x)| g.mul(&[a, x]))
+                .collect();
+            g.add(&parts)
+        })
+        .collect()
+}
+
 struct Builder<'a> {
     system: &'a System,
     terms: &'a MotionTerms,
-    selection: &'a Selection,
-    independent: Vec<usize>,
+    rows: &'a [usize],
+    frame: Frame,
+    dependent: &'a [usize],
 }
 
 impl Builder<'_> {
-    fn is_affine(&self) -> bool {
-        self.selection.rows.iter().all(|&row| {
-            self.system.constraints[self.terms.constraint_index[row]].is_affine_in_velocities()
-        })
-    }
-
-    /// J restricted to the selected rows and dependent columns, row by row.
-    fn dependent_jacobian(&self) -> Vec<Expr> {
-        let mut entries = Vec::new();
-        for &row in &self.selection.rows {
-            for &j in &self.selection.dependent {
-                entries.push(self.terms.jacobian[row][j]);
-            }
-        }
-        entries
-    }
-
-    fn by_velocities(&self, parameters: Vec<Parameter>) -> Result<Characteristics, SolveError> {
-        let g = &self.system.graph;
-        let n = self.system.n();
-        let matrix = self.dependent_jacobian();
-        let mut basis = vec![vec![g.zero(); parameters.len()]; n];
-        for (sigma, &i) in self.independent.iter().enumerate() {
-            basis[i][sigma] = g.one();
-            let rhs: Vec<Expr> = self
-                .selection
-                .rows
-                .iter()
-                .map(|&row| g.neg(self.terms.jacobian[row][i]))
-                .collect();
-            for (&d, value) in self.selection.dependent.iter().zip(g.solve(&matrix, &rhs)?) {
-                basis[d][sigma] = value;
-            }
-        }
-        let mut velocities: Vec<Expr> = self.system.coordinates.iter().map(|c| c.v).collect();
-        let mut manifold = Manifold::default();
-        if self.is_affine() {
-            for (&d, phi) in self
-                .selection
-                .dependent
-                .iter()
-                .zip(self.solved_velocities(&matrix)?)
-            {
-                velocities[d] = phi;
-                manifold
-                    .solved
-                    .push((self.system.coordinates[d].v_symbol, phi));
-            }
-        } else {
-            for (&row, &d) in self.selection.rows.iter().zip(&self.selection.dependent) {
-                let symbol = self.system.coordinates[d].v_symbol;
-                manifold
-                    .implicit
-                    .push((self.terms.constraints[row], symbol));
-            }
-        }
-        self.finish(parameters, velocities, basis, manifold)
-    }
-
-    /// `v_d = -J_d⁻¹ (J_i v_i + f₀)` for affine constraints.
-    fn solved_velocities(&self, matrix: &[Expr]) -> Result<Vec<Expr>, SolveError> {
-        let g = &self.system.graph;
-        let at_rest: Vec<(Expr, Expr)> = self
-            .selection
-            .dependent
-            .iter()
-            .map(|&d| (self.system.coordinates[d].v, g.zero()))
-            .collect();
-        let rhs: Vec<Expr> = self
-            .selection
-            .rows
-            .iter()
-            .map(|&row| g.neg(g.substitute(self.terms.constraints[row], &at_rest)))
-            .collect();
-        g.solve(matrix, &rhs)
-    }
-
-    /// Solves constraints and definitions of quasi-velocities together for the velocities.
-    fn by_quasi_velocities(&self) -> Option<Result<Characteristics, SolveError>> {
+    fn build(self) -> Result<Characteristics, SolveError> {
         let (system, g) = (self.system, &self.system.graph);
         let n = system.n();
-        let velocity_symbols = system.velocity_symbols();
-        let at_rest: Vec<(Expr, Expr)> =
-            system.coordinates.iter().map(|c| (c.v, g.zero())).collect();
-        let mut matrix = Vec::new();
-        let mut rhs = Vec::new();
-        for &row in &self.selection.rows {
-            matrix.extend(&self.terms.jacobian[row]);
-            rhs.push(g.neg(g.substitute(self.terms.constraints[row], &at_rest)));
-        }
-        let mut parameters = Vec::new();
-        for quasi in &system.quasi_velocities {
-            let gradient = g.gradient(quasi.definition, &velocity_symbols);
-            if gradient
-                .iter()
-                .any(|&e| g.contains_any(e, &velocity_symbols))
-            {
-                return None;
-            }
-            matrix.extend(gradient);
-            let value = g.symbol(&quasi.name, 0);
-            rhs.push(g.sub(value, g.substitute(quasi.definition, &at_rest)));
-            parameters.push(Parameter {
-                name: quasi.name.clone(),
-                value,
-                rate: g.symbol(&quasi.name, 1),
-                symbol: g.intern_symbol(&quasi.name, 0),
-                rate_symbol: g.intern_symbol(&quasi.name, 1),
-                definition: quasi.definition,
-            });
-        }
-        Some(self.solve_for_velocities(n, &matrix, &rhs, parameters))
-    }
-
-    fn solve_for_velocities(
-        &self,
-        n: usize,
-        matrix: &[Expr],
-        rhs: &[Expr],
-        parameters: Vec<Parameter>,
-    ) -> Result<Characteristics, SolveError> {
-        let g = &self.system.graph;
-        let velocities = g.solve(matrix, rhs)?;
-        let mut basis = vec![Vec::new(); n];
-        for sigma in 0..parameters.len() {
-            let mut unit = vec![g.zero(); n];
-            unit[self.selection.rows.len() + sigma] = g.one();
-            for (row, value) in basis.iter_mut().zip(g.solve(matrix, &unit)?) {
-                row.push(value);
-            }
-        }
-        let solved = self
-            .system
-            .coordinates
+        let independent: Vec<usize> = (0..n).filter(|s| !self.dependent.contains(s)).collect();
+        let is_natural = self.frame.is_natural(system);
+        let is_adapted = self
+            .rows
             .iter()
-            .zip(&velocities)
-            .map(|(c, &phi)| (c.v_symbol, phi))
-            .collect();
-        let manifold = Manifold {
-            solved,
-            implicit: Vec::new(),
+            .zip(self.dependent)
+            .all(|(&row, &s)| self.frame.adapted.contains(&(row, s)));
+        let affine = self.rows.iter().all(|&row| {
+            system.constraints[self.terms.constraint_index[row]].is_affine_in_velocities()
+        });
+        let in_frame = self.constraints_in_frame();
+        let gradient = self.dependent_gradient(&in_frame);
+        let solved = if is_adapted {
+            vec![g.zero(); self.dependent.len()]
+        } else if affine {
+            self.solved(&in_frame, &gradient)?
+        } else {
+            let speeds = self.dependent.iter();
+            speeds.map(|&s| self.frame.speeds[s].value).collect()
         };
-        self.finish(parameters, velocities, basis, manifold)
-    }
-
-    /// Accelerations as total derivatives of φ on the jet (q, P, P', t).
-    fn finish(
-        &self,
-        parameters: Vec<Parameter>,
-        velocities: Vec<Expr>,
-        basis: Vec<Vec<Expr>>,
-        manifold: Manifold,
-    ) -> Result<Characteristics, SolveError> {
-        let (system, g) = (self.system, &self.system.graph);
+        let mut speeds: Vec<Expr> = self.frame.speeds.iter().map(|s| s.value).collect();
+        for (&s, &value) in self.dependent.iter().zip(&solved) {
+            speeds[s] = value;
+        }
+        let symbol = |s: usize| self.frame.speeds[s].symbol;
+        let mut manifold = Manifold::default();
+        let mut implicit = Vec::new();
+        if !is_adapted && !affine {
+            // A first solution shows that the matrix is nonsingular by form.
+            g.solve(&gradient, &vec![g.one(); self.dependent.len()])?;
+            let pairs = in_frame.iter().copied().zip(self.dependent);
+            manifold.implicit = pairs.map(|(f, &s)| (f, symbol(s))).collect();
+            implicit = in_frame;
+        } else if is_natural {
+            let pairs = self.dependent.iter().zip(&solved);
+            manifold.solved = pairs.map(|(&s, &value)| (symbol(s), value)).collect();
+        }
         let mut characteristics = Characteristics {
-            parameters,
+            parameters: independent
+                .iter()
+                .map(|&s| self.frame.speeds[s].clone())
+                .collect(),
+            velocities: self.frame.velocities(system, &speeds),
+            independent,
+            dependent: self.dependent.to_vec(),
+            solved,
+            basis: Vec::new(),
             accelerations: Vec::new(),
             acceleration_offset: Vec::new(),
-            velocities,
-            basis,
-            dependent: self.selection.dependent.clone(),
-            rows: self.selection.rows.clone(),
+            rows: self.rows.to_vec(),
             manifold,
+            implicit,
+            gradient,
+            frame: self.frame,
         };
-        characteristics.accelerations = if characteristics.manifold.implicit.is_empty() {
-            total_derivative_on_jet(system, &characteristics)
-        } else {
-            self.implicit_accelerations()?
-        };
-        let at_zero: Vec<(Expr, Expr)> = characteristics
-            .parameters
-            .iter()
-            .map(|p| (p.rate, g.zero()))
-            .collect();
-        characteristics.acceleration_offset =
-            g.substitute_all(&characteristics.accelerations, &at_zero);
+        characteristics.finish(system);
         Ok(characteristics)
     }
 
-    /// `a_d = J_d⁻¹ (g - J_i a_i)`: f differentiated once (T1 (54)).
-    fn implicit_accelerations(&self) -> Result<Vec<Expr>, SolveError> {
-        let (system, g) = (self.system, &self.system.graph);
-        let mut accelerations: Vec<Expr> = system.coordinates.iter().map(|c| c.a).collect();
-        let rhs: Vec<Expr> = self
-            .selection
+    /// f(q, X_0 + η^s X_s, t) of the rows.
+    fn constraints_in_frame(&self) -> Vec<Expr> {
+        let system = self.system;
+        let stated: Vec<Expr> = self
             .rows
             .iter()
-            .map(|&row| {
-                let mut parts = vec![self.terms.constraint_rate[row]];
-                for &i in &self.independent {
-                    let term = g.mul(&[self.terms.jacobian[row][i], system.coordinates[i].a]);
-                    parts.push(g.neg(term));
+            .map(|&row| self.terms.constraints[row])
+            .collect();
+        if self.frame.is_natural(system) {
+            return stated;
+        }
+        let speeds: Vec<Expr> = self.frame.speeds.iter().map(|s| s.value).collect();
+        let velocities = self.frame.velocities(system, &speeds);
+        let pairs: Vec<(Expr, Expr)> = system
+            .coordinates
+            .iter()
+            .zip(velocities)
+            .map(|(c, v)| (c.v, v))
+            .collect();
+        system.graph.substitute_all(&stated, &pairs)
+    }
+
+    /// ∂f/∂η^α, r × r, row by row.
+    fn dependent_gradient(&self, in_frame: &[Expr]) -> Vec<Expr> {
+        let symbols: Vec<Symbol> = self
+            .dependent
+            .iter()
+            .map(|&s| self.frame.speeds[s].symbol)
+            .collect();
+        self.system.graph.jacobian(in_frame, &symbols).concat()
+    }
+
+    /// F^α from affine constraints: `∂f/∂η^α F^α = -f` at η^α = 0.
+    fn solved(&self, in_frame: &[Expr], gradient: &[Expr]) -> Result<Vec<Expr>, SolveError> {
+        let g = &self.system.graph;
+        let at_rest: Vec<(Expr, Expr)> = self
+            .dependent
+            .iter()
+            .map(|&s| (self.frame.speeds[s].value, g.zero()))
+            .collect();
+        let right: Vec<Expr> = g
+            .substitute_all(in_frame, &at_rest)
+            .into_iter()
+            .map(|f| g.neg(f))
+            .collect();
+        g.solve(gradient, &right)
+    }
+}
+
+impl Characteristics {
+    /// B, Dφ and its part free of P'.
+    fn finish(&mut self, system: &System) {
+        let g = &system.graph;
+        self.basis = self.by_parameters(system, &self.velocities);
+        self.acceleration_offset = self.frozen_derivative(system, &self.velocities);
+        self.accelerations = self
+            .basis
+            .iter()
+            .zip(&self.acceleration_offset)
+            .map(|(row, &offset)| {
+                let mut parts = vec![offset];
+                for (&entry, p) in row.iter().zip(&self.parameters) {
+                    if !g.is_zero(entry) {
+                        parts.push(g.mul(&[entry, p.rate]));
+                    }
                 }
                 g.add(&parts)
             })
             .collect();
-        let values = g.solve(&self.dependent_jacobian(), &rhs)?;
-        for (&d, value) in self.selection.dependent.iter().zip(values) {
-            accelerations[d] = value;
-        }
-        Ok(accelerations)
     }
-}
-
-/// Dφ with q' = φ and P' free.
-fn total_derivative_on_jet(system: &System, characteristics: &Characteristics) -> Vec<Expr> {
-    let g = &system.graph;
-    let one = g.one();
-    g.derive(&characteristics.velocities, &|s| {
-        if let Some(i) = system.coordinates.iter().position(|c| c.q_symbol == s) {
-            return Some(characteristics.velocities[i]);
-        }
-        if let Some(p) = characteristics.parameters.iter().find(|p| p.symbol == s) {
-            return Some(p.rate);
-        }
-        let (name, order) = (g.symbol_name(s), g.symbol_order(s));
-        if name == "t" && order == 0 {
-            Some(one)
-        } else if system.controls.iter().any(|u| u.name == name) {
-            Some(g.symbol(name, order + 1))
-        } else {
-            None
-        }
-    })
 }

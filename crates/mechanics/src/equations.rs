@@ -1,7 +1,8 @@
-//! What a formulation delivers: equations in its own notation, intermediate objects, and accelerations.
+//! What a formulation delivers: equations in its own notation, intermediate objects, and a first-order system.
 
-use crate::characteristics::Characteristics;
-use chetaev_symbolic::Expr;
+use crate::characteristics::{derive_along, Characteristics};
+use crate::system::System;
+use chetaev_symbolic::{Expr, Symbol};
 
 /// One equation, `left = right`.
 #[derive(Clone, Debug)]
@@ -17,7 +18,7 @@ pub struct Equation {
 /// A named intermediate object, for example `lambda_blade` or an entry of B.
 #[derive(Clone, Debug)]
 pub struct NamedExpr {
-    /// The name as printed.
+    /// The name as a symbol, with subscripts after underscores: `theta_z`, `A_z_x`.
     pub name: String,
     /// Its value.
     pub value: Expr,
@@ -25,16 +26,55 @@ pub struct NamedExpr {
     pub meaning: String,
 }
 
+impl NamedExpr {
+    /// An object with its name, value and meaning.
+    pub fn new(name: impl Into<String>, value: Expr, meaning: impl Into<String>) -> NamedExpr {
+        NamedExpr {
+            name: name.into(),
+            value,
+            meaning: meaning.into(),
+        }
+    }
+}
+
+/// The general form of equations in the notation of their source.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Schema {
+    /// For a terminal: `D(∂L/∂v^i) − ∂L/∂q^i = Q_i + Σ_l λ_l ∂f^l/∂v^i`.
+    pub text: &'static str,
+    /// The same for LaTeX in mathematical mode.
+    pub latex: &'static str,
+}
+
 /// A group of equations with a heading.
 #[derive(Clone, Debug)]
 pub struct EquationGroup {
     /// Heading, for example "equations of motion".
     pub title: String,
+    /// Their general form, where there is one.
+    pub schema: Option<Schema>,
     /// The equations.
     pub equations: Vec<Equation>,
 }
 
+/// A variable of a formulation's state beside the coordinates.
+#[derive(Clone, Debug)]
+pub struct StateVariable {
+    /// The name: `x'`, `p_x`, `kappa_blade`.
+    pub name: String,
+    /// The variable.
+    pub value: Expr,
+    /// Its symbol.
+    pub symbol: Symbol,
+    /// Its rate as a function of the state.
+    pub rate: Expr,
+    /// What it is as a function of (q, v, t); `None` for data of its own, such as the multipliers of an extremum.
+    pub definition: Option<Expr>,
+}
+
 /// The equations of motion in one formulation.
+///
+/// Its first-order system has the state (q, variables): `q' = velocities`, `variables' = rates`.
 #[derive(Clone, Debug)]
 pub struct Equations {
     /// Name of the formulation in the registry.
@@ -43,12 +83,159 @@ pub struct Equations {
     pub groups: Vec<EquationGroup>,
     /// Intermediate objects, printed with the equations.
     pub objects: Vec<NamedExpr>,
-    /// The parametrization of the velocities it uses; `None` when it works on all of (q, v).
-    pub characteristics: Option<Characteristics>,
-    /// q'' as functions of (q, v, t), or of (q, P, t) with characteristics; length n.
+    /// The state beside the coordinates.
+    pub variables: Vec<StateVariable>,
+    /// q' as functions of the state; length n.
+    pub velocities: Vec<Expr>,
+    /// q'' as functions of the state; length n.
     pub accelerations: Vec<Expr>,
-    /// P' as functions of (q, P, t); empty without characteristics.
-    pub rates: Vec<Expr>,
+    /// Relations between the variables that hold along every motion, with the variable each determines: `f = 0` for
+    /// dependent velocities that stay symbols.
+    pub relations: Vec<(Expr, Symbol)>,
     /// Multipliers by index of their constraint in the system; empty where the formulation has none.
     pub multipliers: Vec<(usize, Expr)>,
+    /// Whether the variables depend on which velocities were chosen as independent.
+    pub is_chart: bool,
+}
+
+impl Equations {
+    /// Equations with the state (q, v) and these accelerations; groups, objects and multipliers empty.
+    pub fn in_velocities(
+        formulation: &'static str,
+        system: &System,
+        accelerations: Vec<Expr>,
+    ) -> Equations {
+        let variables = system
+            .coordinates
+            .iter()
+            .zip(&accelerations)
+            .map(|(c, &rate)| StateVariable {
+                name: format!("{}'", c.name),
+                value: c.v,
+                symbol: c.v_symbol,
+                rate,
+                definition: Some(c.v),
+            })
+            .collect();
+        Equations {
+            formulation,
+            groups: Vec::new(),
+            objects: Vec::new(),
+            variables,
+            velocities: system.coordinates.iter().map(|c| c.v).collect(),
+            accelerations,
+            relations: Vec::new(),
+            multipliers: Vec::new(),
+            is_chart: false,
+        }
+    }
+
+    /// Equations with the state (q, P) and these P'; where constraints stay implicit, their dependent quasi-velocities are
+    /// variables too.
+    pub fn in_characteristics(
+        formulation: &'static str,
+        system: &System,
+        characteristics: &Characteristics,
+        rates: &[Expr],
+    ) -> Equations {
+        let g = &system.graph;
+        let known: Vec<(Expr, Expr)> = characteristics
+            .parameters
+            .iter()
+            .zip(rates)
+            .map(|(p, &rate)| (p.rate, rate))
+            .collect();
+        let mut speeds: Vec<(&crate::frame::Speed, Expr)> = characteristics
+            .parameters
+            .iter()
+            .zip(rates.iter().copied())
+            .collect();
+        let implicit: Vec<(Expr, &crate::frame::Speed)> = characteristics.implicit().collect();
+        let dependent: Vec<Expr> = implicit.iter().map(|(_, speed)| speed.value).collect();
+        let moved = characteristics.total_derivative(system, &dependent);
+        let moved = g.substitute_all(&moved, &known);
+        speeds.extend(implicit.iter().zip(moved).map(|((_, s), rate)| (*s, rate)));
+        let variables = speeds
+            .into_iter()
+            .map(|(speed, rate)| StateVariable {
+                name: speed.name.clone(),
+                value: speed.value,
+                symbol: speed.symbol,
+                rate,
+                definition: Some(speed.definition),
+            })
+            .collect();
+        Equations {
+            formulation,
+            groups: Vec::new(),
+            objects: Vec::new(),
+            variables,
+            velocities: characteristics.velocities.clone(),
+            accelerations: g.substitute_all(&characteristics.accelerations, &known),
+            relations: implicit.iter().map(|(f, s)| (*f, s.symbol)).collect(),
+            multipliers: Vec::new(),
+            is_chart: characteristics.frame.is_natural(system),
+        }
+    }
+
+    /// Equations with any state: accelerations are the rates of the velocities along the flow.
+    pub fn in_state(
+        formulation: &'static str,
+        system: &System,
+        variables: Vec<StateVariable>,
+        velocities: Vec<Expr>,
+    ) -> Equations {
+        let rates: Vec<(Symbol, Expr)> = variables.iter().map(|x| (x.symbol, x.rate)).collect();
+        let one = system.graph.one();
+        Equations {
+            formulation,
+            groups: Vec::new(),
+            objects: Vec::new(),
+            accelerations: derive_along(system, &velocities, &velocities, one, &rates),
+            variables,
+            velocities,
+            relations: Vec::new(),
+            multipliers: Vec::new(),
+            is_chart: false,
+        }
+    }
+
+    /// Adds a group of equations.
+    #[must_use]
+    pub fn with_group(
+        mut self,
+        title: &str,
+        schema: Option<Schema>,
+        equations: Vec<Equation>,
+    ) -> Equations {
+        self.groups.push(EquationGroup {
+            title: title.into(),
+            schema,
+            equations,
+        });
+        self
+    }
+
+    /// Adds intermediate objects.
+    #[must_use]
+    pub fn with_objects(mut self, objects: impl IntoIterator<Item = NamedExpr>) -> Equations {
+        self.objects.extend(objects);
+        self
+    }
+
+    /// The rates of the variables.
+    pub fn rates(&self) -> Vec<Expr> {
+        self.variables.iter().map(|x| x.rate).collect()
+    }
+
+    /// Functions of the state as functions of (q, v, t) and of what the state has beyond them.
+    pub fn in_natural_state(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
+        let pairs: Vec<(Expr, Expr)> = self
+            .variables
+            .iter()
+            .filter_map(|x| Some((x.value, x.definition?)))
+            .filter(|(value, definition)| value != definition)
+            .collect();
+        system.graph.substitute_all(es, &pairs)
+    }
 }

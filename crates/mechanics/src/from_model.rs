@@ -1,6 +1,8 @@
 //! From what a user states to a system.
 
-use crate::system::{Assumption, Relation, System, SystemError, SystemParts};
+use crate::system::{
+    Assumption, FrameFields, Particle, Relation, System, SystemError, SystemParts,
+};
 use chetaev_model::model::Model;
 use chetaev_symbolic::syntax::Relation as Stated;
 use std::sync::Arc;
@@ -45,6 +47,20 @@ impl System {
                 .quasi_velocities
                 .iter()
                 .map(|u| (u.name.clone(), u.value))
+                .collect(),
+            frame: model.frame.as_ref().map(|frame| FrameFields {
+                fields: frame.fields.clone(),
+                drift: frame.drift.clone(),
+            }),
+            particles: model
+                .particles
+                .iter()
+                .map(|p| Particle {
+                    name: p.name.clone(),
+                    mass: p.mass,
+                    position: p.position.clone(),
+                    force: p.force.clone(),
+                })
                 .collect(),
             assumptions: model.assumptions.iter().filter_map(assumption).collect(),
         };

@@ -70,6 +70,28 @@ pub struct QuasiVelocity {
     pub definition: Expr,
 }
 
+/// A moving frame stated by its fields, v = drift + Σ η^s X_s; its quasi-velocities are those of the system.
+#[derive(Clone, Debug)]
+pub struct FrameFields {
+    /// `fields[s][i]`, component of X_s along coordinate i, functions of (q, t).
+    pub fields: Vec<Vec<Expr>>,
+    /// The components of X_0 along the coordinates.
+    pub drift: Vec<Expr>,
+}
+
+/// A particle: a mass at a place that the coordinates give, under an applied force.
+#[derive(Clone, Debug)]
+pub struct Particle {
+    /// The name in the model.
+    pub name: String,
+    /// Its mass, a constant.
+    pub mass: Expr,
+    /// Its one to three Cartesian coordinates as functions of (q, t).
+    pub position: Vec<Expr>,
+    /// The components of the applied force, functions of (q, v, t).
+    pub force: Vec<Expr>,
+}
+
 /// How a sign or range is assumed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
@@ -121,6 +143,10 @@ pub struct SystemParts {
     pub independent: Vec<String>,
     /// Quasi-velocities as (name, definition).
     pub quasi_velocities: Vec<(String, Expr)>,
+    /// Fields of a moving frame, one for each quasi-velocity.
+    pub frame: Option<FrameFields>,
+    /// Particles; their applied forces count beside the generalized forces.
+    pub particles: Vec<Particle>,
     /// Assumptions.
     pub assumptions: Vec<Assumption>,
 }
@@ -187,7 +213,7 @@ pub struct System {
     pub potential: Option<Expr>,
     /// L(q, v, t).
     pub lagrangian: Expr,
-    /// Generalized forces Qᵢ, those of Rayleigh's function included; one per coordinate.
+    /// Generalized forces Qᵢ, those of Rayleigh's function and of the particles included; one per coordinate.
     pub forces: Vec<Expr>,
     /// Rayleigh's dissipation function.
     pub rayleigh: Option<Expr>,
@@ -197,6 +223,10 @@ pub struct System {
     pub independent: Vec<usize>,
     /// Quasi-velocities of the user.
     pub quasi_velocities: Vec<QuasiVelocity>,
+    /// Fields of the user's moving frame, one for each quasi-velocity.
+    pub frame: Option<FrameFields>,
+    /// Particles of the model; their applied forces are contained in [`forces`](System::forces).
+    pub particles: Vec<Particle>,
     /// Assumptions of the model.
     pub assumptions: Vec<Assumption>,
     /// Places of the coordinates by name.
@@ -239,6 +269,7 @@ impl System {
             let i = index(name, "generalized force")?;
             forces[i] = g.add(&[forces[i], *force]);
         }
+        add_particle_forces(g, &coordinates, &parts.particles, &mut forces);
         if let Some(r) = parts.rayleigh {
             let velocities: Vec<Symbol> = coordinates.iter().map(|c| c.v_symbol).collect();
             for (force, slope) in forces.iter_mut().zip(g.gradient(r, &velocities)) {
@@ -270,6 +301,8 @@ impl System {
                 .into_iter()
                 .map(|(name, definition)| QuasiVelocity { name, definition })
                 .collect(),
+            frame: parts.frame,
+            particles: parts.particles,
             assumptions: parts.assumptions,
             places: places(&parts.coordinates),
             coordinates,
@@ -329,6 +362,14 @@ impl System {
     pub fn time_derivative(&self, e: Expr) -> Expr {
         self.graph
             .total_derivative(e, &|name| self.controls.iter().any(|u| u.name == name))
+    }
+
+    /// Names of the quasi-velocities.
+    pub fn quasi_names(&self) -> Vec<String> {
+        self.quasi_velocities
+            .iter()
+            .map(|u| u.name.clone())
+            .collect()
     }
 
     /// The symbols of q'.
@@ -396,6 +437,30 @@ impl System {
             .zip(slopes)
             .map(|(momentum, slope)| g.sub(self.total_derivative(momentum), slope))
             .collect()
+    }
+}
+
+/// Adds `Σ_a F_a · ∂r_a/∂q^i`.
+fn add_particle_forces(
+    g: &Graph,
+    coordinates: &[Coordinate],
+    particles: &[Particle],
+    forces: &mut [Expr],
+) {
+    let symbols: Vec<Symbol> = coordinates.iter().map(|c| c.q_symbol).collect();
+    for particle in particles {
+        for (slopes, &component) in g
+            .jacobian(&particle.position, &symbols)
+            .iter()
+            .zip(&particle.force)
+        {
+            if g.is_zero(component) {
+                continue;
+            }
+            for (force, &slope) in forces.iter_mut().zip(slopes) {
+                *force = g.add(&[*force, g.mul(&[component, slope])]);
+            }
+        }
     }
 }
 

@@ -168,7 +168,7 @@ fn quasi_velocities_give_the_skate_in_blade_form() {
         "w" => Some(-0.4),
         _ => Some(1.7),
     };
-    let values = g.evaluate_f64(&equations.rates, &point).unwrap();
+    let values = g.evaluate_f64(&equations.rates(), &point).unwrap();
     assert!((values[0] - 3.0 * 0.7f64.cos()).abs() < 1e-12);
     assert!(values[1].abs() < 1e-12);
 }

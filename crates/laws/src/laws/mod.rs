@@ -12,7 +12,7 @@ use chetaev_mechanics::claims::formulation::{self, derive, residuals};
 use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::{Characteristics, Context, Equations};
 use chetaev_symbolic::verdict::Verdict;
-use chetaev_symbolic::{Expr, Symbol};
+use chetaev_symbolic::Expr;
 use std::time::Instant;
 
 /// What a law demands of a verdict.
@@ -69,12 +69,8 @@ pub(crate) struct Subject<'a> {
 impl<'a> Subject<'a> {
     pub(crate) fn new(cx: &'a Context<'a>, seed: u64) -> Result<Subject<'a>, DeriveError> {
         let routh = derive(cx, "routh")?;
-        let mut maggi = derive(cx, "maggi")?;
-        let chart = match maggi.characteristics.take() {
-            Some(chart) => chart,
-            None => Characteristics::independent_velocities(cx.system, cx.terms, cx.selection)?,
-        };
-        maggi.characteristics = Some(chart.clone());
+        let maggi = derive(cx, "maggi")?;
+        let chart = formulation::basis(cx).characteristics()?;
         Ok(Subject {
             cx,
             routh,
@@ -97,13 +93,7 @@ impl<'a> Subject<'a> {
 
     /// Replaces velocities and accelerations by those of the chart: functions of (q, P, P', t).
     fn on_jet(&self, es: &[Expr]) -> Vec<Expr> {
-        let system = self.cx.system;
-        let mut jet: Vec<(Expr, Expr)> = Vec::new();
-        for (i, c) in system.coordinates.iter().enumerate() {
-            jet.push((c.v, self.chart.velocities[i]));
-            jet.push((c.a, self.chart.accelerations[i]));
-        }
-        system.graph.substitute_all(es, &jet)
+        self.chart.on_jet(self.cx.system, es)
     }
 
     /// Whether other equations give the accelerations of Routh's; a refutation is looked at again.
@@ -114,42 +104,14 @@ impl<'a> Subject<'a> {
 
     /// The accelerations that k equations on the jet give, linear in P'; `None` where they do not determine P'.
     fn motion_of(&self, equations: &[Expr]) -> Option<Equations> {
-        let g = &self.cx.system.graph;
-        let symbols: Vec<Symbol> = self
-            .chart
-            .parameters
-            .iter()
-            .map(|p| p.rate_symbol)
-            .collect();
-        let matrix = g.jacobian(equations, &symbols).concat();
-        let at_rest: Vec<(Expr, Expr)> = self
-            .chart
-            .parameters
-            .iter()
-            .map(|p| (p.rate, g.zero()))
-            .collect();
-        let rhs: Vec<Expr> = g
-            .substitute_all(equations, &at_rest)
-            .into_iter()
-            .map(|e| g.neg(e))
-            .collect();
-        let rates = g.solve(&matrix, &rhs).ok()?;
-        let known: Vec<(Expr, Expr)> = self
-            .chart
-            .parameters
-            .iter()
-            .zip(&rates)
-            .map(|(p, &rate)| (p.rate, rate))
-            .collect();
-        Some(Equations {
-            formulation: "maggi",
-            groups: Vec::new(),
-            objects: Vec::new(),
-            characteristics: Some(self.chart.clone()),
-            accelerations: g.substitute_all(&self.chart.accelerations, &known),
-            rates,
-            multipliers: Vec::new(),
-        })
+        let system = self.cx.system;
+        let rates = self.chart.rates_from(system, equations).ok()?;
+        Some(Equations::in_characteristics(
+            "maggi",
+            system,
+            &self.chart,
+            &rates,
+        ))
     }
 }
 

@@ -1,14 +1,21 @@
-//! `formulation.equivalent#NAME`: the accelerations of a formulation equal those of the multiplier form.
+//! `formulation.equivalent#NAME`: the accelerations of a formulation equal those of the multiplier form; and
+//! `formulation.identity#NAME`: what holds before any equation of motion is used.
 
 use super::{Claim, Context, Finding, Group};
-use crate::characteristics::Manifold;
+use crate::card::Relation;
+use crate::characteristics::{Characteristics, Manifold};
 use crate::equations::Equations;
 use crate::formulations::{self, Basis, DeriveError, FORMULATIONS};
+use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 
-/// The claim.
+/// The claim of equivalence.
 #[derive(Clone, Copy, Debug)]
 pub struct Equivalent;
+
+/// The claim of identity.
+#[derive(Clone, Copy, Debug)]
+pub struct Identities;
 
 /// The formulation all others are compared with.
 pub const REFERENCE: &str = "routh";
@@ -36,30 +43,145 @@ impl Claim for Equivalent {
     }
 
     fn requires(&self, subject: Option<&str>) -> Vec<String> {
-        subject
-            .and_then(formulations::formulation)
-            .map(|f| f.card().requires.iter().map(|id| id.to_string()).collect())
-            .unwrap_or_default()
+        requirements(subject)
     }
 
     fn subjects(&self, _: &Context<'_>) -> Vec<Option<String>> {
         FORMULATIONS
             .iter()
-            .map(|f| f.card().name)
-            .filter(|name| *name != REFERENCE)
-            .map(|name| Some(name.to_string()))
+            .map(|f| f.card())
+            .filter(|card| card.relation == Relation::Equivalent)
+            .map(|card| Some(card.name.to_string()))
             .collect()
+    }
+
+    fn highest_order(&self, subject: Option<&str>) -> u32 {
+        highest_order(subject)
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
         let name = subject.unwrap_or(REFERENCE);
         let derived = derive(cx, REFERENCE).and_then(|a| Ok((a, derive(cx, name)?)));
         match derived {
-            Ok((reference, other)) => equivalence(cx, &reference, &other).into(),
-            Err(problem) => {
-                Verdict::undecided(format!("`{name}` could not be derived: {problem}")).into()
+            Ok((reference, other)) => {
+                let verdict = equivalence(cx, &reference, &other);
+                by_construction(cx, name, verdict).into()
             }
+            Err(problem) => underived(name, &problem).into(),
         }
+    }
+}
+
+impl Claim for Identities {
+    fn id(&self) -> &'static str {
+        "formulation.identity"
+    }
+
+    fn group(&self) -> Group {
+        Group::Formulations
+    }
+
+    fn title(&self) -> &'static str {
+        "What holds identically, before any equation of motion is used"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "Some formulations are connected with others by more than equal accelerations: Volterra's left sides are Maggi's on the \
+         whole jet (t, q, P, P'), the n + 1 parametric equations satisfy one identity, the contraction X ⌟ Ω of the Lagrange \
+         vector field vanishes in every component, brackets of the embedded fields are given by structure coefficients. The \
+         difference of both sides is proved zero with all accelerations free."
+    }
+
+    fn requires(&self, subject: Option<&str>) -> Vec<String> {
+        requirements(subject)
+    }
+
+    fn subjects(&self, _: &Context<'_>) -> Vec<Option<String>> {
+        FORMULATIONS
+            .iter()
+            .map(|f| f.card())
+            .filter(|card| card.identity.is_some())
+            .map(|card| Some(card.name.to_string()))
+            .collect()
+    }
+
+    fn highest_order(&self, subject: Option<&str>) -> u32 {
+        highest_order(subject)
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        let name = subject.unwrap_or(REFERENCE);
+        let Some(formulation) = formulations::formulation(name) else {
+            return Verdict::undecided(format!("there is no formulation `{name}`")).into();
+        };
+        match formulation.identities(&basis(cx)) {
+            Ok(identities) => identities
+                .into_iter()
+                .map(|identity| {
+                    let (residuals, manifold) = (&identity.residuals, &identity.manifold);
+                    let verdict = cx
+                        .prover
+                        .identity(cx.system, residuals, manifold, identity.on);
+                    stated(verdict, &identity.statement)
+                })
+                .reduce(Verdict::and)
+                .unwrap_or_else(|| Verdict::undecided(format!("`{name}` states no identity")))
+                .into(),
+            Err(problem) => underived(name, &problem).into(),
+        }
+    }
+}
+
+fn stated(verdict: Verdict, statement: &str) -> Verdict {
+    match verdict {
+        Verdict::Proved(mut proof) => {
+            proof.detail = format!("{statement}: {}", proof.detail);
+            Verdict::Proved(proof)
+        }
+        Verdict::Refuted(mut found) => {
+            found.detail = format!("{statement} does not hold: {}", found.detail);
+            Verdict::Refuted(found)
+        }
+        other => other,
+    }
+}
+
+fn underived(name: &str, problem: &DeriveError) -> Verdict {
+    Verdict::undecided(format!("`{name}` could not be derived: {problem}"))
+}
+
+fn requirements(subject: Option<&str>) -> Vec<String> {
+    subject
+        .and_then(formulations::formulation)
+        .map(|f| f.card().requires.iter().map(|id| id.to_string()).collect())
+        .unwrap_or_default()
+}
+
+fn highest_order(subject: Option<&str>) -> u32 {
+    subject
+        .and_then(formulations::formulation)
+        .map_or(1, |f| f.card().highest_order)
+}
+
+/// Calls a proof structural where the formulation is built from the same parts as another one.
+fn by_construction(cx: &Context<'_>, name: &str, verdict: Verdict) -> Verdict {
+    let reason = formulations::formulation(name).and_then(|f| f.structural(&basis(cx)));
+    match (verdict, reason) {
+        (Verdict::Proved(proof), Some(reason)) => Verdict::Proved(Proof::structural(
+            proof.on,
+            format!("{reason}; confirmed: {}", proof.detail),
+        )),
+        (verdict, _) => verdict,
+    }
+}
+
+/// What a formulation starts from, for the context's system.
+pub fn basis<'a>(cx: &Context<'a>) -> Basis<'a> {
+    Basis {
+        system: cx.system,
+        terms: cx.terms,
+        selection: cx.selection,
+        characteristics: None,
     }
 }
 
@@ -68,57 +190,38 @@ impl Claim for Equivalent {
 /// # Errors
 /// [`DeriveError`]; an unknown name derives as the reference.
 pub fn derive(cx: &Context<'_>, name: &str) -> Result<Equations, DeriveError> {
-    let basis = Basis {
-        system: cx.system,
-        terms: cx.terms,
-        selection: cx.selection,
-        characteristics: None,
-    };
     formulations::formulation(name)
         .unwrap_or(&formulations::Routh)
-        .equations(&basis)
+        .equations(&basis(cx))
 }
 
 /// Proves or refutes that two sets of equations give the same accelerations on the constraint manifold.
 pub fn equivalence(cx: &Context<'_>, reference: &Equations, other: &Equations) -> Verdict {
     let residuals = residuals(cx, reference, other);
-    let manifold = other
-        .characteristics
-        .as_ref()
-        .or(reference.characteristics.as_ref())
-        .map(|c| c.manifold.clone())
-        .unwrap_or_default();
     let on = if cx.terms.constraints.is_empty() {
         "everywhere outside the singular set of the mass matrix"
     } else {
         "on the constraint manifold outside the singular set of the linear systems"
     };
-    cx.prover.identity(cx.system, &residuals, &manifold, on)
+    cx.prover.identity(cx.system, &residuals, &manifold(cx), on)
 }
 
-/// `a_other - a_reference` as functions of the other form's variables.
+/// `a_other - a_reference` as functions of (q, v, t) on the constraint manifold.
 pub fn residuals(cx: &Context<'_>, reference: &Equations, other: &Equations) -> Vec<Expr> {
-    let g = &cx.system.graph;
-    let restricted = match &other.characteristics {
-        Some(characteristics) => characteristics.restrict(cx.system, &reference.accelerations),
-        None => reference.accelerations.clone(),
-    };
+    let (system, g) = (cx.system, &cx.system.graph);
+    let restricted = reference.in_natural_state(system, &reference.accelerations);
     other
-        .accelerations
-        .iter()
+        .in_natural_state(system, &other.accelerations)
+        .into_iter()
         .zip(restricted)
-        .map(|(&a, b)| g.sub(a, b))
+        .map(|(a, b)| g.sub(a, b))
         .filter(|&residual| !g.is_zero(residual))
         .collect()
 }
 
-/// The manifold of admissible velocities by independent velocities, for claims that have no parametrization of their own.
+/// The manifold of admissible velocities by independent velocities.
 pub fn manifold(cx: &Context<'_>) -> Manifold {
-    crate::characteristics::Characteristics::independent_velocities(
-        cx.system,
-        cx.terms,
-        cx.selection,
-    )
-    .map(|c| c.manifold)
-    .unwrap_or_default()
+    Characteristics::independent_velocities(cx.system, cx.terms, cx.selection)
+        .map(|c| c.manifold)
+        .unwrap_or_default()
 }

@@ -111,7 +111,8 @@ pub trait Claim: Sync {
 
     /// The highest order of constraints that the rule of this claim takes into account. A system with constraints of
     /// higher order is another system without them: the claim is then not decided at all.
-    fn highest_order(&self) -> u32 {
+    fn highest_order(&self, subject: Option<&str>) -> u32 {
+        let _ = subject;
         1
     }
 
@@ -162,6 +163,7 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &model::ConstraintsScleronomic,
     &model::Chaplygin,
     &formulation::Equivalent,
+    &formulation::Identities,
 ];
 
 /// Everything a claim may look at while it is decided. Results are kept by id, so each is decided once.
@@ -257,7 +259,7 @@ impl<'a> Context<'a> {
         }
         lock(&self.in_progress).push(full.to_string());
         let obstacle = self
-            .constraint_beyond(claim.highest_order())
+            .constraint_beyond(claim.highest_order(subject))
             .or_else(|| self.failed_hypothesis(&claim.requires(subject)));
         let finding = match obstacle {
             Some(verdict) => verdict.into(),

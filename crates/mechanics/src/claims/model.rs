@@ -32,7 +32,7 @@ impl Claim for HessianRegular {
          give unique accelerations once the constraints are used: that is `model.accelerations-unique`."
     }
 
-    fn highest_order(&self) -> u32 {
+    fn highest_order(&self, _: Option<&str>) -> u32 {
         u32::MAX
     }
 
@@ -210,7 +210,7 @@ impl Claim for ConstraintsLinear {
          Affine constraints (a₀ ≠ 0) count as linear here; `model.constraints-homogeneous` tells them apart."
     }
 
-    fn highest_order(&self) -> u32 {
+    fn highest_order(&self, _: Option<&str>) -> u32 {
         u32::MAX
     }
 
@@ -381,7 +381,7 @@ impl Claim for ConstraintsScleronomic {
          u(t) count as explicit time."
     }
 
-    fn highest_order(&self) -> u32 {
+    fn highest_order(&self, _: Option<&str>) -> u32 {
         u32::MAX
     }
 

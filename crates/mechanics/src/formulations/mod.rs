@@ -7,14 +7,16 @@ pub use maggi::Maggi;
 pub use routh::Routh;
 
 use crate::card::Card;
-use crate::characteristics::{Characteristics, CharacteristicsError, Selection};
-use crate::equations::Equations;
+use crate::characteristics::{Characteristics, CharacteristicsError, Manifold, Selection};
+use crate::equations::{Equation, Equations};
 use crate::system::System;
 use crate::terms::MotionTerms;
 use chetaev_symbolic::linear::SolveError;
+use chetaev_symbolic::Expr;
 
 /// Why a formulation gives no equations although its requirements hold.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DeriveError {
     /// The velocities cannot be parametrized.
     #[error(transparent)]
@@ -22,6 +24,9 @@ pub enum DeriveError {
     /// The linear system for the accelerations is structurally singular.
     #[error("the accelerations are not determined: {0}")]
     Singular(#[from] SolveError),
+    /// The model does not state what this formulation is built from.
+    #[error("the model does not state {0}")]
+    NotStated(&'static str),
 }
 
 /// What all formulations start from: the system, its terms, and the selected rows and dependent velocities.
@@ -37,6 +42,113 @@ pub struct Basis<'a> {
     pub characteristics: Option<Characteristics>,
 }
 
+impl Basis<'_> {
+    /// The characteristics the caller insists on, else the quasi-velocities of the model where they fit, else independent
+    /// velocities.
+    ///
+    /// # Errors
+    /// [`CharacteristicsError`].
+    pub fn characteristics(&self) -> Result<Characteristics, CharacteristicsError> {
+        if let Some(given) = &self.characteristics {
+            return Ok(given.clone());
+        }
+        match Characteristics::quasi_velocities(self.system, self.terms, self.selection) {
+            Some(Ok(quasi)) => Ok(quasi),
+            _ => self.independent_velocities(),
+        }
+    }
+
+    /// Characteristics by independent velocities.
+    ///
+    /// # Errors
+    /// [`CharacteristicsError`].
+    pub fn independent_velocities(&self) -> Result<Characteristics, CharacteristicsError> {
+        Characteristics::independent_velocities(self.system, self.terms, self.selection)
+    }
+
+    /// The constraints of the selected rows as functions of (q, v, t).
+    pub fn constraints(&self) -> Vec<Expr> {
+        let rows = self.selection.rows.iter();
+        rows.map(|&row| self.terms.constraints[row]).collect()
+    }
+
+    /// The gradients ∂f/∂v of the selected rows.
+    pub fn jacobian(&self) -> Vec<Vec<Expr>> {
+        let rows = self.selection.rows.iter();
+        rows.map(|&row| self.terms.jacobian[row].clone()).collect()
+    }
+
+    /// Indices in the system of the constraints of the selected rows.
+    pub fn constraint_indices(&self) -> Vec<usize> {
+        let rows = self.selection.rows.iter();
+        rows.map(|&row| self.terms.constraint_index[row]).collect()
+    }
+
+    /// Names of the constraints of the selected rows.
+    pub fn constraint_names(&self) -> Vec<&str> {
+        let indices = self.constraint_indices().into_iter();
+        indices
+            .map(|l| self.system.constraints[l].name.as_str())
+            .collect()
+    }
+
+    /// The symbols `lambda_NAME` of the selected rows.
+    pub fn lambda_symbols(&self) -> Vec<Expr> {
+        let g = &self.system.graph;
+        let names = self.constraint_names().into_iter();
+        names
+            .map(|name| g.symbol(&format!("lambda_{name}"), 0))
+            .collect()
+    }
+
+    /// The constraints as stated, as equations `left - right = 0`.
+    pub fn constraint_equations(&self) -> Vec<Equation> {
+        let zero = self.system.graph.zero();
+        self.constraint_indices()
+            .into_iter()
+            .map(|l| &self.system.constraints[l])
+            .map(|constraint| Equation {
+                label: constraint.name.clone(),
+                left: constraint.stated,
+                right: zero,
+            })
+            .collect()
+    }
+
+    /// The kinematics `q' = φ(q, P, t)` of the coordinates whose velocity is no parameter, and implicit constraints.
+    pub fn kinematics(&self, characteristics: &Characteristics) -> Vec<Equation> {
+        let zero = self.system.graph.zero();
+        let coordinates = self.system.coordinates.iter();
+        let explicit = coordinates
+            .zip(&characteristics.velocities)
+            .filter(|(c, phi)| c.v != **phi)
+            .map(|(c, &phi)| Equation {
+                label: c.name.clone(),
+                left: c.v,
+                right: phi,
+            });
+        let implicit = characteristics.implicit().map(|(f, _)| Equation {
+            label: "constraint".into(),
+            left: f,
+            right: zero,
+        });
+        explicit.chain(implicit).collect()
+    }
+}
+
+/// An identity that holds before any equation of motion is used.
+#[derive(Clone, Debug)]
+pub struct Identity {
+    /// What is identical, in words and formulas.
+    pub statement: String,
+    /// What must vanish.
+    pub residuals: Vec<Expr>,
+    /// What ties the symbols in them.
+    pub manifold: Manifold,
+    /// Where it holds.
+    pub on: &'static str,
+}
+
 /// One way of writing the equations of motion of a constrained system.
 pub trait Formulation: Sync {
     /// What it is.
@@ -47,6 +159,22 @@ pub trait Formulation: Sync {
     /// # Errors
     /// [`DeriveError`].
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError>;
+
+    /// The identities of `formulation.identity#NAME`, those the theory gives beyond equivalence; none by default.
+    ///
+    /// # Errors
+    /// [`DeriveError`].
+    fn identities(&self, basis: &Basis<'_>) -> Result<Vec<Identity>, DeriveError> {
+        let _ = basis;
+        Ok(Vec::new())
+    }
+
+    /// Why the equations equal those of another formulation by construction, for this system; `None` where the equality is a
+    /// test of both.
+    fn structural(&self, basis: &Basis<'_>) -> Option<&'static str> {
+        let _ = basis;
+        None
+    }
 }
 
 /// The registry.
@@ -55,4 +183,9 @@ pub static FORMULATIONS: &[&dyn Formulation] = &[&Routh, &Maggi];
 /// The formulation called `name`.
 pub fn formulation(name: &str) -> Option<&'static dyn Formulation> {
     FORMULATIONS.iter().copied().find(|f| f.card().name == name)
+}
+
+/// The name of a parameter as a subscript: `x'` is `x`.
+pub(crate) fn bare(name: &str) -> &str {
+    name.trim_end_matches('\'')
 }

@@ -4,8 +4,8 @@
 //! linear system `W a - Jᵀ λ = b`, `J a = g` for (a, λ), which needs only that it is regular, not that W is.
 
 use super::{Basis, DeriveError, Formulation};
-use crate::card::{Card, Principle, Source};
-use crate::equations::{Equation, EquationGroup, Equations, NamedExpr};
+use crate::card::{Card, Principle, Relation, Source};
+use crate::equations::{Equation, Equations, NamedExpr, Schema};
 use chetaev_symbolic::Expr;
 
 /// Multipliers, Routh–Chetaev.
@@ -17,13 +17,21 @@ static CARD: Card = Card {
     title: "Routh's equations with multipliers",
     statement: "Lagrange's equations of all coordinates with the reactions λ ∂f/∂q' of the constraints on the right.",
     principle: Principle::DalembertLagrangeChetaev,
+    relation: Relation::Reference,
     requires: &["model.accelerations-unique"],
+    identity: None,
     unknowns: "accelerations of all coordinates and one multiplier for each independent constraint",
+    highest_order: 1,
     sources: &[
         Source { key: "routh1905", place: "ch. IV" },
         Source { key: "chetaev1932", place: "§§1–3" },
         Source { key: "rumyantsev1982", place: "(1.3)" },
     ],
+};
+
+const SCHEMA: Schema = Schema {
+    text: "D(∂L/∂v^i) − ∂L/∂q^i = Q_i + Σ_l λ_l ∂f^l/∂v^i",
+    latex: r"\frac{d}{dt}\frac{\partial L}{\partial \dot q^i} - \frac{\partial L}{\partial q^i} = Q_i + \sum_l \lambda_l \frac{\partial f^l}{\partial \dot q^i}",
 };
 
 impl Formulation for Routh {
@@ -33,32 +41,30 @@ impl Formulation for Routh {
 
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
         let (accelerations, values) = solve(basis)?;
-        let (system, terms) = (basis.system, basis.terms);
-        let multipliers: Vec<(usize, Expr)> = basis
-            .selection
-            .rows
-            .iter()
-            .zip(values)
-            .map(|(&row, value)| (terms.constraint_index[row], value))
-            .collect();
-        let objects = multipliers
-            .iter()
-            .map(|(l, value)| NamedExpr {
-                name: format!("lambda_{}", system.constraints[*l].name),
-                value: *value,
-                meaning: format!("multiplier of `{}`", system.constraints[*l].name),
-            })
-            .collect();
-        Ok(Equations {
-            formulation: CARD.name,
-            groups: stated_equations(basis),
-            objects,
-            characteristics: None,
-            accelerations,
-            rates: Vec::new(),
-            multipliers,
-        })
+        let objects = multiplier_objects(basis, &values);
+        let mut equations = Equations::in_velocities(CARD.name, basis.system, accelerations)
+            .with_group("equations of motion", Some(SCHEMA), stated_equations(basis))
+            .with_group("constraints", None, basis.constraint_equations())
+            .with_objects(objects);
+        equations.multipliers = basis.constraint_indices().into_iter().zip(values).collect();
+        Ok(equations)
     }
+}
+
+/// The multipliers as named objects.
+pub(crate) fn multiplier_objects(basis: &Basis<'_>, values: &[Expr]) -> Vec<NamedExpr> {
+    basis
+        .constraint_names()
+        .into_iter()
+        .zip(values)
+        .map(|(name, &value)| {
+            NamedExpr::new(
+                format!("lambda_{name}"),
+                value,
+                format!("multiplier of `{name}`"),
+            )
+        })
+        .collect()
 }
 
 /// The bordered system, solved as one node: accelerations, then multipliers of the selected rows.
@@ -86,49 +92,24 @@ fn solve(basis: &Basis<'_>) -> Result<(Vec<Expr>, Vec<Expr>), DeriveError> {
     Ok((solution, multipliers))
 }
 
-fn stated_equations(basis: &Basis<'_>) -> Vec<EquationGroup> {
-    let (system, terms) = (basis.system, basis.terms);
+fn stated_equations(basis: &Basis<'_>) -> Vec<Equation> {
+    let system = basis.system;
     let g = &system.graph;
-    let left_sides = system.lagrange_left_sides();
-    let motion = system
-        .coordinates
-        .iter()
+    let (lambdas, jacobian) = (basis.lambda_symbols(), basis.jacobian());
+    system
+        .lagrange_left_sides()
+        .into_iter()
         .enumerate()
-        .map(|(i, c)| {
+        .map(|(i, left)| {
             let mut right = vec![system.forces[i]];
-            for &row in &basis.selection.rows {
-                let name = &system.constraints[terms.constraint_index[row]].name;
-                let lambda = g.symbol(&format!("lambda_{name}"), 0);
-                right.push(g.mul(&[lambda, terms.jacobian[row][i]]));
+            for (&lambda, row) in lambdas.iter().zip(&jacobian) {
+                right.push(g.mul(&[lambda, row[i]]));
             }
             Equation {
-                label: c.name.clone(),
-                left: left_sides[i],
+                label: system.coordinates[i].name.clone(),
+                left,
                 right: g.add(&right),
             }
         })
-        .collect();
-    let constraints = basis
-        .selection
-        .rows
-        .iter()
-        .map(|&row| {
-            let constraint = &system.constraints[terms.constraint_index[row]];
-            Equation {
-                label: constraint.name.clone(),
-                left: constraint.stated,
-                right: g.zero(),
-            }
-        })
-        .collect();
-    vec![
-        EquationGroup {
-            title: "equations of motion".into(),
-            equations: motion,
-        },
-        EquationGroup {
-            title: "constraints".into(),
-            equations: constraints,
-        },
-    ]
+        .collect()
 }

@@ -1,0 +1,147 @@
+//! Which constraints are independent, and which velocities to solve them for.
+
+use crate::characteristics::CharacteristicsError;
+use crate::sample;
+use crate::system::System;
+use crate::terms::MotionTerms;
+use crate::words::quoted;
+use chetaev_symbolic::Expr;
+
+/// The rows of independent constraints and the dependent velocities to solve them for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Selection {
+    /// Independent rows of the terms.
+    pub rows: Vec<usize>,
+    /// Dependent velocities, one per row.
+    pub dependent: Vec<usize>,
+}
+
+impl Selection {
+    /// The independent velocities of n coordinates.
+    pub fn independent(&self, n: usize) -> Vec<usize> {
+        (0..n).filter(|i| !self.dependent.contains(i)).collect()
+    }
+}
+
+/// Chooses independent rows and dependent velocities: those the user wants independent stay so where possible, then
+/// pivots that are numbers are preferred to parameters, parameters to functions of the state.
+///
+/// The choice is heuristic (one sampled state); that it is regular is a claim of its own.
+///
+/// # Errors
+/// [`CharacteristicsError::NoAdmissibleState`].
+pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, CharacteristicsError> {
+    let n = system.n();
+    let r = terms.constraints.len();
+    if r == 0 {
+        return Ok(Selection {
+            rows: Vec::new(),
+            dependent: Vec::new(),
+        });
+    }
+    let point = sample::admissible_point(system, terms, 0x0c4e_7ae5).ok_or_else(|| {
+        CharacteristicsError::NoAdmissibleState {
+            names: constraint_names(system, terms),
+        }
+    })?;
+    let values = system
+        .graph
+        .evaluate_f64(&terms.jacobian.concat(), &|s| point.get(&s).copied())
+        .unwrap_or_else(|_| vec![f64::NAN; n * r]);
+    let cost: Vec<Vec<usize>> = terms
+        .jacobian
+        .iter()
+        .map(|row| (0..n).map(|j| pivot_cost(system, row[j], j)).collect())
+        .collect();
+    Ok(eliminate(values, cost, n))
+}
+
+fn constraint_names(system: &System, terms: &MotionTerms) -> String {
+    quoted(
+        terms
+            .constraint_index
+            .iter()
+            .map(|&l| &system.constraints[l].name),
+    )
+}
+
+pub(crate) fn pivot_cost(system: &System, entry: Expr, j: usize) -> usize {
+    let g = &system.graph;
+    let wanted = if system.independent.contains(&j) {
+        1_000_000
+    } else {
+        0
+    };
+    let size = g.reachable(&[entry]).len().min(900);
+    let kind = if g.as_number(entry).is_some() {
+        0
+    } else if g.is_free_of(entry, &|s| {
+        system.moves(g.symbol_name(s)) || g.symbol_name(s) == "t"
+    }) {
+        1000
+    } else {
+        2000
+    };
+    // A velocity in which the constraint is affine can always be solved for; a root may not be real.
+    let own = system.coordinates.get(j).map(|c| c.v_symbol);
+    let nonlinear = if own.is_some_and(|v| g.contains_any(entry, &[v])) {
+        100_000
+    } else {
+        0
+    };
+    wanted + nonlinear + kind + size
+}
+
+/// Gaussian elimination that takes, among pivots that are not small, the cheapest.
+pub(crate) fn eliminate(mut a: Vec<f64>, cost: Vec<Vec<usize>>, n: usize) -> Selection {
+    let r = cost.len();
+    let scale: Vec<f64> = (0..r)
+        .map(|i| {
+            a[i * n..(i + 1) * n]
+                .iter()
+                .fold(0.0, |m: f64, x| m.max(x.abs()))
+        })
+        .collect();
+    let mut selection = Selection {
+        rows: Vec::new(),
+        dependent: Vec::new(),
+    };
+    let mut open: Vec<usize> = (0..r).collect();
+    while !open.is_empty() {
+        let mut best: Option<(usize, usize, usize)> = None;
+        for &i in &open {
+            for j in (0..n).filter(|j| !selection.dependent.contains(j)) {
+                let usable = a[i * n + j].abs() > 1e-9 * scale[i].max(1e-300);
+                let better = best.is_none_or(|(c, _, _)| cost[i][j] < c);
+                if usable && better {
+                    best = Some((cost[i][j], i, j));
+                }
+            }
+        }
+        let Some((_, i, j)) = best else { break };
+        selection.rows.push(i);
+        selection.dependent.push(j);
+        open.retain(|&o| o != i);
+        for &o in &open {
+            let factor = a[o * n + j] / a[i * n + j];
+            for c in 0..n {
+                a[o * n + c] -= factor * a[i * n + c];
+            }
+            a[o * n + j] = 0.0;
+        }
+    }
+    sort_pairs(&mut selection);
+    selection
+}
+
+/// Rows ascending, so that output follows the order of the model.
+fn sort_pairs(selection: &mut Selection) {
+    let mut pairs: Vec<(usize, usize)> = selection
+        .rows
+        .iter()
+        .copied()
+        .zip(selection.dependent.iter().copied())
+        .collect();
+    pairs.sort_unstable();
+    (selection.rows, selection.dependent) = pairs.into_iter().unzip();
+}

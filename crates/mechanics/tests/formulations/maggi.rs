@@ -1,0 +1,34 @@
+//! Maggi's equations (theory 2 §3).
+
+use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
+
+#[test]
+fn maggi_is_equivalent_to_routh() {
+    for text in [SKATE, DISC, APPELL_HAMEL, PARTICLE, POLAR] {
+        expect(&Case::new(text), "formulation.equivalent#maggi", "proved");
+    }
+}
+
+/// Any choice of kinematic characteristics gives the same motion: an adapted frame, a whole frame, and dependent
+/// quasi-velocities that stay implicit.
+#[test]
+fn quasi_velocities_of_every_kind() {
+    let adapted = "[quasi_velocities]\nu = \"x' cos(phi) + y' sin(phi)\"\nw = \"phi'\"\n";
+    let whole = format!("{adapted}s = \"y' cos(phi) - x' sin(phi)\"\n");
+    for frame in [adapted, &whole] {
+        let case = Case::new(&format!("{SKATE}{frame}"));
+        let names: Vec<String> = case
+            .equations("maggi")
+            .variables
+            .iter()
+            .map(|v| v.name.clone())
+            .collect();
+        assert_eq!(names, ["u", "w"]);
+        expect(&case, "formulation.equivalent#maggi", "proved");
+    }
+    let implicit =
+        format!("{APPELL_HAMEL}[quasi_velocities]\nu = \"x' + y'\"\nw = \"x' - 2 y'\"\n");
+    let case = Case::new(&implicit);
+    assert_eq!(case.equations("maggi").relations.len(), 1);
+    expect(&case, "formulation.equivalent#maggi", "proved");
+}
