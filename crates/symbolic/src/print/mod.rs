@@ -6,6 +6,7 @@
 //!
 //! Reading the text of an expression gives the expression again, wherever the expression is defined.
 
+mod code;
 mod document;
 mod formula;
 mod json;
@@ -21,6 +22,7 @@ mod text;
 #[cfg(test)]
 mod tests;
 
+pub use code::{source_code, CodeError, CodeFunction, Language};
 pub use document::Document;
 pub use sympy::{sympy_module, PythonSection};
 
