@@ -54,6 +54,25 @@ impl ModelBuilder {
         self
     }
 
+    /// A table in a section, written as `[section.table]`.
+    fn set_below(mut self, section: &str, table: &str, key: &str, item: impl Into<Value>) -> Self {
+        let implicit = || {
+            let mut own = Table::new();
+            own.set_implicit(true);
+            Item::Table(own)
+        };
+        let outer = self.document.entry(section).or_insert_with(implicit);
+        let inner = outer.as_table_mut().map(|outer| {
+            outer
+                .entry(table)
+                .or_insert_with(|| Item::Table(Table::new()))
+        });
+        if let Some(inner) = inner.and_then(Item::as_table_mut) {
+            inner.insert(key, Item::Value(item.into()));
+        }
+        self
+    }
+
     fn append(mut self, key: &str, items: impl IntoIterator<Item = impl AsRef<str>>) -> Self {
         let array = self
             .document
@@ -151,6 +170,32 @@ impl ModelBuilder {
         self.set("lagrangian", "L", expression)
     }
 
+    /// A particle with its mass and the components of its position, one to three.
+    #[must_use]
+    pub fn particle(
+        self,
+        name: &str,
+        mass: &str,
+        position: impl IntoIterator<Item = impl AsRef<str>>,
+    ) -> Self {
+        self.set_below("particles", name, "mass", mass).set_below(
+            "particles",
+            name,
+            "position",
+            array_of(position),
+        )
+    }
+
+    /// The applied force on a particle, as many components as its position has.
+    #[must_use]
+    pub fn particle_force(
+        self,
+        name: &str,
+        force: impl IntoIterator<Item = impl AsRef<str>>,
+    ) -> Self {
+        self.set_below("particles", name, "force", array_of(force))
+    }
+
     /// The generalized force on a coordinate.
     #[must_use]
     pub fn force(self, coordinate: &str, expression: &str) -> Self {
@@ -172,17 +217,27 @@ impl ModelBuilder {
     /// The coordinates whose velocities are to be the independent ones.
     #[must_use]
     pub fn independent(self, velocities: impl IntoIterator<Item = impl AsRef<str>>) -> Self {
-        let array: Array = velocities
-            .into_iter()
-            .map(|velocity| velocity.as_ref().to_owned())
-            .collect();
-        self.set("velocities", "independent", array)
+        self.set("velocities", "independent", array_of(velocities))
     }
 
     /// A quasi-velocity.
     #[must_use]
     pub fn quasi_velocity(self, name: &str, expression: &str) -> Self {
         self.set("quasi_velocities", name, expression)
+    }
+
+    /// A field of the frame, named by its quasi-velocity, from pairs of a coordinate and the component along it.
+    #[must_use]
+    pub fn frame_field(self, name: &str, components: &[(&str, &str)]) -> Self {
+        let field: InlineTable = components.iter().copied().collect();
+        self.set_below("frame", "fields", name, field)
+    }
+
+    /// The drift of the frame, from pairs of a coordinate and the component along it.
+    #[must_use]
+    pub fn frame_drift(self, components: &[(&str, &str)]) -> Self {
+        let drift: InlineTable = components.iter().copied().collect();
+        self.set("frame", "drift", drift)
     }
 
     /// A control, a function of the time.
@@ -291,4 +346,11 @@ impl ModelBuilder {
             &self.overrides,
         )
     }
+}
+
+fn array_of(texts: impl IntoIterator<Item = impl AsRef<str>>) -> Array {
+    texts
+        .into_iter()
+        .map(|text| text.as_ref().to_owned())
+        .collect()
 }

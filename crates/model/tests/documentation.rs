@@ -23,7 +23,10 @@ fn every_example_is_a_model() {
         // A fragment belongs to the first example; what has coordinates of its own stands alone.
         let alone = example.contains("coordinates = [\"x\"")
             && (example.contains("lagrangian =") || example.contains("[lagrangian]"));
-        let alone = alone || example.contains("include") || example.contains("[lagrangian]");
+        let alone = alone
+            || ["include", "[lagrangian]", "[particles"]
+                .iter()
+                .any(|part| example.contains(part));
         let text = if alone {
             example.to_owned()
         } else {

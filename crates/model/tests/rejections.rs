@@ -161,3 +161,22 @@ fn a_suggestion_carried_out_gives_a_model() {
     );
     assert!(read(&fixed).model.is_some(), "{fixed}");
 }
+
+/// Wrong models of the gallery that this crate refuses: the first line says what the message contains.
+#[test]
+fn wrong_particles_and_frames_of_the_gallery() {
+    for text in [
+        include_str!("../../../gallery/wrong/massless-particle.toml"),
+        include_str!("../../../gallery/wrong/variable-mass-particle.toml"),
+        include_str!("../../../gallery/wrong/velocity-in-position.toml"),
+        include_str!("../../../gallery/wrong/incomplete-frame.toml"),
+        include_str!("../../../gallery/wrong/dependent-fields.toml"),
+    ] {
+        let first = text.lines().next().unwrap();
+        let words = first
+            .strip_prefix("# expect: exit 2; message contains: ")
+            .unwrap();
+        let message = refused(text, &words.split(", ").collect::<Vec<_>>());
+        assert!(message.ends_with("1 error"), "{message}");
+    }
+}

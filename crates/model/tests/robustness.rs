@@ -7,7 +7,7 @@
 
 use chetaev_model::{load, reload, ModelBuilder, NoFiles, Severity, Style};
 
-const SEEDS: [&str; 3] = [
+const SEEDS: [&str; 5] = [
     include_str!("../../../gallery/chaplygin-sleigh/model.toml"),
     r#"
 coordinates = ["x", "theta_{i}"]
@@ -51,6 +51,44 @@ center = ["l", 0, 0]
 axis = [0, 0, 1]
 radius = "l"
 angle = "theta"
+"#,
+    r#"
+coordinates = ["x", "theta_{i}"]
+parameters = { m = 1, l = 2, g = 9.81 }
+[sizes]
+n = 2
+[indices]
+i = "1..n"
+[lagrangian]
+V = "x^2"
+[particles.cart]
+mass = 3
+position = ["x"]
+[particles."link_{i}"]
+mass = "m/i"
+position = ["x + sum(j = 1..i, l sin(theta_{j}))", "-sum(j = 1..i, l cos(theta_{j}))"]
+force = [0, "-m g/i"]
+description = "a link"
+"#,
+    r#"
+[coordinates]
+x = "m"
+y = "m"
+phi = "rad"
+[parameters]
+R = { value = 2, unit = "m" }
+Omega = { value = 1, unit = "1/s" }
+[define]
+c = "cos(phi)"
+twice = "2 u"
+[lagrangian]
+T = "x'^2 + y'^2 + R^2 phi'^2 + u twice"
+[frame]
+drift = { x = "Omega y", y = "-Omega x" }
+[frame.fields]
+u = { x = "c", y = "sin(phi)" }
+w = { phi = 1, x = "R t Omega" }
+s = { x = "-sin(phi)", y = "c" }
 "#,
 ];
 
@@ -102,7 +140,7 @@ fn mutate(text: &str, state: &mut u64) -> String {
 fn a_thousand_mutated_models_give_diagnostics_and_no_panic() {
     let mut state = 0x2545_f491_4f6c_dd1d;
     let mut refused = 0;
-    for round in 0..1500 {
+    for round in 0..2500 {
         let mut text = SEEDS[round % SEEDS.len()].to_owned();
         for _ in 0..=next(&mut state) % 4 {
             text = mutate(&text, &mut state);
@@ -126,7 +164,7 @@ fn a_thousand_mutated_models_give_diagnostics_and_no_panic() {
         }
         refused += usize::from(loaded.model.is_none());
     }
-    assert!(refused > 500, "the mutations do harm: {refused}");
+    assert!(refused > 800, "the mutations do harm: {refused}");
 }
 
 #[test]
@@ -204,6 +242,22 @@ fn the_builder_says_the_same_as_the_file() {
         model.graph.digest(model.lagrangian)
     );
     assert_eq!(again.drawing.map(|d| d.elements.len()), Some(1));
+    let particles = ModelBuilder::new("particles")
+        .coordinates(["x", "y"])
+        .parameter("m", "2")
+        .particle("a", "m", ["x", "2 y"])
+        .particle_force("a", ["u", "0"])
+        .frame_field("u", &[("x", "1"), ("y", "1")])
+        .frame_field("w", &[("y", "x")])
+        .frame_drift(&[("x", "t")])
+        .build();
+    let (particles, _) = particles
+        .into_result()
+        .unwrap_or_else(|problems| panic!("{problems}"));
+    let g = &particles.graph;
+    let u = g.sub(particles.jet(0, 1), particles.time);
+    assert_eq!(particles.particles[0].force, [u, g.zero()]);
+    assert_eq!(particles.quasi_velocities[0].value, u);
     let wrong = ModelBuilder::new("wrong")
         .coordinates(["x"])
         .lagrangian("x'^2 + y")

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use chetaev_symbolic::syntax::lower::Bindings;
-use chetaev_symbolic::syntax::{parse_expression, Parsed};
+use chetaev_symbolic::syntax::{parse_expression, Parsed, Severity};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::{generic_rank, Options, RankTest};
 use chetaev_symbolic::{Expr, Verdict};
@@ -21,6 +21,10 @@ use crate::text::Text;
 
 /// Operations spent on the question whether the fields depend on each other; a frame of 32 sparse fields takes far fewer.
 const RANK_BUDGET: u64 = 50_000_000;
+
+/// The keys of the section, and how it is called.
+const KEYS: &[&str] = &["drift", "fields"];
+const OF: &str = "of [frame]";
 
 /// The component of a field or of the drift along one coordinate.
 #[derive(Clone, Debug)]
@@ -68,33 +72,14 @@ impl Resolver {
         let Some(table) = self.section(root, "frame") else {
             return;
         };
-        let before = self.diagnostics.len();
-        self.known_keys(table, &["drift", "fields"], "of [frame]");
+        let before = self.errors();
         if let Some(quasi) = root.get("quasi_velocities") {
             let message =
                 "quasi-velocities are stated by [quasi_velocities] or by [frame], not by both";
             let diagnostic = Diagnostic::error("stated-twice", raw.place, message);
             self.push(diagnostic.related(quasi.place, "the other statement"));
         }
-        let mut all = Vec::new();
-        match table.get("fields").map(|fields| (fields, &fields.kind)) {
-            None => {
-                let message = "a frame needs its `fields`";
-                self.push(Diagnostic::error("missing-value", raw.place, message).hint(
-                    "add [frame.fields] with one line for each coordinate, as in w = { phi = 1 }",
-                ));
-            }
-            Some((_, Kind::Table(fields))) => {
-                let mut named = true;
-                for (key, raw) in &fields.entries {
-                    named &= self.declare_field(key, raw, &mut all);
-                }
-                if named {
-                    self.count_fields(raw.place, fields, all.len());
-                }
-            }
-            Some((fields, _)) => self.wrong_kind(fields, "`fields`", "a table of fields"),
-        }
+        let mut all = self.declare_fields(table, raw.place);
         let drift = table
             .get("drift")
             .map(|raw| self.components(raw, "the drift", &Vec::new()));
@@ -104,18 +89,80 @@ impl Resolver {
         });
         self.frame = Some(FrameStated {
             place: raw.place,
-            sound: self.diagnostics.len() == before,
+            sound: self.errors() == before,
             all,
             solved: None,
         });
     }
 
+    fn declare_fields(&mut self, frame: &Table, place: Place) -> Vec<FieldStated> {
+        let mut all = Vec::new();
+        let misplaced = self.misplaced_fields(frame);
+        match frame.get("fields").map(|raw| (raw, &raw.kind)) {
+            None if misplaced.entries.is_empty() => {
+                self.known_keys(frame, KEYS, OF);
+                let message = "a frame needs its `fields`";
+                self.push(Diagnostic::error("missing-value", place, message).hint(
+                    "add [frame.fields] with one line for each coordinate, as in w = { phi = 1 }",
+                ));
+            }
+            None => {
+                for (key, raw) in &misplaced.entries {
+                    self.declare_field(key, raw, &mut all);
+                }
+            }
+            Some((_, Kind::Table(fields))) => {
+                self.known_keys(frame, KEYS, OF);
+                let mut named = true;
+                for (key, raw) in &fields.entries {
+                    named &= self.declare_field(key, raw, &mut all);
+                }
+                if named {
+                    self.count_fields(place, fields, all.len());
+                }
+            }
+            Some((raw, _)) => {
+                self.known_keys(frame, KEYS, OF);
+                self.wrong_kind(raw, "`fields`", "a table of fields");
+            }
+        }
+        all
+    }
+
+    /// Fields that stand in `[frame]` itself, where there is no `[frame.fields]`: one problem, and their names are known.
+    fn misplaced_fields(&mut self, frame: &Table) -> Table {
+        let is_field = |key: &Text, raw: &Raw| key.content != "drift" && raw.table().is_some();
+        let mut misplaced = Table::default();
+        if frame.get("fields").is_some() {
+            return misplaced;
+        }
+        let others = frame.entries.iter().filter(|(key, raw)| is_field(key, raw));
+        misplaced.entries.extend(others.cloned());
+        if let Some((key, _)) = misplaced.entries.first() {
+            let message = format!("`{}` is no key {OF}", key.content);
+            self.push(
+                Diagnostic::error("unknown-key", key.place, message)
+                    .label("not known")
+                    .hint("fields stand under [frame.fields]"),
+            );
+        }
+        misplaced
+    }
+
+    /// Errors until now; a warning is no reason to give something up.
+    fn errors(&self) -> usize {
+        self.diagnostics
+            .iter()
+            .filter(|own| own.severity == Severity::Error)
+            .count()
+    }
+
     /// Declares a field or a family of them; false where its name cannot be taken.
     fn declare_field(&mut self, key: &Text, raw: &Raw, all: &mut Vec<FieldStated>) -> bool {
         let what = "a quasi-velocity";
-        let before = self.diagnostics.len();
+        let before = self.errors();
         let instances = self.instances(key, what, &[]);
-        let mut named = self.diagnostics.len() == before;
+        let mut named = self.errors() == before;
         for instance in instances {
             if instance.order > 0 {
                 let message = format!("`{}` has a prime and cannot name {what}", key.content);
@@ -336,7 +383,7 @@ impl Resolver {
     /// Whether fields are certain not to span all velocities, which is reported.
     fn is_no_frame(&mut self, frame: &FrameStated, rows: &[Vec<Expr>]) -> bool {
         let n = rows.len();
-        let before = self.diagnostics.len();
+        let before = self.errors();
         for (s, row) in rows.iter().enumerate() {
             if row.iter().all(|&entry| self.graph.is_zero(entry)) {
                 let (name, place) = self.field_name(frame, s);
@@ -357,7 +404,7 @@ impl Resolver {
                 self.push(Diagnostic::error("no-frame", frame.place, message));
             }
         }
-        if self.diagnostics.len() > before {
+        if self.errors() > before {
             return true;
         }
         let Some((rank, others)) = self.fields_left_out(rows) else {
