@@ -293,6 +293,7 @@ theta = "m g l"
 #[test]
 fn units_of_particles_are_checked() {
     assert!(model(WITH_UNITS).has_units);
+    model(&WITH_UNITS.replace("mass = \"2 m\"", "mass = 2"));
     let changed = |from: &str, to: &str, words: &[&str]| {
         assert!(WITH_UNITS.contains(from));
         refused(&WITH_UNITS.replace(from, to), 1, words);

@@ -109,7 +109,11 @@ impl Checker<'_> {
 
     // ---- particles
 
+    /// A bare number is a mass in the unit of the others.
     fn mass(&mut self, checked: &Checked<'_>) {
+        if checked.bare {
+            return;
+        }
         match (&checked.kind, self.mass.clone()) {
             (Some(own), None) => {
                 self.mass = Some(Decided::by(own.clone(), checked.place));

@@ -22,6 +22,10 @@ use crate::text::Text;
 /// Operations spent on the question whether the fields depend on each other; a frame of 32 sparse fields takes far fewer.
 const RANK_BUDGET: u64 = 50_000_000;
 
+/// More fields than this are not examined, as elimination takes the third power of their number. A frame that is
+/// singular all the same has quasi-velocities that cannot be evaluated.
+const MOST_EXAMINED_FIELDS: usize = 64;
+
 /// The keys of the section, and how it is called.
 const KEYS: &[&str] = &["drift", "fields"];
 const OF: &str = "of [frame]";
@@ -417,6 +421,9 @@ impl Resolver {
 
     /// The rank of the fields and those that are combinations of the ones before, where that is proved.
     fn fields_left_out(&self, rows: &[Vec<Expr>]) -> Option<(usize, Vec<usize>)> {
+        if rows.len() > MOST_EXAMINED_FIELDS {
+            return None;
+        }
         let entries = rows.concat();
         let test = RankTest {
             rows: rows.len(),
