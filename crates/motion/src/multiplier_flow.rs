@@ -12,6 +12,7 @@ use crate::least_norm::least_step;
 use crate::leaving::Anchor;
 use crate::numeric::{Completion, NumericSystem};
 use crate::row::RowLayout;
+use crate::run::WatchedFlow;
 use crate::watch::Watch;
 use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System};
 
@@ -95,12 +96,6 @@ impl MultiplierFlow {
         flow.settle(start.t);
         flow
     }
-
-    /// The time of the last accepted state.
-    pub fn settled(&self) -> f64 {
-        self.anchor.t
-    }
-
     /// Takes the present (q, v) for a state of the motion, from which the constraints do not jump.
     fn settle(&mut self, t: f64) {
         if self.system.r == 0 || self.system.evaluate(t, &self.q, &self.v).is_err() {
@@ -141,15 +136,6 @@ impl MultiplierFlow {
     /// Which variables are integrated.
     pub fn kind(&self) -> StateKind {
         self.kind
-    }
-
-    /// Whether watched quantity `index` vanishes at the state y, where the integrator has found its minimum. The state that
-    /// is interpolated there counts too: a step to the singularity itself evaluates the equations where they have no value.
-    pub fn vanishes(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
-        if self.zero_between || self.unpack(t, y).is_err() {
-            return true;
-        }
-        self.watch.vanishes(index, t, &self.q, &self.v)
     }
 
     /// Smallest pivot of the present chart over its value when chosen, at the state y; 0 where it cannot be computed.
@@ -478,5 +464,20 @@ impl System for MultiplierFlow {
 
     fn factorizations(&self) -> u64 {
         self.accelerations.factorizations
+    }
+}
+
+impl WatchedFlow for MultiplierFlow {
+    // The state that is interpolated at the minimum counts too: a step to the singularity itself evaluates the equations
+    // where they have no value.
+    fn vanishes(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
+        if self.zero_between || self.unpack(t, y).is_err() {
+            return true;
+        }
+        self.watch.vanishes(index, t, &self.q, &self.v)
+    }
+
+    fn settled(&self) -> f64 {
+        self.anchor.t
     }
 }

@@ -1,18 +1,19 @@
 //! One run: settings, the trajectory as rows (q, v, a, λ), and why it ended, in words.
 
 use crate::follow::{Deviation, Follow};
+use crate::formulation_flow::{FlowError, FormulationFlow};
 use crate::initial::ConsistentState;
-use crate::maggi_flow::{MaggiError, MaggiFlow};
 use crate::multiplier_flow::{MultiplierFlow, StateKind};
 use crate::numeric::{Binding, NumericSystem};
 use crate::row::RowLayout;
 use crate::stop::{self, Ending};
-use crate::watch::Watch;
+use crate::watch::{Watch, Watched};
 use chetaev_integrate::{
     integrate, method, ChartChange, Direction, ErrorControl, Event, HaltReason, IntegrateError,
     Note, Options, Output, Progress, Solution, Statistics, StiffnessPolicy, Stop,
 };
-use chetaev_mechanics::{ConstraintKind, MotionTerms, System};
+use chetaev_mechanics::claims::formulation::REFERENCE;
+use chetaev_mechanics::{ConstraintKind, Formulation, MotionTerms, System};
 use chetaev_symbolic::Expr;
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
@@ -41,6 +42,8 @@ pub struct RunSettings {
     /// Quantities in (t, q, v) whose deviation from their initial values is measured at every step, and with them those of
     /// the constraints; nothing is measured when empty.
     pub follow: Vec<Expr>,
+    /// Initial values of variables that coordinates and velocities do not determine, by name (`kappa_NAME`).
+    pub own: Vec<(String, f64)>,
 }
 
 impl RunSettings {
@@ -57,6 +60,7 @@ impl RunSettings {
             state: StateKind::Reduced,
             project: false,
             follow: Vec::new(),
+            own: Vec::new(),
         }
     }
 }
@@ -151,15 +155,29 @@ pub enum RunError {
     /// The integrator refuses the question.
     #[error(transparent)]
     Integrate(#[from] IntegrateError),
-    /// Maggi's equations cannot be integrated.
+    /// The equations of a formulation cannot be integrated.
     #[error(transparent)]
-    Maggi(#[from] MaggiError),
+    Flow(#[from] FlowError),
     /// The singular set cannot be watched.
     #[error(transparent)]
     Functions(#[from] crate::functions::FunctionsError),
-    /// A state of the start cannot be expressed in the variables of the formulation.
-    #[error("the initial state has no finite quasi-velocities")]
-    Start,
+}
+
+/// A system of first order whose equations become singular where a watched quantity vanishes.
+pub(crate) trait WatchedFlow: chetaev_integrate::System {
+    /// Whether watched quantity `index` vanishes at the state y, where the integrator has found its minimum.
+    fn vanishes(&mut self, index: usize, t: f64, y: &[f64]) -> bool;
+
+    /// The time of the last accepted state from which constraints are followed.
+    fn settled(&self) -> f64;
+}
+
+/// How the last piece ended.
+enum End {
+    /// A watched quantity is zero.
+    Vanished(Ending),
+    /// The integrator stopped, at a time and state.
+    Stopped(Stop, f64, Vec<f64>),
 }
 
 /// What a run needs to know of the system.
@@ -198,14 +216,45 @@ impl Subject<'_> {
         );
         flow.follow = self.follow(settings)?;
         let y0 = flow.pack(&self.start.q, &self.start.v);
+        let (pieces, end) = self.watched(&mut flow, &watched, y0, settings, watcher)?;
+        let ending = match end {
+            End::Vanished(ending) => ending,
+            End::Stopped(stop, t, y) => {
+                let pivot = flow.pivot_ratio(t, &y);
+                let (kind, chart) = (flow.kind(), flow.chart());
+                let names = stop::Names {
+                    coordinates: &self.numeric.coordinates,
+                    constraints: &self.numeric.constraints,
+                    state: stop::component_names(&self.numeric.coordinates, kind, chart),
+                };
+                stop::ending(&stop, &names, pivot)
+            }
+        };
+        let kind = flow.kind();
+        let drift = (self.numeric.r > 0
+            && (kind == StateKind::Full || !self.numeric.holonomic.is_empty()))
+        .then(|| flow.drift.clone());
+        let followed = flow.follow.take();
+        Ok(self.collect("routh", settings, pieces, ending, (drift, followed)))
+    }
+
+    /// Integrates piece by piece: a watched quantity that comes near zero ends a piece, and the run where it is zero.
+    fn watched<F: WatchedFlow>(
+        &self,
+        flow: &mut F,
+        watched: &[Watched],
+        y0: Vec<f64>,
+        settings: &RunSettings,
+        watcher: &mut Watcher<'_>,
+    ) -> Result<(Vec<Solution>, End), RunError> {
         let mut pieces: Vec<Solution> = Vec::new();
         let (mut t, mut y) = (self.start.t, y0);
-        let ending = loop {
+        loop {
             let mut events: Vec<Event<'_>> = (0..watched.len())
                 .map(|index| Event::of_system(index).direction(Direction::Up).terminal())
                 .collect();
             let options = self.options(settings, t, y.len(), watcher)?;
-            let mut solution = integrate(&mut flow, (t, settings.t_end), &y, &mut events, options)?;
+            let mut solution = integrate(flow, (t, settings.t_end), &y, &mut events, options)?;
             (t, y) = (solution.t, solution.state.clone());
             let stop = solution.stop;
             if let Stop::Halted {
@@ -218,7 +267,8 @@ impl Subject<'_> {
             pieces.push(solution);
             if let Stop::Event { index, t } = stop {
                 if flow.vanishes(index, t, &y) {
-                    break stop::vanished(&watched[index], t, &self.numeric.constraints);
+                    let ending = stop::vanished(&watched[index], t, &self.numeric.constraints);
+                    return Ok((pieces, End::Vanished(ending)));
                 }
                 if t != settings.t_end {
                     // Nothing ends here: the row is kept only where it was asked for.
@@ -236,61 +286,53 @@ impl Subject<'_> {
             } = stop
             {
                 if let Some(what) = watched.get(index as usize) {
-                    break stop::vanished(what, t, &self.numeric.constraints);
+                    let ending = stop::vanished(what, t, &self.numeric.constraints);
+                    return Ok((pieces, End::Vanished(ending)));
                 }
             }
-            let pivot = flow.pivot_ratio(t, &y);
-            let names = stop::Names {
-                coordinates: &self.numeric.coordinates,
-                constraints: &self.numeric.constraints,
-                state: stop::component_names(&self.numeric.coordinates, flow.kind(), flow.chart()),
-            };
-            break stop::ending(&stop, &names, pivot);
-        };
-        let kind = flow.kind();
-        let drift = (self.numeric.r > 0
-            && (kind == StateKind::Full || !self.numeric.holonomic.is_empty()))
-        .then(|| flow.drift.clone());
-        let followed = flow.follow.take();
-        Ok(self.collect("routh", settings, pieces, ending, (drift, followed)))
+            return Ok((pieces, End::Stopped(stop, t, y)));
+        }
     }
 
-    /// Integrates Maggi's equations.
+    /// Integrates the equations of a formulation by themselves: Routh's with the linear system solved numerically at each
+    /// state, every other in its own state with its equations compiled.
     ///
     /// # Errors
     /// [`RunError`].
-    pub fn maggi(
+    pub fn by(
         &self,
+        formulation: &'static dyn Formulation,
         settings: &RunSettings,
         watcher: &mut Watcher<'_>,
     ) -> Result<Run, RunError> {
-        let mut flow = MaggiFlow::new(
-            self.system,
-            self.terms,
-            self.binding,
-            self.numeric.clone(),
-            self.start,
-        )?;
+        let name = formulation.card().name;
+        if name == REFERENCE {
+            return self.routh(settings, watcher);
+        }
+        let of = (self.system, self.terms, self.binding);
+        let numeric = self.numeric.clone();
+        let mut flow = FormulationFlow::new(formulation, of, numeric, self.start, &settings.own)?;
         flow.follow = self.follow(settings)?;
         let y0 = flow
             .pack(self.start.t, &self.start.q, &self.start.v)
-            .map_err(|_| RunError::Start)?;
-        let options = self.options(settings, self.start.t, y0.len(), watcher)?;
-        let span = (self.start.t, settings.t_end);
-        let solution = integrate(&mut flow, span, &y0, &mut [], options)?;
-        let mut state = self.numeric.coordinates.clone();
-        state.extend(
-            (state.len()..y0.len())
-                .map(|i| format!("independent velocity {}", i + 1 - self.numeric.n)),
-        );
-        let names = stop::Names {
-            coordinates: &self.numeric.coordinates,
-            constraints: &self.numeric.constraints,
-            state,
+            .map_err(|_| FlowError::Start { formulation: name })?;
+        let watched = flow.watch.quantities.clone();
+        let (pieces, end) = self.watched(&mut flow, &watched, y0, settings, watcher)?;
+        let ending = match end {
+            End::Vanished(ending) => ending,
+            End::Stopped(stop, ..) => {
+                let mut state = self.numeric.coordinates.clone();
+                state.extend_from_slice(flow.variables());
+                let names = stop::Names {
+                    coordinates: &self.numeric.coordinates,
+                    constraints: &self.numeric.constraints,
+                    state,
+                };
+                stop::ending(&stop, &names, 1.0)
+            }
         };
-        let ending = stop::ending(&solution.stop, &names, 1.0);
         let followed = flow.follow.take();
-        Ok(self.collect("maggi", settings, vec![solution], ending, (None, followed)))
+        Ok(self.collect(name, settings, pieces, ending, (None, followed)))
     }
 
     /// Residuals of the constraints by row, then those of the holonomic ones as stated.

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
-use chetaev_mechanics::{Prepared, System, SystemParts};
+use chetaev_mechanics::{formulation, Prepared, System, SystemParts};
 use chetaev_motion::{
     consistent_state, Binding, InitialData, NumericSystem, Run, RunSettings, StateKind, Subject,
     Watcher,
@@ -76,7 +76,10 @@ fn run(
         start: &start,
     };
     let routh = subject.routh(&settings, &mut Watcher::default()).unwrap();
-    let maggi = subject.maggi(&settings, &mut Watcher::default()).unwrap();
+    let maggi = formulation("maggi").unwrap();
+    let maggi = subject
+        .by(maggi, &settings, &mut Watcher::default())
+        .unwrap();
     (routh, maggi)
 }
 
@@ -146,13 +149,15 @@ fn appell_hamel_moves_straight_and_stops_where_the_constraint_is_not_smooth() {
         assert!((last[2] - rho * path).abs() < 1e-8);
     }
     let stop = s0 * (1.0 + rho * rho) / (grav * rho);
-    let (routh, _) = run(appell_hamel, &[0.0; 3], &v, RunSettings::new(0.0, 1.5));
-    assert!(!routh.ending.finished);
-    assert!(
-        (routh.ending.t - stop).abs() < 1e-4,
-        "{:?} against {stop}",
-        routh.ending
-    );
+    let (routh, maggi) = run(appell_hamel, &[0.0; 3], &v, RunSettings::new(0.0, 1.5));
+    for motion in [&routh, &maggi] {
+        assert!(!motion.ending.finished);
+        assert!(
+            (motion.ending.t - stop).abs() < 1e-4,
+            "{:?} against {stop}",
+            motion.ending
+        );
+    }
 }
 
 fn pursuit(g: &Graph) -> SystemParts {

@@ -1,0 +1,481 @@
+//! The motion by the equations of a formulation: its own first-order system, derived and compiled; where its variables
+//! belong to a chart of independent velocities, another chart is derived and compiled when the present one degrades.
+//!
+//! State (q, variables). Relations between the variables (constraints that stay implicit, momenta that are no closed
+//! functions of velocities) are brought back to zero after each step.
+
+use crate::chart;
+use crate::dense::Lu;
+use crate::follow::Follow;
+use crate::functions::{Functions, FunctionsError};
+use crate::initial::ConsistentState;
+use crate::leaving::Anchor;
+use crate::numeric::{Binding, NumericSystem};
+use crate::row::RowLayout;
+use crate::run::WatchedFlow;
+use crate::watch::Watch;
+use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System as Flow};
+use chetaev_mechanics::formulations::DeriveError;
+use chetaev_mechanics::{Basis, Equations, Formulation, MotionTerms, Selection, System};
+use chetaev_symbolic::{Expr, Symbol};
+
+/// Why the equations of a formulation cannot be integrated.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FlowError {
+    /// The equations cannot be derived.
+    #[error(transparent)]
+    Derive(#[from] DeriveError),
+    /// The equations cannot be compiled.
+    #[error(transparent)]
+    Functions(#[from] FunctionsError),
+    /// The state has variables that coordinates and velocities do not determine.
+    #[error("the state of `{formulation}` has data of its own: give {names} in [initial]")]
+    MissingData {
+        /// The formulation.
+        formulation: &'static str,
+        /// The variables without a value, in quotes.
+        names: String,
+    },
+    /// A state of the start cannot be expressed in the variables of the formulation.
+    #[error("at the initial state the variables of `{formulation}` have no finite value")]
+    Start {
+        /// The formulation.
+        formulation: &'static str,
+    },
+}
+
+/// The equations in one chart, compiled.
+#[derive(Clone, Debug)]
+struct ChartFunctions {
+    selection: Selection,
+    /// (t, q, variables) → velocities, accelerations, rates, multipliers by row.
+    motion: Functions,
+    /// (t, q, v) → variables; zero for those of its own.
+    definitions: Functions,
+    /// (t, q, variables) → relations, and their gradient by the variables they determine.
+    relations: Option<Functions>,
+    /// Places of those variables.
+    determined: Vec<usize>,
+    pivot: f64,
+}
+
+/// A formulation as a first-order system.
+pub struct FormulationFlow<'a> {
+    formulation: &'static dyn Formulation,
+    system: &'a System,
+    terms: &'a MotionTerms,
+    binding: &'a Binding,
+    numeric: NumericSystem,
+    current: ChartFunctions,
+    charts: Vec<ChartFunctions>,
+    /// Names of the variables.
+    variables: Vec<String>,
+    /// Values at the start of the variables that are data of their own, by place.
+    own: Vec<(usize, f64)>,
+    is_chart: bool,
+    chart_number: u32,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    anchor: Anchor,
+    /// What makes the equations singular when it vanishes.
+    pub(crate) watch: Watch,
+    /// Whether the last minimum of a watched quantity was zero between two steps.
+    zero_between: bool,
+    /// Quantities followed at accepted steps.
+    pub follow: Option<Follow>,
+}
+
+impl std::fmt::Debug for FormulationFlow<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "FormulationFlow({})", self.formulation.card().name)
+    }
+}
+
+const DEGRADED: f64 = 0.1;
+const HYSTERESIS: f64 = 3.0;
+
+impl<'a> FormulationFlow<'a> {
+    /// The flow from a consistent state, in the chart of the start. `own` gives data that coordinates and velocities do not
+    /// determine, by name.
+    ///
+    /// # Errors
+    /// [`FlowError`].
+    pub fn new(
+        formulation: &'static dyn Formulation,
+        (system, terms, binding): (&'a System, &'a MotionTerms, &'a Binding),
+        numeric: NumericSystem,
+        start: &ConsistentState,
+        own: &[(String, f64)],
+    ) -> Result<FormulationFlow<'a>, FlowError> {
+        let selection = Selection {
+            rows: start.chart.rows.clone(),
+            dependent: start.chart.dependent.clone(),
+        };
+        let (equations, current) = compile(
+            formulation,
+            (system, terms, binding),
+            selection,
+            start.chart.pivot,
+        )?;
+        let mut flow = FormulationFlow {
+            follow: None,
+            watch: Watch::new(system, terms, binding)?,
+            zero_between: false,
+            anchor: Anchor::default(),
+            own: own_data(&equations, own)?,
+            variables: equations.variables.iter().map(|x| x.name.clone()).collect(),
+            is_chart: equations.is_chart,
+            q: start.q.clone(),
+            v: start.v.clone(),
+            chart_number: 0,
+            charts: Vec::new(),
+            formulation,
+            system,
+            terms,
+            binding,
+            numeric,
+            current,
+        };
+        flow.settle(start.t);
+        Ok(flow)
+    }
+
+    /// Names of the variables of the state beside the coordinates.
+    pub fn variables(&self) -> &[String] {
+        &self.variables
+    }
+
+    /// The state vector of (q, v) at time t.
+    ///
+    /// # Errors
+    /// When a variable has no finite value.
+    pub fn pack(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<Vec<f64>, EvaluationFailure> {
+        self.current.definitions.evaluate(t, &[q, v])?;
+        let mut y = q.to_vec();
+        y.extend_from_slice(self.current.definitions.group(0));
+        for &(place, value) in &self.own {
+            y[q.len() + place] = value;
+        }
+        Ok(y)
+    }
+
+    fn evaluate(&mut self, t: f64, y: &[f64]) -> Result<(), EvaluationFailure> {
+        let n = self.numeric.n;
+        self.current.motion.evaluate(t, &[&y[..n], &y[n..]])?;
+        self.q.copy_from_slice(&y[..n]);
+        self.v.copy_from_slice(self.current.motion.group(0));
+        Ok(())
+    }
+
+    /// Chooses a chart at (t, q, v) and enters it when it is better than `worst` by the hysteresis.
+    fn rechoose(&mut self, t: f64, y: &mut [f64], factor: f64) -> Control {
+        if !self.is_chart || self.numeric.r == 0 {
+            return Control::Continue;
+        }
+        let (q, v) = (self.q.clone(), self.v.clone());
+        if self.numeric.evaluate(t, &q, &v).is_err() {
+            return Control::Continue;
+        }
+        let (numeric, diagonal) = (&self.numeric, self.numeric.mass_diagonal());
+        let present = chart::Chart {
+            rows: self.current.selection.rows.clone(),
+            dependent: self.current.selection.dependent.clone(),
+            independent: Vec::new(),
+            pivot: self.current.pivot,
+            gap: f64::INFINITY,
+        };
+        let before = chart::quality(
+            &present,
+            numeric.jacobian(),
+            numeric.r,
+            numeric.n,
+            &diagonal,
+        );
+        if factor > 1.0 && before >= DEGRADED * self.current.pivot {
+            return Control::Continue;
+        }
+        let next = chart::choose(numeric.jacobian(), numeric.r, numeric.n, &diagonal);
+        if next.rank() < present.rank() {
+            let constraint = (0..numeric.r)
+                .find(|row| !next.rows.contains(row))
+                .unwrap_or(0);
+            return Control::Stop(HaltReason::RankDrop {
+                from: present.rank(),
+                to: next.rank(),
+                constraint,
+            });
+        }
+        if next.pivot < factor * before || next.dependent == present.dependent {
+            return Control::Continue;
+        }
+        self.enter(t, y, next, before)
+    }
+
+    fn enter(&mut self, t: f64, y: &mut [f64], next: chart::Chart, before: f64) -> Control {
+        let selection = Selection {
+            rows: next.rows.clone(),
+            dependent: next.dependent.clone(),
+        };
+        let known = self.charts.iter().position(|c| c.selection == selection);
+        let entered = match known {
+            Some(index) => Ok(self.charts.swap_remove(index)),
+            None => {
+                let of = (self.system, self.terms, self.binding);
+                compile(self.formulation, of, selection, next.pivot).map(|(_, compiled)| compiled)
+            }
+        };
+        let Ok(mut entered) = entered else {
+            return Control::Continue;
+        };
+        entered.pivot = next.pivot;
+        let left = std::mem::replace(&mut self.current, entered);
+        self.charts.push(left);
+        let (q, v) = (self.q.clone(), self.v.clone());
+        let Ok(packed) = self.pack(t, &q, &v) else {
+            return Control::Continue;
+        };
+        y.copy_from_slice(&packed);
+        self.chart_number += 1;
+        Control::ChartSwitched(ChartChange {
+            from: self.chart_number - 1,
+            to: self.chart_number,
+            pivot_before: before,
+            pivot_after: next.pivot,
+        })
+    }
+
+    /// Takes the present (q, v) for a state of the motion, from which constraints with jumps do not jump.
+    fn settle(&mut self, t: f64) {
+        if !self.numeric.jumps || self.numeric.evaluate(t, &self.q, &self.v).is_err() {
+            return;
+        }
+        let _ = self.numeric.evaluate_positions(t, &self.q, &self.v);
+        self.anchor.settle(&self.numeric, t, &self.q, &self.v);
+    }
+
+    /// The row of a constraint that lies apart from the last accepted state.
+    fn left(&mut self, t: f64) -> Option<usize> {
+        let by_construction = self.is_chart && self.current.relations.is_none();
+        let apart = if !by_construction {
+            self.numeric.evaluate(t, &self.q, &self.v).ok()?;
+            self.anchor.left(&self.numeric, &self.v)
+        } else {
+            let selection = &self.current.selection;
+            self.anchor
+                .left_velocity(&self.v, &selection.dependent)
+                .map(|index| selection.rows[index])
+        };
+        if apart.is_some() || self.numeric.holonomic.is_empty() {
+            return apart;
+        }
+        self.numeric.evaluate_positions(t, &self.q, &self.v).ok()?;
+        self.anchor.left_position(&self.numeric, &self.q)
+    }
+
+    /// Newton on the variables that relations determine; true when y changed.
+    fn project(&mut self, t: f64, y: &mut [f64]) -> bool {
+        let n = self.numeric.n;
+        let Some(relations) = &mut self.current.relations else {
+            return false;
+        };
+        let places = &self.current.determined;
+        let mut changed = false;
+        for _ in 0..10 {
+            if relations.evaluate(t, &[&y[..n], &y[n..]]).is_err() {
+                return changed;
+            }
+            let scale: f64 = y[n..].iter().fold(1e-300, |m, x| m.max(x.abs()));
+            let mut step = relations.group(0).to_vec();
+            if step.iter().all(|f| f.abs() <= 8.0 * f64::EPSILON * scale) {
+                break;
+            }
+            let mut lu = Lu::default();
+            if lu.factor(places.len(), relations.group(1)).is_err() {
+                return changed;
+            }
+            lu.solve(&mut step);
+            for (&place, dx) in places.iter().zip(&step) {
+                y[n + place] -= dx;
+            }
+            changed = true;
+        }
+        changed
+    }
+}
+
+/// Values of the variables without a definition, by place.
+fn own_data(
+    equations: &Equations,
+    given: &[(String, f64)],
+) -> Result<Vec<(usize, f64)>, FlowError> {
+    let mut found = Vec::new();
+    let mut missing = Vec::new();
+    for (place, variable) in equations.variables.iter().enumerate() {
+        if variable.definition.is_some() {
+            continue;
+        }
+        match given.iter().find(|(name, _)| *name == variable.name) {
+            Some((_, value)) => found.push((place, *value)),
+            None => missing.push(&variable.name),
+        }
+    }
+    match missing.is_empty() {
+        true => Ok(found),
+        false => Err(FlowError::MissingData {
+            formulation: equations.formulation,
+            names: chetaev_mechanics::words::quoted(missing),
+        }),
+    }
+}
+
+fn compile(
+    formulation: &dyn Formulation,
+    (system, terms, binding): (&System, &MotionTerms, &Binding),
+    selection: Selection,
+    pivot: f64,
+) -> Result<(Equations, ChartFunctions), FlowError> {
+    let basis = Basis {
+        system,
+        terms,
+        selection: &selection,
+        characteristics: None,
+    };
+    let equations = formulation.equations(&basis)?;
+    let g = &system.graph;
+    let mut variables: Vec<Symbol> = vec![g.intern_symbol("t", 0)];
+    variables.extend(system.coordinate_symbols());
+    variables.extend(equations.variables.iter().map(|x| x.symbol));
+    let groups = [
+        ("velocities", equations.velocities.clone()),
+        ("accelerations", equations.accelerations.clone()),
+        ("rates", equations.rates()),
+        ("multipliers", multipliers(&equations, terms, g.zero())),
+    ];
+    let definitions: Vec<Expr> = equations
+        .variables
+        .iter()
+        .map(|x| x.definition.unwrap_or(g.zero()))
+        .collect();
+    let definitions = [("variables", definitions)];
+    let (residuals, determined): (Vec<Expr>, Vec<Symbol>) =
+        equations.relations.iter().copied().unzip();
+    let gradient = g.jacobian(&residuals, &determined).concat();
+    let is_tied = !residuals.is_empty();
+    let relations = [("residuals", residuals), ("gradient", gradient)];
+    let place = |symbol: &Symbol| equations.variables.iter().position(|x| x.symbol == *symbol);
+    let compiled = ChartFunctions {
+        motion: Functions::new(g, binding, &variables, &groups)?,
+        definitions: Functions::new(g, binding, &binding.variables, &definitions)?,
+        relations: is_tied
+            .then(|| Functions::new(g, binding, &variables, &relations))
+            .transpose()?,
+        determined: determined.iter().filter_map(place).collect(),
+        selection,
+        pivot,
+    };
+    Ok((equations, compiled))
+}
+
+/// Multipliers by row of the terms; zero where the formulation has none.
+fn multipliers(equations: &Equations, terms: &MotionTerms, zero: Expr) -> Vec<Expr> {
+    let of = |l: &usize| equations.multipliers.iter().find(|(own, _)| own == l);
+    let rows = terms.constraint_index.iter();
+    rows.map(|l| of(l).map_or(zero, |(_, value)| *value))
+        .collect()
+}
+
+impl Flow for FormulationFlow<'_> {
+    fn dimension(&self) -> usize {
+        self.numeric.n + self.variables.len()
+    }
+
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure> {
+        self.evaluate(t, y)?;
+        if self.numeric.jumps {
+            if let Some(constraint) = self.left(t) {
+                return Err(EvaluationFailure::LeftConstraint { constraint });
+            }
+        }
+        let n = self.numeric.n;
+        dy[..n].copy_from_slice(&self.v);
+        dy[n..].copy_from_slice(self.current.motion.group(2));
+        Ok(())
+    }
+
+    fn accepted(&mut self, t: f64, y: &mut [f64]) -> Control {
+        if self.evaluate(t, y).is_err() {
+            return Control::Continue;
+        }
+        let modified = self.project(t, y) && self.evaluate(t, y).is_ok();
+        let control = match self.rechoose(t, y, HYSTERESIS) {
+            Control::Continue if modified => Control::StateModified,
+            other => other,
+        };
+        if let Some(follow) = &mut self.follow {
+            follow.record(t, &self.q, &self.v);
+        }
+        self.watch.record(t, &self.q, &self.v);
+        self.settle(t);
+        match self.watch.vanished() {
+            Some(index) => Control::Stop(HaltReason::Custom(index as u32)),
+            None => control,
+        }
+    }
+
+    fn repivot(&mut self, t: f64, y: &mut [f64]) -> Control {
+        if self.evaluate(t, y).is_err() {
+            return Control::Continue;
+        }
+        self.rechoose(t, y, 1.0)
+    }
+
+    fn output_dimension(&self) -> usize {
+        RowLayout::new(self.numeric.n, self.numeric.r).len()
+    }
+
+    fn output(&mut self, t: f64, y: &[f64], row: &mut [f64]) -> Result<(), EvaluationFailure> {
+        self.evaluate(t, y)?;
+        let layout = RowLayout::new(self.numeric.n, self.numeric.r);
+        row.fill(0.0);
+        row[layout.q()].copy_from_slice(&self.q);
+        row[layout.v()].copy_from_slice(&self.v);
+        row[layout.a()].copy_from_slice(self.current.motion.group(1));
+        row[layout.lambda()].copy_from_slice(self.current.motion.group(3));
+        Ok(())
+    }
+
+    fn switching(&mut self, index: usize, t: f64, y: &[f64]) -> Result<f64, EvaluationFailure> {
+        // At the singularity itself there are no accelerations, and the rate of what vanishes there is zero.
+        if let Err(failure) = self.evaluate(t, y) {
+            return match self.watch.is_near(index, t, &self.q, &self.v) {
+                true => Ok(0.0),
+                false => Err(failure),
+            };
+        }
+        let a = self.current.motion.group(1);
+        self.watch.switching(index, t, &self.q, &self.v, a)
+    }
+
+    fn is_event(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
+        if self.evaluate(t, y).is_err() {
+            self.zero_between = true;
+            return true;
+        }
+        self.zero_between = self.watch.vanishes(index, t, &self.q, &self.v);
+        self.watch.is_near(index, t, &self.q, &self.v)
+    }
+}
+
+impl WatchedFlow for FormulationFlow<'_> {
+    fn vanishes(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
+        if self.zero_between || self.evaluate(t, y).is_err() {
+            return true;
+        }
+        self.watch.vanishes(index, t, &self.q, &self.v)
+    }
+
+    fn settled(&self) -> f64 {
+        self.anchor.t
+    }
+}
