@@ -434,7 +434,7 @@ fn code_can_be_read() {
         ],
     };
     let text = |language| source_code(&g, &[], std::slice::from_ref(&function), language).unwrap();
-    let expected = "
+    let expected = "\
 #include <math.h>
 
 /*
@@ -553,7 +553,7 @@ fn deep_and_wide_graphs_take_linear_time() {
         assert!(code.split(';').all(|statement| statement.len() < 1000));
         code.len() as f64
     };
-    let (once, four_times) = (size(15_000), size(60_000));
+    let (once, four_times) = (size(10_000), size(40_000));
     assert!(
         (3.5..5.0).contains(&(four_times / once)),
         "{once} {four_times}"

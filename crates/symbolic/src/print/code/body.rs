@@ -1,13 +1,14 @@
 //! The statements of a function: the inputs by name, the local variables, the outputs.
 
-use super::expression::{SignedText, Writer};
+use super::expression::{signed, Writer};
 use super::function::Head;
 use super::language::Language;
 use super::local::LONGEST_STATEMENT;
 use super::names::Names;
-use super::term::{list, product, push_wrapped, sum, Text};
+use super::term::{list, product, push_wrapped, quotient, sum, Text};
 use super::CodeFunction;
 use crate::node::{Expr, Node, Symbol};
+use crate::rational;
 use rustc_hash::FxHashSet;
 
 /// How many names of each kind have been given.
@@ -163,20 +164,18 @@ impl<'a> Body<'a> {
         match self.writer.locals.g.node(e) {
             Node::Sum { constant, terms } if terms.len() >= LONGEST_STATEMENT => {
                 let terms = self.writer.terms(constant, terms);
-                let parts = self.chain(
-                    terms,
-                    |terms: &[SignedText]| sum(terms),
-                    |text| (false, text),
-                );
+                let parts = self.chain(terms, sum, |text| (false, text));
                 sum(&parts)
             }
             Node::Product {
                 coefficient,
                 factors,
             } if factors.len() > LONGEST_STATEMENT => {
-                let factors = self.writer.factors(coefficient, factors);
-                let parts = self.chain(factors, |factors: &[Text]| product(factors), |text| text);
-                product(&parts)
+                let sorted = self.writer.locals.sorted_factors(factors);
+                let (above, below) = self.writer.fraction(coefficient, &sorted);
+                let above = self.chain(above, product, |text| text);
+                let below = self.chain(below, product, |text| text);
+                signed((rational::is_negative(coefficient), quotient(&above, &below)))
             }
             _ => self.writer.written_out(e),
         }

@@ -109,7 +109,11 @@ impl Writer<'_> {
     }
 
     /// Numerator and denominator of the magnitude of a product.
-    fn fraction(&mut self, coefficient: &Rational, factors: &[Expr]) -> (Vec<Text>, Vec<Text>) {
+    pub(super) fn fraction(
+        &mut self,
+        coefficient: &Rational,
+        factors: &[Expr],
+    ) -> (Vec<Text>, Vec<Text>) {
         let (mut above, mut below) = (Vec::new(), Vec::new());
         match literal::magnitude(coefficient, self.language) {
             Literal::Whole(one) if one == "1.0" => {}
@@ -127,21 +131,6 @@ impl Writer<'_> {
             side.push(text);
         }
         (above, below)
-    }
-
-    /// The factors of a product, the number first, to be multiplied.
-    pub(super) fn factors(&mut self, coefficient: &Rational, factors: &[Expr]) -> Vec<Text> {
-        let mut out = Vec::with_capacity(factors.len() + 1);
-        if !coefficient.is_one() {
-            out.push(self.number(coefficient));
-        }
-        for factor in self.locals.sorted_factors(factors) {
-            out.push(match self.factor(factor) {
-                (false, text) => text,
-                (true, text) => term::quotient(&[], &[text]),
-            });
-        }
-        out
     }
 
     /// A factor, or what to divide by instead.
@@ -234,7 +223,8 @@ impl Writer<'_> {
     }
 }
 
-fn signed((negative, text): SignedText) -> Text {
+/// The text with its sign.
+pub(super) fn signed((negative, text): SignedText) -> Text {
     if negative {
         text.negative()
     } else {

@@ -103,7 +103,9 @@ pub fn source_code(
         )?);
     }
     let mut out = comment::file(title, language);
-    out.push_str(&helpers.text(language));
+    let helpers = helpers.text(language);
+    // A file without title begins with its first line.
+    out.push_str(helpers.trim_start_matches(if title.is_empty() { "\n" } else { "" }));
     for body in bodies {
         out.push('\n');
         out.push_str(&body);
