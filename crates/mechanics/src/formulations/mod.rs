@@ -1,10 +1,17 @@
 //! Every formulation of the equations of motion, one file each. Adding one is a file and a line in [`FORMULATIONS`].
 
+mod canonical;
+mod legendre;
 mod maggi;
 mod routh;
+mod state_space;
+mod state_space_canonical;
 
+pub use canonical::Canonical;
 pub use maggi::Maggi;
 pub use routh::Routh;
+pub use state_space::StateSpace;
+pub use state_space_canonical::StateSpaceCanonical;
 
 use crate::card::Card;
 use crate::characteristics::{Characteristics, CharacteristicsError, Manifold, Selection};
@@ -178,7 +185,13 @@ pub trait Formulation: Sync {
 }
 
 /// The registry.
-pub static FORMULATIONS: &[&dyn Formulation] = &[&Routh, &Maggi];
+pub static FORMULATIONS: &[&dyn Formulation] = &[
+    &Routh,
+    &Maggi,
+    &Canonical,
+    &StateSpace,
+    &StateSpaceCanonical,
+];
 
 /// The formulation called `name`.
 pub fn formulation(name: &str) -> Option<&'static dyn Formulation> {

@@ -1,0 +1,293 @@
+//! Zhu's closed equations in the state space of (q, v), where `q' = v` is derived.
+//!
+//! `Σ_s L_{v^j v^s} (Dq^s − v^s) = 0`, `D(∂L/∂v^s) − ∂L/∂q^s − Q_s = Σ λ_l ∂f^l/∂v^s`, `f^l(q, v, t) = 0` with D along
+//! curves (q(t), v(t)) (T1 (34), (38)): one linear system for (Dq, Dv, λ), regular where W is.
+
+use super::legendre::unused_name;
+use super::routh::multiplier_objects;
+use super::{Basis, DeriveError, Formulation, Identity};
+use crate::card::{Card, Principle, Relation, Source};
+use crate::characteristics::{derive_along, Manifold};
+use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
+use crate::system::System;
+use chetaev_symbolic::{Expr, Symbol};
+
+/// Zhu's closed state-space equations.
+#[derive(Clone, Copy, Debug)]
+pub struct StateSpace;
+
+static CARD: Card = Card {
+    name: "state-space",
+    title: "Closed equations in state space",
+    statement: "Coordinates and velocities are unknowns on the same footing; the kinematic law Dq = v follows from the regular Hessian together with the equations of motion.",
+    principle: Principle::SecondKind,
+    relation: Relation::Equivalent,
+    requires: &["model.accelerations-unique", "model.hessian-regular"],
+    identity: Some("Zhu's differential principle equals δZ + Σ Q δq − D(Σ ∂L/∂v δq) for arbitrary curves and variations, and Dq = v follows from the closed equations"),
+    unknowns: "rates of coordinates and velocities and one multiplier for each independent constraint",
+    highest_order: 1,
+    sources: &[Source { key: "zhu1998", place: "closed equations of the state space" }],
+};
+
+const SCHEMA: Schema = Schema {
+    text: "Σ_s L_{v^j v^s} (Dq^s − v^s) = 0, D(∂L/∂v^s) − ∂L/∂q^s − Q_s = Σ_l λ_l ∂f^l/∂v^s",
+    latex: r"\sum_s \frac{\partial^2 L}{\partial v^j \partial v^s} (D q^s - v^s) = 0, \quad D\frac{\partial L}{\partial v^s} - \frac{\partial L}{\partial q^s} - Q_s = \sum_l \lambda_l \frac{\partial f^l}{\partial v^s}",
+};
+
+impl Formulation for StateSpace {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
+        let system = basis.system;
+        let jet = StateJet::new(system);
+        let rates = solve(basis, &jet)?;
+        let variables = system
+            .coordinates
+            .iter()
+            .zip(&rates.velocities)
+            .map(|(c, &rate)| StateVariable {
+                name: format!("{}'", c.name),
+                value: c.v,
+                symbol: c.v_symbol,
+                rate,
+                definition: Some(c.v),
+            })
+            .collect();
+        let (stated, kinematic) = stated_equations(basis, &jet);
+        let density = NamedExpr::new(
+            unused_name(system, "Z"),
+            second_kind_density(system, &jet),
+            "integrand of the second-kind principle",
+        );
+        let mut equations = Equations::in_state(CARD.name, system, variables, rates.coordinates)
+            .with_group("kinematics", None, kinematic)
+            .with_group("equations of motion", Some(SCHEMA), stated)
+            .with_group("constraints", None, basis.constraint_equations())
+            .with_objects([density])
+            .with_objects(multiplier_objects(basis, &rates.multipliers));
+        let indices = basis.constraint_indices().into_iter();
+        equations.multipliers = indices.zip(rates.multipliers).collect();
+        Ok(equations)
+    }
+
+    fn identities(&self, basis: &Basis<'_>) -> Result<Vec<Identity>, DeriveError> {
+        let system = basis.system;
+        let jet = StateJet::new(system);
+        let rates = solve(basis, &jet)?;
+        let law = system
+            .coordinates
+            .iter()
+            .zip(rates.coordinates)
+            .map(|(c, rate)| system.graph.sub(rate, c.v))
+            .collect();
+        Ok(vec![
+            Identity {
+                statement: "Σ (L_q + Q − D L_v) δq + Σ (Dq − v) δL_v = δZ + Σ Q δq − D(Σ L_v δq)"
+                    .into(),
+                residuals: vec![second_kind_residual(system, &jet)],
+                manifold: Manifold::default(),
+                on: "for all curves (q(t), v(t)) and all variations",
+            },
+            Identity {
+                statement: "Dq = v follows".into(),
+                residuals: law,
+                manifold: Manifold::default(),
+                on: "outside the singular set of the Hessian",
+            },
+        ])
+    }
+}
+
+/// The symbols of the rates Dq, Dv of a curve (q(t), v(t)).
+pub(crate) struct StateJet {
+    coordinates: Vec<Expr>,
+    velocities: Vec<Expr>,
+}
+
+impl StateJet {
+    pub(crate) fn new(system: &System) -> StateJet {
+        let g = &system.graph;
+        let symbols = |prefix: &str, order: u32| -> Vec<Expr> {
+            let names = system.coordinates.iter();
+            names
+                .map(|c| g.symbol(&unused_name(system, &format!("{prefix}{}", c.name)), order))
+                .collect()
+        };
+        StateJet {
+            coordinates: symbols("Dq_", 0),
+            velocities: symbols("Dv_", 0),
+        }
+    }
+
+    /// D along the curve.
+    fn derive(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
+        let symbols = system.velocity_symbols().into_iter();
+        let rates: Vec<(Symbol, Expr)> = symbols.zip(self.velocities.iter().copied()).collect();
+        derive_along(system, es, &self.coordinates, system.graph.one(), &rates)
+    }
+}
+
+/// Dq, Dv and λ.
+struct Rates {
+    coordinates: Vec<Expr>,
+    velocities: Vec<Expr>,
+    multipliers: Vec<Expr>,
+}
+
+/// The linear system for (Dq, Dv, λ), size 2n + r.
+fn solve(basis: &Basis<'_>, jet: &StateJet) -> Result<Rates, DeriveError> {
+    let (system, g) = (basis.system, &basis.system.graph);
+    let n = system.n();
+    let (kinematic, motion, constraint) = residuals(basis, jet);
+    let equations: Vec<Expr> = kinematic
+        .into_iter()
+        .chain(motion)
+        .chain(constraint)
+        .collect();
+    let size = equations.len();
+    let rates: Vec<Expr> = jet
+        .coordinates
+        .iter()
+        .chain(&jet.velocities)
+        .copied()
+        .collect();
+    let symbols: Vec<Symbol> = rates.iter().filter_map(|&e| g.as_symbol(e)).collect();
+    let by_rates = g.jacobian(&equations, &symbols);
+    let at_zero: Vec<(Expr, Expr)> = rates.iter().map(|&e| (e, g.zero())).collect();
+    let right: Vec<Expr> = g
+        .substitute_all(&equations, &at_zero)
+        .into_iter()
+        .map(|e| g.neg(e))
+        .collect();
+    let mut matrix = vec![g.zero(); size * size];
+    for (i, row) in by_rates.iter().enumerate() {
+        matrix[i * size..i * size + 2 * n].copy_from_slice(row);
+    }
+    for (l, row) in basis.jacobian().iter().enumerate() {
+        for (s, &slope) in row.iter().enumerate() {
+            matrix[(n + s) * size + 2 * n + l] = g.neg(slope);
+        }
+    }
+    let mut coordinates = g.solve(&matrix, &right)?;
+    let multipliers = coordinates.split_off(2 * n);
+    let velocities = coordinates.split_off(n);
+    Ok(Rates {
+        coordinates,
+        velocities,
+        multipliers,
+    })
+}
+
+/// `W (Dq − v)`, `D(∂L/∂v) − ∂L/∂q − Q` and `D f`, linear in (Dq, Dv).
+fn residuals(basis: &Basis<'_>, jet: &StateJet) -> (Vec<Expr>, Vec<Expr>, Vec<Expr>) {
+    let (system, g) = (basis.system, &basis.system.graph);
+    let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
+    let slopes = g.gradient(system.lagrangian, &system.coordinate_symbols());
+    let kinematic = basis
+        .terms
+        .mass_matrix
+        .iter()
+        .map(|row| {
+            let terms = row.iter().enumerate().filter(|(_, w)| !g.is_zero(**w));
+            let parts: Vec<Expr> = terms
+                .map(|(s, &w)| {
+                    let lag = g.sub(jet.coordinates[s], system.coordinates[s].v);
+                    g.mul(&[w, lag])
+                })
+                .collect();
+            g.add(&parts)
+        })
+        .collect();
+    let motion = jet
+        .derive(system, &momenta)
+        .into_iter()
+        .enumerate()
+        .map(|(s, rate)| g.add(&[rate, g.neg(slopes[s]), g.neg(system.forces[s])]))
+        .collect();
+    (kinematic, motion, jet.derive(system, &basis.constraints()))
+}
+
+/// The equations of motion, and the kinematic ones.
+fn stated_equations(basis: &Basis<'_>, jet: &StateJet) -> (Vec<Equation>, Vec<Equation>) {
+    let (system, g) = (basis.system, &basis.system.graph);
+    let (kinematic, motion, _) = residuals(basis, jet);
+    let (lambdas, jacobian) = (basis.lambda_symbols(), basis.jacobian());
+    let labelled = |lefts: Vec<Expr>, right: &dyn Fn(usize) -> Expr| -> Vec<Equation> {
+        lefts
+            .into_iter()
+            .enumerate()
+            .map(|(s, left)| Equation {
+                label: system.coordinates[s].name.clone(),
+                left,
+                right: right(s),
+            })
+            .collect()
+    };
+    let reaction = |s: usize| {
+        let parts: Vec<Expr> = lambdas
+            .iter()
+            .zip(&jacobian)
+            .map(|(&lambda, row)| g.mul(&[lambda, row[s]]))
+            .collect();
+        g.add(&parts)
+    };
+    (
+        labelled(motion, &reaction),
+        labelled(kinematic, &|_| g.zero()),
+    )
+}
+
+/// `Z = L + Σ (Dq^s − v^s) ∂L/∂v^s` (T1 (35)).
+pub(crate) fn second_kind_density(system: &System, jet: &StateJet) -> Expr {
+    let g = &system.graph;
+    let mut parts = vec![system.lagrangian];
+    let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
+    for ((c, &rate), p) in system.coordinates.iter().zip(&jet.coordinates).zip(momenta) {
+        parts.push(g.mul(&[g.sub(rate, c.v), p]));
+    }
+    g.add(&parts)
+}
+
+/// (34) minus `δZ + Σ Q δq − D(Σ ∂L/∂v δq)`, with δq, Dδq, δv as symbols.
+fn second_kind_residual(system: &System, jet: &StateJet) -> Expr {
+    let g = &system.graph;
+    let named = |prefix: &str, order: u32| -> Vec<Expr> {
+        let names = system.coordinates.iter();
+        names
+            .map(|c| g.symbol(&unused_name(system, &format!("{prefix}{}", c.name)), order))
+            .collect()
+    };
+    let (dq, ddq, dv) = (
+        named("delta_q_", 0),
+        named("delta_q_", 1),
+        named("delta_v_", 0),
+    );
+    let symbol_rates = |symbols: &[Expr], rates: &[Expr]| -> Vec<(Symbol, Expr)> {
+        let pairs = symbols.iter().zip(rates);
+        pairs
+            .filter_map(|(&s, &rate)| Some((g.as_symbol(s)?, rate)))
+            .collect()
+    };
+    let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
+    let mut varied = symbol_rates(&velocities, &dv);
+    varied.extend(symbol_rates(&jet.coordinates, &ddq));
+    let vary = |es: &[Expr]| derive_along(system, es, &dq, g.zero(), &varied);
+    let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
+    let slopes = g.gradient(system.lagrangian, &system.coordinate_symbols());
+    let varied_momenta = vary(&momenta);
+    let moved_momenta = jet.derive(system, &momenta);
+    let mut parts = vec![g.neg(vary(&[second_kind_density(system, jet)]).swap_remove(0))];
+    for (s, c) in system.coordinates.iter().enumerate() {
+        let (p, force) = (momenta[s], system.forces[s]);
+        let covector = g.add(&[slopes[s], force, g.neg(moved_momenta[s])]);
+        parts.push(g.mul(&[covector, dq[s]]));
+        parts.push(g.mul(&[g.sub(jet.coordinates[s], c.v), varied_momenta[s]]));
+        parts.push(g.neg(g.mul(&[force, dq[s]])));
+        // D(p δq)
+        parts.push(g.mul(&[moved_momenta[s], dq[s]]));
+        parts.push(g.mul(&[p, ddq[s]]));
+    }
+    g.add(&parts)
+}
