@@ -14,6 +14,7 @@ pub(crate) fn notices(
     system: &System,
     prepared: &Prepared,
     start: Option<&Start>,
+    formulation: &str,
 ) -> Vec<String> {
     let mut notices = holonomic(model, system);
     notices.extend(choice::unheeded(
@@ -21,7 +22,7 @@ pub(crate) fn notices(
         &prepared.terms,
         &prepared.selection,
     ));
-    notices.extend(unused_multipliers(model));
+    notices.extend(unused_multipliers(model, formulation));
     if let Some(start) = start {
         notices.extend(redundant(start));
         notices.extend(completed(start));
@@ -44,18 +45,24 @@ fn holonomic(model: &Model, system: &System) -> Vec<String> {
     notices
 }
 
-/// Initial values of multipliers: the state determines them in the formulations that there are.
-fn unused_multipliers(model: &Model) -> Option<String> {
+/// Initial values of multipliers that the state determines: all of them but those of the constrained extremum, in it.
+fn unused_multipliers(model: &Model, formulation: &str) -> Option<String> {
+    let is_used = |name: &str| formulation == "vakonomic" && name.starts_with("kappa_");
     let names: Vec<String> = model
         .initial
         .extra
         .iter()
+        .filter(|own| own.order > 0 || !is_used(&own.name))
         .map(|own| format!("`{}{}`", own.name, "'".repeat(own.order as usize)))
         .collect();
     (!names.is_empty()).then(|| {
         format!(
-            "initial values not used: {}; in Routh's and Maggi's equations the state determines the multipliers",
-            names.join(", ")
+            "initial values not used: {}; {}",
+            names.join(", "),
+            match formulation {
+                "vakonomic" => "the constrained extremum has the multipliers κ of the constraints and no others",
+                _ => "the state determines the multipliers in every formulation but `vakonomic`, which takes κ",
+            }
         )
     })
 }

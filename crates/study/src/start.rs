@@ -202,6 +202,21 @@ fn initial_data(
 }
 
 /// How the motion is computed: options, else the model, else the program decides.
+/// Initial values of what is no coordinate, such as `kappa_NAME`.
+fn own_values(model: &Model, system: &System) -> Result<Vec<(String, f64)>, StudyError> {
+    let values = system.parameter_values();
+    let extra = model.initial.extra.iter().filter(|own| own.order == 0);
+    extra
+        .map(|own| {
+            let value = number(&model.graph, own.value, &values);
+            let value = value.ok_or_else(|| StudyError::MissingValues {
+                names: format!("what the initial value of `{}` is made of", own.name),
+            })?;
+            Ok((own.name.clone(), value))
+        })
+        .collect()
+}
+
 pub(crate) fn settings(
     model: &Model,
     system: &System,
@@ -242,6 +257,7 @@ pub(crate) fn settings(
         _ => StateKind::Reduced,
     };
     settings.project = simulation.project.unwrap_or(true);
+    settings.own = own_values(model, system)?;
     settings.follow = vec![system.energy()];
     settings
         .follow

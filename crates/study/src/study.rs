@@ -8,7 +8,12 @@ use crate::start::{check_rank, number, settings, start_of_motion, Start};
 use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::{CharacteristicsError, Selection};
 use chetaev_mechanics::claims::{full_id, Registry};
-use chetaev_mechanics::{Context, Finding, Group, Prepared, Prover, System, SystemError};
+use chetaev_mechanics::claims::formulation::REFERENCE;
+use chetaev_mechanics::formulations::{Maggi, Routh};
+use chetaev_mechanics::{
+    formulation, Context, Finding, Formulation, Group, Prepared, Prover, System, SystemError,
+    FORMULATIONS,
+};
 use chetaev_model::model::Model;
 use chetaev_model::Place;
 use chetaev_motion::{
@@ -252,9 +257,6 @@ fn sentences(claims: &[UnknownClaim]) -> String {
     each.join("; ")
 }
 
-/// Formulations that can be integrated by themselves.
-pub const INTEGRABLE: &[&str] = &["routh", "maggi"];
-
 /// Everything that [`study`] finds wrong before it begins: expectations, constraints that contradict each other, values
 /// that a motion needs, an initial state that cannot be used.
 ///
@@ -305,7 +307,8 @@ pub fn study(
 ) -> Result<Study, StudyError> {
     let known = registry();
     let (system, prepared, numeric) = prepare(&model, &options, hooks)?;
-    let mut notices = notices(&model, &system, &prepared, numeric.as_ref().ok());
+    let name = options.formulation.as_deref().unwrap_or(REFERENCE);
+    let mut notices = notices(&model, &system, &prepared, numeric.as_ref().ok(), name);
     let wants_motion = options.motion && options.claims.wants_group(Group::Motion, known.claims());
     let motion = match numeric {
         Ok(numeric) if wants_motion => Some(compute(
@@ -362,14 +365,14 @@ fn compute(
         start: &numeric.start,
     };
     let name = options.formulation.as_deref().unwrap_or("routh");
-    if !INTEGRABLE.contains(&name) {
+    let Some(formulation) = formulation(name) else {
         return Err(StudyError::UnknownFormulation {
             name: name.into(),
-            known: INTEGRABLE.join(", "),
+            known: known_formulations(),
         });
-    }
-    let run = integrate(&subject, name, &settings, "integrating", hooks)?;
-    let other = if name == "routh" { "maggi" } else { "routh" };
+    };
+    let run = integrate(&subject, formulation, &settings, "integrating", hooks)?;
+    let other: &'static dyn Formulation = if name == REFERENCE { &Maggi } else { &Routh };
     let reached = RunSettings {
         t_end: last_time(&run, settings.t_end),
         times: run.times.clone(),
@@ -391,7 +394,7 @@ fn compute(
             step: settings.step.map(|h| h / 2.0),
             ..reached.clone()
         };
-        integrate(&subject, name, &finer, "estimating the global error", hooks).ok()
+        integrate(&subject, formulation, &finer, "estimating the global error", hooks).ok()
     } else {
         None
     };
@@ -453,7 +456,7 @@ fn check_initial_data(model: &Model, system: &System) -> Result<(), StudyError> 
 
 pub(crate) fn integrate(
     subject: &Subject<'_>,
-    name: &str,
+    formulation: &'static dyn Formulation,
     settings: &RunSettings,
     what: &str,
     hooks: &mut Hooks<'_>,
@@ -470,10 +473,12 @@ pub(crate) fn integrate(
         interrupt: hooks.interrupt,
         progress: Some(&mut report),
     };
-    match name {
-        "maggi" => subject.maggi(settings, &mut watcher),
-        _ => subject.routh(settings, &mut watcher),
-    }
+    subject.by(formulation, settings, &mut watcher)
+}
+
+fn known_formulations() -> String {
+    let names: Vec<&str> = FORMULATIONS.iter().map(|f| f.card().name).collect();
+    names.join(", ")
 }
 
 fn decide(

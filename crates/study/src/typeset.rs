@@ -23,13 +23,13 @@ pub fn print_options(system: &System) -> Options {
 fn groups(system: &System, equations: Option<&Equations>) -> (Vec<Expr>, Vec<Expr>) {
     let mut rates: Vec<Expr> = system.coordinates.iter().map(|c| c.a).collect();
     let mut velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
-    if let Some(characteristics) = equations.and_then(|e| e.characteristics.as_ref()) {
-        for p in &characteristics.parameters {
-            // Independent velocities are coordinates' velocities; quasi-velocities are new names.
-            if !rates.contains(&p.rate) {
-                rates.push(p.rate);
-                velocities.push(p.value);
-            }
+    let g = &system.graph;
+    for variable in equations.iter().flat_map(|e| &e.variables) {
+        // Independent velocities are coordinates' velocities; quasi-velocities and momenta are new names.
+        if !velocities.contains(&variable.value) {
+            let (name, order) = (g.symbol_name(variable.symbol), g.symbol_order(variable.symbol));
+            rates.push(g.symbol(name, order + 1));
+            velocities.push(variable.value);
         }
     }
     (rates, velocities)

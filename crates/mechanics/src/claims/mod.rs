@@ -162,6 +162,7 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &model::ConstraintsHomogeneous,
     &model::ConstraintsScleronomic,
     &model::Chaplygin,
+    &model::FrameRegular,
     &formulation::Equivalent,
     &formulation::Identities,
 ];

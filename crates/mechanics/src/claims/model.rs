@@ -4,9 +4,10 @@ use super::{Claim, Context, Finding, Formula, Group};
 use crate::characteristics::Manifold;
 use crate::claims::formulation::manifold;
 use crate::constraint::Constraint;
+use crate::frame::{Frame, FrameOrigin};
 use crate::redundancy::LeftOut;
 use crate::sample;
-use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Rational, Verdict};
 
 /// `model.hessian-regular`.
@@ -177,6 +178,64 @@ fn bordered(cx: &Context<'_>) -> Vec<Vec<Expr>> {
         matrix.push(line);
     }
     matrix
+}
+
+/// `model.frame-regular`.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameRegular;
+
+impl Claim for FrameRegular {
+    fn id(&self) -> &'static str {
+        "model.frame-regular"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The quasi-velocities form a frame"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The forms ω^s of the quasi-velocities, those of the model or independent velocities completed by the constraint \
+         functions, have a matrix whose determinant does not vanish identically: quasi-velocities and velocities determine \
+         each other. Where it vanishes the frame is singular, and the equations in it have no meaning there."
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let frame = match Frame::adapted(cx.system, cx.terms, cx.selection) {
+            Ok((frame, FrameOrigin::Natural)) if frame.is_natural(cx.system) => {
+                let proof =
+                    Proof::structural("everywhere", "the quasi-velocities are the velocities");
+                return Verdict::Proved(proof).into();
+            }
+            Ok((frame, _)) => frame,
+            // Elimination with exact entries has met a row or column without entries.
+            Err(problem) => {
+                return Verdict::Refuted(Counterexample {
+                    point: Vec::new(),
+                    quantity: "the determinant of the frame, at every state".into(),
+                    residual: ("0".into(), "0".into()),
+                    detail: format!("the quasi-velocities depend on each other: {problem}"),
+                })
+                .into()
+            }
+        };
+        // The fields of a frame stated by fields are its exact data; the forms are their inverse.
+        let matrix = match cx.system.frame {
+            Some(_) => &frame.fields,
+            None => &frame.forms,
+        };
+        cx.prover
+            .nonsingular(
+                cx.system,
+                matrix,
+                &manifold(cx),
+                "the determinant of the frame",
+            )
+            .into()
+    }
 }
 
 fn no_constraints() -> Verdict {

@@ -1,14 +1,20 @@
 //! Every formulation of the equations of motion, one file each. Adding one is a file and a line in [`FORMULATIONS`].
 
+pub mod boltzmann_hamel;
 mod canonical;
+mod lagrange_vector_field;
 mod legendre;
 mod maggi;
+mod poincare_chetaev;
 mod routh;
 mod state_space;
 mod state_space_canonical;
 
+pub use boltzmann_hamel::BoltzmannHamel;
 pub use canonical::Canonical;
+pub use lagrange_vector_field::LagrangeVectorField;
 pub use maggi::Maggi;
+pub use poincare_chetaev::PoincareChetaev;
 pub use routh::Routh;
 pub use state_space::StateSpace;
 pub use state_space_canonical::StateSpaceCanonical;
@@ -188,6 +194,9 @@ pub trait Formulation: Sync {
 pub static FORMULATIONS: &[&dyn Formulation] = &[
     &Routh,
     &Maggi,
+    &LagrangeVectorField,
+    &BoltzmannHamel,
+    &PoincareChetaev,
     &Canonical,
     &StateSpace,
     &StateSpaceCanonical,
