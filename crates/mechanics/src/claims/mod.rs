@@ -6,6 +6,7 @@
 
 pub mod formulation;
 pub mod model;
+pub mod particles;
 
 use crate::characteristics::{self, Selection};
 use crate::prover::Prover;
@@ -162,6 +163,8 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &model::ConstraintsHomogeneous,
     &model::ConstraintsScleronomic,
     &model::Chaplygin,
+    &particles::Particles,
+    &particles::CartesianCoordinates,
     &model::FrameRegular,
     &formulation::Equivalent,
     &formulation::Identities,

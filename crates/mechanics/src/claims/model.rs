@@ -7,6 +7,8 @@ use crate::constraint::Constraint;
 use crate::frame::{Frame, FrameOrigin};
 use crate::redundancy::LeftOut;
 use crate::sample;
+use crate::system::System;
+use crate::terms::MotionTerms;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Rational, Verdict};
 
@@ -497,13 +499,13 @@ impl Claim for Chaplygin {
         if cx.terms.constraints.is_empty() {
             return no_constraints().into();
         }
-        let chosen = chaplygin_choice(cx);
+        let chosen = chaplygin_choice(cx.system, cx.terms, &cx.selection.rows);
         let dependent = chosen.as_ref().unwrap_or(&cx.selection.dependent);
         let names: Vec<&str> = dependent
             .iter()
             .map(|&d| cx.system.coordinates[d].name.as_str())
             .collect();
-        let residuals = chaplygin_residuals(cx, dependent);
+        let residuals = chaplygin_residuals(cx.system, cx.terms, &cx.selection.rows, dependent);
         let verdict = if residuals.is_empty() {
             let detail = format!(
                 "L and the constraints do not contain the dependent coordinates {}",
@@ -523,32 +525,45 @@ impl Claim for Chaplygin {
 }
 
 /// Derivatives that must vanish: of L by the dependent coordinates, and of φ (by the implicit function theorem, of f).
-fn chaplygin_residuals(cx: &Context<'_>, dependent: &[usize]) -> Vec<Expr> {
-    let g = &cx.system.graph;
+fn chaplygin_residuals(
+    system: &System,
+    terms: &MotionTerms,
+    rows: &[usize],
+    dependent: &[usize],
+) -> Vec<Expr> {
+    let g = &system.graph;
     let mut residuals = Vec::new();
     for &d in dependent {
-        let symbol = cx.system.coordinates[d].q_symbol;
-        residuals.push(g.diff(cx.system.lagrangian, symbol));
-        for &row in &cx.selection.rows {
-            residuals.push(g.diff(cx.terms.constraints[row], symbol));
+        let symbol = system.coordinates[d].q_symbol;
+        residuals.push(g.diff(system.lagrangian, symbol));
+        for &row in rows {
+            residuals.push(g.diff(terms.constraints[row], symbol));
         }
     }
     residuals.retain(|&e| !g.is_zero(e));
     residuals
 }
 
+/// Whether neither L nor a constraint contains the coordinate `d`, by their form.
+pub(crate) fn is_absent(system: &System, terms: &MotionTerms, rows: &[usize], d: usize) -> bool {
+    chaplygin_residuals(system, terms, rows, &[d]).is_empty()
+}
+
 /// A choice of r coordinates that occur nowhere and whose velocities can be solved for at a sampled state.
-fn chaplygin_choice(cx: &Context<'_>) -> Option<Vec<usize>> {
-    let n = cx.system.n();
-    let absent: Vec<usize> = (0..n)
-        .filter(|&d| chaplygin_residuals(cx, &[d]).is_empty())
+pub(crate) fn chaplygin_choice(
+    system: &System,
+    terms: &MotionTerms,
+    selected: &[usize],
+) -> Option<Vec<usize>> {
+    let absent: Vec<usize> = (0..system.n())
+        .filter(|&d| is_absent(system, terms, selected, d))
         .collect();
-    let point = sample::admissible_point(cx.system, cx.terms, 5)?;
+    let point = sample::admissible_point(system, terms, 5)?;
     let mut rows: Vec<Vec<f64>> = Vec::new();
-    for &row in &cx.selection.rows {
-        let entries: Vec<Expr> = absent.iter().map(|&d| cx.terms.jacobian[row][d]).collect();
+    for &row in selected {
+        let entries: Vec<Expr> = absent.iter().map(|&d| terms.jacobian[row][d]).collect();
         rows.push(
-            cx.system
+            system
                 .graph
                 .evaluate_f64(&entries, &|s| point.get(&s).copied())
                 .ok()?,

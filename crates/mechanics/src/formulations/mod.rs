@@ -2,6 +2,8 @@
 
 pub mod boltzmann_hamel;
 mod canonical;
+mod chaplygin;
+mod lagrange_dalembert;
 mod lagrange_vector_field;
 mod legendre;
 mod maggi;
@@ -9,15 +11,26 @@ mod poincare_chetaev;
 mod routh;
 mod state_space;
 mod state_space_canonical;
+mod volterra;
+mod volterra_cartesian;
+mod volterra_first;
+mod volterra_second;
+mod voronets;
 
 pub use boltzmann_hamel::BoltzmannHamel;
 pub use canonical::Canonical;
+pub use chaplygin::Chaplygin;
+pub use lagrange_dalembert::LagrangeDalembert;
 pub use lagrange_vector_field::LagrangeVectorField;
 pub use maggi::Maggi;
 pub use poincare_chetaev::PoincareChetaev;
 pub use routh::Routh;
 pub use state_space::StateSpace;
 pub use state_space_canonical::StateSpaceCanonical;
+pub use volterra_cartesian::{VolterraFirstCartesian, VolterraSecondCartesian};
+pub use volterra_first::VolterraFirst;
+pub use volterra_second::VolterraSecond;
+pub use voronets::Voronets;
 
 use crate::card::Card;
 use crate::characteristics::{Characteristics, CharacteristicsError, Manifold, Selection};
@@ -193,6 +206,13 @@ pub trait Formulation: Sync {
 /// The registry.
 pub static FORMULATIONS: &[&dyn Formulation] = &[
     &Routh,
+    &LagrangeDalembert,
+    &Voronets,
+    &Chaplygin,
+    &VolterraFirst,
+    &VolterraSecond,
+    &VolterraFirstCartesian,
+    &VolterraSecondCartesian,
     &Maggi,
     &LagrangeVectorField,
     &BoltzmannHamel,

@@ -7,6 +7,11 @@
     reason = "test code fails where it stands, and not every file uses every helper"
 )]
 
+mod chaplygin;
 mod common;
 mod frames;
+mod lagrange_dalembert;
 mod maggi;
+mod volterra;
+mod volterra_cartesian;
+mod voronets;

@@ -1,0 +1,80 @@
+//! Chaplygin's equations.
+//!
+//! `D(∂L*/∂v^s) - ∂L*/∂q^s = Σ_l θ_l A^l_s + Q_s + Σ_m Q_{k+m} ∂φ^m/∂v^s`, where neither L nor the constraints depend on
+//! the dependent coordinates (T1 (9), Chaplygin 1897).
+
+use super::voronets::{natural, Restricted};
+use super::{Basis, DeriveError, Formulation};
+use crate::card::{Card, Principle, Relation, Source};
+use crate::characteristics::{Characteristics, Selection};
+use crate::claims::model::{chaplygin_choice, is_absent};
+use crate::equations::{Equations, Schema};
+use chetaev_symbolic::Expr;
+
+/// Chaplygin's equations.
+#[derive(Clone, Copy, Debug)]
+pub struct Chaplygin;
+
+static CARD: Card = Card {
+    name: "chaplygin",
+    title: "Chaplygin's equations",
+    statement: "Lagrange's equations of the independent coordinates for the restricted Lagrangian with Chaplygin's correction, closed in the independent coordinates.",
+    principle: Principle::Hamilton,
+    relation: Relation::Equivalent,
+    requires: &["model.accelerations-unique", "model.chaplygin"],
+    identity: None,
+    unknowns: "accelerations of the k independent coordinates",
+    highest_order: 1,
+    sources: &[
+        Source { key: "chaplygin1897", place: "§ 1" },
+        Source { key: "rumyantsev1982", place: "Hamilton's principle in the form of Voronets" },
+    ],
+};
+
+const SCHEMA: Schema = Schema {
+    text: "D(∂L*/∂v^s) − ∂L*/∂q^s = Σ_l θ_l A^l_s + Q_s + Σ_m Q_{k+m} ∂φ^m/∂v^s",
+    latex: r"\frac{d}{dt}\frac{\partial L^*}{\partial \dot q^s} - \frac{\partial L^*}{\partial q^s} = \sum_l \theta_l A^l_s + Q_s + \sum_m Q_{k+m} \frac{\partial \varphi^m}{\partial \dot q^s}",
+};
+
+impl Formulation for Chaplygin {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
+        let (system, g) = (basis.system, &basis.system.graph);
+        let characteristics = ignorable(basis)?;
+        let restricted = Restricted::new(system, &characteristics);
+        let slopes: Vec<Expr> = characteristics
+            .independent
+            .iter()
+            .map(|&s| {
+                let mut unit = vec![g.zero(); system.n()];
+                unit[s] = g.one();
+                characteristics.by_coordinates(system, &[restricted.lagrangian], &unit)[0]
+            })
+            .collect();
+        restricted.equations((CARD.name, SCHEMA), basis, &characteristics, &slopes)
+    }
+}
+
+/// Independent velocities whose dependent coordinates occur nowhere: those of the selection where they are of this kind,
+/// else the choice of `model.chaplygin`.
+fn ignorable(basis: &Basis<'_>) -> Result<Characteristics, DeriveError> {
+    let (system, terms) = (basis.system, basis.terms);
+    let rows = &basis.selection.rows;
+    let given = natural(basis)?;
+    let absent = |&d: &usize| is_absent(system, terms, rows, d);
+    if given.dependent.iter().all(absent) {
+        return Ok(given);
+    }
+    match chaplygin_choice(system, terms, rows) {
+        Some(dependent) => {
+            let rows = rows.clone();
+            let selection = Selection { rows, dependent };
+            let chosen = Characteristics::independent_velocities(system, terms, &selection);
+            Ok(chosen?)
+        }
+        None => Ok(given),
+    }
+}

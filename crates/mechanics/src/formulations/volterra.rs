@@ -1,0 +1,280 @@
+//! What both forms of Volterra's equations share, in generalized and in Cartesian coordinates.
+//!
+//! For characteristics `q^s(m) = φ^s(t, q, …, P)` with `B = ∂φ/∂P` (Volterra 1898; Qiao; T2 §4), with T the kinetic energy
+//! and its derivative of order m - 1:
+//!
+//! - first form `m D ∂T̃/∂P_σ - m Σ_s p_s D B_sσ - Σ_s (∂T/∂q^s(m-1)) B_sσ = Ẽ_σ` (V1q),
+//! - second form `m D ∂T̃/∂P_σ - ∂T̃/∂π_σ - Σ_s p_s ( m D B_sσ - ∂q^s(m)/∂π_σ ) = Ẽ_σ` (V2q).
+
+use super::{bare, maggi, Basis, DeriveError, Identity};
+use crate::characteristics::Characteristics;
+use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::particles;
+use crate::system::System;
+use chetaev_symbolic::Expr;
+
+/// Which of the two forms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    First,
+    Second,
+}
+
+/// T̃, its partial derivatives before the restriction, and the forces, for characteristics of order m.
+pub(crate) struct Volterra<'a> {
+    system: &'a System,
+    characteristics: Characteristics,
+    /// m.
+    order: i64,
+    /// T̃^(m-1), a function on the jet (t, q, P).
+    restricted: Expr,
+    /// p_s = ∂T^(m-1)/∂q^s(m) before the restriction, then restricted; length n.
+    momenta: Vec<Expr>,
+    /// ∂T^(m-1)/∂q^s(m-1) before the restriction, then restricted; length n.
+    slopes: Vec<Expr>,
+    /// Ẽ_σ, length k.
+    forces: Vec<Expr>,
+    /// What T is.
+    meaning: &'static str,
+}
+
+impl<'a> Volterra<'a> {
+    /// In generalized coordinates: T and the forces Q - ∂V/∂q where the model states T and V apart, else L in the place of
+    /// T.
+    pub(crate) fn generalized(basis: &Basis<'a>) -> Result<Volterra<'a>, DeriveError> {
+        let (system, g) = (basis.system, &basis.system.graph);
+        let characteristics = basis.characteristics()?;
+        let (kinetic, forces, meaning) = match stated_apart(system) {
+            Some((kinetic, potential)) => {
+                let slopes = g.gradient(potential, &system.coordinate_symbols());
+                let pairs = system.forces.iter().zip(slopes);
+                let forces = pairs.map(|(&force, slope)| g.sub(force, slope)).collect();
+                let meaning = "kinetic energy with the velocities of the characteristics";
+                (kinetic, forces, meaning)
+            }
+            None => (
+                system.lagrangian,
+                system.forces.clone(),
+                "Lagrangian, in the place of the kinetic energy, with the velocities of the characteristics",
+            ),
+        };
+        let mut functions = vec![kinetic];
+        functions.extend(g.gradient(kinetic, &system.velocity_symbols()));
+        functions.extend(g.gradient(kinetic, &system.coordinate_symbols()));
+        functions.extend(forces);
+        let mut restricted = characteristics.restrict(system, &functions);
+        let forces = restricted.split_off(1 + 2 * system.n());
+        let slopes = restricted.split_off(1 + system.n());
+        let momenta = restricted.split_off(1);
+        Ok(Volterra {
+            system,
+            order: 1,
+            restricted: restricted[0],
+            momenta,
+            slopes,
+            forces: characteristics.contract(system, &forces),
+            characteristics,
+            meaning,
+        })
+    }
+
+    /// In Cartesian coordinates, where the positions of the particles are the coordinates: `T = ½ Σ μ_i ξ_i'²`, the momenta
+    /// are `μ_i ξ_i'`, and T does not depend on the coordinates (V1), (V2).
+    pub(crate) fn cartesian(basis: &Basis<'a>) -> Result<Volterra<'a>, DeriveError> {
+        let (system, g) = (basis.system, &basis.system.graph);
+        let masses = particles::coordinate_masses(system).ok_or(DeriveError::NotStated(
+            "particles whose positions are the coordinates",
+        ))?;
+        let characteristics = basis.characteristics()?;
+        let momenta: Vec<Expr> = masses
+            .iter()
+            .zip(&characteristics.velocities)
+            .map(|(&mass, &velocity)| g.mul(&[mass, velocity]))
+            .collect();
+        let doubled: Vec<Expr> = momenta
+            .iter()
+            .zip(&characteristics.velocities)
+            .map(|(&momentum, &velocity)| g.mul(&[momentum, velocity]))
+            .collect();
+        let forces: Vec<Expr> = particles::applied_forces(system)
+            .into_iter()
+            .zip(particles::further_forces(system))
+            .map(|(applied, further)| g.add(&[applied, further]))
+            .collect();
+        let forces = characteristics.restrict(system, &forces);
+        Ok(Volterra {
+            system,
+            order: 1,
+            restricted: g.div(g.add(&doubled), g.integer(2)),
+            momenta,
+            slopes: vec![g.zero(); system.n()],
+            forces: characteristics.contract(system, &forces),
+            characteristics,
+            meaning: "kinetic energy of the particles with the velocities of the characteristics",
+        })
+    }
+
+    /// The left sides of one of the forms, σ = 1..k, on the jet (t, q, P, P').
+    pub(crate) fn left_sides(&self, form: Form) -> Vec<Expr> {
+        let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
+        let m = g.integer(self.order);
+        let momenta = c.by_parameters(system, &[self.restricted]).concat();
+        let rates = c.total_derivative(system, &momenta);
+        let turning = self.turning(form);
+        let slopes = match form {
+            Form::First => c.contract(system, &self.slopes),
+            Form::Second => c.by_quasi_coordinates(system, &[self.restricted]).concat(),
+        };
+        (0..c.k())
+            .map(|sigma| {
+                let mut parts = vec![g.mul(&[m, rates[sigma]]), g.neg(slopes[sigma])];
+                for (&p, row) in self.momenta.iter().zip(&turning) {
+                    if !g.is_zero(row[sigma]) {
+                        parts.push(g.neg(g.mul(&[p, row[sigma]])));
+                    }
+                }
+                g.add(&parts)
+            })
+            .collect()
+    }
+
+    /// `m D B_sσ`, in the second form minus `∂q^s(m)/∂π_σ`; n × k.
+    fn turning(&self, form: Form) -> Vec<Vec<Expr>> {
+        let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
+        let m = g.integer(self.order);
+        let rates = c.total_derivative(system, &c.basis.concat());
+        let mut rows: Vec<Vec<Expr>> = rates
+            .chunks(c.k().max(1))
+            .map(|row| row.iter().map(|&rate| g.mul(&[m, rate])).collect())
+            .collect();
+        if form == Form::Second {
+            let slopes = c.by_quasi_coordinates(system, &c.velocities);
+            for (row, slopes) in rows.iter_mut().zip(&slopes) {
+                for (entry, &slope) in row.iter_mut().zip(slopes) {
+                    *entry = g.sub(*entry, slope);
+                }
+            }
+        }
+        rows
+    }
+
+    pub(crate) fn equations(
+        &self,
+        (name, schema, form): (&'static str, Schema, Form),
+        basis: &Basis<'_>,
+    ) -> Result<Equations, DeriveError> {
+        let (system, c) = (self.system, &self.characteristics);
+        let motion: Vec<Equation> = self
+            .left_sides(form)
+            .into_iter()
+            .zip(&self.forces)
+            .zip(&c.parameters)
+            .map(|((left, &right), p)| Equation {
+                label: p.name.clone(),
+                left,
+                right,
+            })
+            .collect();
+        let rates = super::voronets::solved_rates(system, c, &motion)?;
+        Ok(Equations::in_characteristics(name, system, c, &rates)
+            .with_group("equations of motion", Some(schema), motion)
+            .with_group("kinematics", None, basis.kinematics(c))
+            .with_objects(self.objects()))
+    }
+
+    fn objects(&self) -> Vec<NamedExpr> {
+        let (system, c) = (self.system, &self.characteristics);
+        let mut objects = vec![NamedExpr::new("Ttilde", self.restricted, self.meaning)];
+        for (coordinate, &p) in system.coordinates.iter().zip(&self.momenta) {
+            let meaning = format!("momentum of {} before the restriction", coordinate.name);
+            objects.push(NamedExpr::new(format!("p_{}", coordinate.name), p, meaning));
+        }
+        for (p, &force) in c.parameters.iter().zip(&self.forces) {
+            if !system.graph.is_zero(force) {
+                let meaning = format!("force along {}", p.name);
+                objects.push(NamedExpr::new(
+                    format!("Etilde_{}", bare(&p.name)),
+                    force,
+                    meaning,
+                ));
+            }
+        }
+        objects.extend(maggi::virtual_basis(system, c));
+        objects
+    }
+
+    /// The form minus Maggi's equations, and the lemma on which the form rests, on the jet (t, q, P, P').
+    pub(crate) fn identities(&self, form: Form) -> Vec<Identity> {
+        let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
+        let maggi = maggi::left_sides(system, c);
+        let residuals = self
+            .left_sides(form)
+            .into_iter()
+            .zip(&self.forces)
+            .zip(maggi)
+            .map(|((left, &force), maggi)| g.add(&[left, g.neg(force), g.neg(maggi)]))
+            .collect();
+        let (lemma, statement) = match form {
+            Form::First => (
+                self.momentum_lemma(),
+                "∂T̃/∂P_σ = Σ_s p_s B_sσ (lemma of the first form)",
+            ),
+            Form::Second => (
+                self.slope_lemma(),
+                "∂T̃/∂π_σ = Σ_s p_s ∂q'^s/∂π_σ + (m − 1)( D ∂T̃/∂P_σ − Σ_s p_s D B_sσ ) + Σ_s ∂T/∂q^s B_sσ (lemma between the forms)",
+            ),
+        };
+        let identity = |statement: &str, residuals| Identity {
+            statement: statement.into(),
+            residuals,
+            manifold: c.manifold.clone(),
+            on: "on the jet (t, q, P, P')",
+        };
+        vec![
+            identity("Volterra's left sides minus forces are Maggi's", residuals),
+            identity(statement, lemma),
+        ]
+    }
+
+    /// `∂T̃/∂P_σ - Σ_s p_s B_sσ`.
+    fn momentum_lemma(&self) -> Vec<Expr> {
+        let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
+        let left = c.by_parameters(system, &[self.restricted]).concat();
+        let right = c.contract(system, &self.momenta);
+        left.into_iter()
+            .zip(right)
+            .map(|(a, b)| g.sub(a, b))
+            .collect()
+    }
+
+    /// `∂T̃/∂π_σ - Σ_s p_s ∂φ^s/∂π_σ - (m - 1)( D ∂T̃/∂P_σ - Σ_s p_s D B_sσ ) - Σ_s ∂T/∂q^s B_sσ`.
+    fn slope_lemma(&self) -> Vec<Expr> {
+        let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
+        let left = c.by_quasi_coordinates(system, &[self.restricted]).concat();
+        let slopes = c.contract(system, &self.slopes);
+        let inner = c.by_quasi_coordinates(system, &c.velocities);
+        let momenta = c.by_parameters(system, &[self.restricted]).concat();
+        let momentum_rates = c.total_derivative(system, &momenta);
+        let rates = c.total_derivative(system, &c.basis.concat());
+        let more = g.integer(1 - self.order);
+        (0..c.k())
+            .map(|s| {
+                let mut parts = vec![left[s], g.neg(slopes[s]), g.mul(&[more, momentum_rates[s]])];
+                for (i, &p) in self.momenta.iter().enumerate() {
+                    parts.push(g.neg(g.mul(&[p, inner[i][s]])));
+                    parts.push(g.neg(g.mul(&[more, p, rates[i * c.k() + s]])));
+                }
+                g.add(&parts)
+            })
+            .collect()
+    }
+}
+
+/// T and V where `L = T - V` with V free of velocities.
+fn stated_apart(system: &System) -> Option<(Expr, Expr)> {
+    let g = &system.graph;
+    let kinetic = system.kinetic?;
+    let potential = system.potential.unwrap_or_else(|| g.zero());
+    let free = !g.contains_any(potential, &system.velocity_symbols());
+    (free && g.sub(kinetic, potential) == system.lagrangian).then_some((kinetic, potential))
+}

@@ -1,0 +1,49 @@
+//! Volterra's equations in the second form, generalized coordinates.
+//!
+//! `D ∂T̃/∂P_σ - ∂T̃/∂π_σ - Σ_s p_s ( D B_sσ - ∂q'^s/∂π_σ ) = Ẽ_σ`, σ = 1..k: T2 (V2q) with m = 1, where
+//! `∂/∂π_σ = Σ_s B_sσ ∂/∂q^s` keeps the characteristics P fixed.
+
+use super::volterra::{Form, Volterra};
+use super::{Basis, DeriveError, Formulation, Identity};
+use crate::card::{Card, Principle, Relation, Source};
+use crate::equations::{Equations, Schema};
+
+/// Volterra's equations, second form.
+#[derive(Clone, Copy, Debug)]
+pub struct VolterraSecond;
+
+static CARD: Card = Card {
+    name: "volterra-second",
+    title: "Volterra's equations, second form",
+    statement: "Lagrange's equations in quasi-coordinates for the restricted kinetic energy, corrected by the brackets of the virtual displacements with the motion.",
+    principle: Principle::DalembertLagrangeChetaev,
+    relation: Relation::Equivalent,
+    requires: &["model.accelerations-unique"],
+    identity: Some("Volterra's left sides minus forces are Maggi's on the whole jet (t, q, P, P')"),
+    unknowns: "rates of the k kinematic characteristics",
+    highest_order: 1,
+    sources: &[
+        Source { key: "volterra1898", place: "§§ 1–2" },
+        Source { key: "qiao-volterra", place: "(3.29)" },
+    ],
+};
+
+const SCHEMA: Schema = Schema {
+    text: "D ∂T̃/∂P_σ − ∂T̃/∂π_σ − Σ_s p_s ( D(∂v^s/∂P_σ) − ∂v^s/∂π_σ ) = Ẽ_σ",
+    latex: r"\frac{d}{dt}\frac{\partial \tilde T}{\partial P_\sigma} - \frac{\partial \tilde T}{\partial \pi_\sigma} - \sum_s p_s \Bigl( \frac{d}{dt}\frac{\partial \dot q^s}{\partial P_\sigma} - \frac{\partial \dot q^s}{\partial \pi_\sigma} \Bigr) = \tilde E_\sigma",
+};
+
+impl Formulation for VolterraSecond {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
+        let of = (CARD.name, SCHEMA, Form::Second);
+        Volterra::generalized(basis)?.equations(of, basis)
+    }
+
+    fn identities(&self, basis: &Basis<'_>) -> Result<Vec<Identity>, DeriveError> {
+        Ok(Volterra::generalized(basis)?.identities(Form::Second))
+    }
+}

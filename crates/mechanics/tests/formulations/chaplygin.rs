@@ -1,0 +1,45 @@
+//! Chaplygin's equations (theory 1 §3).
+
+use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, SKATE};
+
+const CLAIM: &str = "formulation.equivalent#chaplygin";
+
+#[test]
+fn it_is_equivalent_to_routh_where_it_applies() {
+    let level = SKATE.replace(", V = \"-m G x\"", "");
+    let flat = APPELL_HAMEL.replace(", V = \"m g z\"", "");
+    for text in [level.as_str(), DISC, PARTICLE, &flat] {
+        expect(&Case::new(text), CLAIM, "proved");
+    }
+}
+
+/// The dependent coordinates are those of the claim `model.chaplygin`, not the default choice: here x occurs in the constraint,
+/// so that z must be dependent although the user wants its velocity independent.
+#[test]
+fn the_dependent_coordinates_are_those_that_occur_nowhere() {
+    let text = r#"
+coordinates = ["x", "y", "z"]
+lagrangian = { L = "1/2 (x'^2 + y'^2 + z'^2)" }
+constraints = { c = "z' = (y + x^2) x'" }
+velocities = { independent = ["z'", "y'"] }
+"#;
+    let case = Case::new(text);
+    expect(&case, "model.chaplygin", "proved");
+    let names: Vec<String> = case
+        .equations("chaplygin")
+        .variables
+        .iter()
+        .map(|v| v.name.clone())
+        .collect();
+    assert_eq!(names, ["x'", "y'"]);
+    expect(&case, CLAIM, "proved");
+}
+
+/// z and x occur in L, and y in the constraint.
+#[test]
+fn it_says_why_it_does_not_apply() {
+    let case = Case::new(&PARTICLE.replace("\"1/2 (x'^2", "\"-z - x + 1/2 (x'^2"));
+    let (word, detail) = case.verdict(CLAIM);
+    assert_eq!(word, "not-applicable", "{detail}");
+    assert!(detail.contains("model.chaplygin"), "{detail}");
+}
