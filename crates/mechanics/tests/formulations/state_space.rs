@@ -1,0 +1,70 @@
+//! Zhu's closed equations in (q, v) (theory 1 §7.2).
+
+use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
+use crate::states::{
+    assert_state_follows_motion, changed, compared, vanishes, DRIVEN, RELATIVISTIC,
+};
+
+#[test]
+fn state_space_is_equivalent_to_routh() {
+    for text in [
+        SKATE,
+        DISC,
+        APPELL_HAMEL,
+        PARTICLE,
+        POLAR,
+        DRIVEN,
+        RELATIVISTIC,
+    ] {
+        let case = Case::new(text);
+        expect(&case, "formulation.equivalent#state-space", "proved");
+        assert_state_follows_motion(&case, "state-space");
+    }
+}
+
+/// (34) is δZ + Σ Q δq − D(Σ p δq) on arbitrary curves, and Dq = v is a result.
+#[test]
+fn differential_principle_and_kinematic_law() {
+    for text in [PARTICLE, DRIVEN, POLAR, RELATIVISTIC] {
+        expect(
+            &Case::new(text),
+            "formulation.identity#state-space",
+            "proved",
+        );
+    }
+}
+
+/// S4: Z, and λ = v_x v_y/(1 + y²).
+#[test]
+fn particle_in_closed_form() {
+    let case = Case::new(PARTICLE);
+    let equations = case.equations("state-space");
+    let z = case.read("(x'^2 + y'^2 + z'^2)/2 + (Dq_x - x') x' + (Dq_y - y') y' + (Dq_z - z') z'");
+    assert!(case.equal(case.object(&equations, "Z"), z));
+    let lambda = case.object(&equations, "lambda_c");
+    assert!(case.equal(lambda, case.read("x' y'/(1 + y^2)")));
+}
+
+/// Varying Z by v^j gives Σ_s W_js (Dq^s − v^s), the kinematic group as stated.
+#[test]
+fn variation_of_z_by_velocities() {
+    let case = Case::new(DRIVEN);
+    let g = &case.system.graph;
+    let equations = case.equations("state-space");
+    let z = case.object(&equations, "Z");
+    for (j, c) in case.system.coordinates.iter().enumerate() {
+        let stated = equations.groups[0].equations[j].left;
+        assert!(vanishes(&case, g.sub(g.diff(z, c.v_symbol), stated)));
+    }
+}
+
+/// A mutant: Dq = v taken with a wrong factor in one equation.
+#[test]
+fn a_wrong_kinematic_law_is_refuted() {
+    let case = Case::new(PARTICLE);
+    let equations = case.equations("state-space");
+    let mutant = changed(&case, &equations, |velocities, _| {
+        velocities[0] = case.read("2 x'");
+    });
+    assert_eq!(compared(&case, &mutant), "refuted");
+}
