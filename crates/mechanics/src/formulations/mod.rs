@@ -2,15 +2,20 @@
 
 pub mod boltzmann_hamel;
 mod canonical;
+mod canonical_reduced;
 mod chaplygin;
+mod jacobi;
 mod lagrange_dalembert;
 mod lagrange_vector_field;
 mod legendre;
 mod maggi;
+mod parametric;
+mod parametric_canonical;
 mod poincare_chetaev;
 mod routh;
 mod state_space;
 mod state_space_canonical;
+mod vakonomic;
 mod volterra;
 mod volterra_cartesian;
 mod volterra_first;
@@ -19,18 +24,26 @@ mod voronets;
 
 pub use boltzmann_hamel::BoltzmannHamel;
 pub use canonical::Canonical;
+pub use canonical_reduced::{CanonicalReduced, ReducedBracket};
 pub use chaplygin::Chaplygin;
+pub use jacobi::Jacobi;
 pub use lagrange_dalembert::LagrangeDalembert;
 pub use lagrange_vector_field::LagrangeVectorField;
 pub use maggi::Maggi;
+pub use parametric::Parametric;
+pub use parametric_canonical::ParametricCanonical;
 pub use poincare_chetaev::PoincareChetaev;
 pub use routh::Routh;
 pub use state_space::StateSpace;
 pub use state_space_canonical::StateSpaceCanonical;
+pub use vakonomic::{kappa_symbols, Vakonomic};
 pub use volterra_cartesian::{VolterraFirstCartesian, VolterraSecondCartesian};
 pub use volterra_first::VolterraFirst;
 pub use volterra_second::VolterraSecond;
 pub use voronets::Voronets;
+
+pub(crate) use canonical_reduced::restricted_hessian;
+pub(crate) use vakonomic::extremum_matrix;
 
 use crate::card::Card;
 use crate::characteristics::{Characteristics, CharacteristicsError, Manifold, Selection};
@@ -220,6 +233,11 @@ pub static FORMULATIONS: &[&dyn Formulation] = &[
     &Canonical,
     &StateSpace,
     &StateSpaceCanonical,
+    &CanonicalReduced,
+    &Parametric,
+    &ParametricCanonical,
+    &Vakonomic,
+    &Jacobi,
 ];
 
 /// The formulation called `name`.

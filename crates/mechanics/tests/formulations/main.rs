@@ -8,14 +8,20 @@
 )]
 
 mod canonical;
+mod canonical_reduced;
 mod chaplygin;
 mod common;
 mod frames;
+mod hypotheses;
+mod jacobi;
 mod lagrange_dalembert;
 mod maggi;
+mod parametric;
+mod parametric_canonical;
 mod state_space;
 mod state_space_canonical;
 mod states;
+mod vakonomic;
 mod volterra;
 mod volterra_cartesian;
 mod voronets;

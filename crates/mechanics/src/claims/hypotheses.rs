@@ -1,0 +1,240 @@
+//! Hypotheses of single formulations: absent forces, the form of the Lagrangian, and regularity of restricted and bordered
+//! Hessians (T0 §5, T1 §5.4).
+
+use super::{Claim, Context, Finding, Group};
+use crate::characteristics::Manifold;
+use crate::claims::formulation::manifold;
+use crate::formulations::{extremum_matrix, restricted_hessian};
+use crate::system::System;
+use crate::Characteristics;
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::{Expr, Verdict};
+
+/// Proves that expressions vanish identically, structurally where they are zero by form.
+fn vanish(cx: &Context<'_>, residuals: &[Expr], on: &str, by_form: &str) -> Verdict {
+    let g = &cx.system.graph;
+    let residuals: Vec<Expr> = residuals
+        .iter()
+        .copied()
+        .filter(|&e| !g.is_zero(e))
+        .collect();
+    if residuals.is_empty() {
+        return Verdict::Proved(Proof::structural(on, by_form));
+    }
+    cx.prover
+        .identity(cx.system, &residuals, &Manifold::default(), on)
+}
+
+/// `model.forces-absent`.
+#[derive(Clone, Copy, Debug)]
+pub struct ForcesAbsent;
+
+impl Claim for ForcesAbsent {
+    fn id(&self) -> &'static str {
+        "model.forces-absent"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "All active forces are in the Lagrangian"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The generalized forces Q beside the Lagrangian vanish identically in (q, v, t). Only then is there an action that could \
+         be stationary, and an energy integral from the Lagrangian alone."
+    }
+
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let by_form = "the model states no forces beside the Lagrangian";
+        vanish(cx, &cx.system.forces, "identically in q, v, t", by_form).into()
+    }
+}
+
+/// `model.lagrangian-autonomous`.
+#[derive(Clone, Copy, Debug)]
+pub struct LagrangianAutonomous;
+
+impl Claim for LagrangianAutonomous {
+    fn id(&self) -> &'static str {
+        "model.lagrangian-autonomous"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The Lagrangian does not contain the time"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "∂L/∂t vanishes identically; controls u(t) count as explicit time."
+    }
+
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let rate = cx.system.time_derivative(cx.system.lagrangian);
+        let by_form = "the Lagrangian does not contain the time";
+        vanish(cx, &[rate], "identically in q, v, t", by_form).into()
+    }
+}
+
+/// `model.lagrangian-quadratic`.
+#[derive(Clone, Copy, Debug)]
+pub struct LagrangianQuadratic;
+
+impl Claim for LagrangianQuadratic {
+    fn id(&self) -> &'static str {
+        "model.lagrangian-quadratic"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The Lagrangian is quadratic in the velocities"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "L = L₂ + L₁ + L₀ with parts homogeneous of degree 2, 1, 0 in the velocities: Taylor's expansion of second order around \
+         any velocity w is exact, L(v) = L(w) + L_v(w)(v − w) + ½ (v − w) L_vv(w) (v − w) identically in q, v, w, t."
+    }
+
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let (g, system) = (&cx.system.graph, cx.system);
+        let symbols = system.velocity_symbols();
+        if !g.any_contains_any(&cx.terms.mass_matrix.concat(), &symbols) && smooth(system) {
+            let by_form = "no second derivative of L by velocities contains velocities";
+            let proof = Proof::structural("identically in q, v, t", by_form);
+            return Verdict::Proved(proof).into();
+        }
+        let residual = [expansion_residual(cx)];
+        let free = Manifold::default();
+        let verdict = cx
+            .prover
+            .identity(system, &residual, &free, "identically in q, v, t");
+        verdict.into()
+    }
+}
+
+/// Whether L has no corner: no absolute value or sign of velocities, which second derivatives do not see.
+fn smooth(system: &System) -> bool {
+    let g = &system.graph;
+    let symbols = system.velocity_symbols();
+    g.reachable(&[system.lagrangian]).into_iter().all(|e| {
+        !matches!(g.node(e), chetaev_symbolic::Node::Apply { .. }) || !g.contains_any(e, &symbols)
+    })
+}
+
+/// `L(v) − L(w) − L_v(w)(v − w) − ½ (v − w) L_vv(w) (v − w)`.
+fn expansion_residual(cx: &Context<'_>) -> Expr {
+    let (g, system) = (&cx.system.graph, cx.system);
+    let symbols = system.velocity_symbols();
+    let pairs: Vec<(Expr, Expr)> = system
+        .coordinates
+        .iter()
+        .map(|c| (c.v, g.symbol(&format!("w_{}", c.name), 1)))
+        .collect();
+    let mut functions = vec![system.lagrangian];
+    functions.extend(g.gradient(system.lagrangian, &symbols));
+    functions.extend(cx.terms.mass_matrix.concat());
+    let at = g.substitute_all(&functions, &pairs);
+    let n = system.n();
+    let (first, second) = at[1..].split_at(n);
+    let step: Vec<Expr> = pairs.iter().map(|&(v, w)| g.sub(v, w)).collect();
+    let half = g.div(g.one(), g.integer(2));
+    let mut parts = vec![system.lagrangian, g.neg(at[0])];
+    for i in 0..n {
+        parts.push(g.neg(g.mul(&[first[i], step[i]])));
+        for j in 0..n {
+            parts.push(g.neg(g.mul(&[half, step[i], second[i * n + j], step[j]])));
+        }
+    }
+    g.add(&parts)
+}
+
+/// `model.restricted-hessian-regular`.
+#[derive(Clone, Copy, Debug)]
+pub struct RestrictedHessianRegular;
+
+impl Claim for RestrictedHessianRegular {
+    fn id(&self) -> &'static str {
+        "model.restricted-hessian-regular"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The restricted Lagrangian is regular"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The Hessian of the Lagrangian restricted to the constraint manifold, ∂²L̄/∂v∂v by the independent velocities, has a \
+         determinant that is not identically zero, so independent velocities can be expressed by the momenta p̃ = ∂L̄/∂v. For \
+         constraints linear in the velocities this is the restricted Hessian Bᵀ W B; for others it contains second derivatives of \
+         the constraints, and may be singular where the accelerations are unique: v·v = c² with L = m v·v/2 − V(q)."
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let found = Characteristics::independent_velocities(cx.system, cx.terms, cx.selection);
+        let characteristics = match found {
+            Ok(characteristics) => characteristics,
+            Err(problem) => return Verdict::undecided(problem.to_string()).into(),
+        };
+        let hessian = restricted_hessian(cx.system, &characteristics);
+        let what = "det ∂²L̄/∂v∂v of the restricted Lagrangian";
+        cx.prover
+            .nonsingular(cx.system, &hessian, &characteristics.manifold, what)
+            .into()
+    }
+}
+
+/// `model.constrained-extremum-regular`.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstrainedExtremumRegular;
+
+impl Claim for ConstrainedExtremumRegular {
+    fn id(&self) -> &'static str {
+        "model.constrained-extremum-regular"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The constrained extremum is an ordinary differential equation"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The matrix W + Σ κ ∂²f/∂v∂v bordered by ∂f/∂v has a determinant that does not vanish identically on the constraint \
+         manifold for free multipliers κ. Then the equations of the constrained extremum determine the accelerations and κ'. For \
+         constraints nonlinear in the velocities the determinant depends on κ and vanishes on a set of its own."
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let basis = super::formulation::basis(cx);
+        let matrix = extremum_matrix(&basis);
+        let what = "the determinant of [[W + Σ κ f_vv, fᵥᵀ], [fᵥ, 0]]";
+        cx.prover
+            .nonsingular(cx.system, &matrix, &manifold(cx), what)
+            .into()
+    }
+}

@@ -1,0 +1,81 @@
+//! Hypotheses of single formulations as claims of their own.
+
+use crate::common::{expect, Case, APPELL_HAMEL, PARTICLE, POLAR};
+
+fn line(lagrangian: &str) -> Case {
+    Case::new(&format!(
+        "coordinates = [\"x\"]\nparameters = {{ m = {{}}, c = {{}} }}\nlagrangian = {{ L = \"{lagrangian}\" }}"
+    ))
+}
+
+#[test]
+fn forces() {
+    expect(&Case::new(PARTICLE), "model.forces-absent", "proved");
+    let cancelling = "forces = { x = \"sin(y)^2 + cos(y)^2 - 1\" }\n";
+    let case = Case::new(&format!("{PARTICLE}{cancelling}"));
+    expect(&case, "model.forces-absent", "proved");
+    let case = Case::new(&format!("{PARTICLE}forces = {{ x = \"-y'\" }}\n"));
+    expect(&case, "model.forces-absent", "refuted");
+}
+
+#[test]
+fn explicit_time() {
+    expect(&line("1/2 m x'^2"), "model.lagrangian-autonomous", "proved");
+    expect(
+        &line("1/2 m x'^2 - t x"),
+        "model.lagrangian-autonomous",
+        "refuted",
+    );
+}
+
+/// Degree two in the velocities, however it is written; a corner is not quadratic although its second derivative vanishes.
+#[test]
+fn quadratic_lagrangians() {
+    for lagrangian in [
+        "1/2 m x'^2 + x x' - x^4",
+        "(x'^2 - x^2)^2/(x'^2 - x^2)",
+        "x'",
+    ] {
+        expect(&line(lagrangian), "model.lagrangian-quadratic", "proved");
+    }
+    for lagrangian in [
+        "x'^3",
+        "1/2 m x'^2 + abs(x')",
+        "sqrt(1 + x'^2)",
+        "x' abs(x')",
+    ] {
+        expect(&line(lagrangian), "model.lagrangian-quadratic", "refuted");
+    }
+    expect(&Case::new(POLAR), "model.lagrangian-quadratic", "proved");
+}
+
+/// R4 is not R2: the quadric x'² + y'² = c², and a Lagrangian that is singular on the constraint only.
+#[test]
+fn restricted_hessians() {
+    for text in [PARTICLE, APPELL_HAMEL, POLAR] {
+        expect(
+            &Case::new(text),
+            "model.restricted-hessian-regular",
+            "proved",
+        );
+    }
+    let degenerate = "coordinates = [\"x\", \"y\"]\nlagrangian = { L = \"1/2 (x'^2 - y'^2)\" }\nconstraints = { c = \"x' = y'\" }";
+    expect(
+        &Case::new(degenerate),
+        "model.restricted-hessian-regular",
+        "refuted",
+    );
+}
+
+/// R5 where L alone is singular in every direction: the curvature of the constraint makes the problem regular.
+#[test]
+fn constrained_extrema() {
+    let text = |constraint: &str| {
+        format!("coordinates = [\"x\", \"y\"]\nlagrangian = {{ L = \"y\" }}\nconstraints = {{ c = \"{constraint}\" }}")
+    };
+    let curved = Case::new(&text("y' = x'^2"));
+    expect(&curved, "model.constrained-extremum-regular", "proved");
+    expect(&curved, "model.accelerations-unique", "refuted");
+    let flat = Case::new(&text("y' = x x'"));
+    expect(&flat, "model.constrained-extremum-regular", "refuted");
+}
