@@ -5,6 +5,7 @@
 //! may require a verdict of the geometry without the crates knowing each other.
 
 pub mod formulation;
+pub mod hypotheses;
 pub mod model;
 pub mod particles;
 
@@ -163,6 +164,11 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &model::ConstraintsHomogeneous,
     &model::ConstraintsScleronomic,
     &model::Chaplygin,
+    &hypotheses::ForcesAbsent,
+    &hypotheses::LagrangianAutonomous,
+    &hypotheses::LagrangianQuadratic,
+    &hypotheses::RestrictedHessianRegular,
+    &hypotheses::ConstrainedExtremumRegular,
     &particles::Particles,
     &particles::CartesianCoordinates,
     &model::FrameRegular,
