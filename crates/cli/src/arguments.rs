@@ -101,19 +101,37 @@ pub(crate) struct MotionArguments {
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
-  chetaev derive gallery/appell-hamel/model.toml
-  chetaev derive model.toml --formulation maggi --as latex
-  chetaev derive model.toml --as sympy > equations.py
-  python3 -i equations.py             then: routh['equations of motion']")]
+  chetaev derive gallery/skate-level/model.toml
+  chetaev derive model.toml --formulation voronets --as latex
+  chetaev derive model.toml --formulation canonical --as c > canonical.c
+  chetaev derive model.toml --compare voronets gibbs-appell
+  chetaev derive model.toml --all")]
 pub(crate) struct Derive {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
-    /// routh or maggi; all when left out
-    #[arg(long)]
-    pub(crate) formulation: Option<String>,
+    /// A formulation by its name (again for several); routh and maggi when left out
+    #[arg(long, value_name = "NAME", value_parser = formulation_names())]
+    pub(crate) formulation: Vec<String>,
+    /// Every formulation; those that do not apply say why
+    #[arg(long, conflicts_with_all = ["formulation", "compare"])]
+    pub(crate) all: bool,
+    /// Two formulations: what differs between their equations, and why it vanishes
+    #[arg(long, num_args = 2, value_names = ["A", "B"], conflicts_with = "formulation", value_parser = formulation_names())]
+    pub(crate) compare: Vec<String>,
     /// Notation
     #[arg(long = "as", value_enum, default_value_t = Notation::Text)]
     pub(crate) notation: Notation,
+    /// Say on standard error how long deriving, proving and writing took
+    #[arg(long)]
+    pub(crate) time: bool,
+}
+
+/// The names of all formulations, for parsing and completion.
+fn formulation_names() -> Vec<&'static str> {
+    chetaev::mechanics::FORMULATIONS
+        .iter()
+        .map(|f| f.card().name)
+        .collect()
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -123,6 +141,8 @@ pub(crate) enum Notation {
     Mathml,
     Sympy,
     Json,
+    Rust,
+    C,
 }
 
 #[derive(Args, Debug)]

@@ -4,6 +4,7 @@
 //! [`page`] the report, [`table`] the trajectory, [`summary`] the text for a terminal; [`verify`] replays a record.
 //! Clocks, files and interruption come from outside.
 
+pub mod derivation;
 pub mod method_order;
 pub mod motion_claims;
 pub mod motion_evidence;

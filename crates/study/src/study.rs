@@ -7,8 +7,8 @@ use crate::registry::registry;
 use crate::start::{check_rank, number, settings, start_of_motion, Start};
 use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::{CharacteristicsError, Selection};
-use chetaev_mechanics::claims::{full_id, Registry};
 use chetaev_mechanics::claims::formulation::REFERENCE;
+use chetaev_mechanics::claims::{full_id, Registry};
 use chetaev_mechanics::formulations::{Maggi, Routh};
 use chetaev_mechanics::{
     formulation, Context, Finding, Formulation, Group, Prepared, Prover, System, SystemError,
@@ -394,7 +394,14 @@ fn compute(
             step: settings.step.map(|h| h / 2.0),
             ..reached.clone()
         };
-        integrate(&subject, formulation, &finer, "estimating the global error", hooks).ok()
+        integrate(
+            &subject,
+            formulation,
+            &finer,
+            "estimating the global error",
+            hooks,
+        )
+        .ok()
     } else {
         None
     };

@@ -27,7 +27,10 @@ fn groups(system: &System, equations: Option<&Equations>) -> (Vec<Expr>, Vec<Exp
     for variable in equations.iter().flat_map(|e| &e.variables) {
         // Independent velocities are coordinates' velocities; quasi-velocities and momenta are new names.
         if !velocities.contains(&variable.value) {
-            let (name, order) = (g.symbol_name(variable.symbol), g.symbol_order(variable.symbol));
+            let (name, order) = (
+                g.symbol_name(variable.symbol),
+                g.symbol_order(variable.symbol),
+            );
             rates.push(g.symbol(name, order + 1));
             velocities.push(variable.value);
         }

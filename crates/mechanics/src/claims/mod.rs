@@ -268,10 +268,7 @@ impl<'a> Context<'a> {
             return Arc::new(verdict.into());
         }
         lock(&self.in_progress).push(full.to_string());
-        let obstacle = self
-            .constraint_beyond(claim.highest_order(subject))
-            .or_else(|| self.failed_hypothesis(&claim.requires(subject)));
-        let finding = match obstacle {
+        let finding = match self.obstacle(claim, subject) {
             Some(verdict) => verdict.into(),
             None => claim.decide(self, subject),
         };
@@ -287,6 +284,13 @@ impl<'a> Context<'a> {
             "the constraint `{}` is of order {}, and this claim is decided for constraints up to order {order} only: without it the system would be another one",
             constraint.name, constraint.order
         )))
+    }
+
+    /// Why a claim (without subject: of the system) cannot be decided at all: a constraint of too high an order, or the first
+    /// hypothesis that fails.
+    pub fn obstacle(&self, claim: &dyn Claim, subject: Option<&str>) -> Option<Verdict> {
+        self.constraint_beyond(claim.highest_order(subject))
+            .or_else(|| self.failed_hypothesis(&claim.requires(subject)))
     }
 
     fn failed_hypothesis(&self, hypotheses: &[String]) -> Option<Verdict> {

@@ -12,7 +12,7 @@ use crate::frame::{Frame, FrameOrigin};
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
 
-/// Multiplier form in the frame of the model; without one, in independent velocities and constraint functions.
+/// Multiplier form in the frame of the model; without one, in the natural frame.
 #[derive(Clone, Copy, Debug)]
 pub struct PoincareChetaev;
 
@@ -127,7 +127,10 @@ struct InFrame<'a> {
 impl<'a> InFrame<'a> {
     fn new(basis: &'a Basis<'a>) -> Result<InFrame<'a>, DeriveError> {
         let (system, g) = (basis.system, &basis.system.graph);
-        let (frame, origin) = Frame::adapted(system, basis.terms, basis.selection)?;
+        let (frame, origin) = match Frame::stated(system, basis.terms, basis.selection) {
+            Some(stated) => stated?,
+            None => (Frame::natural(system), FrameOrigin::Natural),
+        };
         let speeds: Vec<Expr> = frame.speeds.iter().map(|s| s.value).collect();
         let symbols: Vec<Symbol> = frame.speeds.iter().map(|s| s.symbol).collect();
         let velocities = frame.velocities(system, &speeds);

@@ -1,0 +1,150 @@
+//! Equations as functions in C and Rust.
+
+use crate::arguments::Notation;
+use chetaev::mechanics::System;
+use chetaev::study::derivation::{Derivation, NotDerived};
+use chetaev::symbolic::print::{source_code, CodeFunction, Language};
+use chetaev::symbolic::{Expr, Symbol};
+
+/// For each formulation the rates of its state, its state from coordinates and velocities, and its multipliers.
+pub(super) fn source(
+    system: &System,
+    found: &[Result<Derivation, NotDerived>],
+    notation: Notation,
+) -> Result<String, String> {
+    let language = match notation {
+        Notation::Rust => Language::Rust,
+        _ => Language::C,
+    };
+    let names: Vec<[String; 3]> = found
+        .iter()
+        .flatten()
+        .map(|d| d.card.name.replace('-', "_"))
+        .map(|name| ["rates", "state", "multipliers"].map(|what| format!("{name}_{what}")))
+        .collect();
+    let context = Inputs::new(system);
+    let mut functions = Vec::new();
+    for (derivation, names) in found.iter().flatten().zip(&names) {
+        functions.extend(context.functions(system, derivation, names));
+    }
+    let title = [format!("Equations of motion of {}.", system.name)];
+    source_code(&system.graph, &title, &functions, language).map_err(|problem| problem.to_string())
+}
+
+/// What all functions take.
+struct Inputs {
+    time: Symbol,
+    coordinates: Vec<Symbol>,
+    velocities: Vec<Symbol>,
+    parameters: Vec<Symbol>,
+    /// Controls without a law, with their derivatives up to the second.
+    controls: Vec<Symbol>,
+    /// Laws of the others.
+    laws: Vec<(Expr, Expr)>,
+}
+
+impl Inputs {
+    fn new(system: &System) -> Inputs {
+        let g = &system.graph;
+        let mut controls = Vec::new();
+        let mut laws = Vec::new();
+        for control in &system.controls {
+            for order in 0..=2 {
+                match control.law {
+                    None => controls.push(g.intern_symbol(&control.name, order)),
+                    Some(law) => {
+                        let rate = (0..order).fold(law, |e, _| g.total_derivative(e, &|_| false));
+                        laws.push((g.symbol(&control.name, order), rate));
+                    }
+                }
+            }
+        }
+        Inputs {
+            time: g.intern_symbol("t", 0),
+            coordinates: system.coordinate_symbols(),
+            velocities: system.velocity_symbols(),
+            parameters: system
+                .parameters
+                .iter()
+                .map(|p| g.intern_symbol(&p.name, 0))
+                .collect(),
+            controls,
+            laws,
+        }
+    }
+
+    fn functions<'a>(
+        &self,
+        system: &System,
+        derivation: &Derivation,
+        names: &'a [String; 3],
+    ) -> Vec<CodeFunction<'a>> {
+        let equations = &derivation.equations;
+        let g = &system.graph;
+        let lawful = |es: Vec<Expr>| g.substitute_all(&es, &self.laws);
+        let state: Vec<Symbol> = equations.variables.iter().map(|x| x.symbol).collect();
+        let listed = |symbols: &[Symbol]| -> String {
+            let texts: Vec<String> = symbols.iter().map(|&s| g.symbol_text(s)).collect();
+            texts.join(", ")
+        };
+        let arrays = vec![
+            format!("q = ({})", listed(&self.coordinates)),
+            format!("z = ({})", listed(&state)),
+            format!("p = ({})", listed(&self.parameters)),
+        ];
+        let about = |what: &str| -> Vec<String> {
+            let mut lines = vec![format!("{}: {what}", derivation.card.title)];
+            lines.extend(arrays.iter().cloned());
+            lines
+        };
+        let inputs = |second: (&'a str, Vec<Symbol>)| {
+            let mut inputs = vec![("q", self.coordinates.clone()), second];
+            inputs.push(("p", self.parameters.clone()));
+            if !self.controls.is_empty() {
+                inputs.push(("u", self.controls.clone()));
+            }
+            inputs
+        };
+        let function = |name: &'a str, what: &str, inputs, outputs| CodeFunction {
+            name,
+            documentation: about(what),
+            time: Some(self.time),
+            inputs,
+            outputs,
+        };
+        let rates = vec![
+            ("dq", lawful(equations.velocities.clone())),
+            ("dz", lawful(equations.rates())),
+        ];
+        let mut functions = vec![function(
+            &names[0],
+            "the rates of the state (q, z).",
+            inputs(("z", state.clone())),
+            rates,
+        )];
+        let definitions: Option<Vec<Expr>> =
+            equations.variables.iter().map(|x| x.definition).collect();
+        if let Some(definitions) = definitions {
+            functions.push(function(
+                &names[1],
+                "the variables z of coordinates and velocities v = q'.",
+                inputs(("v", self.velocities.clone())),
+                vec![("z", lawful(definitions))],
+            ));
+        }
+        if !equations.multipliers.is_empty() {
+            let values = equations
+                .multipliers
+                .iter()
+                .map(|(_, value)| *value)
+                .collect();
+            functions.push(function(
+                &names[2],
+                "the multipliers of the constraints.",
+                inputs(("z", state)),
+                vec![("lambda", lawful(values))],
+            ));
+        }
+        functions
+    }
+}

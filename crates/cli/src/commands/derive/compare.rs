@@ -1,0 +1,127 @@
+//! Two formulations held against each other.
+
+use crate::progress::ProgressLine;
+use chetaev::mechanics::claims::formulation::{equivalence, manifold};
+use chetaev::mechanics::{formulation, Context, Equations};
+use chetaev::study::derivation::{derivation, Derivation};
+use chetaev::study::typeset;
+use chetaev::symbolic::print::{Document, Format};
+use chetaev::symbolic::{simplify, Expr, Verdict};
+
+/// Differences of the two forms and why they vanish, or where they do not.
+pub(super) fn text(
+    cx: &Context<'_>,
+    a: &str,
+    b: &str,
+    line: &ProgressLine,
+) -> Result<String, String> {
+    let derive = |name: &str| -> Result<Derivation, String> {
+        line.show(&format!("deriving {name}"), None);
+        let known = formulation(name).ok_or_else(|| format!("there is no formulation `{name}`"))?;
+        derivation(cx, known, false).map_err(|problem| problem.to_string())
+    };
+    let (first, second) = (derive(a)?, derive(b)?);
+    line.show("comparing", None);
+    let mut text = format!("{} and {}\n", first.card.title, second.card.title);
+    text.push_str(&accelerations(cx, &first.equations, &second.equations));
+    text.push_str(&left_sides(cx, &first, &second));
+    Ok(text)
+}
+
+/// The difference of the accelerations, before and after the constraints are used.
+fn accelerations(cx: &Context<'_>, first: &Equations, second: &Equations) -> String {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let verdict = equivalence(cx, first, second);
+    let a = first.in_natural_state(system, &first.accelerations);
+    let b = second.in_natural_state(system, &second.accelerations);
+    let differences: Vec<Expr> = a.iter().zip(&b).map(|(&a, &b)| g.sub(b, a)).collect();
+    let mut text = String::from("\naccelerations, second minus first, at any state (q, v):\n");
+    let shown: Vec<(Expr, Expr)> = system
+        .coordinates
+        .iter()
+        .zip(differences)
+        .map(|(c, difference)| (c.a, readable(cx, difference)))
+        .collect();
+    text.push_str(&written(cx, &shown));
+    text.push_str(&format!("\n{}\n", said(&verdict)));
+    if shown.iter().any(|(_, d)| !g.is_zero(*d)) && matches!(verdict, Verdict::Proved(_)) {
+        text.push_str("It vanishes only where the constraints hold: ");
+        let solved: Vec<String> = manifold(cx)
+            .solved
+            .iter()
+            .map(|(s, e)| format!("{} = {}", g.symbol_text(*s), g.text(*e)))
+            .collect();
+        let implicit: Vec<String> = manifold(cx)
+            .implicit
+            .iter()
+            .map(|(f, _)| format!("{} = 0", g.text(*f)))
+            .collect();
+        text.push_str(&[solved, implicit].concat().join(", "));
+        text.push_str(".\n");
+    }
+    text
+}
+
+/// Where both state as many equations for the same things, the difference of their left minus right sides.
+fn left_sides(cx: &Context<'_>, first: &Derivation, second: &Derivation) -> String {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let (Some(a), Some(b)) = (first.groups.first(), second.groups.first()) else {
+        return String::new();
+    };
+    let same_variables = first.equations.variables.len() == second.equations.variables.len()
+        && first
+            .equations
+            .variables
+            .iter()
+            .zip(&second.equations.variables)
+            .all(|(x, y)| x.symbol == y.symbol);
+    if a.labels != b.labels || !same_variables {
+        return "\nThe two forms have different unknowns; their equations are compared by what they give.\n".into();
+    }
+    let residual = |(l, r): &(Expr, Expr)| g.sub(*l, *r);
+    let differences: Vec<Expr> = a
+        .pairs
+        .iter()
+        .zip(&b.pairs)
+        .map(|(x, y)| g.sub(residual(y), residual(x)))
+        .collect();
+    let verdict = cx.prover.identity(
+        system,
+        &differences,
+        &Default::default(),
+        "for all accelerations",
+    );
+    let mut text = String::from("\nequations, second minus first, accelerations free:\n");
+    let shown: Vec<(Expr, Expr)> = a
+        .labels
+        .iter()
+        .zip(&differences)
+        .map(|(label, &d)| (g.symbol(label.trim_end_matches('\''), 0), readable(cx, d)))
+        .collect();
+    text.push_str(&written(cx, &shown));
+    text.push_str(&format!("\n{}\n", said(&verdict)));
+    text
+}
+
+/// More signs than this are not simplified.
+const READABLE: u64 = 8_000;
+
+fn readable(cx: &Context<'_>, e: Expr) -> Expr {
+    match simplify::length(&cx.system.graph, e) <= READABLE {
+        true => typeset::simplified(cx.system, &[e])[0],
+        false => e,
+    }
+}
+
+fn written(cx: &Context<'_>, pairs: &[(Expr, Expr)]) -> String {
+    let options = typeset::print_options(cx.system);
+    let document = Document::equations(&cx.system.graph, pairs, &options);
+    document.render(Format::Text).trim_end().to_string()
+}
+
+fn said(verdict: &Verdict) -> String {
+    match verdict {
+        Verdict::Proved(proof) => format!("proved equal {}: {}", proof.on, proof.detail),
+        other => format!("{}: {}", other.word(), other.detail()),
+    }
+}

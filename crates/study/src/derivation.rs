@@ -1,0 +1,163 @@
+//! One formulation of the equations of a system as a person reads it: requirements, equations, objects, what is claimed.
+
+use crate::typeset;
+use chetaev_mechanics::card::{Card, Relation};
+use chetaev_mechanics::claims::full_id;
+use chetaev_mechanics::equations::{Equation, NamedExpr, Schema};
+use chetaev_mechanics::formulations::DeriveError;
+use chetaev_mechanics::{Context, Equations, Formulation, System};
+use chetaev_symbolic::simplify;
+use chetaev_symbolic::{Expr, Verdict};
+
+/// A formulation derived for a system, simplified for reading.
+#[derive(Clone, Debug)]
+pub struct Derivation {
+    /// What it is.
+    pub card: &'static Card,
+    /// As it was derived.
+    pub equations: Equations,
+    /// The equations under their headings, simplified; what is printed is proved equal to what was derived.
+    pub groups: Vec<ReadableGroup>,
+    /// Intermediate objects with simplified values.
+    pub objects: Vec<NamedExpr>,
+}
+
+/// Equations under a heading.
+#[derive(Clone, Debug)]
+pub struct ReadableGroup {
+    /// Heading.
+    pub title: String,
+    /// General form.
+    pub schema: Option<Schema>,
+    /// What each belongs to.
+    pub labels: Vec<String>,
+    /// Left and right sides.
+    pub pairs: Vec<(Expr, Expr)>,
+}
+
+/// Why there are no equations.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum NotDerived {
+    /// A requirement fails.
+    #[error("`{name}` does not apply: {}", verdict.detail())]
+    NotApplicable {
+        /// The formulation.
+        name: &'static str,
+        /// `not-applicable`, with the hypothesis and its evidence.
+        verdict: Box<Verdict>,
+    },
+    /// The rule gives nothing.
+    #[error("`{name}`: {problem}")]
+    Failed {
+        /// The formulation.
+        name: &'static str,
+        /// Why.
+        problem: DeriveError,
+    },
+}
+
+/// Expressions of more signs than this in one group are printed as they were derived: simplifying them takes longer than
+/// deriving them, and nobody reads them.
+const READABLE: u64 = 60_000;
+
+/// The claim of a formulation, `id#subject`; `None` for the reference.
+pub fn claim_of(card: &Card) -> Option<String> {
+    match card.relation {
+        Relation::Reference => None,
+        Relation::Equivalent => Some(full_id("formulation.equivalent", Some(card.name))),
+        Relation::Coincidence => Some(full_id("formulation.vakonomic-coincides", Some("system"))),
+    }
+}
+
+/// Checks the requirements of a formulation and derives it; `simplify` says whether the result is simplified for reading.
+///
+/// # Errors
+/// [`NotDerived`].
+pub fn derivation(
+    cx: &Context<'_>,
+    formulation: &dyn Formulation,
+    simplify: bool,
+) -> Result<Derivation, NotDerived> {
+    let card = formulation.card();
+    if let Some(verdict) = obstacle(cx, card) {
+        return Err(NotDerived::NotApplicable {
+            name: card.name,
+            verdict: Box::new(verdict),
+        });
+    }
+    let basis = chetaev_mechanics::claims::formulation::basis(cx);
+    let equations = formulation
+        .equations(&basis)
+        .map_err(|problem| NotDerived::Failed {
+            name: card.name,
+            problem,
+        })?;
+    let system = cx.system;
+    let groups = equations
+        .groups
+        .iter()
+        .map(|group| ReadableGroup {
+            title: group.title.clone(),
+            schema: group.schema,
+            labels: group.equations.iter().map(|e| e.label.clone()).collect(),
+            pairs: match simplify {
+                true => readable(system, &equations, &group.equations),
+                false => group.equations.iter().map(|e| (e.left, e.right)).collect(),
+            },
+        })
+        .collect();
+    let objects = match simplify {
+        true => readable_objects(system, &equations.objects),
+        false => equations.objects.clone(),
+    };
+    Ok(Derivation {
+        card,
+        equations,
+        groups,
+        objects,
+    })
+}
+
+/// Why the formulation does not apply.
+fn obstacle(cx: &Context<'_>, card: &Card) -> Option<Verdict> {
+    let id = match card.relation {
+        Relation::Coincidence => "formulation.vakonomic-coincides",
+        _ => "formulation.equivalent",
+    };
+    let claim = cx.registry().find(id)?;
+    match card.relation {
+        Relation::Coincidence => cx.obstacle(claim, Some("system")),
+        _ => cx.obstacle(claim, Some(card.name)),
+    }
+}
+
+fn readable(system: &System, derived: &Equations, group: &[Equation]) -> Vec<(Expr, Expr)> {
+    let g = &system.graph;
+    let signs: u64 = group
+        .iter()
+        .map(|e| simplify::length(g, e.left).saturating_add(simplify::length(g, e.right)))
+        .fold(0, u64::saturating_add);
+    match signs <= READABLE {
+        true => typeset::readable(system, derived, group),
+        false => group.iter().map(|e| (e.left, e.right)).collect(),
+    }
+}
+
+fn readable_objects(system: &System, objects: &[NamedExpr]) -> Vec<NamedExpr> {
+    let g = &system.graph;
+    let mut room = READABLE;
+    objects
+        .iter()
+        .map(|object| {
+            let signs = simplify::length(g, object.value);
+            if signs > room {
+                return object.clone();
+            }
+            room -= signs;
+            NamedExpr {
+                value: typeset::simplified(system, &[object.value])[0],
+                ..object.clone()
+            }
+        })
+        .collect()
+}
