@@ -5,6 +5,7 @@
 //! may require a verdict of the geometry without the crates knowing each other.
 
 pub mod formulation;
+pub mod gauss;
 pub mod hypotheses;
 pub mod model;
 pub mod particles;
@@ -174,6 +175,7 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &model::FrameRegular,
     &formulation::Equivalent,
     &formulation::Identities,
+    &gauss::Least,
 ];
 
 /// Everything a claim may look at while it is decided. Results are kept by id, so each is decided once.

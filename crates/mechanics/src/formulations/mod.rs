@@ -4,11 +4,15 @@ pub mod boltzmann_hamel;
 mod canonical;
 mod canonical_reduced;
 mod chaplygin;
+pub mod gauss;
+mod gibbs_appell;
 mod jacobi;
+mod kane;
 mod lagrange_dalembert;
 mod lagrange_vector_field;
 mod legendre;
 mod maggi;
+mod nielsen;
 mod parametric;
 mod parametric_canonical;
 mod poincare_chetaev;
@@ -26,10 +30,14 @@ pub use boltzmann_hamel::BoltzmannHamel;
 pub use canonical::Canonical;
 pub use canonical_reduced::{CanonicalReduced, ReducedBracket};
 pub use chaplygin::Chaplygin;
+pub use gauss::Gauss;
+pub use gibbs_appell::GibbsAppell;
 pub use jacobi::Jacobi;
+pub use kane::Kane;
 pub use lagrange_dalembert::LagrangeDalembert;
 pub use lagrange_vector_field::LagrangeVectorField;
 pub use maggi::Maggi;
+pub use nielsen::{nielsen_left_sides, Nielsen};
 pub use parametric::Parametric;
 pub use parametric_canonical::ParametricCanonical;
 pub use poincare_chetaev::PoincareChetaev;
@@ -226,6 +234,10 @@ pub static FORMULATIONS: &[&dyn Formulation] = &[
     &VolterraSecond,
     &VolterraFirstCartesian,
     &VolterraSecondCartesian,
+    &Nielsen,
+    &GibbsAppell,
+    &Kane,
+    &Gauss,
     &Maggi,
     &LagrangeVectorField,
     &BoltzmannHamel,

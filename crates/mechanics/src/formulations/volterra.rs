@@ -271,7 +271,7 @@ impl<'a> Volterra<'a> {
 }
 
 /// T and V where `L = T - V` with V free of velocities.
-fn stated_apart(system: &System) -> Option<(Expr, Expr)> {
+pub(crate) fn stated_apart(system: &System) -> Option<(Expr, Expr)> {
     let g = &system.graph;
     let kinetic = system.kinetic?;
     let potential = system.potential.unwrap_or_else(|| g.zero());

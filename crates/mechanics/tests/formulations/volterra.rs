@@ -3,7 +3,18 @@
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::voronets::CUBIC;
 
-/// The kinematics of example E8 for m = 1, with a metric that depends on q and t, and constant mass.
+/// Example E8 for m = 1 with constant mass: a metric that depends on q and t, and q1' = P q2 + t, q2' = P² + q1.
+const E8: &str = r#"
+coordinates = ["q1", "q2"]
+parameters = { mu = {} }
+assumptions = ["mu > 0", "q2 > 0"]
+lagrangian = { T = "1/2 mu (q1'^2 + (q1^2 + t) q2'^2 + q2 q1' q2')" }
+constraints = { c = "q2' = ((q1' - t)/q2)^2 + q1" }
+[quasi_velocities]
+P = "(q1' - t)/q2"
+"#;
+
+/// An affine constraint with time, a metric that depends on q and t, a potential and forces that depend on the time.
 const MOVING_METRIC: &str = r#"
 coordinates = ["x", "y"]
 parameters = { mu = {} }
@@ -23,6 +34,7 @@ fn both_forms_are_equivalent_to_routh() {
         POLAR,
         CUBIC,
         MOVING_METRIC,
+        E8,
     ] {
         let case = Case::new(text);
         for form in ["first", "second"] {
@@ -49,6 +61,7 @@ fn both_forms_are_maggi_identically() {
         POLAR,
         CUBIC,
         MOVING_METRIC,
+        E8,
         &adapted,
         &quartic,
     ];
@@ -101,6 +114,30 @@ fn without_constraints_they_are_lagrange() {
             assert!(case.equal(difference, case.read(text)), "{form}: {text}");
         }
     }
+}
+
+/// The first form copied from Cartesian coordinates into a curved chart, `D ∂T̃/∂P - Σ p D B`, is not Maggi's left side: the
+/// defect is Σ ∂T/∂q^s B_s, for E8 `μ q1 q2 v2² + μ P v1 v2`.
+#[test]
+fn the_shortened_formula_is_refuted() {
+    let case = Case::new(E8);
+    let cx = case.context();
+    let g = &case.system.graph;
+    let c = chetaev_mechanics::claims::formulation::basis(&cx)
+        .characteristics()
+        .unwrap();
+    assert_eq!(c.parameters[0].name, "P");
+    let slopes = g.gradient(case.system.lagrangian, &case.system.coordinate_symbols());
+    let lost = c.contract(&case.system, &c.restrict(&case.system, &slopes))[0];
+    let first = case.equations("volterra-first").groups[0].equations[0].left;
+    let maggi = case.equations("maggi").groups[0].equations[0].left;
+    let shortened = g.add(&[first, lost]);
+    let residual = |e| cx.prover.identity(&case.system, &[e], &c.manifold, "");
+    assert_eq!(residual(g.sub(first, maggi)).word(), "proved");
+    assert_eq!(residual(g.sub(shortened, maggi)).word(), "refuted");
+    let defect = case.read("mu q1 q2 q2'^2 + mu P (P q2 + t) q2'");
+    let difference = g.add(&[shortened, g.neg(maggi), g.neg(defect)]);
+    assert_eq!(residual(difference).word(), "proved");
 }
 
 /// Where the model does not state T and V apart, or V contains velocities, the Lagrangian stands in their place.

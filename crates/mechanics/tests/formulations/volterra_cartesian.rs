@@ -1,6 +1,6 @@
 //! Volterra's equations in Cartesian coordinates (theory 2 §§2–4 with m = 1).
 
-use crate::common::{expect, Case, PARTICLE, POLAR};
+use crate::common::{expect, Case, PARTICLE};
 
 /// The pendulum of theory 2 §2: Cartesian coordinates, the thread as a constraint, a frame with ξ' = -P η, η' = P ξ.
 const PENDULUM: &str = r#"
@@ -83,16 +83,6 @@ position = ["r cos(theta)", "r sin(theta)"]
             "not-applicable",
         );
     }
-}
-
-/// The first Cartesian form copied into a curved chart, `D ∂T̃/∂P - Σ p D B = Ẽ`, lacks the slope of T: in polar coordinates
-/// the radial equation would be m r'' = 0.
-#[test]
-fn the_cartesian_form_does_not_hold_in_a_curved_chart() {
-    let case = Case::new(POLAR);
-    let true_acceleration = case.equations("volterra-first").accelerations[0];
-    assert!(case.equal(true_acceleration, case.read("r theta'^2")));
-    assert!(!case.equal(true_acceleration, case.read("0")));
 }
 
 #[test]

@@ -1,0 +1,280 @@
+//! Gauss's principle and the explicit formula of Udwadia and Kalaba.
+//!
+//! Among the accelerations with `J a = g` the motion makes `Z = ½ (a - α)ᵀ W (a - α)` stationary, α = W⁻¹ b (T1 (50)); with
+//! W singular, `½ aᵀ W a - aᵀ b`. Explicitly `a = α + W⁻¹ Jᵀ ( J W⁻¹ Jᵀ )⁻¹ ( g - J α )` (T1 (51), Udwadia and Kalaba 1992).
+
+use super::lagrange_dalembert::VirtualDisplacements;
+use super::voronets::natural;
+use super::{Basis, DeriveError, Formulation};
+use crate::card::{Card, Principle, Relation, Source};
+use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::prover::Prover;
+use crate::system::System;
+use chetaev_symbolic::{Expr, Verdict};
+
+mod least;
+
+pub use least::{kind, Kind};
+
+/// Gauss's principle.
+#[derive(Clone, Copy, Debug)]
+pub struct Gauss;
+
+static CARD: Card = Card {
+    name: "gauss",
+    title: "Gauss's principle of least constraint",
+    statement: "Among the accelerations that the constraints allow at a state, those of the motion make the deviation from the free ones stationary, least where the mass matrix is positive on the virtual displacements.",
+    principle: Principle::Gauss,
+    relation: Relation::Equivalent,
+    requires: &["model.accelerations-unique"],
+    identity: None,
+    unknowns: "accelerations of all coordinates",
+    highest_order: 1,
+    sources: &[
+        Source { key: "gauss1829", place: "the principle" },
+        Source { key: "udwadia-kalaba1992", place: "the explicit formula" },
+    ],
+};
+
+const STATIONARY: Schema = Schema {
+    text: "δZ = Σ_ij ( W_ij a^j − b_i ) δa^i = 0 where Σ_i ∂f^l/∂v^i δa^i = 0",
+    latex: r"\delta Z = \sum_{ij} \bigl( W_{ij} \ddot q^j - b_i \bigr) \delta \ddot q^i = 0, \quad \sum_i \frac{\partial f^l}{\partial \dot q^i} \delta \ddot q^i = 0",
+};
+
+const EXPLICIT: Schema = Schema {
+    text: "a = α + W⁻¹ Jᵀ λ,  λ = ( J W⁻¹ Jᵀ )⁻¹ ( g − J α ),  α = W⁻¹ b",
+    latex: r"\ddot q = \alpha + W^{-1} J^{\mathsf T} \lambda, \quad \lambda = \bigl( J W^{-1} J^{\mathsf T} \bigr)^{-1} ( g - J \alpha ), \quad \alpha = W^{-1} b",
+};
+
+impl Formulation for Gauss {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
+        let displacements = VirtualDisplacements::new(basis)?;
+        let motion = stationarity(basis, &displacements);
+        let mut equations = match is_regular(basis) {
+            true => explicit(basis)?,
+            false => {
+                let mut equations = stationary(basis, &displacements)?;
+                equations.relations = displacements.relations(basis.system, &basis.constraints());
+                // The basis degenerates where the dependent displacements cannot be solved for; another one then serves.
+                equations.is_chart = !basis.selection.rows.is_empty();
+                equations
+            }
+        };
+        let objects = super::routh::multiplier_objects(basis, &values(&equations));
+        equations = equations
+            .with_group("stationarity", Some(STATIONARY), motion)
+            .with_group(
+                "constraints on the accelerations",
+                None,
+                rates_of_constraints(basis),
+            )
+            .with_group("constraints", None, basis.constraint_equations())
+            .with_objects(objects);
+        Ok(equations)
+    }
+}
+
+fn values(equations: &Equations) -> Vec<Expr> {
+    equations
+        .multipliers
+        .iter()
+        .map(|&(_, value)| value)
+        .collect()
+}
+
+/// Whether W is nonsingular on the constraint manifold. Then `J W⁻¹ Jᵀ` is so too, since the accelerations are unique.
+fn is_regular(basis: &Basis<'_>) -> bool {
+    let manifold = natural(basis).map(|c| c.manifold).unwrap_or_default();
+    let (system, matrix) = (basis.system, &basis.terms.mass_matrix);
+    let verdict = Prover::default().nonsingular(system, matrix, &manifold, "det ∂²L/∂v∂v");
+    matches!(verdict, Verdict::Proved(_))
+}
+
+/// `Σ_i u_i w_i`.
+fn dot(system: &System, u: &[Expr], w: &[Expr]) -> Expr {
+    let g = &system.graph;
+    let pairs = u
+        .iter()
+        .zip(w)
+        .filter(|(&a, &b)| !g.is_zero(a) && !g.is_zero(b));
+    let parts: Vec<Expr> = pairs.map(|(&a, &b)| g.mul(&[a, b])).collect();
+    g.add(&parts)
+}
+
+/// The formula of Udwadia and Kalaba; W is solved with, never inverted.
+fn explicit(basis: &Basis<'_>) -> Result<Equations, DeriveError> {
+    let (system, terms, g) = (basis.system, basis.terms, &basis.system.graph);
+    let matrix = terms.mass_matrix.concat();
+    let free = g.solve(&matrix, &terms.force)?;
+    let jacobian = basis.jacobian();
+    let responses = jacobian
+        .iter()
+        .map(|row| g.solve(&matrix, row))
+        .collect::<Result<Vec<_>, _>>()?;
+    let defects: Vec<Expr> = jacobian
+        .iter()
+        .zip(&basis.selection.rows)
+        .map(|(row, &l)| g.sub(terms.constraint_rate[l], dot(system, row, &free)))
+        .collect();
+    let compliance: Vec<Expr> = jacobian
+        .iter()
+        .flat_map(|row| {
+            responses
+                .iter()
+                .map(move |response| dot(system, row, response))
+        })
+        .collect();
+    let lambdas = match defects.is_empty() {
+        true => Vec::new(),
+        false => g.solve(&compliance, &defects)?,
+    };
+    let moved = |multipliers: &[Expr]| -> Vec<Expr> {
+        (0..system.n())
+            .map(|i| {
+                let column: Vec<Expr> = responses.iter().map(|response| response[i]).collect();
+                g.add(&[free[i], dot(system, &column, multipliers)])
+            })
+            .collect()
+    };
+    let accelerations = moved(&lambdas);
+    let stated: Vec<Equation> = system
+        .coordinates
+        .iter()
+        .zip(moved(&basis.lambda_symbols()))
+        .map(|(c, right)| Equation {
+            label: c.name.clone(),
+            left: c.a,
+            right,
+        })
+        .collect();
+    let least = g.div(dot(system, &lambdas, &defects), g.integer(2));
+    let mut objects = deviation(basis, &free);
+    objects.extend(system.coordinates.iter().zip(&free).map(|(c, &value)| {
+        let meaning = format!("acceleration of {} without the constraints", c.name);
+        NamedExpr::new(format!("alpha_{}", c.name), value, meaning)
+    }));
+    objects.push(NamedExpr::new("Zmotion", least, "value of Z on the motion"));
+    let mut equations = Equations::in_velocities(CARD.name, system, accelerations)
+        .with_group("equations of motion", Some(EXPLICIT), stated)
+        .with_objects(objects);
+    equations.multipliers = basis
+        .constraint_indices()
+        .into_iter()
+        .zip(lambdas)
+        .collect();
+    Ok(equations)
+}
+
+/// W is written out up to this number of coordinates.
+const SHORT: usize = 4;
+
+/// `Z = ½ (a - α)ᵀ W (a - α)` as a function of the accelerations, for few coordinates.
+fn deviation(basis: &Basis<'_>, free: &[Expr]) -> Vec<NamedExpr> {
+    let (system, g) = (basis.system, &basis.system.graph);
+    if system.n() > SHORT {
+        return Vec::new();
+    }
+    let apart: Vec<Expr> = system
+        .coordinates
+        .iter()
+        .zip(free)
+        .map(|(c, &alpha)| g.sub(c.a, alpha))
+        .collect();
+    let rows = basis.terms.mass_matrix.iter();
+    let momenta: Vec<Expr> = rows.map(|row| dot(system, row, &apart)).collect();
+    let value = g.div(dot(system, &apart, &momenta), g.integer(2));
+    vec![NamedExpr::new(
+        "Z",
+        value,
+        "Gauss's function of the accelerations",
+    )]
+}
+
+/// `Bᵀ ( W a - b ) = 0`, `J a = g`: the stationary point where W is singular.
+fn stationary(
+    basis: &Basis<'_>,
+    displacements: &VirtualDisplacements,
+) -> Result<Equations, DeriveError> {
+    let (system, terms, g) = (basis.system, basis.terms, &basis.system.graph);
+    let (mut matrix, mut right) = (Vec::new(), Vec::new());
+    for column in &displacements.columns {
+        matrix.extend(terms.mass_matrix.iter().map(|row| dot(system, row, column)));
+        right.push(dot(system, column, &terms.force));
+    }
+    for &row in &basis.selection.rows {
+        matrix.extend(&terms.jacobian[row]);
+        right.push(terms.constraint_rate[row]);
+    }
+    let accelerations = g.solve(&matrix, &right)?;
+    let multipliers = reactions(basis, displacements, &accelerations)?;
+    let mut equations = Equations::in_velocities(CARD.name, system, accelerations);
+    equations.multipliers = basis
+        .constraint_indices()
+        .into_iter()
+        .zip(multipliers)
+        .collect();
+    Ok(equations)
+}
+
+/// λ from the rows of `W a - b = Jᵀ λ` of the dependent coordinates.
+fn reactions(
+    basis: &Basis<'_>,
+    displacements: &VirtualDisplacements,
+    accelerations: &[Expr],
+) -> Result<Vec<Expr>, DeriveError> {
+    let (system, terms, g) = (basis.system, basis.terms, &basis.system.graph);
+    if displacements.dependent.is_empty() {
+        return Ok(Vec::new());
+    }
+    let jacobian = basis.jacobian();
+    let (mut matrix, mut right) = (Vec::new(), Vec::new());
+    for &d in &displacements.dependent {
+        matrix.extend(jacobian.iter().map(|row| row[d]));
+        let inertia = dot(system, &terms.mass_matrix[d], accelerations);
+        right.push(g.sub(inertia, terms.force[d]));
+    }
+    Ok(g.solve(&matrix, &right)?)
+}
+
+/// `Bᵀ ( W a - b ) = 0` as the principle states it.
+fn stationarity(basis: &Basis<'_>, displacements: &VirtualDisplacements) -> Vec<Equation> {
+    let (system, terms, g) = (basis.system, basis.terms, &basis.system.graph);
+    let accelerations: Vec<Expr> = system.coordinates.iter().map(|c| c.a).collect();
+    let residuals: Vec<Expr> = terms
+        .mass_matrix
+        .iter()
+        .zip(&terms.force)
+        .map(|(row, &force)| g.sub(dot(system, row, &accelerations), force))
+        .collect();
+    displacements
+        .independent
+        .iter()
+        .zip(displacements.contract(system, &residuals))
+        .map(|(&s, left)| Equation {
+            label: system.coordinates[s].name.clone(),
+            left,
+            right: g.zero(),
+        })
+        .collect()
+}
+
+/// `J a = g`.
+fn rates_of_constraints(basis: &Basis<'_>) -> Vec<Equation> {
+    let (system, terms) = (basis.system, basis.terms);
+    let accelerations: Vec<Expr> = system.coordinates.iter().map(|c| c.a).collect();
+    basis
+        .selection
+        .rows
+        .iter()
+        .zip(basis.constraint_names())
+        .map(|(&row, name)| Equation {
+            label: name.to_string(),
+            left: dot(system, &terms.jacobian[row], &accelerations),
+            right: terms.constraint_rate[row],
+        })
+        .collect()
+}

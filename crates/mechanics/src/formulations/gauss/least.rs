@@ -1,0 +1,276 @@
+//! Whether the motion makes Gauss's function least or only stationary: the sign of `Bᵀ W B`.
+
+use super::super::lagrange_dalembert::VirtualDisplacements;
+use super::super::volterra::stated_apart;
+use super::super::voronets::natural;
+use super::super::Basis;
+use super::dot;
+use crate::characteristics::Manifold;
+use crate::prover::Prover;
+use crate::sample;
+use crate::system::System;
+use chetaev_symbolic::matrix::ldlt;
+use chetaev_symbolic::rational::ratio;
+use chetaev_symbolic::verdict::{Counterexample, Proof};
+use chetaev_symbolic::{Expr, Verdict};
+
+/// What the motion is among the accelerations that the constraints allow.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// `Bᵀ W B` is positive definite almost everywhere: Z is least.
+    Least(Proof),
+    /// Z is stationary only: a virtual displacement δq with `δqᵀ W δq < 0` at the state of the counterexample.
+    Stationary {
+        /// δq as a function of (q, v, t), length n.
+        direction: Vec<Expr>,
+        /// The state.
+        counterexample: Counterexample,
+    },
+    /// Neither was shown.
+    Unknown {
+        /// What was tried.
+        tried: String,
+    },
+}
+
+const ON: &str = "on the constraint manifold";
+
+/// Decides whether the constraint is least; the accelerations must be unique, so that `Bᵀ W B` is regular.
+///
+/// Positive: the stated kinetic energy is a quadratic form that the assumptions make positive, or all pivots of the
+/// factorization `Bᵀ W B = L D Lᵀ` are (G. H. Golub, C. F. Van Loan, *Matrix Computations*, § 4.2). Not positive: a virtual
+/// displacement, found at sampled states, along which the form is enclosed below zero at a state.
+pub fn kind(basis: &Basis<'_>, prover: &Prover) -> Kind {
+    if let Some(proof) = positive_energy(basis.system, prover) {
+        return Kind::Least(proof);
+    }
+    let Ok(displacements) = VirtualDisplacements::new(basis) else {
+        return unknown("the virtual displacements cannot be solved for");
+    };
+    let form = Form::new(basis, displacements);
+    if form.matrix.is_empty() {
+        let detail =
+            "no virtual displacement is left, so the accelerations are given by the constraints";
+        return Kind::Least(Proof::structural(ON, detail));
+    }
+    match form.negative_combination(basis) {
+        Some(combination) => form.refute(basis.system, prover, &combination),
+        None => form.prove(basis.system, prover),
+    }
+}
+
+fn unknown(tried: impl Into<String>) -> Kind {
+    Kind::Unknown {
+        tried: tried.into(),
+    }
+}
+
+/// Whether `e ≥ 0` on the manifold, as the identity `|e| = e`.
+fn is_nonnegative(system: &System, prover: &Prover, manifold: &Manifold, e: Expr) -> Verdict {
+    let g = &system.graph;
+    prover.identity(system, &[g.sub(g.abs(e), e)], manifold, ON)
+}
+
+/// The stated kinetic energy where it is a quadratic form in the velocities that is nowhere negative: `δqᵀ W δq = 2T(δq)`.
+fn positive_energy(system: &System, prover: &Prover) -> Option<Proof> {
+    let g = &system.graph;
+    let (kinetic, _) = stated_apart(system)?;
+    let velocities = system.velocity_symbols();
+    let momenta = g.gradient(kinetic, &velocities);
+    let hessian = g.jacobian(&momenta, &velocities).concat();
+    let at_rest: Vec<(Expr, Expr)> = system.coordinates.iter().map(|c| (c.v, g.zero())).collect();
+    let mut linear = momenta;
+    linear.push(kinetic);
+    let linear = g.substitute_all(&linear, &at_rest);
+    if g.any_contains_any(&hessian, &velocities) || linear.iter().any(|&e| !g.is_zero(e)) {
+        return None;
+    }
+    match is_nonnegative(system, prover, &Manifold::default(), kinetic) {
+        Verdict::Proved(mut proof) => {
+            proof.detail = format!(
+                "the kinetic energy is a quadratic form that is nowhere negative, and regular on the virtual displacements: {}",
+                proof.detail
+            );
+            Some(proof)
+        }
+        _ => None,
+    }
+}
+
+/// `Bᵀ W B` for a basis B of virtual displacements.
+struct Form {
+    displacements: VirtualDisplacements,
+    /// k × k.
+    matrix: Vec<Vec<Expr>>,
+    manifold: Manifold,
+}
+
+/// Larger forms are not factored.
+const LARGEST: usize = 6;
+
+impl Form {
+    fn new(basis: &Basis<'_>, displacements: VirtualDisplacements) -> Form {
+        let (system, mass) = (basis.system, &basis.terms.mass_matrix);
+        let matrix = displacements
+            .columns
+            .iter()
+            .map(|column| {
+                let momentum: Vec<Expr> = mass.iter().map(|row| dot(system, row, column)).collect();
+                displacements.contract(system, &momentum)
+            })
+            .collect();
+        Form {
+            displacements,
+            matrix,
+            manifold: natural(basis).map(|c| c.manifold).unwrap_or_default(),
+        }
+    }
+
+    /// Constant rational coefficients of a displacement along which the form is negative at a sampled state.
+    fn negative_combination(&self, basis: &Basis<'_>) -> Option<Vec<(i64, i64)>> {
+        let g = &basis.system.graph;
+        (0..4).find_map(|seed| {
+            let point = sample::admissible_point(basis.system, basis.terms, 0x6a55 + seed)?;
+            let entries = self.matrix.concat();
+            let values = g.evaluate_f64(&entries, &|s| point.get(&s).copied()).ok()?;
+            negative_vector(&values, self.matrix.len())
+        })
+    }
+
+    fn refute(&self, system: &System, prover: &Prover, combination: &[(i64, i64)]) -> Kind {
+        let g = &system.graph;
+        let coefficients: Vec<Expr> = combination
+            .iter()
+            .map(|&(p, q)| ratio(p, q).map_or(g.zero(), |r| g.number(r)))
+            .collect();
+        let rows = self.matrix.iter();
+        let image: Vec<Expr> = rows.map(|row| dot(system, row, &coefficients)).collect();
+        let value = dot(system, &coefficients, &image);
+        match is_nonnegative(system, prover, &self.manifold, value) {
+            Verdict::Refuted(counterexample)
+            | Verdict::Conditional {
+                counterexample: Some(counterexample),
+                ..
+            } => Kind::Stationary {
+                direction: (0..system.n())
+                    .map(|i| {
+                        let columns = self.displacements.columns.iter();
+                        let entries: Vec<Expr> = columns.map(|column| column[i]).collect();
+                        dot(system, &coefficients, &entries)
+                    })
+                    .collect(),
+                counterexample,
+            },
+            other => unknown(format!(
+                "the second derivative of Z is negative at a sampled state, but that was not proved: {}",
+                other.detail()
+            )),
+        }
+    }
+
+    fn prove(&self, system: &System, prover: &Prover) -> Kind {
+        if self.matrix.len() > LARGEST {
+            return unknown(format!(
+                "the restricted mass matrix has {} rows, more than {LARGEST}: its pivots are not computed",
+                self.matrix.len()
+            ));
+        }
+        let factors = match ldlt(&system.graph, &self.matrix) {
+            Ok(factors) => factors,
+            Err(problem) => {
+                return unknown(format!(
+                    "the restricted mass matrix was not factored: {problem}"
+                ))
+            }
+        };
+        let verdict = factors
+            .diagonal
+            .iter()
+            .map(|&pivot| is_nonnegative(system, prover, &self.manifold, pivot))
+            .reduce(Verdict::and);
+        match verdict {
+            Some(Verdict::Proved(mut proof)) => {
+                proof.detail = format!(
+                    "all pivots of the mass matrix restricted to the virtual displacements are positive: {}",
+                    proof.detail
+                );
+                Kind::Least(proof)
+            }
+            Some(other) => unknown(format!(
+                "the sign of a pivot was not proved: {}",
+                other.detail()
+            )),
+            None => unknown("the restricted mass matrix has no pivots"),
+        }
+    }
+}
+
+/// A vector with small rational components along which a symmetric matrix is negative beyond rounding: a unit vector, a sum
+/// or difference of two, or one of the factorization without exchanges.
+fn negative_vector(matrix: &[f64], size: usize) -> Option<Vec<(i64, i64)>> {
+    let largest = matrix.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let value = |c: &[(i64, i64)]| -> f64 {
+        let x: Vec<f64> = c.iter().map(|&(p, q)| p as f64 / q as f64).collect();
+        (0..size)
+            .flat_map(|i| (0..size).map(move |j| (i, j)))
+            .map(|(i, j)| x[i] * matrix[i * size + j] * x[j])
+            .sum()
+    };
+    let unit = |i: usize, sign: i64, j: usize| {
+        let mut c = vec![(0, 1); size];
+        c[i] = (1, 1);
+        if j != i {
+            c[j] = (sign, 1);
+        }
+        c
+    };
+    let singles = (0..size).map(|i| unit(i, 1, i));
+    let pairs = (0..size).flat_map(|i| (i + 1..size).map(move |j| (i, j)));
+    let pairs = pairs.flat_map(|(i, j)| [unit(i, 1, j), unit(i, -1, j)]);
+    let factored = pivot_vectors(matrix, size).into_iter();
+    singles
+        .chain(pairs)
+        .chain(factored)
+        .find(|c| value(c) < -1e-6 * largest)
+}
+
+/// The vectors `L⁻ᵀ e_j` of `A = L D Lᵀ`, rounded to sixteenths: along them the form takes its pivots.
+fn pivot_vectors(matrix: &[f64], size: usize) -> Vec<Vec<(i64, i64)>> {
+    let mut reduced = matrix.to_vec();
+    let mut vectors: Vec<Vec<f64>> = Vec::new();
+    for j in 0..size {
+        let mut x = vec![0.0; size];
+        x[j] = 1.0;
+        for earlier in 0..j {
+            let pivot = reduced[earlier * size + earlier];
+            if pivot.abs() < 1e-12 {
+                return rounded(&vectors);
+            }
+            let factor = reduced[earlier * size + j] / pivot;
+            for (x, &y) in x.iter_mut().zip(&vectors[earlier]) {
+                *x -= factor * y;
+            }
+        }
+        vectors.push(x);
+        let pivot = reduced[j * size + j];
+        for i in j + 1..size {
+            let factor = if pivot.abs() < 1e-12 {
+                0.0
+            } else {
+                reduced[i * size + j] / pivot
+            };
+            for k in j + 1..size {
+                reduced[i * size + k] -= factor * reduced[j * size + k];
+            }
+        }
+    }
+    rounded(&vectors)
+}
+
+fn rounded(vectors: &[Vec<f64>]) -> Vec<Vec<(i64, i64)>> {
+    let sixteenths = |x: &f64| ((x * 16.0).round().clamp(-1e6, 1e6) as i64, 16);
+    vectors
+        .iter()
+        .map(|x| x.iter().map(sixteenths).collect())
+        .collect()
+}

@@ -1,0 +1,165 @@
+//! Kane's equations.
+//!
+//! `F_σ + F*_σ = 0` with generalized speeds P, partial velocities `∂r_a'/∂P_σ`, active forces
+//! `F_σ = Σ_a F_a · ∂r_a'/∂P_σ` and inertia forces `F*_σ = -Σ_a m_a r_a'' · ∂r_a'/∂P_σ` (T1 (49)). Where the model states
+//! no particles that carry the whole inertia, `F_σ = Σ_i Q_i ∂v^i/∂P_σ`, `F*_σ = Σ_i E_i[L] ∂v^i/∂P_σ`.
+
+use super::{bare, Basis, DeriveError, Formulation};
+use crate::card::{Card, Principle, Relation, Source};
+use crate::characteristics::Characteristics;
+use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::particles;
+use crate::system::System;
+use chetaev_symbolic::Expr;
+
+/// Kane's equations.
+#[derive(Clone, Copy, Debug)]
+pub struct Kane;
+
+static CARD: Card = Card {
+    name: "kane",
+    title: "Kane's equations",
+    statement: "Active forces and inertia forces along the partial velocities of the generalized speeds balance.",
+    principle: Principle::Jourdain,
+    relation: Relation::Equivalent,
+    requires: &["model.accelerations-unique"],
+    identity: None,
+    unknowns: "rates of the k generalized speeds",
+    highest_order: 1,
+    sources: &[Source { key: "kane-levinson1985", place: "ch. 6" }],
+};
+
+const SCHEMA: Schema = Schema {
+    text: "F_σ + F*_σ = 0,  F_σ = Σ_a F_a·∂r_a'/∂P_σ,  F*_σ = −Σ_a m_a r_a''·∂r_a'/∂P_σ",
+    latex: r"F_\sigma + F^*_\sigma = 0, \quad F_\sigma = \sum_a F_a \cdot \frac{\partial \dot r_a}{\partial P_\sigma}, \quad F^*_\sigma = -\sum_a m_a \ddot r_a \cdot \frac{\partial \dot r_a}{\partial P_\sigma}",
+};
+
+impl Formulation for Kane {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
+        let (system, characteristics) = (basis.system, basis.characteristics()?);
+        let g = &system.graph;
+        let balance = match particles::suffice(system) {
+            true => from_particles(system, &characteristics),
+            false => from_lagrangian(system, &characteristics),
+        };
+        let motion: Vec<Equation> = characteristics
+            .parameters
+            .iter()
+            .zip(balance.active.iter().zip(&balance.inertia))
+            .map(|(p, (&active, &inertia))| Equation {
+                label: p.name.clone(),
+                left: g.add(&[active, inertia]),
+                right: g.zero(),
+            })
+            .collect();
+        let rates = super::voronets::solved_rates(system, &characteristics, &motion)?;
+        Ok(
+            Equations::in_characteristics(CARD.name, system, &characteristics, &rates)
+                .with_group("equations of motion", Some(SCHEMA), motion)
+                .with_group("kinematics", None, basis.kinematics(&characteristics))
+                .with_objects(balance.objects(&characteristics)),
+        )
+    }
+
+    fn structural(&self, basis: &Basis<'_>) -> Option<&'static str> {
+        (!particles::suffice(basis.system)).then_some(
+            "active and inertia forces are built from the Lagrangian, as no particles that carry the whole inertia are stated: their sum is Lagrange's left sides contracted with the basis of virtual displacements, as in Maggi's equations",
+        )
+    }
+}
+
+/// Active and inertia forces along the generalized speeds, and the partial velocities.
+struct Balance {
+    active: Vec<Expr>,
+    inertia: Vec<Expr>,
+    partial: Vec<NamedExpr>,
+}
+
+impl Balance {
+    fn objects(self, c: &Characteristics) -> Vec<NamedExpr> {
+        let mut objects = self.partial;
+        for (p, (active, inertia)) in c
+            .parameters
+            .iter()
+            .zip(self.active.into_iter().zip(self.inertia))
+        {
+            let (sigma, name) = (bare(&p.name), &p.name);
+            objects.push(NamedExpr::new(
+                format!("F_{sigma}"),
+                active,
+                format!("active force along {name}"),
+            ));
+            objects.push(NamedExpr::new(
+                format!("Fstar_{sigma}"),
+                inertia,
+                format!("inertia force along {name}"),
+            ));
+        }
+        objects
+    }
+}
+
+fn from_particles(system: &System, c: &Characteristics) -> Balance {
+    let g = &system.graph;
+    let further = c.restrict(system, &particles::further_forces(system));
+    let mut active: Vec<Vec<Expr>> = c
+        .contract(system, &further)
+        .into_iter()
+        .map(|f| vec![f])
+        .collect();
+    let mut inertia: Vec<Vec<Expr>> = vec![Vec::new(); c.k()];
+    let mut partial = Vec::new();
+    for particle in &system.particles {
+        let velocity = c.restrict(system, &particles::velocity(system, particle));
+        let slopes = c.by_parameters(system, &velocity);
+        let accelerations = c.total_derivative(system, &velocity);
+        let applied = c.restrict(system, &particle.force);
+        for (component, row) in slopes.iter().enumerate() {
+            let mass_times = g.mul(&[particle.mass, accelerations[component]]);
+            for (sigma, &slope) in row
+                .iter()
+                .enumerate()
+                .filter(|(_, &slope)| !g.is_zero(slope))
+            {
+                active[sigma].push(g.mul(&[applied[component], slope]));
+                inertia[sigma].push(g.neg(g.mul(&[mass_times, slope])));
+                let p = &c.parameters[sigma].name;
+                partial.push(NamedExpr::new(
+                    format!("V_{}_{}_{}", particle.name, component + 1, bare(p)),
+                    slope,
+                    format!(
+                        "component {} of the partial velocity of `{}` along {p}",
+                        component + 1,
+                        particle.name
+                    ),
+                ));
+            }
+        }
+    }
+    let sums = |parts: &[Vec<Expr>]| parts.iter().map(|parts| g.add(parts)).collect();
+    Balance {
+        active: sums(&active),
+        inertia: sums(&inertia),
+        partial,
+    }
+}
+
+fn from_lagrangian(system: &System, c: &Characteristics) -> Balance {
+    let g = &system.graph;
+    let left = c.on_jet(system, &system.lagrange_left_sides());
+    let forces = c.restrict(system, &system.forces);
+    let inertia = c
+        .contract(system, &left)
+        .into_iter()
+        .map(|e| g.neg(e))
+        .collect();
+    Balance {
+        active: c.contract(system, &forces),
+        inertia,
+        partial: super::maggi::virtual_basis(system, c),
+    }
+}

@@ -1,0 +1,90 @@
+//! Kane's equations (theory 1 §9.3).
+
+use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
+use crate::gibbs_appell::{BEAD, PAIR_S1, PARTICLE_POLAR, PARTICLE_S3, PARTICLE_S4};
+use crate::nielsen::expect_different;
+use crate::voronets::CUBIC;
+use chetaev_symbolic::verdict::Method;
+use chetaev_symbolic::Verdict;
+
+const CLAIM: &str = "formulation.equivalent#kane";
+
+#[test]
+fn it_is_equivalent_to_routh() {
+    let from_particles = [PARTICLE_S4, PAIR_S1, PARTICLE_S3, PARTICLE_POLAR, BEAD];
+    let from_lagrangian = [SKATE, DISC, APPELL_HAMEL, PARTICLE, POLAR, CUBIC];
+    let texts = from_particles.iter().map(|t| (t, false));
+    for (text, structural) in texts.chain(from_lagrangian.iter().map(|t| (t, true))) {
+        let case = Case::new(text);
+        match &case.finding(CLAIM).verdict {
+            Verdict::Proved(proof) => {
+                assert_eq!(proof.method == Method::Structural, structural, "{text}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+/// S1 with u, w: F = (m G cos φ, 0), F* = (-m u', -J w').
+#[test]
+fn the_skate_of_the_notes() {
+    let case = Case::new(PAIR_S1);
+    let equations = case.equations("kane");
+    let expected = [
+        ("F_u", "m G cos(phi)"),
+        ("F_w", "0"),
+        ("Fstar_u", "-m u'"),
+        ("Fstar_w", "-m b^2 w'"),
+        ("V_left_1_u", "cos(phi)"),
+        ("V_left_1_w", "-b cos(phi)"),
+    ];
+    for (name, text) in expected {
+        assert!(
+            case.equal(case.object(&equations, name), case.read(text)),
+            "{name}"
+        );
+    }
+}
+
+/// S2 with u1 = θ', u2 = φ': F* = (-(I + m R²) u1', -J u2').
+#[test]
+fn the_disc_of_the_notes() {
+    let case = Case::new(&format!(
+        "{DISC}[quasi_velocities]\nu1 = \"theta'\"\nu2 = \"phi'\"\n"
+    ));
+    let equations = case.equations("kane");
+    for (name, text) in [("Fstar_u1", "-(I + m R^2) u1'"), ("Fstar_u2", "-J u2'")] {
+        assert!(
+            case.equal(case.object(&equations, name), case.read(text)),
+            "{name}"
+        );
+    }
+}
+
+/// For nonlinear constraints the partial velocities depend on the speeds: S3 has ∂z'/∂x' = a x'/ρ.
+#[test]
+fn partial_velocities_of_a_nonlinear_constraint() {
+    let case = Case::new(PARTICLE_S3);
+    let equations = case.equations("kane");
+    let partial = equations
+        .objects
+        .iter()
+        .find(|o| o.name.starts_with("V_p_3_"))
+        .map(|o| (o.name.clone(), o.value));
+    let (name, value) = partial.unwrap();
+    assert!(["V_p_3_x", "V_p_3_y", "V_p_1_z", "V_p_2_z"].contains(&name.as_str()));
+    if name == "V_p_3_x" {
+        assert!(case.equal_on_constraints(value, case.read("a x'/sqrt(x'^2 + y'^2)")));
+    }
+}
+
+/// Inertia forces without the turning of the partial velocities, m r'' · ∂r'/∂θ' with r'' = 0 at θ'' = 0, miss 2 m r r'θ'.
+#[test]
+fn a_dropped_term_is_refuted() {
+    let case = Case::new(PARTICLE_POLAR);
+    let equations = case.equations("kane");
+    let inertia = case.object(&equations, "Fstar_theta");
+    assert!(case.equal(inertia, case.read("-m r^2 theta'' - 2 m r r' theta'")));
+    expect_different(&case, inertia, case.read("-m r^2 theta''"));
+    expect(&case, CLAIM, "proved");
+}
