@@ -6,7 +6,7 @@ use crate::system::{Relation, System};
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::assumptions::{Assumptions, Relation as Sign};
-use chetaev_symbolic::zero::{decide_zero, generic_rank, Options, RankTest, ZeroTest};
+use chetaev_symbolic::zero::{decide_zero, generic_rank, GenericRank, Options, RankTest, ZeroTest};
 use chetaev_symbolic::{Expr, Verdict};
 
 /// How hard to try, and with which random choices.
@@ -86,6 +86,30 @@ impl Prover {
         }
     }
 
+    /// The generic rank of a matrix with at least one row on `manifold`, with independent rows and columns and the verdicts
+    /// on both bounds.
+    ///
+    /// # Errors
+    /// The verdict `undecided` that says what was tried.
+    pub fn rank(
+        &self,
+        system: &System,
+        matrix: &[Vec<Expr>],
+        manifold: &Manifold,
+    ) -> Result<GenericRank, Box<Verdict>> {
+        let assumptions = assumptions(system);
+        let test = RankTest {
+            rows: matrix.len(),
+            columns: matrix.first().map_or(0, Vec::len),
+            entries: &matrix.concat(),
+            solved: &manifold.solved,
+            implicit: &manifold.implicit,
+            assumptions: &assumptions,
+            options: self.options(),
+        };
+        generic_rank(&system.graph, &test)
+    }
+
     /// Decides whether a square matrix is nonsingular at almost every point of `manifold`; `what` names its determinant.
     pub fn nonsingular(
         &self,
@@ -94,19 +118,8 @@ impl Prover {
         manifold: &Manifold,
         what: &str,
     ) -> Verdict {
-        let assumptions = assumptions(system);
-        let entries = matrix.concat();
         let size = matrix.len();
-        let test = RankTest {
-            rows: size,
-            columns: size,
-            entries: &entries,
-            solved: &manifold.solved,
-            implicit: &manifold.implicit,
-            assumptions: &assumptions,
-            options: self.options(),
-        };
-        let rank = match generic_rank(&system.graph, &test) {
+        let rank = match self.rank(system, matrix, manifold) {
             Ok(rank) => rank,
             Err(verdict) => {
                 let found = self.determinant_at_a_point(system, matrix, manifold, what);
