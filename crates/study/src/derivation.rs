@@ -36,7 +36,7 @@ pub struct ReadableGroup {
 }
 
 /// Why there are no equations.
-#[derive(Clone, Debug, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NotDerived {
     /// A requirement fails.
     #[error("`{name}` does not apply: {}", verdict.detail())]
@@ -79,12 +79,7 @@ pub fn derivation(
     simplify: bool,
 ) -> Result<Derivation, NotDerived> {
     let card = formulation.card();
-    if let Some(verdict) = obstacle(cx, card) {
-        return Err(NotDerived::NotApplicable {
-            name: card.name,
-            verdict: Box::new(verdict),
-        });
-    }
+    check_applies(cx, card)?;
     let basis = chetaev_mechanics::claims::formulation::basis(cx);
     let equations = formulation
         .equations(&basis)
@@ -116,6 +111,20 @@ pub fn derivation(
         groups,
         objects,
     })
+}
+
+/// Whether the requirements of a formulation are met, as far as they can be decided.
+///
+/// # Errors
+/// [`NotDerived::NotApplicable`].
+pub fn check_applies(cx: &Context<'_>, card: &'static Card) -> Result<(), NotDerived> {
+    match obstacle(cx, card) {
+        None => Ok(()),
+        Some(verdict) => Err(NotDerived::NotApplicable {
+            name: card.name,
+            verdict: Box::new(verdict),
+        }),
+    }
 }
 
 /// Why the formulation does not apply.

@@ -5,7 +5,9 @@
 
 use crate::method_order::Orders;
 use crate::motion_evidence::{Followed, MotionEvidence};
+use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_mechanics::formulation;
 use chetaev_mechanics::Manifold;
 use chetaev_motion::drift::Extreme;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue, Proof};
@@ -32,6 +34,19 @@ fn subject_if_motion(cx: &Context<'_>) -> Vec<Option<String>> {
     } else {
         Vec::new()
     }
+}
+
+/// A motion of the constrained extremum is one of another system, of which neither the integrals of this one nor its other
+/// formulations say anything.
+fn of_another_system(evidence: &MotionEvidence) -> Option<Finding> {
+    let card = formulation(evidence.run.formulation)?.card();
+    (card.relation == Relation::Coincidence).then(|| {
+        let detail = format!(
+            "the motion computed is one of `{}`: {}",
+            card.name, card.statement
+        );
+        Verdict::not_applicable("formulation.vakonomic-coincides#system", detail).into()
+    })
 }
 
 fn no_motion() -> Finding {
@@ -267,6 +282,9 @@ impl Claim for EnergyDrift {
         let Some(evidence) = evidence(cx) else {
             return no_motion();
         };
+        if let Some(other) = of_another_system(&evidence) {
+            return other;
+        }
         if let Some(elsewhere) = elsewhere(cx, &evidence) {
             return elsewhere.into();
         }
@@ -328,6 +346,9 @@ impl Claim for IntegralDrift {
         let Some(evidence) = evidence(cx) else {
             return no_motion();
         };
+        if let Some(other) = of_another_system(&evidence) {
+            return other;
+        }
         match evidence
             .integrals
             .iter()
@@ -351,8 +372,8 @@ impl Claim for FormulationsAgree {
         Group::Motion,
         "Two formulations, integrated independently, give the same motion",
         "The trajectory of Routh's equations (all velocities or the independent ones, the linear system solved numerically \
-         at each state) and that of Maggi's equations (reduced equations derived and compiled for each chart) are computed \
-         separately; the largest difference of coordinates and velocities is compared with the tolerance and the estimated \
+         at each state) and that of another formulation (its own equations in its own state, derived and compiled; Maggi's, \
+         or the one chosen with --formulation) are computed separately; the largest difference of coordinates and velocities is compared with the tolerance and the estimated \
          global error."
     );
 
@@ -364,6 +385,9 @@ impl Claim for FormulationsAgree {
         let Some(evidence) = evidence(cx) else {
             return no_motion();
         };
+        if let Some(other) = of_another_system(&evidence) {
+            return other;
+        }
         let (Some(other), Some(gap)) = (&evidence.comparison, &evidence.disagreement) else {
             return Verdict::undecided("the second formulation could not be integrated").into();
         };

@@ -1,5 +1,6 @@
 //! One model through its claims and its motion.
 
+use crate::derivation::{check_applies, NotDerived};
 use crate::motion_evidence::MotionEvidence;
 use crate::notices::{left_assumptions, notices};
 use crate::options::{Hooks, StudyOptions};
@@ -152,6 +153,9 @@ pub enum StudyError {
         /// Names.
         known: String,
     },
+    /// A formulation whose requirements this system does not meet.
+    #[error("the equations cannot be integrated in this form: {0}")]
+    NotDerived(#[from] NotDerived),
     /// A motion is asked for, but something has no value.
     #[error("no value for {names}: the model states initial data or a time span, so a motion is wanted; give a value in the model or with --set NAME=VALUE, or leave [initial] and [simulation] out to derive only")]
     MissingValues {
@@ -371,6 +375,10 @@ fn compute(
             known: known_formulations(),
         });
     };
+    let known = registry();
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let cx = Context::new(system, terms, selection, &known, Prover::default());
+    check_applies(&cx, formulation.card())?;
     let run = integrate(&subject, formulation, &settings, "integrating", hooks)?;
     let other: &'static dyn Formulation = if name == REFERENCE { &Maggi } else { &Routh };
     let reached = RunSettings {

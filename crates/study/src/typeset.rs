@@ -126,7 +126,8 @@ impl<'a> Typesetter<'a> {
         }
     }
 
-    fn graph(&self) -> &'a Graph {
+    /// The graph of the system.
+    pub fn graph(&self) -> &'a Graph {
         &self.system.graph
     }
 

@@ -1,9 +1,12 @@
 //! Lagrangian, constraints and the equations of motion, typeset.
 
+use crate::derivation::{check_applies, claim_of};
 use crate::study::Study;
 use crate::typeset::Typesetter;
+use chetaev_mechanics::card::{Card, Relation};
 use chetaev_mechanics::claims::formulation::derive;
-use chetaev_mechanics::{Context, Equations, Prover};
+use chetaev_mechanics::equations::NamedExpr;
+use chetaev_mechanics::{Context, Equations, Prover, FORMULATIONS};
 use chetaev_report::data::{Equation, EquationSection};
 use chetaev_symbolic::Expr;
 
@@ -34,17 +37,50 @@ pub(super) fn sections(study: &Study, set: &Typesetter<'_>) -> Vec<EquationSecti
             sections.push(multipliers(study, &routh, set));
         }
     }
-    // Without constraints and quasi-velocities Maggi's equations are Lagrange's again.
-    if is_free && study.model.quasi_velocities.is_empty() {
-        return sections;
-    }
-    if let Ok(maggi) = derive(&cx, "maggi") {
-        let explanation = "Lagrange's left sides contracted with a basis of virtual displacements: one equation for each independent velocity or quasi-velocity, no multipliers.";
-        let mut section = formulation(&maggi, set, "Maggi's equations", explanation);
-        section.claim = Some("formulation.equivalent#maggi".into());
-        sections.push(section);
+    for form in FORMULATIONS {
+        let card = form.card();
+        if card.relation == Relation::Reference || check_applies(&cx, card).is_err() {
+            continue;
+        }
+        // Without constraints and quasi-velocities Maggi's equations are Lagrange's again.
+        let is_again = card.name == "maggi" && is_free && study.model.quasi_velocities.is_empty();
+        if is_again {
+            continue;
+        }
+        if let Ok(derived) = derive(&cx, card.name) {
+            sections.push(other_formulation(card, &derived, set));
+        }
     }
     sections
+}
+
+/// A formulation beside Routh's: what it is, its general form, its equations and intermediate objects. Maggi's stand open.
+fn other_formulation(card: &Card, derived: &Equations, set: &Typesetter<'_>) -> EquationSection {
+    let mut section = formulation(derived, set, card.title, card.statement);
+    let schemas = derived.groups.iter().filter_map(|group| group.schema);
+    section
+        .explanation
+        .extend(schemas.map(|schema| format!("General form: {}.", schema.text)));
+    section.claim = claim_of(card);
+    if card.name == "maggi" {
+        return section;
+    }
+    section.collapsed = true;
+    let g = set.graph();
+    let values: Vec<Expr> = derived.objects.iter().map(|o| o.value).collect();
+    let stated: Vec<(&NamedExpr, Expr)> = derived
+        .objects
+        .iter()
+        .zip(set.simplified(&values))
+        .filter(|(_, value)| set.is_legible(*value))
+        .collect();
+    for (object, value) in stated {
+        section.equations.push(Equation {
+            caption: Some(object.meaning.clone()),
+            ..set.equation(g.symbol(&object.name, 0), value)
+        });
+    }
+    section
 }
 
 fn lagrangian(study: &Study, set: &Typesetter<'_>) -> EquationSection {
