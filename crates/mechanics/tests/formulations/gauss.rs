@@ -84,6 +84,21 @@ fn positive_masses_make_it_least() {
     expect(&Case::new(mixed), LEAST, "proved");
 }
 
+/// Where the sign depends on parameters, assumptions decide, else their values in the model.
+#[test]
+fn parameters_decide() {
+    let coupled = "coordinates = [\"x\", \"y\"]\nparameters = { a = {}, b = {} }\n\
+        lagrangian = { T = \"1/2 a x'^2 + b x' y' + 1/2 b y'^2\" }\n";
+    let bounded = format!("{coupled}assumptions = [\"b > 0\", \"b < a\"]\n");
+    expect(&Case::new(&bounded), LEAST, "proved");
+    let valued = coupled.replace("a = {}, b = {}", "a = 3, b = 2");
+    let (word, detail) = Case::new(&valued).verdict(LEAST);
+    assert_eq!(word, "proved", "{detail}");
+    assert!(detail.contains("values of the parameters"), "{detail}");
+    let reversed = coupled.replace("a = {}, b = {}", "a = 2, b = 3");
+    expect(&Case::new(&reversed), LEAST, "refuted");
+}
+
 /// Z restricted has the second derivative 1 - 4 = -3, and the equation is still -3 x'' = -V'(x).
 #[test]
 fn an_indefinite_mass_matrix_makes_it_stationary_only() {

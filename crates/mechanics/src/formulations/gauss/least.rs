@@ -38,10 +38,12 @@ const ON: &str = "on the constraint manifold";
 /// Decides whether the constraint is least; the accelerations must be unique, so that `Bᵀ W B` is regular.
 ///
 /// Positive: the stated kinetic energy is a quadratic form that the assumptions make positive, or all pivots of the
-/// factorization `Bᵀ W B = L D Lᵀ` are (G. H. Golub, C. F. Van Loan, *Matrix Computations*, § 4.2). Not positive: a virtual
-/// displacement, found at sampled states, along which the form is enclosed below zero at a state.
+/// factorization `L D Lᵀ` of W or of `Bᵀ W B` are (G. H. Golub, C. F. Van Loan, *Matrix Computations*, § 4.2); where that
+/// is not so for all parameters, with the values of the model. Not positive: a virtual displacement, found at sampled
+/// states, along which the form is enclosed below zero at a state.
 pub fn kind(basis: &Basis<'_>, prover: &Prover) -> Kind {
-    if let Some(proof) = positive_energy(basis.system, prover) {
+    let system = basis.system;
+    if let Some(proof) = positive_energy(system, prover, &[]) {
         return Kind::Least(proof);
     }
     let Ok(displacements) = VirtualDisplacements::new(basis) else {
@@ -49,13 +51,19 @@ pub fn kind(basis: &Basis<'_>, prover: &Prover) -> Kind {
     };
     let form = Form::new(basis, displacements);
     if form.matrix.is_empty() {
-        let detail =
-            "no virtual displacement is left, so the accelerations are given by the constraints";
+        let detail = "no virtual displacement is left: the constraints give the accelerations";
         return Kind::Least(Proof::structural(ON, detail));
     }
-    match form.negative_combination(basis) {
-        Some(combination) => form.refute(basis.system, prover, &combination),
-        None => form.prove(basis.system, prover),
+    // A sampled state may violate an assumption, so it only says what to try first.
+    if let Some(combination) = form.negative_combination(basis) {
+        if let Some(found) = form.refute(system, prover, &combination) {
+            return found;
+        }
+    }
+    let proof = form.prove(basis, prover, &[]);
+    match proof.or_else(|tried| form.prove_with_values(basis, prover).ok_or(tried)) {
+        Ok(proof) => Kind::Least(proof),
+        Err(tried) => unknown(tried),
     }
 }
 
@@ -71,10 +79,11 @@ fn is_nonnegative(system: &System, prover: &Prover, manifold: &Manifold, e: Expr
     prover.identity(system, &[g.sub(g.abs(e), e)], manifold, ON)
 }
 
-/// The stated kinetic energy where it is a quadratic form in the velocities that is nowhere negative: `δqᵀ W δq = 2T(δq)`.
-fn positive_energy(system: &System, prover: &Prover) -> Option<Proof> {
+/// The stated kinetic energy, with these values of parameters, where it is a quadratic form in the velocities that is
+/// nowhere negative: `δqᵀ W δq = 2T(δq)`.
+fn positive_energy(system: &System, prover: &Prover, values: &[(Expr, Expr)]) -> Option<Proof> {
     let g = &system.graph;
-    let (kinetic, _) = stated_apart(system)?;
+    let kinetic = g.substitute(stated_apart(system)?.0, values);
     let velocities = system.velocity_symbols();
     let momenta = g.gradient(kinetic, &velocities);
     let hessian = g.jacobian(&momenta, &velocities).concat();
@@ -137,7 +146,7 @@ impl Form {
         })
     }
 
-    fn refute(&self, system: &System, prover: &Prover, combination: &[(i64, i64)]) -> Kind {
+    fn refute(&self, system: &System, prover: &Prover, combination: &[(i64, i64)]) -> Option<Kind> {
         let g = &system.graph;
         let coefficients: Vec<Expr> = combination
             .iter()
@@ -151,7 +160,7 @@ impl Form {
             | Verdict::Conditional {
                 counterexample: Some(counterexample),
                 ..
-            } => Kind::Stationary {
+            } => Some(Kind::Stationary {
                 direction: (0..system.n())
                     .map(|i| {
                         let columns = self.displacements.columns.iter();
@@ -160,48 +169,81 @@ impl Form {
                     })
                     .collect(),
                 counterexample,
-            },
-            other => unknown(format!(
-                "the second derivative of Z is negative at a sampled state, but that was not proved: {}",
-                other.detail()
-            )),
+            }),
+            _ => None,
         }
     }
 
-    fn prove(&self, system: &System, prover: &Prover) -> Kind {
-        if self.matrix.len() > LARGEST {
-            return unknown(format!(
-                "the restricted mass matrix has {} rows, more than {LARGEST}: its pivots are not computed",
-                self.matrix.len()
-            ));
+    /// By the pivots of W, in both orders of the coordinates, and of `Bᵀ W B`; else what was tried.
+    fn prove(
+        &self,
+        basis: &Basis<'_>,
+        prover: &Prover,
+        values: &[(Expr, Expr)],
+    ) -> Result<Proof, String> {
+        let (system, mass) = (basis.system, &basis.terms.mass_matrix);
+        let whole = "the mass matrix";
+        let restricted = "the mass matrix restricted to the virtual displacements";
+        let everywhere = Manifold::default();
+        pivots_are_positive(system, prover, (mass, &everywhere, whole), values)
+            .or_else(|_| {
+                let backwards = reversed(mass);
+                pivots_are_positive(system, prover, (&backwards, &everywhere, whole), values)
+            })
+            .or_else(|_| {
+                let of = (&self.matrix, &self.manifold, restricted);
+                pivots_are_positive(system, prover, of, values)
+            })
+    }
+
+    /// With the values that the model gives its parameters.
+    fn prove_with_values(&self, basis: &Basis<'_>, prover: &Prover) -> Option<Proof> {
+        let values = basis.system.parameter_values();
+        let mut proof = positive_energy(basis.system, prover, &values)
+            .or_else(|| self.prove(basis, prover, &values).ok())?;
+        proof.detail = format!("for the values of the parameters {}", proof.detail);
+        Some(proof)
+    }
+}
+
+/// Rows and columns in the opposite order.
+fn reversed(matrix: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
+    let rows = matrix.iter().rev();
+    rows.map(|row| row.iter().rev().copied().collect())
+        .collect()
+}
+
+/// Proves that no pivot of a symmetric matrix is negative, with these values of parameters.
+fn pivots_are_positive(
+    system: &System,
+    prover: &Prover,
+    (matrix, manifold, name): (&Vec<Vec<Expr>>, &Manifold, &str),
+    values: &[(Expr, Expr)],
+) -> Result<Proof, String> {
+    let size = matrix.len();
+    if size > LARGEST {
+        return Err(format!(
+            "the pivots of {name} are not computed: it has {size} rows, more than {LARGEST}"
+        ));
+    }
+    let g = &system.graph;
+    let rows = matrix.iter().map(|row| g.substitute_all(row, values));
+    let factors = ldlt(g, &rows.collect::<Vec<_>>())
+        .map_err(|problem| format!("{name} was not factored: {problem}"))?;
+    let pivots = factors.diagonal.iter();
+    let verdict = pivots
+        .map(|&pivot| is_nonnegative(system, prover, manifold, pivot))
+        .reduce(Verdict::and);
+    match verdict {
+        Some(Verdict::Proved(mut proof)) => {
+            proof.detail = format!("all pivots of {name} are positive: {}", proof.detail);
+            Ok(proof)
         }
-        let factors = match ldlt(&system.graph, &self.matrix) {
-            Ok(factors) => factors,
-            Err(problem) => {
-                return unknown(format!(
-                    "the restricted mass matrix was not factored: {problem}"
-                ))
-            }
-        };
-        let verdict = factors
-            .diagonal
-            .iter()
-            .map(|&pivot| is_nonnegative(system, prover, &self.manifold, pivot))
-            .reduce(Verdict::and);
-        match verdict {
-            Some(Verdict::Proved(mut proof)) => {
-                proof.detail = format!(
-                    "all pivots of the mass matrix restricted to the virtual displacements are positive: {}",
-                    proof.detail
-                );
-                Kind::Least(proof)
-            }
-            Some(other) => unknown(format!(
-                "the sign of a pivot was not proved: {}",
-                other.detail()
-            )),
-            None => unknown("the restricted mass matrix has no pivots"),
-        }
+        Some(other) => Err(format!(
+            "the sign of a pivot of {name} was not proved: {}",
+            other.detail()
+        )),
+        None => Err(format!("{name} has no pivots")),
     }
 }
 
