@@ -9,6 +9,7 @@ use chetaev_mechanics::claims::formulation::{basis, derive, manifold, residuals,
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::formulations::{kappa_symbols, Basis, DeriveError};
 use chetaev_mechanics::{Equations, Manifold};
+use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{simplify, Expr, Symbol, Verdict};
 
 /// `formulation.vakonomic-coincides`.
@@ -65,6 +66,10 @@ impl Claim for VakonomicCoincides {
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
         match subject {
+            _ if cx.terms.constraints.is_empty() => {
+                let detail = "without constraints both are Lagrange's equations";
+                Verdict::Proved(Proof::structural("everywhere", detail)).into()
+            }
             Some(SYSTEM) => systems_agree(cx),
             Some(INCLUSION) => motions_are_extremals(cx),
             other => {
@@ -161,25 +166,26 @@ fn free_constants(closure: &Closure) -> String {
 }
 
 fn formulas(cx: &Context<'_>, closure: &Closure) -> Vec<Formula> {
-    let Some(values) = &closure.kappa else {
-        return Vec::new();
-    };
     let basis = basis(cx);
+    let g = &cx.system.graph;
     let options = simplify::Options::default();
     let solved: Vec<(Expr, Expr)> = manifold(cx)
         .solved
         .iter()
-        .map(|&(symbol, value)| (cx.system.graph.symbol_expr(symbol), value))
+        .map(|&(symbol, value)| (g.symbol_expr(symbol), value))
         .collect();
-    let restricted = cx.system.graph.substitute_all(values, &solved);
-    simplify::simplify_all(&cx.system.graph, &restricted, &options)
-        .into_iter()
+    closure
+        .kappa
+        .iter()
         .zip(kappa_symbols(&basis))
         .zip(basis.constraint_names())
-        .map(|((right, symbol), name)| Formula {
-            caption: format!("multiplier κ of `{name}` in the extremum, along every motion"),
-            left: Some(symbol),
-            right,
+        .filter_map(|((value, symbol), name)| {
+            let restricted = g.substitute((*value)?, &solved);
+            Some(Formula {
+                caption: format!("multiplier κ of `{name}` in the extremum, along every motion"),
+                left: Some(symbol),
+                right: simplify::simplify(g, restricted, &options),
+            })
         })
         .collect()
 }
@@ -203,16 +209,18 @@ pub struct Condition {
 pub struct Closure {
     /// Independent conditions that imply all others, where consistent.
     pub conditions: Vec<Condition>,
+    /// Places of as many multipliers, for which the conditions can be solved; the others may be chosen.
+    pub columns: Vec<usize>,
     /// The number of constants of κ(0) that the conditions leave free.
     pub free: usize,
-    /// κ of the selected constraints as functions of (q, v, t), where the conditions determine all of them.
-    pub kappa: Option<Vec<Expr>>,
+    /// κ of the selected constraints as functions of (q, v, t), those that the conditions determine.
+    pub kappa: Vec<Option<Expr>>,
     /// `proved`: consistent at almost every admissible state. `refuted`: a state at which they contradict each other.
     pub verdict: Verdict,
 }
 
 /// More nodes than this are not made by one closure.
-const LARGEST_GROWTH: usize = 400_000;
+const LARGEST_GROWTH: usize = 100_000;
 
 impl Closure {
     /// Closes the conditions for the context's system.
@@ -223,8 +231,9 @@ impl Closure {
         let flow = Flow::new(cx)?;
         let mut closure = Closure {
             conditions: Vec::new(),
+            columns: Vec::new(),
             free: cx.selection.rows.len(),
-            kappa: None,
+            kappa: vec![None; cx.selection.rows.len()],
             verdict: nothing_to_show(),
         };
         let limit = cx.system.graph.node_count() + LARGEST_GROWTH;
@@ -243,10 +252,7 @@ impl Closure {
             fresh = flow.derive(cx, &closure.conditions[known..]);
         }
         closure.free = cx.selection.rows.len() - closure.conditions.len();
-        if closure.free == 0 {
-            let pivots: Vec<usize> = (0..closure.conditions.len()).collect();
-            closure.kappa = Some(solve(cx, &closure.conditions, &pivots)?);
-        }
+        closure.kappa = determined(cx, &flow.manifold, &closure.conditions, &closure.columns)?;
         Ok(closure)
     }
 
@@ -292,12 +298,13 @@ impl Closure {
             .and(rank.at_least)
             .and(rank.at_most);
         self.conditions = independent;
+        self.columns = rank.pivots.columns;
         Ok(())
     }
 }
 
 fn nothing_to_show() -> Verdict {
-    Verdict::Proved(chetaev_symbolic::verdict::Proof::structural(
+    Verdict::Proved(Proof::structural(
         "on the constraint manifold",
         "there are no virtual displacements, so nothing is demanded of κ",
     ))
@@ -309,12 +316,51 @@ fn solve(
     conditions: &[Condition],
     columns: &[usize],
 ) -> Result<Vec<Expr>, DeriveError> {
+    let right: Vec<Expr> = conditions.iter().map(|c| c.right).collect();
+    solve_for(cx, conditions, columns, &right)
+}
+
+/// The square system of conditions at the columns given, with other right sides.
+fn solve_for(
+    cx: &Context<'_>,
+    conditions: &[Condition],
+    columns: &[usize],
+    right: &[Expr],
+) -> Result<Vec<Expr>, DeriveError> {
     let matrix: Vec<Expr> = conditions
         .iter()
         .flat_map(|c| columns.iter().map(|&l| c.coefficients[l]))
         .collect();
-    let right: Vec<Expr> = conditions.iter().map(|c| c.right).collect();
-    Ok(cx.system.graph.solve(&matrix, &right)?)
+    Ok(cx.system.graph.solve(&matrix, right)?)
+}
+
+/// The multipliers that the conditions determine: those that do not change with the free ones.
+fn determined(
+    cx: &Context<'_>,
+    manifold: &Manifold,
+    conditions: &[Condition],
+    columns: &[usize],
+) -> Result<Vec<Option<Expr>>, DeriveError> {
+    let r = cx.selection.rows.len();
+    let mut kappa = vec![None; r];
+    let mut slopes: Vec<Vec<Expr>> = vec![Vec::new(); columns.len()];
+    for free in (0..r).filter(|l| !columns.contains(l)) {
+        let right: Vec<Expr> = conditions.iter().map(|c| c.coefficients[free]).collect();
+        for (row, slope) in slopes
+            .iter_mut()
+            .zip(solve_for(cx, conditions, columns, &right)?)
+        {
+            row.push(slope);
+        }
+    }
+    let values = solve(cx, conditions, columns)?;
+    for ((&l, value), slopes) in columns.iter().zip(values).zip(slopes) {
+        let verdict = cx.prover.identity(cx.system, &slopes, manifold, "");
+        if matches!(verdict, Verdict::Proved(_)) {
+            kappa[l] = Some(value);
+        }
+    }
+    Ok(kappa)
 }
 
 /// Left minus right side of a condition.

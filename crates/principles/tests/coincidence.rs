@@ -101,9 +101,8 @@ fn assert_kappa(stated: &Text, expected: &[&str]) {
     closed(stated, |cx, closure| {
         assert_eq!(closure.free, 0);
         let g = &cx.system.graph;
-        let values = closure.kappa.as_ref().unwrap();
-        for (&value, text) in values.iter().zip(expected) {
-            let difference = [g.sub(value, expr(g, text))];
+        for (value, text) in closure.kappa.iter().zip(expected) {
+            let difference = [g.sub(value.unwrap(), expr(g, text))];
             let found = cx
                 .prover
                 .identity(cx.system, &difference, &manifold(cx), "");
@@ -134,7 +133,7 @@ fn free_constants() {
         closed(stated, |_, closure| {
             assert_eq!(closure.free, 1);
             assert!(closure.conditions.is_empty());
-            assert!(closure.kappa.is_none());
+            assert_eq!(closure.kappa, [None]);
         });
     }
 }
@@ -155,6 +154,8 @@ fn partly_free() {
         assert!(matches!(closure.verdict, Verdict::Proved(_)));
         assert_eq!(closure.free, 1);
         assert_eq!(closure.conditions.len(), 2);
+        let known: Vec<bool> = closure.kappa.iter().map(Option::is_some).collect();
+        assert_eq!(known, [true, true, false]);
     });
 }
 

@@ -4,7 +4,7 @@
 use super::{Claim, Context, Finding, Group};
 use crate::characteristics::Manifold;
 use crate::claims::formulation::manifold;
-use crate::formulations::{extremum_matrix, restricted_hessian};
+use crate::formulations::{extremum_matrix, restricted_hessian, unused_name};
 use crate::system::System;
 use crate::Characteristics;
 use chetaev_symbolic::verdict::Proof;
@@ -148,7 +148,12 @@ fn expansion_residual(cx: &Context<'_>) -> Expr {
     let pairs: Vec<(Expr, Expr)> = system
         .coordinates
         .iter()
-        .map(|c| (c.v, g.symbol(&format!("w_{}", c.name), 1)))
+        .map(|c| {
+            (
+                c.v,
+                g.symbol(&unused_name(system, &format!("w_{}", c.name)), 1),
+            )
+        })
         .collect();
     let mut functions = vec![system.lagrangian];
     functions.extend(g.gradient(system.lagrangian, &symbols));

@@ -25,7 +25,7 @@ static CARD: Card = Card {
     identity: None,
     unknowns: "rates of the momenta of all coordinates and one multiplier for each independent constraint",
     highest_order: 1,
-    sources: &[Source { key: "rumyantsev1982", place: "§ 6, canonical equations" }],
+    sources: &[Source { key: "rumyantsev1982", place: "canonical equations with multipliers" }],
 };
 
 const SCHEMA: Schema = Schema {

@@ -30,7 +30,7 @@ static CARD: Card = Card {
     highest_order: 1,
     sources: &[
         Source { key: "rumyantsev1982", place: "canonical equations without multipliers" },
-        Source { key: "bates1993", place: "§§ 2–3" },
+        Source { key: "bates1993", place: "the bracket of linear constraints" },
     ],
 };
 
@@ -139,7 +139,7 @@ impl Reduced {
         for (l, &d) in self.characteristics.dependent.iter().enumerate() {
             let dependent = coordinate(d);
             objects.push(NamedExpr::new(
-                format!("theta_{dependent}"),
+                unused_name(system, &format!("theta_{dependent}")),
                 theta[l],
                 format!("∂L/∂{dependent}' on the constraints"),
             ));
@@ -148,7 +148,7 @@ impl Reduced {
                 if !g.is_zero(value) {
                     let independent = coordinate(s);
                     objects.push(NamedExpr::new(
-                        format!("A_{dependent}_{independent}"),
+                        unused_name(system, &format!("A_{dependent}_{independent}")),
                         value,
                         "curvature coefficient of the constraints",
                     ));
@@ -332,7 +332,7 @@ fn momentum_equations(system: &System, reduced: &Reduced, rights: &[Expr]) -> Ve
 /// With `p̃' = ∂²L̄/∂v∂v v' + …` and `A = A₀ + A₁ v'` the equations give v'; the matrix is `Bᵀ W B`.
 fn implicit_equations(basis: &Basis<'_>, reduced: &Reduced) -> Result<Equations, DeriveError> {
     let (system, g) = (basis.system, &basis.system.graph);
-    let (ch, k) = (&reduced.characteristics, reduced.characteristics.k());
+    let ch = &reduced.characteristics;
     let slopes = ch
         .by_quasi_coordinates(system, &[reduced.lagrangian])
         .concat();
@@ -364,7 +364,6 @@ fn implicit_equations(basis: &Basis<'_>, reduced: &Reduced) -> Result<Equations,
         .map(|p| p.rate)
         .zip(g.solve(&matrix, &load)?)
         .collect();
-    debug_assert_eq!(known.len(), k);
     let rates = g.substitute_all(&right, &known);
     let motion: Vec<Expr> = known.iter().map(|(_, rate)| *rate).collect();
     Ok(implicit_state(basis, reduced, &motion, &rates)

@@ -37,7 +37,7 @@ static CARD: Card = Card {
     identity: None,
     unknowns: "second derivatives of the coordinates by the arc length and one multiplier for each independent constraint",
     highest_order: 1,
-    sources: &[Source { key: "rumyantsev1982", place: "§ 4, Jacobi's form" }],
+    sources: &[Source { key: "rumyantsev1982", place: "the principle of Jacobi, (4.12)" }],
 };
 
 const SCHEMA: Schema = Schema {

@@ -27,7 +27,7 @@ static CARD: Card = Card {
     identity: Some("The left sides minus the right sides, contracted with x', vanish for arbitrary curves and arbitrary multipliers"),
     unknowns: "second derivatives of coordinates and time by the parameter and one multiplier for each independent constraint",
     highest_order: 1,
-    sources: &[Source { key: "rumyantsev1982", place: "§ 4, parametric form" }],
+    sources: &[Source { key: "rumyantsev1982", place: "parametric form of the equations" }],
 };
 
 const SCHEMA: Schema = Schema {
@@ -212,7 +212,8 @@ impl Extended {
         )];
         for (name, &f) in basis.constraint_names().iter().zip(&self.constraints) {
             let meaning = format!("`{name}` in extended configuration space");
-            objects.push(NamedExpr::new(format!("F_{name}"), f, meaning));
+            let name = unused_name(basis.system, &format!("F_{name}"));
+            objects.push(NamedExpr::new(name, f, meaning));
         }
         objects
     }

@@ -27,7 +27,7 @@ static CARD: Card = Card {
     identity: Some("K keeps its value, DK = 0, for arbitrary multipliers"),
     unknowns: "rates of the n + 1 momenta and one multiplier for each independent constraint",
     highest_order: 1,
-    sources: &[Source { key: "rumyantsev1982", place: "§ 6, extended phase space" }],
+    sources: &[Source { key: "rumyantsev1982", place: "canonical equations of extended phase space" }],
 };
 
 const SCHEMA: Schema = Schema {
@@ -45,11 +45,9 @@ impl Formulation for ParametricCanonical {
         let space = PhaseSpace::new(basis)?;
         let legendre = &space.legendre;
         let flow = MultiplierFlow::new(basis, legendre, &legendre.by_momenta, &space.reactions)?;
-        let momenta = flow.momenta.clone();
         let time_rate = space.time_rate(basis, &flow.multipliers);
         let multipliers = flow.multipliers.clone();
         let mut equations = flow.into_equations(CARD.name, basis, legendre);
-        debug_assert!(momenta.len() == system.n());
         equations.variables.push(StateVariable {
             name: space.time_name.clone(),
             value: g.symbol(&space.time_name, 0),

@@ -27,7 +27,7 @@ static CARD: Card = Card {
     unknowns: "accelerations of all coordinates and the rates of the multipliers κ",
     highest_order: 1,
     sources: &[
-        Source { key: "rumyantsev1982", place: "§ 2, the problem of Lagrange" },
+        Source { key: "rumyantsev1982", place: "the problem of Lagrange" },
         Source { key: "arnold2006", place: "ch. 1 § 4" },
     ],
 };
