@@ -25,7 +25,7 @@ pub fn unheeded(system: &System, terms: &MotionTerms, selection: &Selection) -> 
             "the {} {} not used: {}; {}",
             named("quasi-velocity", "quasi-velocities", &asked),
             are(asked.len()),
-            why_not_quasi(system, terms, selection, k),
+            why_not_quasi(system, k),
             instead(system, selection),
         ));
     }
@@ -100,26 +100,16 @@ fn why_not_independent(
     }
 }
 
-fn why_not_quasi(system: &System, terms: &MotionTerms, selection: &Selection, k: usize) -> String {
-    let count = system.quasi_velocities.len();
-    if count != k {
+fn why_not_quasi(system: &System, k: usize) -> String {
+    let (count, n) = (system.quasi_velocities.len(), system.n());
+    if count != k && count != n {
+        let or_all = match k == n {
+            true => String::new(),
+            false => format!(", or all {n} of a frame"),
+        };
         return format!(
-            "the model states {count}, and {k} independent {} needed",
+            "the model states {count}, and {k} independent {} needed{or_all}",
             if k == 1 { "one is" } else { "ones are" }
-        );
-    }
-    let nonlinear: Vec<String> = selection
-        .rows
-        .iter()
-        .map(|&row| &system.constraints[terms.constraint_index[row]])
-        .filter(|constraint| !constraint.is_affine_in_velocities())
-        .map(|constraint| constraint.name.clone())
-        .collect();
-    if !nonlinear.is_empty() {
-        return format!(
-            "they need constraints that are linear in the velocities, and {} {} not",
-            quoted(&nonlinear),
-            are(nonlinear.len())
         );
     }
     let bent = nonlinear_definitions(system);

@@ -3,7 +3,8 @@
 use super::error;
 use crate::arguments::Explain as Arguments;
 use crate::{terminal, DONE, INPUT};
-use chetaev::mechanics::{Claim, Group};
+use chetaev::mechanics::card::{Card, Relation};
+use chetaev::mechanics::{formulation, Claim, Group, FORMULATIONS};
 use chetaev::study::registry;
 use chetaev::symbolic::syntax::names;
 
@@ -19,7 +20,12 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         return DONE;
     };
     let id = wanted.split('#').next().unwrap_or(wanted);
-    match known.find(id) {
+    let claim = known.find(id);
+    if let Some(problem) = claim.and_then(|claim| unknown_subject(claim, wanted)) {
+        error(problem);
+        return INPUT;
+    }
+    match claim {
         Some(claim) if arguments.json => {
             terminal::out(&text_of(&as_json(claim, wanted)));
             DONE
@@ -36,6 +42,21 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             INPUT
         }
     }
+}
+
+/// A formulation that does not exist after `#`.
+fn unknown_subject(claim: &'static dyn Claim, wanted: &str) -> Option<String> {
+    let (_, subject) = wanted.split_once('#')?;
+    let known = formulation_subjects(claim);
+    if known.is_empty() || known.contains(&subject) {
+        return None;
+    }
+    let near = names::closest(subject, known.iter().copied());
+    Some(format!(
+        "`{}` has no subject `{subject}`{}",
+        claim.id(),
+        near.map_or(String::new(), |near| format!("; did you mean `{near}`?"))
+    ))
 }
 
 fn text_of(data: &serde_json::Value) -> String {
@@ -77,11 +98,60 @@ fn explained(claim: &'static dyn Claim, wanted: &str) -> String {
         claim.title(),
         wrapped(claim.explanation())
     );
+    if let Some(card) = card(wanted) {
+        text.push_str(&format!("\n{}\n", described(card)));
+    }
     let requires = requirements(claim, wanted);
     if !requires.is_empty() {
         text.push_str(&format!("\nRequires: {}\n", requires.join(", ")));
     }
+    let subjects = formulation_subjects(claim);
+    if !subjects.is_empty() && !wanted.contains('#') {
+        text.push_str(&format!(
+            "\n{}\n",
+            wrapped(&format!("Subjects: {}.", subjects.join(", ")))
+        ));
+    }
     text
+}
+
+/// The card of the formulation after `#`.
+fn card(wanted: &str) -> Option<&'static Card> {
+    let (_, subject) = wanted.split_once('#')?;
+    Some(formulation(subject)?.card())
+}
+
+/// What a formulation is and where it comes from.
+fn described(card: &Card) -> String {
+    let sources: Vec<String> = card
+        .sources
+        .iter()
+        .map(|s| format!("{} {}", s.key, s.place).trim_end().to_string())
+        .collect();
+    let mut text = format!("{}\n{}\n", card.title, wrapped(card.statement));
+    if let Some(identity) = card.identity {
+        text.push_str(&wrapped(&format!("Identity: {identity}.")));
+        text.push('\n');
+    }
+    text.push_str(&wrapped(&format!("Unknowns: {}.", card.unknowns)));
+    text.push_str(&format!("\nSources: {}", sources.join("; ")));
+    text
+}
+
+/// The formulations that the claim is about.
+fn formulation_subjects(claim: &'static dyn Claim) -> Vec<&'static str> {
+    let cards = FORMULATIONS.iter().map(|f| f.card());
+    match claim.id() {
+        "formulation.equivalent" => cards
+            .filter(|card| card.relation == Relation::Equivalent)
+            .map(|card| card.name)
+            .collect(),
+        "formulation.identity" => cards
+            .filter(|card| card.identity.is_some())
+            .map(|card| card.name)
+            .collect(),
+        _ => Vec::new(),
+    }
 }
 
 /// The hypotheses of a claim, for the subject after `#` or the usual one.
