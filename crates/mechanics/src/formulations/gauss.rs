@@ -105,67 +105,88 @@ fn dot(system: &System, u: &[Expr], w: &[Expr]) -> Expr {
     g.add(&parts)
 }
 
-/// The formula of Udwadia and Kalaba; W is solved with, never inverted.
-fn explicit(basis: &Basis<'_>) -> Result<Equations, DeriveError> {
-    let (system, terms, g) = (basis.system, basis.terms, &basis.system.graph);
-    let matrix = terms.mass_matrix.concat();
-    let free = g.solve(&matrix, &terms.force)?;
-    let jacobian = basis.jacobian();
-    let responses = jacobian
-        .iter()
-        .map(|row| g.solve(&matrix, row))
-        .collect::<Result<Vec<_>, _>>()?;
-    let defects: Vec<Expr> = jacobian
-        .iter()
-        .zip(&basis.selection.rows)
-        .map(|(row, &l)| g.sub(terms.constraint_rate[l], dot(system, row, &free)))
-        .collect();
-    let compliance: Vec<Expr> = jacobian
-        .iter()
-        .flat_map(|row| {
-            responses
-                .iter()
-                .map(move |response| dot(system, row, response))
+/// `α = W⁻¹ b`, the columns of `W⁻¹ Jᵀ`, and λ; W is solved with, never inverted.
+struct Response {
+    free: Vec<Expr>,
+    columns: Vec<Vec<Expr>>,
+    lambdas: Vec<Expr>,
+    /// ½ λᵀ ( g - J α ), the value of Z on the motion.
+    value: Expr,
+}
+
+impl Response {
+    fn new(basis: &Basis<'_>) -> Result<Response, DeriveError> {
+        let (system, terms, g) = (basis.system, basis.terms, &basis.system.graph);
+        let matrix = terms.mass_matrix.concat();
+        let free = g.solve(&matrix, &terms.force)?;
+        let jacobian = basis.jacobian();
+        let columns = jacobian
+            .iter()
+            .map(|row| g.solve(&matrix, row))
+            .collect::<Result<Vec<_>, _>>()?;
+        let defects: Vec<Expr> = jacobian
+            .iter()
+            .zip(&basis.selection.rows)
+            .map(|(row, &l)| g.sub(terms.constraint_rate[l], dot(system, row, &free)))
+            .collect();
+        let compliance: Vec<Expr> = jacobian
+            .iter()
+            .flat_map(|row| columns.iter().map(move |column| dot(system, row, column)))
+            .collect();
+        let lambdas = match defects.is_empty() {
+            true => Vec::new(),
+            false => g.solve(&compliance, &defects)?,
+        };
+        Ok(Response {
+            value: g.div(dot(system, &lambdas, &defects), g.integer(2)),
+            free,
+            columns,
+            lambdas,
         })
-        .collect();
-    let lambdas = match defects.is_empty() {
-        true => Vec::new(),
-        false => g.solve(&compliance, &defects)?,
-    };
-    let moved = |multipliers: &[Expr]| -> Vec<Expr> {
-        (0..system.n())
-            .map(|i| {
-                let column: Vec<Expr> = responses.iter().map(|response| response[i]).collect();
-                g.add(&[free[i], dot(system, &column, multipliers)])
+    }
+
+    /// `α + W⁻¹ Jᵀ λ` for given multipliers.
+    fn accelerations(&self, system: &System, multipliers: &[Expr]) -> Vec<Expr> {
+        let components = self.free.iter().enumerate();
+        components
+            .map(|(i, &alpha)| {
+                let row: Vec<Expr> = self.columns.iter().map(|column| column[i]).collect();
+                system.graph.add(&[alpha, dot(system, &row, multipliers)])
             })
             .collect()
-    };
-    let accelerations = moved(&lambdas);
+    }
+}
+
+/// The formula of Udwadia and Kalaba.
+fn explicit(basis: &Basis<'_>) -> Result<Equations, DeriveError> {
+    let (system, response) = (basis.system, Response::new(basis)?);
+    let accelerations = response.accelerations(system, &response.lambdas);
     let stated: Vec<Equation> = system
         .coordinates
         .iter()
-        .zip(moved(&basis.lambda_symbols()))
+        .zip(response.accelerations(system, &basis.lambda_symbols()))
         .map(|(c, right)| Equation {
             label: c.name.clone(),
             left: c.a,
             right,
         })
         .collect();
-    let least = g.div(dot(system, &lambdas, &defects), g.integer(2));
-    let mut objects = deviation(basis, &free);
-    objects.extend(system.coordinates.iter().zip(&free).map(|(c, &value)| {
+    let mut objects = deviation(basis, &response.free);
+    let free = system.coordinates.iter().zip(&response.free);
+    objects.extend(free.map(|(c, &value)| {
         let meaning = format!("acceleration of {} without the constraints", c.name);
         NamedExpr::new(format!("alpha_{}", c.name), value, meaning)
     }));
-    objects.push(NamedExpr::new("Zmotion", least, "value of Z on the motion"));
+    objects.push(NamedExpr::new(
+        "Zmotion",
+        response.value,
+        "value of Z on the motion",
+    ));
     let mut equations = Equations::in_velocities(CARD.name, system, accelerations)
         .with_group("equations of motion", Some(EXPLICIT), stated)
         .with_objects(objects);
-    equations.multipliers = basis
-        .constraint_indices()
-        .into_iter()
-        .zip(lambdas)
-        .collect();
+    let multipliers = basis.constraint_indices().into_iter().zip(response.lambdas);
+    equations.multipliers = multipliers.collect();
     Ok(equations)
 }
 

@@ -4,7 +4,9 @@ use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::nielsen::expect_different;
 use crate::voronets::CUBIC;
 use chetaev_symbolic::verdict::Method;
-use chetaev_symbolic::Verdict;
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::{decide_zero, ZeroTest};
+use chetaev_symbolic::{Expr, Verdict};
 
 const CLAIM: &str = "formulation.equivalent#gibbs-appell";
 
@@ -42,6 +44,7 @@ pub const PARTICLE_S3: &str = r#"
 coordinates = ["x", "y", "z"]
 parameters = { m = {}, g = {}, a = {} }
 assumptions = ["m > 0", "a > 0"]
+velocities = { independent = ["x'", "y'"] }
 constraints = { cone = "z' = a sqrt(x'^2 + y'^2)" }
 [particles.p]
 mass = "m"
@@ -141,6 +144,48 @@ fn the_equations_of_the_notes() {
             assert!(case.equal(difference, case.read(text)), "{text}");
         }
     }
+}
+
+/// A function of S3 for a velocity (ρ cos ψ, ρ sin ψ, a ρ), ρ > 0, equals another.
+#[track_caller]
+pub fn expect_in_polar_velocities(case: &Case, value: Expr, expected: &str) {
+    let g = &case.system.graph;
+    let pairs = [
+        ("x'", "rho cos(psi)"),
+        ("y'", "rho sin(psi)"),
+        ("z'", "a rho"),
+        ("x''", "rho' cos(psi) - rho psi' sin(psi)"),
+        ("y''", "rho' sin(psi) + rho psi' cos(psi)"),
+    ]
+    .map(|(from, to)| (case.read(from), case.read(to)));
+    let residual = [g.sub(g.substitute(value, &pairs), case.read(expected))];
+    let mut assumptions = Assumptions::new();
+    assumptions.positive(g, case.read("rho"));
+    let verdict = decide_zero(g, &ZeroTest::everywhere(&residual, &assumptions));
+    assert_eq!(verdict.word(), "proved", "{expected}: {}", verdict.detail());
+}
+
+/// S3: S = m ((1 + a²) ρ'² + ρ² ψ'²)/2, with right sides -m g a along ρ and 0 along ψ.
+#[test]
+fn the_machine_of_appell_and_hamel() {
+    let case = Case::new(PARTICLE_S3);
+    let g = &case.system.graph;
+    let equations = case.equations("gibbs-appell");
+    let energy = case.object(&equations, "S");
+    expect_in_polar_velocities(&case, energy, "m ((1 + a^2) rho'^2 + rho^2 psi'^2)/2");
+    let right: Vec<Expr> = equations.groups[0]
+        .equations
+        .iter()
+        .map(|e| e.right)
+        .collect();
+    let along = |x: &str, y: &str| {
+        g.add(&[
+            g.mul(&[case.read(x), right[0]]),
+            g.mul(&[case.read(y), right[1]]),
+        ])
+    };
+    expect_in_polar_velocities(&case, along("cos(psi)", "sin(psi)"), "-m g a");
+    expect_in_polar_velocities(&case, along("-rho sin(psi)", "rho cos(psi)"), "0");
 }
 
 /// Dropping the offset a* (here x'y') loses the curvature of the constraint: (1 + y²) x'' = 0. ½ aᵀ W a alone loses the

@@ -1,11 +1,13 @@
 //! Kane's equations (theory 1 §9.3).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
-use crate::gibbs_appell::{BEAD, PAIR_S1, PARTICLE_POLAR, PARTICLE_S3, PARTICLE_S4};
+use crate::gibbs_appell::{
+    expect_in_polar_velocities, BEAD, PAIR_S1, PARTICLE_POLAR, PARTICLE_S3, PARTICLE_S4,
+};
 use crate::nielsen::expect_different;
 use crate::voronets::CUBIC;
 use chetaev_symbolic::verdict::Method;
-use chetaev_symbolic::Verdict;
+use chetaev_symbolic::{Expr, Verdict};
 
 const CLAIM: &str = "formulation.equivalent#kane";
 
@@ -61,21 +63,30 @@ fn the_disc_of_the_notes() {
     }
 }
 
-/// For nonlinear constraints the partial velocities depend on the speeds: S3 has ∂z'/∂x' = a x'/ρ.
+/// For nonlinear constraints the partial velocities depend on the speeds: S3 has ∂z'/∂x' = a x'/ρ. Along ρ and ψ of the
+/// velocity the balance is -m g a - m (1 + a²) ρ' and -m ρ² ψ'.
 #[test]
-fn partial_velocities_of_a_nonlinear_constraint() {
+fn the_machine_of_appell_and_hamel() {
     let case = Case::new(PARTICLE_S3);
+    let g = &case.system.graph;
     let equations = case.equations("kane");
-    let partial = equations
-        .objects
+    let partial = case.object(&equations, "V_p_3_x");
+    assert!(case.equal_on_constraints(partial, case.read("a x'/sqrt(x'^2 + y'^2)")));
+    let sum: Vec<Expr> = equations.groups[0]
+        .equations
         .iter()
-        .find(|o| o.name.starts_with("V_p_3_"))
-        .map(|o| (o.name.clone(), o.value));
-    let (name, value) = partial.unwrap();
-    assert!(["V_p_3_x", "V_p_3_y", "V_p_1_z", "V_p_2_z"].contains(&name.as_str()));
-    if name == "V_p_3_x" {
-        assert!(case.equal_on_constraints(value, case.read("a x'/sqrt(x'^2 + y'^2)")));
-    }
+        .map(|e| e.left)
+        .collect();
+    let along = |x: &str, y: &str| {
+        g.add(&[
+            g.mul(&[case.read(x), sum[0]]),
+            g.mul(&[case.read(y), sum[1]]),
+        ])
+    };
+    let radial = along("cos(psi)", "sin(psi)");
+    expect_in_polar_velocities(&case, radial, "-m g a - m (1 + a^2) rho'");
+    let across = along("-rho sin(psi)", "rho cos(psi)");
+    expect_in_polar_velocities(&case, across, "-m rho^2 psi'");
 }
 
 /// Inertia forces without the turning of the partial velocities, m r'' · ∂r'/∂θ' with r'' = 0 at θ'' = 0, miss 2 m r r'θ'.
