@@ -71,7 +71,8 @@ fn story(outcome: &Outcome) -> String {
     let mut text = format!("{}\n", outcome.text);
     for trial in &outcome.trials {
         let (word, seconds) = (trial.verdict.word(), trial.seconds);
-        text.push_str(&format!("{}: {word}, {seconds:.2} s\n", trial.law));
+        let (subject, law) = (trial.formulation, trial.law);
+        text.push_str(&format!("{subject} {law}: {word}, {seconds:.2} s\n"));
         for line in [&trial.about[..], trial.verdict.detail()] {
             if !line.is_empty() {
                 text.push_str(&format!("    {line}\n"));

@@ -58,7 +58,8 @@ pub fn failures(outcomes: &[Outcome]) -> String {
         for trial in outcome.failed() {
             let _ = writeln!(
                 text,
-                "  {}: {}, expected {}\n    {}",
+                "  {} {}: {}, expected {}\n    {}",
+                trial.formulation,
                 trial.law,
                 trial.verdict.word(),
                 trial.expected.word(),

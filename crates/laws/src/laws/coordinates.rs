@@ -1,6 +1,6 @@
 //! The motion does not depend on the coordinates that describe it.
 
-use super::{Expected, Subject, Trial};
+use super::{Expected, Kind, Subject, Trial};
 use chetaev_mechanics::formulations::{Basis, Formulation, Routh};
 use chetaev_mechanics::{Characteristics, Prepared, System, SystemParts};
 use chetaev_symbolic::number::random::Random;
@@ -15,6 +15,8 @@ pub(super) fn invariance(subject: &Subject<'_>) -> Option<Trial> {
         Err(problem) => Verdict::undecided(problem),
     };
     Some(Trial {
+        kind: Kind::Other,
+        formulation: "",
         law: "the motion is the same in other coordinates",
         about: change.text(subject),
         expected: Expected::Proved,

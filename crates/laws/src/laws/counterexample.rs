@@ -50,7 +50,7 @@ fn slip(
     let all: Vec<Expr> = f
         .iter()
         .chain(&subject.routh.accelerations)
-        .chain(&wrong.accelerations)
+        .chain(&wrong.in_natural_state(system, &wrong.accelerations))
         .copied()
         .collect();
     let value = |s: Symbol| Some(point.get(&*g.symbol_text(s)).copied().unwrap_or(ANY));

@@ -2,6 +2,8 @@
 
 mod coordinates;
 mod counterexample;
+mod equal;
+mod hypotheses;
 mod numbers;
 mod power;
 mod reduced;
@@ -10,6 +12,7 @@ mod wrong;
 
 use chetaev_mechanics::claims::formulation::{self, derive, residuals};
 use chetaev_mechanics::formulations::DeriveError;
+use chetaev_mechanics::sample::Point;
 use chetaev_mechanics::{Characteristics, Context, Equations};
 use chetaev_symbolic::verdict::Verdict;
 use chetaev_symbolic::Expr;
@@ -22,6 +25,8 @@ pub enum Expected {
     Proved,
     /// The statement is false.
     Refuted,
+    /// A hypothesis of the statement fails.
+    NotApplicable,
 }
 
 impl Expected {
@@ -30,15 +35,35 @@ impl Expected {
         match self {
             Expected::Proved => "proved",
             Expected::Refuted => "refuted",
+            Expected::NotApplicable => "not-applicable",
         }
     }
+}
+
+/// What a trial is about, for the summary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A formulation is compared with the reference.
+    Formulation,
+    /// What a formulation claims identically.
+    Identity,
+    /// Two formulations are compared.
+    Pair,
+    /// Wrong equations.
+    Mutant,
+    /// Anything else.
+    Other,
 }
 
 /// One law tried on one system.
 #[derive(Clone, Debug)]
 pub struct Trial {
+    /// What it is about.
+    pub kind: Kind,
     /// The law, in a few words.
     pub law: &'static str,
+    /// The formulation in question; empty where there is none.
+    pub formulation: &'static str,
     /// What was done to the equations, where they are wrong.
     pub about: String,
     /// What the verdict must be.
@@ -62,6 +87,12 @@ pub(crate) struct Subject<'a> {
     pub(crate) routh: Equations,
     pub(crate) maggi: Equations,
     pub(crate) chart: Characteristics,
+    /// Independent velocities, whatever quasi-velocities the model states.
+    natural: Characteristics,
+    /// Admissible states.
+    states: Vec<Point>,
+    /// States that satisfy no constraint.
+    free_states: Vec<Point>,
     /// Distinguishes the random choices of the laws from those of the generator.
     pub(crate) seed: u64,
 }
@@ -70,12 +101,17 @@ impl<'a> Subject<'a> {
     pub(crate) fn new(cx: &'a Context<'a>, seed: u64) -> Result<Subject<'a>, DeriveError> {
         let routh = derive(cx, "routh")?;
         let maggi = derive(cx, "maggi")?;
-        let chart = formulation::basis(cx).characteristics()?;
+        let basis = formulation::basis(cx);
+        let (chart, natural) = (basis.characteristics()?, basis.independent_velocities()?);
+        let states = numbers::states(cx);
         Ok(Subject {
             cx,
             routh,
             maggi,
             chart,
+            natural,
+            free_states: numbers::freed(cx, &states),
+            states,
             seed,
         })
     }
@@ -91,9 +127,9 @@ impl<'a> Subject<'a> {
         self.cx.selection.independent(self.cx.system.n())
     }
 
-    /// Replaces velocities and accelerations by those of the chart: functions of (q, P, P', t).
+    /// Replaces velocities and accelerations by those of independent velocities.
     fn on_jet(&self, es: &[Expr]) -> Vec<Expr> {
-        self.chart.on_jet(self.cx.system, es)
+        self.natural.on_jet(self.cx.system, es)
     }
 
     /// Whether other equations give the accelerations of Routh's; a refutation is looked at again.
@@ -102,24 +138,19 @@ impl<'a> Subject<'a> {
         counterexample::looked_at_again(self, other, verdict)
     }
 
-    /// The accelerations that k equations on the jet give, linear in P'; `None` where they do not determine P'.
-    fn motion_of(&self, equations: &[Expr]) -> Option<Equations> {
+    /// The accelerations that k equations on the jet of `chart` give, linear in P'; `None` where they do not determine P'.
+    fn motion_of(&self, chart: &Characteristics, equations: &[Expr]) -> Option<Equations> {
         let system = self.cx.system;
-        let rates = self.chart.rates_from(system, equations).ok()?;
-        Some(Equations::in_characteristics(
-            "maggi",
-            system,
-            &self.chart,
-            &rates,
-        ))
+        let rates = chart.rates_from(system, equations).ok()?;
+        let motion = Equations::in_characteristics("maggi", system, chart, &rates);
+        Some(motion)
     }
 }
 
 /// A law: a trial on the subject, or `None` where there is nothing to try.
 type Law = fn(&Subject<'_>) -> Option<Trial>;
 
-const LAWS: [Law; 6] = [
-    equivalence,
+const LAWS: [Law; 5] = [
     power::balance,
     coordinates::invariance,
     wrong::dropped_term,
@@ -135,22 +166,10 @@ pub(crate) fn all(subject: &Subject<'_>) -> Vec<Trial> {
         let seconds = start.elapsed().as_secs_f64();
         Some(Trial { seconds, ..trial })
     };
-    LAWS.iter().filter_map(timed).collect()
-}
-
-/// Routh's and Maggi's equations are the same, by the claim that every study decides.
-fn equivalence(subject: &Subject<'_>) -> Option<Trial> {
-    Some(Trial {
-        law: "Routh's equations are Maggi's",
-        about: String::new(),
-        expected: Expected::Proved,
-        verdict: subject
-            .cx
-            .finding("formulation.equivalent#maggi")
-            .verdict
-            .clone(),
-        seconds: 0.0,
-    })
+    let mut trials = equal::formulations(subject);
+    trials.extend(equal::pairs(subject));
+    trials.extend(LAWS.iter().filter_map(timed));
+    trials
 }
 
 #[cfg(test)]

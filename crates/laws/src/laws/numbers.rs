@@ -1,7 +1,8 @@
-//! Values in double precision at admissible states: they decide, independently of every zero test, what a law expects.
+//! Values in double precision at sampled states: they decide, independently of every zero test, what a law expects.
 
 use super::Subject;
 use chetaev_mechanics::sample::{admissible_point, Generator, Point};
+use chetaev_mechanics::Context;
 use chetaev_symbolic::{Expr, Symbol};
 
 /// States looked at.
@@ -13,7 +14,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// What double precision says of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Seen {
+pub(super) enum Size {
     /// Not zero at one state at least.
     NotZero,
     /// Zero to rounding at every state.
@@ -22,47 +23,144 @@ pub(super) enum Seen {
     Unclear,
 }
 
-/// Whether `left` and `right` differ at admissible states, relatively to their size and to `scale`.
-pub(super) fn differ(subject: &Subject<'_>, left: &[Expr], right: &[Expr], scale: &[Expr]) -> Seen {
-    let g = &subject.cx.system.graph;
-    let all: Vec<Expr> = left.iter().chain(right).chain(scale).copied().collect();
-    let (mut states, mut largest) = (0, 0.0_f64);
-    for seed in 0..STATES {
-        let Some(point) = state(subject, seed) else {
-            continue;
-        };
-        let value = |s: Symbol| point.get(&s).copied();
-        let Ok(values) = g.evaluate_f64(&all, &value) else {
-            continue;
-        };
-        if !values.iter().all(|x| x.is_finite()) {
-            continue;
+impl Size {
+    /// From values with their scales.
+    pub(super) fn of(values: impl IntoIterator<Item = (f64, f64)>) -> Size {
+        let mut largest: Option<f64> = None;
+        for (value, scale) in values {
+            largest = Some(largest.unwrap_or(0.0).max((value / scale).abs()));
         }
-        states += 1;
-        let (a, rest) = values.split_at(left.len());
-        let (b, sizes) = rest.split_at(right.len());
-        let size = sizes.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
-        for (x, y) in a.iter().zip(b) {
-            largest = largest.max((x - y).abs() / (size + x.abs() + y.abs()));
+        match largest {
+            Some(share) if share > CLEARLY => Size::NotZero,
+            Some(share) if share < ROUNDING => Size::Zero,
+            _ => Size::Unclear,
         }
-    }
-    match states {
-        0 => Seen::Unclear,
-        _ if largest > CLEARLY => Seen::NotZero,
-        _ if largest < ROUNDING => Seen::Zero,
-        _ => Seen::Unclear,
     }
 }
 
-/// An admissible state with random accelerations.
-fn state(subject: &Subject<'_>, seed: u64) -> Option<Point> {
-    let cx = subject.cx;
+/// What double precision says of the rank of a square matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rank {
+    /// Nonsingular.
+    Full,
+    /// Singular to rounding.
+    Short,
+    /// Neither.
+    Unclear,
+}
+
+/// Elimination with complete pivoting on rows of equal size.
+pub(super) fn rank(mut a: Vec<f64>, n: usize) -> Rank {
+    for row in a.chunks_mut(n.max(1)) {
+        let size = row.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        if size > 0.0 {
+            row.iter_mut().for_each(|x| *x /= size);
+        }
+    }
+    let mut least = 1.0_f64;
+    for step in 0..n {
+        let open = (step..n).flat_map(|i| (step..n).map(move |j| (i, j)));
+        let pivot = open.max_by(|a_, b_| {
+            let size = |p: &(usize, usize)| a[p.0 * n + p.1].abs();
+            size(a_).total_cmp(&size(b_))
+        });
+        let Some((row, column)) = pivot else { break };
+        for j in 0..n {
+            a.swap(step * n + j, row * n + j);
+        }
+        for i in 0..n {
+            a.swap(i * n + step, i * n + column);
+        }
+        let value = a[step * n + step];
+        least = least.min(value.abs());
+        if value.abs() < ROUNDING {
+            break;
+        }
+        for i in step + 1..n {
+            let factor = a[i * n + step] / value;
+            for j in step..n {
+                let change = factor * a[step * n + j];
+                a[i * n + j] -= change;
+            }
+        }
+    }
+    match least {
+        least if least > CLEARLY => Rank::Full,
+        least if least < ROUNDING * 1e-2 => Rank::Short,
+        _ => Rank::Unclear,
+    }
+}
+
+/// Admissible states with random accelerations and a time.
+pub(super) fn states(cx: &Context<'_>) -> Vec<Point> {
+    (0..STATES).filter_map(|seed| state(cx, seed)).collect()
+}
+
+fn state(cx: &Context<'_>, seed: u64) -> Option<Point> {
     let mut point = admissible_point(cx.system, cx.terms, seed)?;
     let mut generator = Generator::new(seed);
+    let g = &cx.system.graph;
     for c in &cx.system.coordinates {
         point.insert(c.a_symbol, generator.between(-1.0, 1.0));
+        for symbol in [c.q_symbol, c.v_symbol] {
+            let value = generator.between(-1.0, 1.0);
+            point.entry(symbol).or_insert(value);
+        }
     }
-    let time = cx.system.graph.intern_symbol("t", 0);
-    point.entry(time).or_insert(0.4);
+    for parameter in &cx.system.parameters {
+        let value = parameter
+            .value
+            .and_then(|e| g.evaluate_f64(&[e], &|_| None).ok());
+        if let (Some(symbol), Some(value)) = (g.as_symbol(parameter.expr), value) {
+            point.entry(symbol).or_insert(value[0]);
+        }
+    }
+    point.entry(g.intern_symbol("t", 0)).or_insert(0.4);
     Some(point)
+}
+
+/// The same states with other velocities, which satisfy no constraint.
+pub(super) fn freed(cx: &Context<'_>, states: &[Point]) -> Vec<Point> {
+    let mut generator = Generator::new(0xf4ee);
+    let shifted = |state: &Point| {
+        let shifts: Vec<(Symbol, f64)> = cx
+            .system
+            .coordinates
+            .iter()
+            .map(|c| (c.v_symbol, generator.between(-0.5, 0.5)))
+            .collect();
+        moved(state, &shifts)
+    };
+    states.iter().map(shifted).collect()
+}
+
+/// A state with some values shifted.
+pub(super) fn moved(state: &Point, shifts: &[(Symbol, f64)]) -> Point {
+    let mut state = state.clone();
+    for &(symbol, shift) in shifts {
+        state.entry(symbol).and_modify(|x| *x += shift);
+    }
+    state
+}
+
+/// Values at the states where all are defined and finite.
+pub(super) fn values(subject: &Subject<'_>, es: &[Expr], states: &[Point]) -> Vec<Vec<f64>> {
+    let g = &subject.cx.system.graph;
+    states
+        .iter()
+        .filter_map(|point| g.evaluate_f64(es, &|s: Symbol| point.get(&s).copied()).ok())
+        .filter(|values| values.iter().all(|x| x.is_finite()))
+        .collect()
+}
+
+/// Whether `left` and `right` differ at admissible states, relatively to their size.
+pub(super) fn differ(subject: &Subject<'_>, left: &[Expr], right: &[Expr]) -> Size {
+    let all: Vec<Expr> = left.iter().chain(right).copied().collect();
+    let values = values(subject, &all, &subject.states);
+    Size::of(values.iter().flat_map(|values| {
+        let (a, b) = values.split_at(left.len());
+        a.iter()
+            .zip(b)
+            .map(|(x, y)| (x - y, 1.0 + x.abs() + y.abs()))
+    }))
 }

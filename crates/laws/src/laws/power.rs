@@ -1,6 +1,6 @@
 //! The power of all forces is the rate of the energy.
 
-use super::{Expected, Subject, Trial};
+use super::{Expected, Kind, Subject, Trial};
 use chetaev_symbolic::Expr;
 
 /// `DH = Σ Qᵢ vⁱ - ∂L/∂t + Σ λ_l Σ vⁱ ∂f^l/∂vⁱ` with `H = Σ pᵢ vⁱ - L`, on the motion by Routh's equations.
@@ -25,15 +25,17 @@ pub(super) fn balance(subject: &Subject<'_>) -> Option<Trial> {
         }
     }
     let residual = g.sub(rate, g.add(&power));
-    let residual = subject.chart.restrict(system, &[residual]);
+    let residual = subject.natural.restrict(system, &[residual]);
     let on = "on the motions of the constrained system";
     Some(Trial {
+        kind: Kind::Other,
+        formulation: "",
         law: "the energy changes by the power",
         about: String::new(),
         expected: Expected::Proved,
         verdict: cx
             .prover
-            .identity(system, &residual, &subject.chart.manifold, on),
+            .identity(system, &residual, &subject.natural.manifold, on),
         seconds: 0.0,
     })
 }

@@ -5,28 +5,28 @@
 //! The right side is evaluated from φ alone. Where it vanishes, as for an integrable constraint, the equations without
 //! it are right and must be proved; elsewhere they must be refuted.
 
-use super::numbers::{differ, Seen};
-use super::{Expected, Subject, Trial};
+use super::numbers::{differ, Size};
+use super::{Expected, Kind, Subject, Trial};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 
 const LAW: &str = "Lagrange's equations of the reduced L*";
 
 /// The trial; `None` without constraints.
 pub(super) fn lagrange_of_restricted(subject: &Subject<'_>) -> Option<Trial> {
-    if subject.chart.dependent.is_empty() {
+    if subject.natural.dependent.is_empty() {
         return None;
     }
     let reduction = Reduction::new(subject)?;
     let missing = subject.on_jet(&reduction.voronets());
     let zeros = vec![subject.cx.system.graph.zero(); missing.len()];
-    let seen = differ(subject, &missing, &zeros, &[]);
-    let wrong = subject.motion_of(&subject.on_jet(&reduction.equations()));
+    let seen = differ(subject, &missing, &zeros);
+    let wrong = subject.motion_of(&subject.natural, &subject.on_jet(&reduction.equations()));
     let (expected, about) = match seen {
-        Seen::Zero => (Expected::Proved, "Voronets' term vanishes"),
+        Size::Zero => (Expected::Proved, "Voronets' term vanishes"),
         _ => (Expected::Refuted, "Voronets' term is missing"),
     };
     let verdict = match (seen, wrong) {
-        (Seen::Unclear, _) => {
+        (Size::Unclear, _) => {
             Verdict::undecided("double precision cannot tell Voronets' term from zero")
         }
         (_, None) => {
@@ -35,6 +35,11 @@ pub(super) fn lagrange_of_restricted(subject: &Subject<'_>) -> Option<Trial> {
         (_, Some(wrong)) => subject.compared(&wrong),
     };
     Some(Trial {
+        kind: match expected {
+            Expected::Refuted => Kind::Mutant,
+            _ => Kind::Other,
+        },
+        formulation: "voronets",
         law: LAW,
         about: about.to_string(),
         expected,
@@ -70,7 +75,7 @@ impl<'a> Reduction<'a> {
     fn equations(&self) -> Vec<Expr> {
         let system = self.subject.cx.system;
         let g = &system.graph;
-        let basis = &self.subject.chart.basis;
+        let basis = &self.subject.natural.basis;
         let gradient: Vec<Expr> = (0..system.n())
             .map(|j| self.restricted_gradient(j))
             .collect();
@@ -94,7 +99,7 @@ impl<'a> Reduction<'a> {
         let system = self.subject.cx.system;
         let g = &system.graph;
         let mut parts = vec![g.diff(system.lagrangian, system.coordinates[j].q_symbol)];
-        for (&d, slope) in self.subject.chart.dependent.iter().zip(&self.slope) {
+        for (&d, slope) in self.subject.natural.dependent.iter().zip(&self.slope) {
             parts.push(g.mul(&[self.momentum[d], slope[j]]));
         }
         g.add(&parts)
@@ -104,7 +109,7 @@ impl<'a> Reduction<'a> {
     fn voronets(&self) -> Vec<Expr> {
         let system = self.subject.cx.system;
         let g = &system.graph;
-        let chart = &self.subject.chart;
+        let chart = &self.subject.natural;
         (0..self.independent.len())
             .map(|sigma| {
                 let mut parts = Vec::new();
@@ -125,7 +130,7 @@ impl<'a> Reduction<'a> {
 fn slopes(subject: &Subject<'_>) -> Option<Vec<Vec<Expr>>> {
     let (cx, system) = (subject.cx, subject.cx.system);
     let g = &system.graph;
-    let chart = &subject.chart;
+    let chart = &subject.natural;
     let f: Vec<Expr> = chart
         .rows
         .iter()

@@ -1,8 +1,8 @@
 //! Maggi's equations with a term forgotten or of the wrong sign are not the equations of the system.
 
-use super::numbers::{differ, Seen};
+use super::numbers::{differ, Size};
 use super::rewrite::{places, slipped, Slip};
-use super::{Expected, Subject, Trial};
+use super::{Expected, Kind, Subject, Trial};
 use chetaev_mechanics::Equations;
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::Expr;
@@ -26,8 +26,14 @@ fn trial(subject: &Subject<'_>, slip: Slip, law: &'static str) -> Option<Trial> 
     (0..ATTEMPTS).find_map(|_| {
         let (wrong, about) = slip_of(subject, slip, &mut random)?;
         let right = &subject.maggi.accelerations;
-        let seen = differ(subject, &wrong.accelerations, right, &[]);
-        (seen == Seen::NotZero).then(|| Trial {
+        let seen = differ(
+            subject,
+            &wrong.in_natural_state(subject.cx.system, &wrong.accelerations),
+            &subject.maggi.in_natural_state(subject.cx.system, right),
+        );
+        (seen == Size::NotZero).then(|| Trial {
+            kind: Kind::Mutant,
+            formulation: "maggi",
             law,
             about,
             expected: Expected::Refuted,
@@ -52,5 +58,5 @@ fn slip_of(subject: &Subject<'_>, slip: Slip, random: &mut Random) -> Option<(Eq
     };
     let label = &stated[sigma].label;
     let about = format!("equation of {label} {what} {}", g.text(place.term));
-    Some((subject.motion_of(&equations)?, about))
+    Some((subject.motion_of(&subject.chart, &equations)?, about))
 }
