@@ -1,11 +1,13 @@
 //! Canonical equations with multipliers (theory 1 §3 (10)).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
-use crate::states::{assert_state_follows_motion, changed, compared, DRIVEN, RELATIVISTIC};
+use crate::states::{
+    assert_state_follows_motion, changed, compared, DRIVEN, QUARTIC, RELATIVISTIC,
+};
 
 #[test]
 fn canonical_is_equivalent_to_routh() {
-    for text in [SKATE, DISC, APPELL_HAMEL, PARTICLE, POLAR, DRIVEN] {
+    for text in [SKATE, DISC, APPELL_HAMEL, PARTICLE, POLAR, DRIVEN, QUARTIC] {
         let case = Case::new(text);
         expect(&case, "formulation.equivalent#canonical", "proved");
         assert_state_follows_motion(&case, "canonical");

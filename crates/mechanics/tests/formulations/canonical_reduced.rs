@@ -2,7 +2,7 @@
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::states::{
-    assert_state_follows_motion, changed, compared, vanishes, DRIVEN, RELATIVISTIC,
+    assert_state_follows_motion, changed, compared, vanishes, DRIVEN, QUARTIC, RELATIVISTIC,
 };
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::formulations::ReducedBracket;
@@ -19,6 +19,7 @@ fn canonical_reduced_is_equivalent_to_routh() {
         PARTICLE,
         POLAR,
         DRIVEN,
+        QUARTIC,
         RELATIVISTIC,
     ] {
         let case = Case::new(text);

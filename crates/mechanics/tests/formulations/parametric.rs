@@ -2,7 +2,7 @@
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::states::{
-    assert_state_follows_motion, changed, compared, vanishes, DRIVEN, RELATIVISTIC,
+    assert_state_follows_motion, changed, compared, vanishes, DRIVEN, QUARTIC, RELATIVISTIC,
 };
 use chetaev_symbolic::Expr;
 
@@ -15,6 +15,7 @@ fn parametric_is_equivalent_to_routh() {
         PARTICLE,
         POLAR,
         DRIVEN,
+        QUARTIC,
         RELATIVISTIC,
     ] {
         let case = Case::new(text);

@@ -1,7 +1,7 @@
 //! Extended phase space (theory 1 §6.4).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
-use crate::states::{assert_state_follows_motion, vanishes, DRIVEN, RELATIVISTIC};
+use crate::states::{assert_state_follows_motion, vanishes, DRIVEN, QUARTIC, RELATIVISTIC};
 
 #[test]
 fn parametric_canonical_is_equivalent_to_routh() {
@@ -12,6 +12,7 @@ fn parametric_canonical_is_equivalent_to_routh() {
         PARTICLE,
         POLAR,
         DRIVEN,
+        QUARTIC,
         RELATIVISTIC,
     ] {
         let case = Case::new(text);

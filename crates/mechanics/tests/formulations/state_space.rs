@@ -2,7 +2,7 @@
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::states::{
-    assert_state_follows_motion, changed, compared, vanishes, DRIVEN, RELATIVISTIC,
+    assert_state_follows_motion, changed, compared, vanishes, DRIVEN, QUARTIC, RELATIVISTIC,
 };
 
 #[test]
@@ -14,6 +14,7 @@ fn state_space_is_equivalent_to_routh() {
         PARTICLE,
         POLAR,
         DRIVEN,
+        QUARTIC,
         RELATIVISTIC,
     ] {
         let case = Case::new(text);

@@ -1,7 +1,9 @@
 //! Zhu's closed equations in (q, p) (theory 1 §7.3).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
-use crate::states::{assert_state_follows_motion, changed, compared, DRIVEN, RELATIVISTIC};
+use crate::states::{
+    assert_state_follows_motion, changed, compared, DRIVEN, QUARTIC, RELATIVISTIC,
+};
 
 const COUPLED: &str = r#"
 coordinates = ["x", "y"]
@@ -18,6 +20,7 @@ fn state_space_canonical_is_equivalent_to_routh() {
         PARTICLE,
         POLAR,
         DRIVEN,
+        QUARTIC,
         RELATIVISTIC,
     ] {
         let case = Case::new(text);

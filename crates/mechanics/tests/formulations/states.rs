@@ -14,6 +14,15 @@ lagrangian = { L = "-m c^2 sqrt(1 - (x'^2 + y'^2 + z'^2)/c^2)" }
 constraints = { plane = "z' = y x'" }
 "#;
 
+/// A Lagrangian of degree four whose Hessian depends on coordinates and time, a force, and a constraint nonlinear in the
+/// velocities.
+pub const QUARTIC: &str = r#"
+coordinates = ["x", "y", "z"]
+lagrangian = { L = "x'^4 + (1 + x^2) y'^4 + (1 + t^2) z'^2 x'^2 + y'^2 + z'^2 + t x y' - x z" }
+forces = { y = "-x' y'^3" }
+constraints = { c = "z' = x'^2 + y x y'" }
+"#;
+
 /// Explicit time, a force that is no gradient, a dense mass matrix, and an affine constraint with time in it.
 pub const DRIVEN: &str = r#"
 coordinates = ["x", "y", "z"]
