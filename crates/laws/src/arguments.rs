@@ -3,20 +3,25 @@
 //! Plain standard library: the task runner reads the same file, so that it refuses a slip before anything is built.
 
 /// The names of the families, in the order they are run.
-pub const FAMILY_NAMES: [&str; 6] = [
+pub const FAMILY_NAMES: [&str; 11] = [
     "polynomial-linear",
     "trigonometric-linear",
     "polynomial-nonlinear",
     "trigonometric-nonlinear",
     "nonquadratic",
     "rheonomic-affine",
+    "radicals",
+    "moving-frame",
+    "singular",
+    "particles",
+    "chaplygin",
 ];
 
 /// Systems of each family without `--full`.
 pub const USUAL_COUNT: u64 = 50;
 
 /// Systems of each family with `--full`.
-pub const FULL_COUNT: u64 = 500;
+pub const FULL_COUNT: u64 = 1000;
 
 /// What `--help` says.
 pub const HELP: &str = "\
@@ -24,14 +29,14 @@ Random systems and the laws they must obey
 
 Usage: cargo xtask laws [--full | --count N] [--family NAME] [--seed N]
 
-  --full           500 systems of each family (otherwise 50)
+  --full           1000 systems of each family (otherwise 50)
   --count N        N systems of each family
   --family NAME    only this family; may be repeated
   --seed N         only the system with this seed; its model is printed with the verdict of every law
   --help           this text
 
 Families: polynomial-linear, trigonometric-linear, polynomial-nonlinear, trigonometric-nonlinear, nonquadratic,
-rheonomic-affine.
+rheonomic-affine, radicals, moving-frame, singular, particles, chaplygin.
 
 Exit status: 0 all laws hold, 1 a law fails, 2 the arguments are wrong.
 
@@ -144,8 +149,8 @@ mod tests {
     #[test]
     fn a_run_is_asked_for_in_words() {
         let all = read("").unwrap();
-        assert_eq!((all.families.len(), all.count, all.seed), (6, 50, None));
-        assert_eq!(read("--full").unwrap().count, 500);
+        assert_eq!((all.families.len(), all.count, all.seed), (11, 50, None));
+        assert_eq!(read("--full").unwrap().count, 1000);
         let one = read("--family nonquadratic --seed=17").unwrap();
         assert_eq!(
             (one.families, one.seed),

@@ -91,6 +91,12 @@ fn free_point(system: &System, terms: &MotionTerms, generator: &mut Generator) -
     roots.extend(&terms.constraint_rate);
     roots.extend(&terms.constraints);
     roots.extend(system.coordinates.iter().flat_map(|c| [c.q, c.v]));
+    // A frame may contain the time or parameters that nothing else contains.
+    roots.extend(system.quasi_velocities.iter().map(|quasi| quasi.definition));
+    if let Some(frame) = &system.frame {
+        roots.extend(frame.fields.concat());
+        roots.extend(&frame.drift);
+    }
     for symbol in g.symbols_in(&roots) {
         let value = match known.get(&symbol) {
             Some(&value) => value,

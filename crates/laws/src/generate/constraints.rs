@@ -146,3 +146,57 @@ fn cone(draw: &mut Draw<'_>, v: Expr, others: &[Expr]) -> Expr {
     };
     g.sub(v, g.mul(&[slope, g.sqrt(g.add(&squares))]))
 }
+
+/// A velocity as a function of others under a root: `v_d = a √(w·A w) + b·w + c` with A(q) positive definite; where there is
+/// room, sometimes two of them.
+pub(super) fn radicals(draw: &mut Draw<'_>) -> Vec<Expr> {
+    let order = draw.shuffled();
+    let count = if order.len() >= 4 && draw.one_in(3) {
+        2
+    } else {
+        1
+    };
+    (0..count)
+        .map(|l| radical(draw, order[l], &order[count..]))
+        .collect()
+}
+
+fn radical(draw: &mut Draw<'_>, dependent: usize, others: &[usize]) -> Expr {
+    let g = draw.g;
+    let mut square = Vec::new();
+    for &i in others.iter().take(3) {
+        let weight = if draw.one_in(3) {
+            draw.nowhere_zero()
+        } else {
+            let value = draw.positive();
+            g.number(value)
+        };
+        square.push(g.mul(&[weight, g.powi(draw.v(i), 2)]));
+    }
+    if others.len() > 1 && draw.one_in(2) {
+        let slope = draw.function(1);
+        let mixed = g.add(&[draw.v(others[0]), g.mul(&[slope, draw.v(others[1])])]);
+        square.push(g.powi(mixed, 2));
+    }
+    // The root of a single square is no root.
+    if others.len() < 2 || draw.one_in(4) {
+        square.push(draw.nowhere_zero());
+    }
+    let steep = if draw.one_in(2) {
+        let value = draw.coefficient();
+        g.number(value)
+    } else {
+        draw.nowhere_zero()
+    };
+    let mut parts = vec![draw.v(dependent)];
+    parts.push(g.neg(g.mul(&[steep, g.sqrt(g.add(&square))])));
+    if draw.one_in(2) {
+        let slope = draw.function(1);
+        parts.push(g.neg(g.mul(&[slope, draw.v(others[0])])));
+    }
+    if draw.one_in(4) {
+        let drift = draw.function(1);
+        parts.push(drift);
+    }
+    g.add(&parts)
+}

@@ -20,6 +20,8 @@ pub(super) struct Draw<'g> {
     pub(super) kind: Kind,
     /// Names of the coordinates.
     pub(super) names: Vec<String>,
+    /// The coordinates that functions may contain.
+    pub(super) visible: Vec<usize>,
 }
 
 impl Draw<'_> {
@@ -72,11 +74,22 @@ impl Draw<'_> {
 
     /// A coordinate other than `avoid`, where there is one.
     pub(super) fn other(&mut self, avoid: &[usize]) -> usize {
-        let open: Vec<usize> = (0..self.n()).filter(|i| !avoid.contains(i)).collect();
+        let all: Vec<usize> = (0..self.n()).collect();
+        self.other_of(&all, avoid)
+    }
+
+    fn other_of(&mut self, all: &[usize], avoid: &[usize]) -> usize {
+        let open: Vec<usize> = all.iter().copied().filter(|i| !avoid.contains(i)).collect();
         match open.len() {
-            0 => self.index(self.n()),
+            0 => all[self.index(all.len())],
             count => open[self.index(count)],
         }
+    }
+
+    /// A coordinate that functions may contain.
+    fn seen(&mut self) -> usize {
+        let place = self.index(self.visible.len());
+        self.visible[place]
     }
 
     /// A random order of the coordinates.
@@ -109,7 +122,7 @@ impl Draw<'_> {
     }
 
     fn monomial(&mut self) -> Expr {
-        let (i, j) = (self.index(self.n()), self.index(self.n()));
+        let (i, j) = (self.seen(), self.seen());
         match self.between(0, 3) {
             0 | 1 => self.q(i),
             2 => self.g.mul(&[self.q(i), self.q(j)]),
@@ -128,7 +141,7 @@ impl Draw<'_> {
                 self.g.mul(&[wave, second])
             }
             1 => {
-                let i = self.index(self.n());
+                let i = self.seen();
                 self.g.mul(&[wave, self.q(i)])
             }
             _ => wave,
@@ -146,8 +159,8 @@ impl Draw<'_> {
 
     /// Mostly a coordinate; sums, differences, doubles and halves too.
     fn angle(&mut self) -> Expr {
-        let i = self.index(self.n());
-        let j = self.other(&[i]);
+        let i = self.seen();
+        let j = self.other_of(&self.visible.clone(), &[i]);
         let (g, q) = (self.g, self.q(i));
         match self.between(0, 9) {
             0 => g.scale(&ratio(2, 1).unwrap_or(Rational::ONE), q),

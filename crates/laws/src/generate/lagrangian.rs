@@ -67,7 +67,10 @@ pub(super) fn moving(draw: &mut Draw<'_>) -> Expr {
     let factor = draw.function(1);
     match draw.between(0, 2) {
         0 => g.mul(&[t, factor]),
-        1 => g.mul(&[g.cos(t), draw.q(i)]),
+        1 => {
+            let q = draw.visible[i % draw.visible.len()];
+            g.mul(&[g.cos(t), draw.q(q)])
+        }
         _ => g.mul(&[g.add(&[t, factor]), draw.v(i)]),
     }
 }

@@ -2,7 +2,10 @@
 
 mod constraints;
 mod draw;
+mod frames;
 mod lagrangian;
+mod particles;
+mod singular;
 mod text;
 
 use chetaev_mechanics::system::{Assumption, Relation};
@@ -15,7 +18,8 @@ use std::sync::Arc;
 
 use crate::arguments::FAMILY_NAMES;
 
-/// A kind of random systems. All have a positive definite Hessian, forces now and then, and n = 2..6.
+/// A kind of random systems. All but the singular ones have a positive definite Hessian; forces occur now and then. n = 2..6 in
+/// the first six families, n = 2..4 in the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Family {
     /// Polynomial L, constraints linear in the velocities with polynomial coefficients.
@@ -30,17 +34,32 @@ pub enum Family {
     Nonquadratic,
     /// L, forces and constraints that depend on the time; constraints affine in the velocities.
     RheonomicAffine,
+    /// A velocity given by a root of a quadratic form of others.
+    Radicals,
+    /// Quasi-velocities by n forms, by k forms or by the fields of a frame that may move.
+    MovingFrame,
+    /// The Hessian is singular everywhere; mostly the constraints make up for it.
+    Singular,
+    /// T is that of particles; Cartesian coordinates or others.
+    Particles,
+    /// Neither L nor the constraints contain the coordinates of the dependent velocities.
+    Chaplygin,
 }
 
 impl Family {
     /// All families, in the order of [`FAMILY_NAMES`].
-    pub const ALL: [Family; 6] = [
+    pub const ALL: [Family; 11] = [
         Family::PolynomialLinear,
         Family::TrigonometricLinear,
         Family::PolynomialNonlinear,
         Family::TrigonometricNonlinear,
         Family::Nonquadratic,
         Family::RheonomicAffine,
+        Family::Radicals,
+        Family::MovingFrame,
+        Family::Singular,
+        Family::Particles,
+        Family::Chaplygin,
     ];
 
     /// The name on the command line.
@@ -53,11 +72,25 @@ impl Family {
         Family::ALL.into_iter().find(|family| family.name() == name)
     }
 
-    fn is_nonlinear(self) -> bool {
-        matches!(
-            self,
-            Family::PolynomialNonlinear | Family::TrigonometricNonlinear
-        )
+    /// Which functions occur; the others take either.
+    fn kind(self) -> Option<Kind> {
+        match self {
+            Family::PolynomialLinear | Family::PolynomialNonlinear => Some(Kind::Polynomial),
+            Family::TrigonometricLinear | Family::TrigonometricNonlinear => {
+                Some(Kind::Trigonometric)
+            }
+            _ => None,
+        }
+    }
+
+    /// The numbers of coordinates, the frequent ones several times: small systems are as good as large ones at finding a
+    /// slip, and faster.
+    fn sizes(self) -> &'static [usize] {
+        match self {
+            Family::Radicals | Family::MovingFrame | Family::Singular => &[2, 2, 3, 3, 3, 4],
+            Family::Particles | Family::Chaplygin => &[2, 3, 3, 4],
+            _ => &[2, 2, 3, 3, 3, 4, 4, 5, 6],
+        }
     }
 }
 
@@ -93,54 +126,125 @@ pub fn generate(family: Family, seed: u64) -> Result<RandomSystem, SystemError> 
 
 fn parts(g: &Graph, family: Family, seed: u64) -> SystemParts {
     let mut random = Random::stream(seed, family as u64 + 1);
-    // Small systems are as good as large ones at finding a slip, and faster.
-    let n = [2, 2, 3, 3, 3, 4, 4, 5, 6][random.below(9) as usize];
-    let kind = match family {
-        Family::PolynomialLinear | Family::PolynomialNonlinear => Kind::Polynomial,
-        Family::TrigonometricLinear | Family::TrigonometricNonlinear => Kind::Trigonometric,
-        Family::Nonquadratic | Family::RheonomicAffine if random.below(2) == 0 => Kind::Polynomial,
-        Family::Nonquadratic | Family::RheonomicAffine => Kind::Trigonometric,
-    };
+    let sizes = family.sizes();
+    let n = sizes[random.below(sizes.len() as u64) as usize];
+    let kind = family.kind().unwrap_or_else(|| match random.below(2) {
+        0 => Kind::Polynomial,
+        _ => Kind::Trigonometric,
+    });
     let mut draw = Draw {
         g,
         random,
         kind,
         names: (1..=n).map(|i| format!("q_{i}")).collect(),
+        visible: (0..n).collect(),
     };
     let masses: Vec<(String, Expr)> = (1..=draw.index(3))
         .map(|i| format!("m_{i}"))
         .map(|name| (name.clone(), g.symbol(&name, 0)))
         .collect();
-    let lagrangian = whole_lagrangian(&mut draw, family, &masses);
-    let driven = family == Family::RheonomicAffine;
-    let forces = lagrangian::forces(&mut draw, driven);
-    let constraints = all_constraints(&mut draw, family);
+    let values: Vec<Expr> = masses.iter().map(|(_, m)| *m).collect();
+    let mut parts = match family {
+        Family::Singular => singular_system(&mut draw),
+        Family::Particles => particle_system(&mut draw, &values),
+        Family::Chaplygin => chaplygin_system(&mut draw, &values),
+        _ => usual_system(&mut draw, family, &values),
+    };
+    if family == Family::MovingFrame {
+        state_frame(&mut draw, &mut parts);
+    }
+    parts.name = format!("{} {seed}", family.name());
+    parts.coordinates.clone_from(&draw.names);
+    parts.assumptions = masses.iter().map(|m| positive(g, m)).collect();
+    parts.parameters = masses
+        .into_iter()
+        .map(|(name, _)| {
+            let value = draw.positive();
+            (name, Some(g.number(value)))
+        })
+        .collect();
+    parts
+}
+
+/// L with a positive definite Hessian, forces and constraints of the family.
+fn usual_system(draw: &mut Draw<'_>, family: Family, masses: &[Expr]) -> SystemParts {
     SystemParts {
-        name: format!("{} {seed}", family.name()),
-        coordinates: draw.names.clone(),
-        lagrangian: Some(lagrangian),
-        forces,
-        constraints: constraints
-            .into_iter()
-            .enumerate()
-            .map(|(l, f)| (format!("c_{}", l + 1), f))
-            .collect(),
-        assumptions: masses.iter().map(|m| positive(g, m)).collect(),
-        parameters: masses
-            .into_iter()
-            .map(|(name, _)| {
-                let value = draw.positive();
-                (name, Some(g.number(value)))
-            })
-            .collect(),
+        lagrangian: Some(whole_lagrangian(draw, family, masses)),
+        forces: lagrangian::forces(draw, family == Family::RheonomicAffine),
+        constraints: named(all_constraints(draw, family)),
         ..SystemParts::default()
     }
 }
 
-fn whole_lagrangian(draw: &mut Draw<'_>, family: Family, masses: &[(String, Expr)]) -> Expr {
+fn singular_system(draw: &mut Draw<'_>) -> SystemParts {
+    let (lagrangian, rows) = singular::system(draw);
+    SystemParts {
+        lagrangian: Some(lagrangian),
+        forces: lagrangian::forces(draw, false),
+        constraints: named(rows),
+        ..SystemParts::default()
+    }
+}
+
+fn particle_system(draw: &mut Draw<'_>, masses: &[Expr]) -> SystemParts {
     let g = draw.g;
-    let masses: Vec<Expr> = masses.iter().map(|(_, m)| *m).collect();
-    let mut parts = vec![lagrangian::kinetic(draw, &masses)];
+    let found = particles::particles(draw, masses);
+    let kinetic = particles::kinetic(g, &draw.names, &found.particles);
+    let mut rows = found.holonomic;
+    if rows.is_empty() {
+        rows = match draw.between(0, 3) {
+            0 => constraints::nonlinear(draw),
+            1 => constraints::linear(draw, 1, Form::Rheonomic),
+            _ => constraints::linear(draw, 1, Form::Linear),
+        };
+    }
+    SystemParts {
+        lagrangian: Some(g.sub(kinetic, lagrangian::potential(draw))),
+        forces: lagrangian::forces(draw, false),
+        constraints: named(rows),
+        particles: found.particles,
+        ..SystemParts::default()
+    }
+}
+
+/// The last r coordinates occur nowhere, and their velocities can be solved for.
+fn chaplygin_system(draw: &mut Draw<'_>, masses: &[Expr]) -> SystemParts {
+    let n = draw.n();
+    let r = 1 + draw.index((n - 1).min(2));
+    draw.visible.truncate(n - r);
+    let mut parts = usual_system(draw, Family::Chaplygin, masses);
+    let (g, first) = (draw.g, draw.n() - r);
+    let rows = (0..r).map(|l| {
+        let curved = draw.one_in(4);
+        let mut row = vec![draw.v(first + l)];
+        for i in 0..first {
+            let slope = draw.function(1);
+            let power = if curved && i == 0 { 2 } else { 1 };
+            row.push(g.neg(g.mul(&[slope, g.powi(draw.v(i), power)])));
+        }
+        g.add(&row)
+    });
+    parts.constraints = named(rows.collect());
+    parts
+}
+
+/// A frame in which the last velocities are left to the constraints, where k forms are stated.
+fn state_frame(draw: &mut Draw<'_>, parts: &mut SystemParts) {
+    let r = parts.constraints.len();
+    let dependent: Vec<usize> = (draw.n() - r..draw.n()).collect();
+    let stated = frames::frame(draw, &dependent);
+    parts.quasi_velocities = stated.quasi_velocities;
+    parts.frame = stated.frame;
+}
+
+fn named(rows: Vec<Expr>) -> Vec<(String, Expr)> {
+    let numbered = rows.into_iter().enumerate();
+    numbered.map(|(l, f)| (format!("c_{}", l + 1), f)).collect()
+}
+
+fn whole_lagrangian(draw: &mut Draw<'_>, family: Family, masses: &[Expr]) -> Expr {
+    let g = draw.g;
+    let mut parts = vec![lagrangian::kinetic(draw, masses)];
     parts.push(g.neg(lagrangian::potential(draw)));
     if draw.one_in(3) {
         parts.push(lagrangian::gyroscopic(draw));
@@ -155,12 +259,20 @@ fn whole_lagrangian(draw: &mut Draw<'_>, family: Family, masses: &[(String, Expr
 }
 
 fn all_constraints(draw: &mut Draw<'_>, family: Family) -> Vec<Expr> {
-    if family.is_nonlinear() || (family == Family::Nonquadratic && draw.one_in(3)) {
+    let nonlinear = match family {
+        Family::Radicals => return constraints::radicals(draw),
+        Family::PolynomialNonlinear | Family::TrigonometricNonlinear => true,
+        Family::Nonquadratic => draw.one_in(3),
+        Family::MovingFrame => draw.one_in(4),
+        _ => false,
+    };
+    if nonlinear {
         return constraints::nonlinear(draw);
     }
     let r = 1 + draw.index((draw.n() - 1).min(3));
     let form = match family {
         Family::RheonomicAffine => Form::Rheonomic,
+        Family::MovingFrame if draw.one_in(3) => Form::Rheonomic,
         _ => Form::Linear,
     };
     constraints::linear(draw, r, form)
@@ -195,6 +307,9 @@ mod tests {
     fn mass_matrices_are_positive_definite_at_sampled_states() {
         for family in Family::ALL {
             for seed in 0..20 {
+                if family == Family::Singular {
+                    continue;
+                }
                 let random = generate(family, seed).unwrap();
                 let (system, g) = (&random.system, &random.system.graph);
                 let terms = MotionTerms::new(system);

@@ -1,5 +1,6 @@
 //! A random system as the text of a model file, so that a failure can be studied like any other model.
 
+use chetaev_mechanics::system::{FrameFields, Particle};
 use chetaev_mechanics::SystemParts;
 use chetaev_symbolic::print::{Document, Format, Options};
 use chetaev_symbolic::{Expr, Graph};
@@ -44,7 +45,65 @@ pub(super) fn model(g: &Graph, parts: &SystemParts) -> String {
     for (name, f) in &parts.constraints {
         line(&mut text, &format!("{name} = \"{} = 0\"", whole(g, *f)));
     }
+    match &parts.frame {
+        Some(frame) => fields(&mut text, g, parts, frame),
+        None => forms(&mut text, g, parts),
+    }
+    for particle in &parts.particles {
+        particle_table(&mut text, g, particle);
+    }
     text
+}
+
+fn forms(text: &mut String, g: &Graph, parts: &SystemParts) {
+    if parts.quasi_velocities.is_empty() {
+        return;
+    }
+    line(text, "\n[quasi_velocities]");
+    for (name, definition) in &parts.quasi_velocities {
+        line(text, &format!("{name} = \"{}\"", whole(g, *definition)));
+    }
+}
+
+fn fields(text: &mut String, g: &Graph, parts: &SystemParts, frame: &FrameFields) {
+    let components = |field: &[Expr]| {
+        let stated: Vec<String> = parts
+            .coordinates
+            .iter()
+            .zip(field)
+            .filter(|(_, component)| !g.is_zero(**component))
+            .map(|(name, component)| format!("{name} = \"{}\"", whole(g, *component)))
+            .collect();
+        format!("{{ {} }}", stated.join(", "))
+    };
+    line(text, "\n[frame]");
+    if frame.drift.iter().any(|component| !g.is_zero(*component)) {
+        line(text, &format!("drift = {}", components(&frame.drift)));
+    }
+    line(text, "\n[frame.fields]");
+    for ((name, _), field) in parts.quasi_velocities.iter().zip(&frame.fields) {
+        line(text, &format!("{name} = {}", components(field)));
+    }
+}
+
+fn particle_table(text: &mut String, g: &Graph, particle: &Particle) {
+    let list = |components: &[Expr]| {
+        let quoted: Vec<String> = components
+            .iter()
+            .map(|component| format!("\"{}\"", whole(g, *component)))
+            .collect();
+        quoted.join(", ")
+    };
+    line(text, &format!("\n[particles.{}]", particle.name));
+    line(text, &format!("mass = \"{}\"", whole(g, particle.mass)));
+    line(text, &format!("position = [{}]", list(&particle.position)));
+    if particle
+        .force
+        .iter()
+        .any(|component| !g.is_zero(*component))
+    {
+        line(text, &format!("force = [{}]", list(&particle.force)));
+    }
 }
 
 fn line(text: &mut String, line: &str) {
