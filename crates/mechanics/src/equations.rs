@@ -229,13 +229,38 @@ impl Equations {
     }
 
     /// Functions of the state as functions of (q, v, t) and of what the state has beyond them.
+    ///
+    /// The velocities as functions of the state are read as v at once, so that a radical of momenta becomes the radical of
+    /// velocities that it is; that they are v is [`velocity_residuals`](Equations::velocity_residuals).
     pub fn in_natural_state(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
-        let pairs: Vec<(Expr, Expr)> = self
-            .variables
+        let g = &system.graph;
+        let velocities: Vec<(Expr, Expr)> = self
+            .velocities
+            .iter()
+            .zip(&system.coordinates)
+            .filter(|(&v, _)| g.as_symbol(v).is_none() && g.as_number(v).is_none())
+            .map(|(&v, c)| (v, c.v))
+            .collect();
+        let es = g.substitute_all(es, &velocities);
+        g.substitute_all(&es, &self.definitions())
+    }
+
+    /// `q'(q, variables, t) - v` with the variables replaced by their definitions: zero on the constraints.
+    pub fn velocity_residuals(&self, system: &System) -> Vec<Expr> {
+        let g = &system.graph;
+        g.substitute_all(&self.velocities, &self.definitions())
+            .into_iter()
+            .zip(&system.coordinates)
+            .map(|(velocity, c)| g.sub(velocity, c.v))
+            .filter(|&e| !g.is_zero(e))
+            .collect()
+    }
+
+    fn definitions(&self) -> Vec<(Expr, Expr)> {
+        self.variables
             .iter()
             .filter_map(|x| Some((x.value, x.definition?)))
             .filter(|(value, definition)| value != definition)
-            .collect();
-        system.graph.substitute_all(es, &pairs)
+            .collect()
     }
 }

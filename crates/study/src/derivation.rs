@@ -8,6 +8,8 @@ use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::{Context, Equations, Formulation, System};
 use chetaev_symbolic::simplify;
 use chetaev_symbolic::{Expr, Verdict};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 
 /// A formulation derived for a system, simplified for reading.
 #[derive(Clone, Debug)]
@@ -69,14 +71,21 @@ pub fn claim_of(card: &Card) -> Option<String> {
     }
 }
 
-/// Checks the requirements of a formulation and derives it; `simplify` says whether the result is simplified for reading.
+/// What has been simplified already: several formulations contain the same multipliers and left sides.
+#[derive(Debug, Default)]
+pub struct Readings {
+    equations: RefCell<BTreeMap<(Expr, Expr), (Expr, Expr)>>,
+    objects: RefCell<BTreeMap<Expr, Expr>>,
+}
+
+/// Checks the requirements of a formulation and derives it; with `readings` the result is simplified for reading.
 ///
 /// # Errors
 /// [`NotDerived`].
 pub fn derivation(
     cx: &Context<'_>,
     formulation: &dyn Formulation,
-    simplify: bool,
+    readings: Option<&Readings>,
 ) -> Result<Derivation, NotDerived> {
     let card = formulation.card();
     check_applies(cx, card)?;
@@ -95,15 +104,15 @@ pub fn derivation(
             title: group.title.clone(),
             schema: group.schema,
             labels: group.equations.iter().map(|e| e.label.clone()).collect(),
-            pairs: match simplify {
-                true => readable(system, &equations, &group.equations),
-                false => group.equations.iter().map(|e| (e.left, e.right)).collect(),
+            pairs: match readings {
+                Some(known) => readable(system, &equations, &group.equations, known),
+                None => group.equations.iter().map(|e| (e.left, e.right)).collect(),
             },
         })
         .collect();
-    let objects = match simplify {
-        true => readable_objects(system, &equations.objects),
-        false => equations.objects.clone(),
+    let objects = match readings {
+        Some(known) => readable_objects(system, &equations.objects, known),
+        None => equations.objects.clone(),
     };
     Ok(Derivation {
         card,
@@ -140,33 +149,56 @@ fn obstacle(cx: &Context<'_>, card: &Card) -> Option<Verdict> {
     }
 }
 
-fn readable(system: &System, derived: &Equations, group: &[Equation]) -> Vec<(Expr, Expr)> {
+fn readable(
+    system: &System,
+    derived: &Equations,
+    group: &[Equation],
+    known: &Readings,
+) -> Vec<(Expr, Expr)> {
     let g = &system.graph;
     let signs: u64 = group
         .iter()
         .map(|e| simplify::length(g, e.left).saturating_add(simplify::length(g, e.right)))
         .fold(0, u64::saturating_add);
-    match signs <= READABLE {
-        true => typeset::readable(system, derived, group),
-        false => group.iter().map(|e| (e.left, e.right)).collect(),
+    if signs > READABLE {
+        return group.iter().map(|e| (e.left, e.right)).collect();
     }
+    let read = |e: &Equation| {
+        let key = (e.left, e.right);
+        if let Some(&pair) = known.equations.borrow().get(&key) {
+            return Some(pair);
+        }
+        let pair = typeset::readable(system, derived, std::slice::from_ref(e)).pop()?;
+        known.equations.borrow_mut().insert(key, pair);
+        Some(pair)
+    };
+    group
+        .iter()
+        .map(|e| read(e).unwrap_or((e.left, e.right)))
+        .collect()
 }
 
-fn readable_objects(system: &System, objects: &[NamedExpr]) -> Vec<NamedExpr> {
+fn readable_objects(system: &System, objects: &[NamedExpr], known: &Readings) -> Vec<NamedExpr> {
     let g = &system.graph;
     let mut room = READABLE;
+    let mut read = |e: Expr| {
+        if let Some(&value) = known.objects.borrow().get(&e) {
+            return value;
+        }
+        let signs = simplify::length(g, e);
+        let value = match signs > room {
+            true => e,
+            false => typeset::simplified(system, &[e])[0],
+        };
+        room -= signs.min(room);
+        known.objects.borrow_mut().insert(e, value);
+        value
+    };
     objects
         .iter()
-        .map(|object| {
-            let signs = simplify::length(g, object.value);
-            if signs > room {
-                return object.clone();
-            }
-            room -= signs;
-            NamedExpr {
-                value: typeset::simplified(system, &[object.value])[0],
-                ..object.clone()
-            }
+        .map(|object| NamedExpr {
+            value: read(object.value),
+            ..object.clone()
         })
         .collect()
 }

@@ -13,7 +13,7 @@ use chetaev::mechanics::characteristics::CharacteristicsError;
 use chetaev::mechanics::{
     choice, formulation, Context, Formulation, Prepared, Prover, System, FORMULATIONS,
 };
-use chetaev::study::derivation::{claim_of, derivation, Derivation, NotDerived};
+use chetaev::study::derivation::{claim_of, derivation, Derivation, NotDerived, Readings};
 use chetaev::study::registry;
 use std::time::Instant;
 
@@ -105,12 +105,13 @@ fn all(
     line: &ProgressLine,
 ) -> Result<String, String> {
     let is_code = matches!(arguments.notation, Notation::Rust | Notation::C);
+    let readings = Readings::default();
     let mut found: Vec<Result<Derivation, NotDerived>> = Vec::new();
     for formulation in asked {
         let name = formulation.card().name;
         line.show(&format!("deriving {name}"), None);
         let began = Instant::now();
-        let one = derivation(cx, *formulation, !is_code);
+        let one = derivation(cx, *formulation, (!is_code).then_some(&readings));
         let derived = began.elapsed().as_secs_f64();
         if let (true, Ok(_)) = (arguments.time, &one) {
             line.show(&format!("proving {name}"), None);

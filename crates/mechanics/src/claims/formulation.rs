@@ -206,7 +206,8 @@ pub fn equivalence(cx: &Context<'_>, reference: &Equations, other: &Equations) -
     cx.prover.identity(cx.system, &residuals, &manifold(cx), on)
 }
 
-/// `a_other - a_reference` as functions of (q, v, t) on the constraint manifold.
+/// `a_other - a_reference` as functions of (q, v, t), and what of q' in either form is not v; all zero on the constraint
+/// manifold.
 pub fn residuals(cx: &Context<'_>, reference: &Equations, other: &Equations) -> Vec<Expr> {
     let (system, g) = (cx.system, &cx.system.graph);
     let restricted = reference.in_natural_state(system, &reference.accelerations);
@@ -216,6 +217,8 @@ pub fn residuals(cx: &Context<'_>, reference: &Equations, other: &Equations) -> 
         .zip(restricted)
         .map(|(a, b)| g.sub(a, b))
         .filter(|&residual| !g.is_zero(residual))
+        .chain(other.velocity_residuals(system))
+        .chain(reference.velocity_residuals(system))
         .collect()
 }
 

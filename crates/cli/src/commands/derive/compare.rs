@@ -18,7 +18,7 @@ pub(super) fn text(
     let derive = |name: &str| -> Result<Derivation, String> {
         line.show(&format!("deriving {name}"), None);
         let known = formulation(name).ok_or_else(|| format!("there is no formulation `{name}`"))?;
-        derivation(cx, known, false).map_err(|problem| problem.to_string())
+        derivation(cx, known, None).map_err(|problem| problem.to_string())
     };
     let (first, second) = (derive(a)?, derive(b)?);
     line.show("comparing", None);
