@@ -160,12 +160,10 @@ impl<'a> TwoForm<'a> {
         };
         let size = components.len();
         let mut matrix = vec![vec![g.zero(); size]; size];
-        for a in 0..size {
-            for b in a + 1..size {
-                let entry = g.sub(derivative(b, a), derivative(a, b));
-                matrix[a][b] = entry;
-                matrix[b][a] = g.neg(entry);
-            }
+        for (a, b) in (0..size).flat_map(|a| (a + 1..size).map(move |b| (a, b))) {
+            let entry = g.sub(derivative(b, a), derivative(a, b));
+            matrix[a][b] = entry;
+            matrix[b][a] = g.neg(entry);
         }
         matrix
     }

@@ -87,7 +87,7 @@ impl Inputs {
             let texts: Vec<String> = symbols.iter().map(|&s| g.symbol_text(s)).collect();
             texts.join(", ")
         };
-        let arrays = vec![
+        let arrays = [
             format!("q = ({})", listed(&self.coordinates)),
             format!("z = ({})", listed(&state)),
             format!("p = ({})", listed(&self.parameters)),
