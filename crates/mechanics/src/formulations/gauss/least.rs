@@ -12,7 +12,7 @@ use crate::system::System;
 use chetaev_symbolic::matrix::ldlt;
 use chetaev_symbolic::rational::ratio;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Node, Verdict};
 
 /// What the motion is among the accelerations that the constraints allow.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +42,11 @@ const ON: &str = "on the constraint manifold";
 /// is not so for all parameters, with the values of the model. Not positive: a virtual displacement, found at sampled
 /// states, along which the form is enclosed below zero at a state.
 pub fn kind(basis: &Basis<'_>, prover: &Prover) -> Kind {
+    // Signs that need more than this are not found by trying longer.
+    let prover = &Prover {
+        budget: prover.budget.min(BUDGET),
+        ..prover.clone()
+    };
     let system = basis.system;
     if let Some(proof) = positive_energy(system, prover, &[]) {
         return Kind::Least(proof);
@@ -116,6 +121,15 @@ struct Form {
 
 /// Larger forms are not factored.
 const LARGEST: usize = 6;
+
+/// Field operations for one sign.
+const BUDGET: u64 = 20_000_000;
+
+/// Nor are forms with more distinct nodes times the square of the size: elimination multiplies them.
+const MOST_WORK: usize = 250;
+
+/// Distinct nodes of a pivot whose sign is still asked for: it must be seen from its form.
+const LONGEST_PIVOT: usize = 24;
 
 impl Form {
     fn new(basis: &Basis<'_>, displacements: VirtualDisplacements) -> Form {
@@ -228,22 +242,44 @@ fn pivots_are_positive(
     }
     let g = &system.graph;
     let rows = matrix.iter().map(|row| g.substitute_all(row, values));
-    let factors = ldlt(g, &rows.collect::<Vec<_>>())
-        .map_err(|problem| format!("{name} was not factored: {problem}"))?;
-    let pivots = factors.diagonal.iter();
-    let verdict = pivots
-        .map(|&pivot| is_nonnegative(system, prover, manifold, pivot))
-        .reduce(Verdict::and);
-    match verdict {
+    let rows: Vec<Vec<Expr>> = rows.collect();
+    let reachable = g.reachable(&rows.concat());
+    let nodes = reachable.len();
+    // Zero tests of pivots with sines and cosines take long.
+    let heavy = |e: &Expr| matches!(g.node(*e), Node::Apply { .. } | Node::Solve { .. });
+    let is_heavy = size > 1 && reachable.iter().any(heavy);
+    if is_heavy || nodes * size * size > MOST_WORK {
+        return Err(format!(
+            "the pivots of {name} are not computed: it has {size} rows and its entries {nodes} distinct nodes"
+        ));
+    }
+    let factors =
+        ldlt(g, &rows).map_err(|problem| format!("{name} was not factored: {problem}"))?;
+    let mut all: Option<Verdict> = None;
+    for &pivot in &factors.diagonal {
+        if g.reachable(&[pivot]).len() > LONGEST_PIVOT {
+            return Err(format!(
+                "a pivot of {name} is too long for its sign to be seen"
+            ));
+        }
+        let verdict = is_nonnegative(system, prover, manifold, pivot);
+        if !matches!(verdict, Verdict::Proved(_)) {
+            let why = verdict.detail();
+            return Err(format!(
+                "the sign of a pivot of {name} was not proved: {why}"
+            ));
+        }
+        all = Some(match all {
+            Some(earlier) => earlier.and(verdict),
+            None => verdict,
+        });
+    }
+    match all {
         Some(Verdict::Proved(mut proof)) => {
             proof.detail = format!("all pivots of {name} are positive: {}", proof.detail);
             Ok(proof)
         }
-        Some(other) => Err(format!(
-            "the sign of a pivot of {name} was not proved: {}",
-            other.detail()
-        )),
-        None => Err(format!("{name} has no pivots")),
+        _ => Err(format!("{name} has no pivots")),
     }
 }
 
