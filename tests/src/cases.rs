@@ -278,12 +278,18 @@ impl Statement {
 
 /// What a program must be able to do for a case or a check, with why it cannot yet.
 pub const NOT_COVERED: &[(&str, &str)] = &[
-    ("vakonomic", "the constrained extremum is a formulation of its own and comes with the principles"),
     ("order-2", "constraints of higher order are classified; their dynamics comes with Volterra's equations"),
     ("order-3", "constraints of higher order are classified; their dynamics comes with Volterra's equations"),
     ("controls", "no published case has controls"),
     ("linearization", "linearization about a steady motion is a later part of the motion"),
 ];
+
+impl Statement {
+    /// The formulation by which the motion of the case is computed, where it is not that of the system.
+    pub fn formulation(&self) -> Option<&'static str> {
+        (self.dynamics == "vakonomic").then_some("vakonomic")
+    }
+}
 
 impl Case {
     /// Why the case is not covered.

@@ -88,6 +88,7 @@ impl<'c> Session<'c> {
             claims: vec!["model", "motion.constraint-drift", "formulation.equivalent"],
             times: output_times(case, t_end),
             tolerance: Some(TOLERANCE),
+            formulation: case.statement.formulation(),
             ..Ask::default()
         };
         let Ended { text, study, .. } = ended(case.statement.model(&[], false), &ask);
@@ -97,18 +98,23 @@ impl<'c> Session<'c> {
         })
     }
 
-    fn runs(&self) -> Result<(&Run, &Run), String> {
+    /// The run, and that by another formulation; the constrained extremum has none.
+    fn runs(&self) -> Result<(&Run, Option<&Run>), String> {
         let motion = self
             .study
             .motion
             .as_ref()
             .ok_or_else(|| self.study.notices.join("\n"))?;
+        let run = &motion.evidence.run;
+        if self.case.statement.formulation().is_some() {
+            return Ok((run, None));
+        }
         let other = motion
             .evidence
             .comparison
             .as_ref()
             .ok_or("Maggi's equations were not integrated")?;
-        Ok((&motion.evidence.run, other))
+        Ok((run, Some(other)))
     }
 
     fn is_stiff(&self) -> bool {
@@ -128,11 +134,14 @@ impl<'c> Session<'c> {
                 )),
             };
         }
-        if exit != 0 || !routh.ending.finished || !maggi.ending.finished {
-            return Err(format!(
-                "exit {exit}; routh: {}; maggi: {}",
-                routh.ending.reason, maggi.ending.reason
-            ));
+        let unfinished: Vec<String> = [Some(routh), maggi]
+            .into_iter()
+            .flatten()
+            .filter(|run| !run.ending.finished)
+            .map(|run| format!("{}: {}", run.formulation, run.ending.reason))
+            .collect();
+        if exit != 0 || !unfinished.is_empty() {
+            return Err(format!("exit {exit}; {}", unfinished.join("; ")));
         }
         Ok(())
     }
@@ -188,14 +197,12 @@ impl<'c> Session<'c> {
         }
     }
 
-    /// Runs that know the expression: reactions are output by Routh's equations only.
+    /// The expression along all runs.
     fn followed(&self, expr: &str) -> Result<Vec<(&Run, Vec<f64>)>, String> {
         let (routh, maggi) = self.runs()?;
-        let mut runs = vec![routh];
-        if !expr.contains("lambda_") {
-            runs.push(maggi);
-        }
-        runs.into_iter()
+        [Some(routh), maggi]
+            .into_iter()
+            .flatten()
             .map(|run| Ok((run, along(&self.study, run, expr)?)))
             .collect()
     }

@@ -7,11 +7,6 @@ use crate::words;
 
 /// Why a rejection is not covered: its subject comes with another formulation.
 pub fn not_covered(rejection: &Rejection) -> Option<&'static str> {
-    if rejection.statement.dynamics != "chetaev" {
-        return Some(
-            "the constrained extremum is a formulation of its own and comes with the principles",
-        );
-    }
     let higher = rejection
         .statement
         .constraints
@@ -44,7 +39,11 @@ pub fn check(rejection: &Rejection) -> Result<(), String> {
 
 /// Exit status and words; an error leaves no motion, a warning a complete one.
 fn message(rejection: &Rejection, expect: &Expectation) -> Result<(), String> {
-    let ended = ended(rejection.statement.model(&[], false), &Ask::default());
+    let ask = Ask {
+        formulation: rejection.statement.formulation(),
+        ..Ask::default()
+    };
+    let ended = ended(rejection.statement.model(&[], false), &ask);
     let finished = ended
         .study
         .as_ref()

@@ -21,6 +21,8 @@ pub struct Ask {
     pub tolerance: Option<f64>,
     /// Whether to estimate the global error.
     pub global_error: bool,
+    /// The formulation integrated; Routh's when none.
+    pub formulation: Option<&'static str>,
 }
 
 /// How a study ended, whether or not there was anything to study.
@@ -115,6 +117,7 @@ fn studied(mut model: Model, ask: &Ask) -> Result<Study, String> {
         t_end: ask.t_end,
         tolerance: ask.tolerance,
         global_error: ask.global_error,
+        formulation: ask.formulation.map(str::to_owned),
         ..StudyOptions::default()
     };
     study(model, options, &mut hooks).map_err(|e| e.to_string())
@@ -130,7 +133,8 @@ pub fn along(study: &Study, run: &Run, expression: &str) -> Result<Vec<f64>, Str
         .expression(expression)
         .map_err(|d| d.render(Style::Plain))?;
     let binding = &study.motion.as_ref().ok_or("no motion")?.binding;
-    let mut observer = Observer::new(&study.system, &study.prepared.terms, binding, &[parsed])
+    let (system, terms) = (&study.system, &study.prepared.terms);
+    let mut observer = Observer::with_own(system, terms, binding, &run.own, &[parsed])
         .map_err(|e| e.to_string())?;
     Ok(observer.along(run).swap_remove(0))
 }

@@ -4,7 +4,8 @@
 //! State (q, variables). Relations between the variables (constraints that stay implicit, momenta that are no closed
 //! functions of velocities) are brought back to zero after each step.
 
-use crate::chart;
+use crate::accelerations::Accelerations;
+use crate::chart::{self, Chart};
 use crate::dense::Lu;
 use crate::follow::Follow;
 use crate::functions::{Functions, FunctionsError};
@@ -15,6 +16,7 @@ use crate::row::RowLayout;
 use crate::run::WatchedFlow;
 use crate::watch::Watch;
 use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System as Flow};
+use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::{Basis, Equations, Formulation, MotionTerms, Selection, System};
 use chetaev_symbolic::{Expr, Symbol};
@@ -73,6 +75,10 @@ pub struct FormulationFlow<'a> {
     variables: Vec<String>,
     /// Values at the start of the variables that are data of their own, by place.
     own: Vec<(usize, f64)>,
+    /// Places of the variables that are no velocities.
+    apart: Vec<usize>,
+    /// The reactions, where the formulation has no multipliers but is of the same motion.
+    reactions: Option<(Accelerations, Chart)>,
     is_chart: bool,
     chart_number: u32,
     q: Vec<f64>,
@@ -124,6 +130,14 @@ impl<'a> FormulationFlow<'a> {
             zero_between: false,
             anchor: Anchor::default(),
             own: own_data(&equations, own)?,
+            apart: (0..equations.variables.len())
+                .filter(|&i| {
+                    let symbol = equations.variables[i].symbol;
+                    !system.coordinates.iter().any(|c| c.v_symbol == symbol)
+                })
+                .collect(),
+            reactions: needs_reactions(formulation, &equations, &numeric)
+                .then(|| (Accelerations::default(), start.chart.clone())),
             variables: equations.variables.iter().map(|x| x.name.clone()).collect(),
             is_chart: equations.is_chart,
             q: start.q.clone(),
@@ -139,6 +153,19 @@ impl<'a> FormulationFlow<'a> {
         };
         flow.settle(start.t);
         Ok(flow)
+    }
+
+    /// Layout of the rows.
+    pub fn layout(&self) -> RowLayout {
+        RowLayout::new(self.numeric.n, self.numeric.r).with_own(self.apart.len())
+    }
+
+    /// Names of the variables at the end of a row.
+    pub fn own_names(&self) -> Vec<String> {
+        self.apart
+            .iter()
+            .map(|&i| self.variables[i].clone())
+            .collect()
     }
 
     /// Names of the variables of the state beside the coordinates.
@@ -178,7 +205,7 @@ impl<'a> FormulationFlow<'a> {
             return Control::Continue;
         }
         let (numeric, diagonal) = (&self.numeric, self.numeric.mass_diagonal());
-        let present = chart::Chart {
+        let present = Chart {
             rows: self.current.selection.rows.clone(),
             dependent: self.current.selection.dependent.clone(),
             independent: Vec::new(),
@@ -212,7 +239,7 @@ impl<'a> FormulationFlow<'a> {
         self.enter(t, y, next, before)
     }
 
-    fn enter(&mut self, t: f64, y: &mut [f64], next: chart::Chart, before: f64) -> Control {
+    fn enter(&mut self, t: f64, y: &mut [f64], next: Chart, before: f64) -> Control {
         let selection = Selection {
             rows: next.rows.clone(),
             dependent: next.dependent.clone(),
@@ -302,6 +329,17 @@ impl<'a> FormulationFlow<'a> {
         }
         changed
     }
+}
+
+/// Whether the multipliers must be computed beside the formulation: it has none, and its motion is that of the system.
+fn needs_reactions(
+    formulation: &dyn Formulation,
+    equations: &Equations,
+    numeric: &NumericSystem,
+) -> bool {
+    numeric.r > 0
+        && equations.multipliers.is_empty()
+        && formulation.card().relation == Relation::Equivalent
 }
 
 /// Values of the variables without a definition, by place.
@@ -431,17 +469,32 @@ impl Flow for FormulationFlow<'_> {
     }
 
     fn output_dimension(&self) -> usize {
-        RowLayout::new(self.numeric.n, self.numeric.r).len()
+        self.layout().len()
     }
 
     fn output(&mut self, t: f64, y: &[f64], row: &mut [f64]) -> Result<(), EvaluationFailure> {
         self.evaluate(t, y)?;
-        let layout = RowLayout::new(self.numeric.n, self.numeric.r);
-        row.fill(0.0);
-        row[layout.q()].copy_from_slice(&self.q);
-        row[layout.v()].copy_from_slice(&self.v);
-        row[layout.a()].copy_from_slice(self.current.motion.group(1));
-        row[layout.lambda()].copy_from_slice(self.current.motion.group(3));
+        let layout = self.layout();
+        let motion = &self.current.motion;
+        layout.write(row, &self.q, &self.v, motion.group(1), motion.group(3));
+        for (value, &place) in row[layout.own()].iter_mut().zip(&self.apart) {
+            *value = y[self.numeric.n + place];
+        }
+        if let Some((accelerations, reference)) = &mut self.reactions {
+            let system = &mut self.numeric;
+            system.evaluate(t, &self.q, &self.v)?;
+            *reference = chart::choose(
+                system.jacobian(),
+                system.r,
+                system.n,
+                &system.mass_diagonal(),
+            );
+            // Where the reactions have no value the row says so.
+            match accelerations.solve(system, reference) {
+                Ok(()) => row[layout.lambda()].copy_from_slice(&accelerations.lambda),
+                Err(_) => row[layout.lambda()].fill(f64::NAN),
+            }
+        }
         Ok(())
     }
 

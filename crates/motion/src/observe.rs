@@ -24,6 +24,20 @@ impl Observer {
         binding: &Binding,
         expressions: &[Expr],
     ) -> Result<Observer, FunctionsError> {
+        Observer::with_own(system, terms, binding, &[], expressions)
+    }
+
+    /// The same for rows that end with variables of the formulation alone, which may occur in the expressions.
+    ///
+    /// # Errors
+    /// [`FunctionsError`].
+    pub fn with_own(
+        system: &System,
+        terms: &MotionTerms,
+        binding: &Binding,
+        own: &[String],
+        expressions: &[Expr],
+    ) -> Result<Observer, FunctionsError> {
         let g = &system.graph;
         let mut variables: Vec<Symbol> = binding.variables.clone();
         variables.extend(system.coordinates.iter().map(|c| c.a_symbol));
@@ -33,6 +47,7 @@ impl Observer {
                 .iter()
                 .map(|&l| g.intern_symbol(&format!("lambda_{}", system.constraints[l].name), 0)),
         );
+        variables.extend(own.iter().map(|name| g.intern_symbol(name, 0)));
         Ok(Observer {
             functions: Functions::new(g, binding, &variables, &[("values", expressions.to_vec())])?,
             count: expressions.len(),

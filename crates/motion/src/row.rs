@@ -1,4 +1,4 @@
-//! The layout of an output row: q, v, a, λ.
+//! The layout of an output row: q, v, a, λ, and the variables that belong to the formulation alone.
 
 use std::ops::Range;
 
@@ -7,18 +7,25 @@ use std::ops::Range;
 pub struct RowLayout {
     n: usize,
     r: usize,
+    own: usize,
 }
 
 impl RowLayout {
     /// For n coordinates and r constraint rows.
     pub fn new(n: usize, r: usize) -> RowLayout {
-        RowLayout { n, r }
+        RowLayout { n, r, own: 0 }
+    }
+
+    /// With so many variables that are no velocities, such as momenta or the multipliers κ of an extremum.
+    #[must_use]
+    pub fn with_own(self, own: usize) -> RowLayout {
+        RowLayout { own, ..self }
     }
 
     /// Length of a row.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
-        3 * self.n + self.r
+        3 * self.n + self.r + self.own
     }
 
     /// Coordinates.
@@ -39,6 +46,11 @@ impl RowLayout {
     /// Multipliers by constraint row.
     pub fn lambda(&self) -> Range<usize> {
         3 * self.n..3 * self.n + self.r
+    }
+
+    /// Variables of the formulation alone.
+    pub fn own(&self) -> Range<usize> {
+        self.lambda().end..self.len()
     }
 
     /// Fills a row.

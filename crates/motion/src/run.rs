@@ -103,9 +103,11 @@ pub struct Run {
     pub method: &'static str,
     /// Layout of the rows.
     pub layout: RowLayout,
+    /// Names of the variables at the end of each row, those of the formulation alone.
+    pub own: Vec<String>,
     /// Times of the rows.
     pub times: Vec<f64>,
-    /// Rows (q, v, a, λ), one after the other.
+    /// Rows (q, v, a, λ, own variables), one after the other.
     pub rows: Vec<f64>,
     /// Why it ended.
     pub ending: Ending,
@@ -235,7 +237,8 @@ impl Subject<'_> {
             && (kind == StateKind::Full || !self.numeric.holonomic.is_empty()))
         .then(|| flow.drift.clone());
         let followed = flow.follow.take();
-        Ok(self.collect("routh", settings, pieces, ending, (drift, followed)))
+        let layout = (RowLayout::new(self.numeric.n, self.numeric.r), Vec::new());
+        Ok(self.collect("routh", layout, settings, pieces, ending, (drift, followed)))
     }
 
     /// Integrates piece by piece: a watched quantity that comes near zero ends a piece, and the run where it is zero.
@@ -332,7 +335,8 @@ impl Subject<'_> {
             }
         };
         let followed = flow.follow.take();
-        Ok(self.collect(name, settings, pieces, ending, (None, followed)))
+        let layout = (flow.layout(), flow.own_names());
+        Ok(self.collect(name, layout, settings, pieces, ending, (None, followed)))
     }
 
     /// Residuals of the constraints by row, then those of the holonomic ones as stated.
@@ -423,6 +427,7 @@ impl Subject<'_> {
     fn collect(
         &self,
         formulation: &'static str,
+        (layout, own): (RowLayout, Vec<String>),
         settings: &RunSettings,
         pieces: Vec<Solution>,
         ending: Ending,
@@ -432,7 +437,8 @@ impl Subject<'_> {
         let mut run = Run {
             formulation,
             method: pieces.first().map_or("", |s| s.method),
-            layout: RowLayout::new(self.numeric.n, self.numeric.r),
+            layout,
+            own,
             times: Vec::new(),
             rows: Vec::new(),
             t: pieces.last().map_or(self.start.t, |s| s.t),

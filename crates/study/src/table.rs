@@ -1,6 +1,8 @@
 //! The trajectory as CSV and NPZ.
 
 use crate::study::{Motion, Study};
+use chetaev_mechanics::card::Relation;
+use chetaev_mechanics::formulation;
 use std::fmt::Write as _;
 use std::io::{Cursor, Write};
 use zip::write::SimpleFileOptions;
@@ -9,7 +11,8 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 /// Named columns of equal length, the time first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// Names: `t`, coordinates, velocities, accelerations, `lambda_NAME`, `energy`, integrals.
+    /// Names: `t`, coordinates, velocities, accelerations, `lambda_NAME`, variables of the formulation alone (momenta,
+    /// quasi-velocities, `kappa_NAME`), `energy`, integrals.
     pub names: Vec<String>,
     /// Columns.
     pub columns: Vec<Vec<f64>>,
@@ -34,7 +37,9 @@ impl Table {
                 table.push(format!("{}{primes}", c.name), column(i));
             }
         }
-        if run.formulation == "routh" {
+        let is_other = formulation(run.formulation)
+            .is_some_and(|f| f.card().relation == Relation::Coincidence);
+        if !is_other {
             for (&l, i) in study
                 .prepared
                 .terms
@@ -47,6 +52,9 @@ impl Table {
                     column(i),
                 );
             }
+        }
+        for (name, i) in run.own.iter().zip(run.layout.own()) {
+            table.push(name.clone(), column(i));
         }
         table.push("energy".into(), motion.evidence.energy.values.clone());
         for followed in &motion.evidence.integrals {
