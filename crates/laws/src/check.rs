@@ -1,8 +1,7 @@
 //! Holding systems to the laws, several at a time.
 
 use crate::generate::{generate, Family};
-use crate::laws::{self, Expected, Subject, Trial};
-use chetaev_mechanics::claims::CLAIMS;
+use crate::laws::{self, Expected, Sampled, Trial};
 use chetaev_mechanics::{Context, Prepared, Prover, Registry};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Mutex;
@@ -68,7 +67,7 @@ fn fill(outcome: &mut Outcome) -> Result<(), String> {
     let random = generate(outcome.family, outcome.seed).map_err(|p| p.to_string())?;
     outcome.text.clone_from(&random.text);
     let prepared = Prepared::new(&random.system).map_err(|p| p.to_string())?;
-    let registry = Registry::new(&[CLAIMS]);
+    let registry = Registry::new(laws::CLAIMS);
     let cx = Context::new(
         &random.system,
         &prepared.terms,
@@ -76,9 +75,8 @@ fn fill(outcome: &mut Outcome) -> Result<(), String> {
         &registry,
         Prover::default(),
     );
-    let subject = Subject::new(&cx, outcome.seed).map_err(|p| p.to_string())?;
-    outcome.nodes = subject.size();
-    outcome.trials = laws::all(&subject);
+    let sampled = Sampled::new(&cx, outcome.seed).map_err(|p| p.to_string())?;
+    (outcome.trials, outcome.nodes) = laws::all(sampled).map_err(|p| p.to_string())?;
     Ok(())
 }
 

@@ -1,15 +1,24 @@
 //! The motion does not depend on the coordinates that describe it.
 
 use super::{Expected, Kind, Subject, Trial};
+use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::formulations::{Basis, Formulation, Routh};
-use chetaev_mechanics::{Characteristics, Prepared, System, SystemParts};
+use chetaev_mechanics::particles;
+use chetaev_mechanics::system::Particle;
+use chetaev_mechanics::{
+    Characteristics, Context, Prepared, Registry, System, SystemParts, FORMULATIONS,
+};
 use chetaev_symbolic::number::random::Random;
+use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Graph, Verdict};
 
 /// Accelerations and multipliers of the system in new coordinates s, `q = Φ(s, t)`, are those of the system itself:
 /// `D²Φ = a(Φ, DΦ, t)` and equal λ, as f is only rewritten, not multiplied.
 pub(super) fn invariance(subject: &Subject<'_>) -> Option<Trial> {
-    let change = Change::new(subject);
+    let change = Change::new(
+        subject,
+        subject.cx.system.is_rheonomic(subject.cx.system.lagrangian),
+    );
     let verdict = match change.verdict(subject) {
         Ok(verdict) => verdict,
         Err(problem) => Verdict::undecided(problem),
@@ -25,6 +34,50 @@ pub(super) fn invariance(subject: &Subject<'_>) -> Option<Trial> {
     })
 }
 
+/// Every how many systems the verdicts are compared: it takes as long as all other laws together.
+const VERDICTS_EVERY: u64 = 5;
+
+/// What is said of a system in coordinates s, `q = Φ(s)`, is what is said of it in q; properties of the coordinates
+/// themselves, of Chaplygin's kind and Cartesian, excepted.
+pub(super) fn same_verdicts(subject: &Subject<'_>) -> Option<Trial> {
+    if subject.seed % VERDICTS_EVERY != 0 {
+        return None;
+    }
+    let change = Change::new(subject, false);
+    Some(Trial {
+        kind: Kind::Other,
+        formulation: "",
+        law: "no verdict changes with the coordinates",
+        about: change.text(subject),
+        expected: Expected::Proved,
+        verdict: change.changed(subject).unwrap_or_else(Verdict::undecided),
+        seconds: 0.0,
+    })
+}
+
+/// The claims that are compared.
+fn compared() -> Vec<String> {
+    let claims = [
+        "model.accelerations-unique",
+        "model.hessian-regular",
+        "model.constraints-linear",
+        "model.constraints-homogeneous",
+        "model.constraints-integrable",
+    ];
+    let of_coordinates = ["model.chaplygin", "model.cartesian-coordinates"];
+    let formulations = FORMULATIONS
+        .iter()
+        .map(|f| f.card())
+        .filter(|card| card.relation == Relation::Equivalent)
+        .filter(|card| !card.requires.iter().any(|id| of_coordinates.contains(id)))
+        .map(|card| format!("formulation.equivalent#{}", card.name));
+    claims
+        .iter()
+        .map(|id| id.to_string())
+        .chain(formulations)
+        .collect()
+}
+
 /// A triangular change of coordinates: `qᵢ = sᵢ + a polynomial in later s and t`, invertible everywhere.
 struct Change {
     names: Vec<String>,
@@ -35,16 +88,15 @@ struct Change {
 }
 
 impl Change {
-    fn new(subject: &Subject<'_>) -> Change {
+    /// With t where `moving`.
+    fn new(subject: &Subject<'_>, moving: bool) -> Change {
         let system = subject.cx.system;
         let g = &system.graph;
         let n = system.n();
         let mut random = Random::stream(subject.seed, 0xc00d);
         let names: Vec<String> = (1..=n).map(|i| format!("s_{i}")).collect();
         let s: Vec<Expr> = names.iter().map(|name| g.symbol(name, 0)).collect();
-        let t = system
-            .is_rheonomic(system.lagrangian)
-            .then(|| g.symbol("t", 0));
+        let t = moving.then(|| g.symbol("t", 0));
         let q: Vec<Expr> = (0..n)
             .map(|i| g.add(&[s[i], shift(g, &mut random, &s[i + 1..], t)]))
             .collect();
@@ -66,7 +118,7 @@ impl Change {
     /// The system in the new coordinates: forces are covectors.
     fn system(&self, system: &System) -> Result<System, String> {
         let g = &system.graph;
-        let forces = self.rewrite(system, &system.forces);
+        let forces = self.rewrite(system, &own_forces(system));
         let forces = self
             .names
             .iter()
@@ -98,9 +150,54 @@ impl Change {
                 .zip(self.rewrite(system, &stated))
                 .collect(),
             assumptions: system.assumptions.clone(),
+            quasi_velocities: self.quasi_velocities(system),
+            particles: self.particles(system),
             ..SystemParts::default()
         };
         System::new(system.graph.clone(), parts).map_err(|problem| problem.to_string())
+    }
+
+    /// Quasi-velocities are the same functions of the state; a frame of fields is given by its forms.
+    fn quasi_velocities(&self, system: &System) -> Vec<(String, Expr)> {
+        let quasi = system.quasi_velocities.iter();
+        quasi
+            .map(|quasi| {
+                let definition = self.rewrite(system, &[quasi.definition])[0];
+                (quasi.name.clone(), definition)
+            })
+            .collect()
+    }
+
+    fn particles(&self, system: &System) -> Vec<Particle> {
+        let particles = system.particles.iter();
+        particles
+            .map(|particle| Particle {
+                position: self.rewrite(system, &particle.position),
+                force: self.rewrite(system, &particle.force),
+                ..particle.clone()
+            })
+            .collect()
+    }
+
+    /// Proved where all verdicts are the same; else the first that differs.
+    fn changed(&self, subject: &Subject<'_>) -> Result<Verdict, String> {
+        let new = self.system(subject.cx.system)?;
+        let prepared = Prepared::new(&new).map_err(|problem| problem.to_string())?;
+        let registry = Registry::new(super::CLAIMS);
+        let (terms, selection) = (&prepared.terms, &prepared.selection);
+        let cx = Context::new(&new, terms, selection, &registry, subject.cx.prover.clone());
+        for id in compared() {
+            let (before, after) = (subject.cx.finding(&id), cx.finding(&id));
+            let words = (before.verdict.word(), after.verdict.word());
+            if words.0 != words.1 {
+                let detail = after.verdict.detail();
+                return Err(format!("`{id}` is {}, then {}: {detail}", words.0, words.1));
+            }
+        }
+        Ok(Verdict::Proved(Proof::exact(
+            "",
+            "every verdict is the same",
+        )))
     }
 
     fn verdict(&self, subject: &Subject<'_>) -> Result<Verdict, String> {
@@ -157,6 +254,14 @@ impl Change {
             .collect();
         equations.join(", ")
     }
+}
+
+/// The generalized forces beside those of the particles.
+fn own_forces(system: &System) -> Vec<Expr> {
+    let applied = particles::applied_forces(system);
+    let both = system.forces.iter().zip(applied);
+    both.map(|(&force, applied)| system.graph.sub(force, applied))
+        .collect()
 }
 
 /// A polynomial of degree at most two in the later coordinates.

@@ -1,7 +1,7 @@
 //! All formulations are the same equations, where their hypotheses hold; where one fails, it is named.
 
 use super::hypotheses::{seen, Seen};
-use super::{Expected, Kind, Subject, Trial};
+use super::{Expected, Kind, Sampled, Trial};
 use chetaev_mechanics::card::{Card, Relation};
 use chetaev_mechanics::claims::formulation::{derive, equivalence, REFERENCE};
 use chetaev_mechanics::FORMULATIONS;
@@ -14,7 +14,7 @@ use std::time::Instant;
 const PAIRS: usize = 2;
 
 /// The verdict on every formulation and every identity.
-pub(super) fn formulations(subject: &Subject<'_>) -> Vec<Trial> {
+pub(super) fn formulations(subject: &Sampled<'_>) -> Vec<Trial> {
     let mut known = BTreeMap::new();
     let mut trials = Vec::new();
     for formulation in FORMULATIONS {
@@ -30,7 +30,7 @@ pub(super) fn formulations(subject: &Subject<'_>) -> Vec<Trial> {
 }
 
 fn claimed(
-    subject: &Subject<'_>,
+    subject: &Sampled<'_>,
     card: &'static Card,
     kind: Kind,
     known: &mut BTreeMap<&'static str, Seen>,
@@ -92,7 +92,7 @@ fn claimed(
 }
 
 /// Pairs of formulations, compared with each other.
-pub(super) fn pairs(subject: &Subject<'_>) -> Vec<Trial> {
+pub(super) fn pairs(subject: &Sampled<'_>) -> Vec<Trial> {
     let applicable: Vec<&'static str> = FORMULATIONS
         .iter()
         .map(|f| f.card())
@@ -121,7 +121,7 @@ pub(super) fn pairs(subject: &Subject<'_>) -> Vec<Trial> {
         .collect()
 }
 
-fn pair(subject: &Subject<'_>, a: &'static str, b: &'static str) -> Trial {
+fn pair(subject: &Sampled<'_>, a: &'static str, b: &'static str) -> Trial {
     let start = Instant::now();
     let derived = derive(subject.cx, a).and_then(|x| Ok((x, derive(subject.cx, b)?)));
     let verdict = match derived {

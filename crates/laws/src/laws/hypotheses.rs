@@ -4,7 +4,7 @@
 //! seen from differences of their values.
 
 use super::numbers::{moved, rank, values, Rank, Size};
-use super::Subject;
+use super::Sampled;
 use chetaev_mechanics::sample::Point;
 use chetaev_mechanics::System;
 use chetaev_symbolic::{Expr, Symbol};
@@ -21,7 +21,7 @@ pub(super) enum Seen {
 }
 
 /// Whether the hypothesis with this claim id holds.
-pub(super) fn seen(subject: &Subject<'_>, id: &str) -> Seen {
+pub(super) fn seen(subject: &Sampled<'_>, id: &str) -> Seen {
     match id {
         "model.accelerations-unique" => regular(subject, &bordered(subject), &subject.states),
         "model.hessian-regular" => {
@@ -53,13 +53,13 @@ fn zero(size: Size) -> Seen {
     }
 }
 
-fn vanish(subject: &Subject<'_>, es: &[Expr], states: &[Point]) -> Seen {
+fn vanish(subject: &Sampled<'_>, es: &[Expr], states: &[Point]) -> Seen {
     let all = values(subject, es, states);
     zero(Size::of(all.iter().flatten().map(|&x| (x, 1.0))))
 }
 
 /// A matrix that is singular at every state is singular; one state where it is not is enough for the contrary.
-fn regular(subject: &Subject<'_>, matrix: &[Vec<Expr>], states: &[Point]) -> Seen {
+fn regular(subject: &Sampled<'_>, matrix: &[Vec<Expr>], states: &[Point]) -> Seen {
     let n = matrix.len();
     regular_values(&values(subject, &matrix.concat(), states), n)
 }
@@ -77,7 +77,7 @@ fn regular_values(matrices: &[Vec<f64>], n: usize) -> Seen {
 }
 
 /// `[[W, Jᵀ], [J, 0]]`.
-fn bordered(subject: &Subject<'_>) -> Vec<Vec<Expr>> {
+fn bordered(subject: &Sampled<'_>) -> Vec<Vec<Expr>> {
     let (terms, rows) = (subject.cx.terms, &subject.cx.selection.rows);
     let g = &subject.cx.system.graph;
     let mut matrix = terms.mass_matrix.clone();
@@ -94,7 +94,7 @@ fn bordered(subject: &Subject<'_>) -> Vec<Vec<Expr>> {
 
 /// The second derivatives of L(q, v_s, φ(q, v_s, t), t) by v_s: `Bᵀ (W - Σ_l μ_l ∂²f^l/∂v∂v) B` with
 /// `Σ_l μ_l ∂f^l/∂v_d = ∂L/∂v_d`, as `∂²φ` follows from f = 0 differentiated twice.
-fn restricted_hessian(subject: &Subject<'_>) -> Seen {
+fn restricted_hessian(subject: &Sampled<'_>) -> Seen {
     let (system, terms, chart) = (subject.cx.system, subject.cx.terms, &subject.natural);
     let g = &system.graph;
     let velocities = system.velocity_symbols();
@@ -148,7 +148,7 @@ fn congruent(m: &[f64], b: &[f64], n: usize, k: usize) -> Vec<f64> {
 }
 
 /// The matrix whose determinant decides whether the quasi-velocities are coordinates of the velocities.
-fn frame(subject: &Subject<'_>) -> Vec<Vec<Expr>> {
+fn frame(subject: &Sampled<'_>) -> Vec<Vec<Expr>> {
     let (system, terms, selection) = (subject.cx.system, subject.cx.terms, subject.cx.selection);
     let g = &system.graph;
     if let Some(frame) = &system.frame {
@@ -189,7 +189,7 @@ fn frame(subject: &Subject<'_>) -> Vec<Vec<Expr>> {
 }
 
 /// Central differences by the time.
-fn without_time(subject: &Subject<'_>, es: &[Expr]) -> Seen {
+fn without_time(subject: &Sampled<'_>, es: &[Expr]) -> Seen {
     const STEP: f64 = 1e-2;
     let time = subject.cx.system.graph.intern_symbol("t", 0);
     let at = |shift: f64| {
@@ -211,7 +211,7 @@ fn without_time(subject: &Subject<'_>, es: &[Expr]) -> Seen {
 }
 
 /// Third differences of L along straight lines in the velocities.
-fn quadratic(subject: &Subject<'_>) -> Seen {
+fn quadratic(subject: &Sampled<'_>) -> Seen {
     const STEP: f64 = 0.25;
     let system = subject.cx.system;
     let mut found = Vec::new();
@@ -248,7 +248,7 @@ fn quadratic(subject: &Subject<'_>) -> Seen {
 }
 
 /// Euler's identity: `v·∂f/∂v` is the same multiple of f everywhere.
-fn homogeneous(subject: &Subject<'_>) -> Seen {
+fn homogeneous(subject: &Sampled<'_>) -> Seen {
     let (system, terms) = (subject.cx.system, subject.cx.terms);
     let mut seen = Seen::Holds;
     for (row, &f) in terms.constraints.iter().enumerate() {
@@ -280,7 +280,7 @@ fn homogeneous(subject: &Subject<'_>) -> Seen {
 
 /// Coordinates of which neither L nor the constraints depend, enough of them to solve the constraints for their
 /// velocities.
-fn chaplygin(subject: &Subject<'_>) -> Seen {
+fn chaplygin(subject: &Sampled<'_>) -> Seen {
     let (system, terms, rows) = (
         subject.cx.system,
         subject.cx.terms,
@@ -323,7 +323,7 @@ fn chaplygin(subject: &Subject<'_>) -> Seen {
 }
 
 /// W is `Σ m (∂r/∂q)ᵀ ∂r/∂q`.
-fn particles(subject: &Subject<'_>) -> Seen {
+fn particles(subject: &Sampled<'_>) -> Seen {
     let system = subject.cx.system;
     let (g, n) = (&system.graph, system.n());
     if system.particles.is_empty() {

@@ -3,7 +3,9 @@
 mod coordinates;
 mod counterexample;
 mod equal;
+mod frames;
 mod hypotheses;
+mod mutants;
 mod numbers;
 mod power;
 mod reduced;
@@ -13,9 +15,11 @@ mod wrong;
 use chetaev_mechanics::claims::formulation::{self, derive, residuals};
 use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::sample::Point;
-use chetaev_mechanics::{Characteristics, Context, Equations};
+use chetaev_mechanics::{Characteristics, Claim, Context, Equations};
 use chetaev_symbolic::verdict::Verdict;
 use chetaev_symbolic::Expr;
+use hypotheses::Seen;
+use std::ops::Deref;
 use std::time::Instant;
 
 /// What a law demands of a verdict.
@@ -81,12 +85,9 @@ impl Trial {
     }
 }
 
-/// Both forms of the equations of one system: what the laws look at.
-pub(crate) struct Subject<'a> {
+/// One system with states of it: what hypotheses are seen from.
+pub(crate) struct Sampled<'a> {
     pub(crate) cx: &'a Context<'a>,
-    pub(crate) routh: Equations,
-    pub(crate) maggi: Equations,
-    pub(crate) chart: Characteristics,
     /// Independent velocities, whatever quasi-velocities the model states.
     natural: Characteristics,
     /// Admissible states.
@@ -97,22 +98,44 @@ pub(crate) struct Subject<'a> {
     pub(crate) seed: u64,
 }
 
-impl<'a> Subject<'a> {
-    pub(crate) fn new(cx: &'a Context<'a>, seed: u64) -> Result<Subject<'a>, DeriveError> {
-        let routh = derive(cx, "routh")?;
-        let maggi = derive(cx, "maggi")?;
-        let basis = formulation::basis(cx);
-        let (chart, natural) = (basis.characteristics()?, basis.independent_velocities()?);
+impl<'a> Sampled<'a> {
+    pub(crate) fn new(cx: &'a Context<'a>, seed: u64) -> Result<Sampled<'a>, DeriveError> {
         let states = numbers::states(cx);
-        Ok(Subject {
+        Ok(Sampled {
             cx,
-            routh,
-            maggi,
-            chart,
-            natural,
+            natural: formulation::basis(cx).independent_velocities()?,
             free_states: numbers::freed(cx, &states),
             states,
             seed,
+        })
+    }
+}
+
+/// A system whose accelerations are determined, with both forms of the equations the laws start from.
+pub(crate) struct Subject<'a> {
+    sampled: Sampled<'a>,
+    pub(crate) routh: Equations,
+    pub(crate) maggi: Equations,
+    /// The parameters of Maggi's equations.
+    pub(crate) chart: Characteristics,
+}
+
+impl<'a> Deref for Subject<'a> {
+    type Target = Sampled<'a>;
+
+    fn deref(&self) -> &Sampled<'a> {
+        &self.sampled
+    }
+}
+
+impl<'a> Subject<'a> {
+    pub(crate) fn new(sampled: Sampled<'a>) -> Result<Subject<'a>, DeriveError> {
+        let cx = sampled.cx;
+        Ok(Subject {
+            routh: derive(cx, "routh")?,
+            maggi: derive(cx, "maggi")?,
+            chart: formulation::basis(cx).characteristics()?,
+            sampled,
         })
     }
 
@@ -147,29 +170,42 @@ impl<'a> Subject<'a> {
     }
 }
 
+/// The claims in question: those of mechanics, and integrability.
+pub(crate) const CLAIMS: &[&[&dyn Claim]] =
+    &[chetaev_mechanics::claims::CLAIMS, chetaev_geometry::CLAIMS];
+
 /// A law: a trial on the subject, or `None` where there is nothing to try.
 type Law = fn(&Subject<'_>) -> Option<Trial>;
 
-const LAWS: [Law; 5] = [
+const LAWS: [Law; 7] = [
     power::balance,
     coordinates::invariance,
+    coordinates::same_verdicts,
     wrong::dropped_term,
     wrong::wrong_sign,
     reduced::lagrange_of_restricted,
+    frames::without_brackets,
 ];
 
-/// Tries every law.
-pub(crate) fn all(subject: &Subject<'_>) -> Vec<Trial> {
-    let timed = |law: &Law| {
+/// Tries every law; where the accelerations are not determined, what is said of the formulations only.
+///
+/// # Errors
+/// [`DeriveError`] where the accelerations are determined, but could not be derived.
+pub(crate) fn all(sampled: Sampled<'_>) -> Result<(Vec<Trial>, usize), DeriveError> {
+    let mut trials = equal::formulations(&sampled);
+    if hypotheses::seen(&sampled, "model.accelerations-unique") == Seen::Fails {
+        return Ok((trials, 0));
+    }
+    let subject = Subject::new(sampled)?;
+    trials.extend(equal::pairs(&subject));
+    trials.extend(mutants::slips(&subject));
+    for law in LAWS {
         let start = Instant::now();
-        let trial = law(subject)?;
+        let trial = law(&subject);
         let seconds = start.elapsed().as_secs_f64();
-        Some(Trial { seconds, ..trial })
-    };
-    let mut trials = equal::formulations(subject);
-    trials.extend(equal::pairs(subject));
-    trials.extend(LAWS.iter().filter_map(timed));
-    trials
+        trials.extend(trial.map(|trial| Trial { seconds, ..trial }));
+    }
+    Ok((trials, subject.size()))
 }
 
 #[cfg(test)]
@@ -188,7 +224,7 @@ mod tests {
         let (terms, selection) = (&prepared.terms, &prepared.selection);
         let prover = Prover::default();
         let cx = Context::new(&random.system, terms, selection, &registry, prover);
-        let mut subject = Subject::new(&cx, 1).unwrap();
+        let mut subject = Subject::new(Sampled::new(&cx, 1).unwrap()).unwrap();
         spoil(&mut subject);
         look(&subject);
     }

@@ -1,6 +1,6 @@
 //! Values in double precision at sampled states: they decide, independently of every zero test, what a law expects.
 
-use super::Subject;
+use super::Sampled;
 use chetaev_mechanics::sample::{admissible_point, Generator, Point};
 use chetaev_mechanics::Context;
 use chetaev_symbolic::{Expr, Symbol};
@@ -144,7 +144,7 @@ pub(super) fn moved(state: &Point, shifts: &[(Symbol, f64)]) -> Point {
 }
 
 /// Values at the states where all are defined and finite.
-pub(super) fn values(subject: &Subject<'_>, es: &[Expr], states: &[Point]) -> Vec<Vec<f64>> {
+pub(super) fn values(subject: &Sampled<'_>, es: &[Expr], states: &[Point]) -> Vec<Vec<f64>> {
     let g = &subject.cx.system.graph;
     states
         .iter()
@@ -154,7 +154,7 @@ pub(super) fn values(subject: &Subject<'_>, es: &[Expr], states: &[Point]) -> Ve
 }
 
 /// Whether `left` and `right` differ at admissible states, relatively to their size.
-pub(super) fn differ(subject: &Subject<'_>, left: &[Expr], right: &[Expr]) -> Size {
+pub(super) fn differ(subject: &Sampled<'_>, left: &[Expr], right: &[Expr]) -> Size {
     let all: Vec<Expr> = left.iter().chain(right).copied().collect();
     let values = values(subject, &all, &subject.states);
     Size::of(values.iter().flat_map(|values| {

@@ -41,14 +41,28 @@ pub(super) fn places(g: &Graph, equation: Expr) -> Vec<Place> {
     found
 }
 
-/// The equation with the slip, made wherever the sum occurs in it.
-pub(super) fn slipped(g: &Graph, equation: Expr, place: Place, slip: Slip) -> Expr {
+/// The terms of every sum in the expressions, entries of matrices and arguments of functions included.
+pub(super) fn all_places(g: &Graph, es: &[Expr]) -> Vec<Place> {
+    let mut found = Vec::new();
+    for e in g.reachable(es) {
+        if let Node::Sum { terms, .. } = g.node(e) {
+            found.extend(terms.iter().map(|(base, coefficient)| Place {
+                sum: e,
+                term: g.scale(coefficient, *base),
+            }));
+        }
+    }
+    found
+}
+
+/// The expressions with the slip, made wherever the sum occurs in them.
+pub(super) fn slipped(g: &Graph, es: &[Expr], place: Place, slip: Slip) -> Vec<Expr> {
     let times: Rational = match slip {
         Slip::Drop => integer(1),
         Slip::Flip => integer(2),
     };
     let wrong = g.sub(place.sum, g.scale(&times, place.term));
-    g.substitute(equation, &[(place.sum, wrong)])
+    g.substitute_all(es, &[(place.sum, wrong)])
 }
 
 #[cfg(test)]
@@ -64,8 +78,8 @@ mod tests {
         assert_eq!(found.len(), 4);
         let inner = found.iter().find(|p| p.term == z).unwrap();
         let expected = g.add(&[x, g.mul(&[y, x])]);
-        assert_eq!(slipped(&g, e, *inner, Slip::Drop), expected);
+        assert_eq!(slipped(&g, &[e], *inner, Slip::Drop), [expected]);
         let expected = g.add(&[x, g.mul(&[y, g.sub(x, z)])]);
-        assert_eq!(slipped(&g, e, *inner, Slip::Flip), expected);
+        assert_eq!(slipped(&g, &[e], *inner, Slip::Flip), [expected]);
     }
 }

@@ -51,7 +51,7 @@ fn slip_of(subject: &Subject<'_>, slip: Slip, random: &mut Random) -> Option<(Eq
     let sigma = random.below(equations.len() as u64) as usize;
     let found = places(g, equations[sigma]);
     let place = *found.get(random.below(found.len() as u64) as usize)?;
-    equations[sigma] = slipped(g, equations[sigma], place, slip);
+    equations[sigma] = slipped(g, &[equations[sigma]], place, slip)[0];
     let what = match slip {
         Slip::Drop => "without the term",
         Slip::Flip => "with the wrong sign of",
