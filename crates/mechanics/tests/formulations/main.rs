@@ -11,6 +11,7 @@ mod canonical;
 mod canonical_reduced;
 mod chaplygin;
 mod common;
+mod corrections;
 mod frames;
 mod gauss;
 mod gibbs_appell;

@@ -1,0 +1,243 @@
+//! The book says what the program says: pages and cards, sources, command lines with their output, names of tests, links.
+#![allow(clippy::expect_used, reason = "test code fails where it stands")]
+
+use chetaev::mechanics::FORMULATIONS;
+use chetaev::study::registry;
+use chetaev_tests::places::root;
+use chetaev_tests::program::run;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+fn book() -> PathBuf {
+    root().join("docs/book")
+}
+
+/// Files below a folder with this ending, in order.
+fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut open = vec![folder.to_path_buf()];
+    while let Some(folder) = open.pop() {
+        let entries = std::fs::read_dir(&folder).expect("a folder of the repository");
+        for path in entries.filter_map(Result::ok).map(|entry| entry.path()) {
+            if path.is_dir() {
+                open.push(path);
+            } else if path.extension().is_some_and(|e| e == ending) {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+fn pages() -> Vec<(PathBuf, String)> {
+    let of_book = files(&book(), "md").into_iter();
+    of_book.map(|path| (path.clone(), read(&path))).collect()
+}
+
+fn page(name: &str) -> String {
+    read(&book().join(format!("formulations/{name}.md")))
+}
+
+/// The text below a heading of the second level.
+fn section<'a>(page: &'a str, heading: &str) -> Option<&'a str> {
+    let below = page.split_once(&format!("\n## {heading}\n"))?.1;
+    Some(below.split("\n## ").next().unwrap_or(below))
+}
+
+/// What stands between `open` and `close`, every time.
+fn between<'a>(text: &'a str, open: &str, close: &str) -> Vec<&'a str> {
+    let parts = text.split(open).skip(1);
+    parts
+        .filter_map(|part| Some(part.split_once(close)?.0))
+        .collect()
+}
+
+#[test]
+fn every_formulation_has_its_page() {
+    let folder = files(&book().join("formulations"), "md");
+    let pages: BTreeSet<&str> = folder
+        .iter()
+        .filter_map(|path| path.file_stem()?.to_str())
+        .collect();
+    let names: BTreeSet<&str> = FORMULATIONS.iter().map(|f| f.card().name).collect();
+    assert_eq!(pages, names);
+    for index in ["SUMMARY.md", "formulations.md"] {
+        let text = read(&book().join(index));
+        for name in &names {
+            let link = format!("(formulations/{name}.md)");
+            assert!(text.contains(&link), "{index} does not link {name}");
+        }
+    }
+}
+
+#[test]
+fn pages_require_what_the_cards_require() {
+    let registry = registry();
+    for formulation in FORMULATIONS {
+        let card = formulation.card();
+        let page = page(card.name);
+        let required = section(&page, "Requires").expect("a section on requirements");
+        let named: BTreeSet<&str> = required
+            .lines()
+            .filter_map(|line| line.strip_prefix("- `")?.split('`').next())
+            .collect();
+        let expected: BTreeSet<&str> = card.requires.iter().copied().collect();
+        assert_eq!(named, expected, "{}", card.name);
+        assert!(named.iter().all(|id| registry.find(id).is_some()));
+        let identity = section(&page, "Identity");
+        assert_eq!(identity.is_some(), card.identity.is_some(), "{}", card.name);
+        let claim = format!("`formulation.identity#{}`", card.name);
+        assert!(identity.is_none_or(|text| text.contains(&claim)), "{claim}");
+    }
+}
+
+/// Keys of the bibliography, with the other names of an entry.
+fn bibliography() -> BTreeSet<String> {
+    let text = read(&root().join("docs/references.bib"));
+    let entries = text.lines().filter_map(|line| {
+        let (_, key) = line.strip_prefix('@')?.split_once('{')?;
+        Some(key.trim_end_matches(',').to_owned())
+    });
+    let others = text.lines().filter_map(|line| {
+        let (field, names) = line.split_once('=')?;
+        (field.trim() == "ids").then(|| names.trim().trim_matches(['{', '}', ',']).to_owned())
+    });
+    entries.chain(others).collect()
+}
+
+#[test]
+fn every_source_is_in_the_bibliography() {
+    let known = bibliography();
+    for (path, text) in pages() {
+        for key in between(&text, "[@", "]") {
+            assert!(known.contains(key), "{}: {key}", path.display());
+        }
+    }
+    for formulation in FORMULATIONS {
+        let card = formulation.card();
+        let page = page(card.name);
+        let sources = section(&page, "Sources").expect("a section on sources");
+        let named: BTreeSet<&str> = between(sources, "[@", "]").into_iter().collect();
+        let expected: BTreeSet<&str> = card.sources.iter().map(|s| s.key).collect();
+        assert_eq!(named, expected, "{}", card.name);
+    }
+}
+
+/// Command lines of a page with the lines of output that follow them: after `$ ` in a fence, or indented by themselves.
+fn commands(page: &str) -> Vec<(String, Vec<String>)> {
+    let mut found: Vec<(String, Vec<String>)> = Vec::new();
+    let mut is_fence = false;
+    for line in page.lines() {
+        if line.starts_with("```") {
+            is_fence = line.starts_with("```console");
+        } else if let Some(command) = line.strip_prefix("$ chetaev ") {
+            found.push((command.into(), Vec::new()));
+        } else if let Some(command) = line.strip_prefix("    chetaev ") {
+            found.push((command.into(), Vec::new()));
+        } else if let (true, Some((_, output))) = (is_fence, found.last_mut()) {
+            output.push(line.into());
+        }
+    }
+    found
+}
+
+/// Derivations and explanations of small systems; nothing that integrates, and no system of a chosen size.
+fn is_cheap(command: &str) -> bool {
+    (command.starts_with("derive ") || command.starts_with("explain "))
+        && !command.contains("--set")
+}
+
+#[test]
+fn command_lines_print_what_the_book_shows() {
+    let mut printed: BTreeMap<String, String> = BTreeMap::new();
+    for (path, text) in pages() {
+        for (command, output) in commands(&text) {
+            if !is_cheap(&command) {
+                assert!(output.is_empty(), "{command}: output that is not tested");
+                continue;
+            }
+            let out = printed.entry(command.clone()).or_insert_with(|| {
+                let finished = run(&command.split_whitespace().collect::<Vec<_>>());
+                assert_eq!(finished.status, Some(0), "{command}: {}", finished.both());
+                finished.out
+            });
+            let mut rest = out.lines();
+            for line in output.iter().filter(|line| *line != "…") {
+                let place = path.display();
+                assert!(
+                    rest.any(|l| l.trim_end() == line.trim_end()),
+                    "{place}: `{line}` is not printed there by\n{command}\n{out}"
+                );
+            }
+        }
+    }
+    assert!(printed.len() > FORMULATIONS.len());
+}
+
+#[test]
+fn tests_of_the_corrections_exist() {
+    let page = read(&book().join("corrections.md"));
+    let sources: Vec<String> = ["crates", "tests"]
+        .iter()
+        .flat_map(|folder| files(&root().join(folder), "rs"))
+        .map(|path| read(&path))
+        .collect();
+    let corrections = page.split("\n### ").skip(1);
+    let mut count = 0;
+    for correction in corrections {
+        let tests: Vec<&str> = correction
+            .lines()
+            .filter(|line| line.starts_with("- Test: "))
+            .flat_map(|line| between(line, "`", "`"))
+            .filter(|name| name.contains('_'))
+            .collect();
+        assert!(!tests.is_empty(), "no test of {correction}");
+        for name in tests {
+            let function = format!("#[test]\nfn {name}()");
+            let exists = sources.iter().any(|text| text.contains(&function));
+            assert!(exists, "no test {name}");
+            count += 1;
+        }
+    }
+    assert!(count >= 15, "{count}");
+}
+
+/// Anchors of the headings of a page.
+fn anchors(page: &str) -> BTreeSet<String> {
+    let headings = page.lines().filter(|line| line.starts_with('#'));
+    headings
+        .map(|line| line.trim_start_matches('#').trim().to_lowercase())
+        .map(|title| {
+            let kept = title
+                .chars()
+                .filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+            kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+        })
+        .collect()
+}
+
+#[test]
+fn links_resolve() {
+    for (path, text) in pages() {
+        for target in between(&text, "](", ")") {
+            if target.starts_with("http") {
+                continue;
+            }
+            let (file, anchor) = target.split_once('#').unwrap_or((target, ""));
+            let folder = path.parent().expect("a page is in a folder");
+            let linked = if file.is_empty() {
+                path.clone()
+            } else {
+                folder.join(file)
+            };
+            assert!(linked.is_file(), "{}: {target}", path.display());
+            let has_anchor = anchor.is_empty() || anchors(&read(&linked)).contains(anchor);
+            assert!(has_anchor, "{}: {target}", path.display());
+        }
+    }
+}
