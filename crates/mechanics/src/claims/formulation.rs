@@ -1,7 +1,7 @@
 //! `formulation.equivalent#NAME`: the accelerations of a formulation equal those of the multiplier form; and
 //! `formulation.identity#NAME`: what holds before any equation of motion is used.
 
-use super::{Claim, Context, Finding, Group};
+use super::{roots, Claim, Context, Finding, Group};
 use crate::card::Relation;
 use crate::characteristics::{Characteristics, Manifold};
 use crate::equations::Equations;
@@ -210,15 +210,21 @@ pub fn equivalence(cx: &Context<'_>, reference: &Equations, other: &Equations) -
 /// manifold.
 pub fn residuals(cx: &Context<'_>, reference: &Equations, other: &Equations) -> Vec<Expr> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let restricted = reference.in_natural_state(system, &reference.accelerations);
-    other
-        .in_natural_state(system, &other.accelerations)
+    let natural = |equations: &Equations| {
+        let accelerations = equations.in_natural_state(system, &equations.accelerations);
+        roots::identified(cx, &accelerations)
+    };
+    let ((reference_accelerations, reference_ties), (accelerations, ties)) =
+        (natural(reference), natural(other));
+    accelerations
         .into_iter()
-        .zip(restricted)
+        .zip(reference_accelerations)
         .map(|(a, b)| g.sub(a, b))
         .filter(|&residual| !g.is_zero(residual))
         .chain(other.velocity_residuals(system))
         .chain(reference.velocity_residuals(system))
+        .chain(ties)
+        .chain(reference_ties)
         .collect()
 }
 

@@ -9,6 +9,7 @@ pub mod gauss;
 pub mod hypotheses;
 pub mod model;
 pub mod particles;
+mod roots;
 
 use crate::characteristics::{self, Selection};
 use crate::prover::Prover;

@@ -1,0 +1,109 @@
+//! Roots that are the same although their radicands are written differently.
+//!
+//! A formulation with a state of its own has the roots of the model as functions of that state: `√(p·W⁻²p)` for `√(v·v)`. With
+//! the definition of p put in, the radicand equals that of the model as a function, not as a formula, and a proof that takes the
+//! roots as unknowns could not tell that they are equal. Values at states suggest which radicands are the same up to a rational
+//! factor; that they are is proved with the rest.
+
+use super::Context;
+use crate::sample::{admissible_point, Point};
+use chetaev_symbolic::rational::{ratio, to_i64};
+use chetaev_symbolic::{Expr, Node, Rational};
+
+/// States at which radicands are compared.
+const STATES: u64 = 3;
+
+/// The largest denominator of a factor.
+const DENOMINATORS: i64 = 100_000;
+
+/// The expressions with the roots of the system wherever theirs are suspected to be the same, and the differences of the
+/// radicands: what is said of the result holds for the expressions where these vanish.
+pub(super) fn identified(cx: &Context<'_>, es: &[Expr]) -> (Vec<Expr>, Vec<Expr>) {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let mut stated = vec![system.lagrangian];
+    stated.extend(&system.forces);
+    stated.extend(&cx.terms.constraints);
+    let known = radicands(cx, &stated);
+    let mut open = radicands(cx, es);
+    open.retain(|e| !known.contains(e));
+    if known.is_empty() || open.is_empty() {
+        return (es.to_vec(), Vec::new());
+    }
+    let states: Vec<Point> = (0..STATES)
+        .filter_map(|seed| admissible_point(system, cx.terms, seed))
+        .collect();
+    let mut pairs = Vec::new();
+    for &radicand in &open {
+        let same = known.iter().find_map(|&other| {
+            let factor = factor(cx, &states, radicand, other)?;
+            Some((radicand, g.scale(&factor, other)))
+        });
+        pairs.extend(same);
+    }
+    let ties = pairs.iter().map(|&(a, b)| g.sub(a, b)).collect();
+    (g.substitute_all(es, &pairs), ties)
+}
+
+/// The bases of powers with exponents that are no whole numbers.
+fn radicands(cx: &Context<'_>, es: &[Expr]) -> Vec<Expr> {
+    let g = &cx.system.graph;
+    let mut found = Vec::new();
+    for e in g.reachable(es) {
+        if let Node::Power { base, exponent } = g.node(e) {
+            let is_root = g.as_number(*exponent).is_some() && g.as_integer(*exponent).is_none();
+            if is_root && g.as_number(*base).is_none() && !found.contains(base) {
+                found.push(*base);
+            }
+        }
+    }
+    found
+}
+
+/// The rational c with `a = c b` at every state.
+fn factor(cx: &Context<'_>, states: &[Point], a: Expr, b: Expr) -> Option<Rational> {
+    let g = &cx.system.graph;
+    let mut common: Option<f64> = None;
+    for state in states {
+        let values = g.evaluate_f64(&[a, b], &|s| state.get(&s).copied()).ok()?;
+        let quotient = values[0] / values[1];
+        let first = *common.get_or_insert(quotient);
+        if !quotient.is_finite() || (quotient - first).abs() > 1e-9 * first.abs() {
+            return None;
+        }
+    }
+    rational(common.filter(|c| *c > 0.0)?)
+}
+
+/// The continued fraction of a number, up to its first convergent that is the number to rounding.
+fn rational(x: f64) -> Option<Rational> {
+    let (mut before, mut last) = ((0_i64, 1_i64), (1_i64, 0_i64));
+    let mut rest = x;
+    while last.1 <= DENOMINATORS {
+        let whole = rest.floor();
+        if whole > 1e9 {
+            return None;
+        }
+        let step = |a: i64, b: i64| (whole as i64).checked_mul(a)?.checked_add(b);
+        let next = (step(last.0, before.0)?, step(last.1, before.1)?);
+        (before, last) = (last, next);
+        if (last.0 as f64 / last.1 as f64 - x).abs() <= 1e-10 * x.abs() {
+            let found = ratio(last.0, last.1)?;
+            return (to_i64(&found) != Some(0)).then_some(found);
+        }
+        rest = 1.0 / (rest - whole);
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn factors_are_found_by_their_continued_fraction() {
+        for (n, d) in [(1, 1), (3072, 1), (9, 16), (355, 113), (1, 61440)] {
+            assert_eq!(rational(n as f64 / d as f64), ratio(n, d), "{n}/{d}");
+        }
+        assert_eq!(rational(std::f64::consts::SQRT_2), None);
+    }
+}
