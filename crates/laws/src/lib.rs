@@ -13,4 +13,4 @@ mod summary;
 pub use check::{check, check_all, Outcome};
 pub use generate::{generate, Family, RandomSystem};
 pub use laws::{Expected, Kind, Trial};
-pub use summary::{failures, table};
+pub use summary::{failures, table, times};

@@ -1,7 +1,7 @@
 //! Runs the laws: `cargo xtask laws`.
 
 use chetaev_laws::arguments::{self, Arguments};
-use chetaev_laws::{check, check_all, failures, table, Family, Outcome};
+use chetaev_laws::{check, check_all, failures, table, times, Family, Outcome};
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -39,7 +39,7 @@ fn run(asked: &Arguments) -> (String, u8) {
     };
     let mut text = match asked.seed {
         Some(_) => outcomes.iter().map(story).collect(),
-        None => table(&outcomes),
+        None => format!("{}\n{}", table(&outcomes), times(&outcomes)),
     };
     text.push_str(&failures(&outcomes));
     let holds = outcomes.iter().all(Outcome::holds);
@@ -71,8 +71,8 @@ fn story(outcome: &Outcome) -> String {
     let mut text = format!("{}\n", outcome.text);
     for trial in &outcome.trials {
         let (word, seconds) = (trial.verdict.word(), trial.seconds);
-        let (subject, law) = (trial.formulation, trial.law);
-        text.push_str(&format!("{subject} {law}: {word}, {seconds:.2} s\n"));
+        let title = trial.title();
+        text.push_str(&format!("{title}: {word}, {seconds:.2} s\n"));
         for line in [&trial.about[..], trial.verdict.detail()] {
             if !line.is_empty() {
                 text.push_str(&format!("    {line}\n"));

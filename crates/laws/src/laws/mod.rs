@@ -79,6 +79,14 @@ pub struct Trial {
 }
 
 impl Trial {
+    /// The formulation in question and the law.
+    pub fn title(&self) -> String {
+        match self.formulation {
+            "" => self.law.to_string(),
+            name => format!("{name}: {}", self.law),
+        }
+    }
+
     /// Whether the verdict is the expected one.
     pub fn holds(&self) -> bool {
         self.verdict.word() == self.expected.word()
