@@ -7,6 +7,14 @@
     reason = "test code fails where it stands, and not every file uses every helper"
 )]
 
+mod acceptance_canonical;
+mod acceptance_embedding;
+mod acceptance_frames;
+mod acceptance_motion;
+mod acceptance_state_space;
+mod acceptance_support;
+mod acceptance_variation;
+mod acceptance_volterra;
 mod canonical;
 mod canonical_reduced;
 mod chaplygin;
