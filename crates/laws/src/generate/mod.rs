@@ -46,6 +46,9 @@ pub enum Family {
     Chaplygin,
 }
 
+/// Seeds below it make larger systems too.
+const LARGER: u64 = 50;
+
 impl Family {
     /// All families, in the order of [`FAMILY_NAMES`].
     pub const ALL: [Family; 11] = [
@@ -84,9 +87,10 @@ impl Family {
     }
 
     /// The numbers of coordinates, the frequent ones several times: small systems are as good as large ones at finding a
-    /// slip, and faster.
-    fn sizes(self) -> &'static [usize] {
+    /// slip, and faster; after the first systems only few are larger, so that a thousand take minutes.
+    fn sizes(self, seed: u64) -> &'static [usize] {
         match self {
+            _ if seed >= LARGER => &[2, 2, 2, 2, 2, 3, 3, 4],
             Family::Radicals | Family::MovingFrame | Family::Singular => &[2, 2, 3, 3, 3, 4],
             Family::Particles | Family::Chaplygin => &[2, 3, 3, 4],
             _ => &[2, 2, 3, 3, 3, 4, 4, 5, 6],
@@ -126,7 +130,7 @@ pub fn generate(family: Family, seed: u64) -> Result<RandomSystem, SystemError> 
 
 fn parts(g: &Graph, family: Family, seed: u64) -> SystemParts {
     let mut random = Random::stream(seed, family as u64 + 1);
-    let sizes = family.sizes();
+    let sizes = family.sizes(seed);
     let n = sizes[random.below(sizes.len() as u64) as usize];
     let kind = family.kind().unwrap_or_else(|| match random.below(2) {
         0 => Kind::Polynomial,

@@ -35,12 +35,15 @@ pub(super) fn invariance(subject: &Subject<'_>) -> Option<Trial> {
 }
 
 /// Every how many systems the verdicts are compared: it takes as long as all other laws together.
-const VERDICTS_EVERY: u64 = 5;
+const VERDICTS_EVERY: u64 = 10;
+
+/// Frobenius' condition under roots takes a minute where there are more coordinates.
+const INTEGRABLE_UP_TO: usize = 3;
 
 /// What is said of a system in coordinates s, `q = Φ(s)`, is what is said of it in q; properties of the coordinates
 /// themselves, of Chaplygin's kind and Cartesian, excepted.
 pub(super) fn same_verdicts(subject: &Subject<'_>) -> Option<Trial> {
-    if subject.seed % VERDICTS_EVERY != 0 {
+    if !subject.seed.is_multiple_of(VERDICTS_EVERY) {
         return None;
     }
     let change = Change::new(subject, false);
@@ -56,14 +59,16 @@ pub(super) fn same_verdicts(subject: &Subject<'_>) -> Option<Trial> {
 }
 
 /// The claims that are compared.
-fn compared() -> Vec<String> {
-    let claims = [
+fn compared(n: usize) -> Vec<String> {
+    let mut claims = vec![
         "model.accelerations-unique",
         "model.hessian-regular",
         "model.constraints-linear",
         "model.constraints-homogeneous",
-        "model.constraints-integrable",
     ];
+    if n <= INTEGRABLE_UP_TO {
+        claims.push("model.constraints-integrable");
+    }
     let of_coordinates = ["model.chaplygin", "model.cartesian-coordinates"];
     let formulations = FORMULATIONS
         .iter()
@@ -186,7 +191,7 @@ impl Change {
         let registry = Registry::new(super::CLAIMS);
         let (terms, selection) = (&prepared.terms, &prepared.selection);
         let cx = Context::new(&new, terms, selection, &registry, subject.cx.prover.clone());
-        for id in compared() {
+        for id in compared(new.n()) {
             let (before, after) = (subject.cx.finding(&id), cx.finding(&id));
             let words = (before.verdict.word(), after.verdict.word());
             if words.0 != words.1 {
