@@ -6,7 +6,7 @@
 //! `parametric_canonical.rs`; momenta of the reduced time are in `corrections.rs`.
 
 use crate::acceptance_support::{chart, motion, Sheet};
-use crate::common::{Case, DISC, PARTICLE, SKATE};
+use crate::common::{Case, APPELL_HAMEL, DISC, PARTICLE, SKATE};
 use chetaev_mechanics::curvature::curvature;
 use chetaev_mechanics::Characteristics;
 use chetaev_symbolic::Expr;
@@ -218,6 +218,22 @@ impl Reduction {
         assert_eq!(self.slopes.len(), self.theta.len());
     }
 
+    /// (25): D P_1 - ∂(Θ + U)/∂q_1 = q_2' S and D P_2 - ∂(Θ + U)/∂q_2 = -q_1' S along the motion.
+    fn check_equations(&self, gyro: Expr) {
+        let s = Sheet::of(&self.case);
+        let full = self
+            .chart
+            .restrict(&self.case.system, &[self.case.system.lagrangian])[0];
+        let along = motion(&self.case);
+        for (index, sign) in [1, -1].into_iter().enumerate() {
+            let rate = self.case.system.total_derivative(self.momenta[index]);
+            let left = s.sub(s.g.substitute(rate, &along), s.by(full, self.q[index]));
+            let other = s.read(&format!("{}'", self.q[1 - index]));
+            let right = s.g.mul(&[s.g.integer(sign), other, gyro]);
+            assert!(self.case.equal_on_constraints(left, right));
+        }
+    }
+
     /// (26) and (27) for the multiplier, and the canonical equations in τ of Ĥ for the momenta N P along the motion.
     fn check_multiplier(&self, reducer: &str, hamiltonian: &str) {
         let s = Sheet::of(&self.case);
@@ -229,6 +245,7 @@ impl Reduction {
             .equal(logarithmic(self.q[1]), s.g.neg(self.gyro(&s, 0))));
         s.vanishes(self.closedness(&s));
         let gyro = s.dot(&self.theta, &self.curvatures);
+        self.check_equations(gyro);
         let condition = s.sum(&[
             s.mul(reducer, gyro),
             s.mul(self.momenta[0], s.by(reducer, self.q[1])),
@@ -491,4 +508,78 @@ fn relations_of_the_extended_phase_space_are_integrals() {
     let (_, _, rates) = rate_of(standard, s.read("(w_z - y w_x + b w_t)/w_t"));
     s.equal(rates[3].1, "1");
     s.equal(rates[7].1, "-x - mu (p_z - y p_x)");
+}
+
+/// Relations with the same zero set change the parameter only: for K̂ = h K the rates are h times those of K where K = 0, with
+/// μ̂ = h² μ. K² has no gradient there.
+#[test]
+fn relations_with_the_same_zero_set() {
+    let s = Sheet::new();
+    let (x, y) = (["x", "y", "z", "t"], ["p_x", "p_y", "p_z", "p_t"]);
+    let w = ["w_x", "w_y", "w_z", "w_t"];
+    let k = s.read("p_t + 1/2 (p_x^2 + p_y^2 + p_z^2) + t x");
+    let factor = s.read("2 + x p_y + t^2");
+    let f = s.read("(w_z - a sqrt(w_x^2 + w_y^2))/w_t");
+    let rates = |k: Expr, mu: Expr| -> Vec<Expr> {
+        let velocities = s.gradient(k, &y);
+        let pairs: Vec<(&str, Expr)> = w.iter().copied().zip(velocities.clone()).collect();
+        let mut rates = velocities;
+        for i in 0..4 {
+            let reaction = s.mul(mu, s.put_all(s.by(f, w[i]), &pairs));
+            rates.push(s.sub(reaction, s.by(k, x[i])));
+        }
+        rates
+    };
+    let on_level = |e: Expr| s.put(e, &[("p_t", "-1/2 (p_x^2 + p_y^2 + p_z^2) - t x")]);
+    let known = Sheet {
+        g: s.g.clone(),
+        known: {
+            let mut known = chetaev_symbolic::zero::assumptions::Assumptions::new();
+            known.positive(&s.g, factor);
+            known
+        },
+    };
+    let mu = s.read("mu");
+    let scaled = rates(s.mul(factor, k), s.g.mul(&[factor, factor, mu]));
+    for (a, b) in scaled.into_iter().zip(rates(k, mu)) {
+        known.vanishes(on_level(s.sub(a, s.mul(factor, b))));
+    }
+    for name in x.iter().chain(&y) {
+        s.vanishes(on_level(s.by(s.mul(k, k), name)));
+    }
+}
+
+/// (24): H1 = H + Σ κ v ∂f/∂v, which is H on the constraint where f is homogeneous (S3, S4), and differs from it by κ t for
+/// z' = y x' + t; and (23).
+#[test]
+fn the_extremal_hamiltonian() {
+    let affine = PARTICLE.replace("z' = y x'", "z' = y x' + t");
+    for (text, name, power) in [
+        (APPELL_HAMEL, "cone", "0"),
+        (PARTICLE, "c", "0"),
+        (affine.as_str(), "c", "t"),
+    ] {
+        let case = Case::new(text);
+        let s = Sheet::of(&case);
+        let stated = case.equations("vakonomic");
+        let kappa = s.read(&format!("kappa_{name}"));
+        let cx = case.context();
+        let v = case.system.velocity_symbols();
+        let velocities: Vec<Expr> = case.system.coordinates.iter().map(|c| c.v).collect();
+        let slopes = s.g.gradient(cx.terms.constraints[0], &v);
+        let printed = s.sum(&[
+            case.system.energy(),
+            s.mul(kappa, s.dot(&slopes, &velocities)),
+        ]);
+        let found = case.object(&stated, "H1");
+        assert!(case.equal_on_constraints(found, printed));
+        let shift = s.sub(found, case.system.energy());
+        assert!(case.equal_on_constraints(shift, s.mul(kappa, s.read(power))));
+        let momenta = s.g.gradient(case.system.lagrangian, &v);
+        for (i, c) in case.system.coordinates.iter().enumerate() {
+            let printed = s.sum(&[momenta[i], s.mul(kappa, slopes[i])]);
+            let found = case.object(&stated, &format!("pi_{}", c.name));
+            assert!(case.equal_on_constraints(found, printed));
+        }
+    }
 }

@@ -404,6 +404,10 @@ fn a_change_of_the_frame_leaves_the_cartan_form() {
             s.vanishes(own[1 + m.n + i]);
         }
         let matrix = m.exterior(&own);
+        // X ⌟ Θ(F) = F for every X with dt(X) = 1 along the velocities.
+        let mut along = vec![s.read("1")];
+        along.extend(v.clone());
+        s.same(s.dot(&along, &own[..=m.n]), put(in_velocities));
         let zero = s.read("0");
         let mut horizontal = vec![s.read("1")];
         horizontal.extend(v);

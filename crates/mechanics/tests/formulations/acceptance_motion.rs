@@ -1,11 +1,13 @@
 //! Acceptance of theory 1 §0 (virtual displacements, regularity), §1 (accelerations, multipliers and motions of S1–S4) and §4
-//! (numbers of constants, the conditions (13)–(15), the second variation): capabilities C1, C2, C5 and C6.
+//! (numbers of constants, the conditions (13)–(15), the second variation), the change of multipliers with the form of a
+//! constraint (theory 0 §3, theory 3 §3), and the implicit constraint z'³ + z' = x'y': capabilities C1, C2, C5, C6 and C22.
 //!
 //! The separating examples for R2 and R3 are in `corrections.rs`, R4 and R5 in `hypotheses.rs`, the equations (11) in
 //! `vakonomic.rs`; the refusal of f² = 0 is a test of the command line.
 
 use crate::acceptance_support::{chart, motion, Sheet};
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, SKATE};
+use crate::voronets::CUBIC;
 use chetaev_mechanics::curvature::curvature;
 use chetaev_mechanics::Characteristics;
 use chetaev_symbolic::Expr;
@@ -395,4 +397,100 @@ fn regularity_of_the_worked_systems() {
             expect(&case, claim, "proved");
         }
     }
+}
+
+/// (13') off Chaplygin's case: D(κ + θ) = ∂L*/∂z on the motions of S3, with κ = m ρ/a, θ = m a ρ and ∂L*/∂z = -m g.
+#[test]
+fn the_rate_of_the_multiplier_beyond_chaplygin() {
+    let case = Case::new(APPELL_HAMEL);
+    let s = Sheet::of(&case);
+    let theta = s.by(case.system.lagrangian, "z'");
+    assert!(case.equal_on_constraints(theta, s.read("m a sqrt(x'^2 + y'^2)")));
+    let sum = s.sum(&[s.read("m sqrt(x'^2 + y'^2)/a"), theta]);
+    let rate =
+        s.g.substitute(case.system.total_derivative(sum), &motion(&case));
+    s.equal(s.by(case.system.lagrangian, "z"), "-m g");
+    assert!(case.equal_on_constraints(rate, s.read("-m g")));
+    let other = s.sum(&[s.read("-m sqrt(x'^2 + y'^2)/a"), theta]);
+    let rate =
+        s.g.substitute(case.system.total_derivative(other), &motion(&case));
+    assert!(!case.equal_on_constraints(rate, s.read("-m g")));
+}
+
+/// λ̂ = H^{-T} λ for f̂ = H f: h f, the quadratic form of the cone, and two constraints mixed; accelerations do not change. For
+/// f = M Dg this is λ_g = Mᵀ λ_f.
+#[test]
+fn multipliers_of_constraints_written_otherwise() {
+    let check = |other: &str, acceleration: &str, multipliers: &[&str]| {
+        let rewritten = Case::new(other);
+        let routh = rewritten.equations("routh");
+        let first = rewritten.system.coordinate_index("x").unwrap();
+        let stated = rewritten.read(acceleration);
+        assert!(
+            rewritten.equal_on_constraints(routh.accelerations[first], stated),
+            "{other}"
+        );
+        for ((_, found), printed) in routh.multipliers.iter().zip(multipliers) {
+            let printed = rewritten.read(printed);
+            assert!(rewritten.equal_on_constraints(*found, printed), "{other}");
+        }
+    };
+    let scaled = PARTICLE.replace("z' = y x'", "exp(x) (z' - y x') = 0");
+    check(&scaled, "-y x' y'/(1 + y^2)", &["exp(-x) x' y'/(1 + y^2)"]);
+    let square = APPELL_HAMEL.replace("z' = a sqrt(x'^2 + y'^2)", "(x'^2 + y'^2 - z'^2/a^2)/2 = 0");
+    // On z' = a ρ this is -g a x'/((1 + a²) ρ) and λ̂ = -m g a/((1 + a²) ρ).
+    check(
+        &square,
+        "-g a^2 x'/((1 + a^2) z')",
+        &["-m g a^2/((1 + a^2) z')"],
+    );
+    let (x, y) = ("-m R sin(phi) phi' theta'", "m R cos(phi) phi' theta'");
+    // f̂ = H f with H = [[1, x], [0, 2]]: λ̂ = H^{-T} λ.
+    let mixed = DISC
+        .replace(
+            "\"x' = R cos(phi) theta'\"",
+            "\"x' - R cos(phi) theta' + x (y' - R sin(phi) theta') = 0\"",
+        )
+        .replace(
+            "\"y' = R sin(phi) theta'\"",
+            "\"2 y' = 2 R sin(phi) theta'\"",
+        );
+    check(
+        &mixed,
+        "-R sin(phi) phi' theta'",
+        &[x, &format!("({y} - x ({x}))/2")],
+    );
+}
+
+/// z'³ + z' = x'y', f_d = 3 z'² + 1: φ_x = y'/f_d, φ_y = x'/f_d, φ_xx = -6 z' φ_x²/f_d, φ_xy = (1 - 6 z' φ_x φ_y)/f_d,
+/// a^s = -g φ_s/(1 + φ_x² + φ_y²), λ = m g/(f_d (1 + φ_x² + φ_y²)).
+#[test]
+fn an_implicit_constraint() {
+    let case = Case::new(CUBIC);
+    let s = Sheet::of(&case);
+    let c = chart(&case, &[2]);
+    let (fd, phi_x, phi_y) = ("(3 z'^2 + 1)", "(y'/(3 z'^2 + 1))", "(x'/(3 z'^2 + 1))");
+    let slopes = c.by_parameters(&case.system, &c.solved);
+    let second = c.by_parameters(&case.system, &slopes[0]);
+    let length = format!("(1 + {phi_x}^2 + {phi_y}^2)");
+    let routh = case.equations("routh");
+    let stated = [
+        (slopes[0][0], phi_x.to_string()),
+        (slopes[0][1], phi_y.to_string()),
+        (second[0][0], format!("-6 z' {phi_x}^2/{fd}")),
+        (second[0][1], format!("(1 - 6 z' {phi_x} {phi_y})/{fd}")),
+        (second[1][0], format!("(1 - 6 z' {phi_x} {phi_y})/{fd}")),
+        (routh.accelerations[0], format!("-g {phi_x}/{length}")),
+        (routh.accelerations[1], format!("-g {phi_y}/{length}")),
+        (routh.multipliers[0].1, format!("m g/({fd} {length})")),
+    ];
+    for (found, printed) in stated {
+        assert!(
+            case.equal_on_constraints(found, s.read(&printed)),
+            "{printed}"
+        );
+    }
+    // ∂φ_x/∂x' with z' held fixed is not φ_xx.
+    assert!(!case.equal_on_constraints(second[0][0], s.read("0")));
+    expect(&case, "formulation.equivalent#voronets", "proved");
 }

@@ -376,3 +376,40 @@ fn the_contraction_needs_constraints_without_time() {
     let contracted = s.dot(&a[0], &s.all(&["x'", "y'"]));
     s.equal(contracted, "x'");
 }
+
+/// f^l = M^l_m(q) Dg^m with two constraints: A = 0 and δf = 0 for virtual δq, but E[f] ≠ 0; with one term of Dg changed A ≠ 0.
+#[test]
+fn integrable_constraints_mixed_by_functions() {
+    let text = |first: &str| {
+        let second = "(w' - 2 x x')";
+        format!(
+            "coordinates = [\"x\", \"y\", \"z\", \"w\"]\nlagrangian = {{ L = \"1/2 (x'^2 + y'^2 + z'^2 + w'^2)\" }}\n\
+             constraints = {{ a = \"{first} + y {second} = 0\", b = \"exp(x) {second} - y^2 {first} = 0\" }}\n"
+        )
+    };
+    let curvatures = |case: &Case| curvature(&case.system, &chart(case, &[2, 3])).concat();
+    let case = Case::new(&text("(z' - y x' - x y')"));
+    let zero = case.read("0");
+    for e in curvatures(&case) {
+        assert!(case.equal_on_constraints(e, zero));
+    }
+    let rows = euler_rows(&case);
+    assert!(rows
+        .concat()
+        .iter()
+        .any(|&e| !case.equal_on_constraints(e, zero)));
+    let c = chart(&case, &[2, 3]);
+    let s = Sheet::of(&case);
+    // Df = 0 gives the dependent accelerations.
+    for row in &rows {
+        for e in c.contract(&case.system, row) {
+            let on_set = c.on_jet(&case.system, &[e])[0];
+            s.vanishes(on_set);
+        }
+    }
+    let other = Case::new(&text("(z' - y x' - 2 x y')"));
+    let found = curvatures(&other);
+    assert!(found
+        .iter()
+        .any(|&e| !other.equal_on_constraints(e, other.read("0"))));
+}
