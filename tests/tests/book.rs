@@ -193,7 +193,7 @@ fn tests_of_the_corrections_exist() {
         let tests: Vec<&str> = correction
             .lines()
             .filter(|line| line.starts_with("- Test: "))
-            .flat_map(|line| between(line, "`", "`"))
+            .flat_map(|line| line.split('`').skip(1).step_by(2))
             .filter(|name| name.contains('_'))
             .collect();
         assert!(!tests.is_empty(), "no test of {correction}");

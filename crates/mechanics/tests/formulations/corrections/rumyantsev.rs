@@ -147,6 +147,28 @@ constraints = { speed = "y' = sqrt(c^2 - x'^2)" }
     });
 }
 
+/// Rumyantsev's survey: for the same virtual displacement (a, b, y a) the integrands of Hölder, Voronets and Suslov are one
+/// function on f = 0, each with its own rule for δv; no total derivative is between them. Without the curvature they differ (S4).
+#[test]
+fn rumyantsev_three_integrands_are_one() {
+    let case = Case::new(&format!(
+        "{PARTICLE}velocities = {{ independent = [\"x'\", \"y'\"] }}\n"
+    ));
+    let g = &case.system.graph;
+    let equations = case.equations("voronets");
+    let object = |name: &str| case.object(&equations, name);
+    let curvature = g.add(&[
+        g.mul(&[object("theta_z"), object("A_z_x"), case.read("a")]),
+        g.mul(&[object("theta_z"), object("A_z_y"), case.read("b")]),
+    ]);
+    let of_hoelder = case.read("x' a' + y' b' + z' (y' a + y a')");
+    let of_suslov = case.read("x' a' + y' b' + z' (x' b + y a')");
+    let of_voronets = case.read("(1 + y^2) x' a' + y' b' + y x'^2 b + y x' (y' a - x' b)");
+    assert!(case.equal_on_constraints(of_hoelder, g.add(&[of_suslov, curvature])));
+    assert!(case.equal_on_constraints(of_hoelder, of_voronets));
+    expect_different(&case, of_hoelder, of_suslov);
+}
+
 /// Qiao: a holonomic F(ξ) = 0 differentiated once is Σ ∂F/∂ξ_i ξ_i' = 0; with the printed coefficients ∂F/∂ξ_i' nothing is left
 /// of it.
 #[test]
