@@ -11,6 +11,8 @@ const STATES: u64 = 6;
 const CLEARLY: f64 = 1e-6;
 /// Below this share of its scale a value is rounding.
 const ROUNDING: f64 = 1e-9;
+/// A row of a matrix below it is zero: the coefficients of random systems are of the size of one.
+const NOTHING: f64 = 1e-11;
 
 /// What double precision says of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,7 +55,9 @@ pub(super) enum Rank {
 pub(super) fn rank(mut a: Vec<f64>, n: usize) -> Rank {
     for row in a.chunks_mut(n.max(1)) {
         let size = row.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        if size > 0.0 {
+        if size < NOTHING {
+            row.fill(0.0);
+        } else {
             row.iter_mut().for_each(|x| *x /= size);
         }
     }

@@ -5,6 +5,7 @@
 //! The right side is evaluated from φ alone. Where it vanishes, as for an integrable constraint, the equations without
 //! it are right and must be proved; elsewhere they must be refuted.
 
+use super::hypotheses::{seen, Seen};
 use super::numbers::{differ, Size};
 use super::{Expected, Kind, Subject, Trial};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
@@ -16,16 +17,20 @@ pub(super) fn lagrange_of_restricted(subject: &Subject<'_>) -> Option<Trial> {
     if subject.natural.dependent.is_empty() {
         return None;
     }
+    // A singular L* has no equations of motion, right or wrong.
+    if seen(subject, "model.restricted-hessian-regular") == Seen::Fails {
+        return None;
+    }
     let reduction = Reduction::new(subject)?;
     let missing = subject.on_jet(&reduction.voronets());
     let zeros = vec![subject.cx.system.graph.zero(); missing.len()];
-    let seen = differ(subject, &missing, &zeros);
+    let term = differ(subject, &missing, &zeros);
     let wrong = subject.motion_of(&subject.natural, &subject.on_jet(&reduction.equations()));
-    let (expected, about) = match seen {
+    let (expected, about) = match term {
         Size::Zero => (Expected::Proved, "Voronets' term vanishes"),
         _ => (Expected::Refuted, "Voronets' term is missing"),
     };
-    let verdict = match (seen, wrong) {
+    let verdict = match (term, wrong) {
         (Size::Unclear, _) => {
             Verdict::undecided("double precision cannot tell Voronets' term from zero")
         }
