@@ -132,16 +132,22 @@ fn restricted_hessian(subject: &Sampled<'_>) -> Seen {
     regular_values(&matrices, k)
 }
 
-/// `Bᵀ M B`.
+/// `Bᵀ M B`, entries that cancel to rounding set to zero.
 fn congruent(m: &[f64], b: &[f64], n: usize, k: usize) -> Vec<f64> {
+    const CANCELLED: f64 = 1e-11;
     let mut product = vec![0.0; k * k];
-    for s in 0..k {
-        for u in 0..k {
-            for i in 0..n {
-                for j in 0..n {
-                    product[s * k + u] += b[i * k + s] * m[i * n + j] * b[j * k + u];
-                }
+    for (place, entry) in product.iter_mut().enumerate() {
+        let (s, u) = (place / k, place % k);
+        let mut size = 0.0;
+        for i in 0..n {
+            for j in 0..n {
+                let term = b[i * k + s] * m[i * n + j] * b[j * k + u];
+                *entry += term;
+                size += term.abs();
             }
+        }
+        if entry.abs() < CANCELLED * size {
+            *entry = 0.0;
         }
     }
     product
