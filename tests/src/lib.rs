@@ -8,6 +8,7 @@
 pub mod cases;
 pub mod checks;
 pub mod literature;
+pub mod pages;
 pub mod places;
 pub mod program;
 pub mod rejections;
