@@ -113,27 +113,28 @@ fn restricted_hessian(subject: &Sampled<'_>) -> Seen {
             Err(_) => return Seen::Unclear,
         },
     };
-    let mut inner = terms.mass_matrix.concat();
+    let mut all = terms.mass_matrix.concat();
+    let mut curvature = vec![Vec::new(); n * n];
     for (&row, &mu) in chart.rows.iter().zip(&mu) {
         let second = g.jacobian(&terms.jacobian[row], &velocities).concat();
-        for (entry, e) in inner.iter_mut().zip(second) {
-            *entry = g.sub(*entry, g.mul(&[mu, e]));
+        for (parts, e) in curvature.iter_mut().zip(second) {
+            parts.push(g.mul(&[mu, e]));
         }
     }
-    let mut all = inner;
+    all.extend(curvature.iter().map(|parts| g.neg(g.add(parts))));
     all.extend(chart.basis.concat());
     let matrices: Vec<Vec<f64>> = values(subject, &all, &subject.states)
         .iter()
         .map(|values| {
-            let (inner, basis) = values.split_at(n * n);
-            congruent(inner, basis, n, k)
+            let (summands, basis) = values.split_at(2 * n * n);
+            congruent(summands.split_at(n * n), basis, n, k)
         })
         .collect();
     regular_values(&matrices, k)
 }
 
-/// `Bᵀ M B`, entries that cancel to rounding set to zero.
-fn congruent(m: &[f64], b: &[f64], n: usize, k: usize) -> Vec<f64> {
+/// `Bᵀ (M + N) B`, entries that cancel to rounding set to zero.
+fn congruent((m, other): (&[f64], &[f64]), b: &[f64], n: usize, k: usize) -> Vec<f64> {
     const CANCELLED: f64 = 1e-11;
     let mut product = vec![0.0; k * k];
     for (place, entry) in product.iter_mut().enumerate() {
@@ -141,9 +142,9 @@ fn congruent(m: &[f64], b: &[f64], n: usize, k: usize) -> Vec<f64> {
         let mut size = 0.0;
         for i in 0..n {
             for j in 0..n {
-                let term = b[i * k + s] * m[i * n + j] * b[j * k + u];
-                *entry += term;
-                size += term.abs();
+                let weight = b[i * k + s] * b[j * k + u];
+                *entry += weight * (m[i * n + j] + other[i * n + j]);
+                size += weight.abs() * (m[i * n + j].abs() + other[i * n + j].abs());
             }
         }
         if entry.abs() < CANCELLED * size {
