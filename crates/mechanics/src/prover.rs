@@ -220,7 +220,7 @@ fn located(found: &str, on: &str, system: &System) -> String {
         place.push_str(", wherever both sides are defined");
     }
     if !system.assumptions.is_empty() {
-        let texts: Vec<&str> = system.assumptions.iter().map(|a| a.text.as_str()).collect();
+        let texts = system.assumption_texts();
         place.push_str(&format!("; assuming {}", texts.join(", ")));
     }
     place

@@ -364,6 +364,17 @@ impl System {
             .total_derivative(e, &|name| self.controls.iter().any(|u| u.name == name))
     }
 
+    /// The assumptions as the model states them, each once: a chain such as `0 < a < b` is two assumptions of one text.
+    pub fn assumption_texts(&self) -> Vec<&str> {
+        let mut texts: Vec<&str> = Vec::new();
+        for assumption in &self.assumptions {
+            if !texts.contains(&assumption.text.as_str()) {
+                texts.push(&assumption.text);
+            }
+        }
+        texts
+    }
+
     /// Names of the quasi-velocities.
     pub fn quasi_names(&self) -> Vec<String> {
         self.quasi_velocities

@@ -148,11 +148,42 @@ pub fn magnitude(g: &Graph, e: Expr) -> Expr {
                 let all: Vec<Expr> = std::iter::once(absolute(part)).chain(changes).collect();
                 g.add(&all)
             }
+            Node::Entry { of: solve, index } => {
+                let right = |b: &Expr| of(b);
+                solution_size(g, *solve, *index as usize, &right).unwrap_or(absolute(part))
+            }
             _ => absolute(part),
         };
         sizes.insert(part, size);
     }
     sizes.get(&e).copied().unwrap_or(e)
+}
+
+/// The size of a component of `x = A⁻¹ b`: Σ_j |(A⁻¹)_ij| times the sizes of the b_j; the row of A⁻¹ solves Aᵀ z = e_i.
+fn solution_size(
+    g: &Graph,
+    solve: Expr,
+    index: usize,
+    size: &dyn Fn(&Expr) -> Expr,
+) -> Option<Expr> {
+    let Node::Solve { matrix, rhs } = g.node(solve) else {
+        return None;
+    };
+    let Node::Matrix { entries, .. } = g.node(*matrix) else {
+        return None;
+    };
+    let n = rhs.len();
+    let transposed: Vec<Expr> = (0..n * n).map(|i| entries[(i % n) * n + i / n]).collect();
+    let unit: Vec<Expr> = (0..n)
+        .map(|i| if i == index { g.one() } else { g.zero() })
+        .collect();
+    let row = g.solve(&transposed, &unit).ok()?;
+    let parts: Vec<Expr> = row
+        .iter()
+        .zip(rhs.iter())
+        .map(|(&z, b)| g.mul(&[g.apply(Function::Abs, &[z]), size(b)]))
+        .collect();
+    Some(g.add(&parts))
 }
 
 /// ∂F/∂uᵢ of a function of the arguments u.

@@ -30,15 +30,22 @@ pub(crate) fn notices(
     notices
 }
 
+/// Longer formulas do not belong into a sentence.
+const LONGEST: usize = 120;
+
 /// Constraints that contain no velocities.
 fn holonomic(model: &Model, system: &System) -> Vec<String> {
     let mut notices = Vec::new();
     for constraint in &system.constraints {
         if constraint.order == 0 {
+            let text = model.graph.text(constraint.stated);
+            let what = match text.chars().count() <= LONGEST {
+                true => text,
+                false => "it".into(),
+            };
             notices.push(format!(
-                "constraint `{}` contains no velocities: it is taken as holonomic, {} is kept on the initial level and differentiated once for the reaction",
+                "constraint `{}` contains no velocities: it is taken as holonomic, {what} is kept on the initial level and differentiated once for the reaction",
                 constraint.name,
-                model.graph.text(constraint.stated)
             ));
         }
     }

@@ -320,13 +320,7 @@ impl<'a> Context<'a> {
         if self.system.assumptions.is_empty() {
             return String::new();
         }
-        let texts: Vec<&str> = self
-            .system
-            .assumptions
-            .iter()
-            .map(|a| a.text.as_str())
-            .collect();
-        format!(", assuming {}", texts.join(", "))
+        format!(", assuming {}", self.system.assumption_texts().join(", "))
     }
 }
 
