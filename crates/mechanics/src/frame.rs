@@ -3,7 +3,8 @@
 //! Forms `ω^s = a^s_u dq^u + a^s_0 dt`, quasi-velocities `η^s = a^s_u v^u + a^s_0`, dual fields `X_s` and `X_0`, so that
 //! `v = X_0 + η^s X_s` (T3 §1; Poincaré 1901, Boltzmann 1902). The natural frame has `η = v`.
 
-use crate::selection::Selection;
+use crate::sample;
+use crate::selection::{eliminate, pivot_cost, Selection};
 use crate::system::System;
 use crate::terms::MotionTerms;
 use chetaev_symbolic::linear::SolveError;
@@ -108,8 +109,10 @@ impl Frame {
             forms.complete_by_constraints(system, terms, selection);
             FrameOrigin::CompletedByConstraints
         } else {
-            let rest = selection.dependent.iter();
-            forms.speeds.extend(rest.map(|&d| velocity(system, d)));
+            let rest = completing(system, terms, selection, &forms);
+            forms
+                .speeds
+                .extend(rest.iter().map(|&d| velocity(system, d)));
             FrameOrigin::CompletedByVelocities
         };
         Some(forms.into_frame(system).map(|frame| (frame, origin)))
@@ -299,6 +302,46 @@ impl Forms {
             fields,
             adapted: self.adapted,
         })
+    }
+}
+
+/// Velocities that complete the stated forms to a frame: those of the columns that the forms leave free at a sampled state,
+/// the dependent ones of the selection where possible.
+fn completing(
+    system: &System,
+    terms: &MotionTerms,
+    selection: &Selection,
+    forms: &Forms,
+) -> Vec<usize> {
+    let (g, n) = (&system.graph, system.n());
+    let definitions: Vec<Expr> = forms.speeds.iter().map(|s| s.definition).collect();
+    let slopes = g.jacobian(&definitions, &system.velocity_symbols());
+    let values = sample::admissible_point(system, terms, 0x0c4e_7ae5).and_then(|point| {
+        g.evaluate_f64(&slopes.concat(), &|s| point.get(&s).copied())
+            .ok()
+    });
+    let Some(values) = values else {
+        return selection.dependent.clone();
+    };
+    let cost: Vec<Vec<usize>> = slopes
+        .iter()
+        .map(|row| {
+            let kept = |i| {
+                if selection.dependent.contains(&i) {
+                    10_000_000
+                } else {
+                    0
+                }
+            };
+            (0..n)
+                .map(|i| kept(i) + pivot_cost(system, row[i], usize::MAX))
+                .collect()
+        })
+        .collect();
+    let taken = eliminate(values, cost, n).dependent;
+    match taken.len() == definitions.len() {
+        true => (0..n).filter(|i| !taken.contains(i)).collect(),
+        false => selection.dependent.clone(),
     }
 }
 

@@ -32,7 +32,7 @@ static CARD: Card = Card {
     sources: &[
         Source { key: "boltzmann1902", place: "" },
         Source { key: "hamel1904", place: "" },
-        Source { key: "zhao-jets", place: "(8)–(10)" },
+        Source { key: "zhao", place: "(8)–(10)" },
     ],
 };
 

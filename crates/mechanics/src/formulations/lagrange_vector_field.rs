@@ -29,7 +29,7 @@ static CARD: Card = Card {
     highest_order: 1,
     sources: &[
         Source { key: "cartan1922", place: "" },
-        Source { key: "zhao-jets", place: "(3)–(7)" },
+        Source { key: "zhao", place: "(3)–(7)" },
     ],
 };
 

@@ -29,7 +29,7 @@ static CARD: Card = Card {
     sources: &[
         Source { key: "poincare1901", place: "" },
         Source { key: "chetaev1941", place: "" },
-        Source { key: "zhao-jets", place: "(7)" },
+        Source { key: "zhao", place: "(7)" },
     ],
 };
 

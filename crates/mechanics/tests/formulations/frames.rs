@@ -250,3 +250,20 @@ fn a_singular_frame_is_refused_with_the_reason() {
         "not-applicable",
     );
 }
+
+/// k quasi-velocities that contain the velocity which the constraints would make dependent are completed by another one.
+#[test]
+fn stated_quasi_velocities_are_completed_by_what_they_leave_free() {
+    let text = r#"
+coordinates = ["x", "y"]
+lagrangian = { L = "1/2 (x'^2 + 2 y'^2) - x y" }
+constraints = { c = "x'^2 + y'^2 = 8 + 2 cos(x)" }
+"#;
+    for form in ["x' + 2 x", "y' (2 + x^2)", "x' + y'"] {
+        let case = Case::new(&format!("{text}[quasi_velocities]\nu = \"{form}\"\n"));
+        expect(&case, "model.frame-regular", "proved");
+        for name in IN_FRAMES.into_iter().chain(["maggi"]) {
+            expect(&case, &format!("formulation.equivalent#{name}"), "proved");
+        }
+    }
+}
