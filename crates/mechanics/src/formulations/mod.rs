@@ -229,6 +229,7 @@ pub trait Formulation: Sync {
 pub static FORMULATIONS: &[&dyn Formulation] = &[
     &Routh,
     &LagrangeDalembert,
+    &Maggi,
     &Voronets,
     &Chaplygin,
     &VolterraFirst,
@@ -239,18 +240,17 @@ pub static FORMULATIONS: &[&dyn Formulation] = &[
     &GibbsAppell,
     &Kane,
     &Gauss,
-    &Maggi,
-    &LagrangeVectorField,
-    &BoltzmannHamel,
     &PoincareChetaev,
+    &BoltzmannHamel,
+    &LagrangeVectorField,
     &Canonical,
+    &CanonicalReduced,
     &StateSpace,
     &StateSpaceCanonical,
-    &CanonicalReduced,
     &Parametric,
     &ParametricCanonical,
-    &Vakonomic,
     &Jacobi,
+    &Vakonomic,
 ];
 
 /// The formulation called `name`.

@@ -1,4 +1,4 @@
-//! Voronets's equations, and Chaplygin's, which are theirs without the terms of the dependent coordinates.
+//! Voronets' equations, and Chaplygin's, which are theirs without the terms of the dependent coordinates.
 //!
 //! `D(∂L*/∂v^s) - ∂L*/∂q^s - Σ_m ∂L*/∂q^{k+m} ∂φ^m/∂v^s = Σ_l θ_l A^l_s + Q_s + Σ_m Q_{k+m} ∂φ^m/∂v^s` (T1 (9)).
 //! The momenta θ_l of the dependent velocities are those of the full Lagrangian, restricted afterwards.
@@ -11,13 +11,13 @@ use crate::equations::{Equation, Equations, NamedExpr, Schema};
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
 
-/// Voronets's equations.
+/// Voronets' equations.
 #[derive(Clone, Copy, Debug)]
 pub struct Voronets;
 
 static CARD: Card = Card {
     name: "voronets",
-    title: "Voronets's equations",
+    title: "Voronets' equations",
     statement: "Lagrange's equations of the independent coordinates for the restricted Lagrangian, with the curvature of the constraints on the right.",
     principle: Principle::Hamilton,
     relation: Relation::Equivalent,

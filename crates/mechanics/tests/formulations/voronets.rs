@@ -1,4 +1,4 @@
-//! Voronets's equations and the curvature of constraints (theory 1 §§2–3).
+//! Voronets' equations and the curvature of constraints (theory 1 §§2–3).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use chetaev_mechanics::curvature::curvature;
