@@ -113,7 +113,7 @@ fn meaning(system: &System) -> Vec<u128> {
     all.extend(system.parameter_values().iter().map(|(_, value)| *value));
     all.extend(system.assumptions.iter().flat_map(|a| [a.left, a.right]));
     all.extend(system.quasi_velocities.iter().map(|quasi| quasi.definition));
-    for frame in &system.frame {
+    if let Some(frame) = &system.frame {
         all.extend(frame.fields.concat());
         all.extend(&frame.drift);
     }
