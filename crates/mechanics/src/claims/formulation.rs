@@ -214,17 +214,13 @@ pub fn residuals(cx: &Context<'_>, reference: &Equations, other: &Equations) -> 
         let accelerations = equations.in_natural_state(system, &equations.accelerations);
         roots::identified(cx, &accelerations)
     };
-    let ((reference_accelerations, reference_ties), (accelerations, ties)) =
-        (natural(reference), natural(other));
-    accelerations
+    natural(other)
         .into_iter()
-        .zip(reference_accelerations)
+        .zip(natural(reference))
         .map(|(a, b)| g.sub(a, b))
         .filter(|&residual| !g.is_zero(residual))
         .chain(other.velocity_residuals(system))
         .chain(reference.velocity_residuals(system))
-        .chain(ties)
-        .chain(reference_ties)
         .collect()
 }
 

@@ -3,12 +3,13 @@
 //! A formulation with a state of its own has the roots of the model as functions of that state: `√(p·W⁻²p)` for `√(v·v)`. With
 //! the definition of p put in, the radicand equals that of the model as a function, not as a formula, and a proof that takes the
 //! roots as unknowns could not tell that they are equal. Values at states suggest which radicands are the same up to a rational
-//! factor; that they are is proved with the rest.
+//! factor; one is replaced by the other only where it is proved that they are.
 
+use super::formulation::manifold;
 use super::Context;
 use crate::sample::{admissible_point, Point};
 use chetaev_symbolic::rational::{ratio, to_i64};
-use chetaev_symbolic::{Expr, Node, Rational};
+use chetaev_symbolic::{Expr, Node, Rational, Verdict};
 
 /// States at which radicands are compared.
 const STATES: u64 = 3;
@@ -16,9 +17,8 @@ const STATES: u64 = 3;
 /// The largest denominator of a factor.
 const DENOMINATORS: i64 = 100_000;
 
-/// The expressions with the roots of the system wherever theirs are suspected to be the same, and the differences of the
-/// radicands: what is said of the result holds for the expressions where these vanish.
-pub(super) fn identified(cx: &Context<'_>, es: &[Expr]) -> (Vec<Expr>, Vec<Expr>) {
+/// The expressions with the roots of the system wherever theirs are proved to be the same on the constraints.
+pub(super) fn identified(cx: &Context<'_>, es: &[Expr]) -> Vec<Expr> {
     let (system, g) = (cx.system, &cx.system.graph);
     let mut stated = vec![system.lagrangian];
     stated.extend(&system.forces);
@@ -27,7 +27,7 @@ pub(super) fn identified(cx: &Context<'_>, es: &[Expr]) -> (Vec<Expr>, Vec<Expr>
     let mut open = radicands(cx, es);
     open.retain(|e| !known.contains(e));
     if known.is_empty() || open.is_empty() {
-        return (es.to_vec(), Vec::new());
+        return es.to_vec();
     }
     let states: Vec<Point> = (0..STATES)
         .filter_map(|seed| admissible_point(system, cx.terms, seed))
@@ -40,8 +40,13 @@ pub(super) fn identified(cx: &Context<'_>, es: &[Expr]) -> (Vec<Expr>, Vec<Expr>
         });
         pairs.extend(same);
     }
-    let ties = pairs.iter().map(|&(a, b)| g.sub(a, b)).collect();
-    (g.substitute_all(es, &pairs), ties)
+    let manifold = manifold(cx);
+    pairs.retain(|&(a, b)| {
+        let difference = [g.sub(a, b)];
+        let verdict = cx.prover.identity(system, &difference, &manifold, "");
+        matches!(verdict, Verdict::Proved(_))
+    });
+    g.substitute_all(es, &pairs)
 }
 
 /// The bases of powers with exponents that are no whole numbers.
