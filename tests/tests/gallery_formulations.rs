@@ -12,8 +12,11 @@ use chetaev_tests::runs::{again, along, ended, ended_text, Ask};
 use chetaev_tests::studied::{gallery_path, loaded};
 use chetaev_tests::words::in_parallel;
 
+/// A name of a case and the expression that stands for it in the gallery.
+type Renamed = (&'static str, &'static str);
+
 /// Published cases, the file of the gallery that states the same system, and what an expression of the case is called there.
-const CASES: &[(&str, &str, &[(&str, &str)])] = &[
+const CASES: &[(&str, &str, &[Renamed])] = &[
     (
         "rattleback-kane-levinson",
         "rattleback/model.toml",
