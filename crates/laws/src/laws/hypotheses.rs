@@ -7,7 +7,7 @@ use super::numbers::{moved, rank, values, Rank, Size};
 use super::Sampled;
 use chetaev_mechanics::sample::Point;
 use chetaev_mechanics::System;
-use chetaev_symbolic::{Expr, Symbol};
+use chetaev_symbolic::{Expr, Graph, Symbol};
 
 /// What double precision says of a hypothesis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -189,10 +189,24 @@ fn frame(subject: &Sampled<'_>) -> Vec<Vec<Expr>> {
                 .iter()
                 .map(|&row| terms.jacobian[row].clone()),
         );
+    } else if stated.len() + r == n {
+        // Some velocities complete k forms to a frame if and only if the forms are independent.
+        return gram(g, &matrix);
     } else {
         matrix.extend(selection.dependent.iter().map(|&d| unit(d)));
     }
     matrix
+}
+
+/// The products of the rows with each other: nonsingular where the rows are independent.
+fn gram(g: &Graph, rows: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
+    let product = |a: &[Expr], b: &[Expr]| {
+        let parts: Vec<Expr> = a.iter().zip(b).map(|(&x, &y)| g.mul(&[x, y])).collect();
+        g.add(&parts)
+    };
+    rows.iter()
+        .map(|a| rows.iter().map(|b| product(a, b)).collect())
+        .collect()
 }
 
 /// Central differences by the time.

@@ -32,21 +32,74 @@ pub(super) fn identified(cx: &Context<'_>, es: &[Expr]) -> Vec<Expr> {
     let states: Vec<Point> = (0..STATES)
         .filter_map(|seed| admissible_point(system, cx.terms, seed))
         .collect();
+    let manifold = manifold(cx);
+    let is_zero = |e: Expr| {
+        let verdict = cx.prover.identity(system, &[e], &manifold, "");
+        matches!(verdict, Verdict::Proved(_))
+    };
     let mut pairs = Vec::new();
     for &radicand in &open {
         let same = known.iter().find_map(|&other| {
             let factor = factor(cx, &states, radicand, other)?;
-            Some((radicand, g.scale(&factor, other)))
+            let scaled = g.scale(&factor, other);
+            is_zero(g.sub(radicand, scaled)).then_some((radicand, scaled))
         });
-        pairs.extend(same);
+        match same {
+            Some(pair) => pairs.push(pair),
+            None => pairs.extend(quotient(
+                cx,
+                &states,
+                es,
+                radicand,
+                (&known, &open),
+                &is_zero,
+            )),
+        }
     }
-    let manifold = manifold(cx);
-    pairs.retain(|&(a, b)| {
-        let difference = [g.sub(a, b)];
-        let verdict = cx.prover.identity(system, &difference, &manifold, "");
-        matches!(verdict, Verdict::Proved(_))
-    });
     g.substitute_all(es, &pairs)
+}
+
+/// Powers of a radicand that is `c A/B`, A a radicand of the model and B one that occurs: with a real root of B they are
+/// `c^e A^e B^-e`.
+fn quotient(
+    cx: &Context<'_>,
+    states: &[Point],
+    es: &[Expr],
+    radicand: Expr,
+    (known, open): (&[Expr], &[Expr]),
+    is_zero: &dyn Fn(Expr) -> bool,
+) -> Vec<(Expr, Expr)> {
+    let g = &cx.system.graph;
+    // Of `u = A/B` and `B = A/u` the longer one is replaced, so that no circle arises.
+    let size = |e: Expr| g.reachable(&[e]).len();
+    let below = known
+        .iter()
+        .chain(open)
+        .filter(|&&b| size(b) < size(radicand));
+    let found = below
+        .flat_map(|&b| known.iter().map(move |&a| (a, b)))
+        .filter(|(a, b)| a != b)
+        .find_map(|(a, b)| {
+            let product = g.mul(&[radicand, b]);
+            let factor = factor(cx, states, product, a)?;
+            let above = g.scale(&factor, a);
+            is_zero(g.sub(product, above)).then_some((above, b))
+        });
+    let Some((above, b)) = found else {
+        return Vec::new();
+    };
+    g.reachable(es)
+        .into_iter()
+        .filter_map(|e| match g.node(e) {
+            Node::Power { base, exponent }
+                if *base == radicand && g.as_integer(*exponent).is_none() =>
+            {
+                let top = g.pow(above, *exponent);
+                Some((e, g.div(top, g.pow(b, *exponent))))
+            }
+            _ => None,
+        })
+        .collect()
 }
 
 /// The bases of powers with exponents that are no whole numbers.

@@ -161,3 +161,21 @@ fn a_wrong_speed_is_refuted() {
     });
     assert_eq!(compared(&case, &mutant), "refuted");
 }
+
+/// The radicand of a homogeneous constraint in arc-length rates is that of the model over 2F: a quotient of radicands.
+#[test]
+fn roots_of_quotients_are_quotients_of_roots() {
+    for constraints in [
+        "c = \"5 sqrt(y'^2 + z'^2) + x' = 0\"",
+        "c = \"5 sqrt(y'^2 + z'^2) + x' = 0\", d = \"w' = z z'\"",
+    ] {
+        let text = format!(
+            r#"
+coordinates = ["x", "y", "z", "w"]
+lagrangian = {{ L = "1/2 (x'^2 + (3 + x^2) y'^2 + 2 z'^2 + w'^2 + x' y') + x" }}
+constraints = {{ {constraints} }}
+"#
+        );
+        expect(&Case::new(&text), "formulation.equivalent#jacobi", "proved");
+    }
+}
