@@ -91,8 +91,8 @@ pub(crate) struct MotionArguments {
     /// dormand-prince-853 (dop853), tsitouras-5 (tsit5) or runge-kutta-4 (rk4, with --step)
     #[arg(long)]
     pub(crate) method: Option<String>,
-    /// The equations that are integrated: routh or maggi
-    #[arg(long)]
+    /// The formulation whose equations are integrated, in its own state; routh when left out
+    #[arg(long, value_name = "NAME", value_parser = formulation_names())]
     pub(crate) formulation: Option<String>,
     /// Move inadmissible initial data to the nearest admissible state
     #[arg(long)]

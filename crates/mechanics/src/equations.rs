@@ -264,3 +264,31 @@ impl Equations {
             .collect()
     }
 }
+
+/// A name that nothing in the system has: `wanted`, with underscores behind it where needed.
+pub(crate) fn unused_name(system: &System, wanted: &str) -> String {
+    let mut name = wanted.to_string();
+    while is_used(system, &name) {
+        name.push('_');
+    }
+    name
+}
+
+fn is_used(system: &System, name: &str) -> bool {
+    system.moves(name)
+        || system.parameters.iter().any(|p| p.name == name)
+        || system.quasi_velocities.iter().any(|u| u.name == name)
+}
+
+/// Gives intermediate objects names that nothing in the system and no other object has.
+pub fn keep_names_apart(system: &System, objects: &mut [NamedExpr]) {
+    let mut taken = std::collections::BTreeSet::new();
+    for object in objects {
+        let mut name = unused_name(system, &object.name);
+        while taken.contains(&name) {
+            name = unused_name(system, &format!("{name}_"));
+        }
+        taken.insert(name.clone());
+        object.name = name;
+    }
+}

@@ -45,6 +45,18 @@ pub enum FlowError {
         /// The formulation.
         formulation: &'static str,
     },
+    /// The variables of the formulation do not give the velocities of the start back.
+    #[error("the variables of `{formulation}` are singular at the initial state: they give {coordinate}' = {found:.6e} where it is {stated:.6e}; choose another formulation, other quasi-velocities or another initial state")]
+    SingularStart {
+        /// The formulation.
+        formulation: &'static str,
+        /// The coordinate whose velocity differs most.
+        coordinate: String,
+        /// Its velocity from the variables.
+        found: f64,
+        /// Its velocity at the start.
+        stated: f64,
+    },
 }
 
 /// The equations in one chart, compiled.
@@ -98,6 +110,8 @@ impl std::fmt::Debug for FormulationFlow<'_> {
     }
 }
 
+/// Velocities that differ by more than this part of the largest are not the same.
+const SAME: f64 = 1e-6;
 const DEGRADED: f64 = 0.1;
 const HYSTERESIS: f64 = 3.0;
 
@@ -185,6 +199,33 @@ impl<'a> FormulationFlow<'a> {
             y[q.len() + place] = value;
         }
         Ok(y)
+    }
+
+    /// The state vector of the start, from which the velocities of the start must come back.
+    ///
+    /// # Errors
+    /// [`FlowError::Start`] and [`FlowError::SingularStart`].
+    pub fn start(&mut self, start: &ConsistentState) -> Result<Vec<f64>, FlowError> {
+        let formulation = self.formulation.card().name;
+        let y = self
+            .pack(start.t, &start.q, &start.v)
+            .map_err(|_| FlowError::Start { formulation })?;
+        // What cannot be evaluated here stops the run at its first step, with its reason.
+        if self.evaluate(start.t, &y).is_err() {
+            return Ok(y);
+        }
+        let scale = start.v.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let gap = |i: usize| (self.v[i] - start.v[i]).abs();
+        let worst = (0..self.numeric.n).max_by(|&i, &j| gap(i).total_cmp(&gap(j)));
+        match worst.filter(|&i| gap(i) > SAME * scale) {
+            None => Ok(y),
+            Some(i) => Err(FlowError::SingularStart {
+                formulation,
+                coordinate: self.numeric.coordinates[i].clone(),
+                found: self.v[i],
+                stated: start.v[i],
+            }),
+        }
     }
 
     fn evaluate(&mut self, t: f64, y: &[f64]) -> Result<(), EvaluationFailure> {

@@ -316,9 +316,7 @@ impl Subject<'_> {
         let numeric = self.numeric.clone();
         let mut flow = FormulationFlow::new(formulation, of, numeric, self.start, &settings.own)?;
         flow.follow = self.follow(settings)?;
-        let y0 = flow
-            .pack(self.start.t, &self.start.q, &self.start.v)
-            .map_err(|_| FlowError::Start { formulation: name })?;
+        let y0 = flow.start(self.start)?;
         let watched = flow.watch.quantities.clone();
         let (pieces, end) = self.watched(&mut flow, &watched, y0, settings, watcher)?;
         let ending = match end {

@@ -2,6 +2,7 @@
 
 use crate::typeset;
 use chetaev_mechanics::card::{Card, Relation};
+use chetaev_mechanics::claims::formulation::derive;
 use chetaev_mechanics::claims::full_id;
 use chetaev_mechanics::equations::{Equation, NamedExpr, Schema};
 use chetaev_mechanics::formulations::DeriveError;
@@ -89,13 +90,10 @@ pub fn derivation(
 ) -> Result<Derivation, NotDerived> {
     let card = formulation.card();
     check_applies(cx, card)?;
-    let basis = chetaev_mechanics::claims::formulation::basis(cx);
-    let equations = formulation
-        .equations(&basis)
-        .map_err(|problem| NotDerived::Failed {
-            name: card.name,
-            problem,
-        })?;
+    let equations = derive(cx, card.name).map_err(|problem| NotDerived::Failed {
+        name: card.name,
+        problem,
+    })?;
     let system = cx.system;
     let groups = equations
         .groups

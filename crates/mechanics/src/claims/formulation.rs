@@ -4,7 +4,7 @@
 use super::{roots, Claim, Context, Finding, Group};
 use crate::card::Relation;
 use crate::characteristics::{Characteristics, Manifold};
-use crate::equations::Equations;
+use crate::equations::{keep_names_apart, Equations};
 use crate::formulations::{self, Basis, DeriveError, FORMULATIONS};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
@@ -190,9 +190,10 @@ pub fn basis<'a>(cx: &Context<'a>) -> Basis<'a> {
 /// # Errors
 /// [`DeriveError`]; an unknown name derives as the reference.
 pub fn derive(cx: &Context<'_>, name: &str) -> Result<Equations, DeriveError> {
-    formulations::formulation(name)
-        .unwrap_or(&formulations::Routh)
-        .equations(&basis(cx))
+    let known = formulations::formulation(name).unwrap_or(&formulations::Routh);
+    let mut equations = known.equations(&basis(cx))?;
+    keep_names_apart(cx.system, &mut equations.objects);
+    Ok(equations)
 }
 
 /// Proves or refutes that two sets of equations give the same accelerations on the constraint manifold.

@@ -4,7 +4,8 @@
 use super::{Claim, Context, Finding, Group};
 use crate::characteristics::Manifold;
 use crate::claims::formulation::manifold;
-use crate::formulations::{extremum_matrix, restricted_hessian, unused_name};
+use crate::equations::unused_name;
+use crate::formulations::{extremum_matrix, restricted_hessian};
 use crate::system::System;
 use crate::Characteristics;
 use chetaev_symbolic::verdict::Proof;

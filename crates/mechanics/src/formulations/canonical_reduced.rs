@@ -6,10 +6,10 @@
 //! with `θ_l = ∂L/∂v^{k+l}` of the full L. It needs that `∂²L̄/∂v∂v` is regular, which is not the restricted Hessian `Bᵀ W B`.
 //! For φ nonlinear in the velocities A contains v', hence p̃': the equations are linear in v' and are solved for it.
 
-use super::legendre::unused_name;
 use super::{Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::Characteristics;
+use crate::equations::unused_name;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};

@@ -18,7 +18,7 @@ pub struct Chaplygin;
 static CARD: Card = Card {
     name: "chaplygin",
     title: "Chaplygin's equations",
-    statement: "Lagrange's equations of the independent coordinates for the restricted Lagrangian with Chaplygin's correction, closed in the independent coordinates.",
+    statement: "Lagrange's equations of the independent coordinates for the restricted Lagrangian with Chaplygin's correction; where the forces contain no dependent coordinates either, they are closed.",
     principle: Principle::Hamilton,
     relation: Relation::Equivalent,
     requires: &["model.accelerations-unique", "model.chaplygin"],

@@ -37,6 +37,12 @@ const SCHEMA: Schema = Schema {
     latex: r"\frac{\partial S}{\partial \dot P_\sigma} = \Pi_\sigma, \quad S = \tfrac12 \sum_a m_a \ddot r_a \cdot \ddot r_a, \quad \Pi_\sigma = \sum_a F_a \cdot \frac{\partial \ddot r_a}{\partial \dot P_\sigma}",
 };
 
+/// Without particles, from L alone.
+const SCHEMA_OF_L: Schema = Schema {
+    text: "∂S/∂P'_σ = Π_σ,  S = ½ Σ_ij L_{v^i v^j} a^i a^j + Σ_i c_i a^i,  c_i = D(∂L/∂v^i)|_{a=0} − ∂L/∂q^i,  Π_σ = Σ_i Q_i ∂v^i/∂P_σ",
+    latex: r"\frac{\partial S}{\partial \dot P_\sigma} = \Pi_\sigma, \quad S = \tfrac12 \sum_{ij} \frac{\partial^2 L}{\partial \dot q^i \partial \dot q^j} \ddot q^i \ddot q^j + \sum_i c_i \ddot q^i, \quad \Pi_\sigma = \sum_i Q_i \frac{\partial \dot q^i}{\partial P_\sigma}",
+};
+
 impl Formulation for GibbsAppell {
     fn card(&self) -> &'static Card {
         &CARD
@@ -45,9 +51,9 @@ impl Formulation for GibbsAppell {
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
         let (system, characteristics) = (basis.system, basis.characteristics()?);
         let g = &system.graph;
-        let energy = match particles::suffice(system) {
-            true => from_particles(system, &characteristics),
-            false => from_lagrangian(basis, &characteristics),
+        let (energy, schema) = match particles::suffice(system) {
+            true => (from_particles(system, &characteristics), SCHEMA),
+            false => (from_lagrangian(basis, &characteristics), SCHEMA_OF_L),
         };
         let symbols: Vec<Symbol> = characteristics
             .parameters
@@ -68,7 +74,7 @@ impl Formulation for GibbsAppell {
         let rates = super::voronets::solved_rates(system, &characteristics, &motion)?;
         Ok(
             Equations::in_characteristics(CARD.name, system, &characteristics, &rates)
-                .with_group("equations of motion", Some(SCHEMA), motion)
+                .with_group("equations of motion", Some(schema), motion)
                 .with_group("kinematics", None, basis.kinematics(&characteristics))
                 .with_objects(energy.objects(system, &characteristics)),
         )

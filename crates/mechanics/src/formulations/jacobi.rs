@@ -7,11 +7,11 @@
 //! The root `S = √(2F)` is a symbol with `dS = dF/S` while P is differentiated, and 1 when that is done: along a path in arc
 //! length no root of a square is left whose sign had to be guessed.
 
-use super::legendre::unused_name;
 use super::parametric::{mu_objects, mu_symbols, ParameterRate};
 use super::{Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::derive_along;
+use crate::equations::unused_name;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};

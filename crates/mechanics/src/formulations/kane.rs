@@ -34,6 +34,12 @@ const SCHEMA: Schema = Schema {
     latex: r"F_\sigma + F^*_\sigma = 0, \quad F_\sigma = \sum_a F_a \cdot \frac{\partial \dot r_a}{\partial P_\sigma}, \quad F^*_\sigma = -\sum_a m_a \ddot r_a \cdot \frac{\partial \dot r_a}{\partial P_\sigma}",
 };
 
+/// Without particles, from L alone.
+const SCHEMA_OF_L: Schema = Schema {
+    text: "F_σ + F*_σ = 0,  F_σ = Σ_i Q_i ∂v^i/∂P_σ,  F*_σ = −Σ_i ( D(∂L/∂v^i) − ∂L/∂q^i ) ∂v^i/∂P_σ",
+    latex: r"F_\sigma + F^*_\sigma = 0, \quad F_\sigma = \sum_i Q_i \frac{\partial \dot q^i}{\partial P_\sigma}, \quad F^*_\sigma = -\sum_i \Bigl(\frac{d}{dt}\frac{\partial L}{\partial \dot q^i} - \frac{\partial L}{\partial q^i}\Bigr) \frac{\partial \dot q^i}{\partial P_\sigma}",
+};
+
 impl Formulation for Kane {
     fn card(&self) -> &'static Card {
         &CARD
@@ -42,9 +48,9 @@ impl Formulation for Kane {
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
         let (system, characteristics) = (basis.system, basis.characteristics()?);
         let g = &system.graph;
-        let balance = match particles::suffice(system) {
-            true => from_particles(system, &characteristics),
-            false => from_lagrangian(system, &characteristics),
+        let (balance, schema) = match particles::suffice(system) {
+            true => (from_particles(system, &characteristics), SCHEMA),
+            false => (from_lagrangian(system, &characteristics), SCHEMA_OF_L),
         };
         let motion: Vec<Equation> = characteristics
             .parameters
@@ -59,7 +65,7 @@ impl Formulation for Kane {
         let rates = super::voronets::solved_rates(system, &characteristics, &motion)?;
         Ok(
             Equations::in_characteristics(CARD.name, system, &characteristics, &rates)
-                .with_group("equations of motion", Some(SCHEMA), motion)
+                .with_group("equations of motion", Some(schema), motion)
                 .with_group("kinematics", None, basis.kinematics(&characteristics))
                 .with_objects(balance.objects(&characteristics)),
         )

@@ -7,6 +7,7 @@
 
 use super::DeriveError;
 use crate::characteristics::derive_along;
+use crate::equations::unused_name;
 use crate::equations::{Equation, NamedExpr, StateVariable};
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
@@ -54,21 +55,6 @@ pub(crate) struct Legendre {
     pub(crate) is_explicit: bool,
     /// W, row by row.
     mass_matrix: Vec<Expr>,
-}
-
-/// A name that nothing in the system has: `wanted`, with underscores behind it where needed.
-pub(crate) fn unused_name(system: &System, wanted: &str) -> String {
-    let mut name = wanted.to_string();
-    while is_used(system, &name) {
-        name.push('_');
-    }
-    name
-}
-
-fn is_used(system: &System, name: &str) -> bool {
-    system.moves(name)
-        || system.parameters.iter().any(|p| p.name == name)
-        || system.quasi_velocities.iter().any(|u| u.name == name)
 }
 
 impl Legendre {

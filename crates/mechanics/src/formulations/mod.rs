@@ -51,7 +51,7 @@ pub use volterra_second::VolterraSecond;
 pub use voronets::Voronets;
 
 pub(crate) use canonical_reduced::restricted_hessian;
-pub(crate) use legendre::unused_name;
+
 pub(crate) use vakonomic::extremum_matrix;
 
 use crate::card::Card;

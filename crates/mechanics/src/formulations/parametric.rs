@@ -5,10 +5,10 @@
 //! `(t' Qᵢ, −Σ Qᵢ q'ⁱ)` of extended space. The n + 1 equations satisfy Euler's identity `Σ x'_a (left − right)_a ≡ 0`, so τ is
 //! free; it is fixed here by `d²t/dτ² = 0`, and the equation of t is left to the identity. `μ_l = t'² λ_l`.
 
-use super::legendre::unused_name;
 use super::{Basis, DeriveError, Formulation, Identity};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::{derive_along, Manifold};
+use crate::equations::unused_name;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};

@@ -5,11 +5,12 @@
 //! arbitrary μ, since F is homogeneous of degree zero in x'.
 
 use super::canonical::{with_constraints, with_reactions, MultiplierFlow};
-use super::legendre::{unused_name, Legendre};
+use super::legendre::Legendre;
 use super::parametric::{mu_objects, mu_symbols, Extended};
 use super::{Basis, DeriveError, Formulation, Identity};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::Manifold;
+use crate::equations::unused_name;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
 use chetaev_symbolic::Expr;
 

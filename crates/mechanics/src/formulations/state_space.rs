@@ -3,11 +3,11 @@
 //! `Σ_s L_{v^j v^s} (Dq^s − v^s) = 0`, `D(∂L/∂v^s) − ∂L/∂q^s − Q_s = Σ λ_l ∂f^l/∂v^s`, `f^l(q, v, t) = 0` with D along
 //! curves (q(t), v(t)) (T1 (34), (38)): one linear system for (Dq, Dv, λ), regular where W is.
 
-use super::legendre::unused_name;
 use super::routh::multiplier_objects;
 use super::{Basis, DeriveError, Formulation, Identity};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::{derive_along, Manifold};
+use crate::equations::unused_name;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};

@@ -5,9 +5,9 @@
 //! by f_v is nonsingular the equations give q'' and κ'. They are not equivalent to the equations of motion in general:
 //! κ(0) are r constants more.
 
-use super::legendre::unused_name;
 use super::{Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
+use crate::equations::unused_name;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
 use crate::terms::freeze_accelerations;
 use chetaev_symbolic::{Expr, Symbol};
