@@ -229,3 +229,48 @@ fn branches_that_meet_stop_the_run() {
         );
     }
 }
+
+/// Chaplygin's equations of a skate on an incline have y as the dependent coordinate, and y' = tan(phi) x' says nothing where
+/// the skate stands across the slope: such a start is refused, not replaced by another one.
+#[test]
+fn a_start_that_the_variables_do_not_give_back_is_refused() {
+    let g = Arc::new(Graph::new());
+    let system = System::new(g.clone(), skate(&g)).unwrap();
+    let prepared = Prepared::new(&system).unwrap();
+    let binding = Binding::new(&system).unwrap();
+    let mut numeric = NumericSystem::new(&system, &prepared.terms, &binding).unwrap();
+    let data = InitialData {
+        t: 0.0,
+        q: vec![0.0, 0.0, std::f64::consts::FRAC_PI_2],
+        v: vec![0.0, 0.5, 1.0],
+        q_fixed: vec![true; 3],
+        v_fixed: vec![true; 3],
+        project: false,
+    };
+    let start = consistent_state(&mut numeric, &data).unwrap();
+    let subject = Subject {
+        system: &system,
+        terms: &prepared.terms,
+        binding: &binding,
+        numeric: &numeric,
+        start: &start,
+    };
+    let settings = RunSettings::new(0.0, 1.0);
+    let by = |name: &str| {
+        subject.by(
+            formulation(name).unwrap(),
+            &settings,
+            &mut Watcher::default(),
+        )
+    };
+    let refused = by("chaplygin").unwrap_err().to_string();
+    assert!(
+        refused.contains("singular") && refused.contains("y'"),
+        "{refused}"
+    );
+    let end = |run: Run| run.row(run.len() - 1).to_vec();
+    let (routh, voronets) = (end(by("routh").unwrap()), end(by("voronets").unwrap()));
+    for (a, b) in routh.iter().zip(&voronets).take(6) {
+        assert!((a - b).abs() < 1e-8, "{routh:?} {voronets:?}");
+    }
+}

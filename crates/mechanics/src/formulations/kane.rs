@@ -36,7 +36,8 @@ const SCHEMA: Schema = Schema {
 
 /// Without particles, from L alone.
 const SCHEMA_OF_L: Schema = Schema {
-    text: "F_σ + F*_σ = 0,  F_σ = Σ_i Q_i ∂v^i/∂P_σ,  F*_σ = −Σ_i ( D(∂L/∂v^i) − ∂L/∂q^i ) ∂v^i/∂P_σ",
+    text:
+        "F_σ + F*_σ = 0,  F_σ = Σ_i Q_i ∂v^i/∂P_σ,  F*_σ = −Σ_i ( D(∂L/∂v^i) − ∂L/∂q^i ) ∂v^i/∂P_σ",
     latex: r"F_\sigma + F^*_\sigma = 0, \quad F_\sigma = \sum_i Q_i \frac{\partial \dot q^i}{\partial P_\sigma}, \quad F^*_\sigma = -\sum_i \Bigl(\frac{d}{dt}\frac{\partial L}{\partial \dot q^i} - \frac{\partial L}{\partial q^i}\Bigr) \frac{\partial \dot q^i}{\partial P_\sigma}",
 };
 
