@@ -340,8 +340,8 @@ fn every_long_command_shows_its_progress_on_a_terminal() {
     let study = ["study", trailer, "--t-end", "1", "--out", text(&out)];
     let cases = [
         (
-            [&["derive", trailer][..], &links[..]].concat(),
-            "writing maggi",
+            [&["derive", trailer, "--all"][..], &links[..]].concat(),
+            "deriving ",
         ),
         ([&study[..], &links[..]].concat(), "writing the report"),
     ];

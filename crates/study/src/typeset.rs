@@ -38,15 +38,34 @@ fn groups(system: &System, equations: Option<&Equations>) -> (Vec<Expr>, Vec<Exp
     (rates, velocities)
 }
 
+/// Of formulas with more signs than this only short parts are worked on: to try all of them takes minutes for the equations
+/// of a bicycle, which nobody reads as formulas.
+const SHORT: u64 = 30_000;
+
+/// How hard to try to make expressions short.
+fn effort(g: &Graph, es: &[Expr]) -> simplify::Options {
+    let usual = simplify::Options::default();
+    let signs = es
+        .iter()
+        .fold(0u64, |sum, &e| sum.saturating_add(simplify::length(g, e)));
+    match signs <= SHORT {
+        true => usual,
+        false => simplify::Options {
+            max_nodes: usual.max_nodes / 20,
+            ..usual
+        },
+    }
+}
+
 /// Both sides of equations simplified and collected by accelerations. What is printed is proved equal to what was derived;
 /// where that fails, what was derived is printed as it is.
 pub fn readable(system: &System, derived: &Equations, equations: &[Equation]) -> Vec<(Expr, Expr)> {
     let g = &system.graph;
-    let options = simplify::Options::default();
     let (rates, velocities) = groups(system, Some(derived));
     equations
         .iter()
         .map(|e| {
+            let options = effort(g, &[e.left, e.right]);
             let left = simplify::collect(g, e.left, &[&rates, &velocities], &options);
             let right = simplify::simplify(g, e.right, &options);
             (
@@ -59,7 +78,7 @@ pub fn readable(system: &System, derived: &Equations, equations: &[Equation]) ->
 
 /// Expressions simplified for people, each proved equal to the original or left as it was.
 pub fn simplified(system: &System, es: &[Expr]) -> Vec<Expr> {
-    let short = simplify::simplify_all(&system.graph, es, &simplify::Options::default());
+    let short = simplify::simplify_all(&system.graph, es, &effort(&system.graph, es));
     es.iter()
         .zip(short)
         .map(|(&e, short)| faithful(system, e, short))

@@ -144,7 +144,7 @@ fn rational(x: f64) -> Option<Rational> {
         let step = |a: i64, b: i64| (whole as i64).checked_mul(a)?.checked_add(b);
         let next = (step(last.0, before.0)?, step(last.1, before.1)?);
         (before, last) = (last, next);
-        if (last.0 as f64 / last.1 as f64 - x).abs() <= 1e-10 * x.abs() {
+        if (last.0 as f64 / last.1 as f64 - x).abs() <= 1e-12 * x.abs() {
             let found = ratio(last.0, last.1)?;
             return (to_i64(&found) != Some(0)).then_some(found);
         }

@@ -23,6 +23,8 @@ const TRIALS: [usize; 3] = [2, 3, 6];
 const MOST_FACTORED: usize = 200;
 /// How many parts of one polynomial are factored before the rest is written as it is.
 const MOST_FACTORIZATIONS: u32 = 150;
+/// How many terms one arranger regroups before sums stay as they are: what needs more is no formula for a reader.
+const MOST_REGROUPED: usize = 1_500;
 /// How many arrangements of a numerator or denominator are tried against each other.
 const MOST_CANDIDATES: usize = 3;
 
@@ -34,6 +36,7 @@ pub(super) struct Arranger<'a, 'g> {
     lengths: RefCell<Lengths>,
     known: RefCell<FxHashMap<(Polynomial, usize), Expr>>,
     factorizations: Cell<u32>,
+    regrouped: Cell<usize>,
     contracts: bool,
     /// Expressions of the generators, with tangents and functions of sums of angles appended where they are in use.
     angles: RefCell<Angles>,
@@ -66,6 +69,7 @@ impl<'a, 'g> Arranger<'a, 'g> {
             lengths: RefCell::new(Lengths::written()),
             known: RefCell::default(),
             factorizations: Cell::new(0),
+            regrouped: Cell::new(0),
             contracts: false,
             angles: RefCell::new(Angles::new(field, generators)),
         }
@@ -297,6 +301,11 @@ impl<'a, 'g> Arranger<'a, 'g> {
     fn sum(&self, p: &Polynomial, depth: usize) -> Expr {
         let plain = self.expanded(p);
         if p.len() <= 2 || depth == 0 || p.len() > MOST_TERMS {
+            return plain;
+        }
+        let regrouped = self.regrouped.get() + p.len();
+        self.regrouped.set(regrouped);
+        if regrouped > MOST_REGROUPED {
             return plain;
         }
         let mut shared: Vec<(usize, usize)> = p
