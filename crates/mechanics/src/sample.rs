@@ -172,7 +172,8 @@ fn project_velocities(system: &System, terms: &MotionTerms, point: &mut Point) -
         return false;
     };
     let metric = KineticMetric::at(system, terms, point);
-    for _ in 0..60 {
+    // The ridge of a root of squares is climbed in many small steps.
+    for _ in 0..400 {
         let (f, jacobian) = values.split_at(r);
         if f.iter().all(|x| x.abs() < 1e-11) {
             return true;

@@ -36,11 +36,13 @@ impl Claim for Least {
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         match kind(&basis(cx), &cx.prover) {
             Kind::Least(proof) => Verdict::Proved(proof).into(),
+            Kind::Sampled(evidence) => Verdict::Numerical(evidence).into(),
             Kind::Unknown { tried } => Verdict::undecided(tried).into(),
             Kind::Stationary {
                 direction,
                 mut counterexample,
             } => {
+                counterexample.quantity = "|δqᵀWδq| − δqᵀWδq".into();
                 counterexample.detail = format!(
                     "Z is only stationary: its second derivative along a virtual displacement is negative at a state ({})",
                     counterexample.detail

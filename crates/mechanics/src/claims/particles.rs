@@ -13,14 +13,6 @@ pub struct Particles;
 #[derive(Clone, Copy, Debug)]
 pub struct CartesianCoordinates;
 
-/// Claims about particles exist for models that state some.
-fn where_stated(cx: &Context<'_>) -> Vec<Option<String>> {
-    match cx.system.particles.is_empty() {
-        true => Vec::new(),
-        false => vec![None],
-    }
-}
-
 impl Claim for Particles {
     fn id(&self) -> &'static str {
         "model.particles"
@@ -43,10 +35,6 @@ impl Claim for Particles {
 
     fn highest_order(&self, _: Option<&str>) -> u32 {
         u32::MAX
-    }
-
-    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        where_stated(cx)
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
@@ -79,7 +67,10 @@ impl Claim for CartesianCoordinates {
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        where_stated(cx)
+        match cx.system.particles.is_empty() {
+            true => Vec::new(),
+            false => vec![None],
+        }
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {

@@ -11,7 +11,7 @@ use crate::sample;
 use crate::system::System;
 use chetaev_symbolic::matrix::ldlt;
 use chetaev_symbolic::rational::ratio;
-use chetaev_symbolic::verdict::{Counterexample, Proof};
+use chetaev_symbolic::verdict::{Counterexample, Evidence, Proof};
 use chetaev_symbolic::{Expr, Node, Verdict};
 
 /// What the motion is among the accelerations that the constraints allow.
@@ -26,6 +26,8 @@ pub enum Kind {
         /// The state.
         counterexample: Counterexample,
     },
+    /// Neither was shown; `Bᵀ W B` is positive definite at sampled states.
+    Sampled(Evidence),
     /// Neither was shown.
     Unknown {
         /// What was tried.
@@ -68,7 +70,10 @@ pub fn kind(basis: &Basis<'_>, prover: &Prover) -> Kind {
     let proof = form.prove(basis, prover, &[]);
     match proof.or_else(|tried| form.prove_with_values(basis, prover).ok_or(tried)) {
         Ok(proof) => Kind::Least(proof),
-        Err(tried) => unknown(tried),
+        Err(tried) => match form.sampled(basis, &tried) {
+            Some(evidence) => Kind::Sampled(evidence),
+            None => unknown(tried),
+        },
     }
 }
 
@@ -119,6 +124,12 @@ struct Form {
     manifold: Manifold,
 }
 
+/// States at which the form is sampled where its sign is not proved.
+const SAMPLES: u32 = 32;
+
+/// The first seed of these states.
+const SEED: u64 = 0x6a55_0000;
+
 /// Larger forms are not factored.
 const LARGEST: usize = 6;
 
@@ -157,6 +168,27 @@ impl Form {
             let entries = self.matrix.concat();
             let values = g.evaluate_f64(&entries, &|s| point.get(&s).copied()).ok()?;
             negative_vector(&values, self.matrix.len())
+        })
+    }
+
+    /// The smallest pivot of the form at sampled states, over its largest entry; `None` where one is not clearly positive.
+    fn sampled(&self, basis: &Basis<'_>, tried: &str) -> Option<Evidence> {
+        let g = &basis.system.graph;
+        let mut smallest = f64::INFINITY;
+        for seed in 0..SAMPLES {
+            let point =
+                sample::admissible_point(basis.system, basis.terms, SEED + u64::from(seed))?;
+            let entries = self.matrix.concat();
+            let values = g.evaluate_f64(&entries, &|s| point.get(&s).copied()).ok()?;
+            smallest = smallest.min(smallest_pivot(&values, self.matrix.len()));
+        }
+        (smallest > 1e-9).then(|| Evidence {
+            samples: SAMPLES,
+            region: format!("sampled states {ON}; the smallest pivot of BᵀWB is {smallest:.1e} of its largest entry"),
+            digits: 15,
+            residual: 0.0,
+            seed: Some(SEED),
+            why_no_proof: tried.to_owned(),
         })
     }
 
@@ -310,6 +342,27 @@ fn negative_vector(matrix: &[f64], size: usize) -> Option<Vec<(i64, i64)>> {
         .chain(pairs)
         .chain(factored)
         .find(|c| value(c) < -1e-6 * largest)
+}
+
+/// The smallest pivot of a symmetric matrix over its largest entry; not positive where one is not, or is no number.
+fn smallest_pivot(matrix: &[f64], size: usize) -> f64 {
+    let mut reduced = matrix.to_vec();
+    let largest = matrix.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let mut smallest = f64::INFINITY;
+    for j in 0..size {
+        let pivot = reduced[j * size + j];
+        if pivot.is_nan() || pivot <= 0.0 {
+            return f64::NEG_INFINITY;
+        }
+        smallest = smallest.min(pivot / largest);
+        for i in j + 1..size {
+            let factor = reduced[i * size + j] / pivot;
+            for k in j + 1..size {
+                reduced[i * size + k] -= factor * reduced[j * size + k];
+            }
+        }
+    }
+    smallest
 }
 
 /// The vectors `L⁻ᵀ e_j` of `A = L D Lᵀ`, rounded to sixteenths: along them the form takes its pivots.
