@@ -285,6 +285,13 @@ fn small(bound: &Value) -> bool {
     exponent.is_some_and(|n| n >= 100)
 }
 
+/// Refuted by the form of the model alone or by ranks at every state, so that no single point is the counterexample.
+const REFUTED_EVERYWHERE: &[&str] = &[
+    "model.constraints-independent",
+    "model.restricted-hessian-regular",
+    "model.cartesian-coordinates",
+];
+
 /// Drifts are refuted by the run itself; everything else by a point, with exact independent data and a residual away from zero.
 fn excludes_zero(verdict: &Value) -> bool {
     let counterexample = &verdict["counterexample"];
@@ -295,8 +302,8 @@ fn excludes_zero(verdict: &Value) -> bool {
         .filter_map(|b| b.as_str()?.parse().ok())
         .collect();
     let point = counterexample["point"].as_array().map_or(0, Vec::len);
-    let is_rank = verdict["claim"] == "model.constraints-independent";
-    is_rank || point > 0 && bounds.len() == 2 && bounds[0] * bounds[1] > 0.0
+    let everywhere = REFUTED_EVERYWHERE.iter().any(|id| verdict["claim"] == *id);
+    everywhere || point > 0 && bounds.len() == 2 && bounds[0] * bounds[1] > 0.0
 }
 
 /// The condition is a claim of the same study with a verdict that is not `proved`.

@@ -10,6 +10,7 @@ use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::formulation;
 use chetaev_mechanics::Manifold;
 use chetaev_motion::drift::Extreme;
+use chetaev_motion::run::Run;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue, Proof};
 use chetaev_symbolic::{Expr, Verdict};
 use std::sync::Arc;
@@ -391,15 +392,17 @@ impl Claim for FormulationsAgree {
         let (Some(other), Some(gap)) = (&evidence.comparison, &evidence.disagreement) else {
             return Verdict::undecided("the second formulation could not be integrated").into();
         };
-        if evidence.run.asked().min(other.asked()) < 2 {
-            return Verdict::undecided("both runs ended before the first output time").into();
+        let early = |run: &Run| run.asked() < 2;
+        match (early(&evidence.run), early(other)) {
+            (true, true) => {
+                return Verdict::undecided("both runs ended before the first output time").into()
+            }
+            (true, false) => return ended_first(&evidence.run, other),
+            (false, true) => return ended_first(other, &evidence.run),
+            (false, false) => {}
         }
         if other.asked() < evidence.run.asked() {
-            let tried = format!(
-                "the run of `{}` ended before that of `{}`: {}",
-                other.formulation, evidence.run.formulation, other.ending.reason
-            );
-            return Verdict::undecided(tried).into();
+            return ended_first(other, &evidence.run);
         }
         let error = evidence.global_error.unwrap_or(0.0);
         if error > LOST {
@@ -423,6 +426,14 @@ impl Claim for FormulationsAgree {
         )
         .into()
     }
+}
+
+fn ended_first(first: &Run, later: &Run) -> Finding {
+    let tried = format!(
+        "the run of `{}` ended before that of `{}`: {}",
+        first.formulation, later.formulation, first.ending.reason
+    );
+    Verdict::undecided(tried).into()
 }
 
 /// `motion.method-order`.

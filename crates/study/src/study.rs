@@ -558,13 +558,20 @@ fn decide(
 }
 
 fn expected(model: &Model, claim: &str, subject: Option<&str>) -> Vec<String> {
-    model
-        .expect
-        .verdicts
-        .iter()
-        .filter(|e| e.claim == claim && (e.subject.is_none() || e.subject.as_deref() == subject))
-        .flat_map(|e| e.verdicts.iter().cloned())
-        .collect()
+    let stated = |of: Option<&str>| -> Vec<String> {
+        let verdicts = model.expect.verdicts.iter();
+        verdicts
+            .filter(|e| e.claim == claim && e.subject.as_deref() == of)
+            .flat_map(|e| e.verdicts.iter().cloned())
+            .collect()
+    };
+    // What is said of one subject goes before what is said of all.
+    let own = subject.map_or(Vec::new(), |s| stated(Some(s)));
+    if own.is_empty() {
+        stated(None)
+    } else {
+        own
+    }
 }
 
 fn outcome(model: &Model, verdicts: &[Decided], motion: Option<&Motion>) -> Outcome {

@@ -104,12 +104,14 @@ fn claims(text: &mut String, study: &Study, style: Style) {
             continue;
         }
         let _ = writeln!(text, "\n{}", bold(style, group.word()));
+        let ids = of_group.iter().map(|d| d.full_id().chars().count());
+        let width = ids.max().unwrap_or(0);
         for decided in of_group {
             let word = decided.finding.verdict.word();
             let mark = if decided.is_as_expected() { " " } else { "!" };
             let _ = writeln!(
                 text,
-                "{mark} {:<34} {}  {}",
+                "{mark} {:<width$} {}  {}",
                 decided.full_id(),
                 coloured(style, word),
                 for_width(style, &detail(decided))

@@ -84,8 +84,9 @@ fn list(claims: &[&'static dyn Claim]) -> String {
             continue;
         }
         text.push_str(&format!("{}\n", group.word()));
+        let width = of_group.iter().map(|c| c.id().len()).max().unwrap_or(0);
         for claim in of_group {
-            text.push_str(&format!("  {:<34} {}\n", claim.id(), claim.title()));
+            text.push_str(&format!("  {:<width$} {}\n", claim.id(), claim.title()));
         }
     }
     text

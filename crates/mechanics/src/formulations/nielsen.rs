@@ -5,6 +5,7 @@
 //! moving one T3 (12) with the brackets in coordinates. `D L̄` is differentiated with the rates P' frozen: with the
 //! accelerations of the motion put in before, the form is wrong.
 
+use super::volterra::quasi_slopes;
 use super::{bare, Basis, DeriveError, Formulation, Identity};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::{Characteristics, Manifold};
@@ -207,6 +208,8 @@ impl Reduced {
                 "its total derivative, with free rates of the parameters",
             ),
         ];
+        let of = ("Lstar", "L*");
+        objects.extend(quasi_slopes(system, c, of, self.lagrangian));
         let coordinates = system.coordinates.iter().zip(&self.momenta);
         for ((coordinate, &momentum), row) in coordinates.zip(&self.brackets) {
             let name = &coordinate.name;

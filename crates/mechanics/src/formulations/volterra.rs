@@ -179,10 +179,10 @@ impl<'a> Volterra<'a> {
         Ok(Equations::in_characteristics(name, system, c, &rates)
             .with_group("equations of motion", Some(schema), motion)
             .with_group("kinematics", None, basis.kinematics(c))
-            .with_objects(self.objects()))
+            .with_objects(self.objects(form)))
     }
 
-    fn objects(&self) -> Vec<NamedExpr> {
+    fn objects(&self, form: Form) -> Vec<NamedExpr> {
         let (system, c) = (self.system, &self.characteristics);
         let mut objects = vec![NamedExpr::new("Ttilde", self.restricted, self.meaning)];
         for (coordinate, &p) in system.coordinates.iter().zip(&self.momenta) {
@@ -200,6 +200,24 @@ impl<'a> Volterra<'a> {
             }
         }
         objects.extend(maggi::virtual_basis(system, c));
+        if form == Form::Second {
+            objects.extend(self.slopes_by_quasi_coordinates());
+        }
+        objects
+    }
+
+    /// `∂T̃/∂π_σ` and those of `∂q^s(m)/∂π_σ` that do not vanish.
+    fn slopes_by_quasi_coordinates(&self) -> Vec<NamedExpr> {
+        let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
+        let mut objects = quasi_slopes(system, c, ("Ttilde", "T̃"), self.restricted);
+        let rows = c.by_quasi_coordinates(system, &c.velocities);
+        for (coordinate, row) in system.coordinates.iter().zip(&rows) {
+            for (p, &slope) in c.parameters.iter().zip(row).filter(|(_, &e)| !g.is_zero(e)) {
+                let (s, sigma) = (&coordinate.name, bare(&p.name));
+                let meaning = format!("∂{s}'/∂π of {}, with the parameters fixed", p.name);
+                objects.push(NamedExpr::new(format!("v_{s}_pi_{sigma}"), slope, meaning));
+            }
+        }
         objects
     }
 
@@ -268,6 +286,24 @@ impl<'a> Volterra<'a> {
             })
             .collect()
     }
+}
+
+/// `∂F/∂π_σ` with the parameters fixed, σ = 1..k, of a function F on the jet (t, q, P) with a name for the program and one
+/// for readers.
+pub(crate) fn quasi_slopes(
+    system: &System,
+    c: &Characteristics,
+    (name, written): (&str, &str),
+    function: Expr,
+) -> Vec<NamedExpr> {
+    let slopes = c.by_quasi_coordinates(system, &[function]).concat();
+    let named = c.parameters.iter().zip(slopes);
+    named
+        .map(|(p, slope)| {
+            let meaning = format!("∂{written}/∂π of {}, with the parameters fixed", p.name);
+            NamedExpr::new(format!("{name}_pi_{}", bare(&p.name)), slope, meaning)
+        })
+        .collect()
 }
 
 /// T and V where `L = T - V` with V free of velocities.

@@ -23,15 +23,20 @@ pub(super) fn text(
     let (first, second) = (derive(a)?, derive(b)?);
     line.show("comparing", None);
     let mut text = format!("{} and {}\n", first.card.title, second.card.title);
-    text.push_str(&accelerations(cx, &first.equations, &second.equations));
-    text.push_str(&left_sides(cx, &first, &second));
+    let verdict = equivalence(cx, &first.equations, &second.equations);
+    let of = (&first.equations, &second.equations);
+    text.push_str(&accelerations(cx, of, &verdict));
+    text.push_str(&left_sides(cx, &first, &second, &verdict));
     Ok(text)
 }
 
 /// The difference of the accelerations, before and after the constraints are used.
-fn accelerations(cx: &Context<'_>, first: &Equations, second: &Equations) -> String {
+fn accelerations(
+    cx: &Context<'_>,
+    (first, second): (&Equations, &Equations),
+    verdict: &Verdict,
+) -> String {
     let (system, g) = (cx.system, &cx.system.graph);
-    let verdict = equivalence(cx, first, second);
     let a = first.in_natural_state(system, &first.accelerations);
     let b = second.in_natural_state(system, &second.accelerations);
     let differences: Vec<Expr> = a.iter().zip(&b).map(|(&a, &b)| g.sub(b, a)).collect();
@@ -43,7 +48,7 @@ fn accelerations(cx: &Context<'_>, first: &Equations, second: &Equations) -> Str
         .map(|(c, difference)| (c.a, readable(cx, difference)))
         .collect();
     text.push_str(&written(cx, &shown));
-    text.push_str(&format!("\n{}\n", said(&verdict)));
+    text.push_str(&format!("\n{}\n", said(verdict)));
     if shown.iter().any(|(_, d)| !g.is_zero(*d)) && matches!(verdict, Verdict::Proved(_)) {
         text.push_str("It vanishes only where the constraints hold: ");
         let solved: Vec<String> = manifold(cx)
@@ -63,7 +68,12 @@ fn accelerations(cx: &Context<'_>, first: &Equations, second: &Equations) -> Str
 }
 
 /// Where both state as many equations for the same things, the difference of their left minus right sides.
-fn left_sides(cx: &Context<'_>, first: &Derivation, second: &Derivation) -> String {
+fn left_sides(
+    cx: &Context<'_>,
+    first: &Derivation,
+    second: &Derivation,
+    equivalent: &Verdict,
+) -> String {
     let (system, g) = (cx.system, &cx.system.graph);
     let (Some(a), Some(b)) = (first.groups.first(), second.groups.first()) else {
         return String::new();
@@ -99,7 +109,15 @@ fn left_sides(cx: &Context<'_>, first: &Derivation, second: &Derivation) -> Stri
         .map(|(label, &d)| (g.symbol(label.trim_end_matches('\''), 0), readable(cx, d)))
         .collect();
     text.push_str(&written(cx, &shown));
-    text.push_str(&format!("\n{}\n", said(&verdict)));
+    let conclusion = match (&verdict, equivalent) {
+        (Verdict::Refuted(_), Verdict::Proved(_)) => format!(
+            "not equal term by term ({}), and equivalent all the same: with the accelerations above both hold, so each set \
+             of equations is a regular combination of the other where the constraints hold",
+            verdict.detail()
+        ),
+        _ => said(&verdict),
+    };
+    text.push_str(&format!("\n{conclusion}\n"));
     text
 }
 

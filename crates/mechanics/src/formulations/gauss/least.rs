@@ -174,14 +174,21 @@ impl Form {
     /// The smallest pivot of the form at sampled states, over its largest entry; `None` where one is not clearly positive.
     fn sampled(&self, basis: &Basis<'_>, tried: &str) -> Option<Evidence> {
         let g = &basis.system.graph;
-        let mut smallest = f64::INFINITY;
-        for seed in 0..SAMPLES {
-            let point =
-                sample::admissible_point(basis.system, basis.terms, SEED + u64::from(seed))?;
-            let entries = self.matrix.concat();
+        let entries = self.matrix.concat();
+        // A state may lie where a root of the Lagrangian is not real.
+        let values = (0..8 * u64::from(SAMPLES)).filter_map(|seed| {
+            let point = sample::admissible_point(basis.system, basis.terms, SEED + seed)?;
             let values = g.evaluate_f64(&entries, &|s| point.get(&s).copied()).ok()?;
-            smallest = smallest.min(smallest_pivot(&values, self.matrix.len()));
+            values.iter().all(|x| x.is_finite()).then_some(values)
+        });
+        let pivots: Vec<f64> = values
+            .take(SAMPLES as usize)
+            .map(|values| smallest_pivot(&values, self.matrix.len()))
+            .collect();
+        if pivots.len() < SAMPLES as usize {
+            return None;
         }
+        let smallest = pivots.iter().fold(f64::INFINITY, |m, &x| m.min(x));
         (smallest > 1e-9).then(|| Evidence {
             samples: SAMPLES,
             region: format!("sampled states {ON}; the smallest pivot of BᵀWB is {smallest:.1e} of its largest entry"),
