@@ -5,7 +5,9 @@
 //! velocities the dependent quasi-velocities stay symbols, tied to the others by f = 0 (implicit embedding, T1 §9.6): then
 //! every derivative of a function on the constraint manifold is taken through [`Characteristics::along`].
 
+use crate::equations::Equation;
 use crate::frame::{Frame, FrameOrigin, Speed};
+use crate::linear::{dot, solve_linear};
 use crate::sample;
 use crate::selection::{eliminate, pivot_cost};
 use crate::system::System;
@@ -298,15 +300,7 @@ impl Characteristics {
     pub fn contract(&self, system: &System, covector: &[Expr]) -> Vec<Expr> {
         let g = &system.graph;
         (0..self.k())
-            .map(|sigma| {
-                let parts: Vec<Expr> = covector
-                    .iter()
-                    .zip(&self.basis)
-                    .filter(|(_, row)| !g.is_zero(row[sigma]))
-                    .map(|(&w, row)| g.mul(&[w, row[sigma]]))
-                    .collect();
-                g.add(&parts)
-            })
+            .map(|sigma| dot(g, covector, self.basis.iter().map(|row| &row[sigma])))
             .collect()
     }
 
@@ -339,15 +333,17 @@ impl Characteristics {
     pub fn rates_from(&self, system: &System, equations: &[Expr]) -> Result<Vec<Expr>, SolveError> {
         let g = &system.graph;
         let symbols: Vec<Symbol> = self.parameters.iter().map(|p| p.rate_symbol).collect();
-        let matrix = g.jacobian(equations, &symbols).concat();
-        let at_zero: Vec<(Expr, Expr)> =
-            self.parameters.iter().map(|p| (p.rate, g.zero())).collect();
-        let right: Vec<Expr> = g
-            .substitute_all(equations, &at_zero)
-            .into_iter()
-            .map(|e| g.neg(e))
-            .collect();
-        g.solve(&matrix, &right)
+        solve_linear(g, equations, &symbols)
+    }
+
+    /// P' from equations of motion that are linear in it.
+    ///
+    /// # Errors
+    /// [`SolveError`] where they are structurally dependent.
+    pub fn rates_of(&self, system: &System, motion: &[Equation]) -> Result<Vec<Expr>, SolveError> {
+        let sides = motion.iter();
+        let residuals: Vec<Expr> = sides.map(|e| system.graph.sub(e.left, e.right)).collect();
+        self.rates_from(system, &residuals)
     }
 
     /// The implicit constraints with the dependent quasi-velocities they determine, as they are kept along a motion.
@@ -454,19 +450,8 @@ fn choose_dependent(
 /// `∂f/∂η^s = Σ_i ∂f/∂v^i X_s^i`, as a function of (q, v, t).
 fn speed_gradient(system: &System, by_velocities: &[Expr], frame: &Frame) -> Vec<Expr> {
     let g = &system.graph;
-    frame
-        .fields
-        .iter()
-        .map(|field| {
-            let parts: Vec<Expr> = by_velocities
-                .iter()
-                .zip(field)
-                .filter(|(&a, &x)| !g.is_zero(a) && !g.is_zero(x))
-                .map(|(&a, &x)| g.mul(&[a, x]))
-                .collect();
-            g.add(&parts)
-        })
-        .collect()
+    let fields = frame.fields.iter();
+    fields.map(|field| dot(g, by_velocities, field)).collect()
 }
 
 struct Builder<'a> {

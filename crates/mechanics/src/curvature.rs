@@ -11,14 +11,13 @@ use chetaev_symbolic::Expr;
 /// In the natural frame the rows of the independent velocities vanish, and those of the dependent ones are
 /// [`curvature`].
 pub fn brackets(system: &System, characteristics: &Characteristics) -> Vec<Vec<Expr>> {
-    let (g, k) = (&system.graph, characteristics.k());
-    let rates = characteristics.total_derivative(system, &characteristics.basis.concat());
-    let slopes = characteristics.by_quasi_coordinates(system, &characteristics.velocities);
-    slopes
-        .iter()
-        .enumerate()
-        .map(|(i, row)| (0..k).map(|s| g.sub(rates[i * k + s], row[s])).collect())
-        .collect()
+    let slopes = characteristics.basis.concat();
+    bracket(
+        system,
+        characteristics,
+        &slopes,
+        &characteristics.velocities,
+    )
 }
 
 /// `A^l_s = D(∂φ^l/∂v^s) - ∂φ^l/∂q^s - Σ_m ∂φ^l/∂q^{k+m} ∂φ^m/∂v^s`, r × k, row by row, on the jet (t, q, P, P')
@@ -28,14 +27,24 @@ pub fn brackets(system: &System, characteristics: &Characteristics) -> Vec<Vec<E
 /// With them `Σ_s A^l_s δq^s = δf^l` for `f^l = v^{k+l} - φ^l` under Hölder's rule `δv = D(δq)`; for constraints linear in the
 /// velocities all vanish exactly where these are completely integrable.
 pub fn curvature(system: &System, characteristics: &Characteristics) -> Vec<Vec<Expr>> {
-    let (g, k) = (&system.graph, characteristics.k());
     let solved = &characteristics.solved;
     let slopes = characteristics.by_parameters(system, solved).concat();
-    let rates = characteristics.total_derivative(system, &slopes);
-    let along = characteristics.by_quasi_coordinates(system, solved);
+    bracket(system, characteristics, &slopes, solved)
+}
+
+/// `D(∂F/∂P_σ) - ∂F/∂π_σ` of functions F with their slopes by the parameters, row by row.
+fn bracket(
+    system: &System,
+    characteristics: &Characteristics,
+    slopes: &[Expr],
+    functions: &[Expr],
+) -> Vec<Vec<Expr>> {
+    let (g, k) = (&system.graph, characteristics.k());
+    let rates = characteristics.total_derivative(system, slopes);
+    let along = characteristics.by_quasi_coordinates(system, functions);
     along
         .iter()
         .enumerate()
-        .map(|(l, row)| (0..k).map(|s| g.sub(rates[l * k + s], row[s])).collect())
+        .map(|(i, row)| (0..k).map(|s| g.sub(rates[i * k + s], row[s])).collect())
         .collect()
 }

@@ -1,7 +1,8 @@
 //! What a formulation delivers: equations in its own notation, intermediate objects, and a first-order system.
 
 use crate::characteristics::{derive_along, Characteristics};
-use crate::system::System;
+use crate::frame::Speed;
+use crate::system::{Coordinate, System};
 use chetaev_symbolic::{Expr, Symbol};
 
 /// One equation, `left = right`.
@@ -72,6 +73,30 @@ pub struct StateVariable {
     pub definition: Option<Expr>,
 }
 
+impl StateVariable {
+    /// A coordinate's velocity, q'.
+    pub fn of_velocity(coordinate: &Coordinate, rate: Expr) -> StateVariable {
+        StateVariable {
+            name: format!("{}'", coordinate.name),
+            value: coordinate.v,
+            symbol: coordinate.v_symbol,
+            rate,
+            definition: Some(coordinate.v),
+        }
+    }
+
+    /// A quasi-velocity of a frame.
+    pub fn of_speed(speed: &Speed, rate: Expr) -> StateVariable {
+        StateVariable {
+            name: speed.name.clone(),
+            value: speed.value,
+            symbol: speed.symbol,
+            rate,
+            definition: Some(speed.definition),
+        }
+    }
+}
+
 /// The equations of motion in one formulation.
 ///
 /// Its first-order system has the state (q, variables): `q' = velocities`, `variables' = rates`.
@@ -109,13 +134,7 @@ impl Equations {
             .coordinates
             .iter()
             .zip(&accelerations)
-            .map(|(c, &rate)| StateVariable {
-                name: format!("{}'", c.name),
-                value: c.v,
-                symbol: c.v_symbol,
-                rate,
-                definition: Some(c.v),
-            })
+            .map(|(c, &rate)| StateVariable::of_velocity(c, rate))
             .collect();
         Equations {
             formulation,

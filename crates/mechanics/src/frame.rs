@@ -3,6 +3,7 @@
 //! Forms `ω^s = a^s_u dq^u + a^s_0 dt`, quasi-velocities `η^s = a^s_u v^u + a^s_0`, dual fields `X_s` and `X_0`, so that
 //! `v = X_0 + η^s X_s` (T3 §1; Poincaré 1901, Boltzmann 1902). The natural frame has `η = v`.
 
+use crate::linear::dot;
 use crate::sample;
 use crate::selection::{eliminate, pivot_cost, Selection};
 use crate::system::System;
@@ -201,18 +202,8 @@ impl Frame {
     /// The components of a vector along the fields X_s: `ω^s` without its part along dt.
     pub fn components(&self, system: &System, vector: &[Expr]) -> Vec<Expr> {
         let g = &system.graph;
-        self.forms
-            .iter()
-            .map(|form| {
-                let parts: Vec<Expr> = form
-                    .iter()
-                    .zip(vector)
-                    .filter(|(&a, &x)| !g.is_zero(a) && !g.is_zero(x))
-                    .map(|(&a, &x)| g.mul(&[a, x]))
-                    .collect();
-                g.add(&parts)
-            })
-            .collect()
+        let forms = self.forms.iter();
+        forms.map(|form| dot(g, form, vector)).collect()
     }
 
     /// The structure coefficients `[X_s, X_u] = C^w_su X_w` as (w, s, u, C), those with s < u that are not zero by their

@@ -10,6 +10,7 @@ pub mod equations;
 pub mod formulations;
 pub mod frame;
 mod from_model;
+mod linear;
 pub mod particles;
 pub mod prover;
 pub mod redundancy;

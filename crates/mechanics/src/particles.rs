@@ -5,7 +5,7 @@ use crate::prover::Prover;
 use crate::system::{Particle, System};
 use crate::terms::freeze_accelerations;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 
 /// The velocities r' of a particle, one per component of its position, as functions of (q, v, t).
 pub fn velocity(system: &System, particle: &Particle) -> Vec<Expr> {
@@ -27,10 +27,22 @@ pub fn kinetic_energy(system: &System) -> Expr {
 
 /// The generalized forces `Σ_a F_a · ∂r_a/∂q^i` of the particles' applied forces, length n.
 pub fn applied_forces(system: &System) -> Vec<Expr> {
-    let (g, symbols) = (&system.graph, system.coordinate_symbols());
-    let mut parts: Vec<Vec<Expr>> = vec![Vec::new(); system.n()];
-    for particle in &system.particles {
-        let slopes = g.jacobian(&particle.position, &symbols);
+    generalized_forces(
+        &system.graph,
+        &system.coordinate_symbols(),
+        &system.particles,
+    )
+}
+
+/// `Σ_a F_a · ∂r_a/∂q^i` for each coordinate.
+pub(crate) fn generalized_forces(
+    g: &Graph,
+    coordinates: &[Symbol],
+    particles: &[Particle],
+) -> Vec<Expr> {
+    let mut parts: Vec<Vec<Expr>> = vec![Vec::new(); coordinates.len()];
+    for particle in particles {
+        let slopes = g.jacobian(&particle.position, coordinates);
         for (row, &component) in slopes.iter().zip(&particle.force) {
             for (parts, &slope) in parts.iter_mut().zip(row) {
                 parts.push(g.mul(&[component, slope]));

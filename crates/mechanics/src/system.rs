@@ -3,6 +3,7 @@
 //! Everything derived here is exact. Indices: `i, j` run over the `n` coordinates, `l` over the constraints.
 
 use crate::constraint::{Constraint, ConstraintKind};
+use crate::particles;
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -269,7 +270,11 @@ impl System {
             let i = index(name, "generalized force")?;
             forces[i] = g.add(&[forces[i], *force]);
         }
-        add_particle_forces(g, &coordinates, &parts.particles, &mut forces);
+        let symbols: Vec<Symbol> = coordinates.iter().map(|c| c.q_symbol).collect();
+        let applied = particles::generalized_forces(g, &symbols, &parts.particles);
+        for (force, applied) in forces.iter_mut().zip(applied) {
+            *force = g.add(&[*force, applied]);
+        }
         if let Some(r) = parts.rayleigh {
             let velocities: Vec<Symbol> = coordinates.iter().map(|c| c.v_symbol).collect();
             for (force, slope) in forces.iter_mut().zip(g.gradient(r, &velocities)) {
@@ -452,29 +457,6 @@ impl System {
 }
 
 /// Adds `Σ_a F_a · ∂r_a/∂q^i`.
-fn add_particle_forces(
-    g: &Graph,
-    coordinates: &[Coordinate],
-    particles: &[Particle],
-    forces: &mut [Expr],
-) {
-    let symbols: Vec<Symbol> = coordinates.iter().map(|c| c.q_symbol).collect();
-    for particle in particles {
-        for (slopes, &component) in g
-            .jacobian(&particle.position, &symbols)
-            .iter()
-            .zip(&particle.force)
-        {
-            if g.is_zero(component) {
-                continue;
-            }
-            for (force, &slope) in forces.iter_mut().zip(slopes) {
-                *force = g.add(&[*force, g.mul(&[component, slope])]);
-            }
-        }
-    }
-}
-
 /// Places by name; the first of equal names counts.
 fn places(names: &[String]) -> BTreeMap<String, usize> {
     let mut places = BTreeMap::new();

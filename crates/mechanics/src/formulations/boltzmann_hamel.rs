@@ -7,11 +7,12 @@
 //!
 //! (T3 (8)–(10); Boltzmann 1902, Hamel 1904). In an adapted frame F = 0: Hamel's equations.
 
-use super::poincare_chetaev::{dot, frame_objects};
+use super::poincare_chetaev::frame_objects;
 use super::{bare, Basis, DeriveError, Formulation, Identity};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::Characteristics;
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::linear::dot;
 use crate::system::System;
 use chetaev_symbolic::Expr;
 
@@ -176,7 +177,7 @@ impl<'a> Embedding<'a> {
             .dependent
             .iter()
             .zip(&self.slopes)
-            .map(|(&alpha, row)| g.sub(along[alpha], dot(self.system, row, &k)))
+            .map(|(&alpha, row)| g.sub(along[alpha], dot(g, row, &k)))
             .collect();
         (k, rest)
     }
@@ -193,7 +194,7 @@ impl<'a> Embedding<'a> {
         let dependent_momenta = chart
             .dependent
             .iter()
-            .map(|&alpha| dot(system, &frame.fields[alpha], &full))
+            .map(|&alpha| dot(g, &frame.fields[alpha], &full))
             .collect();
         let (k, rest): (Vec<_>, Vec<_>) = (0..self.k()).map(|i| self.brackets(i)).unzip();
         let forces = chart.restrict(system, &system.forces);
@@ -204,10 +205,7 @@ impl<'a> Embedding<'a> {
                 .iter()
                 .map(|field| chart.by_coordinates(system, &[lagrangian], field)[0])
                 .collect(),
-            forces: fields
-                .iter()
-                .map(|field| dot(system, field, &forces))
-                .collect(),
+            forces: fields.iter().map(|field| dot(g, field, &forces)).collect(),
             turning: self.turning(),
             lagrangian,
             momenta,
@@ -225,12 +223,8 @@ impl<'a> Embedding<'a> {
             .iter()
             .map(|row| {
                 let derivatives = self.chart.by_parameters(self.system, row);
-                derivatives
-                    .iter()
-                    .map(|d| dot(self.system, d, &rates))
-                    .collect()
+                derivatives.iter().map(|d| dot(g, d, &rates)).collect()
             })
-            .map(|row: Vec<Expr>| row.into_iter().map(|e| g.add(&[e])).collect())
             .collect()
     }
 
@@ -239,7 +233,7 @@ impl<'a> Embedding<'a> {
         let g = &self.system.graph;
         let mut parts = vec![
             terms.moved[i],
-            g.neg(dot(self.system, &terms.k[i], &terms.momenta)),
+            g.neg(dot(g, &terms.k[i], &terms.momenta)),
             g.neg(terms.slopes[i]),
             g.neg(terms.forces[i]),
         ];
@@ -273,7 +267,7 @@ impl<'a> Embedding<'a> {
                 let moved = chart.frozen_derivative(system, &[self.slopes[a][i]])[0];
                 let formula = g.add(&[
                     column(i, alpha),
-                    g.neg(dot(system, &self.slopes[a], &k)),
+                    g.neg(dot(g, &self.slopes[a], &k)),
                     moved,
                     g.neg(slope[a]),
                 ]);

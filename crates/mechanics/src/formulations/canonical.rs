@@ -200,20 +200,10 @@ pub(crate) fn with_constraints(
     legendre: &Legendre,
     mut equations: Equations,
 ) -> Equations {
-    let zero = basis.system.graph.zero();
     if !legendre.is_explicit {
         equations = equations.with_group("momenta", None, legendre.momentum_equations());
     }
     let constraints = legendre.restrict(basis.system, &basis.constraints());
-    let stated = basis
-        .constraint_names()
-        .into_iter()
-        .zip(constraints)
-        .map(|(name, left)| Equation {
-            label: name.to_string(),
-            left,
-            right: zero,
-        })
-        .collect();
+    let stated = basis.constraints_as(&constraints);
     equations.with_group("constraints", None, stated)
 }

@@ -8,6 +8,7 @@ use super::voronets::natural;
 use super::{Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::linear::dot;
 use crate::prover::Prover;
 use crate::system::System;
 use chetaev_symbolic::{Expr, Verdict};
@@ -94,17 +95,6 @@ fn is_regular(basis: &Basis<'_>) -> bool {
     matches!(verdict, Verdict::Proved(_))
 }
 
-/// `Σ_i u_i w_i`.
-fn dot(system: &System, u: &[Expr], w: &[Expr]) -> Expr {
-    let g = &system.graph;
-    let pairs = u
-        .iter()
-        .zip(w)
-        .filter(|(&a, &b)| !g.is_zero(a) && !g.is_zero(b));
-    let parts: Vec<Expr> = pairs.map(|(&a, &b)| g.mul(&[a, b])).collect();
-    g.add(&parts)
-}
-
 /// `α = W⁻¹ b`, the columns of `W⁻¹ Jᵀ`, and λ; W is solved with, never inverted.
 struct Response {
     free: Vec<Expr>,
@@ -116,7 +106,7 @@ struct Response {
 
 impl Response {
     fn new(basis: &Basis<'_>) -> Result<Response, DeriveError> {
-        let (system, terms, g) = (basis.system, basis.terms, &basis.system.graph);
+        let (terms, g) = (basis.terms, &basis.system.graph);
         let matrix = terms.mass_matrix.concat();
         let free = g.solve(&matrix, &terms.force)?;
         let jacobian = basis.jacobian();
@@ -127,18 +117,18 @@ impl Response {
         let defects: Vec<Expr> = jacobian
             .iter()
             .zip(&basis.selection.rows)
-            .map(|(row, &l)| g.sub(terms.constraint_rate[l], dot(system, row, &free)))
+            .map(|(row, &l)| g.sub(terms.constraint_rate[l], dot(g, row, &free)))
             .collect();
         let compliance: Vec<Expr> = jacobian
             .iter()
-            .flat_map(|row| columns.iter().map(move |column| dot(system, row, column)))
+            .flat_map(|row| columns.iter().map(move |column| dot(g, row, column)))
             .collect();
         let lambdas = match defects.is_empty() {
             true => Vec::new(),
             false => g.solve(&compliance, &defects)?,
         };
         Ok(Response {
-            value: g.div(dot(system, &lambdas, &defects), g.integer(2)),
+            value: g.div(dot(g, &lambdas, &defects), g.integer(2)),
             free,
             columns,
             lambdas,
@@ -147,11 +137,12 @@ impl Response {
 
     /// `α + W⁻¹ Jᵀ λ` for given multipliers.
     fn accelerations(&self, system: &System, multipliers: &[Expr]) -> Vec<Expr> {
+        let g = &system.graph;
         let components = self.free.iter().enumerate();
         components
             .map(|(i, &alpha)| {
-                let row: Vec<Expr> = self.columns.iter().map(|column| column[i]).collect();
-                system.graph.add(&[alpha, dot(system, &row, multipliers)])
+                let row = self.columns.iter().map(|column| &column[i]);
+                g.add(&[alpha, dot(g, row, multipliers)])
             })
             .collect()
     }
@@ -206,8 +197,8 @@ fn deviation(basis: &Basis<'_>, free: &[Expr]) -> Vec<NamedExpr> {
         .map(|(c, &alpha)| g.sub(c.a, alpha))
         .collect();
     let rows = basis.terms.mass_matrix.iter();
-    let momenta: Vec<Expr> = rows.map(|row| dot(system, row, &apart)).collect();
-    let value = g.div(dot(system, &apart, &momenta), g.integer(2));
+    let momenta: Vec<Expr> = rows.map(|row| dot(g, row, &apart)).collect();
+    let value = g.div(dot(g, &apart, &momenta), g.integer(2));
     vec![NamedExpr::new(
         "Z",
         value,
@@ -223,8 +214,8 @@ fn stationary(
     let (system, terms, g) = (basis.system, basis.terms, &basis.system.graph);
     let (mut matrix, mut right) = (Vec::new(), Vec::new());
     for column in &displacements.columns {
-        matrix.extend(terms.mass_matrix.iter().map(|row| dot(system, row, column)));
-        right.push(dot(system, column, &terms.force));
+        matrix.extend(terms.mass_matrix.iter().map(|row| dot(g, row, column)));
+        right.push(dot(g, column, &terms.force));
     }
     for &row in &basis.selection.rows {
         matrix.extend(&terms.jacobian[row]);
@@ -247,7 +238,7 @@ fn reactions(
     displacements: &VirtualDisplacements,
     accelerations: &[Expr],
 ) -> Result<Vec<Expr>, DeriveError> {
-    let (system, terms, g) = (basis.system, basis.terms, &basis.system.graph);
+    let (terms, g) = (basis.terms, &basis.system.graph);
     if displacements.dependent.is_empty() {
         return Ok(Vec::new());
     }
@@ -255,7 +246,7 @@ fn reactions(
     let (mut matrix, mut right) = (Vec::new(), Vec::new());
     for &d in &displacements.dependent {
         matrix.extend(jacobian.iter().map(|row| row[d]));
-        let inertia = dot(system, &terms.mass_matrix[d], accelerations);
+        let inertia = dot(g, &terms.mass_matrix[d], accelerations);
         right.push(g.sub(inertia, terms.force[d]));
     }
     Ok(g.solve(&matrix, &right)?)
@@ -269,7 +260,7 @@ fn stationarity(basis: &Basis<'_>, displacements: &VirtualDisplacements) -> Vec<
         .mass_matrix
         .iter()
         .zip(&terms.force)
-        .map(|(row, &force)| g.sub(dot(system, row, &accelerations), force))
+        .map(|(row, &force)| g.sub(dot(g, row, &accelerations), force))
         .collect();
     displacements
         .independent
@@ -285,7 +276,7 @@ fn stationarity(basis: &Basis<'_>, displacements: &VirtualDisplacements) -> Vec<
 
 /// `J a = g`.
 fn rates_of_constraints(basis: &Basis<'_>) -> Vec<Equation> {
-    let (system, terms) = (basis.system, basis.terms);
+    let (system, terms, g) = (basis.system, basis.terms, &basis.system.graph);
     let accelerations: Vec<Expr> = system.coordinates.iter().map(|c| c.a).collect();
     basis
         .selection
@@ -294,7 +285,7 @@ fn rates_of_constraints(basis: &Basis<'_>) -> Vec<Equation> {
         .zip(basis.constraint_names())
         .map(|(&row, name)| Equation {
             label: name.to_string(),
-            left: dot(system, &terms.jacobian[row], &accelerations),
+            left: dot(g, &terms.jacobian[row], &accelerations),
             right: terms.constraint_rate[row],
         })
         .collect()

@@ -71,7 +71,7 @@ impl Formulation for GibbsAppell {
                 right,
             })
             .collect();
-        let rates = super::voronets::solved_rates(system, &characteristics, &motion)?;
+        let rates = characteristics.rates_of(system, &motion)?;
         Ok(
             Equations::in_characteristics(CARD.name, system, &characteristics, &rates)
                 .with_group("equations of motion", Some(schema), motion)

@@ -13,6 +13,7 @@ use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::derive_along;
 use crate::equations::unused_name;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
+use crate::linear::solve_with_multipliers;
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -65,7 +66,7 @@ impl Formulation for Jacobi {
         let mut equations = Equations::in_state(CARD.name, system, variables, velocities)
             .with_group("equations of motion", Some(SCHEMA), path.stated(basis))
             .with_group("parameter", None, vec![path.gauge(system)])
-            .with_group("constraints", None, path.stated_constraints(basis))
+            .with_group("constraints", None, basis.constraints_as(&path.constraints))
             .with_objects(path.objects(system))
             .with_objects(mu_objects(basis, &multipliers));
         // For constraints of degree one in the velocities ∂f/∂v is that of the path, and λ = μ dτ/dt.
@@ -216,32 +217,15 @@ impl Path {
 
     /// q'' and μ; the last unknown beside q'' is the one that the identity makes zero.
     fn solve(&self, system: &System) -> Result<(Vec<Expr>, Vec<Expr>), DeriveError> {
-        let (g, n) = (&system.graph, system.n());
+        let g = &system.graph;
         let in_arc_length = [(self.length, g.one())];
         let mut equations = g.substitute_all(&self.left_sides(system), &in_arc_length);
         equations.extend(self.derive(system, &[self.metric]));
         equations.extend(self.derive(system, &self.constraints));
-        let size = equations.len();
         let symbols: Vec<Symbol> = self.rates.iter().map(|w| w.second_symbol).collect();
-        let mut matrix = vec![g.zero(); size * size];
-        for (i, row) in g.jacobian(&equations, &symbols).iter().enumerate() {
-            matrix[i * size..i * size + n].copy_from_slice(row);
-        }
         let mut borders = self.by_rates(system, &[self.metric]);
         borders.extend(self.by_rates(system, &self.constraints));
-        for (l, row) in borders.iter().enumerate() {
-            for (i, &slope) in row.iter().enumerate() {
-                matrix[i * size + n + l] = g.neg(slope);
-            }
-        }
-        let at_zero: Vec<(Expr, Expr)> = self.rates.iter().map(|w| (w.second, g.zero())).collect();
-        let right: Vec<Expr> = g
-            .substitute_all(&equations, &at_zero)
-            .into_iter()
-            .map(|e| g.neg(e))
-            .collect();
-        let mut seconds = g.solve(&matrix, &right)?;
-        let mut rest = seconds.split_off(n);
+        let (seconds, mut rest) = solve_with_multipliers(g, &equations, &symbols, &borders)?;
         let multipliers = rest.split_off(1);
         Ok((seconds, multipliers))
     }
@@ -306,18 +290,6 @@ impl Path {
             left: self.metric,
             right: g.div(g.one(), g.integer(2)),
         }
-    }
-
-    fn stated_constraints(&self, basis: &Basis<'_>) -> Vec<Equation> {
-        let names = basis.constraint_names().into_iter();
-        names
-            .zip(&self.constraints)
-            .map(|(name, &left)| Equation {
-                label: name.to_string(),
-                left,
-                right: basis.system.graph.zero(),
-            })
-            .collect()
     }
 
     fn objects(&self, system: &System) -> Vec<NamedExpr> {

@@ -6,6 +6,7 @@
 use super::{Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::linear::{dot, solve_linear};
 use crate::system::System;
 use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::{Expr, Symbol};
@@ -121,18 +122,8 @@ impl VirtualDisplacements {
     /// `Σ_i w_i δq^i` for each displacement of the basis.
     pub(crate) fn contract(&self, system: &System, covector: &[Expr]) -> Vec<Expr> {
         let g = &system.graph;
-        self.columns
-            .iter()
-            .map(|column| {
-                let parts: Vec<Expr> = covector
-                    .iter()
-                    .zip(column)
-                    .filter(|(_, &x)| !g.is_zero(x))
-                    .map(|(&w, &x)| g.mul(&[w, x]))
-                    .collect();
-                g.add(&parts)
-            })
-            .collect()
+        let columns = self.columns.iter();
+        columns.map(|column| dot(g, covector, column)).collect()
     }
 
     /// The constraints with the dependent velocities they determine.
@@ -171,12 +162,5 @@ pub(crate) fn solve_for_accelerations(
 ) -> Result<Vec<Expr>, SolveError> {
     let g = &system.graph;
     let symbols: Vec<Symbol> = system.coordinates.iter().map(|c| c.a_symbol).collect();
-    let matrix = g.jacobian(equations, &symbols).concat();
-    let at_rest: Vec<(Expr, Expr)> = system.coordinates.iter().map(|c| (c.a, g.zero())).collect();
-    let right: Vec<Expr> = g
-        .substitute_all(equations, &at_rest)
-        .into_iter()
-        .map(|e| g.neg(e))
-        .collect();
-    g.solve(&matrix, &right)
+    solve_linear(g, equations, &symbols)
 }

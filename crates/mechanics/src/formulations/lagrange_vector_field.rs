@@ -4,12 +4,13 @@
 //! Klein 1962). Ω is built as an antisymmetric matrix in the basis (dt, dq, dη) by differentiating the components of Θ; the
 //! components of X ⌟ Ω along dq are linear in (η', λ).
 
-use super::poincare_chetaev::{dot, frame_objects};
+use super::poincare_chetaev::frame_objects;
 use super::routh::multiplier_objects;
 use super::{Basis, DeriveError, Formulation, Identity};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
 use crate::frame::Frame;
+use crate::linear::dot;
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -138,10 +139,10 @@ impl<'a> TwoForm<'a> {
         let along: Vec<Expr> = (0..system.n())
             .map(|u| {
                 let column: Vec<Expr> = self.frame.forms.iter().map(|form| form[u]).collect();
-                dot(system, &slopes, &column)
+                dot(g, &slopes, &column)
             })
             .collect();
-        let mut components = vec![g.sub(f, dot(system, &along, &self.velocities))];
+        let mut components = vec![g.sub(f, dot(g, &along, &self.velocities))];
         components.extend(along);
         components.extend(std::iter::repeat_n(g.zero(), system.n()));
         components
@@ -187,15 +188,15 @@ impl<'a> TwoForm<'a> {
 
     /// The components of X ⌟ Ω, `Σ_a X^a Ω_ab`, with `X ⌟ (Θ(f) ∧ dt) = Θ(f)(X) dt - Θ(f)`.
     fn contraction(&self, rates: &[Expr], multipliers: &[Expr]) -> Vec<Expr> {
-        let (system, g) = (self.system, &self.system.graph);
+        let g = &self.system.graph;
         let field = self.field(rates);
         (0..field.len())
             .map(|b| {
                 let column: Vec<Expr> = self.matrix.iter().map(|row| row[b]).collect();
-                let mut parts = vec![dot(system, &field, &column)];
+                let mut parts = vec![dot(g, &field, &column)];
                 for (&lambda, pfaff) in multipliers.iter().zip(&self.pfaff) {
                     let reaction = match b {
-                        0 => g.sub(dot(system, pfaff, &field), pfaff[0]),
+                        0 => g.sub(dot(g, pfaff, &field), pfaff[0]),
                         b => g.neg(pfaff[b]),
                     };
                     parts.push(g.mul(&[lambda, reaction]));
@@ -248,13 +249,7 @@ impl<'a> TwoForm<'a> {
             .speeds
             .iter()
             .zip(rates)
-            .map(|(speed, &rate)| StateVariable {
-                name: speed.name.clone(),
-                value: speed.value,
-                symbol: speed.symbol,
-                rate,
-                definition: Some(speed.definition),
-            })
+            .map(|(speed, &rate)| StateVariable::of_speed(speed, rate))
             .collect();
         Equations::in_state(CARD.name, self.system, variables, self.velocities.clone())
     }

@@ -259,13 +259,7 @@ impl Legendre {
             };
             let rates = self.velocity_rates(system, &direction);
             let implicit = system.coordinates.iter().zip(rates);
-            variables.extend(implicit.map(|(c, rate)| StateVariable {
-                name: format!("{}'", c.name),
-                value: c.v,
-                symbol: c.v_symbol,
-                rate,
-                definition: Some(c.v),
-            }));
+            variables.extend(implicit.map(|(c, rate)| StateVariable::of_velocity(c, rate)));
         }
         variables
     }

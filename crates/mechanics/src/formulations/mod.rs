@@ -57,6 +57,7 @@ pub(crate) use vakonomic::extremum_matrix;
 use crate::card::Card;
 use crate::characteristics::{Characteristics, CharacteristicsError, Manifold, Selection};
 use crate::equations::{Equation, Equations};
+use crate::linear::dot;
 use crate::system::System;
 use crate::terms::MotionTerms;
 use chetaev_symbolic::linear::SolveError;
@@ -146,6 +147,34 @@ impl Basis<'_> {
         let names = self.constraint_names().into_iter();
         names
             .map(|name| g.symbol(&format!("lambda_{name}"), 0))
+            .collect()
+    }
+
+    /// `Q_i + Σ_l λ_l ∂f^l/∂v^i` with the multipliers as symbols, length n.
+    pub fn forces_with_reactions(&self) -> Vec<Expr> {
+        let g = &self.system.graph;
+        let forces = self.system.forces.iter().zip(self.reactions());
+        forces.map(|(&q, reaction)| g.add(&[q, reaction])).collect()
+    }
+
+    /// `Σ_l λ_l ∂f^l/∂v^i` with the multipliers as symbols, length n.
+    pub fn reactions(&self) -> Vec<Expr> {
+        let (lambdas, jacobian) = (self.lambda_symbols(), self.jacobian());
+        let column = |i: usize| jacobian.iter().map(move |row| &row[i]);
+        (0..self.system.n())
+            .map(|i| dot(&self.system.graph, &lambdas, column(i)))
+            .collect()
+    }
+
+    /// The constraints of the selected rows in other variables, as equations `left = 0`.
+    pub fn constraints_as(&self, lefts: &[Expr]) -> Vec<Equation> {
+        let names = self.constraint_names().into_iter().zip(lefts);
+        names
+            .map(|(name, &left)| Equation {
+                label: name.to_owned(),
+                left,
+                right: self.system.graph.zero(),
+            })
             .collect()
     }
 

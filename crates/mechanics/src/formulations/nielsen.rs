@@ -54,7 +54,7 @@ impl Formulation for Nielsen {
         let (system, characteristics) = (basis.system, basis.characteristics()?);
         let reduced = Reduced::new(system, &characteristics);
         let motion = reduced.equations(system, &characteristics);
-        let rates = super::voronets::solved_rates(system, &characteristics, &motion)?;
+        let rates = characteristics.rates_of(system, &motion)?;
         Ok(
             Equations::in_characteristics(CARD.name, system, &characteristics, &rates)
                 .with_group(
@@ -121,21 +121,15 @@ pub fn nielsen_left_sides(system: &System, order: u32) -> Vec<Expr> {
 }
 
 fn in_coordinates(basis: &Basis<'_>) -> Vec<Equation> {
-    let (system, g) = (basis.system, &basis.system.graph);
-    let (lambdas, jacobian) = (basis.lambda_symbols(), basis.jacobian());
+    let system = basis.system;
     nielsen_left_sides(system, 1)
         .into_iter()
-        .enumerate()
-        .map(|(i, left)| {
-            let mut right = vec![system.forces[i]];
-            for (&lambda, row) in lambdas.iter().zip(&jacobian) {
-                right.push(g.mul(&[lambda, row[i]]));
-            }
-            Equation {
-                label: system.coordinates[i].name.clone(),
-                left,
-                right: g.add(&right),
-            }
+        .zip(basis.forces_with_reactions())
+        .zip(&system.coordinates)
+        .map(|((left, right), c)| Equation {
+            label: c.name.clone(),
+            left,
+            right,
         })
         .collect()
 }

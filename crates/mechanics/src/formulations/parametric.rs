@@ -10,6 +10,7 @@ use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::{derive_along, Manifold};
 use crate::equations::unused_name;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
+use crate::linear::solve_with_multipliers;
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -56,7 +57,11 @@ impl Formulation for Parametric {
             stated_equations(basis, &extended),
         )
         .with_group("parameter", None, gauge(system, &extended))
-        .with_group("constraints", None, stated_constraints(basis, &extended))
+        .with_group(
+            "constraints",
+            None,
+            basis.constraints_as(&extended.constraints),
+        )
         .with_objects(extended.objects(basis))
         .with_objects(mu_objects(basis, &multipliers));
         let scale = system.graph.powi(extended.time.value, -2);
@@ -231,27 +236,10 @@ fn solve(system: &System, extended: &Extended) -> Result<(Vec<Expr>, Vec<Expr>),
         .collect();
     equations.push(extended.time.second);
     equations.extend(extended.derive(system, &extended.constraints));
-    let size = equations.len();
     let symbols: Vec<Symbol> = extended.rates().map(|w| w.second_symbol).collect();
-    let mut matrix = vec![g.zero(); size * size];
-    for (i, row) in g.jacobian(&equations, &symbols).iter().enumerate() {
-        matrix[i * size..i * size + n + 1].copy_from_slice(row);
-    }
     let gradients = extended.by_rates(system, &extended.constraints);
-    for (l, row) in gradients.iter().enumerate() {
-        for (i, &slope) in row.iter().enumerate().take(n) {
-            matrix[i * size + n + 1 + l] = g.neg(slope);
-        }
-    }
-    let at_zero: Vec<(Expr, Expr)> = extended.rates().map(|w| (w.second, g.zero())).collect();
-    let right: Vec<Expr> = g
-        .substitute_all(&equations, &at_zero)
-        .into_iter()
-        .map(|e| g.neg(e))
-        .collect();
-    let mut seconds = g.solve(&matrix, &right)?;
-    let multipliers = seconds.split_off(n + 1);
-    Ok((seconds, multipliers))
+    let reactions: Vec<Vec<Expr>> = gradients.iter().map(|row| row[..n].to_vec()).collect();
+    Ok(solve_with_multipliers(g, &equations, &symbols, &reactions)?)
 }
 
 /// The state x' with rates by t, `x''/t'`.
@@ -304,18 +292,6 @@ fn gauge(system: &System, extended: &Extended) -> Vec<Equation> {
         left: extended.time.second,
         right: system.graph.zero(),
     }]
-}
-
-fn stated_constraints(basis: &Basis<'_>, extended: &Extended) -> Vec<Equation> {
-    let names = basis.constraint_names().into_iter();
-    names
-        .zip(&extended.constraints)
-        .map(|(name, &left)| Equation {
-            label: name.to_string(),
-            left,
-            right: basis.system.graph.zero(),
-        })
-        .collect()
 }
 
 /// The symbols `mu_NAME` of the selected rows.

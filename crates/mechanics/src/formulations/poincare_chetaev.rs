@@ -9,6 +9,7 @@ use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::derive_along;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
 use crate::frame::{Frame, FrameOrigin};
+use crate::linear::{dot, solve_with_multipliers};
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -158,7 +159,7 @@ impl<'a> InFrame<'a> {
             forces: frame
                 .fields
                 .iter()
-                .map(|field| dot(system, field, &forces))
+                .map(|field| dot(g, field, &forces))
                 .collect(),
             lambdas: basis.lambda_symbols(),
             left: Vec::new(),
@@ -191,7 +192,7 @@ impl<'a> InFrame<'a> {
                 let mut parts = vec![moved, g.neg(slope)];
                 if !is_natural {
                     let gamma = self.bracket_with_motion(field);
-                    parts.push(g.neg(dot(system, &gamma, &self.momenta)));
+                    parts.push(g.neg(dot(g, &gamma, &self.momenta)));
                 }
                 g.add(&parts)
             })
@@ -214,34 +215,20 @@ impl<'a> InFrame<'a> {
     /// η' and λ from the equations and `X f = 0`.
     fn solve(&self) -> Result<(Vec<Expr>, Vec<Expr>), DeriveError> {
         let (system, g) = (self.basis.system, &self.basis.system.graph);
-        let (n, r) = (system.n(), self.constraints.len());
-        let size = n + r;
-        let rates: Vec<Symbol> = self.frame.speeds.iter().map(|s| s.rate_symbol).collect();
-        let hessian = g.jacobian(&self.left, &rates);
-        let at_rest: Vec<(Expr, Expr)> = self
-            .frame
-            .speeds
-            .iter()
-            .map(|s| (s.rate, g.zero()))
-            .collect();
-        let free = g.substitute_all(&self.left, &at_rest);
+        let speeds = &self.frame.speeds;
         let frozen = derive_along(system, &self.constraints, &self.velocities, g.one(), &[]);
-        let mut matrix = vec![g.zero(); size * size];
-        let mut right = Vec::with_capacity(size);
-        for s in 0..n {
-            matrix[s * size..s * size + n].copy_from_slice(&hessian[s]);
-            right.push(g.sub(self.forces[s], free[s]));
-        }
-        for (l, row) in self.gradient.iter().enumerate() {
-            for s in 0..n {
-                matrix[(n + l) * size + s] = row[s];
-                matrix[s * size + n + l] = g.neg(row[s]);
-            }
-            right.push(g.neg(frozen[l]));
-        }
-        let mut solution = g.solve(&matrix, &right)?;
-        let multipliers = solution.split_off(n);
-        Ok((solution, multipliers))
+        let rates: Vec<Expr> = speeds.iter().map(|s| s.rate).collect();
+        let pairs = self.left.iter().zip(&self.forces);
+        let mut equations: Vec<Expr> = pairs.map(|(&left, &force)| g.sub(left, force)).collect();
+        let rows = self.gradient.iter().zip(frozen);
+        equations.extend(rows.map(|(row, frozen)| g.add(&[dot(g, row, &rates), frozen])));
+        let symbols: Vec<Symbol> = speeds.iter().map(|s| s.rate_symbol).collect();
+        Ok(solve_with_multipliers(
+            g,
+            &equations,
+            &symbols,
+            &self.gradient,
+        )?)
     }
 
     fn state(&self, rates: Vec<Expr>) -> Equations {
@@ -250,13 +237,7 @@ impl<'a> InFrame<'a> {
             .speeds
             .iter()
             .zip(rates)
-            .map(|(speed, rate)| StateVariable {
-                name: speed.name.clone(),
-                value: speed.value,
-                symbol: speed.symbol,
-                rate,
-                definition: Some(speed.definition),
-            })
+            .map(|(speed, rate)| StateVariable::of_speed(speed, rate))
             .collect();
         let system = self.basis.system;
         Equations::in_state(CARD.name, system, variables, self.velocities.clone())
@@ -280,16 +261,7 @@ impl<'a> InFrame<'a> {
     }
 
     fn constraints(&self) -> Vec<Equation> {
-        let zero = self.basis.system.graph.zero();
-        let names = self.basis.constraint_names().into_iter();
-        names
-            .zip(&self.constraints)
-            .map(|(name, &left)| Equation {
-                label: name.into(),
-                left,
-                right: zero,
-            })
-            .collect()
+        self.basis.constraints_as(&self.constraints)
     }
 
     fn kinematics(&self) -> Vec<Equation> {
@@ -318,16 +290,4 @@ impl<'a> InFrame<'a> {
             })
             .collect()
     }
-}
-
-/// `Σ_i a_i b_i`.
-pub(super) fn dot(system: &System, a: &[Expr], b: &[Expr]) -> Expr {
-    let g = &system.graph;
-    let parts: Vec<Expr> = a
-        .iter()
-        .zip(b)
-        .filter(|(&a, &b)| !g.is_zero(a) && !g.is_zero(b))
-        .map(|(&a, &b)| g.mul(&[a, b]))
-        .collect();
-    g.add(&parts)
 }

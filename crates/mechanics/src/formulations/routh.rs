@@ -94,22 +94,14 @@ fn solve(basis: &Basis<'_>) -> Result<(Vec<Expr>, Vec<Expr>), DeriveError> {
 
 fn stated_equations(basis: &Basis<'_>) -> Vec<Equation> {
     let system = basis.system;
-    let g = &system.graph;
-    let (lambdas, jacobian) = (basis.lambda_symbols(), basis.jacobian());
-    system
-        .lagrange_left_sides()
-        .into_iter()
-        .enumerate()
-        .map(|(i, left)| {
-            let mut right = vec![system.forces[i]];
-            for (&lambda, row) in lambdas.iter().zip(&jacobian) {
-                right.push(g.mul(&[lambda, row[i]]));
-            }
-            Equation {
-                label: system.coordinates[i].name.clone(),
-                left,
-                right: g.add(&right),
-            }
+    let sides = system.lagrange_left_sides().into_iter();
+    sides
+        .zip(basis.forces_with_reactions())
+        .zip(&system.coordinates)
+        .map(|((left, right), c)| Equation {
+            label: c.name.clone(),
+            left,
+            right,
         })
         .collect()
 }

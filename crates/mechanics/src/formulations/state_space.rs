@@ -9,6 +9,7 @@ use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::{derive_along, Manifold};
 use crate::equations::unused_name;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
+use crate::linear::{dot, solve_with_multipliers};
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -47,13 +48,7 @@ impl Formulation for StateSpace {
             .coordinates
             .iter()
             .zip(&rates.velocities)
-            .map(|(c, &rate)| StateVariable {
-                name: format!("{}'", c.name),
-                value: c.v,
-                symbol: c.v_symbol,
-                rate,
-                definition: Some(c.v),
-            })
+            .map(|(c, &rate)| StateVariable::of_velocity(c, rate))
             .collect();
         let (stated, kinematic) = stated_equations(basis, &jet);
         let density = NamedExpr::new(
@@ -146,32 +141,16 @@ fn solve(basis: &Basis<'_>, jet: &StateJet) -> Result<Rates, DeriveError> {
         .chain(motion)
         .chain(constraint)
         .collect();
-    let size = equations.len();
-    let rates: Vec<Expr> = jet
-        .coordinates
+    let rates = jet.coordinates.iter().chain(&jet.velocities);
+    let symbols: Vec<Symbol> = rates.filter_map(|&e| g.as_symbol(e)).collect();
+    let kinematic_rows = vec![g.zero(); n];
+    let jacobian = basis.jacobian();
+    let reactions: Vec<Vec<Expr>> = jacobian
         .iter()
-        .chain(&jet.velocities)
-        .copied()
+        .map(|row| [kinematic_rows.as_slice(), row].concat())
         .collect();
-    let symbols: Vec<Symbol> = rates.iter().filter_map(|&e| g.as_symbol(e)).collect();
-    let by_rates = g.jacobian(&equations, &symbols);
-    let at_zero: Vec<(Expr, Expr)> = rates.iter().map(|&e| (e, g.zero())).collect();
-    let right: Vec<Expr> = g
-        .substitute_all(&equations, &at_zero)
-        .into_iter()
-        .map(|e| g.neg(e))
-        .collect();
-    let mut matrix = vec![g.zero(); size * size];
-    for (i, row) in by_rates.iter().enumerate() {
-        matrix[i * size..i * size + 2 * n].copy_from_slice(row);
-    }
-    for (l, row) in basis.jacobian().iter().enumerate() {
-        for (s, &slope) in row.iter().enumerate() {
-            matrix[(n + s) * size + 2 * n + l] = g.neg(slope);
-        }
-    }
-    let mut coordinates = g.solve(&matrix, &right)?;
-    let multipliers = coordinates.split_off(2 * n);
+    let (mut coordinates, multipliers) =
+        solve_with_multipliers(g, &equations, &symbols, &reactions)?;
     let velocities = coordinates.split_off(n);
     Ok(Rates {
         coordinates,
@@ -185,20 +164,13 @@ fn residuals(basis: &Basis<'_>, jet: &StateJet) -> (Vec<Expr>, Vec<Expr>, Vec<Ex
     let (system, g) = (basis.system, &basis.system.graph);
     let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
     let slopes = g.gradient(system.lagrangian, &system.coordinate_symbols());
+    let pairs = jet.coordinates.iter().zip(&system.coordinates);
+    let lag: Vec<Expr> = pairs.map(|(&rate, c)| g.sub(rate, c.v)).collect();
     let kinematic = basis
         .terms
         .mass_matrix
         .iter()
-        .map(|row| {
-            let terms = row.iter().enumerate().filter(|(_, w)| !g.is_zero(**w));
-            let parts: Vec<Expr> = terms
-                .map(|(s, &w)| {
-                    let lag = g.sub(jet.coordinates[s], system.coordinates[s].v);
-                    g.mul(&[w, lag])
-                })
-                .collect();
-            g.add(&parts)
-        })
+        .map(|row| dot(g, row, &lag))
         .collect();
     let motion = jet
         .derive(system, &momenta)
@@ -213,29 +185,21 @@ fn residuals(basis: &Basis<'_>, jet: &StateJet) -> (Vec<Expr>, Vec<Expr>, Vec<Ex
 fn stated_equations(basis: &Basis<'_>, jet: &StateJet) -> (Vec<Equation>, Vec<Equation>) {
     let (system, g) = (basis.system, &basis.system.graph);
     let (kinematic, motion, _) = residuals(basis, jet);
-    let (lambdas, jacobian) = (basis.lambda_symbols(), basis.jacobian());
-    let labelled = |lefts: Vec<Expr>, right: &dyn Fn(usize) -> Expr| -> Vec<Equation> {
-        lefts
-            .into_iter()
-            .enumerate()
-            .map(|(s, left)| Equation {
-                label: system.coordinates[s].name.clone(),
+    let labelled = |lefts: Vec<Expr>, rights: Vec<Expr>| -> Vec<Equation> {
+        let sides = lefts.into_iter().zip(rights);
+        sides
+            .zip(&system.coordinates)
+            .map(|((left, right), c)| Equation {
+                label: c.name.clone(),
                 left,
-                right: right(s),
+                right,
             })
             .collect()
     };
-    let reaction = |s: usize| {
-        let parts: Vec<Expr> = lambdas
-            .iter()
-            .zip(&jacobian)
-            .map(|(&lambda, row)| g.mul(&[lambda, row[s]]))
-            .collect();
-        g.add(&parts)
-    };
+    let none = vec![g.zero(); system.n()];
     (
-        labelled(motion, &reaction),
-        labelled(kinematic, &|_| g.zero()),
+        labelled(motion, basis.reactions()),
+        labelled(kinematic, none),
     )
 }
 

@@ -175,7 +175,7 @@ impl<'a> Volterra<'a> {
                 right,
             })
             .collect();
-        let rates = super::voronets::solved_rates(system, c, &motion)?;
+        let rates = c.rates_of(system, &motion)?;
         Ok(Equations::in_characteristics(name, system, c, &rates)
             .with_group("equations of motion", Some(schema), motion)
             .with_group("kinematics", None, basis.kinematics(c))

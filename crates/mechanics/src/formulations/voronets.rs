@@ -113,7 +113,7 @@ impl Restricted {
                 right,
             })
             .collect();
-        let rates = solved_rates(system, characteristics, &motion)?;
+        let rates = characteristics.rates_of(system, &motion)?;
         Ok(
             Equations::in_characteristics(name, system, characteristics, &rates)
                 .with_group("equations of motion", Some(schema), motion)
@@ -169,17 +169,4 @@ impl Restricted {
         }
         objects
     }
-}
-
-/// P' from equations of motion that are linear in it.
-pub(crate) fn solved_rates(
-    system: &System,
-    characteristics: &Characteristics,
-    motion: &[Equation],
-) -> Result<Vec<Expr>, DeriveError> {
-    let residuals: Vec<Expr> = motion
-        .iter()
-        .map(|e| system.graph.sub(e.left, e.right))
-        .collect();
-    Ok(characteristics.rates_from(system, &residuals)?)
 }

@@ -4,8 +4,8 @@ use super::super::lagrange_dalembert::VirtualDisplacements;
 use super::super::volterra::stated_apart;
 use super::super::voronets::natural;
 use super::super::Basis;
-use super::dot;
 use crate::characteristics::Manifold;
+use crate::linear::dot;
 use crate::prover::Prover;
 use crate::sample;
 use crate::system::System;
@@ -145,11 +145,12 @@ const LONGEST_PIVOT: usize = 24;
 impl Form {
     fn new(basis: &Basis<'_>, displacements: VirtualDisplacements) -> Form {
         let (system, mass) = (basis.system, &basis.terms.mass_matrix);
+        let g = &system.graph;
         let matrix = displacements
             .columns
             .iter()
             .map(|column| {
-                let momentum: Vec<Expr> = mass.iter().map(|row| dot(system, row, column)).collect();
+                let momentum: Vec<Expr> = mass.iter().map(|row| dot(g, row, column)).collect();
                 displacements.contract(system, &momentum)
             })
             .collect();
@@ -206,8 +207,8 @@ impl Form {
             .map(|&(p, q)| ratio(p, q).map_or(g.zero(), |r| g.number(r)))
             .collect();
         let rows = self.matrix.iter();
-        let image: Vec<Expr> = rows.map(|row| dot(system, row, &coefficients)).collect();
-        let value = dot(system, &coefficients, &image);
+        let image: Vec<Expr> = rows.map(|row| dot(g, row, &coefficients)).collect();
+        let value = dot(g, &coefficients, &image);
         match is_nonnegative(system, prover, &self.manifold, value) {
             Verdict::Refuted(counterexample)
             | Verdict::Conditional {
@@ -218,7 +219,7 @@ impl Form {
                     .map(|i| {
                         let columns = self.displacements.columns.iter();
                         let entries: Vec<Expr> = columns.map(|column| column[i]).collect();
-                        dot(system, &coefficients, &entries)
+                        dot(g, &coefficients, &entries)
                     })
                     .collect(),
                 counterexample,
