@@ -157,14 +157,19 @@ pub(super) fn values(subject: &Sampled<'_>, es: &[Expr], states: &[Point]) -> Ve
         .collect()
 }
 
+/// Values beyond this say nothing of the equations of a system with parameters and states of size one.
+const BEYOND: f64 = 1e9;
+
 /// Whether `left` and `right` differ at admissible states, relatively to their size.
 pub(super) fn differ(subject: &Sampled<'_>, left: &[Expr], right: &[Expr]) -> Size {
     let all: Vec<Expr> = left.iter().chain(right).copied().collect();
     let values = values(subject, &all, &subject.states);
     Size::of(values.iter().flat_map(|values| {
         let (a, b) = values.split_at(left.len());
-        a.iter()
-            .zip(b)
+        let compared = a.iter().zip(b);
+        compared
             .map(|(x, y)| (x - y, 1.0 + x.abs() + y.abs()))
+            // A denominator that vanishes identically is rounding here, and its quotient no value.
+            .filter(|(_, scale)| *scale < BEYOND)
     }))
 }
