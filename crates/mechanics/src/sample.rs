@@ -54,13 +54,23 @@ pub fn admissible_point(system: &System, terms: &MotionTerms, seed: u64) -> Opti
                 *usual = norm.max(*usual);
             }
         }
+        let drawn = speed(system, &point);
         if !project_velocities(system, terms, &mut point) {
             return None;
         }
         let after = gradient_norms(system, terms, &point)?;
         let is_regular = usual.iter().zip(&after).all(|(u, a)| *a > 1e-4 * u);
-        is_regular.then_some(point)
+        // A root of squares has no slope at rest, where every search may end; rest is taken only where nothing moves.
+        let moves = speed(system, &point) > 1e-4 * drawn || attempt >= 100;
+        (is_regular && moves).then_some(point)
     })
+}
+
+/// The length of the velocities.
+fn speed(system: &System, point: &Point) -> f64 {
+    let velocities = system.coordinates.iter();
+    let values = velocities.filter_map(|c| point.get(&c.v_symbol));
+    values.map(|v| v * v).sum::<f64>().sqrt()
 }
 
 /// The lengths of the gradients ∂f/∂v, one per constraint.

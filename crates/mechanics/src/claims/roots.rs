@@ -40,9 +40,10 @@ pub(super) fn identified(cx: &Context<'_>, es: &[Expr]) -> Vec<Expr> {
     let mut pairs = Vec::new();
     for &radicand in &open {
         let same = known.iter().find_map(|&other| {
-            let factor = factor(cx, &states, radicand, other)?;
-            let scaled = g.scale(&factor, other);
-            is_zero(g.sub(radicand, scaled)).then_some((radicand, scaled))
+            let factors = factors(cx, &states, radicand, other).into_iter();
+            let scaled = factors.map(|factor| g.scale(&factor, other));
+            let mut proved = scaled.filter(|&scaled| is_zero(g.sub(radicand, scaled)));
+            proved.next().map(|scaled| (radicand, scaled))
         });
         match same {
             Some(pair) => pairs.push(pair),
@@ -81,9 +82,10 @@ fn quotient(
         .filter(|(a, b)| a != b)
         .find_map(|(a, b)| {
             let product = g.mul(&[radicand, b]);
-            let factor = factor(cx, states, product, a)?;
-            let above = g.scale(&factor, a);
-            is_zero(g.sub(product, above)).then_some((above, b))
+            let factors = factors(cx, states, product, a).into_iter();
+            let above = factors.map(|factor| g.scale(&factor, a));
+            let mut proved = above.filter(|&above| is_zero(g.sub(product, above)));
+            proved.next().map(|above| (above, b))
         });
     let Some((above, b)) = found else {
         return Vec::new();
@@ -117,8 +119,24 @@ fn radicands(cx: &Context<'_>, es: &[Expr]) -> Vec<Expr> {
     found
 }
 
-/// The rational c with `a = c b` at every state.
-fn factor(cx: &Context<'_>, states: &[Point], a: Expr, b: Expr) -> Option<Rational> {
+/// Digits to which a quotient of radicands is taken for rational: all that rounding leaves, and where sums cancel fewer.
+const AGREEMENTS: [f64; 2] = [1e-12, 1e-9];
+
+/// Rationals c that may satisfy `a = c b` at every state.
+fn factors(cx: &Context<'_>, states: &[Point], a: Expr, b: Expr) -> Vec<Rational> {
+    let Some(common) = common_quotient(cx, states, a, b) else {
+        return Vec::new();
+    };
+    let mut found: Vec<Rational> = AGREEMENTS
+        .iter()
+        .filter_map(|&agreement| rational(common, agreement))
+        .collect();
+    found.dedup();
+    found
+}
+
+/// a/b, where it is positive and the same at all states.
+fn common_quotient(cx: &Context<'_>, states: &[Point], a: Expr, b: Expr) -> Option<f64> {
     let g = &cx.system.graph;
     let mut common: Option<f64> = None;
     for state in states {
@@ -129,11 +147,11 @@ fn factor(cx: &Context<'_>, states: &[Point], a: Expr, b: Expr) -> Option<Ration
             return None;
         }
     }
-    rational(common.filter(|c| *c > 0.0)?)
+    common.filter(|c| *c > 0.0)
 }
 
-/// The continued fraction of a number, up to its first convergent that is the number to rounding.
-fn rational(x: f64) -> Option<Rational> {
+/// The continued fraction of a number, up to its first convergent that agrees with it so far.
+fn rational(x: f64, agreement: f64) -> Option<Rational> {
     let (mut before, mut last) = ((0_i64, 1_i64), (1_i64, 0_i64));
     let mut rest = x;
     while last.1 <= DENOMINATORS {
@@ -144,7 +162,7 @@ fn rational(x: f64) -> Option<Rational> {
         let step = |a: i64, b: i64| (whole as i64).checked_mul(a)?.checked_add(b);
         let next = (step(last.0, before.0)?, step(last.1, before.1)?);
         (before, last) = (last, next);
-        if (last.0 as f64 / last.1 as f64 - x).abs() <= 1e-12 * x.abs() {
+        if (last.0 as f64 / last.1 as f64 - x).abs() <= agreement * x.abs() {
             let found = ratio(last.0, last.1)?;
             return (to_i64(&found) != Some(0)).then_some(found);
         }
@@ -160,8 +178,11 @@ mod tests {
     #[test]
     fn factors_are_found_by_their_continued_fraction() {
         for (n, d) in [(1, 1), (3072, 1), (9, 16), (355, 113), (1, 61440)] {
-            assert_eq!(rational(n as f64 / d as f64), ratio(n, d), "{n}/{d}");
+            assert_eq!(rational(n as f64 / d as f64, 1e-12), ratio(n, d), "{n}/{d}");
         }
-        assert_eq!(rational(std::f64::consts::SQRT_2), None);
+        assert_eq!(rational(std::f64::consts::SQRT_2, 1e-12), None);
+        // Three digits lost to cancellation.
+        assert_eq!(rational(16.0 + 3e-10, 1e-12), None);
+        assert_eq!(rational(16.0 + 3e-10, 1e-9), ratio(16, 1));
     }
 }
