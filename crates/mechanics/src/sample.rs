@@ -2,7 +2,7 @@
 
 use crate::system::{Relation, System};
 use crate::terms::MotionTerms;
-use chetaev_symbolic::{Expr, Symbol};
+use chetaev_symbolic::{Expr, Graph, Node, Symbol};
 use std::collections::BTreeMap;
 
 /// A tiny deterministic generator (splitmix64; Steele, Lea, Flood 2014).
@@ -35,11 +35,25 @@ impl Generator {
 pub type Point = BTreeMap<Symbol, f64>;
 
 /// Draws a regular state that satisfies the first-order constraints to rounding, within simple bounds of the assumptions;
-/// `None` when two hundred draws fail. Later draws reach further in the velocities, as some constraints need. A state at
-/// which the gradient of a constraint vanishes, as that of x'^2 + y'^2 = 0 does wherever it holds, is not regular.
+/// `None` when two hundred draws fail, and as many with more patience. Later draws reach further in the velocities, as some
+/// constraints need. A state at which the gradient of a constraint vanishes, as that of x'^2 + y'^2 = 0 does wherever it
+/// holds, or one of its roots, which then has no slope, is not regular.
 pub fn admissible_point(system: &System, terms: &MotionTerms, seed: u64) -> Option<Point> {
+    [STEPS, PATIENT_STEPS]
+        .into_iter()
+        .find_map(|steps| drawn(system, terms, seed, steps))
+}
+
+/// Newton steps that nearly every search needs.
+const STEPS: usize = 60;
+
+/// The ridge of a root of squares is climbed in many small steps.
+const PATIENT_STEPS: usize = 400;
+
+fn drawn(system: &System, terms: &MotionTerms, seed: u64, steps: usize) -> Option<Point> {
     let mut generator = Generator::new(seed);
     let mut usual = vec![0.0_f64; terms.constraints.len()];
+    let roots = radicands(&system.graph, &terms.constraints);
     (0..200).find_map(|attempt| {
         let mut point = free_point(system, terms, &mut generator)?;
         if attempt >= 10 {
@@ -54,32 +68,44 @@ pub fn admissible_point(system: &System, terms: &MotionTerms, seed: u64) -> Opti
                 *usual = norm.max(*usual);
             }
         }
-        let drawn = speed(system, &point);
-        if !project_velocities(system, terms, &mut point) {
+        let sizes = values(system, &roots, &point)?;
+        if !project_velocities(system, terms, &mut point, steps) {
             return None;
         }
         let after = gradient_norms(system, terms, &point)?;
+        let left = values(system, &roots, &point)?;
         let is_regular = usual.iter().zip(&after).all(|(u, a)| *a > 1e-4 * u);
-        // A root of squares has no slope at rest, where every search may end; rest is taken only where nothing moves.
-        let moves = speed(system, &point) > 1e-4 * drawn || attempt >= 100;
-        (is_regular && moves).then_some(point)
+        let has_slopes = sizes
+            .iter()
+            .zip(&left)
+            .all(|(u, a)| a.abs() > 1e-8 * u.abs());
+        (is_regular && has_slopes).then_some(point)
     })
 }
 
-/// The length of the velocities.
-fn speed(system: &System, point: &Point) -> f64 {
-    let velocities = system.coordinates.iter();
-    let values = velocities.filter_map(|c| point.get(&c.v_symbol));
-    values.map(|v| v * v).sum::<f64>().sqrt()
+fn values(system: &System, es: &[Expr], point: &Point) -> Option<Vec<f64>> {
+    let values = system.graph.evaluate_f64(es, &|s| point.get(&s).copied());
+    values.ok()
+}
+
+/// The bases of powers with exponents that are no whole numbers.
+pub(crate) fn radicands(g: &Graph, es: &[Expr]) -> Vec<Expr> {
+    let mut found = Vec::new();
+    for e in g.reachable(es) {
+        if let Node::Power { base, exponent } = g.node(e) {
+            let is_root = g.as_number(*exponent).is_some() && g.as_integer(*exponent).is_none();
+            if is_root && g.as_number(*base).is_none() && !found.contains(base) {
+                found.push(*base);
+            }
+        }
+    }
+    found
 }
 
 /// The lengths of the gradients ∂f/∂v, one per constraint.
 fn gradient_norms(system: &System, terms: &MotionTerms, point: &Point) -> Option<Vec<f64>> {
     let entries = terms.jacobian.concat();
-    let values = system
-        .graph
-        .evaluate_f64(&entries, &|s| point.get(&s).copied())
-        .ok()?;
+    let values = values(system, &entries, point)?;
     let norm = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
     Some(values.chunks(system.n().max(1)).map(norm).collect())
 }
@@ -163,7 +189,12 @@ fn bounds(system: &System, symbol: Symbol, default: (f64, f64)) -> (f64, f64) {
 }
 
 /// Newton steps of least kinetic norm on the velocities, halved until they help, until every constraint is satisfied.
-fn project_velocities(system: &System, terms: &MotionTerms, point: &mut Point) -> bool {
+fn project_velocities(
+    system: &System,
+    terms: &MotionTerms,
+    point: &mut Point,
+    steps: usize,
+) -> bool {
     if terms.constraints.is_empty() {
         return true;
     }
@@ -182,8 +213,7 @@ fn project_velocities(system: &System, terms: &MotionTerms, point: &mut Point) -
         return false;
     };
     let metric = KineticMetric::at(system, terms, point);
-    // The ridge of a root of squares is climbed in many small steps.
-    for _ in 0..400 {
+    for _ in 0..steps {
         let (f, jacobian) = values.split_at(r);
         if f.iter().all(|x| x.abs() < 1e-11) {
             return true;

@@ -7,7 +7,7 @@
 
 use super::formulation::manifold;
 use super::Context;
-use crate::sample::{admissible_point, Point};
+use crate::sample::{admissible_point, radicands, Point};
 use chetaev_symbolic::rational::{ratio, to_i64};
 use chetaev_symbolic::{Expr, Node, Rational, Verdict};
 
@@ -23,8 +23,8 @@ pub(super) fn identified(cx: &Context<'_>, es: &[Expr]) -> Vec<Expr> {
     let mut stated = vec![system.lagrangian];
     stated.extend(&system.forces);
     stated.extend(&cx.terms.constraints);
-    let known = radicands(cx, &stated);
-    let mut open = radicands(cx, es);
+    let known = radicands(g, &stated);
+    let mut open = radicands(g, es);
     open.retain(|e| !known.contains(e));
     if known.is_empty() || open.is_empty() {
         return es.to_vec();
@@ -102,21 +102,6 @@ fn quotient(
             _ => None,
         })
         .collect()
-}
-
-/// The bases of powers with exponents that are no whole numbers.
-fn radicands(cx: &Context<'_>, es: &[Expr]) -> Vec<Expr> {
-    let g = &cx.system.graph;
-    let mut found = Vec::new();
-    for e in g.reachable(es) {
-        if let Node::Power { base, exponent } = g.node(e) {
-            let is_root = g.as_number(*exponent).is_some() && g.as_integer(*exponent).is_none();
-            if is_root && g.as_number(*base).is_none() && !found.contains(base) {
-                found.push(*base);
-            }
-        }
-    }
-    found
 }
 
 /// Digits to which a quotient of radicands is taken for rational: all that rounding leaves, and where sums cancel fewer.
