@@ -44,3 +44,25 @@ fn a_singular_origin_that_nobody_asked_for_is_a_note() {
     let massless = "coordinates = [\"x\", \"y\"]\nlagrangian = \"x'^2/2 - y^2\"\n";
     assert_eq!(study(massless).exit, 2);
 }
+
+/// The cone q_3' = 3/2 √(…) is narrow, and least steps in the kinetic metric cross it to and fro: from rest its residual is
+/// 3/2 √162, and every velocity q_3' above that satisfies it with q_1' = q_2' = 0.
+#[test]
+fn a_state_on_a_narrow_cone_of_velocities_is_found() {
+    let cone = "\
+coordinates = [\"q_1\", \"q_2\", \"q_3\"]
+lagrangian = \"(20 q_1' + q_2' + q_3')^2/64 + 5 q_1'^2/4 + 5 (2 q_2' - 4 q_3')^2/2 + 5 q_2'^2/8 + 5 q_3'^2/8\"
+constraints = [\"q_3' = 3/2 sqrt(4 (3 q_1' + 18 q_2')^2 + 90 q_1'^2 + 36 q_2'^2 + 162)\"]
+[simulation]
+t_end = 0.1
+";
+    let ended = study(cone);
+    let found = ended.study.unwrap_or_else(|| panic!("{}", ended.text));
+    assert_eq!(ended.exit, 0, "{}", ended.text);
+    let motion = found.motion.expect("a motion from a state that was found");
+    let [a, b, c] = motion.start.v[..] else {
+        panic!("three velocities: {:?}", motion.start.v);
+    };
+    let root = 4.0 * (3.0 * a + 18.0 * b).powi(2) + 90.0 * a * a + 36.0 * b * b + 162.0;
+    assert!((c - 1.5 * root.sqrt()).abs() < 1e-9, "{a} {b} {c}");
+}
