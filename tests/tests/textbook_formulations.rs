@@ -362,11 +362,11 @@ fn euler_equations_of_the_rigid_body() {
         model: "rigid-body",
         formulation: "boltzmann-hamel",
         group: OBJECTS,
-        names: &["C_w3_w1_w2", "C_w2_w1_w3", "C_w1_w2_w3"],
+        names: &["C_w1_w2_w3", "C_w1_w3_w2", "C_w2_w3_w1"],
         equations: &[
-            ("C_w3_w1_w2 = 1", Value("C_w3_w1_w2 - 1")),
-            ("C_w2_w1_w3 = -1", Value("C_w2_w1_w3 + 1")),
             ("C_w1_w2_w3 = 1", Value("C_w1_w2_w3 - 1")),
+            ("C_w1_w3_w2 = -1", Value("C_w1_w3_w2 + 1")),
+            ("C_w2_w3_w1 = 1", Value("C_w2_w3_w1 - 1")),
         ],
     }
     .check();

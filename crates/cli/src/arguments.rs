@@ -118,8 +118,8 @@ pub(crate) struct Derive {
     /// Two formulations: what differs between their equations, and why it vanishes
     #[arg(long, num_args = 2, value_names = ["A", "B"], conflicts_with = "formulation", value_parser = formulation_names())]
     pub(crate) compare: Vec<String>,
-    /// Notation
-    #[arg(long = "as", value_enum, default_value_t = Notation::Text)]
+    /// Notation; comparisons are text
+    #[arg(long = "as", value_enum, default_value_t = Notation::Text, conflicts_with = "compare")]
     pub(crate) notation: Notation,
     /// Say on standard error how long deriving, proving and writing took
     #[arg(long)]

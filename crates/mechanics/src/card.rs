@@ -19,6 +19,23 @@ pub enum Principle {
     Vakonomic,
 }
 
+impl Principle {
+    /// Its name for people.
+    pub fn words(self) -> &'static str {
+        match self {
+            Principle::DalembertLagrangeChetaev => "d'Alembert–Lagrange with Chetaev's condition",
+            Principle::Gauss => "Gauss, least constraint",
+            Principle::Jourdain => "Jourdain, virtual velocities",
+            Principle::Hamilton => {
+                "Hamilton, in the form of Hölder, Voronets or Suslov, or on the phase space"
+            }
+            Principle::Jacobi => "Jacobi, least action at fixed energy, in Hölder's sense",
+            Principle::SecondKind => "second kind: coordinates and velocities vary independently",
+            Principle::Vakonomic => "constrained extremum of the action",
+        }
+    }
+}
+
 /// What is claimed of a formulation beside the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {

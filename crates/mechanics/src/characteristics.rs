@@ -84,7 +84,7 @@ pub enum CharacteristicsError {
         source: SolveError,
     },
     /// No state satisfies the constraints.
-    #[error("no real state was found that satisfies the constraints {names} and at which their gradients by the velocities do not vanish")]
+    #[error("no real state was found that satisfies the constraints {names} with gradients by the velocities that do not vanish: they contradict each other, or hold where nothing moves only")]
     NoAdmissibleState {
         /// The constraints.
         names: String,

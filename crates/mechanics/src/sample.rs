@@ -212,7 +212,8 @@ fn project_velocities(
     let Some(mut values) = values_at(point) else {
         return false;
     };
-    let metric = KineticMetric::at(system, terms, point);
+    let mut w = kinetic_matrix(system, terms, point);
+    let mut metric = w.as_deref().and_then(|w| KineticMetric::of(w, n));
     for _ in 0..steps {
         let (f, jacobian) = values.split_at(r);
         if f.iter().all(|x| x.abs() < 1e-11) {
@@ -232,12 +233,41 @@ fn project_velocities(
             let found = values_at(&next)?;
             (size(&found) < size(&values)).then_some((next, found))
         });
-        match next {
-            Some((next, found)) => (*point, values) = (next, found),
-            None => return false,
+        let Some((next, found)) = next else {
+            return false;
+        };
+        if let (true, Some(w)) = (steps > STEPS, &mut w) {
+            add_weights(w, &found[r..], &values[r..], n);
+            metric = KineticMetric::of(w, n);
         }
+        (*point, values) = (next, found);
     }
     false
+}
+
+/// Directions in which gradients are seen to change count ten times as heavy from then on, so that steps follow the ridge of a
+/// root of squares instead of crossing it to and fro.
+fn add_weights(w: &mut [f64], new: &[f64], old: &[f64], n: usize) {
+    let weight = 10.0 * w.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    for (new, old) in new.chunks(n).zip(old.chunks(n)) {
+        let change: Vec<f64> = new.iter().zip(old).map(|(a, b)| a - b).collect();
+        let square: f64 = change.iter().map(|x| x * x).sum();
+        let usual: f64 = old.iter().map(|x| x * x).sum();
+        if square <= 1e-12 * usual || weight > HEAVIEST {
+            continue;
+        }
+        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            w[i * n + j] += weight * change[i] * change[j] / square;
+        }
+    }
+}
+
+/// Beyond this a metric is no longer factored well.
+const HEAVIEST: f64 = 1e8;
+
+/// The entries of W at a state.
+fn kinetic_matrix(system: &System, terms: &MotionTerms, point: &Point) -> Option<Vec<f64>> {
+    values(system, &terms.mass_matrix.concat(), point)
 }
 
 /// W = L Lᵀ at a state: lengths measured by it do not depend on the choice of coordinates, so that a search which ends
@@ -249,13 +279,7 @@ struct KineticMetric {
 
 impl KineticMetric {
     /// `None` where W is not positive definite.
-    fn at(system: &System, terms: &MotionTerms, point: &Point) -> Option<KineticMetric> {
-        let n = system.n();
-        let entries = terms.mass_matrix.concat();
-        let w = system
-            .graph
-            .evaluate_f64(&entries, &|s| point.get(&s).copied())
-            .ok()?;
+    fn of(w: &[f64], n: usize) -> Option<KineticMetric> {
         let mut factor = vec![vec![0.0; n]; n];
         for i in 0..n {
             for j in 0..=i {

@@ -125,25 +125,12 @@ pub fn derivation(
 /// # Errors
 /// [`NotDerived::NotApplicable`].
 pub fn check_applies(cx: &Context<'_>, card: &'static Card) -> Result<(), NotDerived> {
-    match obstacle(cx, card) {
+    match cx.obstacle_of(card) {
         None => Ok(()),
         Some(verdict) => Err(NotDerived::NotApplicable {
             name: card.name,
             verdict: Box::new(verdict),
         }),
-    }
-}
-
-/// Why the formulation does not apply.
-fn obstacle(cx: &Context<'_>, card: &Card) -> Option<Verdict> {
-    let id = match card.relation {
-        Relation::Coincidence => "formulation.vakonomic-coincides",
-        _ => "formulation.equivalent",
-    };
-    let claim = cx.registry().find(id)?;
-    match card.relation {
-        Relation::Coincidence => cx.obstacle(claim, Some("system")),
-        _ => cx.obstacle(claim, Some(card.name)),
     }
 }
 

@@ -35,6 +35,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             DONE
         }
         None => {
+            if let Some(named) = formulation(id) {
+                terminal::out(&format!("{}\n\n{}\n", id, described(named.card())));
+                return DONE;
+            }
             error(format!(
                 "there is no claim `{id}`{}",
                 did_you_mean(id, known.claims())
@@ -55,7 +59,11 @@ fn unknown_subject(claim: &'static dyn Claim, wanted: &str) -> Option<String> {
     Some(format!(
         "`{}` has no subject `{subject}`{}",
         claim.id(),
-        near.map_or(String::new(), |near| format!("; did you mean `{near}`?"))
+        match (formulation(subject), near) {
+            (Some(_), _) => format!("; `chetaev explain {subject}` prints its card"),
+            (None, Some(near)) => format!("; did you mean `{near}`?"),
+            (None, None) => String::new(),
+        }
     ))
 }
 
@@ -134,6 +142,8 @@ fn described(card: &Card) -> String {
         text.push_str(&wrapped(&format!("Identity: {identity}.")));
         text.push('\n');
     }
+    text.push_str(&wrapped(&format!("Principle: {}.", card.principle.words())));
+    text.push('\n');
     text.push_str(&wrapped(&format!("Unknowns: {}.", card.unknowns)));
     text.push_str(&format!("\nSources: {}", sources.join("; ")));
     text

@@ -11,6 +11,7 @@ pub mod model;
 pub mod particles;
 mod roots;
 
+use crate::card::Card;
 use crate::characteristics::{self, Selection};
 use crate::prover::Prover;
 use crate::redundancy::LeftOut;
@@ -294,6 +295,13 @@ impl<'a> Context<'a> {
     pub fn obstacle(&self, claim: &dyn Claim, subject: Option<&str>) -> Option<Verdict> {
         self.constraint_beyond(claim.highest_order(subject))
             .or_else(|| self.failed_hypothesis(&claim.requires(subject)))
+    }
+
+    /// Why equations with these requirements cannot be derived.
+    pub fn obstacle_of(&self, card: &Card) -> Option<Verdict> {
+        let requires: Vec<String> = card.requires.iter().map(|&id| id.to_owned()).collect();
+        self.constraint_beyond(card.highest_order)
+            .or_else(|| self.failed_hypothesis(&requires))
     }
 
     fn failed_hypothesis(&self, hypotheses: &[String]) -> Option<Verdict> {

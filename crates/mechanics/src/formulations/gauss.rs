@@ -223,13 +223,26 @@ fn stationary(
     }
     let accelerations = g.solve(&matrix, &right)?;
     let multipliers = reactions(basis, displacements, &accelerations)?;
-    let mut equations = Equations::in_velocities(CARD.name, system, accelerations);
+    let mut equations = Equations::in_velocities(CARD.name, system, accelerations)
+        .with_objects(deviation_without_inverse(basis));
     equations.multipliers = basis
         .constraint_indices()
         .into_iter()
         .zip(multipliers)
         .collect();
     Ok(equations)
+}
+
+/// `Z_0 = ½ aᵀ W a - aᵀ b`, which is Z without a term free of the accelerations and exists where W is singular too.
+fn deviation_without_inverse(basis: &Basis<'_>) -> Option<NamedExpr> {
+    let (system, terms, g) = (basis.system, basis.terms, &basis.system.graph);
+    let free: Vec<Expr> = system.coordinates.iter().map(|c| c.a).collect();
+    let rows = terms.mass_matrix.iter();
+    let inertia: Vec<Expr> = rows.map(|row| dot(g, row, &free)).collect();
+    let half = g.div(dot(g, &free, &inertia), g.integer(2));
+    let value = g.sub(half, dot(g, &free, &terms.force));
+    let meaning = "Gauss's function of the accelerations, up to a term free of them";
+    (system.n() <= SHORT).then(|| NamedExpr::new("Z_0", value, meaning))
 }
 
 /// λ from the rows of `W a - b = Jᵀ λ` of the dependent coordinates.

@@ -91,7 +91,8 @@ pub(super) fn frame_objects(system: &System, frame: &Frame) -> Vec<NamedExpr> {
     if system.n() <= MOST_BRACKETS {
         for (w, s, u, c) in frame.structure_coefficients(system) {
             objects.push(NamedExpr::new(
-                format!("C_{}_{}_{}", label(w), label(s), label(u)),
+                // The lower indices first: a number after a name would be read as the name's own index.
+                format!("C_{}_{}_{}", label(s), label(u), label(w)),
                 c,
                 format!(
                     "component of the bracket [X_{}, X_{}] along X_{}",

@@ -2,7 +2,7 @@
 
 use super::document::{Definition, Document, LinearSystem, Statement};
 use super::formula::{Formula, Strength, Term};
-use super::names::{typeset, Piece, Subscript};
+use super::names::{typeset, Accent, Piece, Subscript};
 use super::Parts;
 use crate::node::Function;
 
@@ -397,6 +397,15 @@ fn piece(piece: &Piece) -> String {
         Piece::Letter(letter) => escaped(&letter.to_string()),
         Piece::Digits(digits) => digits.clone(),
         Piece::Word(word) => format!("\\mathrm{{{}}}", escaped(word)),
+        Piece::Accented(letter, accent) => {
+            let letter = self::piece(letter);
+            match accent {
+                Accent::Tilde => format!("\\tilde{{{letter}}}"),
+                Accent::Bar => format!("\\bar{{{letter}}}"),
+                // In braces, so that an exponent is none of the star's.
+                Accent::Star => format!("{{{letter}^{{*}}}}"),
+            }
+        }
         Piece::Greek(name, _) => match name.as_str() {
             "phi" => "\\varphi".to_string(),
             "epsilon" => "\\varepsilon".to_string(),

@@ -3,7 +3,7 @@
 use super::document::{Definition, Document, LinearSystem, Statement};
 use super::formula::{Formula, Strength, Term};
 use super::latex::{function_of, strength, takes_power, LARGEST_MATRIX};
-use super::names::{typeset, Piece, Subscript};
+use super::names::{typeset, Accent, Piece, Subscript};
 use super::Parts;
 use crate::node::Function;
 
@@ -359,6 +359,14 @@ fn piece(piece: &Piece) -> String {
         Piece::Greek(_, sign) => format!("<mi>{sign}</mi>"),
         Piece::Word(word) => format!("<mi>{}</mi>", escaped(word)),
         Piece::Digits(digits) => format!("<mn>{digits}</mn>"),
+        Piece::Accented(letter, accent) => {
+            let letter = self::piece(letter);
+            match accent {
+                Accent::Tilde => format!("<mover>{letter}<mo>~</mo></mover>"),
+                Accent::Bar => format!("<mover>{letter}<mo>¯</mo></mover>"),
+                Accent::Star => format!("<msup>{letter}<mo>*</mo></msup>"),
+            }
+        }
     }
 }
 

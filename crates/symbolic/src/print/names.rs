@@ -13,6 +13,32 @@ pub(crate) enum Piece {
     Word(String),
     /// Digits.
     Digits(String),
+    /// A letter with a sign above or beside it: `Ltilde`, `Lbar`, `Lstar`.
+    Accented(Box<Piece>, Accent),
+}
+
+/// A sign that belongs to a letter.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Accent {
+    Tilde,
+    Bar,
+    Star,
+}
+
+/// A letter with the name of its sign written after it.
+fn accented(text: &str) -> Option<Piece> {
+    let accents = [
+        ("tilde", Accent::Tilde),
+        ("bar", Accent::Bar),
+        ("star", Accent::Star),
+    ];
+    let (letter, accent) = accents
+        .into_iter()
+        .find_map(|(word, accent)| Some((text.strip_suffix(word)?, accent)))?;
+    match piece(letter) {
+        own @ (Piece::Letter(_) | Piece::Greek(..)) => Some(Piece::Accented(Box::new(own), accent)),
+        _ => None,
+    }
 }
 
 /// A name split into its letter and subscripts.
@@ -35,6 +61,9 @@ fn piece(text: &str) -> Piece {
     }
     if text.bytes().all(|byte| byte.is_ascii_digit()) && !text.is_empty() {
         return Piece::Digits(text.to_string());
+    }
+    if let Some(accented) = accented(text) {
+        return accented;
     }
     let mut letters = text.chars();
     match (letters.next(), letters.next()) {
@@ -77,7 +106,8 @@ fn subscripts(pieces: Vec<Piece>) -> Vec<Subscript> {
             (
                 Piece::Digits(own),
                 Some(Subscript {
-                    piece: Piece::Letter(_) | Piece::Greek(..) | Piece::Word(_),
+                    piece:
+                        Piece::Letter(_) | Piece::Greek(..) | Piece::Word(_) | Piece::Accented(..),
                     digits: digits @ None,
                 }),
             ) => *digits = Some(own.clone()),
@@ -116,6 +146,11 @@ mod tests {
                 digits: Some("1".into())
             }]
         );
+        let tilde = Piece::Accented(Box::new(Piece::Letter('T')), Accent::Tilde);
+        assert_eq!(typeset("Ttilde_x").head, tilde);
+        for word in ["star", "tilde", "bar", "mustard", "crossbar"] {
+            assert_eq!(typeset(word).head, Piece::Word(word.into()));
+        }
         assert_eq!(typeset("mass").head, Piece::Word("mass".into()));
         assert_eq!(typeset("_").head, Piece::Word("_".into()));
     }

@@ -209,7 +209,7 @@ fn derivation_json(system: &System, derivation: &Derivation) -> serde_json::Valu
         .map(|x| x.name.as_str())
         .collect();
     serde_json::json!({
-        "formulation": card.name, "title": card.title, "statement": card.statement, "requires": card.requires,
+        "formulation": card.name, "title": card.title, "statement": card.statement, "principle": card.principle.words(), "requires": card.requires,
         "unknowns": card.unknowns, "sources": sources, "state": state, "groups": groups, "objects": objects,
     })
 }
