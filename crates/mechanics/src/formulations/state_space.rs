@@ -1,7 +1,10 @@
 //! Zhu's closed equations in the state space of (q, v), where `q' = v` is derived.
 //!
 //! `Σ_s L_{v^j v^s} (Dq^s − v^s) = 0`, `D(∂L/∂v^s) − ∂L/∂q^s − Q_s = Σ λ_l ∂f^l/∂v^s`, `f^l(q, v, t) = 0` with D along
-//! curves (q(t), v(t)) (T1 (34), (38)): one linear system for (Dq, Dv, λ), regular where W is.
+//! curves (q(t), v(t)) (T1 (34), (38)): one linear system for (Dq, Dv, λ), regular where W is. Where particles carry the
+//! inertia, Newton's statement takes the place of Lagrange's.
+
+mod newton;
 
 use super::routh::multiplier_objects;
 use super::{Basis, DeriveError, Formulation, Identity};
@@ -10,6 +13,7 @@ use crate::characteristics::{derive_along, Manifold};
 use crate::equations::unused_name;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
 use crate::linear::{dot, solve_with_multipliers};
+use crate::particles;
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -35,6 +39,11 @@ const SCHEMA: Schema = Schema {
     latex: r"\sum_s \frac{\partial^2 L}{\partial v^j \partial v^s} (D q^s - v^s) = 0, \quad D\frac{\partial L}{\partial v^s} - \frac{\partial L}{\partial q^s} - Q_s = \sum_l \lambda_l \frac{\partial f^l}{\partial v^s}",
 };
 
+const NEWTON: Schema = Schema {
+    text: "Σ_a m_a (Dr_a − u_a)·∂r_a/∂q^s = 0, Σ_a (m_a Du_a − F_a)·∂r_a/∂q^s − Σ_a m_a (Dr_a − u_a)·∂u_a/∂q^s = Σ_l λ_l ∂f^l/∂v^s",
+    latex: r"\sum_a m_a (D r_a - u_a) \cdot \frac{\partial r_a}{\partial q^s} = 0, \quad \sum_a (m_a D u_a - F_a) \cdot \frac{\partial r_a}{\partial q^s} - \sum_a m_a (D r_a - u_a) \cdot \frac{\partial u_a}{\partial q^s} = \sum_l \lambda_l \frac{\partial f^l}{\partial v^s}",
+};
+
 impl Formulation for StateSpace {
     fn card(&self) -> &'static Card {
         &CARD
@@ -58,7 +67,7 @@ impl Formulation for StateSpace {
         );
         let mut equations = Equations::in_state(CARD.name, system, variables, rates.coordinates)
             .with_group("kinematics", None, kinematic)
-            .with_group("equations of motion", Some(SCHEMA), stated)
+            .with_group("equations of motion", Some(schema(basis)), stated)
             .with_group("constraints", None, basis.constraint_equations())
             .with_objects([density])
             .with_objects(multiplier_objects(basis, &rates.multipliers));
@@ -77,7 +86,7 @@ impl Formulation for StateSpace {
             .zip(rates.coordinates)
             .map(|(c, rate)| system.graph.sub(rate, c.v))
             .collect();
-        Ok(vec![
+        let mut identities = vec![
             Identity {
                 statement: "Σ (L_q + Q − D L_v) δq + Σ (Dq − v) δL_v = δZ + Σ Q δq − D(Σ L_v δq)"
                     .into(),
@@ -91,7 +100,37 @@ impl Formulation for StateSpace {
                 manifold: Manifold::default(),
                 on: "outside the singular set of the Hessian",
             },
-        ])
+        ];
+        if particles::suffice(system) {
+            identities.extend(of_newton(system, &jet));
+        }
+        Ok(identities)
+    }
+}
+
+/// Newton's statement is Lagrange's, by the generalized relations of Lagrange.
+fn of_newton(system: &System, jet: &StateJet) -> [Identity; 2] {
+    let (statements, relations) = newton::residuals(system, jet);
+    let identity = |statement: &str, residuals| Identity {
+        statement: statement.into(),
+        residuals,
+        manifold: Manifold::default(),
+        on: "for all curves (q(t), v(t)) and all variations",
+    };
+    [
+        identity("Newton's statement is Lagrange's", statements),
+        identity(
+            "D(∂r/∂q^s) = ∂u/∂q^s + Σ_j (Dq^j − v^j) ∂²r/∂q^s∂q^j (generalized relations of Lagrange)",
+            relations,
+        ),
+    ]
+}
+
+/// The statement that the equations are built from.
+fn schema(basis: &Basis<'_>) -> Schema {
+    match particles::suffice(basis.system) {
+        true => NEWTON,
+        false => SCHEMA,
     }
 }
 
@@ -159,9 +198,14 @@ fn solve(basis: &Basis<'_>, jet: &StateJet) -> Result<Rates, DeriveError> {
     })
 }
 
-/// `W (Dq − v)`, `D(∂L/∂v) − ∂L/∂q − Q` and `D f`, linear in (Dq, Dv).
+/// `W (Dq − v)`, `D(∂L/∂v) − ∂L/∂q − Q`, or both by Newton's statement, and `D f`, linear in (Dq, Dv).
 fn residuals(basis: &Basis<'_>, jet: &StateJet) -> (Vec<Expr>, Vec<Expr>, Vec<Expr>) {
     let (system, g) = (basis.system, &basis.system.graph);
+    let constraints = jet.derive(system, &basis.constraints());
+    if particles::suffice(system) {
+        let newton = newton::of_particles(system, jet);
+        return (newton.velocities, newton.coordinates, constraints);
+    }
     let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
     let slopes = g.gradient(system.lagrangian, &system.coordinate_symbols());
     let pairs = jet.coordinates.iter().zip(&system.coordinates);
@@ -178,7 +222,7 @@ fn residuals(basis: &Basis<'_>, jet: &StateJet) -> (Vec<Expr>, Vec<Expr>, Vec<Ex
         .enumerate()
         .map(|(s, rate)| g.add(&[rate, g.neg(slopes[s]), g.neg(system.forces[s])]))
         .collect();
-    (kinematic, motion, jet.derive(system, &basis.constraints()))
+    (kinematic, motion, constraints)
 }
 
 /// The equations of motion, and the kinematic ones.

@@ -69,3 +69,37 @@ fn a_wrong_kinematic_law_is_refuted() {
     });
     assert_eq!(compared(&case, &mutant), "refuted");
 }
+
+/// A bead of mass m at the angle a on a ring of radius R whose centre moves as c(t) = t²/2 upwards, under its weight, with a
+/// magnetic term beside the particle.
+const RHEONOMIC_BEAD: &str = r#"
+coordinates = ["a", "b"]
+parameters = { m = {}, R = {}, g = {} }
+assumptions = ["m > 0", "R > 0"]
+lagrangian = { L = "1/2 m ((R a' cos(a))^2 + (R a' sin(a) + t)^2 + b'^2) + a b'" }
+[particles.bead]
+mass = "m"
+position = ["R sin(a)", "t^2/2 - R cos(a)", "b"]
+force = ["0", "-m g", "0"]
+"#;
+
+/// (32) by hand: r = R (sin a, −cos a) + …, e = ∂r/∂a = R (cos a, sin a), u = e a' + t ŷ, Dr − u = e (Da − a'). The
+/// coefficient of δa' is m R² (Da − a'); that of −δa is (m Du − F)·e − m (Dr − u)·∂u/∂a with ∂u/∂a ⟂ e.
+#[test]
+fn particles_are_stated_by_newton() {
+    let case = Case::new(RHEONOMIC_BEAD);
+    expect(&case, "formulation.equivalent#state-space", "proved");
+    expect(&case, "formulation.identity#state-space", "proved");
+    assert_state_follows_motion(&case, "state-space");
+    let equations = case.equations("state-space");
+    let stated = |group: usize| equations.groups[group].equations[0].left;
+    assert!(case.equal(stated(0), case.read("m R^2 (Dq_a - a')")));
+    // a b' beside the particle: −D(0) + b' = b', so that −δa has −b' − (Db − b'), which is −Db.
+    let motion = "m R (R Dv_a + (1 + g) sin(a)) - Dq_b";
+    assert!(case.equal(stated(1), case.read(motion)));
+    let text = equations.groups[1].schema.unwrap().text;
+    assert!(text.contains("m_a Du_a − F_a"), "{text}");
+    // Without particles the statement is Lagrange's.
+    let lagrange = Case::new(POLAR).equations("state-space");
+    assert!(!lagrange.groups[1].schema.unwrap().text.contains("F_a"));
+}

@@ -3,7 +3,7 @@
 use crate::progress::ProgressLine;
 use chetaev::mechanics::claims::formulation::{equivalence, manifold};
 use chetaev::mechanics::{formulation, Context, Equations};
-use chetaev::study::derivation::{derivation, Derivation};
+use chetaev::study::derivation::{derivation, Derivation, ReadableGroup};
 use chetaev::study::typeset;
 use chetaev::symbolic::print::{Document, Format};
 use chetaev::symbolic::{simplify, Expr, Verdict};
@@ -75,9 +75,19 @@ fn left_sides(
     equivalent: &Verdict,
 ) -> String {
     let (system, g) = (cx.system, &cx.system.graph);
-    let (Some(a), Some(b)) = (first.groups.first(), second.groups.first()) else {
-        return String::new();
+    let names = |group: &ReadableGroup| -> Vec<String> {
+        let labels = group.labels.iter();
+        labels
+            .map(|l| l.trim_end_matches('\'').to_owned())
+            .collect()
     };
+    let same = first.groups.iter().find_map(|a| {
+        let of_motion =
+            |group: &&ReadableGroup| !matches!(group.title.as_str(), "kinematics" | "constraints");
+        let partner = second.groups.iter().filter(of_motion);
+        let mut partner = partner.filter(|b| names(a) == names(b));
+        Some(a).filter(of_motion).zip(partner.next())
+    });
     let same_variables = first.equations.variables.len() == second.equations.variables.len()
         && first
             .equations
@@ -85,9 +95,9 @@ fn left_sides(
             .iter()
             .zip(&second.equations.variables)
             .all(|(x, y)| x.symbol == y.symbol);
-    if a.labels != b.labels || !same_variables {
+    let Some((a, b)) = same.filter(|_| same_variables) else {
         return "\nThe two forms have different unknowns; their equations are compared by what they give.\n".into();
-    }
+    };
     let residual = |(l, r): &(Expr, Expr)| g.sub(*l, *r);
     let differences: Vec<Expr> = a
         .pairs
