@@ -796,3 +796,18 @@ fn progress_is_on_standard_error_and_a_summary_on_standard_output() {
     }
     assert!(!finished.out.contains('\u{1b}'), "no colours in a pipe");
 }
+
+#[test]
+fn the_card_of_a_formulation_is_found_by_its_name() {
+    for (name, words) in [
+        (
+            "routh",
+            "Principle: d'Alembert–Lagrange with Chetaev's condition",
+        ),
+        ("vakonomic", "multipliers κ"),
+    ] {
+        let finished = run(&["explain", name]);
+        assert_eq!(finished.status, Some(0), "{}", finished.both());
+        assert!(finished.out.contains(words), "{}", finished.out);
+    }
+}

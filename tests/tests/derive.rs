@@ -531,3 +531,44 @@ fn what_does_not_apply_says_which_requirement_fails() {
         assert!(finished.err.contains("'canonical'"), "{}", finished.err);
     }
 }
+
+/// The extremum asks for its own matrix only. By hand for L = −x²/2 and f = y' − x'²/2, whose W is zero: ∂L/∂x = −x,
+/// ∂f/∂x' = −x', ∂f/∂y' = 1, so that x = κ x'' + κ' x' and 0 = −κ'.
+#[test]
+fn an_extremum_is_derived_where_the_motion_is_not_determined() {
+    let folder = chetaev_tests::places::scratch("derive-extremum");
+    let path = folder.join("model.toml");
+    let model = "coordinates = [\"x\", \"y\"]\nlagrangian = { L = \"-x^2/2\" }\nconstraints = [\"y' = x'^2/2\"]\n";
+    std::fs::write(&path, model).expect("a scratch file");
+    let finished = run(&["derive", text(&path), "--formulation", "vakonomic"]);
+    assert_eq!(finished.status, Some(0), "{}", finished.both());
+    for line in ["x = kappa_1 x'' + x' kappa_1'", "0 = -kappa_1'"] {
+        assert!(
+            finished.out.lines().any(|l| l == line),
+            "{line}\n{}",
+            finished.out
+        );
+    }
+    let finished = run(&["derive", text(&path), "--formulation", "maggi"]);
+    assert!(
+        finished.both().contains("model.accelerations-unique"),
+        "{}",
+        finished.both()
+    );
+}
+
+#[test]
+fn a_comparison_takes_no_notation() {
+    let particle = "gallery/particle-y-dx/model.toml";
+    let finished = run(&[
+        "derive",
+        particle,
+        "--compare",
+        "maggi",
+        "voronets",
+        "--as",
+        "json",
+    ]);
+    assert_eq!(finished.status, Some(2), "{}", finished.both());
+    assert!(finished.err.contains("--compare"), "{}", finished.err);
+}
