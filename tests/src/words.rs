@@ -14,6 +14,19 @@ pub fn missing<'w>(text: &str, wanted: impl IntoIterator<Item = &'w str>) -> Vec
         .collect()
 }
 
+/// Nothing failed.
+///
+/// # Panics
+/// With all failures.
+pub fn none(failures: Vec<String>) {
+    assert!(
+        failures.is_empty(),
+        "{} failures\n{}",
+        failures.len(),
+        failures.join("\n")
+    );
+}
+
 /// Runs `work` on every item, on as many threads as there are cores, and returns the results in order.
 pub fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = std::sync::atomic::AtomicUsize::new(0);

@@ -14,16 +14,7 @@ use chetaev_tests::places::{root, scratch};
 use chetaev_tests::program::{run, text};
 use chetaev_tests::runs::{along, ended, ended_text, Ask, Ended};
 use chetaev_tests::studied::{gallery_path, loaded, model_files};
-use chetaev_tests::words::in_parallel;
-
-fn none(failures: Vec<String>) {
-    assert!(
-        failures.is_empty(),
-        "{} failures\n{}",
-        failures.len(),
-        failures.join("\n")
-    );
-}
+use chetaev_tests::words::{in_parallel, none};
 
 /// Where a formulation does not apply: its names, the models (`*` all others), the hypothesis that fails, and why.
 const NOT_APPLICABLE: &[(&[&str], &[&str], &str)] = &[

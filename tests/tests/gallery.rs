@@ -6,7 +6,7 @@ use chetaev_tests::places::{root, scratch};
 use chetaev_tests::program::{run, text};
 use chetaev_tests::runs::{again, along, ended, Ask};
 use chetaev_tests::studied::{full_id, gallery_path, loaded, study_gallery, verdicts, Studied};
-use chetaev_tests::words::in_parallel;
+use chetaev_tests::words::{in_parallel, none};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
@@ -97,15 +97,6 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
 fn studies() -> &'static [Studied] {
     static STUDIES: OnceLock<Vec<Studied>> = OnceLock::new();
     STUDIES.get_or_init(|| study_gallery("gallery"))
-}
-
-fn none(failures: Vec<String>) {
-    assert!(
-        failures.is_empty(),
-        "{} failures\n{}",
-        failures.len(),
-        failures.join("\n")
-    );
 }
 
 #[test]

@@ -10,7 +10,7 @@ use chetaev::study::Study;
 use chetaev_tests::cases::{Case, Check, Event, Expected, Published, Sample, Scalar};
 use chetaev_tests::runs::{again, along, ended, ended_text, Ask};
 use chetaev_tests::studied::{gallery_path, loaded};
-use chetaev_tests::words::in_parallel;
+use chetaev_tests::words::{in_parallel, none};
 
 /// A name of a case and the expression that stands for it in the gallery.
 type Renamed = (&'static str, &'static str);
@@ -46,15 +46,6 @@ const CASES: &[(&str, &str, &[Renamed])] = &[
 
 /// Checks of those cases that need what no run gives: a linearization.
 const NEEDS_LINEARIZATION: usize = 4;
-
-fn none(failures: Vec<String>) {
-    assert!(
-        failures.is_empty(),
-        "{} failures\n{}",
-        failures.len(),
-        failures.join("\n")
-    );
-}
 
 /// A file of the gallery with parameters changed, moved to `t_end` at a tolerance below all those of the tests.
 fn moved(file: &str, overrides: &[(&str, &str)], t_end: Option<f64>) -> Study {

@@ -4,20 +4,11 @@
 use chetaev_tests::places::scratch;
 use chetaev_tests::program::{run, text, Finished};
 use chetaev_tests::studied::{full_id, study_gallery, verdicts};
-use chetaev_tests::words::in_parallel;
+use chetaev_tests::words::{in_parallel, none};
 use serde_json::{json, Value};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::OnceLock;
-
-fn none(failures: Vec<String>) {
-    assert!(
-        failures.is_empty(),
-        "{} failures\n{}",
-        failures.len(),
-        failures.join("\n")
-    );
-}
 
 #[test]
 fn every_study_of_the_gallery_is_confirmed() {

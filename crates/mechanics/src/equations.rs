@@ -16,6 +16,25 @@ pub struct Equation {
     pub right: Expr,
 }
 
+impl Equation {
+    /// One equation for each coordinate, named after it.
+    pub fn of_coordinates(
+        system: &System,
+        lefts: impl IntoIterator<Item = Expr>,
+        rights: impl IntoIterator<Item = Expr>,
+    ) -> Vec<Equation> {
+        let sides = lefts.into_iter().zip(rights);
+        sides
+            .zip(&system.coordinates)
+            .map(|((left, right), c)| Equation {
+                label: c.name.clone(),
+                left,
+                right,
+            })
+            .collect()
+    }
+}
+
 /// A named intermediate object, for example `lambda_blade` or an entry of B.
 #[derive(Clone, Debug)]
 pub struct NamedExpr {

@@ -245,19 +245,29 @@ fn project_velocities(
     false
 }
 
-/// Directions in which gradients are seen to change count ten times as heavy from then on, so that steps follow the ridge of a
-/// root of squares instead of crossing it to and fro.
+/// Directions in which gradients are seen to change count ten times as heavy from then on.
 fn add_weights(w: &mut [f64], new: &[f64], old: &[f64], n: usize) {
     let weight = 10.0 * w.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    if weight > HEAVIEST {
+        return;
+    }
     for (new, old) in new.chunks(n).zip(old.chunks(n)) {
-        let change: Vec<f64> = new.iter().zip(old).map(|(a, b)| a - b).collect();
-        let square: f64 = change.iter().map(|x| x * x).sum();
-        let usual: f64 = old.iter().map(|x| x * x).sum();
-        if square <= 1e-12 * usual || weight > HEAVIEST {
-            continue;
-        }
-        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
-            w[i * n + j] += weight * change[i] * change[j] / square;
+        add_weight(w, new, old, weight);
+    }
+}
+
+/// Adds `weight d dᵀ` to a metric, d the unit vector of the change of a gradient: steps of least length then follow the ridge
+/// of a root of squares instead of crossing it to and fro.
+pub fn add_weight(metric: &mut [f64], new: &[f64], old: &[f64], weight: f64) {
+    let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let change: Vec<f64> = new.iter().zip(old).map(|(a, b)| a - b).collect();
+    let length = norm(&change);
+    if length <= 1e-6 * norm(old) || !length.is_finite() {
+        return;
+    }
+    for (row, &a) in metric.chunks_mut(change.len()).zip(&change) {
+        for (entry, &b) in row.iter_mut().zip(&change) {
+            *entry += weight * (a / length) * (b / length);
         }
     }
 }

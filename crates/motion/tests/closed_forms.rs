@@ -48,12 +48,13 @@ fn skate(g: &Graph) -> SystemParts {
     }
 }
 
-fn run(
+/// What `work` makes of a system at a start that is given completely.
+fn with_subject<R>(
     parts: impl Fn(&Graph) -> SystemParts,
     q: &[f64],
     v: &[f64],
-    settings: RunSettings,
-) -> (Run, Run) {
+    work: impl FnOnce(&Subject<'_>) -> R,
+) -> R {
     let g = Arc::new(Graph::new());
     let system = System::new(g.clone(), parts(&g)).unwrap();
     let prepared = Prepared::new(&system).unwrap();
@@ -68,19 +69,29 @@ fn run(
         project: false,
     };
     let start = consistent_state(&mut numeric, &data).unwrap();
-    let subject = Subject {
+    work(&Subject {
         system: &system,
         terms: &prepared.terms,
         binding: &binding,
         numeric: &numeric,
         start: &start,
-    };
-    let routh = subject.routh(&settings, &mut Watcher::default()).unwrap();
-    let maggi = formulation("maggi").unwrap();
-    let maggi = subject
-        .by(maggi, &settings, &mut Watcher::default())
-        .unwrap();
-    (routh, maggi)
+    })
+}
+
+fn run(
+    parts: impl Fn(&Graph) -> SystemParts,
+    q: &[f64],
+    v: &[f64],
+    settings: RunSettings,
+) -> (Run, Run) {
+    with_subject(parts, q, v, |subject| {
+        let routh = subject.routh(&settings, &mut Watcher::default()).unwrap();
+        let maggi = formulation("maggi").unwrap();
+        let maggi = subject
+            .by(maggi, &settings, &mut Watcher::default())
+            .unwrap();
+        (routh, maggi)
+    })
 }
 
 #[test]
@@ -234,34 +245,15 @@ fn branches_that_meet_stop_the_run() {
 /// the skate stands across the slope: such a start is refused, not replaced by another one.
 #[test]
 fn a_start_that_the_variables_do_not_give_back_is_refused() {
-    let g = Arc::new(Graph::new());
-    let system = System::new(g.clone(), skate(&g)).unwrap();
-    let prepared = Prepared::new(&system).unwrap();
-    let binding = Binding::new(&system).unwrap();
-    let mut numeric = NumericSystem::new(&system, &prepared.terms, &binding).unwrap();
-    let data = InitialData {
-        t: 0.0,
-        q: vec![0.0, 0.0, std::f64::consts::FRAC_PI_2],
-        v: vec![0.0, 0.5, 1.0],
-        q_fixed: vec![true; 3],
-        v_fixed: vec![true; 3],
-        project: false,
-    };
-    let start = consistent_state(&mut numeric, &data).unwrap();
-    let subject = Subject {
-        system: &system,
-        terms: &prepared.terms,
-        binding: &binding,
-        numeric: &numeric,
-        start: &start,
-    };
-    let settings = RunSettings::new(0.0, 1.0);
     let by = |name: &str| {
-        subject.by(
-            formulation(name).unwrap(),
-            &settings,
-            &mut Watcher::default(),
-        )
+        let (q, v) = ([0.0, 0.0, std::f64::consts::FRAC_PI_2], [0.0, 0.5, 1.0]);
+        with_subject(skate, &q, &v, |subject| {
+            subject.by(
+                formulation(name).unwrap(),
+                &RunSettings::new(0.0, 1.0),
+                &mut Watcher::default(),
+            )
+        })
     };
     let refused = by("chaplygin").unwrap_err().to_string();
     assert!(

@@ -122,16 +122,8 @@ pub fn nielsen_left_sides(system: &System, order: u32) -> Vec<Expr> {
 
 fn in_coordinates(basis: &Basis<'_>) -> Vec<Equation> {
     let system = basis.system;
-    nielsen_left_sides(system, 1)
-        .into_iter()
-        .zip(basis.forces_with_reactions())
-        .zip(&system.coordinates)
-        .map(|((left, right), c)| Equation {
-            label: c.name.clone(),
-            left,
-            right,
-        })
-        .collect()
+    let lefts = nielsen_left_sides(system, 1);
+    Equation::of_coordinates(system, lefts, basis.forces_with_reactions())
 }
 
 /// The parts of the form on the constraint manifold.

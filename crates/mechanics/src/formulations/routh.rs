@@ -94,14 +94,6 @@ fn solve(basis: &Basis<'_>) -> Result<(Vec<Expr>, Vec<Expr>), DeriveError> {
 
 fn stated_equations(basis: &Basis<'_>) -> Vec<Equation> {
     let system = basis.system;
-    let sides = system.lagrange_left_sides().into_iter();
-    sides
-        .zip(basis.forces_with_reactions())
-        .zip(&system.coordinates)
-        .map(|((left, right), c)| Equation {
-            label: c.name.clone(),
-            left,
-            right,
-        })
-        .collect()
+    let lefts = system.lagrange_left_sides();
+    Equation::of_coordinates(system, lefts, basis.forces_with_reactions())
 }

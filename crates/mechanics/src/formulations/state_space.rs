@@ -229,21 +229,10 @@ fn residuals(basis: &Basis<'_>, jet: &StateJet) -> (Vec<Expr>, Vec<Expr>, Vec<Ex
 fn stated_equations(basis: &Basis<'_>, jet: &StateJet) -> (Vec<Equation>, Vec<Equation>) {
     let (system, g) = (basis.system, &basis.system.graph);
     let (kinematic, motion, _) = residuals(basis, jet);
-    let labelled = |lefts: Vec<Expr>, rights: Vec<Expr>| -> Vec<Equation> {
-        let sides = lefts.into_iter().zip(rights);
-        sides
-            .zip(&system.coordinates)
-            .map(|((left, right), c)| Equation {
-                label: c.name.clone(),
-                left,
-                right,
-            })
-            .collect()
-    };
     let none = vec![g.zero(); system.n()];
     (
-        labelled(motion, basis.reactions()),
-        labelled(kinematic, none),
+        Equation::of_coordinates(system, motion, basis.reactions()),
+        Equation::of_coordinates(system, kinematic, none),
     )
 }
 

@@ -3,6 +3,7 @@
 use super::{advice, largest, pivot_column, InitialError, Search, STARTS};
 use crate::least_norm::{least_step, norm};
 use crate::nearest::{both, draw, perturb, Nearest, DRAWS};
+use chetaev_mechanics::sample::add_weight;
 
 impl Search<'_> {
     /// Moves free velocities until f = 0.
@@ -217,20 +218,6 @@ impl Search<'_> {
         InitialError::Contradiction {
             names: names.join(", "),
             combination: format!("{} gives 0 = {:.4}", terms.join(" "), value),
-        }
-    }
-}
-
-/// Adds `weight d dᵀ` to a metric, d the unit vector of the change of a gradient.
-fn add_weight(metric: &mut [f64], new: &[f64], old: &[f64], weight: f64) {
-    let change: Vec<f64> = new.iter().zip(old).map(|(a, b)| a - b).collect();
-    let length = norm(&change);
-    if length <= 1e-6 * norm(old) || !length.is_finite() {
-        return;
-    }
-    for (row, &a) in metric.chunks_mut(change.len()).zip(&change) {
-        for (entry, &b) in row.iter_mut().zip(&change) {
-            *entry += weight * (a / length) * (b / length);
         }
     }
 }
