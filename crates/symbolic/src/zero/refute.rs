@@ -82,6 +82,8 @@ const SMALL: [(i64, i64); 20] = [
     (-1, 3),
     (7, 2),
 ];
+/// What one point on constraints may mix: factors of numerators and of denominators of those numbers.
+const MIXED: [(i64, i64); 5] = [(1, 1), (4, 1), (16, 1), (1, 16), (1, 128)];
 
 /// Looks for a point where a residual is not zero.
 pub(super) fn search(graph: &Graph, claim: &Claim<'_>, seed: u64) -> Search {
@@ -274,6 +276,12 @@ impl<'a> Hunt<'a> {
             (true, 5) => 512,
             (true, 6) => 32,
             _ => 1,
+        };
+        // On constraints some claims are false only far from the values at which most radicands are positive,
+        // so that large and small data have to meet in one point.
+        let (wide, scale) = match (self.claim.constraints.is_empty(), attempt % 9) {
+            (false, 7 | 8) => MIXED[self.random.below(MIXED.len() as u64) as usize],
+            _ => (wide, scale),
         };
         for _ in 0..16 {
             let (numerator, denominator) = SMALL[self.random.below(reach as u64) as usize];
