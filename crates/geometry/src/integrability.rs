@@ -440,8 +440,11 @@ fn subset_verdict(cx: &Context<'_>, rows: &[usize], strength: Strength) -> Verdi
 /// The terms with some of the constraints only.
 fn restricted_terms(terms: &MotionTerms, rows: &[usize]) -> MotionTerms {
     MotionTerms {
+        order: terms.order,
+        jets: terms.jets.clone(),
         mass_matrix: terms.mass_matrix.clone(),
         force: terms.force.clone(),
+        affine: rows.iter().map(|&row| terms.affine[row]).collect(),
         constraints: rows.iter().map(|&row| terms.constraints[row]).collect(),
         jacobian: rows
             .iter()

@@ -1,16 +1,20 @@
 //! Kinematic characteristics: a parametrization of the admissible velocities, and with it the virtual displacements.
 //!
-//! `v = φ(q, P, t)` with `f(q, φ, t) ≡ 0`, `B = ∂φ/∂P` (n × k), `J B = 0` (T2 §2, order 1). The parameters P are k
-//! independent quasi-velocities of a frame; in the natural frame, independent velocities. For constraints nonlinear in the
-//! velocities the dependent quasi-velocities stay symbols, tied to the others by f = 0 (implicit embedding, T1 §9.6): then
-//! every derivative of a function on the constraint manifold is taken through [`Characteristics::along`].
+//! `v = φ(q, P, t)` with `f(q, φ, t) ≡ 0`, `B = ∂φ/∂P` (n × k), `J B = 0`; for constraints of order m they parametrize the
+//! derivatives of that order, `q^(m) = φ(t, q, …, q^(m-1), P)` (T2 §2). The parameters P are k independent quasi-velocities of
+//! a frame; in the natural frame, independent velocities, or derivatives of order m. For constraints nonlinear in these the
+//! dependent ones stay symbols, tied to the others by f = 0 (implicit embedding, T1 §9.6): then every derivative of a
+//! function on the constraint manifold is taken through [`Characteristics::along`].
+//!
+//! The words of the first order are kept for all: `velocities` are the derivatives of order m, `coordinates` those of order
+//! m - 1; lower ones move with the time.
 
 use crate::equations::Equation;
 use crate::frame::{Frame, FrameOrigin, Speed};
 use crate::linear::{dot, solve_linear};
 use crate::sample;
 use crate::selection::{eliminate, pivot_cost};
-use crate::system::System;
+use crate::system::{Coordinate, System};
 use crate::terms::MotionTerms;
 use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::{Expr, Symbol};
@@ -30,12 +34,12 @@ pub struct Manifold {
     pub implicit: Vec<(Expr, Symbol)>,
 }
 
-/// A direction on the constraint manifold with coordinates (t, q, P).
+/// A direction on the constraint manifold with coordinates (t, q, …, q^(m-1), P).
 #[derive(Clone, Debug)]
 pub struct Direction {
-    /// The rate of t.
+    /// The rate of t; derivatives of orders below m - 1 move with it.
     pub time: Expr,
-    /// The rates of q, length n.
+    /// The rates of q^(m-1), length n.
     pub coordinates: Vec<Expr>,
     /// The rates of P, length k.
     pub parameters: Vec<Expr>,
@@ -44,6 +48,10 @@ pub struct Direction {
 /// A parametrization of the admissible velocities.
 #[derive(Clone, Debug)]
 pub struct Characteristics {
+    /// m.
+    pub order: u32,
+    /// The coordinates with q^(m-1), q^(m), q^(m+1) in the places of q, v, a.
+    pub jets: Vec<Coordinate>,
     /// The frame whose quasi-velocities they are.
     pub frame: Frame,
     /// P, length k.
@@ -117,7 +125,7 @@ impl Characteristics {
         terms: &MotionTerms,
         selection: &Selection,
     ) -> Result<Characteristics, CharacteristicsError> {
-        let frame = Frame::natural(system);
+        let frame = Frame::natural_of(system, &terms.jets);
         Characteristics::in_frame(system, terms, &selection.rows, frame, &selection.dependent)
     }
 
@@ -131,10 +139,12 @@ impl Characteristics {
         terms: &MotionTerms,
         selection: &Selection,
     ) -> Option<Result<Characteristics, CharacteristicsError>> {
-        let (frame, origin) = match Frame::stated(system, terms, selection)? {
-            Ok(found) => found,
-            Err(source) => return Some(Err(not_solvable(&system.quasi_names(), source))),
-        };
+        // Quasi-velocities parametrize velocities.
+        let (frame, origin) =
+            match Frame::stated(system, terms, selection).filter(|_| terms.order == 1)? {
+                Ok(found) => found,
+                Err(source) => return Some(Err(not_solvable(&system.quasi_names(), source))),
+            };
         Some(Characteristics::of_frame(
             system, terms, selection, frame, origin,
         ))
@@ -228,20 +238,28 @@ impl Characteristics {
             .map(|(p, &rate)| (p.symbol, rate))
             .collect();
         if !self.implicit.is_empty() {
-            let of_f = derive_along(
-                system,
-                &self.implicit,
-                &direction.coordinates,
-                direction.time,
-                &rates,
-            );
+            let of_f = self.derive(system, &self.implicit, direction, &rates);
             let right: Vec<Expr> = of_f.into_iter().map(|e| g.neg(e)).collect();
             // The matrix is nonsingular by form: `build` has solved with it.
             let dependent = g.solve(&self.gradient, &right).unwrap_or_default();
             let speeds = self.dependent.iter().map(|&s| self.frame.speeds[s].symbol);
             rates.extend(speeds.zip(dependent));
         }
-        derive_along(system, es, &direction.coordinates, direction.time, &rates)
+        self.derive(system, es, direction, &rates)
+    }
+
+    fn derive(
+        &self,
+        system: &System,
+        es: &[Expr],
+        direction: &Direction,
+        further: &[(Symbol, Expr)],
+    ) -> Vec<Expr> {
+        let rates = direction.coordinates.iter().copied();
+        let mut rates: Vec<(Symbol, Expr)> =
+            self.jets.iter().map(|c| c.q_symbol).zip(rates).collect();
+        rates.extend(further);
+        derive_with(system, es, direction.time, self.order - 1, &rates)
     }
 
     /// The partial derivatives `∂e/∂P_σ` on the constraint manifold: one row per expression, one column per parameter.
@@ -306,8 +324,8 @@ impl Characteristics {
 
     /// Replaces the velocities by φ and leaves the rest.
     pub fn restrict(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
-        let pairs: Vec<(Expr, Expr)> = system
-            .coordinates
+        let pairs: Vec<(Expr, Expr)> = self
+            .jets
             .iter()
             .zip(&self.velocities)
             .filter(|(c, phi)| c.v != **phi)
@@ -319,7 +337,7 @@ impl Characteristics {
     /// Replaces velocities and accelerations by φ and Dφ: functions on the jet (t, q, P, P').
     pub fn on_jet(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
         let mut pairs = Vec::new();
-        for (i, c) in system.coordinates.iter().enumerate() {
+        for (i, c) in self.jets.iter().enumerate() {
             pairs.push((c.v, self.velocities[i]));
             pairs.push((c.a, self.accelerations[i]));
         }
@@ -379,11 +397,24 @@ pub fn derive_along(
     time: Expr,
     further: &[(Symbol, Expr)],
 ) -> Vec<Expr> {
+    let rates = coordinates.iter().copied();
+    let symbols = system.coordinates.iter().map(|c| c.q_symbol);
+    let mut rates: Vec<(Symbol, Expr)> = symbols.zip(rates).collect();
+    rates.extend(further);
+    derive_with(system, es, time, 0, &rates)
+}
+
+/// The rates of functions when t moves at the rate `time`, derivatives of coordinates of orders below `lower` with it, and
+/// further symbols at the rates given; every other symbol is a constant.
+fn derive_with(
+    system: &System,
+    es: &[Expr],
+    time: Expr,
+    lower: u32,
+    rates: &[(Symbol, Expr)],
+) -> Vec<Expr> {
     let g = &system.graph;
-    let mut rates: FxHashMap<Symbol, Expr> = further.iter().copied().collect();
-    for (c, &rate) in system.coordinates.iter().zip(coordinates) {
-        rates.insert(c.q_symbol, rate);
-    }
+    let rates: FxHashMap<Symbol, Expr> = rates.iter().copied().collect();
     let known = |rate: Expr| (!g.is_zero(rate)).then_some(rate);
     g.derive(es, &|s| {
         if let Some(&rate) = rates.get(&s) {
@@ -392,7 +423,9 @@ pub fn derive_along(
         let (name, order) = (g.symbol_name(s), g.symbol_order(s));
         if name == "t" && order == 0 {
             known(time)
-        } else if system.controls.iter().any(|u| u.name == name) {
+        } else if system.controls.iter().any(|u| u.name == name)
+            || (order < lower && system.coordinate_index(name).is_some())
+        {
             known(g.mul(&[time, g.symbol(name, order + 1)]))
         } else {
             None
@@ -467,15 +500,13 @@ impl Builder<'_> {
         let (system, g) = (self.system, &self.system.graph);
         let n = system.n();
         let independent: Vec<usize> = (0..n).filter(|s| !self.dependent.contains(s)).collect();
-        let is_natural = self.frame.is_natural(system);
+        let is_natural = self.frame.is_natural_of(&self.terms.jets);
         let is_adapted = self
             .rows
             .iter()
             .zip(self.dependent)
             .all(|(&row, &s)| self.frame.adapted.contains(&(row, s)));
-        let affine = self.rows.iter().all(|&row| {
-            system.constraints[self.terms.constraint_index[row]].is_affine_in_velocities()
-        });
+        let affine = self.rows.iter().all(|&row| self.terms.affine[row]);
         let in_frame = self.constraints_in_frame();
         let gradient = self.dependent_gradient(&in_frame);
         let solved = if is_adapted {
@@ -504,6 +535,8 @@ impl Builder<'_> {
             manifold.solved = pairs.map(|(&s, &value)| (symbol(s), value)).collect();
         }
         let mut characteristics = Characteristics {
+            order: self.terms.order,
+            jets: self.terms.jets.clone(),
             parameters: independent
                 .iter()
                 .map(|&s| self.frame.speeds[s].clone())
@@ -533,7 +566,7 @@ impl Builder<'_> {
             .iter()
             .map(|&row| self.terms.constraints[row])
             .collect();
-        if self.frame.is_natural(system) {
+        if self.frame.is_natural_of(&self.terms.jets) {
             return stated;
         }
         let speeds: Vec<Expr> = self.frame.speeds.iter().map(|s| s.value).collect();

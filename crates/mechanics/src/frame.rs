@@ -6,7 +6,7 @@
 use crate::linear::dot;
 use crate::sample;
 use crate::selection::{eliminate, pivot_cost, Selection};
-use crate::system::System;
+use crate::system::{Coordinate, System};
 use crate::terms::MotionTerms;
 use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::{Expr, Symbol};
@@ -67,13 +67,18 @@ struct Forms {
 impl Frame {
     /// The natural frame: η = v, X_s = ∂/∂q^s.
     pub fn natural(system: &System) -> Frame {
+        Frame::natural_of(system, &system.coordinates)
+    }
+
+    /// The natural frame of derivatives of any order: η = q^(m), for coordinates with q^(m-1) in the place of q.
+    pub fn natural_of(system: &System, jets: &[Coordinate]) -> Frame {
         let g = &system.graph;
         let unit = |i: usize| -> Vec<Expr> {
             let entry = |j| if i == j { g.one() } else { g.zero() };
             (0..system.n()).map(entry).collect()
         };
         Frame {
-            speeds: (0..system.n()).map(|i| velocity(system, i)).collect(),
+            speeds: jets.iter().map(|c| derivative(system, c)).collect(),
             forms: (0..system.n()).map(unit).collect(),
             fields: (0..system.n()).map(unit).collect(),
             drift: vec![g.zero(); system.n()],
@@ -178,9 +183,13 @@ impl Frame {
 
     /// Whether η = v.
     pub fn is_natural(&self, system: &System) -> bool {
-        let of_velocity = |(speed, c): (&Speed, &crate::system::Coordinate)| speed.value == c.v;
-        self.speeds.len() == system.n()
-            && self.speeds.iter().zip(&system.coordinates).all(of_velocity)
+        self.is_natural_of(&system.coordinates)
+    }
+
+    /// Whether η = q^(m), for coordinates with q^(m-1) in the place of q.
+    pub fn is_natural_of(&self, jets: &[Coordinate]) -> bool {
+        let of_velocity = |(speed, c): (&Speed, &Coordinate)| speed.value == c.v;
+        self.speeds.len() == jets.len() && self.speeds.iter().zip(jets).all(of_velocity)
     }
 
     /// The velocities `X_0 + η^s X_s` for quasi-velocities with these values.
@@ -338,9 +347,13 @@ fn completing(
 
 /// The velocity of a coordinate as a quasi-velocity.
 fn velocity(system: &System, i: usize) -> Speed {
-    let c = &system.coordinates[i];
+    derivative(system, &system.coordinates[i])
+}
+
+/// What stands in the place of the velocity.
+fn derivative(system: &System, c: &Coordinate) -> Speed {
     Speed {
-        name: format!("{}'", c.name),
+        name: system.graph.symbol_text(c.v_symbol),
         value: c.v,
         rate: c.a,
         symbol: c.v_symbol,

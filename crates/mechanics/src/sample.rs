@@ -58,7 +58,7 @@ fn drawn(system: &System, terms: &MotionTerms, seed: u64, steps: usize) -> Optio
         let mut point = free_point(system, terms, &mut generator)?;
         if attempt >= 10 {
             let reach = f64::from(1 << (attempt % 5));
-            for c in &system.coordinates {
+            for c in &terms.jets {
                 point.entry(c.v_symbol).and_modify(|v| *v *= reach);
             }
         }
@@ -126,7 +126,13 @@ fn free_point(system: &System, terms: &MotionTerms, generator: &mut Generator) -
     roots.extend(&terms.force);
     roots.extend(&terms.constraint_rate);
     roots.extend(&terms.constraints);
-    roots.extend(system.coordinates.iter().flat_map(|c| [c.q, c.v]));
+    roots.extend(
+        system
+            .coordinates
+            .iter()
+            .chain(&terms.jets)
+            .flat_map(|c| [c.q, c.v]),
+    );
     // A frame may contain the time or parameters that nothing else contains.
     roots.extend(system.quasi_velocities.iter().map(|quasi| quasi.definition));
     if let Some(frame) = &system.frame {
@@ -225,7 +231,7 @@ fn project_velocities(
         };
         let next = (0..6).find_map(|halving| {
             let mut next = point.clone();
-            for (c, dv) in system.coordinates.iter().zip(&step) {
+            for (c, dv) in terms.jets.iter().zip(&step) {
                 if let Some(v) = next.get_mut(&c.v_symbol) {
                     *v -= dv * 0.5_f64.powi(halving);
                 }

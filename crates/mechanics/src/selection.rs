@@ -5,7 +5,7 @@ use crate::sample;
 use crate::system::System;
 use crate::terms::MotionTerms;
 use crate::words::quoted;
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::{Expr, Symbol};
 
 /// The rows of independent constraints and the dependent velocities to solve them for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,7 +51,12 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
     let cost: Vec<Vec<usize>> = terms
         .jacobian
         .iter()
-        .map(|row| (0..n).map(|j| pivot_cost(system, row[j], j)).collect())
+        .map(|row| {
+            let highest = |j: usize| Some(terms.jets[j].v_symbol);
+            (0..n)
+                .map(|j| cost_of(system, row[j], j, highest(j)))
+                .collect()
+        })
         .collect();
     Ok(eliminate(values, cost, n))
 }
@@ -66,6 +71,11 @@ fn constraint_names(system: &System, terms: &MotionTerms) -> String {
 }
 
 pub(crate) fn pivot_cost(system: &System, entry: Expr, j: usize) -> usize {
+    let own = system.coordinates.get(j).map(|c| c.v_symbol);
+    cost_of(system, entry, j, own)
+}
+
+fn cost_of(system: &System, entry: Expr, j: usize, own: Option<Symbol>) -> usize {
     let g = &system.graph;
     let wanted = if system.independent.contains(&j) {
         1_000_000
@@ -83,7 +93,6 @@ pub(crate) fn pivot_cost(system: &System, entry: Expr, j: usize) -> usize {
         2000
     };
     // A velocity in which the constraint is affine can always be solved for; a root may not be real.
-    let own = system.coordinates.get(j).map(|c| c.v_symbol);
     let nonlinear = if own.is_some_and(|v| g.contains_any(entry, &[v])) {
         100_000
     } else {

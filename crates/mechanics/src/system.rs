@@ -30,14 +30,20 @@ pub struct Coordinate {
 impl Coordinate {
     /// The coordinate called `name` in `graph`.
     pub fn new(graph: &Graph, name: &str) -> Coordinate {
+        Coordinate::derivative(graph, name, 0)
+    }
+
+    /// The derivative of order `order` of the coordinate called `name` in the place of the coordinate, with the two next
+    /// ones: what constraints of order `order + 1` are conditions on.
+    pub fn derivative(graph: &Graph, name: &str, order: u32) -> Coordinate {
         Coordinate {
             name: name.to_string(),
-            q: graph.symbol(name, 0),
-            v: graph.symbol(name, 1),
-            a: graph.symbol(name, 2),
-            q_symbol: graph.intern_symbol(name, 0),
-            v_symbol: graph.intern_symbol(name, 1),
-            a_symbol: graph.intern_symbol(name, 2),
+            q: graph.symbol(name, order),
+            v: graph.symbol(name, order + 1),
+            a: graph.symbol(name, order + 2),
+            q_symbol: graph.intern_symbol(name, order),
+            v_symbol: graph.intern_symbol(name, order + 1),
+            a_symbol: graph.intern_symbol(name, order + 2),
         }
     }
 }
@@ -413,6 +419,16 @@ impl System {
             .iter()
             .enumerate()
             .filter(|(_, c)| c.kind != ConstraintKind::HigherOrder)
+    }
+
+    /// m, the highest order of the constraints, at least 1.
+    pub fn order(&self) -> u32 {
+        self.constraints
+            .iter()
+            .map(|c| c.order)
+            .max()
+            .unwrap_or(1)
+            .max(1)
     }
 
     /// Pairs (parameter, value) of all parameters with values, as a substitution.

@@ -1,28 +1,43 @@
-//! The terms every formulation of the first-order theory is built from.
+//! The terms every formulation is built from.
 
-use crate::system::System;
-use chetaev_symbolic::Expr;
+use crate::order::lifting;
+use crate::system::{Coordinate, System};
+use chetaev_symbolic::{Expr, Symbol};
 
-/// `W a - Jᵀ λ = b`, `J a = g` (theory 5.1 (1)), for all constraints of order one as stated.
+/// `W a - Jᵀ λ = b` for constraints of one order m, and for m = 1 `J a = g` (theory 5.1 (1)).
+///
+/// Constraints of different orders are brought to the highest one by total derivatives (T2 §2), which change neither J nor
+/// the equations of motion.
 #[derive(Clone, Debug)]
 pub struct MotionTerms {
+    /// m, the order of the constraints.
+    pub order: u32,
+    /// The coordinates with q^(m-1), q^(m), q^(m+1) in the places of q, v, a: what the constraints are conditions on.
+    pub jets: Vec<Coordinate>,
     /// W = ∂²L/∂v∂v, n × n, row by row.
     pub mass_matrix: Vec<Vec<Expr>>,
     /// b = ∂L/∂q + Q - L_vq v - L_vt, length n.
     pub force: Vec<Expr>,
     /// f, length r.
     pub constraints: Vec<Expr>,
-    /// J = ∂f/∂v, r × n.
+    /// J = ∂f/∂q^(m), r × n.
     pub jacobian: Vec<Vec<Expr>>,
-    /// g = -f_q v - f_t, length r.
+    /// g, what of -D f is free of q^(m+1); for m = 1 it is -f_q v - f_t. Length r.
     pub constraint_rate: Vec<Expr>,
+    /// Whether f is affine in q^(m), by its form; length r.
+    pub affine: Vec<bool>,
     /// For each row, the index of its constraint in the system.
     pub constraint_index: Vec<usize>,
 }
 
 impl MotionTerms {
-    /// Derives the terms of a system.
+    /// Derives the terms of a system, its constraints lifted to the highest order among them.
     pub fn new(system: &System) -> MotionTerms {
+        MotionTerms::of_order(system, system.order())
+    }
+
+    /// The terms with the constraints of orders up to m only, lifted to m.
+    pub fn of_order(system: &System, order: u32) -> MotionTerms {
         let g = &system.graph;
         let velocities = system.velocity_symbols();
         let momenta: Vec<Expr> = g.gradient(system.lagrangian, &velocities);
@@ -34,21 +49,28 @@ impl MotionTerms {
             .enumerate()
             .map(|(i, slope)| g.add(&[slope, system.forces[i], g.neg(drift[i])]))
             .collect();
-        let (constraint_index, constraints): (Vec<usize>, Vec<Expr>) = system
-            .first_order_constraints()
-            .map(|(l, c)| (l, c.f))
+        let stated = system.constraints.iter().enumerate();
+        let (constraint_index, constraints): (Vec<usize>, Vec<Expr>) = stated
+            .filter(|(_, c)| c.order <= order)
+            .map(|(l, c)| (l, lifting::lifted(system, c, order)))
             .unzip();
-        let jacobian = g.jacobian(&constraints, &velocities);
-        let constraint_rate = freeze_accelerations(system, &constraints)
-            .into_iter()
-            .map(|rate| g.neg(rate))
+        let names = system.coordinates.iter().map(|c| &c.name);
+        let jets: Vec<Coordinate> = names
+            .map(|name| Coordinate::derivative(g, name, order - 1))
             .collect();
+        let highest: Vec<Symbol> = jets.iter().map(|c| c.v_symbol).collect();
+        let jacobian = g.jacobian(&constraints, &highest);
+        let is_affine = |row: &Vec<Expr>| !g.any_contains_any(row, &highest);
+        let rates = freeze_derivatives(system, &constraints, order);
         MotionTerms {
+            affine: jacobian.iter().map(is_affine).collect(),
+            constraint_rate: rates.into_iter().map(|rate| g.neg(rate)).collect(),
+            order,
+            jets,
             mass_matrix,
             force,
             constraints,
             jacobian,
-            constraint_rate,
             constraint_index,
         }
     }
@@ -56,6 +78,11 @@ impl MotionTerms {
 
 /// `Σ v ∂e/∂q + ∂e/∂t`: the total derivative without its acceleration terms.
 pub fn freeze_accelerations(system: &System, es: &[Expr]) -> Vec<Expr> {
+    freeze_derivatives(system, es, 1)
+}
+
+/// The total derivative with the derivatives of order m and more frozen.
+fn freeze_derivatives(system: &System, es: &[Expr], m: u32) -> Vec<Expr> {
     let g = &system.graph;
     let one = g.one();
     g.derive(es, &|s| {
@@ -63,7 +90,7 @@ pub fn freeze_accelerations(system: &System, es: &[Expr]) -> Vec<Expr> {
         if name == "t" && order == 0 {
             Some(one)
         } else if system.coordinate_index(name).is_some() {
-            (order == 0).then(|| g.symbol(name, 1))
+            (order < m).then(|| g.symbol(name, order + 1))
         } else if system.moves(name) {
             Some(g.symbol(name, order + 1))
         } else {

@@ -238,6 +238,8 @@ pub struct Initial {
     pub extra: Vec<ExtraInitialValue>,
     /// Whether a complete but inadmissible state may be changed by projection.
     pub project: bool,
+    /// Which branch of the motion is followed where the constraints admit several, counted from 1.
+    pub branch: Option<usize>,
 }
 
 /// A given initial value.

@@ -4,7 +4,7 @@ use crate::drift::Extreme;
 use crate::functions::{Functions, FunctionsError};
 use crate::numeric::Binding;
 use chetaev_mechanics::System;
-use chetaev_symbolic::{rational, Expr, Function, Graph, Node};
+use chetaev_symbolic::{rational, Expr, Function, Graph, Node, Symbol};
 use std::collections::BTreeMap;
 
 /// What became of a quantity over a run.
@@ -38,14 +38,28 @@ impl Follow {
         system: &System,
         binding: &Binding,
         quantities: &[Expr],
+        at: (f64, &[f64], &[f64]),
+    ) -> Result<Follow, FunctionsError> {
+        Follow::over(system, binding, &binding.variables, quantities, at)
+    }
+
+    /// The same over t and the variables of a state of any kind, given in two pieces where (q, v) are meant.
+    ///
+    /// # Errors
+    /// [`FunctionsError`].
+    pub(crate) fn over(
+        system: &System,
+        binding: &Binding,
+        variables: &[Symbol],
+        quantities: &[Expr],
         (t, q, v): (f64, &[f64], &[f64]),
     ) -> Result<Follow, FunctionsError> {
         let g = &system.graph;
         let known = |e: &Expr| {
             let bound = g.substitute(*e, &binding.controls);
-            g.symbols_in(&[bound]).into_iter().all(|s| {
-                binding.variables.contains(&s) || binding.parameters.iter().any(|(p, _)| *p == s)
-            })
+            g.symbols_in(&[bound])
+                .into_iter()
+                .all(|s| variables.contains(&s) || binding.parameters.iter().any(|(p, _)| *p == s))
         };
         let values: Vec<Expr> = quantities
             .iter()
@@ -54,7 +68,7 @@ impl Follow {
         let sizes = values.iter().map(|&e| magnitude(g, e)).collect();
         let groups = [("values", values), ("sizes", sizes)];
         let mut follow = Follow {
-            functions: Functions::new(g, binding, &binding.variables, &groups)?,
+            functions: Functions::new(g, binding, variables, &groups)?,
             initial: Vec::new(),
             last: None,
             deviations: vec![Deviation::default(); quantities.len()],

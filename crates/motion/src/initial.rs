@@ -1,5 +1,6 @@
 //! Consistent initial data (theory 5.10): what is given is fixed, the rest is projected in the kinetic metric.
 
+pub mod jets;
 mod velocities;
 
 use crate::accelerations::{Accelerations, SolveFailure};
@@ -40,6 +41,8 @@ pub struct ConsistentState {
     pub chart: Chart,
     /// Constraints that follow from the others at the start.
     pub redundant: Vec<String>,
+    /// What is known beyond coordinates and velocities, for constraints of order two and more.
+    pub jets: Option<jets::JetStart>,
 }
 
 /// Why the initial data cannot be used.
@@ -346,6 +349,7 @@ impl Search<'_> {
             completed,
             chart,
             redundant,
+            jets: None,
         })
     }
 

@@ -11,6 +11,7 @@ pub mod follow;
 pub mod formulation_flow;
 pub mod functions;
 pub mod initial;
+pub mod jet_flow;
 mod least_norm;
 mod leaving;
 pub mod multiplier_flow;

@@ -20,9 +20,6 @@ pub enum NumericError {
     /// A control without a law.
     #[error("control `{0}` has no law u(t), so the motion cannot be computed")]
     NoControlLaw(String),
-    /// A constraint of higher order.
-    #[error("constraint `{0}` contains accelerations or higher derivatives; its dynamics is not built in yet, only its classification")]
-    HigherOrder(String),
     /// The functions cannot be compiled.
     #[error(transparent)]
     Functions(#[from] FunctionsError),
@@ -127,7 +124,8 @@ fn control_laws(system: &System) -> Result<Vec<(Expr, Expr)>, NumericError> {
 }
 
 impl NumericSystem {
-    /// Compiles the functions of a system.
+    /// Compiles the functions of a system with constraints of order one; beside constraints of higher order they are conditions
+    /// on coordinates and velocities.
     ///
     /// # Errors
     /// [`NumericError`].
@@ -136,13 +134,6 @@ impl NumericSystem {
         terms: &MotionTerms,
         binding: &Binding,
     ) -> Result<NumericSystem, NumericError> {
-        if let Some(c) = system
-            .constraints
-            .iter()
-            .find(|c| c.kind == ConstraintKind::HigherOrder)
-        {
-            return Err(NumericError::HigherOrder(c.name.clone()));
-        }
         let g = &system.graph;
         let constraint = |row: usize| &system.constraints[terms.constraint_index[row]];
         let r = terms.constraints.len();

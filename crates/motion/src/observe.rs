@@ -4,7 +4,13 @@ use crate::functions::{Functions, FunctionsError};
 use crate::numeric::Binding;
 use crate::run::Run;
 use chetaev_mechanics::{MotionTerms, System};
-use chetaev_symbolic::{Expr, Symbol};
+use chetaev_symbolic::{Expr, Graph, Symbol};
+
+/// The symbol of a name with primes.
+pub(crate) fn symbol_called(g: &Graph, name: &str) -> Symbol {
+    let bare = name.trim_end_matches('\'');
+    g.intern_symbol(bare, (name.len() - bare.len()) as u32)
+}
 
 /// Expressions compiled as functions of an output row.
 #[derive(Clone, Debug)]
@@ -47,7 +53,7 @@ impl Observer {
                 .iter()
                 .map(|&l| g.intern_symbol(&format!("lambda_{}", system.constraints[l].name), 0)),
         );
-        variables.extend(own.iter().map(|name| g.intern_symbol(name, 0)));
+        variables.extend(own.iter().map(|name| symbol_called(g, name)));
         Ok(Observer {
             functions: Functions::new(g, binding, &variables, &[("values", expressions.to_vec())])?,
             count: expressions.len(),

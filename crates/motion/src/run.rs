@@ -2,7 +2,9 @@
 
 use crate::follow::{Deviation, Follow};
 use crate::formulation_flow::{FlowError, FormulationFlow};
+use crate::initial::jets::JetStart;
 use crate::initial::ConsistentState;
+use crate::jet_flow::{self, JetFlow};
 use crate::multiplier_flow::{MultiplierFlow, StateKind};
 use crate::numeric::{Binding, NumericSystem};
 use crate::row::RowLayout;
@@ -13,7 +15,7 @@ use chetaev_integrate::{
     Note, Options, Output, Progress, Solution, Statistics, StiffnessPolicy, Stop,
 };
 use chetaev_mechanics::claims::formulation::REFERENCE;
-use chetaev_mechanics::{ConstraintKind, Formulation, MotionTerms, System};
+use chetaev_mechanics::{Constraint, ConstraintKind, Formulation, MotionTerms, Selection, System};
 use chetaev_symbolic::Expr;
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
@@ -189,6 +191,8 @@ pub struct Subject<'a> {
     pub system: &'a System,
     /// Its terms.
     pub terms: &'a MotionTerms,
+    /// Independent constraints and dependent velocities, or derivatives of order m.
+    pub selection: &'a Selection,
     /// Values of parameters.
     pub binding: &'a Binding,
     /// Compiled functions.
@@ -228,6 +232,7 @@ impl Subject<'_> {
                     coordinates: &self.numeric.coordinates,
                     constraints: &self.numeric.constraints,
                     state: stop::component_names(&self.numeric.coordinates, kind, chart),
+                    unknowns: None,
                 };
                 stop::ending(&stop, &names, pivot)
             }
@@ -270,7 +275,7 @@ impl Subject<'_> {
             pieces.push(solution);
             if let Stop::Event { index, t } = stop {
                 if flow.vanishes(index, t, &y) {
-                    let ending = stop::vanished(&watched[index], t, &self.numeric.constraints);
+                    let ending = stop::vanished(&watched[index], t, &self.constraint_names());
                     return Ok((pieces, End::Vanished(ending)));
                 }
                 if t != settings.t_end {
@@ -289,12 +294,71 @@ impl Subject<'_> {
             } = stop
             {
                 if let Some(what) = watched.get(index as usize) {
-                    let ending = stop::vanished(what, t, &self.numeric.constraints);
+                    let ending = stop::vanished(what, t, &self.constraint_names());
                     return Ok((pieces, End::Vanished(ending)));
                 }
             }
             return Ok((pieces, End::Stopped(stop, t, y)));
         }
+    }
+
+    /// Integrates equations on a jet, for constraints of order two and more and for characteristics of the user.
+    fn on_jets(
+        &self,
+        formulation: &'static dyn Formulation,
+        settings: &RunSettings,
+        watcher: &mut Watcher<'_>,
+    ) -> Result<Run, RunError> {
+        let parts = jet_flow::Parts {
+            formulation,
+            system: self.system,
+            terms: self.terms,
+            binding: self.binding,
+        };
+        let nothing = JetStart::default();
+        let jets = self.start.jets.as_ref().unwrap_or(&nothing);
+        let (mut flow, y0) =
+            JetFlow::new(parts, self.selection, self.start, jets, settings.project)?;
+        if !settings.follow.is_empty() {
+            let kept = [settings.follow.clone(), self.residuals()].concat();
+            let (q, rest) = y0.split_at(self.system.n());
+            let mut variables = vec![self.system.graph.intern_symbol("t", 0)];
+            variables.extend(flow.symbols());
+            let at = (self.start.t, q, rest);
+            flow.follow = Some(Follow::over(
+                self.system,
+                self.binding,
+                &variables,
+                &kept,
+                at,
+            )?);
+        }
+        let watched = flow.watch.quantities.clone();
+        let (pieces, end) = self.watched(&mut flow, &watched, y0, settings, watcher)?;
+        let constraints: Vec<String> = self.constraint_names();
+        let ending = match end {
+            End::Vanished(ending) => ending,
+            End::Stopped(stop, ..) => {
+                let names = stop::Names {
+                    coordinates: &self.numeric.coordinates,
+                    constraints: &constraints,
+                    state: flow.names().to_vec(),
+                    unknowns: Some(flow.unknowns()),
+                };
+                stop::ending(&stop, &names, 1.0)
+            }
+        };
+        let followed = flow.follow.take();
+        let layout = (flow.layout(), flow.own_names());
+        let name = formulation.card().name;
+        Ok(self.collect(name, layout, settings, pieces, ending, (None, followed)))
+    }
+
+    /// Names of the constraints by row of the terms.
+    fn constraint_names(&self) -> Vec<String> {
+        let rows = self.terms.constraint_index.iter();
+        rows.map(|&l| self.system.constraints[l].name.clone())
+            .collect()
     }
 
     /// Integrates the equations of a formulation by themselves: Routh's with the linear system solved numerically at each
@@ -309,6 +373,9 @@ impl Subject<'_> {
         watcher: &mut Watcher<'_>,
     ) -> Result<Run, RunError> {
         let name = formulation.card().name;
+        if self.terms.order > 1 {
+            return self.on_jets(formulation, settings, watcher);
+        }
         if name == REFERENCE {
             return self.routh(settings, watcher);
         }
@@ -328,6 +395,7 @@ impl Subject<'_> {
                     coordinates: &self.numeric.coordinates,
                     constraints: &self.numeric.constraints,
                     state,
+                    unknowns: None,
                 };
                 stop::ending(&stop, &names, 1.0)
             }
@@ -337,18 +405,35 @@ impl Subject<'_> {
         Ok(self.collect(name, layout, settings, pieces, ending, (None, followed)))
     }
 
-    /// Residuals of the constraints by row, then those of the holonomic ones as stated.
-    pub fn residuals(&self) -> Vec<Expr> {
-        let constraints = self.terms.constraint_index.iter();
+    /// What must vanish along the motion, with names: the constraints by row, then the holonomic ones as stated; with
+    /// constraints of order two and more all as stated, then what the equations keep beside them.
+    pub fn vanishing(&self) -> Vec<(String, Expr)> {
+        let indices = self.terms.constraint_index.iter();
+        let constraints: Vec<&Constraint> = indices.map(|&l| &self.system.constraints[l]).collect();
+        let named = |c: &&Constraint, value: Expr| (c.name.clone(), value);
+        if self.terms.order > 1 {
+            let stated = constraints.iter().map(|c| named(c, c.stated));
+            let kept = self
+                .start
+                .jets
+                .iter()
+                .flat_map(|jets| jets.conditions.clone());
+            return stated.chain(kept).collect();
+        }
+        let rows = constraints.iter().zip(&self.terms.constraints);
         let holonomic = constraints
-            .map(|&l| &self.system.constraints[l])
-            .filter(|c| c.kind == ConstraintKind::Holonomic)
-            .map(|c| c.stated);
-        self.terms
-            .constraints
             .iter()
-            .copied()
-            .chain(holonomic)
+            .filter(|c| c.kind == ConstraintKind::Holonomic);
+        rows.map(|(c, &f)| named(c, f))
+            .chain(holonomic.map(|c| named(c, c.stated)))
+            .collect()
+    }
+
+    /// The expressions of [`vanishing`](Subject::vanishing).
+    pub fn residuals(&self) -> Vec<Expr> {
+        self.vanishing()
+            .into_iter()
+            .map(|(_, value)| value)
             .collect()
     }
 

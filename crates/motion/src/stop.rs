@@ -28,6 +28,8 @@ pub struct Names<'a> {
     pub constraints: &'a [String],
     /// Of the components of the state.
     pub state: Vec<String>,
+    /// What the equations are solved for where that is no matter of the mass matrix.
+    pub unknowns: Option<String>,
 }
 
 /// Names of the components of the state of the multiplier form.
@@ -56,6 +58,10 @@ pub fn vanished(what: &Watched, t: f64, constraints: &[String]) -> Ending {
         ),
         Watched::Expression { text } => format!(
             "{text} vanishes at t = {t:.9}: the equations are singular there{}",
+            of_constraints(constraints)
+        ),
+        Watched::Structure { unknowns } => format!(
+            "the equations no longer determine {unknowns} at t = {t:.9}: the determinant of the system for them vanishes, so the structure changes and the motion beyond is not determined{}",
             of_constraints(constraints)
         ),
     };
@@ -123,7 +129,7 @@ pub fn ending(stop: &Stop, names: &Names<'_>, pivot: f64) -> Ending {
             reason: HaltReason::LeftConstraint { constraint },
         } => early(left(*constraint, *t, names), *t),
         Stop::Singular { t, failure } => early(
-            format!("singular state at t = {t:.9}: {}{rank}", singular(failure)),
+            format!("singular state at t = {t:.9}: {}{rank}", singular(failure, names)),
             *t,
         ),
         Stop::Halted { t, reason } => early(halted(reason, *t, names), *t),
@@ -164,8 +170,12 @@ fn list(names: &[String]) -> String {
     quoted.join(",")
 }
 
-fn singular(failure: &EvaluationFailure) -> String {
+fn singular(failure: &EvaluationFailure, names: &Names<'_>) -> String {
     match failure {
+        EvaluationFailure::Singular { .. } if names.unknowns.is_some() => format!(
+            "the equations do not determine {} there, the determinant of the system for them vanishes and the structure changes",
+            names.unknowns.as_deref().unwrap_or_default()
+        ),
         EvaluationFailure::Singular { .. } => {
             "the mass matrix restricted to the constraints is singular".to_string()
         }

@@ -8,7 +8,7 @@ use crate::numeric::Binding;
 use chetaev_integrate::EvaluationFailure;
 use chetaev_mechanics::terms::freeze_accelerations;
 use chetaev_mechanics::{MotionTerms, System};
-use chetaev_symbolic::{rational, Expr, Node};
+use chetaev_symbolic::{rational, Expr, Node, Symbol};
 
 /// What vanishes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,6 +22,11 @@ pub enum Watched {
     Expression {
         /// As printed.
         text: String,
+    },
+    /// The squared determinant of the equations for these unknowns.
+    Structure {
+        /// Their names.
+        unknowns: String,
     },
 }
 
@@ -39,6 +44,8 @@ pub struct Watch {
 const NEAR: f64 = 1e-2;
 /// A minimum below this fraction of the largest value counts as zero; the quantities are squares of lengths.
 const ZERO: f64 = 1e-12;
+/// The same for the square of a determinant.
+const ZERO_DETERMINANT: f64 = 1e-22;
 /// Rates below this, relative to the largest value, count as none.
 const FLAT: f64 = 1e-12;
 const MOST: usize = 12;
@@ -59,19 +66,12 @@ impl Watch {
             let squares: Vec<Expr> = gradient.iter().map(|&e| g.powi(e, 2)).collect();
             found.push((Watched::Gradient { row }, g.add(&squares)));
         }
-        let mut roots = terms.constraints.clone();
-        roots.push(system.lagrangian);
-        for e in g.reachable(&roots) {
-            if let Some(value) = vanishing_part(system, e) {
-                let text = g.text(value);
-                found.push((Watched::Expression { text }, value));
-            }
-        }
         found.retain(|(_, value)| {
             !g.is_free_of(*value, &|s| {
                 system.moves(g.symbol_name(s)) || g.symbol_name(s) == "t"
             })
         });
+        found.extend(vanishing_parts(system, &terms.constraints));
         found.truncate(MOST);
         let values: Vec<Expr> = found.iter().map(|(_, value)| *value).collect();
         let drift = freeze_accelerations(system, &values);
@@ -82,6 +82,41 @@ impl Watch {
             quantities: found.into_iter().map(|(what, _)| what).collect(),
             functions: Functions::new(g, binding, &binding.variables, &groups)?,
             n: system.n(),
+        })
+    }
+
+    /// Quantities as functions of t and the variables of a state of any kind; where (q, v, a) are meant below, the state in
+    /// two pieces and the rates of all its variables are given.
+    ///
+    /// # Errors
+    /// [`FunctionsError`].
+    pub(crate) fn of_state(
+        system: &System,
+        binding: &Binding,
+        variables: &[Symbol],
+        mut found: Vec<(Watched, Expr)>,
+    ) -> Result<Watch, FunctionsError> {
+        let g = &system.graph;
+        found.truncate(MOST);
+        let values: Vec<Expr> = found.iter().map(|(_, value)| *value).collect();
+        let state = &variables[1..];
+        let drift = g.derive(&values, &|s| {
+            let (name, order) = (g.symbol_name(s), g.symbol_order(s));
+            match name == "t" && order == 0 {
+                true => Some(g.one()),
+                false => {
+                    let is_control = system.controls.iter().any(|u| u.name == name);
+                    is_control.then(|| g.symbol(name, order + 1))
+                }
+            }
+        });
+        let slopes = g.jacobian(&values, state).concat();
+        let groups = [("value", values), ("drift", drift), ("slope", slopes)];
+        Ok(Watch {
+            reference: vec![0.0; found.len()],
+            quantities: found.into_iter().map(|(what, _)| what).collect(),
+            functions: Functions::new(g, binding, variables, &groups)?,
+            n: state.len(),
         })
     }
 
@@ -96,11 +131,18 @@ impl Watch {
 
     /// The first quantity that is zero at the last recorded state.
     pub fn vanished(&self) -> Option<usize> {
-        self.functions
-            .group(0)
-            .iter()
-            .zip(&self.reference)
-            .position(|(value, reference)| value.abs() <= ZERO * reference)
+        let values = self.functions.group(0).iter().zip(&self.reference);
+        values
+            .enumerate()
+            .position(|(index, (value, reference))| value.abs() <= self.zero(index) * reference)
+    }
+
+    /// What counts as zero: lengths that vanish are seen squared, determinants may vanish as a product of several.
+    fn zero(&self, index: usize) -> f64 {
+        match self.quantities[index] {
+            Watched::Structure { .. } => ZERO_DETERMINANT,
+            _ => ZERO,
+        }
     }
 
     /// The rate of quantity `index`, which rises through zero at its minima.
@@ -135,10 +177,37 @@ impl Watch {
     /// Whether quantity `index` is zero at (t, q, v), measured by its size along the run.
     pub fn vanishes(&mut self, index: usize, t: f64, q: &[f64], v: &[f64]) -> bool {
         match self.functions.evaluate(t, &[q, v]) {
-            Ok(()) => self.functions.group(0)[index].abs() <= ZERO * self.reference[index],
+            Ok(()) => {
+                self.functions.group(0)[index].abs() <= self.zero(index) * self.reference[index]
+            }
             Err(_) => true,
         }
     }
+}
+
+/// What can vanish in constraints and in the Lagrangian, and moves.
+pub(crate) fn vanishing_parts(system: &System, constraints: &[Expr]) -> Vec<(Watched, Expr)> {
+    let g = &system.graph;
+    let mut roots = constraints.to_vec();
+    roots.push(system.lagrangian);
+    let parts = g.reachable(&roots).into_iter();
+    let moving = |value: &Expr| {
+        !g.is_free_of(*value, &|s| {
+            system.moves(g.symbol_name(s)) || g.symbol_name(s) == "t"
+        })
+    };
+    parts
+        .filter_map(|e| vanishing_part(system, e))
+        .filter(moving)
+        .map(|value| {
+            (
+                Watched::Expression {
+                    text: g.text(value),
+                },
+                value,
+            )
+        })
+        .collect()
 }
 
 /// The base of a root; the square of the base of a negative power.

@@ -6,6 +6,8 @@
 use crate::method_order::Orders;
 use crate::motion_evidence::{Followed, MotionEvidence};
 use chetaev_mechanics::card::Relation;
+use chetaev_mechanics::claims::formulation::{derive, REFERENCE};
+use chetaev_mechanics::claims::order::dimension;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::formulation;
 use chetaev_mechanics::Manifold;
@@ -126,6 +128,10 @@ impl Claim for InitialStateAdmissible {
          exactly. A first-order system needs n coordinates and n - r independent velocities."
     );
 
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
+    }
+
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
         subject_if_motion(cx)
     }
@@ -134,6 +140,9 @@ impl Claim for InitialStateAdmissible {
         let Some(evidence) = evidence(cx) else {
             return no_motion();
         };
+        if cx.terms.order > 1 {
+            return of_higher_order(cx, &evidence).into();
+        }
         let (n, r) = (cx.system.n(), cx.selection.rows.len());
         let needed = needed_data(n, n - r);
         if cx.system.constraints.is_empty() {
@@ -180,6 +189,29 @@ impl Claim for InitialStateAdmissible {
     }
 }
 
+/// The start under constraints of order two and more: the residuals of all conditions, and how many data they leave.
+fn of_higher_order(cx: &Context<'_>, evidence: &MotionEvidence) -> Verdict {
+    let needed = derive(cx, REFERENCE).map_or(String::new(), |equations| {
+        let (dimension, beyond) = dimension(cx, &equations);
+        let further = match beyond {
+            0 => String::new(),
+            beyond => format!(", {beyond} of them beyond coordinates and velocities"),
+        };
+        format!("; {dimension} data are needed{further}")
+    });
+    Verdict::Numerical(Evidence {
+        samples: 1,
+        region: "the initial state".into(),
+        digits: 16,
+        residual: evidence.start_residual,
+        seed: None,
+        why_no_proof: format!(
+            "the conditions on the initial data are evaluated in double precision; largest residual {:.1e}{needed}",
+            evidence.start_residual
+        ),
+    })
+}
+
 /// The data that determine a motion, in words.
 fn needed_data(n: usize, k: usize) -> String {
     let coordinates = if n == 1 { "coordinate" } else { "coordinates" };
@@ -200,6 +232,10 @@ impl Claim for ConstraintDrift {
          the tolerance asked: a thousand times it, and at most a thousandth, of the size of the terms of the constraint. In \
          the reduced state the velocity constraints hold by construction up to rounding."
     );
+
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
+    }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
         subject_if_motion(cx)
@@ -337,6 +373,10 @@ impl Claim for IntegralDrift {
          refutes the statement or the accuracy."
     );
 
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
+    }
+
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
         evidence(cx)
             .map(|e| e.integrals.iter().map(|i| Some(i.name.clone())).collect())
@@ -377,6 +417,10 @@ impl Claim for FormulationsAgree {
          or the one chosen with --formulation) are computed separately; the largest difference of coordinates and velocities is compared with the tolerance and the estimated \
          global error."
     );
+
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
+    }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
         subject_if_motion(cx)

@@ -1,7 +1,6 @@
 //! What a computed motion tells: energy, integrals and constraints along it, and how two runs differ.
 
 use crate::method_order::Orders;
-use chetaev_mechanics::ConstraintKind;
 use chetaev_model::model::Model;
 use chetaev_motion::drift::Extreme;
 use chetaev_motion::follow::magnitude;
@@ -77,14 +76,24 @@ impl MotionEvidence {
         kept.extend(model.integrals.iter().map(|i| i.value));
         kept.extend(subject.residuals());
         let kept = kept_names(model, subject).into_iter().zip(kept).collect();
+        let rows = match subject.terms.order {
+            1 => subject.terms.constraints.len(),
+            _ => subject.vanishing().len(),
+        };
         let constant = 1 + model.integrals.len();
         let mut followed = follow(subject, &run, kept, constant)?;
         for (quantity, all) in followed.iter_mut().zip(&run.followed) {
             quantity.drift.record(all.drift.value, all.drift.t);
             quantity.scale = quantity.scale.max(all.scale);
         }
-        let positions = followed.split_off(constant + subject.terms.constraints.len());
-        let residuals = followed.split_off(constant);
+        let positions = followed.split_off(constant + rows);
+        let mut residuals = followed.split_off(constant);
+        if subject.terms.order > 1 {
+            // All terms of a condition may vanish along a motion; what the run aims at is then absolute.
+            residuals
+                .iter_mut()
+                .for_each(|r| r.scale = r.scale.max(1.0));
+        }
         let integrals = followed.split_off(1);
         let energy = followed.swap_remove(0);
         let energy_rate = match system.n() <= RATE_COORDINATES {
@@ -120,14 +129,11 @@ impl MotionEvidence {
 /// The rate of the energy is looked at for systems of up to this many coordinates.
 const RATE_COORDINATES: usize = 24;
 
-/// The names of what a motion should keep: energy, integrals, and [`Subject::residuals`].
+/// The names of what a motion should keep: energy, integrals, and [`Subject::vanishing`].
 fn kept_names(model: &Model, subject: &Subject<'_>) -> Vec<String> {
-    let constraint = |l: &usize| &subject.system.constraints[*l];
-    let rows = || subject.terms.constraint_index.iter().map(constraint);
-    let holonomic = rows().filter(|c| c.kind == ConstraintKind::Holonomic);
     std::iter::once("energy".to_string())
         .chain(model.integrals.iter().map(|i| i.name.clone()))
-        .chain(rows().chain(holonomic).map(|c| c.name.clone()))
+        .chain(subject.vanishing().into_iter().map(|(name, _)| name))
         .collect()
 }
 
@@ -142,7 +148,13 @@ fn follow(
     let mut expressions: Vec<Expr> = quantities.iter().map(|(_, e)| *e).collect();
     let sizes: Vec<Expr> = expressions.iter().map(|&e| magnitude(g, e)).collect();
     expressions.extend(sizes);
-    let mut observer = Observer::new(subject.system, subject.terms, subject.binding, &expressions)?;
+    let mut observer = Observer::with_own(
+        subject.system,
+        subject.terms,
+        subject.binding,
+        &run.own,
+        &expressions,
+    )?;
     let mut series = observer.along(run);
     // The state at which the equations became singular is recorded, but a residual may have no value there.
     let regular = match run.ending.finished || run.ending.interrupted {

@@ -5,6 +5,7 @@ use crate::study::Motion;
 use chetaev_mechanics::words::quoted;
 use chetaev_mechanics::{choice, Prepared, System};
 use chetaev_model::model::Model;
+use chetaev_motion::initial::jets::describe;
 use chetaev_motion::observe::Observer;
 use chetaev_symbolic::Expr;
 
@@ -22,10 +23,13 @@ pub(crate) fn notices(
         &prepared.terms,
         &prepared.selection,
     ));
-    notices.extend(unused_multipliers(model, formulation));
+    if prepared.terms.order == 1 {
+        notices.extend(unused_multipliers(model, formulation));
+    }
     if let Some(start) = start {
         notices.extend(redundant(start));
         notices.extend(completed(start));
+        notices.extend(branches(system, start));
     }
     notices
 }
@@ -90,10 +94,12 @@ fn redundant(start: &Start) -> Option<String> {
 
 /// Initial data that the constraints determine.
 fn completed(start: &Start) -> Option<String> {
+    let jets = start.start.jets.iter().flat_map(|jets| &jets.completed);
     let free: Vec<String> = start
         .start
         .completed
         .iter()
+        .chain(jets)
         .map(|(name, value)| format!("{name} = {value}"))
         .collect();
     let how = if start.data.project {
@@ -102,6 +108,22 @@ fn completed(start: &Start) -> Option<String> {
         "completed from"
     };
     (!free.is_empty()).then(|| format!("initial data {how} the constraints: {}", free.join(", ")))
+}
+
+/// The branches of the motion where the constraints are nonlinear in the highest derivatives.
+fn branches(system: &System, start: &Start) -> Option<String> {
+    let jets = start.start.jets.as_ref()?;
+    if jets.branches.len() < 2 {
+        return None;
+    }
+    let each = jets.branches.iter().enumerate();
+    let listed: Vec<String> = each.map(|(i, b)| describe(system, i, b)).collect();
+    Some(format!(
+        "the constraints admit {} branches of the motion at the start, of which number {} is followed: {}",
+        listed.len(),
+        jets.taken + 1,
+        listed.join(" | ")
+    ))
 }
 
 /// Assumptions that the motion leaves: what was proved under them says nothing of the motion from there on.
@@ -116,7 +138,8 @@ pub(crate) fn left_assumptions(
         .iter()
         .map(|a| g.sub(a.right, a.left))
         .collect();
-    let observer = Observer::new(system, &prepared.terms, &motion.binding, &differences);
+    let own = &motion.evidence.run.own;
+    let observer = Observer::with_own(system, &prepared.terms, &motion.binding, own, &differences);
     let Ok(mut observer) = observer else {
         return Vec::new();
     };

@@ -74,6 +74,8 @@ pub struct StudyOptions {
     pub formulation: Option<String>,
     /// Whether inadmissible initial data are projected.
     pub project: bool,
+    /// Branch of the motion that is followed, counted from 1.
+    pub branch: Option<usize>,
     /// Seed of the random choices in proofs.
     pub seed: Option<u64>,
     /// Replay proofs with another parametrization.
@@ -95,6 +97,7 @@ impl Default for StudyOptions {
             method: None,
             formulation: None,
             project: false,
+            branch: None,
             seed: None,
             replay: false,
             global_error: true,

@@ -82,6 +82,9 @@ pub struct OptionsRecord {
     /// Whether inadmissible initial data were projected.
     #[serde(default)]
     pub project: bool,
+    /// Branch of the motion, where it was given on the command line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub branch: Option<usize>,
 }
 
 /// One verdict.
@@ -254,6 +257,7 @@ pub fn record(study: &Study, files: &[String]) -> Record {
             method: study.options.method.clone(),
             formulation: study.options.formulation.clone(),
             project: study.options.project,
+            branch: study.options.branch,
         },
     }
 }

@@ -3,8 +3,9 @@
 use crate::options::StudyOptions;
 use crate::study::StudyError;
 use chetaev_mechanics::system::Relation;
-use chetaev_mechanics::{MotionTerms, System};
+use chetaev_mechanics::{Basis, MotionTerms, Prepared, System};
 use chetaev_model::model::{Model, Output, StateKind as ModelState};
+use chetaev_motion::initial::jets::{jet_start, JetData};
 use chetaev_motion::run::equal_times;
 use chetaev_motion::{
     consistent_state, Binding, ConsistentState, InitialData, NumericSystem, RunSettings, StateKind,
@@ -19,8 +20,7 @@ pub(crate) struct Start {
     pub(crate) data: InitialData,
 }
 
-/// The start, or why there is none although nothing is wrong: the model does not ask for a motion, or its theory is not
-/// built in.
+/// The start, or why there is none although nothing is wrong: the model does not ask for a motion.
 pub(crate) fn start_of_motion(
     model: &Model,
     system: &System,
@@ -29,12 +29,6 @@ pub(crate) fn start_of_motion(
 ) -> Result<Result<Start, String>, StudyError> {
     let symbolic = system.parameters.iter().any(|p| p.value.is_none())
         || system.controls.iter().any(|u| u.law.is_none());
-    if let Some(constraint) = system.constraints.iter().find(|c| c.order > 1) {
-        return Ok(Err(format!(
-            "no motion was computed: constraint `{}` is of order {}; constraints of higher order are classified, their dynamics is not built in yet",
-            constraint.name, constraint.order
-        )));
-    }
     if symbolic {
         let names = open_names(system);
         return match asks_for_motion(model) && options.motion {
@@ -45,7 +39,9 @@ pub(crate) fn start_of_motion(
         };
     }
     let binding = Binding::new(system)?;
-    let mut numeric = NumericSystem::new(system, terms, &binding)?;
+    // Constraints of lower order are conditions on coordinates and velocities.
+    let lower = (terms.order > 1).then(|| MotionTerms::of_order(system, 1));
+    let mut numeric = NumericSystem::new(system, lower.as_ref().unwrap_or(terms), &binding)?;
     let data = initial_data(model, system, options)?;
     match consistent_state(&mut numeric, &data) {
         Ok(start) => {
@@ -195,10 +191,51 @@ fn initial_data(
         match order {
             0 => (data.q[i], data.q_fixed[i]) = (value, true),
             1 => (data.v[i], data.v_fixed[i]) = (value, true),
+            _ if system.order() > 1 && order <= system.order() => {}
             _ => return Err(StudyError::UnusedInitialValue { name: name() }),
         }
     }
     Ok(data)
+}
+
+/// What is known of the start beyond coordinates and velocities, for constraints of order two and more.
+pub(crate) fn add_jets(
+    model: &Model,
+    system: &System,
+    prepared: &Prepared,
+    start: &mut Start,
+    options: &StudyOptions,
+) -> Result<(), StudyError> {
+    let (g, values) = (&model.graph, system.parameter_values());
+    let mut data = JetData {
+        branch: options.branch.or(model.initial.branch),
+        project: start.data.project,
+        ..JetData::default()
+    };
+    for (&(i, order), given) in model.initial.values.iter().filter(|((_, m), _)| *m > 1) {
+        let symbol = g.intern_symbol(&model.coordinates[i].name, order);
+        let value = number(g, given.value, &values).ok_or_else(|| StudyError::InitialValue {
+            name: g.symbol_text(symbol),
+        })?;
+        data.given.push((symbol, value));
+    }
+    for own in &model.initial.extra {
+        let symbol = g.intern_symbol(&own.name, own.order);
+        let value = number(g, own.value, &values).ok_or_else(|| StudyError::InitialValue {
+            name: g.symbol_text(symbol),
+        })?;
+        data.given.push((symbol, value));
+    }
+    let basis = Basis {
+        system,
+        terms: &prepared.terms,
+        selection: &prepared.selection,
+        characteristics: None,
+    };
+    let at = &start.start;
+    let jets = jet_start(&basis, &start.binding, (at.t, &at.q, &at.v), &data)?;
+    start.start.jets = Some(jets);
+    Ok(())
 }
 
 /// How the motion is computed: options, else the model, else the program decides.

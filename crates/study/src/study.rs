@@ -5,7 +5,7 @@ use crate::motion_evidence::MotionEvidence;
 use crate::notices::{left_assumptions, notices};
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
-use crate::start::{check_rank, number, settings, start_of_motion, Start};
+use crate::start::{add_jets, check_rank, number, settings, start_of_motion, Start};
 use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::{CharacteristicsError, Selection};
 use chetaev_mechanics::claims::formulation::REFERENCE;
@@ -17,6 +17,7 @@ use chetaev_mechanics::{
 };
 use chetaev_model::model::Model;
 use chetaev_model::Place;
+use chetaev_motion::initial::jets::JetError;
 use chetaev_motion::{
     Binding, ConsistentState, InitialError, NumericError, Run, RunError, RunSettings, Subject,
     Watcher,
@@ -229,6 +230,9 @@ pub enum StudyError {
         /// In the order of the file.
         claims: Vec<UnknownClaim>,
     },
+    /// Initial data beyond coordinates and velocities.
+    #[error(transparent)]
+    Jets(#[from] JetError),
     /// Initial data of a kind the first-order theory has no use for.
     #[error("the initial value of `{name}` is not used: a first-order system is determined by coordinates and velocities")]
     UnusedInitialValue {
@@ -285,18 +289,22 @@ fn prepare(
     let selection = match chetaev_mechanics::characteristics::select(&system, &terms) {
         Ok(selection) => selection,
         Err(error) => match &start {
-            Ok(n) => Selection {
+            Ok(n) if terms.order == 1 => Selection {
                 rows: n.start.chart.rows.clone(),
                 dependent: n.start.chart.dependent.clone(),
             },
-            Err(_) => return Err(error.into()),
+            _ => return Err(error.into()),
         },
     };
-    if let Ok(start) = &start {
+    if let (Ok(start), 1) = (&start, terms.order) {
         check_rank(start, selection.rows.len())?;
     }
     let prepared = Prepared { terms, selection };
     prepared.left_out(&system)?;
+    let mut start = start;
+    if let (Ok(start), true) = (&mut start, prepared.terms.order > 1) {
+        add_jets(model, &system, &prepared, start, options)?;
+    }
     Ok((system, prepared, start))
 }
 
@@ -364,6 +372,7 @@ fn compute(
     let subject = Subject {
         system,
         terms: &prepared.terms,
+        selection: &prepared.selection,
         binding: &numeric.binding,
         numeric: &numeric.numeric,
         start: &numeric.start,

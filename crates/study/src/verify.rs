@@ -148,6 +148,7 @@ fn options(record: &Record, seed: Option<u64>, replay: bool) -> StudyOptions {
         method: asked.method.clone(),
         formulation: asked.formulation.clone(),
         project: asked.project,
+        branch: asked.branch,
         seed,
         replay,
         motion: record.trajectory.is_some(),

@@ -1,7 +1,7 @@
 //! `formulation.equivalent#NAME`: the accelerations of a formulation equal those of the multiplier form; and
 //! `formulation.identity#NAME`: what holds before any equation of motion is used.
 
-use super::{roots, Claim, Context, Finding, Group};
+use super::{order, roots, Claim, Context, Finding, Group};
 use crate::card::Relation;
 use crate::characteristics::{Characteristics, Manifold};
 use crate::equations::{keep_names_apart, Equations};
@@ -64,7 +64,12 @@ impl Claim for Equivalent {
         let derived = derive(cx, REFERENCE).and_then(|a| Ok((a, derive(cx, name)?)));
         match derived {
             Ok((reference, other)) => {
-                let verdict = equivalence(cx, &reference, &other);
+                let verdict = match &other.on_characteristics {
+                    Some((c, residuals)) if cx.terms.order > 1 => {
+                        order::equivalence(cx, c, residuals)
+                    }
+                    _ => equivalence(cx, &reference, &other),
+                };
                 by_construction(cx, name, verdict).into()
             }
             Err(problem) => underived(name, &problem).into(),
@@ -89,7 +94,7 @@ impl Claim for Identities {
         "Some formulations are connected with others by more than equal accelerations: Volterra's left sides are Maggi's on the \
          whole jet (t, q, P, P'), the n + 1 parametric equations satisfy one identity, the contraction X ⌟ Ω of the Lagrange \
          vector field vanishes in every component, brackets of the embedded fields are given by structure coefficients. The \
-         difference of both sides is proved zero with all accelerations free."
+         subjects `…-special` are the lemmas between the two forms of Volterra and their special cases. The difference of both sides is proved zero with all accelerations free."
     }
 
     fn requires(&self, subject: Option<&str>) -> Vec<String> {
@@ -101,7 +106,12 @@ impl Claim for Identities {
             .iter()
             .map(|f| f.card())
             .filter(|card| card.identity.is_some())
-            .map(|card| Some(card.name.to_string()))
+            .flat_map(|card| {
+                let special = card.name.starts_with("volterra");
+                let own = std::iter::once(card.name.to_string());
+                own.chain(special.then(|| format!("{}{SPECIAL}", card.name)))
+            })
+            .map(Some)
             .collect()
     }
 
@@ -110,11 +120,16 @@ impl Claim for Identities {
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        let name = subject.unwrap_or(REFERENCE);
+        let subject = subject.unwrap_or(REFERENCE);
+        let name = formulation_of(subject);
         let Some(formulation) = formulations::formulation(name) else {
             return Verdict::undecided(format!("there is no formulation `{name}`")).into();
         };
-        match formulation.identities(&basis(cx)) {
+        let identities = match subject == name {
+            true => formulation.identities(&basis(cx)),
+            false => formulation.special_identities(&basis(cx)),
+        };
+        match identities {
             Ok(identities) => identities
                 .into_iter()
                 .map(|identity| {
@@ -150,8 +165,16 @@ fn underived(name: &str, problem: &DeriveError) -> Verdict {
     Verdict::undecided(format!("`{name}` could not be derived: {problem}"))
 }
 
+/// What follows the name of a formulation where its lemmas and special cases are meant.
+const SPECIAL: &str = "-special";
+
+fn formulation_of(subject: &str) -> &str {
+    subject.strip_suffix(SPECIAL).unwrap_or(subject)
+}
+
 fn requirements(subject: Option<&str>) -> Vec<String> {
     subject
+        .map(formulation_of)
         .and_then(formulations::formulation)
         .map(|f| f.card().requires.iter().map(|id| id.to_string()).collect())
         .unwrap_or_default()
@@ -159,6 +182,7 @@ fn requirements(subject: Option<&str>) -> Vec<String> {
 
 fn highest_order(subject: Option<&str>) -> u32 {
     subject
+        .map(formulation_of)
         .and_then(formulations::formulation)
         .map_or(1, |f| f.card().highest_order)
 }

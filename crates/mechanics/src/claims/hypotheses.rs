@@ -8,7 +8,7 @@ use crate::equations::unused_name;
 use crate::formulations::{extremum_matrix, restricted_hessian};
 use crate::system::System;
 use crate::Characteristics;
-use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
 
 /// Proves that expressions vanish identically, structurally where they are zero by form.
@@ -24,6 +24,57 @@ fn vanish(cx: &Context<'_>, residuals: &[Expr], on: &str, by_form: &str) -> Verd
     }
     cx.prover
         .identity(cx.system, &residuals, &Manifold::default(), on)
+}
+
+/// `model.constraints-first-order`.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstraintsFirstOrder;
+
+impl Claim for ConstraintsFirstOrder {
+    fn id(&self) -> &'static str {
+        "model.constraints-first-order"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The constraints contain coordinates and velocities only"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "No constraint contains an acceleration or a higher derivative. Nearly all of the theory is made for such constraints; \
+         those of order m ≥ 2 have equations with multipliers, Maggi's and Volterra's, and claims of their own (`order.…`). \
+         Without a constraint of higher order the system would be another one, so what is made for the first order says \
+         nothing of it."
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        match cx.terms.order > 1 {
+            true => vec![None],
+            false => Vec::new(),
+        }
+    }
+
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let Some(constraint) = cx.system.constraints.iter().find(|c| c.order > 1) else {
+            let detail = "no constraint contains a derivative of order two or more";
+            return Verdict::Proved(Proof::structural("everywhere", detail)).into();
+        };
+        let order = constraint.order.to_string();
+        Verdict::Refuted(Counterexample {
+            point: Vec::new(),
+            quantity: "the highest derivative in a constraint".into(),
+            residual: (order.clone(), order.clone()),
+            detail: format!("the constraint `{}` is of order {order}", constraint.name),
+        })
+        .into()
+    }
 }
 
 /// `model.forces-absent`.

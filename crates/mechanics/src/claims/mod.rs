@@ -8,6 +8,7 @@ pub mod formulation;
 pub mod gauss;
 pub mod hypotheses;
 pub mod model;
+pub mod order;
 pub mod particles;
 mod roots;
 
@@ -167,6 +168,10 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &model::ConstraintsHomogeneous,
     &model::ConstraintsScleronomic,
     &model::Chaplygin,
+    &hypotheses::ConstraintsFirstOrder,
+    &order::Lifting,
+    &order::OrderCharacteristics,
+    &order::OrderDetermined,
     &hypotheses::ForcesAbsent,
     &hypotheses::LagrangianAutonomous,
     &hypotheses::LagrangianQuadratic,
@@ -284,10 +289,13 @@ impl<'a> Context<'a> {
 
     fn constraint_beyond(&self, order: u32) -> Option<Verdict> {
         let constraint = self.system.constraints.iter().find(|c| c.order > order)?;
-        Some(Verdict::undecided(format!(
-            "the constraint `{}` is of order {}, and this claim is decided for constraints up to order {order} only: without it the system would be another one",
-            constraint.name, constraint.order
-        )))
+        Some(Verdict::not_applicable(
+            "model.constraints-first-order",
+            format!(
+                "the constraint `{}` is of order {}, and this is made for constraints up to order {order}: without it the system would be another one",
+                constraint.name, constraint.order
+            ),
+        ))
     }
 
     /// Why a claim (without subject: of the system) cannot be decided at all: a constraint of too high an order, or the first

@@ -1,10 +1,11 @@
 //! The claims of claims.md §1 that need no geometry: regularity and the form of the constraints.
 
-use super::{Claim, Context, Finding, Formula, Group};
+use super::{order, Claim, Context, Finding, Formula, Group};
 use crate::characteristics::Manifold;
-use crate::claims::formulation::manifold;
+use crate::claims::formulation::{basis, manifold};
 use crate::constraint::Constraint;
 use crate::frame::{Frame, FrameOrigin};
+use crate::order::determined::with_multipliers;
 use crate::redundancy::LeftOut;
 use crate::sample;
 use crate::system::System;
@@ -94,7 +95,11 @@ impl Claim for ConstraintsIndependent {
         "The Jacobian ∂f/∂v of the constraints by the velocities has rank r, the number of constraints, at almost every \
          state that satisfies them. If not, the verdict names the constraints that follow from the others (they are left \
          out, the motion does not change) or contradict them, or a constraint whose gradient vanishes wherever it holds, \
-         such as the square of another one."
+         such as the square of another one. Of constraints of order m it is the Jacobian by the derivatives of order m."
+    }
+
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
@@ -151,10 +156,17 @@ impl Claim for AccelerationsUnique {
     fn explanation(&self) -> &'static str {
         "The bordered matrix [[W, fᵥᵀ], [fᵥ, 0]] of mass matrix and constraint gradients is nonsingular at almost every \
          admissible state, redundant constraints removed. This, and not the regularity of W alone, is the condition for \
-         unique accelerations and multipliers."
+         unique accelerations and multipliers. For constraints of order m it is the Jacobian of `order.determined`."
+    }
+
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        if cx.terms.order > 1 {
+            return order::regular(cx, &with_multipliers(&basis(cx))).into();
+        }
         let verdict = cx.prover.nonsingular(
             cx.system,
             &bordered(cx),

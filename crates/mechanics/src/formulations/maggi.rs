@@ -7,6 +7,7 @@ use super::{Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::Characteristics;
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::order::determined::in_characteristics;
 use crate::system::System;
 use chetaev_symbolic::Expr;
 
@@ -23,7 +24,7 @@ static CARD: Card = Card {
     requires: &["model.accelerations-unique"],
     identity: None,
     unknowns: "rates of the k kinematic parameters",
-    highest_order: 1,
+    highest_order: u32::MAX,
     sources: &[
         Source { key: "maggi1896", place: "§§ 1–5" },
         Source { key: "qiao-volterra", place: "(6)–(7)" },
@@ -42,21 +43,19 @@ impl Formulation for Maggi {
 
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
         let (system, characteristics) = (basis.system, basis.characteristics()?);
-        let left = left_sides(system, &characteristics);
-        let rates = characteristics.rates_from(system, &left)?;
         let zero = system.graph.zero();
-        let motion = characteristics
+        let motion: Vec<Equation> = characteristics
             .parameters
             .iter()
-            .zip(&left)
-            .map(|(p, &left)| Equation {
+            .zip(left_sides(system, &characteristics))
+            .map(|(p, left)| Equation {
                 label: p.name.clone(),
                 left,
                 right: zero,
             })
             .collect();
         Ok(
-            Equations::in_characteristics(CARD.name, system, &characteristics, &rates)
+            in_characteristics(CARD.name, basis, &characteristics, &motion)?
                 .with_group("equations of motion", Some(SCHEMA), motion)
                 .with_group("kinematics", None, basis.kinematics(&characteristics))
                 .with_objects(virtual_basis(system, &characteristics)),

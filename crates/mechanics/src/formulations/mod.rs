@@ -51,6 +51,7 @@ pub use volterra_second::VolterraSecond;
 pub use voronets::Voronets;
 
 pub(crate) use canonical_reduced::restricted_hessian;
+pub(crate) use maggi::left_sides as maggi_left_sides;
 
 pub(crate) use vakonomic::extremum_matrix;
 
@@ -195,7 +196,7 @@ impl Basis<'_> {
     /// The kinematics `q' = φ(q, P, t)` of the coordinates whose velocity is no parameter, and implicit constraints.
     pub fn kinematics(&self, characteristics: &Characteristics) -> Vec<Equation> {
         let zero = self.system.graph.zero();
-        let coordinates = self.system.coordinates.iter();
+        let coordinates = characteristics.jets.iter();
         let explicit = coordinates
             .zip(&characteristics.velocities)
             .filter(|(c, phi)| c.v != **phi)
@@ -242,6 +243,15 @@ pub trait Formulation: Sync {
     /// # Errors
     /// [`DeriveError`].
     fn identities(&self, basis: &Basis<'_>) -> Result<Vec<Identity>, DeriveError> {
+        let _ = basis;
+        Ok(Vec::new())
+    }
+
+    /// The lemmas and special cases of `formulation.identity#NAME-special`; none by default.
+    ///
+    /// # Errors
+    /// [`DeriveError`].
+    fn special_identities(&self, basis: &Basis<'_>) -> Result<Vec<Identity>, DeriveError> {
         let _ = basis;
         Ok(Vec::new())
     }

@@ -6,6 +6,7 @@
 use super::{Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::order::determined;
 use chetaev_symbolic::Expr;
 
 /// Multipliers, Routh–Chetaev.
@@ -21,7 +22,7 @@ static CARD: Card = Card {
     requires: &["model.accelerations-unique"],
     identity: None,
     unknowns: "accelerations of all coordinates and one multiplier for each independent constraint",
-    highest_order: 1,
+    highest_order: u32::MAX,
     sources: &[
         Source { key: "routh1905", place: "ch. IV" },
         Source { key: "chetaev1932", place: "§§1–3" },
@@ -40,6 +41,13 @@ impl Formulation for Routh {
     }
 
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
+        if basis.terms.order > 1 {
+            let determined = determined::with_multipliers(basis);
+            let equations = determined::on_jets(CARD.name, basis, &determined)?;
+            return Ok(equations
+                .with_group("equations of motion", Some(SCHEMA), stated_equations(basis))
+                .with_group("constraints", None, basis.constraint_equations()));
+        }
         let (accelerations, values) = solve(basis)?;
         let objects = multiplier_objects(basis, &values);
         let mut equations = Equations::in_velocities(CARD.name, basis.system, accelerations)

@@ -5,13 +5,18 @@
 //!
 //! - first form `m D ∂T̃/∂P_σ - m Σ_s p_s D B_sσ - Σ_s (∂T/∂q^s(m-1)) B_sσ = Ẽ_σ` (V1q),
 //! - second form `m D ∂T̃/∂P_σ - ∂T̃/∂π_σ - Σ_s p_s ( m D B_sσ - ∂q^s(m)/∂π_σ ) = Ẽ_σ` (V2q).
+//!
+//! In Cartesian coordinates the second form is the same, and the first is `D ∂T̃/∂P_σ - Σ_i μ_i ξ_i' D B_iσ = Ẽ_σ` (V1): the
+//! kinetic energy has no slopes there, and (m - 1) times the lemma (2.10) is left out.
 
 use super::{bare, maggi, Basis, DeriveError, Identity};
-use crate::characteristics::Characteristics;
+use crate::characteristics::{Characteristics, Manifold};
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::order::determined::in_characteristics;
+use crate::order::lifting;
 use crate::particles;
 use crate::system::System;
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::{Expr, Symbol};
 
 /// Which of the two forms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,12 +31,18 @@ pub(crate) struct Volterra<'a> {
     characteristics: Characteristics,
     /// m.
     order: i64,
+    /// Whether the coordinates are Cartesian.
+    cartesian: bool,
+    /// T.
+    kinetic: Expr,
     /// T̃^(m-1), a function on the jet (t, q, P).
     restricted: Expr,
     /// p_s = ∂T^(m-1)/∂q^s(m) before the restriction, then restricted; length n.
     momenta: Vec<Expr>,
     /// ∂T^(m-1)/∂q^s(m-1) before the restriction, then restricted; length n.
     slopes: Vec<Expr>,
+    /// ∂T/∂q^s, restricted; length n.
+    kinetic_slopes: Vec<Expr>,
     /// Ẽ_σ, length k.
     forces: Vec<Expr>,
     /// What T is.
@@ -58,24 +69,48 @@ impl<'a> Volterra<'a> {
                 "Lagrangian, in the place of the kinetic energy, with the velocities of the characteristics",
             ),
         };
-        let mut functions = vec![kinetic];
-        functions.extend(g.gradient(kinetic, &system.velocity_symbols()));
+        Ok(Volterra::new(
+            system,
+            characteristics,
+            (kinetic, &forces),
+            meaning,
+        ))
+    }
+
+    fn new(
+        system: &'a System,
+        characteristics: Characteristics,
+        (kinetic, forces): (Expr, &[Expr]),
+        meaning: &'static str,
+    ) -> Volterra<'a> {
+        let (g, c) = (&system.graph, &characteristics);
+        let derivative = lifting::derivative(system, kinetic, c.order - 1);
+        let highest: Vec<Symbol> = c.jets.iter().map(|c| c.v_symbol).collect();
+        let lower: Vec<Symbol> = c.jets.iter().map(|c| c.q_symbol).collect();
+        let mut functions = vec![derivative];
+        functions.extend(g.gradient(derivative, &highest));
+        functions.extend(g.gradient(derivative, &lower));
         functions.extend(g.gradient(kinetic, &system.coordinate_symbols()));
         functions.extend(forces);
-        let mut restricted = characteristics.restrict(system, &functions);
-        let forces = restricted.split_off(1 + 2 * system.n());
-        let slopes = restricted.split_off(1 + system.n());
+        let n = system.n();
+        let mut restricted = c.restrict(system, &functions);
+        let forces = restricted.split_off(1 + 3 * n);
+        let kinetic_slopes = restricted.split_off(1 + 2 * n);
+        let slopes = restricted.split_off(1 + n);
         let momenta = restricted.split_off(1);
-        Ok(Volterra {
+        Volterra {
             system,
-            order: 1,
+            order: i64::from(c.order),
+            cartesian: false,
+            kinetic,
             restricted: restricted[0],
             momenta,
             slopes,
-            forces: characteristics.contract(system, &forces),
+            kinetic_slopes,
+            forces: c.contract(system, &forces),
             characteristics,
             meaning,
-        })
+        }
     }
 
     /// In Cartesian coordinates, where the positions of the particles are the coordinates: `T = ½ Σ μ_i ξ_i'²`, the momenta
@@ -85,43 +120,31 @@ impl<'a> Volterra<'a> {
         let masses = particles::coordinate_masses(system).ok_or(DeriveError::NotStated(
             "particles whose positions are the coordinates",
         ))?;
-        let characteristics = basis.characteristics()?;
-        let momenta: Vec<Expr> = masses
-            .iter()
-            .zip(&characteristics.velocities)
-            .map(|(&mass, &velocity)| g.mul(&[mass, velocity]))
-            .collect();
-        let doubled: Vec<Expr> = momenta
-            .iter()
-            .zip(&characteristics.velocities)
-            .map(|(&momentum, &velocity)| g.mul(&[momentum, velocity]))
-            .collect();
+        let squares = masses.iter().zip(&system.coordinates);
+        let doubled: Vec<Expr> = squares.map(|(&mass, c)| g.mul(&[mass, c.v, c.v])).collect();
+        let kinetic = g.div(g.add(&doubled), g.integer(2));
         let forces: Vec<Expr> = particles::applied_forces(system)
             .into_iter()
             .zip(particles::further_forces(system))
             .map(|(applied, further)| g.add(&[applied, further]))
             .collect();
-        let forces = characteristics.restrict(system, &forces);
+        let meaning = "kinetic energy of the particles with the velocities of the characteristics";
+        let of = (kinetic, &forces[..]);
         Ok(Volterra {
-            system,
-            order: 1,
-            restricted: g.div(g.add(&doubled), g.integer(2)),
-            momenta,
-            slopes: vec![g.zero(); system.n()],
-            forces: characteristics.contract(system, &forces),
-            characteristics,
-            meaning: "kinetic energy of the particles with the velocities of the characteristics",
+            cartesian: true,
+            ..Volterra::new(system, basis.characteristics()?, of, meaning)
         })
     }
 
     /// The left sides of one of the forms, σ = 1..k, on the jet (t, q, P, P').
     pub(crate) fn left_sides(&self, form: Form) -> Vec<Expr> {
         let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
-        let m = g.integer(self.order);
+        let m = g.integer(self.factor(form));
         let momenta = c.by_parameters(system, &[self.restricted]).concat();
         let rates = c.total_derivative(system, &momenta);
         let turning = self.turning(form);
         let slopes = match form {
+            Form::First if self.cartesian => vec![g.zero(); c.k()],
             Form::First => c.contract(system, &self.slopes),
             Form::Second => c.by_quasi_coordinates(system, &[self.restricted]).concat(),
         };
@@ -138,10 +161,18 @@ impl<'a> Volterra<'a> {
             .collect()
     }
 
+    /// m, and 1 in the first form in Cartesian coordinates.
+    fn factor(&self, form: Form) -> i64 {
+        match form {
+            Form::First if self.cartesian => 1,
+            _ => self.order,
+        }
+    }
+
     /// `m D B_sσ`, in the second form minus `∂q^s(m)/∂π_σ`; n × k.
     fn turning(&self, form: Form) -> Vec<Vec<Expr>> {
         let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
-        let m = g.integer(self.order);
+        let m = g.integer(self.factor(form));
         let rates = c.total_derivative(system, &c.basis.concat());
         let mut rows: Vec<Vec<Expr>> = rates
             .chunks(c.k().max(1))
@@ -163,7 +194,7 @@ impl<'a> Volterra<'a> {
         (name, schema, form): (&'static str, Schema, Form),
         basis: &Basis<'_>,
     ) -> Result<Equations, DeriveError> {
-        let (system, c) = (self.system, &self.characteristics);
+        let c = &self.characteristics;
         let motion: Vec<Equation> = self
             .left_sides(form)
             .into_iter()
@@ -175,8 +206,7 @@ impl<'a> Volterra<'a> {
                 right,
             })
             .collect();
-        let rates = c.rates_of(system, &motion)?;
-        Ok(Equations::in_characteristics(name, system, c, &rates)
+        Ok(in_characteristics(name, basis, c, &motion)?
             .with_group("equations of motion", Some(schema), motion)
             .with_group("kinematics", None, basis.kinematics(c))
             .with_objects(self.objects(form)))
@@ -211,11 +241,17 @@ impl<'a> Volterra<'a> {
         let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
         let mut objects = quasi_slopes(system, c, ("Ttilde", "T̃"), self.restricted);
         let rows = c.by_quasi_coordinates(system, &c.velocities);
-        for (coordinate, row) in system.coordinates.iter().zip(&rows) {
+        for (i, (coordinate, row)) in system.coordinates.iter().zip(&rows).enumerate() {
             for (p, &slope) in c.parameters.iter().zip(row).filter(|(_, &e)| !g.is_zero(e)) {
                 let (s, sigma) = (&coordinate.name, bare(&p.name));
-                let meaning = format!("∂{s}'/∂π of {}, with the parameters fixed", p.name);
-                objects.push(NamedExpr::new(format!("v_{s}_pi_{sigma}"), slope, meaning));
+                let highest = g.symbol_text(c.jets[i].v_symbol);
+                let meaning = format!("∂{highest}/∂π of {}, with the parameters fixed", p.name);
+                let letter = if self.order == 1 { "v" } else { "phi" };
+                objects.push(NamedExpr::new(
+                    format!("{letter}_{s}_pi_{sigma}"),
+                    slope,
+                    meaning,
+                ));
             }
         }
         objects
@@ -254,6 +290,92 @@ impl<'a> Volterra<'a> {
         ]
     }
 
+    /// The lemmas on which the forms rest, by their numbers in the source, and for m = 1 the special cases, in which the two
+    /// forms are the same equations.
+    pub(crate) fn special_identities(&self, form: Form) -> Vec<Identity> {
+        let (g, c) = (&self.system.graph, &self.characteristics);
+        let on_jet = |statement: &str, residuals| Identity {
+            statement: statement.into(),
+            residuals,
+            manifold: c.manifold.clone(),
+            on: "on the jet (t, q, …, P, P')",
+        };
+        let lemma = match (form, self.cartesian) {
+            (Form::First, true) => on_jet(
+                "Σ D(μ_i ξ_i') B_iσ = D ∂T/∂P_σ − Σ μ_i ξ_i' D B_iσ (2.10)",
+                self.rate_lemma(),
+            ),
+            (Form::First, false) => on_jet(
+                "Σ_s (D p_s − ∂T/∂q^s) B_sσ = m D ∂T̃/∂P_σ − m Σ_s p_s D B_sσ − Σ_s ∂T^(m−1)/∂q^s(m−1) B_sσ (3.16)",
+                self.rate_lemma(),
+            ),
+            (Form::Second, true) => on_jet(
+                "∂T/∂π_σ = Σ μ_i ξ_i' ∂ξ_i^(m)/∂π_σ + (m − 1)( D ∂T/∂P_σ − Σ μ_i ξ_i' D B_iσ ) (2.18)",
+                self.slope_lemma(),
+            ),
+            (Form::Second, false) => on_jet(
+                "∂T̃/∂π_σ = Σ_s p_s ∂q^s(m)/∂π_σ + (m − 1)( D ∂T̃/∂P_σ − Σ_s p_s D B_sσ ) + Σ_s ∂T/∂q^s B_sσ (3.26)",
+                self.slope_lemma(),
+            ),
+        };
+        let derivative = Identity {
+            statement: "∂T^(m−1)/∂q^s(m) = p_s and ∂T^(m−1)/∂q^s(m−1) = (m − 1) D p_s + ∂T/∂q^s"
+                .into(),
+            residuals: self.derivative_lemma(),
+            manifold: Manifold::default(),
+            on: "identically in all derivatives",
+        };
+        let mut identities = vec![derivative, lemma];
+        if self.order == 1 {
+            let first = self.left_sides(Form::First);
+            let second = self.left_sides(Form::Second);
+            let pairs = first.into_iter().zip(second);
+            identities.push(on_jet(
+                match self.cartesian {
+                    true => "for m = 1 the forms (2.13) and (2.20) are the same",
+                    false => "for m = 1 the forms (3.19) and (3.28) are the same",
+                },
+                pairs.map(|(a, b)| g.sub(a, b)).collect(),
+            ));
+        }
+        identities
+    }
+
+    /// `Σ_s (D p_s - ∂T/∂q^s) B_sσ` minus the left sides of the first form.
+    fn rate_lemma(&self) -> Vec<Expr> {
+        let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
+        let momenta = g.gradient(self.kinetic, &system.velocity_symbols());
+        let slopes = g.gradient(self.kinetic, &system.coordinate_symbols());
+        let lagrange: Vec<Expr> = momenta
+            .iter()
+            .zip(&slopes)
+            .map(|(&p, &slope)| g.sub(system.total_derivative(p), slope))
+            .collect();
+        let left = c.contract(system, &c.on_jet(system, &lagrange));
+        let right = self.left_sides(Form::First);
+        let pairs = left.into_iter().zip(right);
+        pairs.map(|(a, b)| g.sub(a, b)).collect()
+    }
+
+    /// `∂T^(m-1)/∂q^s(m) - p_s` and `∂T^(m-1)/∂q^s(m-1) - (m - 1) D p_s - ∂T/∂q^s`, before the restriction.
+    fn derivative_lemma(&self) -> Vec<Expr> {
+        let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
+        let highest: Vec<Symbol> = c.jets.iter().map(|c| c.v_symbol).collect();
+        let lower: Vec<Symbol> = c.jets.iter().map(|c| c.q_symbol).collect();
+        let derivative = lifting::derivative(system, self.kinetic, c.order - 1);
+        let momenta = g.gradient(self.kinetic, &system.velocity_symbols());
+        let slopes = g.gradient(self.kinetic, &system.coordinate_symbols());
+        let more = g.integer(1 - self.order);
+        let by_highest = g.gradient(derivative, &highest).into_iter().zip(&momenta);
+        let mut residuals: Vec<Expr> = by_highest.map(|(a, &p)| g.sub(a, p)).collect();
+        let by_lower = g.gradient(derivative, &lower).into_iter();
+        for ((slope, &p), own) in by_lower.zip(&momenta).zip(slopes) {
+            let rate = g.mul(&[more, system.total_derivative(p)]);
+            residuals.push(g.add(&[slope, rate, g.neg(own)]));
+        }
+        residuals
+    }
+
     /// `∂T̃/∂P_σ - Σ_s p_s B_sσ`.
     fn momentum_lemma(&self) -> Vec<Expr> {
         let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
@@ -269,7 +391,7 @@ impl<'a> Volterra<'a> {
     fn slope_lemma(&self) -> Vec<Expr> {
         let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
         let left = c.by_quasi_coordinates(system, &[self.restricted]).concat();
-        let slopes = c.contract(system, &self.slopes);
+        let slopes = c.contract(system, &self.kinetic_slopes);
         let inner = c.by_quasi_coordinates(system, &c.velocities);
         let momenta = c.by_parameters(system, &[self.restricted]).concat();
         let momentum_rates = c.total_derivative(system, &momenta);

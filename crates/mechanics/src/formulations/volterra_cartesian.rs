@@ -21,7 +21,7 @@ static CARD_FIRST: Card = Card {
     requires: &["model.accelerations-unique", "model.particles", "model.cartesian-coordinates"],
     identity: Some("Volterra's left sides minus forces are Maggi's on the whole jet (t, q, P, P')"),
     unknowns: "rates of the k kinematic characteristics",
-    highest_order: 1,
+    highest_order: u32::MAX,
     sources: &[
         Source { key: "volterra1898", place: "§§ 1–2" },
         Source { key: "qiao-volterra", place: "(2.14)" },
@@ -46,6 +46,10 @@ impl Formulation for VolterraFirstCartesian {
     fn identities(&self, basis: &Basis<'_>) -> Result<Vec<Identity>, DeriveError> {
         Ok(Volterra::cartesian(basis)?.identities(Form::First))
     }
+
+    fn special_identities(&self, basis: &Basis<'_>) -> Result<Vec<Identity>, DeriveError> {
+        Ok(Volterra::cartesian(basis)?.special_identities(Form::First))
+    }
 }
 
 /// Volterra's equations, second form, in the Cartesian coordinates of particles.
@@ -61,7 +65,7 @@ static CARD_SECOND: Card = Card {
     requires: &["model.accelerations-unique", "model.particles", "model.cartesian-coordinates"],
     identity: Some("Volterra's left sides minus forces are Maggi's on the whole jet (t, q, P, P')"),
     unknowns: "rates of the k kinematic characteristics",
-    highest_order: 1,
+    highest_order: u32::MAX,
     sources: &[
         Source { key: "volterra1898", place: "§§ 1–2" },
         Source { key: "qiao-volterra", place: "(2.21)" },
@@ -85,5 +89,9 @@ impl Formulation for VolterraSecondCartesian {
 
     fn identities(&self, basis: &Basis<'_>) -> Result<Vec<Identity>, DeriveError> {
         Ok(Volterra::cartesian(basis)?.identities(Form::Second))
+    }
+
+    fn special_identities(&self, basis: &Basis<'_>) -> Result<Vec<Identity>, DeriveError> {
+        Ok(Volterra::cartesian(basis)?.special_identities(Form::Second))
     }
 }

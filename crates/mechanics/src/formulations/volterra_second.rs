@@ -21,7 +21,7 @@ static CARD: Card = Card {
     requires: &["model.accelerations-unique"],
     identity: Some("Volterra's left sides minus forces are Maggi's on the whole jet (t, q, P, P')"),
     unknowns: "rates of the k kinematic characteristics",
-    highest_order: 1,
+    highest_order: u32::MAX,
     sources: &[
         Source { key: "volterra1898", place: "§§ 1–2" },
         Source { key: "qiao-volterra", place: "(3.29)" },
@@ -45,5 +45,9 @@ impl Formulation for VolterraSecond {
 
     fn identities(&self, basis: &Basis<'_>) -> Result<Vec<Identity>, DeriveError> {
         Ok(Volterra::generalized(basis)?.identities(Form::Second))
+    }
+
+    fn special_identities(&self, basis: &Basis<'_>) -> Result<Vec<Identity>, DeriveError> {
+        Ok(Volterra::generalized(basis)?.special_identities(Form::Second))
     }
 }

@@ -11,6 +11,7 @@ mod acceptance_canonical;
 mod acceptance_embedding;
 mod acceptance_frames;
 mod acceptance_motion;
+mod acceptance_order;
 mod acceptance_state_space;
 mod acceptance_support;
 mod acceptance_variation;

@@ -40,6 +40,11 @@ impl Resolver {
                 initial.project = self.optional_truth(table, "project").unwrap_or(false);
                 continue;
             }
+            if key.content == "branch" && !self.names.contains_key("branch") {
+                let branch = self.count(raw, "the number of a branch");
+                initial.branch = branch.map(|branch| branch as usize);
+                continue;
+            }
             let Some(text) = self.expression_text(raw, "an initial value") else {
                 continue;
             };
@@ -204,7 +209,7 @@ impl Resolver {
         Some(value)
     }
 
-    fn count(&mut self, raw: &Raw, what: &'static str) -> Option<u64> {
+    pub(crate) fn count(&mut self, raw: &Raw, what: &'static str) -> Option<u64> {
         let value = self.integer(raw, what)?;
         let count = u64::try_from(value).ok().filter(|count| *count > 0);
         if count.is_none() {

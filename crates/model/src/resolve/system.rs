@@ -36,6 +36,9 @@ impl Lagrangian {
     }
 }
 
+/// Derivatives of constraints beyond this order are refused.
+const MOST_LIFTED: u64 = 8;
+
 impl Resolver {
     // ---- the Lagrangian
 
@@ -341,6 +344,11 @@ impl Resolver {
         let Some((value, description)) = self.equation_and_description(raw) else {
             return;
         };
+        let wanted = match &raw.kind {
+            Kind::Table(table) => table.get("lifted"),
+            _ => None,
+        };
+        let lifted = wanted.and_then(|raw| Some((raw.place, self.count(raw, "an order")?)));
         let Kind::Text(text) = &value.kind else {
             self.wrong_kind(value, "a constraint", "a text, the equation `left = right`");
             return;
@@ -363,6 +371,11 @@ impl Resolver {
                 self.empty_constraint(&instance.name, f, text);
                 continue;
             };
+            let Some(times) = self.liftings(order, lifted) else {
+                continue;
+            };
+            let [left, right, f] = [left, right, f].map(|e| self.differentiated(e, times));
+            let order = order + times;
             self.formulas.push(Formula {
                 text: text.clone(),
                 parsed: parsed.clone(),
@@ -383,12 +396,40 @@ impl Resolver {
         }
     }
 
+    /// How often a constraint is to be differentiated to be of the order wanted.
+    fn liftings(&mut self, order: u32, wanted: Option<(Place, u64)>) -> Option<u32> {
+        let Some((place, wanted)) = wanted else {
+            return Some(0);
+        };
+        if wanted > MOST_LIFTED {
+            let message = format!("constraints are lifted up to order {MOST_LIFTED}");
+            self.push(Diagnostic::error("out-of-range", place, message));
+            return None;
+        }
+        match (wanted as u32).checked_sub(order) {
+            Some(times) => Some(times),
+            None => {
+                let message = format!(
+                    "the constraint is of order {order} already; `lifted` is the order of its derivative that takes its place, at least {order}"
+                );
+                self.push(Diagnostic::error("out-of-range", place, message));
+                None
+            }
+        }
+    }
+
+    fn differentiated(&self, e: Expr, times: u32) -> Expr {
+        (0..times).fold(e, |e, _| {
+            self.graph.total_derivative(e, &|name| self.varies(name))
+        })
+    }
+
     /// A constraint is its equation, or a table with that.
     fn equation_and_description<'r>(&mut self, raw: &'r Raw) -> Option<(&'r Raw, String)> {
         let Kind::Table(table) = &raw.kind else {
             return Some((raw, String::new()));
         };
-        let known = ["name", "equation", "description"];
+        let known = ["name", "equation", "lifted", "description"];
         self.known_keys(table, &known, "of a constraint");
         let description = self
             .optional_text(table, "description")

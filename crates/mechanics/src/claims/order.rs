@@ -1,0 +1,384 @@
+//! Claims about constraints of order m (claims.md §5, T2 §2 and §5).
+
+use super::formulation::basis;
+use super::{Claim, Context, Finding, Group};
+use crate::characteristics::{Characteristics, Manifold};
+use crate::equations::Equations;
+use crate::formulations::{Formulation, Routh};
+use crate::linear::dot;
+use crate::order::determined::{self, Determined};
+use crate::order::lifting;
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::{Expr, Verdict};
+
+/// `order.lifting`.
+#[derive(Clone, Copy, Debug)]
+pub struct Lifting;
+
+/// `order.determined`.
+#[derive(Clone, Copy, Debug)]
+pub struct OrderDetermined;
+
+/// `order.characteristics`.
+#[derive(Clone, Copy, Debug)]
+pub struct OrderCharacteristics;
+
+/// Subjects of a claim that exists for constraints of order two and more.
+fn of_higher_order(cx: &Context<'_>) -> Vec<Option<String>> {
+    match cx.terms.order > 1 {
+        true => vec![None],
+        false => Vec::new(),
+    }
+}
+
+impl Claim for Lifting {
+    fn id(&self) -> &'static str {
+        "order.lifting"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "A constraint may be replaced by its total derivative"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The total derivative D f of a constraint of order m is a constraint of order m + 1 with the same gradient: \
+         ∂(D f)/∂q^(m+1) ≡ ∂f/∂q^(m), identically. So the directions of the reactions and with them the equations of motion \
+         are the same; only more initial states are admissible, and f becomes an integral. By this constraints of different \
+         orders are brought to the highest one."
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        of_higher_order(cx)
+    }
+
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let mut residuals = Vec::new();
+        for constraint in &system.constraints {
+            let symbols = |order| -> Vec<_> {
+                let names = system.coordinates.iter();
+                names.map(|c| g.intern_symbol(&c.name, order)).collect()
+            };
+            let lifted = lifting::derivative(system, constraint.stated, 1);
+            let above = g.gradient(lifted, &symbols(constraint.order + 1));
+            let own = g.gradient(constraint.stated, &symbols(constraint.order));
+            residuals.extend(above.into_iter().zip(own).map(|(a, b)| g.sub(a, b)));
+        }
+        residuals.retain(|&e| !g.is_zero(e));
+        let on = "identically in all derivatives";
+        if residuals.is_empty() {
+            let detail =
+                "∂(D f)/∂q^(m+1) and ∂f/∂q^(m) are the same expressions for every constraint";
+            return Verdict::Proved(Proof::structural(on, detail)).into();
+        }
+        cx.prover
+            .identity(system, &residuals, &Manifold::default(), on)
+            .into()
+    }
+}
+
+impl Claim for OrderCharacteristics {
+    fn id(&self) -> &'static str {
+        "order.characteristics"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The kinematic characteristics parametrize what the constraints admit"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "For q^(m) = φ(t, q, …, q^(m-1), P) and B = ∂φ/∂P: the constraints hold identically, f(φ) ≡ 0; the columns of B are \
+         virtual displacements, A B ≡ 0 with A = ∂f/∂q^(m); and B has the rank k = n - r, so that nothing admissible is left \
+         out. Another choice of P multiplies the equations of motion by a matrix that is not singular. Decided for the \
+         characteristics that the model states, else for independent components of q^(m)."
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        of_higher_order(cx)
+    }
+
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let basis = basis(cx);
+        match basis.characteristics() {
+            Ok(c) => admissible(cx, &c).into(),
+            Err(problem) => Verdict::undecided(problem.to_string()).into(),
+        }
+    }
+}
+
+/// f(φ) ≡ 0, A B ≡ 0, rank B = k.
+pub(crate) fn admissible(cx: &Context<'_>, c: &Characteristics) -> Verdict {
+    let (system, terms, g) = (cx.system, cx.terms, &cx.system.graph);
+    let rows = &cx.selection.rows;
+    let constraints: Vec<Expr> = rows.iter().map(|&row| terms.constraints[row]).collect();
+    let gradients: Vec<Expr> = rows
+        .iter()
+        .flat_map(|&row| terms.jacobian[row].clone())
+        .collect();
+    let mut residuals = c.restrict(system, &constraints);
+    let gradients = c.restrict(system, &gradients);
+    for row in gradients.chunks(system.n()) {
+        residuals.extend(c.contract(system, row));
+    }
+    residuals.retain(|&e| !g.is_zero(e));
+    let on = "on the jet (t, q, …, P)";
+    let holds = match residuals.is_empty() {
+        true => Verdict::Proved(Proof::structural(on, "f(φ) ≡ 0 and A B ≡ 0 by their form")),
+        false => cx.prover.identity(system, &residuals, &c.manifold, on),
+    };
+    if c.k() == 0 {
+        return holds;
+    }
+    let rank = match cx.prover.rank(system, &c.basis, &c.manifold) {
+        Ok(found) if found.minimum == c.k() => found.at_least,
+        Ok(found) => match found.at_most {
+            Verdict::Proved(proof) => Verdict::Refuted(chetaev_symbolic::verdict::Counterexample {
+                point: Vec::new(),
+                quantity: "k minus the rank of B, at every state at least".into(),
+                residual: (
+                    (c.k() - found.maximum).to_string(),
+                    (c.k() - found.maximum).to_string(),
+                ),
+                detail: format!(
+                    "B has the rank {} and not k = {} ({})",
+                    found.maximum,
+                    c.k(),
+                    proof.detail
+                ),
+            }),
+            other => other,
+        },
+        Err(verdict) => *verdict,
+    };
+    let names: Vec<&str> = c.parameters.iter().map(|p| p.name.as_str()).collect();
+    let detail = format!(
+        "P = ({}): f(φ) ≡ 0, A B ≡ 0, rank B = {}",
+        names.join(", "),
+        c.k()
+    );
+    with_detail(holds.and(rank), &detail)
+}
+
+fn with_detail(verdict: Verdict, detail: &str) -> Verdict {
+    match verdict {
+        Verdict::Proved(mut proof) => {
+            proof.detail = format!("{detail}: {}", proof.detail);
+            Verdict::Proved(proof)
+        }
+        other => other,
+    }
+}
+
+impl Claim for OrderDetermined {
+    fn id(&self) -> &'static str {
+        "order.determined"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "Constraints and equations of motion determine the derivatives of order m"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The equations of motion have an order s of their own. Where s is below the order m of the constraints they are \
+         differentiated m - s times; with the constraints they then are as many equations as there are unknowns, q^(m) and \
+         the derivatives of order m - s of the multipliers. Their Jacobian by the unknowns must not vanish identically. The \
+         verdict states the dimension of the state, the initial data, and the integrals that the motion carries: the \
+         equations that were differentiated, and constraints of lower order. Where the Jacobian vanishes the structure \
+         changes, and a run stops there. For constraints nonlinear in q^(m) there may be several branches."
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        of_higher_order(cx)
+    }
+
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let determined = determined::with_multipliers(&basis(cx));
+        let detail = description(cx, &determined);
+        with_detail(regular(cx, &determined), &detail).into()
+    }
+}
+
+/// Whether the Jacobian of the equations by the unknowns is nonsingular.
+pub(crate) fn regular(cx: &Context<'_>, determined: &Determined) -> Verdict {
+    let g = &cx.system.graph;
+    let matrix = g.jacobian(&determined.equations, &determined.unknowns);
+    let manifold = match determined.linear {
+        true => Manifold::default(),
+        false => Manifold {
+            solved: Vec::new(),
+            implicit: determined
+                .equations
+                .iter()
+                .copied()
+                .zip(determined.unknowns.iter().copied())
+                .collect(),
+        },
+    };
+    let what = "the Jacobian of the equations by the unknowns";
+    cx.prover.nonsingular(cx.system, &matrix, &manifold, what)
+}
+
+/// What is solved for, the dimension, the data and the integrals, in words.
+fn description(cx: &Context<'_>, determined: &Determined) -> String {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let unknowns: Vec<String> = determined
+        .unknowns
+        .iter()
+        .map(|&s| g.symbol_text(s))
+        .collect();
+    let mut parts = vec![format!(
+        "constraints of order {}, equations of motion of order {}{}, solved for {}",
+        determined.order,
+        determined.own_order,
+        match determined.differentiations() {
+            0 => String::new(),
+            1 => ", differentiated once".into(),
+            times => format!(", differentiated {times} times"),
+        },
+        unknowns.join(", ")
+    )];
+    if let Ok(equations) = Routh.equations(&basis(cx)) {
+        let (dimension, free) = dimension(cx, &equations);
+        parts.push(format!("a state of dimension {dimension}"));
+        if free > 0 {
+            let data = data_beyond_velocities(system, &equations);
+            parts.push(format!(
+                "beside coordinates and velocities {free} of the data {} are free",
+                data.join(", ")
+            ));
+        }
+        let kept: Vec<String> = equations
+            .conditions
+            .iter()
+            .map(|c| c.name.clone())
+            .collect();
+        if !kept.is_empty() {
+            parts.push(format!("integrals that vanish: {}", kept.join(", ")));
+        }
+    }
+    parts.join("; ")
+}
+
+/// The names of the variables of the state beyond q and q' that are not tied to the others as unknowns.
+pub fn data_beyond_velocities(
+    system: &crate::system::System,
+    equations: &Equations,
+) -> Vec<String> {
+    let tied = |symbol| equations.relations.iter().any(|(_, own)| *own == symbol);
+    let variables = equations.variables.iter();
+    variables
+        .filter(|x| !tied(x.symbol))
+        .filter(|x| system.coordinates.iter().all(|c| c.v_symbol != x.symbol))
+        .map(|x| x.name.clone())
+        .collect()
+}
+
+/// The dimension of the manifold of states, and how many of its data lie beyond coordinates and velocities: the number of
+/// variables less the generic rank of the conditions.
+pub fn dimension(cx: &Context<'_>, equations: &Equations) -> (usize, usize) {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let tied = |symbol| equations.relations.iter().any(|(_, own)| *own == symbol);
+    let own = equations.variables.iter().map(|x| x.symbol);
+    let own: Vec<_> = own.filter(|&symbol| !tied(symbol)).collect();
+    let mut symbols = system.coordinate_symbols();
+    symbols.extend(&own);
+    let conditions: Vec<Expr> = equations.conditions.iter().map(|c| c.value).collect();
+    let rank_by = |symbols: &[_]| match conditions.is_empty() || symbols.is_empty() {
+        true => 0,
+        false => {
+            let matrix = g.jacobian(&conditions, symbols);
+            let found = cx.prover.rank(system, &matrix, &Manifold::default());
+            found.map_or(0, |rank| rank.minimum)
+        }
+    };
+    let beyond: Vec<_> = own
+        .iter()
+        .copied()
+        .filter(|s| system.coordinates.iter().all(|c| c.v_symbol != *s))
+        .collect();
+    let dimension = symbols.len() - rank_by(&symbols);
+    (dimension, beyond.len() - rank_by(&beyond).min(beyond.len()))
+}
+
+/// Proves or refutes that equations on the jet of characteristics are those with multipliers, the multipliers eliminated:
+/// `G_σ ≡ Σ_i (∂φ_i/∂P_σ) (w_i - Σ_l λ_l A^l_i)` over the independent i, with λ from the dependent ones. Where B has the
+/// rank k the two have the same solutions, also after differentiation.
+pub(crate) fn equivalence(cx: &Context<'_>, c: &Characteristics, residuals: &[Expr]) -> Verdict {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let reduced = match without_multipliers(cx) {
+        Ok(reduced) => c.on_jet(system, &reduced),
+        Err(problem) => return Verdict::undecided(problem),
+    };
+    let independent = cx.selection.independent(system.n());
+    let differences: Vec<Expr> = (0..c.k())
+        .map(|sigma| {
+            let column: Vec<Expr> = independent.iter().map(|&i| c.basis[i][sigma]).collect();
+            g.sub(residuals[sigma], dot(g, &column, &reduced))
+        })
+        .filter(|&e| !g.is_zero(e))
+        .collect();
+    let on = match cx.terms.order {
+        1 => "on the jet (t, q, P, P')",
+        _ => "on the jet (t, q, …, P) of the characteristics",
+    };
+    let same = match differences.is_empty() {
+        true => Verdict::Proved(Proof::structural(on, "the same expressions")),
+        false => cx.prover.identity(system, &differences, &c.manifold, on),
+    };
+    let detail = "the left sides are combinations, with a matrix that is not singular, of the equations with multipliers after the multipliers are eliminated";
+    with_detail(same, detail).and(admissible(cx, c))
+}
+
+/// `w_i - Σ_l λ_l A^l_i` for the independent i, λ from the dependent ones, as functions on the jet of coordinates.
+fn without_multipliers(cx: &Context<'_>) -> Result<Vec<Expr>, String> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let sides = system.lagrange_left_sides().into_iter().zip(&system.forces);
+    let w: Vec<Expr> = sides.map(|(left, &force)| g.sub(left, force)).collect();
+    let rows: Vec<&Vec<Expr>> = cx
+        .selection
+        .rows
+        .iter()
+        .map(|&row| &cx.terms.jacobian[row])
+        .collect();
+    let dependent = &cx.selection.dependent;
+    let matrix: Vec<Expr> = dependent
+        .iter()
+        .flat_map(|&d| rows.iter().map(move |row| row[d]))
+        .collect();
+    let right: Vec<Expr> = dependent.iter().map(|&d| w[d]).collect();
+    let multipliers = match rows.is_empty() {
+        true => Vec::new(),
+        false => g.solve(&matrix, &right).map_err(|e| e.to_string())?,
+    };
+    let independent = cx.selection.independent(system.n()).into_iter();
+    Ok(independent
+        .map(|i| {
+            let column: Vec<Expr> = rows.iter().map(|row| row[i]).collect();
+            g.sub(w[i], dot(g, &multipliers, &column))
+        })
+        .collect())
+}

@@ -1,0 +1,377 @@
+//! From equations of motion under constraints of order m to a determined system for the derivatives of that order (T2 §5).
+//!
+//! The equations `G = 0` of a formulation have an order s of their own, that of the forces and of the directions of the
+//! reactions. Where s < m they are differentiated m - s times; with the constraints they then determine `q^(m)`. What was
+//! passed over, `G, D G, …, D^(m-s-1) G`, and the constraints of lower order with their derivatives, are conditions on the
+//! initial data and integrals of the motion.
+
+use super::{highest_derivative, lifting};
+use crate::characteristics::Characteristics;
+use crate::equations::{Equation, Equations, NamedExpr, StateVariable};
+use crate::formulations::{Basis, DeriveError};
+use crate::linear::{solve_linear, solve_with_multipliers};
+use crate::system::System;
+use chetaev_symbolic::{Expr, Symbol};
+use rustc_hash::FxHashMap;
+
+/// The equations that determine the derivatives of order m, as many as unknowns.
+#[derive(Clone, Debug)]
+pub struct Determined {
+    /// m.
+    pub order: u32,
+    /// s, the order of the equations of motion.
+    pub own_order: u32,
+    /// What is solved for: parameters of the derivatives of order m, or these and derivatives of the multipliers.
+    pub unknowns: Vec<Symbol>,
+    /// The equations, differentiated, and constraints; functions of t, of derivatives of orders below m, and the unknowns.
+    pub equations: Vec<Expr>,
+    /// `q^(m)` as functions of t, of derivatives of orders below m, and the unknowns; length n.
+    pub highest: Vec<Expr>,
+    /// Whether the equations are affine in the unknowns.
+    pub linear: bool,
+    /// What was passed over: conditions on a state.
+    pub conditions: Vec<NamedExpr>,
+}
+
+impl Determined {
+    /// How often the equations of motion were differentiated.
+    pub fn differentiations(&self) -> u32 {
+        self.order - self.own_order
+    }
+}
+
+/// The multiplier form `w_s = Σ_l λ_l A^l_s`, `f^l = 0` for `q^(m)` and the derivatives of order m - s of the multipliers, which
+/// are variables of the state where they are differentiated (T2 (5)).
+pub fn with_multipliers(basis: &Basis<'_>) -> Determined {
+    let (system, terms) = (basis.system, basis.terms);
+    let (g, m) = (&system.graph, terms.order);
+    let names: Vec<String> = multiplier_names(basis);
+    let forces = basis.forces_with_reactions();
+    let sides = system.lagrange_left_sides().into_iter().zip(forces);
+    let balance: Vec<Expr> = sides.map(|(left, right)| g.sub(left, right)).collect();
+    let own_order = highest_derivative(system, &balance).unwrap_or(0).min(m);
+    let levels = derivatives(&balance, m - own_order, &|e| {
+        g.total_derivative(e, &|name| {
+            system.moves(name) || names.iter().any(|own| own == name)
+        })
+    });
+    let conditions = levels[..levels.len() - 1]
+        .iter()
+        .enumerate()
+        .flat_map(|(times, es)| {
+            let labels = system.coordinates.iter().map(|c| c.name.as_str());
+            labels
+                .zip(es)
+                .map(move |(label, &value)| balance_condition(label, times, value))
+        })
+        .collect();
+    let mut unknowns: Vec<Symbol> = terms.jets.iter().map(|c| c.v_symbol).collect();
+    unknowns.extend(
+        names
+            .iter()
+            .map(|name| g.intern_symbol(name, m - own_order)),
+    );
+    let mut equations = levels.last().cloned().unwrap_or_default();
+    equations.extend(basis.constraints());
+    Determined {
+        order: m,
+        own_order,
+        linear: basis.selection.rows.iter().all(|&row| terms.affine[row]),
+        highest: terms.jets.iter().map(|c| c.v).collect(),
+        unknowns,
+        equations,
+        conditions,
+    }
+}
+
+/// Equations `G_σ = 0` on the jet (t, q, …, q^(m-1), P) of characteristics, for P. G does not depend on P', which may be left in
+/// it by its form; s is the order of Maggi's equations, to which G is equal.
+pub fn for_parameters(
+    system: &System,
+    characteristics: &Characteristics,
+    motion: &[Expr],
+    own_order: u32,
+) -> Determined {
+    let (g, c) = (&system.graph, characteristics);
+    let frozen: Vec<(Expr, Expr)> = c.parameters.iter().map(|p| (p.rate, g.zero())).collect();
+    let motion = g.substitute_all(motion, &frozen);
+    let mut levels = vec![motion];
+    for _ in own_order..c.order {
+        let rates = c.total_derivative(system, &levels[levels.len() - 1]);
+        levels.push(g.substitute_all(&rates, &frozen));
+    }
+    let conditions = levels[..levels.len() - 1]
+        .iter()
+        .enumerate()
+        .flat_map(|(times, es)| {
+            let labels = c.parameters.iter().map(|p| p.name.as_str());
+            labels
+                .zip(es)
+                .map(move |(label, &value)| balance_condition(label, times, value))
+        })
+        .collect();
+    let implicit: Vec<(Expr, Symbol)> = c.implicit().map(|(f, s)| (f, s.symbol)).collect();
+    let mut unknowns: Vec<Symbol> = c.parameters.iter().map(|p| p.symbol).collect();
+    let linear = implicit.is_empty() && !g.any_contains_any(&c.basis.concat(), &unknowns);
+    unknowns.extend(implicit.iter().map(|(_, symbol)| *symbol));
+    let mut equations = levels.pop().unwrap_or_default();
+    equations.extend(implicit.iter().map(|(f, _)| *f));
+    Determined {
+        order: c.order,
+        own_order,
+        unknowns,
+        equations,
+        highest: c.velocities.clone(),
+        linear,
+        conditions,
+    }
+}
+
+/// The equations of motion of a formulation in characteristics: for the rates P' of parameters of the velocities, or for
+/// parameters P of the derivatives of order m.
+///
+/// # Errors
+/// [`DeriveError`].
+pub(crate) fn in_characteristics(
+    name: &'static str,
+    basis: &Basis<'_>,
+    characteristics: &Characteristics,
+    motion: &[Equation],
+) -> Result<Equations, DeriveError> {
+    let (system, c) = (basis.system, characteristics);
+    let residuals: Vec<Expr> = motion
+        .iter()
+        .map(|e| system.graph.sub(e.left, e.right))
+        .collect();
+    let mut equations = if c.order == 1 {
+        let rates = c.rates_from(system, &residuals)?;
+        Equations::in_characteristics(name, system, c, &rates)
+    } else {
+        let maggi = crate::formulations::maggi_left_sides(system, c);
+        let occurs = system.graph.any_contains_any(&maggi, &parameters(c));
+        let own_order = match highest_derivative(system, &maggi) {
+            _ if occurs => c.order,
+            order => order.unwrap_or(0).min(c.order),
+        };
+        let determined = for_parameters(system, c, &residuals, own_order);
+        on_jets(name, basis, &determined)?
+    };
+    equations.on_characteristics = Some((c.clone(), residuals));
+    Ok(equations)
+}
+
+fn parameters(c: &Characteristics) -> Vec<Symbol> {
+    let own = c.parameters.iter().map(|p| p.symbol);
+    own.chain(c.implicit().map(|(_, s)| s.symbol)).collect()
+}
+
+/// A determined system as equations with the state (q, q', …, q^(m-1)), further multipliers, and unknowns that are not given
+/// explicitly.
+///
+/// # Errors
+/// [`DeriveError::Singular`] where the equations are structurally dependent.
+pub fn on_jets(
+    name: &'static str,
+    basis: &Basis<'_>,
+    determined: &Determined,
+) -> Result<Equations, DeriveError> {
+    let (system, m) = (basis.system, determined.order);
+    let g = &system.graph;
+    let solved = match determined.linear {
+        true => Some(solve(basis, determined)?),
+        false => None,
+    };
+    let in_state = |e: Expr| match &solved {
+        Some(values) => {
+            let unknowns = determined.unknowns.iter().map(|&s| g.symbol_expr(s));
+            g.substitute(e, &unknowns.zip(values.iter().copied()).collect::<Vec<_>>())
+        }
+        None => e,
+    };
+    let highest: Vec<Expr> = determined.highest.iter().map(|&e| in_state(e)).collect();
+    let mut variables = jet_variables(system, m, &highest);
+    variables.extend(multiplier_variables(basis, determined, &in_state));
+    if solved.is_none() {
+        let unknowns = unknown_variables(system, determined, &variables)?;
+        variables.extend(unknowns);
+    }
+    let accelerations = match m {
+        2 => highest.clone(),
+        _ => system.coordinates.iter().map(|c| c.a).collect(),
+    };
+    let mut equations = Equations::in_velocities(name, system, accelerations);
+    equations.variables = variables;
+    equations.order = m;
+    equations.highest = highest;
+    equations.conditions = lifted_conditions(system, m);
+    equations
+        .conditions
+        .extend(determined.conditions.iter().cloned());
+    if solved.is_none() {
+        let pairs = determined.equations.iter().copied();
+        equations.relations = pairs.zip(determined.unknowns.iter().copied()).collect();
+    }
+    Ok(equations)
+}
+
+fn solve(basis: &Basis<'_>, determined: &Determined) -> Result<Vec<Expr>, DeriveError> {
+    let g = &basis.system.graph;
+    let n = basis.system.n();
+    if determined.unknowns.len() == determined.highest.len() + basis.selection.rows.len()
+        && determined.unknowns.len() > n
+    {
+        // What multiplies the multipliers is known, and free of the unknowns.
+        let jacobian = basis.jacobian();
+        let multipliers: Vec<(Expr, Expr)> = determined.unknowns[n..]
+            .iter()
+            .map(|&s| (g.symbol_expr(s), g.zero()))
+            .collect();
+        let equations = g.substitute_all(&determined.equations, &multipliers);
+        let (mut found, values) =
+            solve_with_multipliers(g, &equations, &determined.unknowns[..n], &jacobian)?;
+        found.extend(values);
+        return Ok(found);
+    }
+    Ok(solve_linear(
+        g,
+        &determined.equations,
+        &determined.unknowns,
+    )?)
+}
+
+/// q', …, q^(m-1) with their rates.
+fn jet_variables(system: &System, m: u32, highest: &[Expr]) -> Vec<StateVariable> {
+    let g = &system.graph;
+    let mut variables = Vec::new();
+    for order in 1..m {
+        for (c, &last) in system.coordinates.iter().zip(highest) {
+            let value = g.symbol(&c.name, order);
+            variables.push(StateVariable {
+                name: g.symbol_text(g.intern_symbol(&c.name, order)),
+                value,
+                symbol: g.intern_symbol(&c.name, order),
+                rate: match order + 1 == m {
+                    true => last,
+                    false => g.symbol(&c.name, order + 1),
+                },
+                definition: (order == 1).then_some(value),
+            });
+        }
+    }
+    variables
+}
+
+/// λ, λ', … of orders below those solved for.
+fn multiplier_variables(
+    basis: &Basis<'_>,
+    determined: &Determined,
+    in_state: &dyn Fn(Expr) -> Expr,
+) -> Vec<StateVariable> {
+    let g = &basis.system.graph;
+    let names = multiplier_names(basis);
+    let has_multipliers = determined.unknowns.len() > basis.system.n()
+        && names.first().is_some_and(|name| {
+            determined
+                .unknowns
+                .iter()
+                .any(|&s| g.symbol_name(s) == name)
+        });
+    let mut variables = Vec::new();
+    for order in 0..if has_multipliers {
+        determined.differentiations()
+    } else {
+        0
+    } {
+        for name in &names {
+            let symbol = g.intern_symbol(name, order);
+            variables.push(StateVariable {
+                name: g.symbol_text(symbol),
+                value: g.symbol_expr(symbol),
+                symbol,
+                rate: in_state(g.symbol(name, order + 1)),
+                definition: None,
+            });
+        }
+    }
+    variables
+}
+
+/// Unknowns u that stay implicit, `E(t, y, u) = 0`, as variables: `∂E/∂u u' = -(∂E/∂t + ∂E/∂y y')`.
+fn unknown_variables(
+    system: &System,
+    determined: &Determined,
+    known: &[StateVariable],
+) -> Result<Vec<StateVariable>, DeriveError> {
+    let g = &system.graph;
+    let mut rates: FxHashMap<Symbol, Expr> = known.iter().map(|x| (x.symbol, x.rate)).collect();
+    rates.extend(system.coordinates.iter().map(|c| (c.q_symbol, c.v)));
+    let moved = g.derive(&determined.equations, &|s| {
+        let (name, order) = (g.symbol_name(s), g.symbol_order(s));
+        if let Some(&rate) = rates.get(&s) {
+            Some(rate)
+        } else if name == "t" && order == 0 {
+            Some(g.one())
+        } else {
+            let is_control = system.controls.iter().any(|u| u.name == name);
+            is_control.then(|| g.symbol(name, order + 1))
+        }
+    });
+    let matrix = g
+        .jacobian(&determined.equations, &determined.unknowns)
+        .concat();
+    let right: Vec<Expr> = moved.into_iter().map(|e| g.neg(e)).collect();
+    let values = g.solve(&matrix, &right)?;
+    let pairs = determined.unknowns.iter().zip(values);
+    Ok(pairs
+        .map(|(&symbol, rate)| StateVariable {
+            name: g.symbol_text(symbol),
+            value: g.symbol_expr(symbol),
+            symbol,
+            rate,
+            definition: None,
+        })
+        .collect())
+}
+
+/// Constraints of lower order, and their derivatives below m.
+fn lifted_conditions(system: &System, m: u32) -> Vec<NamedExpr> {
+    lifting::conditions(system, m)
+        .into_iter()
+        .map(|condition| {
+            let name = &system.constraints[condition.constraint].name;
+            let meaning = match condition.derivatives {
+                0 => format!("the constraint `{name}`"),
+                1 => format!("the constraint `{name}`, differentiated once"),
+                times => format!("the constraint `{name}`, differentiated {times} times"),
+            };
+            let primes = "'".repeat(condition.derivatives as usize);
+            NamedExpr::new(format!("{name}{primes}"), condition.value, meaning)
+        })
+        .collect()
+}
+
+fn balance_condition(label: &str, times: usize, value: Expr) -> NamedExpr {
+    let meaning = match times {
+        0 => format!("the equation of motion of {label}"),
+        1 => format!("the equation of motion of {label}, differentiated once"),
+        times => format!("the equation of motion of {label}, differentiated {times} times"),
+    };
+    let name = format!("balance of {label}{}", "'".repeat(times));
+    NamedExpr::new(name, value, meaning)
+}
+
+/// `lambda_NAME` of the selected rows.
+fn multiplier_names(basis: &Basis<'_>) -> Vec<String> {
+    let names = basis.constraint_names().into_iter();
+    names.map(|name| format!("lambda_{name}")).collect()
+}
+
+/// `es, D es, …, D^times es`.
+fn derivatives(es: &[Expr], times: u32, derive: &dyn Fn(Expr) -> Expr) -> Vec<Vec<Expr>> {
+    let mut levels = vec![es.to_vec()];
+    for _ in 0..times {
+        let last = &levels[levels.len() - 1];
+        levels.push(last.iter().map(|&e| derive(e)).collect());
+    }
+    levels
+}

@@ -1,0 +1,712 @@
+//! The motion under constraints of order m ≥ 2, and by characteristics that the user states: a formulation's equations
+//! integrated in its own state, which holds derivatives of coordinates up to order m - 1, multipliers, and unknowns that no
+//! formula gives (T2 §5).
+//!
+//! State (q, variables). What vanishes along every motion, constraints of lower order, equations that were differentiated
+//! and implicit equations, is measured at each step and brought back to zero where asked.
+
+use crate::chart::{self, Chart};
+use crate::dense::Lu;
+use crate::follow::Follow;
+use crate::formulation_flow::FlowError;
+use crate::functions::Functions;
+use crate::initial::jets::JetStart;
+use crate::initial::ConsistentState;
+use crate::least_norm::{identity, least_step};
+use crate::numeric::Binding;
+use crate::row::RowLayout;
+use crate::run::WatchedFlow;
+use crate::watch::{vanishing_parts, Watch, Watched};
+use chetaev_integrate::{Control, EvaluationFailure, HaltReason, System as Flow};
+use chetaev_mechanics::words::quoted;
+use chetaev_mechanics::{Basis, Equations, Formulation, MotionTerms, Selection, System};
+use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::{Expr, Graph, Node, Symbol};
+
+/// Groups of the compiled motion, in order.
+const VELOCITIES: usize = 0;
+const RATES: usize = 1;
+const HIGHER: usize = 2;
+
+/// The equations for one selection of dependent derivatives, compiled.
+#[derive(Clone, Debug)]
+struct Compiled {
+    selection: Selection,
+    /// The state: coordinates, then the variables.
+    symbols: Vec<Symbol>,
+    names: Vec<String>,
+    /// (t, state) → q', rates of the variables, and derivatives of orders 2 to m.
+    motion: Functions,
+    /// (t, state) → what vanishes, and its gradient by the state.
+    invariants: Functions,
+    pivot: f64,
+}
+
+/// What a flow is made of.
+#[derive(Clone, Copy)]
+pub struct Parts<'a> {
+    /// The formulation.
+    pub formulation: &'static dyn Formulation,
+    /// The system.
+    pub system: &'a System,
+    /// Its terms.
+    pub terms: &'a MotionTerms,
+    /// Values of parameters.
+    pub binding: &'a Binding,
+}
+
+/// A formulation's equations on a jet as a first-order system.
+pub struct JetFlow<'a> {
+    parts: Parts<'a>,
+    current: Compiled,
+    /// (t, q, …, q^(m)) → w and A, for the multipliers.
+    reactions: Functions,
+    is_chart: bool,
+    project: bool,
+    /// Quantities followed at accepted steps.
+    pub follow: Option<Follow>,
+    pub(crate) watch: Watch,
+    zero_between: bool,
+    settled: f64,
+    rates: Vec<f64>,
+}
+
+impl std::fmt::Debug for JetFlow<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "JetFlow({})", self.parts.formulation.card().name)
+    }
+}
+
+/// A selection is replaced when its pivot fell below this fraction of its value at the time of choice.
+const DEGRADED: f64 = 0.1;
+const HYSTERESIS: f64 = 3.0;
+/// Determinants of larger systems are not watched.
+const LARGEST_WATCHED: usize = 5;
+
+impl<'a> JetFlow<'a> {
+    /// The flow and its state at the start.
+    ///
+    /// # Errors
+    /// [`FlowError`].
+    pub fn new(
+        parts: Parts<'a>,
+        selection: &Selection,
+        start: &ConsistentState,
+        jets: &JetStart,
+        project: bool,
+    ) -> Result<(JetFlow<'a>, Vec<f64>), FlowError> {
+        let mut reactions = reactions(parts)?;
+        let selection = selection_at(parts, &mut reactions, selection, start, jets);
+        let (equations, current) = compile(parts, selection, 1.0)?;
+        let mut flow = JetFlow {
+            watch: watch(parts, &equations, &current.symbols)?,
+            reactions,
+            is_chart: equations.on_characteristics.is_some(),
+            project,
+            follow: None,
+            zero_between: false,
+            settled: start.t,
+            rates: vec![0.0; current.symbols.len()],
+            current,
+            parts,
+        };
+        let y = flow.start(&equations, start, jets)?;
+        if let Some(pivot) = flow.pivot(start.t, &y) {
+            flow.current.pivot = pivot;
+        }
+        flow.watch.record(start.t, &y, &[]);
+        Ok((flow, y))
+    }
+
+    /// The state from what is known of the start; parameters that the user's formulas introduce are solved for.
+    fn start(
+        &self,
+        equations: &Equations,
+        start: &ConsistentState,
+        jets: &JetStart,
+    ) -> Result<Vec<f64>, FlowError> {
+        let system = self.parts.system;
+        let mut known: Vec<(Symbol, f64)> = Vec::new();
+        for (i, c) in system.coordinates.iter().enumerate() {
+            known.push((c.q_symbol, start.q[i]));
+            known.push((c.v_symbol, start.v[i]));
+        }
+        known.extend(&jets.values);
+        let value = |s: &Symbol| known.iter().find(|(own, _)| own == s).map(|(_, x)| *x);
+        let open: Vec<Symbol> = self
+            .current
+            .symbols
+            .iter()
+            .copied()
+            .filter(|s| value(s).is_none())
+            .collect();
+        let found = match open.is_empty() {
+            true => Vec::new(),
+            false => self.parameters(equations, start.t, &known, &open)?,
+        };
+        let of = |s: &Symbol| {
+            let own = open.iter().position(|o| o == s).map(|place| found[place]);
+            value(s).or(own).unwrap_or(0.0)
+        };
+        Ok(self.current.symbols.iter().map(of).collect())
+    }
+
+    /// Parameters P with `φ(t, …, P) = q^(m)` at the start, by Newton's method from several starting points.
+    fn parameters(
+        &self,
+        equations: &Equations,
+        t: f64,
+        known: &[(Symbol, f64)],
+        open: &[Symbol],
+    ) -> Result<Vec<f64>, FlowError> {
+        let Parts {
+            system,
+            terms,
+            binding,
+            formulation,
+        } = self.parts;
+        let g = &system.graph;
+        let phi = match terms.order {
+            1 => &equations.velocities,
+            _ => &equations
+                .on_characteristics
+                .as_ref()
+                .map(|(c, _)| &c.velocities)
+                .unwrap_or(&equations.highest)
+                .clone(),
+        };
+        let value = |s: Symbol| known.iter().find(|(own, _)| *own == s).map(|(_, x)| *x);
+        let targets: Vec<f64> = terms
+            .jets
+            .iter()
+            .map(|c| value(c.v_symbol).unwrap_or(0.0))
+            .collect();
+        let (symbols, numbers): (Vec<Symbol>, Vec<f64>) = known.iter().copied().unzip();
+        let variables = with_time(g, &[&symbols[..], open].concat());
+        let gradient = g.jacobian(phi, open).concat();
+        let groups = [("phi", phi.clone()), ("gradient", gradient)];
+        let mut functions = Functions::new(g, binding, &variables, &groups)?;
+        let size = open.len();
+        let all: Vec<usize> = (0..size).collect();
+        let mut generator = chetaev_mechanics::sample::Generator::new(3);
+        let reach = targets.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
+        for attempt in 0..60 {
+            let mut x: Vec<f64> = (0..size)
+                .map(|_| generator.between(0.0, if attempt % 2 == 0 { reach } else { 3.2 }))
+                .collect();
+            for _ in 0..60 {
+                if functions.evaluate(t, &[&numbers, &x]).is_err() {
+                    break;
+                }
+                let pairs = functions.group(0).iter().zip(&targets);
+                let f: Vec<f64> = pairs.map(|(a, b)| a - b).collect();
+                if f.iter().all(|f| f.abs() <= 1e-12 * reach) {
+                    return Ok(x);
+                }
+                let step = least_squares(functions.group(1), &f, size, &all);
+                x.iter_mut().zip(&step).for_each(|(x, d)| *x -= d);
+            }
+        }
+        Err(FlowError::Start {
+            formulation: formulation.card().name,
+        })
+    }
+
+    /// Layout of the rows: q, q', q'', multipliers, and derivatives of orders 3 to m.
+    pub fn layout(&self) -> RowLayout {
+        let (n, terms) = (self.parts.system.n(), self.parts.terms);
+        let higher = terms.order.saturating_sub(2) as usize * n;
+        RowLayout::new(n, terms.constraints.len()).with_own(higher + self.parameter_places().len())
+    }
+
+    /// Names of what a row ends with.
+    pub fn own_names(&self) -> Vec<String> {
+        let system = self.parts.system;
+        let mut names = Vec::new();
+        for order in 3..=self.parts.terms.order {
+            let own = system.coordinates.iter();
+            names.extend(own.map(|c| format!("{}{}", c.name, "'".repeat(order as usize))));
+        }
+        names.extend(
+            self.parameter_places()
+                .into_iter()
+                .map(|i| self.current.names[i].clone()),
+        );
+        names
+    }
+
+    /// Places in the state of parameters that are no derivatives of coordinates and no multipliers.
+    fn parameter_places(&self) -> Vec<usize> {
+        let (system, g) = (self.parts.system, &self.parts.system.graph);
+        let symbols = self.current.symbols.iter().enumerate();
+        symbols
+            .filter(|(_, &s)| {
+                let name = g.symbol_name(s);
+                system.coordinate_index(name).is_none() && !name.starts_with("lambda_")
+            })
+            .map(|(i, _)| i)
+            .collect()
+    }
+
+    /// Names of the variables of the state.
+    pub fn names(&self) -> &[String] {
+        &self.current.names
+    }
+
+    /// What the equations determine, in quotes.
+    pub fn unknowns(&self) -> String {
+        unknowns(self.parts)
+    }
+
+    /// The state symbols.
+    pub fn symbols(&self) -> &[Symbol] {
+        &self.current.symbols
+    }
+
+    fn evaluate(&mut self, t: f64, y: &[f64]) -> Result<(), EvaluationFailure> {
+        self.current.motion.evaluate(t, &[y])
+    }
+
+    /// q, q', …, q^(m) at a state that was evaluated.
+    fn jets(&self, y: &[f64]) -> Vec<f64> {
+        let n = self.parts.system.n();
+        let motion = &self.current.motion;
+        [&y[..n], motion.group(VELOCITIES), motion.group(HIGHER)].concat()
+    }
+
+    /// A at a state that was evaluated, r × n.
+    fn gradient(&mut self, t: f64, y: &[f64]) -> Option<Vec<f64>> {
+        let jets = self.jets(y);
+        self.reactions.evaluate(t, &[&jets]).ok()?;
+        Some(self.reactions.group(1).to_vec())
+    }
+
+    /// The multipliers by row: the least solution of `Aᵀ λ = w`.
+    fn multipliers(&mut self, t: f64, y: &[f64]) -> Vec<f64> {
+        let (n, r) = (self.parts.system.n(), self.parts.terms.constraints.len());
+        let jets = self.jets(y);
+        if self.reactions.evaluate(t, &[&jets]).is_err() {
+            return vec![f64::NAN; r];
+        }
+        let (w, a) = (self.reactions.group(0), self.reactions.group(1));
+        let selected = &self.current.selection.rows;
+        let mut columns = vec![0.0; n * selected.len()];
+        for (l, &row) in selected.iter().enumerate() {
+            for i in 0..n {
+                columns[i * selected.len() + l] = a[row * n + i];
+            }
+        }
+        let all: Vec<usize> = (0..selected.len()).collect();
+        let found = least_squares(&columns, w, selected.len(), &all);
+        let mut lambda = vec![0.0; r];
+        for (&row, value) in selected.iter().zip(found) {
+            lambda[row] = value;
+        }
+        lambda
+    }
+
+    fn pivot(&mut self, t: f64, y: &[f64]) -> Option<f64> {
+        if !self.is_chart || self.evaluate(t, y).is_err() {
+            return None;
+        }
+        let a = self.gradient(t, y)?;
+        let (n, r) = (self.parts.system.n(), self.parts.terms.constraints.len());
+        let present = self.chart();
+        Some(chart::quality(&present, &a, r, n, &vec![1.0; n]))
+    }
+
+    fn chart(&self) -> Chart {
+        Chart {
+            rows: self.current.selection.rows.clone(),
+            dependent: self.current.selection.dependent.clone(),
+            independent: Vec::new(),
+            pivot: self.current.pivot,
+            gap: f64::INFINITY,
+        }
+    }
+
+    /// The row of a state at which the equations are singular: what is no variable of the state is unknown there.
+    fn singular_row(&self, y: &[f64], row: &mut [f64]) -> Option<()> {
+        let (system, layout) = (self.parts.system, self.layout());
+        let n = system.n();
+        row.fill(f64::NAN);
+        let value = |c: &str, order: u32| {
+            let symbol = system.graph.intern_symbol(c, order);
+            let place = self.current.symbols.iter().position(|s| *s == symbol)?;
+            Some(y[place])
+        };
+        for (i, c) in system.coordinates.iter().enumerate() {
+            row[layout.q().start + i] = y[i];
+            row[layout.v().start + i] = value(&c.name, 1)?;
+            for order in 2..self.parts.terms.order {
+                let start = match order {
+                    2 => layout.a().start,
+                    _ => layout.own().start + (order as usize - 3) * n,
+                };
+                row[start + i] = value(&c.name, order)?;
+            }
+        }
+        Some(())
+    }
+
+    /// Another choice of dependent derivatives where the present one degrades: the state is the same, in another order.
+    fn rechoose(&mut self, t: f64, y: &mut [f64]) -> Control {
+        let (n, r) = (self.parts.system.n(), self.parts.terms.constraints.len());
+        let Some(before) = self
+            .pivot(t, y)
+            .filter(|&p| p < DEGRADED * self.current.pivot)
+        else {
+            return Control::Continue;
+        };
+        let Some(a) = self.gradient(t, y) else {
+            return Control::Continue;
+        };
+        let next = chart::choose(&a, r, n, &vec![1.0; n]);
+        if next.rank() < self.current.selection.rows.len() {
+            return Control::Continue;
+        }
+        if next.pivot < HYSTERESIS * before || next.dependent == self.current.selection.dependent {
+            return Control::Continue;
+        }
+        let selection = Selection {
+            rows: next.rows.clone(),
+            dependent: next.dependent.clone(),
+        };
+        let Ok((equations, entered)) = compile(self.parts, selection, next.pivot) else {
+            return Control::Continue;
+        };
+        let Ok(watch) = watch(self.parts, &equations, &entered.symbols) else {
+            return Control::Continue;
+        };
+        if watch.quantities != self.watch.quantities {
+            return Control::Continue;
+        }
+        let place = |s: &Symbol| self.current.symbols.iter().position(|own| own == s);
+        let places: Option<Vec<usize>> = entered.symbols.iter().map(place).collect();
+        let Some(places) = places else {
+            return Control::Continue;
+        };
+        let old = y.to_vec();
+        y.iter_mut()
+            .zip(&places)
+            .for_each(|(y, &place)| *y = old[place]);
+        self.current = entered;
+        self.watch = watch;
+        self.watch.record(t, y, &[]);
+        Control::StateModified
+    }
+
+    /// Newton steps of least size on what must vanish, coordinates fixed unless nothing else helps; true when y changed.
+    fn bring_back(&mut self, t: f64, y: &mut [f64]) -> bool {
+        let n = self.parts.system.n();
+        let movable: Vec<usize> = (n..y.len()).collect();
+        let mut changed = false;
+        for _ in 0..6 {
+            if self.current.invariants.evaluate(t, &[y]).is_err() {
+                return changed;
+            }
+            let values = self.current.invariants.group(0);
+            let scale = y.iter().fold(1e-300, |m: f64, x| m.max(x.abs()));
+            if values.iter().all(|f| f.abs() <= 8.0 * f64::EPSILON * scale) {
+                break;
+            }
+            let gradient = self.current.invariants.group(1);
+            let step = least_step(gradient, values, y.len(), &movable, &identity(y.len()));
+            if step
+                .iter()
+                .any(|d| !d.is_finite() || d.abs() > 1e-2 * (1.0 + scale))
+            {
+                return changed;
+            }
+            y.iter_mut().zip(&step).for_each(|(y, d)| *y -= d);
+            changed = true;
+        }
+        changed
+    }
+}
+
+/// `x` with least `|A x - f|`, A row by row with `size` columns, by the normal equations.
+fn least_squares(a: &[f64], f: &[f64], size: usize, all: &[usize]) -> Vec<f64> {
+    let mut normal = vec![0.0; size * size];
+    let mut right = vec![0.0; size];
+    for (row, &value) in a.chunks(size.max(1)).zip(f) {
+        for &i in all {
+            right[i] += row[i] * value;
+            for &j in all {
+                normal[i * size + j] += row[i] * row[j];
+            }
+        }
+    }
+    let mut lu = Lu::default();
+    match lu.factor(size, &normal) {
+        Ok(()) => lu.solve(&mut right),
+        Err(_) => return least_step(a, f, size, all, &identity(size)),
+    }
+    right
+}
+
+fn with_time(g: &Graph, symbols: &[Symbol]) -> Vec<Symbol> {
+    let mut variables = vec![g.intern_symbol("t", 0)];
+    variables.extend(symbols);
+    variables
+}
+
+fn compile(
+    parts: Parts<'_>,
+    selection: Selection,
+    pivot: f64,
+) -> Result<(Equations, Compiled), FlowError> {
+    let (system, g) = (parts.system, &parts.system.graph);
+    let basis = Basis {
+        system,
+        terms: parts.terms,
+        selection: &selection,
+        characteristics: None,
+    };
+    let equations = parts.formulation.equations(&basis)?;
+    let mut symbols = system.coordinate_symbols();
+    symbols.extend(equations.variables.iter().map(|x| x.symbol));
+    let mut names: Vec<String> = system.coordinates.iter().map(|c| c.name.clone()).collect();
+    names.extend(equations.variables.iter().map(|x| x.name.clone()));
+    let variables = with_time(g, &symbols);
+    let mut higher = Vec::new();
+    for order in 2..parts.terms.order {
+        higher.extend(system.coordinates.iter().map(|c| g.symbol(&c.name, order)));
+    }
+    higher.extend(match parts.terms.order {
+        1 => &equations.accelerations,
+        _ => &equations.highest,
+    });
+    let groups = [
+        ("velocities", equations.velocities.clone()),
+        ("rates", equations.rates()),
+        ("higher", higher),
+    ];
+    let vanishing = equations.conditions.iter().map(|c| c.value);
+    let implicit = equations.relations.iter().map(|(f, _)| *f);
+    let invariants: Vec<Expr> = vanishing.chain(implicit).collect();
+    let gradient = g.jacobian(&invariants, &symbols).concat();
+    let invariants = [("invariants", invariants), ("gradient", gradient)];
+    let compiled = Compiled {
+        motion: Functions::new(g, parts.binding, &variables, &groups)?,
+        invariants: Functions::new(g, parts.binding, &variables, &invariants)?,
+        selection,
+        symbols,
+        names,
+        pivot,
+    };
+    Ok((equations, compiled))
+}
+
+/// w and A as functions of t, q, …, q^(m) (and q'' for m = 1).
+fn reactions(parts: Parts<'_>) -> Result<Functions, FlowError> {
+    let (system, g) = (parts.system, &parts.system.graph);
+    let highest = parts.terms.order.max(2);
+    let symbols: Vec<Symbol> = (0..=highest)
+        .flat_map(|order| {
+            let own = system.coordinates.iter();
+            own.map(move |c| g.intern_symbol(&c.name, order))
+        })
+        .collect();
+    let sides = system.lagrange_left_sides().into_iter().zip(&system.forces);
+    let w: Vec<Expr> = sides.map(|(left, &force)| g.sub(left, force)).collect();
+    let groups = [("w", w), ("gradient", parts.terms.jacobian.concat())];
+    let variables = with_time(g, &symbols);
+    Ok(Functions::new(g, parts.binding, &variables, &groups)?)
+}
+
+/// The derivatives of order m, in quotes.
+fn unknowns(parts: Parts<'_>) -> String {
+    let jets = parts.terms.jets.iter();
+    quoted(jets.map(|c| parts.system.graph.symbol_text(c.v_symbol)))
+}
+
+fn watch(parts: Parts<'_>, equations: &Equations, state: &[Symbol]) -> Result<Watch, FlowError> {
+    let variables = with_time(&parts.system.graph, state);
+    let watched = watched(parts, equations, state);
+    Ok(Watch::of_state(
+        parts.system,
+        parts.binding,
+        &variables,
+        watched,
+    )?)
+}
+
+/// The selection wanted, unless another one is much better conditioned at the start.
+fn selection_at(
+    parts: Parts<'_>,
+    reactions: &mut Functions,
+    wanted: &Selection,
+    start: &ConsistentState,
+    jets: &JetStart,
+) -> Selection {
+    let (system, terms) = (parts.system, parts.terms);
+    let (n, r) = (system.n(), terms.constraints.len());
+    let value = |symbol: Symbol| {
+        jets.values
+            .iter()
+            .find(|(s, _)| *s == symbol)
+            .map(|(_, x)| *x)
+    };
+    let mut state = [&start.q[..], &start.v[..]].concat();
+    for order in 2..=terms.order.max(2) {
+        let own = system.coordinates.iter();
+        state.extend(own.map(|c| {
+            let symbol = system.graph.intern_symbol(&c.name, order);
+            value(symbol).unwrap_or(0.0)
+        }));
+    }
+    if r == 0 || reactions.evaluate(start.t, &[&state]).is_err() {
+        return wanted.clone();
+    }
+    let (a, unit) = (reactions.group(1), vec![1.0; n]);
+    let best = chart::choose(a, r, n, &unit);
+    let present = Chart {
+        rows: wanted.rows.clone(),
+        dependent: wanted.dependent.clone(),
+        independent: Vec::new(),
+        pivot: 1.0,
+        gap: f64::INFINITY,
+    };
+    let poor = chart::quality(&present, a, r, n, &unit) < DEGRADED * best.pivot;
+    match poor && best.rank() == wanted.rows.len() {
+        true => Selection {
+            rows: best.rows,
+            dependent: best.dependent,
+        },
+        false => wanted.clone(),
+    }
+}
+
+/// Determinants of the linear systems of the equations, and what can vanish in constraints and Lagrangian.
+fn watched(parts: Parts<'_>, equations: &Equations, state: &[Symbol]) -> Vec<(Watched, Expr)> {
+    let (system, g) = (parts.system, &parts.system.graph);
+    let unknowns = unknowns(parts);
+    let mut found: Vec<(Watched, Expr)> = Vec::new();
+    for e in g.reachable(&equations.rates()) {
+        let Node::Solve { matrix, rhs } = g.node(e) else {
+            continue;
+        };
+        let Node::Matrix { entries, .. } = g.node(*matrix) else {
+            continue;
+        };
+        if rhs.len() > LARGEST_WATCHED {
+            continue;
+        }
+        let rows: Vec<Vec<Expr>> = entries.chunks(rhs.len()).map(<[Expr]>::to_vec).collect();
+        let square = g.powi(determinant(g, &rows), 2);
+        let what = Watched::Structure {
+            unknowns: unknowns.clone(),
+        };
+        if found.iter().all(|(_, own)| *own != square) {
+            found.push((what, square));
+        }
+    }
+    found.extend(vanishing_parts(system, &parts.terms.constraints));
+    let of_state = |e: &Expr| {
+        let symbols = g.symbols_in(&[g.substitute(*e, &parts.binding.controls)]);
+        let known = |s: &Symbol| {
+            state.contains(s)
+                || g.symbol_name(*s) == "t"
+                || parts.binding.parameters.iter().any(|(own, _)| own == s)
+        };
+        symbols.iter().all(known)
+            && symbols
+                .iter()
+                .any(|s| state.contains(s) || g.symbol_name(*s) == "t")
+    };
+    found.retain(|(_, value)| of_state(value));
+    found
+}
+
+impl Flow for JetFlow<'_> {
+    fn dimension(&self) -> usize {
+        self.current.symbols.len()
+    }
+
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure> {
+        self.evaluate(t, y)?;
+        let n = self.parts.system.n();
+        dy[..n].copy_from_slice(self.current.motion.group(VELOCITIES));
+        dy[n..].copy_from_slice(self.current.motion.group(RATES));
+        Ok(())
+    }
+
+    fn accepted(&mut self, t: f64, y: &mut [f64]) -> Control {
+        if self.evaluate(t, y).is_err() {
+            return Control::Continue;
+        }
+        let n = self.parts.system.n();
+        if let Some(follow) = &mut self.follow {
+            follow.record(t, &y[..n], &y[n..]);
+        }
+        let modified = self.project && self.bring_back(t, y);
+        self.settled = t;
+        let control = self.rechoose(t, y);
+        self.watch.record(t, y, &[]);
+        match (self.watch.vanished(), control) {
+            (Some(index), _) => Control::Stop(HaltReason::Custom(index as u32)),
+            (None, Control::Continue) if modified => Control::StateModified,
+            (None, other) => other,
+        }
+    }
+
+    fn repivot(&mut self, t: f64, y: &mut [f64]) -> Control {
+        self.rechoose(t, y)
+    }
+
+    fn output_dimension(&self) -> usize {
+        self.layout().len()
+    }
+
+    fn output(&mut self, t: f64, y: &[f64], row: &mut [f64]) -> Result<(), EvaluationFailure> {
+        if let Err(failure) = self.evaluate(t, y) {
+            return self.singular_row(y, row).ok_or(failure);
+        }
+        let (n, layout) = (self.parts.system.n(), self.layout());
+        let lambda = self.multipliers(t, y);
+        let motion = &self.current.motion;
+        let (a, further) = motion.group(HIGHER).split_at(n);
+        layout.write(row, &y[..n], motion.group(VELOCITIES), a, &lambda);
+        let parameters = self.parameter_places();
+        let own = further
+            .iter()
+            .copied()
+            .chain(parameters.into_iter().map(|i| y[i]));
+        row[layout.own()]
+            .iter_mut()
+            .zip(own)
+            .for_each(|(entry, x)| *entry = x);
+        Ok(())
+    }
+
+    fn switching(&mut self, index: usize, t: f64, y: &[f64]) -> Result<f64, EvaluationFailure> {
+        let mut rates = std::mem::take(&mut self.rates);
+        let found = self.derivative(t, y, &mut rates);
+        self.rates = rates;
+        match found {
+            Ok(()) => self.watch.switching(index, t, y, &[], &self.rates),
+            Err(_) if self.watch.is_near(index, t, y, &[]) => Ok(0.0),
+            Err(failure) => Err(failure),
+        }
+    }
+
+    fn is_event(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
+        if self.evaluate(t, y).is_err() {
+            self.zero_between = true;
+            return true;
+        }
+        self.zero_between = self.watch.vanishes(index, t, y, &[]);
+        self.watch.is_near(index, t, y, &[])
+    }
+}
+
+impl WatchedFlow for JetFlow<'_> {
+    fn vanishes(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
+        self.zero_between || self.evaluate(t, y).is_err() || self.watch.vanishes(index, t, y, &[])
+    }
+
+    fn settled(&self) -> f64 {
+        self.settled
+    }
+}
