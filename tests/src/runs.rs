@@ -1,5 +1,6 @@
 //! One model through the public interface, with what the command line would say and how it would exit.
 
+use chetaev::mechanics::formulations::Routh;
 use chetaev::model::model::Output;
 use chetaev::model::{load, Diagnostics, Loaded, Model, NoFiles, Style};
 use chetaev::motion::observe::Observer;
@@ -150,6 +151,7 @@ pub fn again(study: &Study, times: Vec<f64>) -> Result<Run, String> {
     let subject = Subject {
         system: &study.system,
         terms: &study.prepared.terms,
+        selection: &study.prepared.selection,
         binding: &motion.binding,
         numeric: &numeric,
         start: &motion.start,
@@ -160,6 +162,6 @@ pub fn again(study: &Study, times: Vec<f64>) -> Result<Run, String> {
         ..motion.settings.clone()
     };
     subject
-        .routh(&settings, &mut Watcher::default())
+        .by(&Routh, &settings, &mut Watcher::default())
         .map_err(|e| e.to_string())
 }

@@ -105,8 +105,8 @@ pub enum CharacteristicsError {
         /// What they demand, as equations.
         demands: String,
     },
-    /// The wrong number of independent velocities.
-    #[error("{found} independent velocities were chosen, the system has {expected}")]
+    /// The wrong number of parameters.
+    #[error("{found} parameters of the characteristics are stated, and the system has {expected} degrees of freedom in the derivatives they parametrize")]
     WrongNumber {
         /// k.
         expected: usize,
@@ -170,6 +170,51 @@ impl Characteristics {
             }
             Err(source) => Err(not_solvable(&system.quasi_names(), source)),
         }
+    }
+
+    /// Characteristics by the formulas of the model; `None` where it states none. That they satisfy the constraints is a claim,
+    /// `order.characteristics`.
+    ///
+    /// # Errors
+    /// [`CharacteristicsError::WrongNumber`] where there are not k parameters.
+    pub fn stated(
+        system: &System,
+        terms: &MotionTerms,
+        selection: &Selection,
+    ) -> Option<Result<Characteristics, CharacteristicsError>> {
+        let stated = system.characteristics.as_ref()?;
+        let (expected, found) = (system.n() - selection.rows.len(), stated.parameters.len());
+        if expected != found {
+            return Some(Err(CharacteristicsError::WrongNumber { expected, found }));
+        }
+        let g = &system.graph;
+        let parameter = |name: &String| Speed {
+            name: name.clone(),
+            value: g.symbol(name, 0),
+            rate: g.symbol(name, 1),
+            symbol: g.intern_symbol(name, 0),
+            rate_symbol: g.intern_symbol(name, 1),
+            definition: g.symbol(name, 0),
+        };
+        let mut characteristics = Characteristics {
+            order: terms.order,
+            jets: terms.jets.clone(),
+            parameters: stated.parameters.iter().map(parameter).collect(),
+            velocities: stated.formulas.clone(),
+            independent: Vec::new(),
+            dependent: Vec::new(),
+            solved: Vec::new(),
+            basis: Vec::new(),
+            accelerations: Vec::new(),
+            acceleration_offset: Vec::new(),
+            rows: selection.rows.clone(),
+            manifold: Manifold::default(),
+            implicit: Vec::new(),
+            gradient: Vec::new(),
+            frame: Frame::natural_of(system, &terms.jets),
+        };
+        characteristics.finish(system);
+        Some(Ok(characteristics))
     }
 
     fn of_frame(

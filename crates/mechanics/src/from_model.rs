@@ -1,7 +1,8 @@
 //! From what a user states to a system.
 
 use crate::system::{
-    Assumption, FrameFields, Particle, Relation, System, SystemError, SystemParts,
+    Assumption, CharacteristicFormulas, FrameFields, Particle, Relation, System, SystemError,
+    SystemParts,
 };
 use chetaev_model::model::Model;
 use chetaev_symbolic::syntax::Relation as Stated;
@@ -52,6 +53,13 @@ impl System {
                 fields: frame.fields.clone(),
                 drift: frame.drift.clone(),
             }),
+            characteristics: model
+                .characteristics
+                .as_ref()
+                .map(|c| CharacteristicFormulas {
+                    parameters: c.parameters.clone(),
+                    formulas: c.formulas.clone(),
+                }),
             particles: model
                 .particles
                 .iter()

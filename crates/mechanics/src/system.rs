@@ -86,6 +86,15 @@ pub struct FrameFields {
     pub drift: Vec<Expr>,
 }
 
+/// Kinematic characteristics stated by formulas, `q^(m) = φ(t, q, …, q^(m-1), P)`, m the order of the constraints.
+#[derive(Clone, Debug)]
+pub struct CharacteristicFormulas {
+    /// Names of the parameters P.
+    pub parameters: Vec<String>,
+    /// φ by coordinate.
+    pub formulas: Vec<Expr>,
+}
+
 /// A particle: a mass at a place that the coordinates give, under an applied force.
 #[derive(Clone, Debug)]
 pub struct Particle {
@@ -152,6 +161,8 @@ pub struct SystemParts {
     pub quasi_velocities: Vec<(String, Expr)>,
     /// Fields of a moving frame, one for each quasi-velocity.
     pub frame: Option<FrameFields>,
+    /// Kinematic characteristics by formulas.
+    pub characteristics: Option<CharacteristicFormulas>,
     /// Particles; their applied forces count beside the generalized forces.
     pub particles: Vec<Particle>,
     /// Assumptions.
@@ -232,6 +243,8 @@ pub struct System {
     pub quasi_velocities: Vec<QuasiVelocity>,
     /// Fields of the user's moving frame, one for each quasi-velocity.
     pub frame: Option<FrameFields>,
+    /// Kinematic characteristics by formulas.
+    pub characteristics: Option<CharacteristicFormulas>,
     /// Particles of the model; their applied forces are contained in [`forces`](System::forces).
     pub particles: Vec<Particle>,
     /// Assumptions of the model.
@@ -313,6 +326,7 @@ impl System {
                 .map(|(name, definition)| QuasiVelocity { name, definition })
                 .collect(),
             frame: parts.frame,
+            characteristics: parts.characteristics,
             particles: parts.particles,
             assumptions: parts.assumptions,
             places: places(&parts.coordinates),

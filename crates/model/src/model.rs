@@ -61,6 +61,8 @@ pub struct Model {
     pub quasi_velocities: Vec<Definition>,
     /// The moving frame, where the model states its fields; field s belongs to quasi-velocity s.
     pub frame: Option<FrameFields>,
+    /// Kinematic characteristics, where the model states them by formulas.
+    pub characteristics: Option<CharacteristicFormulas>,
     /// Initial data.
     pub initial: Initial,
     /// How to compute the motion.
@@ -192,6 +194,19 @@ pub struct FrameFields {
     /// The components of X_0, the velocity where all quasi-velocities vanish; functions of q and t.
     pub drift: Vec<Expr>,
     /// Where it is stated.
+    pub place: Place,
+}
+
+/// Kinematic characteristics: q^(m) = φ(t, q, …, q^(m-1), P) for all coordinates, m the order of the constraints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CharacteristicFormulas {
+    /// Names of the parameters P.
+    pub parameters: Vec<String>,
+    /// m.
+    pub order: u32,
+    /// φ, by coordinate.
+    pub formulas: Vec<Expr>,
+    /// Where they are stated.
     pub place: Place,
 }
 

@@ -124,8 +124,8 @@ fn control_laws(system: &System) -> Result<Vec<(Expr, Expr)>, NumericError> {
 }
 
 impl NumericSystem {
-    /// Compiles the functions of a system with constraints of order one; beside constraints of higher order they are conditions
-    /// on coordinates and velocities.
+    /// Compiles the functions of a system. Beside constraints of higher order only those of order one are taken, as conditions on
+    /// coordinates and velocities.
     ///
     /// # Errors
     /// [`NumericError`].
@@ -134,6 +134,8 @@ impl NumericSystem {
         terms: &MotionTerms,
         binding: &Binding,
     ) -> Result<NumericSystem, NumericError> {
+        let lower = (terms.order > 1).then(|| MotionTerms::of_order(system, 1));
+        let terms = lower.as_ref().unwrap_or(terms);
         let g = &system.graph;
         let constraint = |row: usize| &system.constraints[terms.constraint_index[row]];
         let r = terms.constraints.len();

@@ -354,6 +354,12 @@ impl Subject<'_> {
         Ok(self.collect(name, layout, settings, pieces, ending, (None, followed)))
     }
 
+    /// Whether the formulation is stated in parameters of the user that no formula gives from the velocities.
+    fn is_parametrized(&self, formulation: &'static dyn Formulation) -> bool {
+        let name = formulation.card().name;
+        self.system.characteristics.is_some() && (name == "maggi" || name.starts_with("volterra"))
+    }
+
     /// Names of the constraints by row of the terms.
     fn constraint_names(&self) -> Vec<String> {
         let rows = self.terms.constraint_index.iter();
@@ -373,7 +379,7 @@ impl Subject<'_> {
         watcher: &mut Watcher<'_>,
     ) -> Result<Run, RunError> {
         let name = formulation.card().name;
-        if self.terms.order > 1 {
+        if self.terms.order > 1 || self.is_parametrized(formulation) {
             return self.on_jets(formulation, settings, watcher);
         }
         if name == REFERENCE {

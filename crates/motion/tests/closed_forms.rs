@@ -72,6 +72,7 @@ fn with_subject<R>(
     work(&Subject {
         system: &system,
         terms: &prepared.terms,
+        selection: &prepared.selection,
         binding: &binding,
         numeric: &numeric,
         start: &start,

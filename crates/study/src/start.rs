@@ -39,9 +39,7 @@ pub(crate) fn start_of_motion(
         };
     }
     let binding = Binding::new(system)?;
-    // Constraints of lower order are conditions on coordinates and velocities.
-    let lower = (terms.order > 1).then(|| MotionTerms::of_order(system, 1));
-    let mut numeric = NumericSystem::new(system, lower.as_ref().unwrap_or(terms), &binding)?;
+    let mut numeric = NumericSystem::new(system, terms, &binding)?;
     let data = initial_data(model, system, options)?;
     match consistent_state(&mut numeric, &data) {
         Ok(start) => {

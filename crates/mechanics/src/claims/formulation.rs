@@ -65,7 +65,9 @@ impl Claim for Equivalent {
         match derived {
             Ok((reference, other)) => {
                 let verdict = match &other.on_characteristics {
-                    Some((c, residuals)) if cx.terms.order > 1 => {
+                    Some((c, residuals))
+                        if cx.terms.order > 1 || cx.system.characteristics.is_some() =>
+                    {
                         order::equivalence(cx, c, residuals)
                     }
                     _ => equivalence(cx, &reference, &other),

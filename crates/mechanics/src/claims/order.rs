@@ -106,7 +106,10 @@ impl Claim for OrderCharacteristics {
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        of_higher_order(cx)
+        match cx.system.characteristics.is_some() {
+            true => vec![None],
+            false => of_higher_order(cx),
+        }
     }
 
     fn highest_order(&self, _: Option<&str>) -> u32 {
@@ -115,7 +118,7 @@ impl Claim for OrderCharacteristics {
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         let basis = basis(cx);
-        match basis.characteristics() {
+        match basis.kinematic_characteristics() {
             Ok(c) => admissible(cx, &c).into(),
             Err(problem) => Verdict::undecided(problem.to_string()).into(),
         }

@@ -42,7 +42,7 @@ impl Formulation for Maggi {
     }
 
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
-        let (system, characteristics) = (basis.system, basis.characteristics()?);
+        let (system, characteristics) = (basis.system, basis.kinematic_characteristics()?);
         let zero = system.graph.zero();
         let motion: Vec<Equation> = characteristics
             .parameters

@@ -108,6 +108,20 @@ impl Basis<'_> {
         }
     }
 
+    /// Kinematic characteristics: the formulas of the model where it states any, else as
+    /// [`characteristics`](Basis::characteristics).
+    ///
+    /// # Errors
+    /// [`CharacteristicsError`].
+    pub fn kinematic_characteristics(&self) -> Result<Characteristics, CharacteristicsError> {
+        if self.characteristics.is_none() {
+            if let Some(stated) = Characteristics::stated(self.system, self.terms, self.selection) {
+                return stated;
+            }
+        }
+        self.characteristics()
+    }
+
     /// Characteristics by independent velocities.
     ///
     /// # Errors

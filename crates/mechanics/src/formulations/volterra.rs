@@ -54,7 +54,7 @@ impl<'a> Volterra<'a> {
     /// T.
     pub(crate) fn generalized(basis: &Basis<'a>) -> Result<Volterra<'a>, DeriveError> {
         let (system, g) = (basis.system, &basis.system.graph);
-        let characteristics = basis.characteristics()?;
+        let characteristics = basis.kinematic_characteristics()?;
         let (kinetic, forces, meaning) = match stated_apart(system) {
             Some((kinetic, potential)) => {
                 let slopes = g.gradient(potential, &system.coordinate_symbols());
@@ -132,7 +132,7 @@ impl<'a> Volterra<'a> {
         let of = (kinetic, &forces[..]);
         Ok(Volterra {
             cartesian: true,
-            ..Volterra::new(system, basis.characteristics()?, of, meaning)
+            ..Volterra::new(system, basis.kinematic_characteristics()?, of, meaning)
         })
     }
 

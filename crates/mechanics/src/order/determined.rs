@@ -156,6 +156,17 @@ pub(crate) fn in_characteristics(
         let determined = for_parameters(system, c, &residuals, own_order);
         on_jets(name, basis, &determined)?
     };
+    if system.characteristics.is_some() {
+        // No formula gives the parameters from the velocities.
+        let own = parameters(c);
+        let open = equations.variables.iter_mut();
+        open.filter(|x| own.contains(&x.symbol))
+            .filter(|x| {
+                x.definition == Some(x.value)
+                    && system.coordinates.iter().all(|c| c.v_symbol != x.symbol)
+            })
+            .for_each(|x| x.definition = None);
+    }
     equations.on_characteristics = Some((c.clone(), residuals));
     Ok(equations)
 }

@@ -3,6 +3,7 @@
 //! Every section is read even where an earlier one has errors, so that all problems are reported at once; a value
 //! that could not be understood is known as such, and what uses it gives no second diagnostic.
 
+mod characteristics;
 mod declare;
 mod define;
 mod drawing;
@@ -65,6 +66,8 @@ pub(crate) struct Resolver {
     pub(crate) defines: Vec<define::Define>,
     /// The frame, whose quasi-velocities are among the definitions.
     pub(crate) frame: Option<frame::FrameStated>,
+    /// Names of the parameters of the user's characteristics.
+    pub(crate) characteristic_parameters: Vec<String>,
     /// Derivatives of definitions that were taken, by number and order.
     pub(crate) contents: RefCell<BTreeMap<(usize, u32), Contents>>,
     /// Every expression with what its dimension should be.
@@ -93,6 +96,7 @@ const SECTIONS: &[&str] = &[
     "velocities",
     "quasi_velocities",
     "frame",
+    "characteristics",
     "controls",
     "initial",
     "simulation",
@@ -122,6 +126,7 @@ pub(crate) fn resolve(
         controls: Vec::new(),
         defines: Vec::new(),
         frame: None,
+        characteristic_parameters: Vec::new(),
         contents: RefCell::default(),
         formulas: Vec::new(),
         unreadable_units: Vec::new(),
@@ -150,6 +155,7 @@ impl Resolver {
         let lagrangian = self.lagrangian(root, file, &particles);
         let (forces, rayleigh) = self.forces(root);
         let constraints = self.constraints(root);
+        let characteristics = self.characteristics(root, &constraints);
         let independent = self.independent_velocities(root);
         let initial = self.initial(root, &constraints);
         let simulation = self.simulation(root);
@@ -187,6 +193,7 @@ impl Resolver {
             independent,
             quasi_velocities: self.definitions(true),
             frame: self.frame.take().and_then(frame::FrameStated::solved),
+            characteristics,
             initial,
             simulation,
             integrals,
@@ -207,6 +214,7 @@ impl Resolver {
         self.declare_parameters(root);
         self.declare_defines(root);
         self.declare_frame(root);
+        self.declare_characteristics(root);
         self.resolve_parameters();
         self.resolve_defines();
         self.resolve_controls(root);

@@ -20,6 +20,7 @@ pub(crate) enum NamedKind {
     Control,
     Define(usize),
     Size(i64),
+    Characteristic,
 }
 
 impl NamedKind {
@@ -30,6 +31,7 @@ impl NamedKind {
             NamedKind::Control => "a control",
             NamedKind::Define(_) => "a definition",
             NamedKind::Size(_) => "a size",
+            NamedKind::Characteristic => "a parameter of the characteristics",
         }
     }
 }
@@ -52,6 +54,8 @@ pub(crate) struct Context {
     pub(crate) time: bool,
     /// Whether parameters may occur.
     pub(crate) parameters: bool,
+    /// Whether parameters of the characteristics may occur.
+    pub(crate) characteristics: bool,
     /// Advice where something that varies occurs and may not; may be empty.
     pub(crate) hint: &'static str,
 }
@@ -64,6 +68,7 @@ impl Context {
             coordinates: Some(1),
             time: true,
             parameters: true,
+            characteristics: false,
             hint: "",
         }
     }
@@ -75,6 +80,7 @@ impl Context {
             coordinates: Some(0),
             time: true,
             parameters: true,
+            characteristics: false,
             hint: "only coordinates, controls, parameters and the time may occur there",
         }
     }
@@ -91,7 +97,18 @@ impl Context {
             coordinates: Some(u32::MAX),
             time: true,
             parameters: true,
+            characteristics: false,
             hint: "",
+        }
+    }
+
+    /// The same up to derivatives of some order, with parameters of the characteristics.
+    pub(crate) const fn with_characteristics(self, most: u32) -> Self {
+        Context {
+            coordinates: Some(most),
+            characteristics: true,
+            hint: "derivatives of lower order than those the characteristics parametrize may occur there",
+            ..self
         }
     }
 
@@ -102,6 +119,7 @@ impl Context {
             coordinates: None,
             time: true,
             parameters: true,
+            characteristics: false,
             hint: "",
         }
     }
@@ -113,6 +131,7 @@ impl Context {
             coordinates: None,
             time: false,
             parameters: true,
+            characteristics: false,
             hint: "",
         }
     }
@@ -124,6 +143,7 @@ impl Context {
             coordinates: None,
             time: false,
             parameters: false,
+            characteristics: false,
             hint: "",
         }
     }
@@ -329,6 +349,14 @@ impl Scope for ModelScope<'_> {
             Some(NamedKind::Coordinate) => self.varying(name, order, "coordinate"),
             Some(NamedKind::Control) => self.varying(name, order, "control"),
             Some(NamedKind::Define(number)) => self.defined(name, number, order),
+            Some(NamedKind::Characteristic) if self.context.characteristics && order == 0 => {
+                Resolution::Known(resolver.graph.symbol(name, 0))
+            }
+            Some(NamedKind::Characteristic) => refused(
+                "not-allowed-here",
+                format!("`{name}` is a parameter of the characteristics and may not occur in {}", self.context.what),
+                "it occurs in the formulas of [characteristics] only, without primes",
+            ),
             Some(NamedKind::Size(value)) if order == 0 => Resolution::Known(resolver.graph.integer(value)),
             Some(NamedKind::Size(_)) => {
                 refused("derivative-of-constant", format!("`{name}` is a size, an integer, and has no derivative"), "")
@@ -352,6 +380,7 @@ impl Scope for ModelScope<'_> {
             NamedKind::Define(_) => 2,
             NamedKind::Control => 3,
             NamedKind::Size(_) => 4,
+            NamedKind::Characteristic => 5,
         };
         let mut names: Vec<(u8, &String)> = self
             .resolver

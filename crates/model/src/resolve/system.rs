@@ -533,7 +533,7 @@ impl Resolver {
         bindings: Bindings,
         assumptions: &mut Vec<Assumption>,
     ) {
-        let context = Context::jet("an assumption");
+        let context = Context::jet("an assumption").with_characteristics(u32::MAX);
         let sides: Vec<Option<Expr>> = parsed
             .sides
             .iter()
