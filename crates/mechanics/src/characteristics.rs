@@ -227,6 +227,8 @@ impl Characteristics {
             .zip(&direction.parameters)
             .map(|(p, &rate)| (p.symbol, rate))
             .collect();
+        // A mass with a law of its own changes with the motion, whatever the direction of q.
+        rates.extend(mass_rates(system, &self.velocities, direction.time));
         if !self.implicit.is_empty() {
             let of_f = derive_along(
                 system,
@@ -370,8 +372,21 @@ fn transposed(rows: usize, columns: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
         .collect()
 }
 
+/// The rates of the masses with a law of their own where t changes at the rate `time`, at given velocities.
+pub(crate) fn mass_rates(system: &System, velocities: &[Expr], time: Expr) -> Vec<(Symbol, Expr)> {
+    let g = &system.graph;
+    if system.masses.is_empty() || g.is_zero(time) {
+        return Vec::new();
+    }
+    let rates = system.mass_rates(velocities).into_iter();
+    rates
+        .map(|(symbol, rate)| (symbol, g.mul(&[time, rate])))
+        .collect()
+}
+
 /// The rates of functions when q moves along `coordinates`, t at the rate `time`, and further symbols at the rates given;
-/// every other symbol is a constant.
+/// every other symbol is a constant. A mass with a law of its own changes as at the velocities `coordinates`/`time`, unless
+/// its rate is among those given, and not at all where t does not.
 pub fn derive_along(
     system: &System,
     es: &[Expr],
@@ -380,7 +395,12 @@ pub fn derive_along(
     further: &[(Symbol, Expr)],
 ) -> Vec<Expr> {
     let g = &system.graph;
-    let mut rates: FxHashMap<Symbol, Expr> = further.iter().copied().collect();
+    let mut rates: FxHashMap<Symbol, Expr> = FxHashMap::default();
+    if !system.masses.is_empty() && !g.is_zero(time) {
+        let velocities: Vec<Expr> = coordinates.iter().map(|&v| g.div(v, time)).collect();
+        rates.extend(mass_rates(system, &velocities, time));
+    }
+    rates.extend(further.iter().copied());
     for (c, &rate) in system.coordinates.iter().zip(coordinates) {
         rates.insert(c.q_symbol, rate);
     }
@@ -389,13 +409,9 @@ pub fn derive_along(
         if let Some(&rate) = rates.get(&s) {
             return known(rate);
         }
-        let (name, order) = (g.symbol_name(s), g.symbol_order(s));
-        if name == "t" && order == 0 {
-            known(time)
-        } else if system.controls.iter().any(|u| u.name == name) {
-            known(g.mul(&[time, g.symbol(name, order + 1)]))
-        } else {
-            None
+        match system.masses.iter().any(|m| m.symbol == s) {
+            true => None,
+            false => known(g.mul(&[time, system.prescribed_rate(s)?])),
         }
     })
 }

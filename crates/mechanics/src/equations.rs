@@ -118,7 +118,8 @@ impl StateVariable {
 
 /// The equations of motion in one formulation.
 ///
-/// Its first-order system has the state (q, variables): `q' = velocities`, `variables' = rates`.
+/// Its first-order system has the state (q, masses with a law of their own, variables): `q' = velocities`,
+/// `variables' = rates`.
 #[derive(Clone, Debug)]
 pub struct Equations {
     /// Name of the formulation in the registry.
@@ -133,6 +134,8 @@ pub struct Equations {
     pub velocities: Vec<Expr>,
     /// q'' as functions of the state; length n.
     pub accelerations: Vec<Expr>,
+    /// Masses with a law of their own, which are states too, with their rates as functions of the state.
+    pub masses: Vec<(Symbol, Expr)>,
     /// Relations between the variables that hold along every motion, with the variable each determines: `f = 0` for
     /// dependent velocities that stay symbols.
     pub relations: Vec<(Expr, Symbol)>,
@@ -161,6 +164,7 @@ impl Equations {
             objects: Vec::new(),
             variables,
             velocities: system.coordinates.iter().map(|c| c.v).collect(),
+            masses: system.masses.iter().map(|m| (m.symbol, m.rate)).collect(),
             accelerations,
             relations: Vec::new(),
             multipliers: Vec::new(),
@@ -209,6 +213,7 @@ impl Equations {
             objects: Vec::new(),
             variables,
             velocities: characteristics.velocities.clone(),
+            masses: system.mass_rates(&characteristics.velocities),
             accelerations: g.substitute_all(&characteristics.accelerations, &known),
             relations: implicit.iter().map(|(f, s)| (*f, s.symbol)).collect(),
             multipliers: Vec::new(),
@@ -231,6 +236,7 @@ impl Equations {
             objects: Vec::new(),
             accelerations: derive_along(system, &velocities, &velocities, one, &rates),
             variables,
+            masses: system.mass_rates(&velocities),
             velocities,
             relations: Vec::new(),
             multipliers: Vec::new(),

@@ -9,6 +9,7 @@
 use super::{bare, maggi, Basis, DeriveError, Identity};
 use crate::characteristics::Characteristics;
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::mass;
 use crate::particles;
 use crate::system::System;
 use chetaev_symbolic::Expr;
@@ -34,6 +35,8 @@ pub(crate) struct Volterra<'a> {
     slopes: Vec<Expr>,
     /// Ẽ_σ, length k.
     forces: Vec<Expr>,
+    /// Ψ̃_σ, length k.
+    reactive: Vec<Expr>,
     /// What T is.
     meaning: &'static str,
 }
@@ -47,14 +50,14 @@ impl<'a> Volterra<'a> {
         let (kinetic, forces, meaning) = match stated_apart(system) {
             Some((kinetic, potential)) => {
                 let slopes = g.gradient(potential, &system.coordinate_symbols());
-                let pairs = system.forces.iter().zip(slopes);
-                let forces = pairs.map(|(&force, slope)| g.sub(force, slope)).collect();
+                let pairs = without_reactive(system).into_iter().zip(slopes);
+                let forces = pairs.map(|(force, slope)| g.sub(force, slope)).collect();
                 let meaning = "kinetic energy with the velocities of the characteristics";
                 (kinetic, forces, meaning)
             }
             None => (
                 system.lagrangian,
-                system.forces.clone(),
+                without_reactive(system),
                 "Lagrangian, in the place of the kinetic energy, with the velocities of the characteristics",
             ),
         };
@@ -62,7 +65,9 @@ impl<'a> Volterra<'a> {
         functions.extend(g.gradient(kinetic, &system.velocity_symbols()));
         functions.extend(g.gradient(kinetic, &system.coordinate_symbols()));
         functions.extend(forces);
+        functions.extend(&system.reactive_forces);
         let mut restricted = characteristics.restrict(system, &functions);
+        let reactive = restricted.split_off(1 + 3 * system.n());
         let forces = restricted.split_off(1 + 2 * system.n());
         let slopes = restricted.split_off(1 + system.n());
         let momenta = restricted.split_off(1);
@@ -73,6 +78,7 @@ impl<'a> Volterra<'a> {
             momenta,
             slopes,
             forces: characteristics.contract(system, &forces),
+            reactive: characteristics.contract(system, &reactive),
             characteristics,
             meaning,
         })
@@ -102,6 +108,7 @@ impl<'a> Volterra<'a> {
             .map(|(applied, further)| g.add(&[applied, further]))
             .collect();
         let forces = characteristics.restrict(system, &forces);
+        let reactive = characteristics.restrict(system, &mass::reactive_forces(system));
         Ok(Volterra {
             system,
             order: 1,
@@ -109,6 +116,7 @@ impl<'a> Volterra<'a> {
             momenta,
             slopes: vec![g.zero(); system.n()],
             forces: characteristics.contract(system, &forces),
+            reactive: characteristics.contract(system, &reactive),
             characteristics,
             meaning: "kinetic energy of the particles with the velocities of the characteristics",
         })
@@ -167,9 +175,9 @@ impl<'a> Volterra<'a> {
         let motion: Vec<Equation> = self
             .left_sides(form)
             .into_iter()
-            .zip(&self.forces)
+            .zip(self.right_sides())
             .zip(&c.parameters)
-            .map(|((left, &right), p)| Equation {
+            .map(|((left, right), p)| Equation {
                 label: p.name.clone(),
                 left,
                 right,
@@ -182,6 +190,15 @@ impl<'a> Volterra<'a> {
             .with_objects(self.objects(form)))
     }
 
+    /// Ẽ_σ + Ψ̃_σ.
+    fn right_sides(&self) -> Vec<Expr> {
+        let g = &self.system.graph;
+        let pairs = self.forces.iter().zip(&self.reactive);
+        pairs
+            .map(|(&force, &reactive)| g.add(&[force, reactive]))
+            .collect()
+    }
+
     fn objects(&self, form: Form) -> Vec<NamedExpr> {
         let (system, c) = (self.system, &self.characteristics);
         let mut objects = vec![NamedExpr::new("Ttilde", self.restricted, self.meaning)];
@@ -189,14 +206,16 @@ impl<'a> Volterra<'a> {
             let meaning = format!("momentum of {} before the restriction", coordinate.name);
             objects.push(NamedExpr::new(format!("p_{}", coordinate.name), p, meaning));
         }
-        for (p, &force) in c.parameters.iter().zip(&self.forces) {
-            if !system.graph.is_zero(force) {
-                let meaning = format!("force along {}", p.name);
-                objects.push(NamedExpr::new(
-                    format!("Etilde_{}", bare(&p.name)),
-                    force,
-                    meaning,
-                ));
+        for (name, word, values) in [
+            ("Etilde", "force", &self.forces),
+            ("Psitilde", "reactive force", &self.reactive),
+        ] {
+            for (p, &value) in c.parameters.iter().zip(values) {
+                if !system.graph.is_zero(value) {
+                    let meaning = format!("{word} along {}", p.name);
+                    let name = format!("{name}_{}", bare(&p.name));
+                    objects.push(NamedExpr::new(name, value, meaning));
+                }
             }
         }
         objects.extend(maggi::virtual_basis(system, c));
@@ -228,9 +247,9 @@ impl<'a> Volterra<'a> {
         let residuals = self
             .left_sides(form)
             .into_iter()
-            .zip(&self.forces)
+            .zip(self.right_sides())
             .zip(maggi)
-            .map(|((left, &force), maggi)| g.add(&[left, g.neg(force), g.neg(maggi)]))
+            .map(|((left, force), maggi)| g.add(&[left, g.neg(force), g.neg(maggi)]))
             .collect();
         let (lemma, statement) = match form {
             Form::First => (
@@ -286,6 +305,14 @@ impl<'a> Volterra<'a> {
             })
             .collect()
     }
+}
+
+/// Q without Ψ.
+fn without_reactive(system: &System) -> Vec<Expr> {
+    let pairs = system.forces.iter().zip(&system.reactive_forces);
+    pairs
+        .map(|(&force, &reactive)| system.graph.sub(force, reactive))
+        .collect()
 }
 
 /// `∂F/∂π_σ` with the parameters fixed, σ = 1..k, of a function F on the jet (t, q, P) with a name for the program and one

@@ -8,6 +8,7 @@ mod define;
 mod drawing;
 pub(crate) mod formula;
 pub(crate) mod frame;
+mod masses;
 mod parameters;
 mod particles;
 mod run;
@@ -63,6 +64,8 @@ pub(crate) struct Resolver {
     pub(crate) controls: Vec<Control>,
     /// Definitions and quasi-velocities; both may be used by name.
     pub(crate) defines: Vec<define::Define>,
+    /// Named masses, whose values and rates are among the definitions.
+    pub(crate) masses: Vec<masses::MassStated>,
     /// The frame, whose quasi-velocities are among the definitions.
     pub(crate) frame: Option<frame::FrameStated>,
     /// Derivatives of definitions that were taken, by number and order.
@@ -87,8 +90,10 @@ const SECTIONS: &[&str] = &[
     "assumptions",
     "define",
     "lagrangian",
+    "masses",
     "particles",
     "forces",
+    "reactive_forces",
     "constraints",
     "velocities",
     "quasi_velocities",
@@ -121,6 +126,7 @@ pub(crate) fn resolve(
         stated: Vec::new(),
         controls: Vec::new(),
         defines: Vec::new(),
+        masses: Vec::new(),
         frame: None,
         contents: RefCell::default(),
         formulas: Vec::new(),
@@ -149,6 +155,7 @@ impl Resolver {
         let particles = self.particles(root);
         let lagrangian = self.lagrangian(root, file, &particles);
         let (forces, rayleigh) = self.forces(root);
+        let reactive_forces = self.reactive_forces(root);
         let constraints = self.constraints(root);
         let independent = self.independent_velocities(root);
         let initial = self.initial(root, &constraints);
@@ -164,6 +171,7 @@ impl Resolver {
         let history = self.prose(root, "history");
         let source = self.references(root);
         let lagrangian = lagrangian?;
+        let masses = self.masses();
         Some(Model {
             time: self.graph.symbol("t", 0),
             graph: Arc::clone(&self.graph),
@@ -176,12 +184,15 @@ impl Resolver {
             controls: std::mem::take(&mut self.controls),
             assumptions,
             defines: self.definitions(false),
+            masses,
+            inertia_by_masses: lagrangian.by_masses,
             particles,
             kinetic_from_particles: lagrangian.from_particles,
             kinetic: lagrangian.kinetic,
             potential: lagrangian.potential,
             lagrangian: lagrangian.total,
             forces,
+            reactive_forces,
             rayleigh,
             constraints,
             independent,
@@ -205,10 +216,12 @@ impl Resolver {
         self.declare_coordinates(root, file);
         self.declare_controls(root);
         self.declare_parameters(root);
+        self.declare_masses(root);
         self.declare_defines(root);
         self.declare_frame(root);
         self.resolve_parameters();
         self.resolve_defines();
+        self.resolve_masses();
         self.resolve_controls(root);
         self.unused_overrides();
     }
@@ -218,7 +231,8 @@ impl Resolver {
         let mut chosen: Vec<&define::Define> = self
             .defines
             .iter()
-            .filter(|define| (define.kind != define::DefineKind::Definition) == quasi)
+            .filter(|define| define.is_quasi_velocity() == quasi)
+            .filter(|define| define.kind != define::DefineKind::MassRate)
             .collect();
         chosen.sort_by_key(|define| if quasi { 0 } else { define.rank });
         chosen
@@ -333,7 +347,6 @@ fn near_key<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {
         ("potential", "V"),
         ("dissipation", "rayleigh"),
         ("quasi-velocities", "quasi_velocities"),
-        ("masses", "particles"),
         ("points", "particles"),
         ("moving_frame", "frame"),
         ("vectors", "fields"),
@@ -341,6 +354,12 @@ fn near_key<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {
         ("r", "position"),
         ("m", "mass"),
         ("F", "force"),
+        ("u", "relative_velocity"),
+        ("w", "absolute_velocity"),
+        ("R", "force"),
+        ("law", "rate"),
+        ("start", "initial"),
+        ("reactive", "reactive_forces"),
         ("X_0", "drift"),
         ("inputs", "controls"),
         ("initial_conditions", "initial"),
