@@ -267,6 +267,24 @@ impl Equations {
         self
     }
 
+    /// The laws of the masses that have one, as a group of equations `M' = Φ`; `None` without such masses.
+    pub fn laws_of_masses(&self, system: &System) -> Option<EquationGroup> {
+        let g = &system.graph;
+        let masses = system.masses.iter().zip(&self.masses);
+        let laws: Vec<Equation> = masses
+            .map(|(m, &(_, right))| Equation {
+                label: m.name.clone(),
+                left: g.symbol(&m.name, 1),
+                right,
+            })
+            .collect();
+        (!laws.is_empty()).then(|| EquationGroup {
+            title: "masses".into(),
+            schema: None,
+            equations: laws,
+        })
+    }
+
     /// The rates of the variables.
     pub fn rates(&self) -> Vec<Expr> {
         self.variables.iter().map(|x| x.rate).collect()

@@ -160,12 +160,12 @@ pub(crate) fn left_sides(system: &System) -> Vec<Expr> {
     let g = &system.graph;
     let rest = g.sub(system.lagrangian, particles::kinetic_energy(system));
     let beside = system.left_sides_of(rest);
-    let applied = particles::applied_forces(system);
+    let own = particles::own_forces(system);
     particle_law(system)
         .into_iter()
         .enumerate()
         .map(|(s, law)| {
-            let further = g.sub(system.forces[s], applied[s]);
+            let further = g.sub(system.forces[s], own[s]);
             g.add(&[law, beside[s], g.neg(further)])
         })
         .collect()

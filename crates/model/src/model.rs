@@ -449,6 +449,14 @@ impl Model {
         })
     }
 
+    /// The initial value of a mass with a law of its own.
+    pub fn initial_mass(&self, name: &str) -> Option<Expr> {
+        self.masses.iter().find_map(|mass| match mass.law {
+            MassLaw::Rate { initial, .. } if mass.name == name => Some(initial),
+            _ => None,
+        })
+    }
+
     /// Symbols of the parameters with their values, where they have one: the input of a substitution.
     pub fn parameter_values(&self) -> Vec<(Expr, Expr)> {
         self.parameters

@@ -170,6 +170,9 @@ pub(crate) trait WatchedFlow: chetaev_integrate::System {
     /// Whether watched quantity `index` vanishes at the state y, where the integrator has found its minimum.
     fn vanishes(&mut self, index: usize, t: f64, y: &[f64]) -> bool;
 
+    /// The watched mass that is about to vanish at the state y, and when.
+    fn lost_mass(&mut self, t: f64, y: &[f64]) -> Option<(usize, f64)>;
+
     /// The time of the last accepted state from which constraints are followed.
     fn settled(&self) -> f64;
 }
@@ -227,7 +230,7 @@ impl Subject<'_> {
                 let names = stop::Names {
                     coordinates: &self.numeric.coordinates,
                     constraints: &self.numeric.constraints,
-                    state: stop::component_names(&self.numeric.coordinates, kind, chart),
+                    state: stop::component_names(self.numeric, kind, chart),
                 };
                 stop::ending(&stop, &names, pivot)
             }
@@ -237,7 +240,7 @@ impl Subject<'_> {
             && (kind == StateKind::Full || !self.numeric.holonomic.is_empty()))
         .then(|| flow.drift.clone());
         let followed = flow.follow.take();
-        let layout = (RowLayout::new(self.numeric.n, self.numeric.r), Vec::new());
+        let layout = (flow.layout(), Vec::new());
         Ok(self.collect("routh", layout, settings, pieces, ending, (drift, followed)))
     }
 
@@ -293,6 +296,14 @@ impl Subject<'_> {
                     return Ok((pieces, End::Vanished(ending)));
                 }
             }
+            let singular = !matches!(
+                stop,
+                Stop::Finished | Stop::Interrupted { .. } | Stop::Event { .. }
+            );
+            if let Some((index, t)) = flow.lost_mass(t, &y).filter(|_| singular) {
+                let ending = stop::vanished(&watched[index], t, &self.numeric.constraints);
+                return Ok((pieces, End::Vanished(ending)));
+            }
             return Ok((pieces, End::Stopped(stop, t, y)));
         }
     }
@@ -323,6 +334,7 @@ impl Subject<'_> {
             End::Vanished(ending) => ending,
             End::Stopped(stop, ..) => {
                 let mut state = self.numeric.coordinates.clone();
+                state.extend_from_slice(&self.numeric.masses);
                 state.extend_from_slice(flow.variables());
                 let names = stop::Names {
                     coordinates: &self.numeric.coordinates,
@@ -505,7 +517,7 @@ impl Subject<'_> {
         options.step_limit = 10_000;
         let span = (self.start.t, settings.t_end);
         let solution = integrate(&mut flow, span, &y0, &mut [], options).ok()?;
-        let layout = RowLayout::new(self.numeric.n, self.numeric.r);
+        let layout = flow.layout();
         let row = solution.rows.get(..layout.v().end)?;
         (solution.stop == Stop::Finished).then(|| row.to_vec())
     }

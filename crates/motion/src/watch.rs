@@ -1,4 +1,4 @@
-//! Quantities whose vanishing makes the equations of motion singular: gradients of constraints, radicands, denominators.
+//! Quantities whose vanishing makes the equations of motion singular: gradients of constraints, masses, radicands, denominators.
 //!
 //! An integrator can step across such a point without noticing (pursuit at the moment of capture). Each watched quantity
 //! is non-negative; a local minimum along the motion that is zero to the accuracy of the run stops it.
@@ -6,8 +6,9 @@
 use crate::functions::{Functions, FunctionsError};
 use crate::numeric::Binding;
 use chetaev_integrate::EvaluationFailure;
+use chetaev_mechanics::system::Thrust;
 use chetaev_mechanics::terms::freeze_accelerations;
-use chetaev_mechanics::{MotionTerms, System};
+use chetaev_mechanics::{mass, particles, MotionTerms, System};
 use chetaev_symbolic::{rational, Expr, Node};
 
 /// What vanishes.
@@ -17,6 +18,16 @@ pub enum Watched {
     Gradient {
         /// The row.
         row: usize,
+    },
+    /// The square of a mass.
+    Mass {
+        /// Of the particle, or of the mass with a law of its own.
+        name: String,
+    },
+    /// The squared velocity of a particle with thrust against it.
+    Speed {
+        /// The particle.
+        particle: String,
     },
     /// The argument of a root, or the square of a denominator.
     Expression {
@@ -41,6 +52,8 @@ const NEAR: f64 = 1e-2;
 const ZERO: f64 = 1e-12;
 /// Rates below this, relative to the largest value, count as none.
 const FLAT: f64 = 1e-12;
+/// A mass that would be zero this soon, relative to the time, has ended the run.
+const SOON: f64 = 1e-3;
 const MOST: usize = 12;
 
 impl Watch {
@@ -59,6 +72,8 @@ impl Watch {
             let squares: Vec<Expr> = gradient.iter().map(|&e| g.powi(e, 2)).collect();
             found.push((Watched::Gradient { row }, g.add(&squares)));
         }
+        found.extend(masses(system));
+        found.extend(speeds(system));
         let mut roots = terms.constraints.clone();
         roots.push(system.lagrangian);
         for e in g.reachable(&roots) {
@@ -124,6 +139,30 @@ impl Watch {
         Ok(if rate.abs() < FLAT { -FLAT } else { rate })
     }
 
+    /// The mass that a run lost which ended near (t, q, v), with the time at which it reaches zero at its present rate: the
+    /// velocities may grow without bound before the mass is zero to rounding.
+    pub fn lost_mass(&mut self, t: f64, q: &[f64], v: &[f64], a: &[f64]) -> Option<(usize, f64)> {
+        self.functions.evaluate(t, &[q, v]).ok()?;
+        let (values, drift, slopes) = (
+            self.functions.group(0),
+            self.functions.group(1),
+            self.functions.group(2),
+        );
+        let masses = self.quantities.iter().enumerate();
+        let mut lost = masses.filter_map(|(index, what)| {
+            let small = values[index] <= NEAR * self.reference[index];
+            if !matches!(what, Watched::Mass { .. }) || !small {
+                return None;
+            }
+            let slope = &slopes[index * self.n..(index + 1) * self.n];
+            let along: f64 = slope.iter().zip(a).map(|(s, a)| s * a).sum();
+            // The square of a mass has twice the relative rate of the mass.
+            let left = -2.0 * values[index] / (drift[index] + along);
+            (left.abs() <= SOON * (1.0 + t.abs())).then_some((index, t + left))
+        });
+        lost.next()
+    }
+
     /// Whether quantity `index` is small enough at (t, q, v) for its minimum to be looked at closely.
     pub fn is_near(&mut self, index: usize, t: f64, q: &[f64], v: &[f64]) -> bool {
         match self.functions.evaluate(t, &[q, v]) {
@@ -139,6 +178,41 @@ impl Watch {
             Err(_) => true,
         }
     }
+}
+
+/// The squares of the masses that vary, each once.
+fn masses(system: &System) -> Vec<(Watched, Expr)> {
+    let g = &system.graph;
+    let of_particles = system.particles.iter().map(|p| (&p.name, p.mass));
+    let own = system.masses.iter().map(|m| (&m.name, m.expr));
+    let mut seen: Vec<Expr> = Vec::new();
+    let mut found = Vec::new();
+    for (name, value) in own.chain(of_particles) {
+        if !mass::varies(system, value) || seen.contains(&value) {
+            continue;
+        }
+        seen.push(value);
+        let name = name.clone();
+        found.push((Watched::Mass { name }, g.powi(value, 2)));
+    }
+    found
+}
+
+/// The squared velocities of the particles with thrust against them.
+fn speeds(system: &System) -> Vec<(Watched, Expr)> {
+    let g = &system.graph;
+    let driven = system
+        .particles
+        .iter()
+        .filter(|p| matches!(p.thrust, Thrust::ExhaustSpeed(_)) && mass::varies(system, p.mass));
+    driven
+        .map(|p| {
+            let components = particles::velocity(system, p).into_iter();
+            let squares: Vec<Expr> = components.map(|e| g.powi(e, 2)).collect();
+            let particle = p.name.clone();
+            (Watched::Speed { particle }, g.add(&squares))
+        })
+        .collect()
 }
 
 /// The base of a root; the square of the base of a negative power.
