@@ -69,7 +69,7 @@ pub fn further_forces(system: &System) -> Vec<Expr> {
 }
 
 /// The applied and reactive forces of the particles, as far as they are contained in the forces of the system.
-pub(crate) fn own_forces(system: &System) -> Vec<Expr> {
+pub fn own_forces(system: &System) -> Vec<Expr> {
     let applied = applied_forces(system);
     if mass::with_velocity(system).is_some() {
         return applied;

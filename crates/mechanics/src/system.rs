@@ -572,6 +572,14 @@ impl System {
         g.add(&parts)
     }
 
+    /// Q + Ψ on the jet (q, v, a, t), with accelerations where a mass contains velocities.
+    pub fn all_forces(&self) -> Vec<Expr> {
+        match mass::with_velocity(self) {
+            None => self.forces.clone(),
+            Some(_) => sums(&self.graph, &self.forces, &mass::reactive_forces(self)),
+        }
+    }
+
     /// Euler's operator with the sign of Lagrange's left side: `D(∂L/∂vⁱ) - ∂L/∂qⁱ` on the jet (q, v, a, t).
     pub fn lagrange_left_sides(&self) -> Vec<Expr> {
         self.left_sides_of(self.lagrangian)

@@ -90,7 +90,10 @@ fn laws_may_need_each_other_but_not_in_a_circle() {
         "S = \"3 + x^2\"",
         "S = 3\nA = { rate = \"2 B'\", initial = 1 }\nB = { rate = \"A'\", initial = 1 }",
     );
-    refused(&circle, &["the definitions of `A'` and `B'` need each other"]);
+    refused(
+        &circle,
+        &["the definitions of `A'` and `B'` need each other"],
+    );
 }
 
 #[test]
@@ -100,9 +103,17 @@ fn all_thrusts_are_read() {
         model(&text).particles[0].thrust.clone()
     };
     assert_eq!(with("\"isotropic\""), Thrust::Isotropic);
-    assert!(matches!(with("{ relative_velocity = [\"c\", 0] }"), Thrust::RelativeVelocity(u) if u.len() == 2));
-    assert!(matches!(with("{ absolute_velocity = [0, \"x'\"] }"), Thrust::AbsoluteVelocity(_)));
-    assert!(matches!(with("{ force = [0, \"M c t\"] }"), Thrust::Force(_)));
+    assert!(
+        matches!(with("{ relative_velocity = [\"c\", 0] }"), Thrust::RelativeVelocity(u) if u.len() == 2)
+    );
+    assert!(matches!(
+        with("{ absolute_velocity = [0, \"x'\"] }"),
+        Thrust::AbsoluteVelocity(_)
+    ));
+    assert!(matches!(
+        with("{ force = [0, \"M c t\"] }"),
+        Thrust::Force(_)
+    ));
     let left_out = ROCKET.replace("thrust = { exhaust_speed = \"c\" }\n", "");
     assert_eq!(model(&left_out).particles[0].thrust, Thrust::Isotropic);
 }
@@ -117,28 +128,104 @@ fn what_is_wrong_is_said_at_its_place() {
     changed(
         thrust,
         "{ exhaust_speed = \"c\", force = [0, 0] }",
-        &["the thrust is stated twice, by `exhaust_speed` and by `force`", "model.toml:10:35", "leave one"],
+        &[
+            "the thrust is stated twice, by `exhaust_speed` and by `force`",
+            "model.toml:10:33",
+            "leave one",
+        ],
     );
     changed(
         thrust,
         "{ relative_velocity = [\"c\"] }",
-        &["as many components as its position, 2, not 1", "model.toml:10:32"],
+        &[
+            "as many components as its position, 2, not 1",
+            "model.toml:10:32",
+        ],
     );
-    changed(thrust, "{ speed = \"c\" }", &["`speed` is no key of a thrust"]);
-    changed(thrust, "{}", &["the thrust of a particle is empty", "exhaust_speed"]);
-    changed(thrust, "\"isotrop\"", &["is \"isotropic\", or a table with one key"]);
-    changed(thrust, "{ exhaust_speed = \"x''\" }", &["`x''` may not occur in a velocity of matter"]);
-    changed(", initial = \"2 k\"", "", &["`M` has a law of its own and needs its `initial` value", "model.toml:5:1"]);
-    changed("rate = \"-k M\", ", "", &["has no `rate`", "state the law of its own"]);
-    changed("rate = \"-k M\"", "rate = \"-k M\", value = 3", &["by its `value` or by its `rate`, not by both"]);
-    changed("-k M\"", "-k M x''\"", &["`x''` may not occur in the rate of a mass", "model.toml:5:20"]);
-    changed("\"2 k\"", "\"2 k x\"", &["the coordinate `x` may not occur in the initial value of a mass"]);
-    changed("\"2 k\"", "\"-k\"", &["the mass `M` must begin with a positive value"]);
-    changed("S = ", "x = ", &["`x` is a coordinate already, and cannot name a mass too"]);
-    changed("[\"x\", \"y\"]\nthrust", "[\"x M\", \"y\"]\nthrust", &["the mass `M` has a law of its own and may not occur in the position"]);
-    changed("[integrals]", "[constraints]\nc = \"M x' = y'\"\n[integrals]", &["may not occur in a constraint", "the kinematics cannot depend on it"]);
-    changed("[integrals]", "[quasi_velocities]\nu = \"M x'\"\n[integrals]", &["may not occur in a quasi-velocity"]);
-    changed("k = 0.1", "k = \"M\"", &["the mass `M` may not occur in the value of a parameter, which is constant"]);
+    changed(
+        thrust,
+        "{ speed = \"c\" }",
+        &["`speed` is no key of a thrust"],
+    );
+    changed(
+        thrust,
+        "{}",
+        &["the thrust of a particle is empty", "exhaust_speed"],
+    );
+    changed(
+        thrust,
+        "\"isotrop\"",
+        &["is \"isotropic\", or a table with one key"],
+    );
+    changed(
+        thrust,
+        "{ exhaust_speed = \"x''\" }",
+        &["`x''` may not occur in a velocity of matter"],
+    );
+    changed(
+        ", initial = \"2 k\"",
+        "",
+        &[
+            "`M` has a law of its own and needs its `initial` value",
+            "model.toml:5:1",
+        ],
+    );
+    changed(
+        "rate = \"-k M\", ",
+        "",
+        &["has no `rate`", "state the law of its own"],
+    );
+    changed(
+        "rate = \"-k M\"",
+        "rate = \"-k M\", value = 3",
+        &["by its `value` or by its `rate`, not by both"],
+    );
+    changed(
+        "-k M\"",
+        "-k M x''\"",
+        &[
+            "`x''` may not occur in the rate of a mass",
+            "model.toml:5:20",
+        ],
+    );
+    changed(
+        "\"2 k\"",
+        "\"2 k x\"",
+        &["the coordinate `x` may not occur in the initial value of a mass"],
+    );
+    changed(
+        "\"2 k\"",
+        "\"-k\"",
+        &["the mass `M` must begin with a positive value"],
+    );
+    changed(
+        "S = ",
+        "x = ",
+        &["`x` is a coordinate already, and cannot name a mass too"],
+    );
+    changed(
+        "[\"x\", \"y\"]\nthrust",
+        "[\"x M\", \"y\"]\nthrust",
+        &["the mass `M` has a law of its own and may not occur in the position"],
+    );
+    changed(
+        "[integrals]",
+        "[constraints]\nc = \"M x' = y'\"\n[integrals]",
+        &[
+            "may not occur in a constraint",
+            "the kinematics cannot depend on it",
+        ],
+    );
+    changed(
+        "[integrals]",
+        "[quasi_velocities]\nu = \"M x'\"\n[integrals]",
+        &["may not occur in a quasi-velocity"],
+    );
+    changed(
+        "k = 0.1",
+        "k = \"M\"",
+        &["the mass `M` may not occur in the value of a parameter, which is constant"],
+    );
 }
 
 #[test]
@@ -199,15 +286,31 @@ fn units_of_masses_and_thrust_are_checked() {
         assert!(WITH_UNITS.contains(from), "{from}");
         refused(&WITH_UNITS.replace(from, to), words);
     };
-    changed("rate = \"-k\"", "rate = \"-k t\"", &["`M'` has the dimension kg/s, and this has kg"]);
-    changed("M + k t", "M + k", &["terms of different dimension, kg and kg/s"]);
-    changed("[\"-c\"]", "[\"-c t\"]", &["a velocity of matter has the dimension m/s, and this has m"]);
+    changed(
+        "rate = \"-k\"",
+        "rate = \"-k t\"",
+        &["`M'` has the dimension kg/s, and this has kg"],
+    );
+    changed(
+        "M + k t",
+        "M + k",
+        &["terms of different dimension, kg and kg/s"],
+    );
+    changed(
+        "[\"-c\"]",
+        "[\"-c t\"]",
+        &["a velocity of matter has the dimension m/s, and this has m"],
+    );
     changed(
         "{ relative_velocity = [\"-c\"] }",
         "{ force = [\"-c\"] }",
         &["the force on a particle has the dimension kg m/s^2, and this has m/s"],
     );
-    changed("initial = 3, unit = \"kg\"", "initial = 3, unit = \"g\"", &["without prefix, not in `g`", "state it in kg"]);
+    changed(
+        "initial = 3, unit = \"kg\"",
+        "initial = 3, unit = \"g\"",
+        &["without prefix, not in `g`", "state it in kg"],
+    );
 }
 
 /// T with named masses as symbols, through definitions and their derivatives.
@@ -223,12 +326,23 @@ lagrangian = { T = "1/2 I x'^2 + p x'" }
     );
     let by_masses = model.inertia_by_masses.unwrap();
     let g = &model.graph;
-    let expected = g.mul(&[g.symbol("M", 0), model.expression("x^2 x'^2/2 + 2 x x'^2").unwrap()]);
+    let expected = g.mul(&[
+        g.symbol("M", 0),
+        model.expression("x^2 x'^2/2 + 2 x x'^2").unwrap(),
+    ]);
     let expected = g.add(&[expected, model.expression("-x^2 x'").unwrap()]);
     let difference = g.sub(by_masses, expected);
     let verdict = decide_zero(g, &ZeroTest::everywhere(&[difference], &Assumptions::new()));
-    assert!(matches!(verdict, Verdict::Proved(_)), "{}", g.text(by_masses));
-    same(&model, model.kinetic.unwrap(), "(3 - t) (x^2 x'^2/2 + 2 x x'^2) - x^2 x'");
+    assert!(
+        matches!(verdict, Verdict::Proved(_)),
+        "{}",
+        g.text(by_masses)
+    );
+    same(
+        &model,
+        model.kinetic.unwrap(),
+        "(3 - t) (x^2 x'^2/2 + 2 x x'^2) - x^2 x'",
+    );
 }
 
 #[test]
@@ -242,14 +356,21 @@ fn the_builder_states_masses() {
         .particle("b", "M", ["2 x"])
         .particle_thrust("b", "isotropic")
         .build();
-    let model = built.model.unwrap_or_else(|| panic!("{}", built.diagnostics));
-    assert!(matches!(model.particles[0].thrust, Thrust::AbsoluteVelocity(_)));
+    let model = built
+        .model
+        .unwrap_or_else(|| panic!("{}", built.diagnostics));
+    assert!(matches!(
+        model.particles[0].thrust,
+        Thrust::AbsoluteVelocity(_)
+    ));
     let stated = ModelBuilder::new("t")
         .coordinates(["x"])
         .mass("S", "3 - t")
         .kinetic("1/2 S x'^2")
         .reactive_force("x", "x'")
         .build();
-    let model = stated.model.unwrap_or_else(|| panic!("{}", stated.diagnostics));
+    let model = stated
+        .model
+        .unwrap_or_else(|| panic!("{}", stated.diagnostics));
     assert_eq!(model.reactive_forces.map(|forces| forces.len()), Some(1));
 }

@@ -188,8 +188,14 @@ fn a_mass_may_vary_but_is_not_zero() {
     for (mass, words) in [
         ("m - 1", "the mass of the particle `bob` is zero"),
         ("0", "the mass of the particle `bob` is zero"),
-        ("m theta''", "`theta''` may not occur in the mass of a particle"),
-        ("m s''", "`s''` contains `theta''`, which may not occur in the mass of a particle"),
+        (
+            "m theta''",
+            "`theta''` may not occur in the mass of a particle",
+        ),
+        (
+            "m s''",
+            "`s''` contains `theta''`, which may not occur in the mass of a particle",
+        ),
     ] {
         let text = PENDULUM.replace("mass = \"m\"", &format!("mass = \"{mass}\""))
             + "[define]\ns = \"2 theta\"\n";

@@ -292,6 +292,11 @@ impl Subject<'_> {
             } = stop
             {
                 if let Some(what) = watched.get(index as usize) {
+                    // The last accepted state lies a little before a mass is lost.
+                    let lost = flow
+                        .lost_mass(t, &y)
+                        .filter(|(own, _)| *own == index as usize);
+                    let t = lost.map_or(t, |(_, t)| t);
                     let ending = stop::vanished(what, t, &self.numeric.constraints);
                     return Ok((pieces, End::Vanished(ending)));
                 }

@@ -263,8 +263,10 @@ fn the_rocket_on_appells_constraint() {
         assert!(case.equal_on_constraints(turning, g.zero()));
         let speed = case.read("sqrt(x'^2 + y'^2)");
         let along = g.div(g.add(&[g.mul(&[x, a[0]]), g.mul(&[y, a[1]])]), speed);
+        // |ξ'| = sqrt(1 + a²) P1 on the constraint.
+        let size = "sqrt(x'^2 + y'^2 + z'^2)";
         let expected = case.read(&format!(
-            "-g a/(1 + a^2) - c ({rate})/(({mass}) sqrt(1 + a^2))"
+            "-g a/(1 + a^2) - c ({rate}) sqrt(x'^2 + y'^2)/(({mass}) {size})"
         ));
         assert!(case.equal_on_constraints(along, expected));
         let excuses = ["model.forces-absent", "model.lagrangian-autonomous"];
