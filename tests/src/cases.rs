@@ -3,7 +3,7 @@
 use crate::places;
 use chetaev::model::{Loaded, ModelBuilder};
 use serde::Deserialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The whole file.
 #[derive(Clone, Debug, Deserialize)]
@@ -66,7 +66,25 @@ pub struct Statement {
     pub t_end: String,
     /// The same system a second time, as particles of variable mass.
     #[serde(default)]
-    pub particles: Vec<serde_json::Value>,
+    pub particles: Vec<PublishedParticle>,
+    /// Whether the model states them in the place of Lagrangian and forces.
+    #[serde(skip)]
+    pub as_particles: bool,
+}
+
+/// A particle of a case.
+#[derive(Clone, Debug, Deserialize)]
+pub struct PublishedParticle {
+    /// Name.
+    pub name: String,
+    /// Mass.
+    pub mass: String,
+    /// Components of its position.
+    pub position: Vec<String>,
+    /// Components of the applied force.
+    pub force: Vec<String>,
+    /// How matter leaves or arrives: one key of a thrust with its components.
+    pub mass_exchange: Option<BTreeMap<String, Vec<String>>>,
 }
 
 /// A model with expected results.
@@ -247,6 +265,15 @@ impl Published {
             std::fs::read_to_string(path).expect("the published cases are in the repository");
         serde_json::from_str(&text).expect("the published cases follow their schema")
     }
+
+    /// All cases, and behind each that states particles the same system as particles.
+    pub fn with_particles(&self) -> Vec<Case> {
+        let twice = |case: &Case| {
+            let second = (!case.statement.particles.is_empty()).then(|| case.as_particles());
+            std::iter::once(case.clone()).chain(second)
+        };
+        self.cases.iter().flat_map(twice).collect()
+    }
 }
 
 impl Statement {
@@ -259,10 +286,10 @@ impl Statement {
         for item in &self.define {
             builder = builder.define(&item.name, &item.value);
         }
-        builder = builder.lagrangian(&self.lagrangian);
-        for force in &self.forces {
-            builder = builder.force(&force.coordinate, &force.value);
-        }
+        builder = match self.as_particles {
+            true => self.particles.iter().fold(builder, particle),
+            false => self.by_lagrangian(builder),
+        };
         for constraint in &self.constraints {
             builder = builder.constraint(&constraint.name, &constraint.equation);
         }
@@ -274,6 +301,25 @@ impl Statement {
         }
         builder.end(&self.t_end).build()
     }
+}
+
+impl Statement {
+    fn by_lagrangian(&self, builder: ModelBuilder) -> ModelBuilder {
+        let forces = self.forces.iter();
+        forces.fold(builder.lagrangian(&self.lagrangian), |builder, force| {
+            builder.force(&force.coordinate, &force.value)
+        })
+    }
+}
+
+fn particle(builder: ModelBuilder, of: &PublishedParticle) -> ModelBuilder {
+    let builder = builder
+        .particle(&of.name, &of.mass, &of.position)
+        .particle_force(&of.name, &of.force);
+    let exchange = of.mass_exchange.iter().flatten();
+    exchange.fold(builder, |builder, (mode, components)| {
+        builder.particle_thrust(&of.name, &format!("{{ {mode} = {components:?} }}"))
+    })
 }
 
 /// What a program must be able to do for a case or a check, with why it cannot yet.
@@ -292,6 +338,14 @@ impl Statement {
 }
 
 impl Case {
+    /// The same case, stated by its particles.
+    fn as_particles(&self) -> Case {
+        let mut case = self.clone();
+        case.statement.as_particles = true;
+        case.statement.id += " as particles";
+        case
+    }
+
     /// Why the case is not covered.
     pub fn not_covered(&self) -> Option<&'static str> {
         reason(&self.needs)

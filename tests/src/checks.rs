@@ -44,6 +44,10 @@ pub fn failures(case: &Case) -> Vec<Failure> {
         .map(|found| failed("the end is reached", found))
         .into_iter()
         .collect();
+    if case.statement.as_particles {
+        let found = session.balance();
+        failures.extend(found.err().map(|found| failed("mass.balance", found)));
+    }
     for check in case
         .checks
         .iter()
@@ -85,7 +89,12 @@ impl<'c> Session<'c> {
     fn new(case: &'c Case) -> Result<Session<'c>, String> {
         let t_end = float(&case.statement.t_end)?;
         let ask = Ask {
-            claims: vec!["model", "motion.constraint-drift", "formulation.equivalent"],
+            claims: vec![
+                "model",
+                "motion.constraint-drift",
+                "formulation.equivalent",
+                "mass.balance",
+            ],
             times: output_times(case, t_end),
             tolerance: Some(TOLERANCE),
             formulation: case.statement.formulation(),
@@ -115,6 +124,28 @@ impl<'c> Session<'c> {
             .as_ref()
             .ok_or("Maggi's equations were not integrated")?;
         Ok((run, Some(other)))
+    }
+
+    /// The reactive forces are proved to be those of the particle law, and every form that applies gives the same motion.
+    fn balance(&self) -> Result<(), String> {
+        let of = |claim: &str| -> Vec<_> {
+            let verdicts = self.study.verdicts.iter();
+            let words = verdicts.filter(|d| d.claim == claim);
+            words
+                .map(|d| (d.full_id(), d.finding.verdict.word()))
+                .collect()
+        };
+        let balance = of("mass.balance");
+        if balance.len() != 1 || balance[0].1 != "proved" {
+            return Err(format!("not proved: {balance:?}"));
+        }
+        let equivalent = of("formulation.equivalent");
+        let proved = equivalent.iter().filter(|(_, word)| *word == "proved");
+        let sound = |word: &str| matches!(word, "proved" | "not-applicable");
+        match equivalent.iter().all(|(_, word)| sound(word)) && proved.count() > 10 {
+            true => Ok(()),
+            false => Err(format!("{equivalent:?}")),
+        }
     }
 
     fn is_stiff(&self) -> bool {

@@ -63,6 +63,9 @@ pub const CLOSED_FORMS: &[ClosedForm] = &[
     form("heavy-top/model.toml", "C W3", "3", 1e-9),
     form("heavy-top/steady.toml", "phi", "0.430953484266974 t", 1e-8),
     form("heavy-top/steady.toml", "theta", "th", 1e-8),
+    // Meshchersky 1897: nothing pushes, and the pendulum does not notice that it leaks.
+    form("leaking-pendulum/model.toml", "l theta''", "-g sin(theta)", 1e-9),
+    form("leaking-pendulum/model.toml", "l^2 theta'^2/2 - g l cos(theta)", "3.26592037322197", 1e-9),
     // Galileo's principle, from the skate at rest.
     form("moving-knife-edge/model.toml", "x", "gs/(2 W^2) sin(W t)^2", 1e-8),
     form("moving-knife-edge/model.toml", "y", "-gs/(4 W^2) sin(2 W t)", 1e-8),
@@ -73,6 +76,16 @@ pub const CLOSED_FORMS: &[ClosedForm] = &[
     form("particle-y-dx/model.toml", "z", "(c/u) (sqrt(1 + (y0 + u t)^2) - sqrt(1 + y0^2))", 1e-8),
     form("particle-y-dx/model.toml", "x' sqrt(1 + y^2)", "0.861626369141521", 1e-9),
     form("particle-y-dx/model.toml", "lambda_rolling", "m x' y'/(1 + y^2)", 1e-9),
+    // Pesce 2003: mist at rest, a mass that depends on the way.
+    form("raindrop/model.toml", "x''", "(g/7) (1 + 6/(1 + s x)^7)", 1e-9),
+    form("raindrop/model.toml", "x'^2", "(2 g/(7 s)) ((1 + s x)^7 - 1)/(1 + s x)^6", 1e-8),
+    // Gravity as on Appell's particle, and Tsiolkovsky's logarithm along the slope.
+    form("rocket-on-appells-constraint/model.toml", "lambda_cone", "m g/(1 + a^2)", 1e-9),
+    form("rocket-on-appells-constraint/model.toml", "s", "s0 - g a t/(1 + a^2) + (c/sqrt(1 + a^2)) log(m0/m)", 1e-9),
+    form("rocket-on-appells-constraint/model.toml", "x sin(al)", "y cos(al)", 1e-9),
+    // The law of momentum: what is picked up at rest brings none, what runs out takes its own.
+    form("sand-cart/model.toml", "load", "L0 exp(-k t)", 1e-9),
+    form("sand-cart/model.toml", "(m0 + b t + load) x''", "F - b x'", 1e-9),
     // Bloch 2003: the coin; the redundant multipliers give the same force.
     form("vertical-rolling-disc/model.toml", "x", "(R w/O) sin(O t)", 1e-8),
     form("vertical-rolling-disc/model.toml", "y", "(R w/O) (1 - cos(O t))", 1e-8),

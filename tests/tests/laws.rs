@@ -84,6 +84,16 @@ fn particles() {
 }
 
 #[test]
+fn particles_with_masses_that_vary() {
+    obeys_the_laws(Family::VariableMass);
+}
+
+#[test]
+fn particles_with_masses_that_contain_velocities() {
+    obeys_the_laws(Family::VelocityMass);
+}
+
+#[test]
 fn systems_of_the_type_of_chaplygin() {
     obeys_the_laws(Family::Chaplygin);
 }
@@ -121,5 +131,7 @@ fn meaning(system: &System) -> Vec<u128> {
         all.push(particle.mass);
         all.extend(particle.position.iter().chain(&particle.force));
     }
+    all.extend(system.masses.iter().map(|m| m.rate));
+    all.extend(&system.reactive_forces);
     all.into_iter().map(|e| g.digest(e)).collect()
 }

@@ -40,7 +40,8 @@ impl JetField {
         }
     }
 
-    /// The derivatives of functions on J¹ along the field; controls u(t) move with the time.
+    /// The derivatives of functions on J¹ along the field; controls u(t) and masses with a law of their own move with the
+    /// time.
     pub fn derivatives(&self, system: &System, functions: &[Expr]) -> Vec<Expr> {
         let g = &system.graph;
         let mut component: BTreeMap<Symbol, Expr> = BTreeMap::new();
@@ -49,14 +50,9 @@ impl JetField {
             component.insert(c.v_symbol, self.v[i]);
         }
         g.derive(functions, &|s| {
-            let (name, order) = (g.symbol_name(s), g.symbol_order(s));
             let value = match component.get(&s) {
                 Some(&value) => value,
-                None if name == "t" && order == 0 => self.t,
-                None if system.controls.iter().any(|u| u.name == name) => {
-                    g.mul(&[self.t, g.symbol(name, order + 1)])
-                }
-                None => return None,
+                None => g.mul(&[self.t, system.prescribed_rate(s)?]),
             };
             (!g.is_zero(value)).then_some(value)
         })

@@ -3,7 +3,7 @@
 //! Plain standard library: the task runner reads the same file, so that it refuses a slip before anything is built.
 
 /// The names of the families, in the order they are run.
-pub const FAMILY_NAMES: [&str; 11] = [
+pub const FAMILY_NAMES: [&str; 13] = [
     "polynomial-linear",
     "trigonometric-linear",
     "polynomial-nonlinear",
@@ -15,6 +15,8 @@ pub const FAMILY_NAMES: [&str; 11] = [
     "singular",
     "particles",
     "chaplygin",
+    "variable-mass",
+    "velocity-mass",
 ];
 
 /// Systems of each family without `--full`.
@@ -36,7 +38,7 @@ Usage: cargo xtask laws [--full | --count N] [--family NAME] [--seed N]
   --help           this text
 
 Families: polynomial-linear, trigonometric-linear, polynomial-nonlinear, trigonometric-nonlinear, nonquadratic,
-rheonomic-affine, radicals, moving-frame, singular, particles, chaplygin.
+rheonomic-affine, radicals, moving-frame, singular, particles, chaplygin, variable-mass, velocity-mass.
 
 Exit status: 0 all laws hold, 1 a law fails, 2 the arguments are wrong.
 
@@ -149,7 +151,7 @@ mod tests {
     #[test]
     fn a_run_is_asked_for_in_words() {
         let all = read("").unwrap();
-        assert_eq!((all.families.len(), all.count, all.seed), (11, 50, None));
+        assert_eq!((all.families.len(), all.count, all.seed), (13, 50, None));
         assert_eq!(read("--full").unwrap().count, 1000);
         let one = read("--family nonquadratic --seed=17").unwrap();
         assert_eq!(

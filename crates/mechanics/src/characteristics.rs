@@ -282,6 +282,8 @@ impl Characteristics {
             .zip(&direction.parameters)
             .map(|(p, &rate)| (p.symbol, rate))
             .collect();
+        // A mass with a law of its own changes with the motion, whatever the direction of q.
+        rates.extend(mass_rates(system, &self.velocities, direction.time));
         if !self.implicit.is_empty() {
             let of_f = self.derive(system, &self.implicit, direction, &rates);
             let right: Vec<Expr> = of_f.into_iter().map(|e| g.neg(e)).collect();
@@ -300,10 +302,16 @@ impl Characteristics {
         direction: &Direction,
         further: &[(Symbol, Expr)],
     ) -> Vec<Expr> {
-        let rates = direction.coordinates.iter().copied();
-        let mut rates: Vec<(Symbol, Expr)> =
-            self.jets.iter().map(|c| c.q_symbol).zip(rates).collect();
+        let mut rates = match self.order {
+            1 => masses_along(system, &direction.coordinates, direction.time),
+            _ => {
+                let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
+                mass_rates(system, &velocities, direction.time)
+            }
+        };
         rates.extend(further);
+        let symbols = self.jets.iter().map(|c| c.q_symbol);
+        rates.extend(symbols.zip(direction.coordinates.iter().copied()));
         derive_with(system, es, direction.time, self.order - 1, &rates)
     }
 
@@ -433,8 +441,21 @@ fn transposed(rows: usize, columns: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
         .collect()
 }
 
+/// The rates of the masses with a law of their own where t changes at the rate `time`, at given velocities.
+pub(crate) fn mass_rates(system: &System, velocities: &[Expr], time: Expr) -> Vec<(Symbol, Expr)> {
+    let g = &system.graph;
+    if system.masses.is_empty() || g.is_zero(time) {
+        return Vec::new();
+    }
+    let rates = system.mass_rates(velocities).into_iter();
+    rates
+        .map(|(symbol, rate)| (symbol, g.mul(&[time, rate])))
+        .collect()
+}
+
 /// The rates of functions when q moves along `coordinates`, t at the rate `time`, and further symbols at the rates given;
-/// every other symbol is a constant.
+/// every other symbol is a constant. A mass with a law of its own changes as at the velocities `coordinates`/`time`, unless
+/// its rate is among those given, and not at all where t does not.
 pub fn derive_along(
     system: &System,
     es: &[Expr],
@@ -444,9 +465,20 @@ pub fn derive_along(
 ) -> Vec<Expr> {
     let rates = coordinates.iter().copied();
     let symbols = system.coordinates.iter().map(|c| c.q_symbol);
-    let mut rates: Vec<(Symbol, Expr)> = symbols.zip(rates).collect();
-    rates.extend(further);
-    derive_with(system, es, time, 0, &rates)
+    let mut all = masses_along(system, coordinates, time);
+    all.extend(further);
+    all.extend(symbols.zip(rates));
+    derive_with(system, es, time, 0, &all)
+}
+
+/// The rates of the masses with a law of their own when q moves along `coordinates` and t at the rate `time`.
+fn masses_along(system: &System, coordinates: &[Expr], time: Expr) -> Vec<(Symbol, Expr)> {
+    let g = &system.graph;
+    if system.masses.is_empty() || g.is_zero(time) {
+        return Vec::new();
+    }
+    let velocities: Vec<Expr> = coordinates.iter().map(|&v| g.div(v, time)).collect();
+    mass_rates(system, &velocities, time)
 }
 
 /// The rates of functions when t moves at the rate `time`, derivatives of coordinates of orders below `lower` with it, and
@@ -465,15 +497,13 @@ fn derive_with(
         if let Some(&rate) = rates.get(&s) {
             return known(rate);
         }
+        if system.masses.iter().any(|m| m.symbol == s) {
+            return None;
+        }
         let (name, order) = (g.symbol_name(s), g.symbol_order(s));
-        if name == "t" && order == 0 {
-            known(time)
-        } else if system.controls.iter().any(|u| u.name == name)
-            || (order < lower && system.coordinate_index(name).is_some())
-        {
-            known(g.mul(&[time, g.symbol(name, order + 1)]))
-        } else {
-            None
+        match order < lower && system.coordinate_index(name).is_some() {
+            true => known(g.mul(&[time, g.symbol(name, order + 1)])),
+            false => known(g.mul(&[time, system.prescribed_rate(s)?])),
         }
     })
 }

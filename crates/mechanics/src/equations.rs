@@ -118,7 +118,8 @@ impl StateVariable {
 
 /// The equations of motion in one formulation.
 ///
-/// Its first-order system has the state (q, variables): `q' = velocities`, `variables' = rates`.
+/// Its first-order system has the state (q, masses with a law of their own, variables): `q' = velocities`,
+/// `variables' = rates`.
 #[derive(Clone, Debug)]
 pub struct Equations {
     /// Name of the formulation in the registry.
@@ -133,6 +134,8 @@ pub struct Equations {
     pub velocities: Vec<Expr>,
     /// q'' as functions of the state; length n.
     pub accelerations: Vec<Expr>,
+    /// Masses with a law of their own, which are states too, with their rates as functions of the state.
+    pub masses: Vec<(Symbol, Expr)>,
     /// Relations between the variables that hold along every motion, with the variable each determines: `f = 0` for
     /// dependent velocities that stay symbols.
     pub relations: Vec<(Expr, Symbol)>,
@@ -170,6 +173,7 @@ impl Equations {
             objects: Vec::new(),
             variables,
             velocities: system.coordinates.iter().map(|c| c.v).collect(),
+            masses: system.masses.iter().map(|m| (m.symbol, m.rate)).collect(),
             accelerations,
             relations: Vec::new(),
             multipliers: Vec::new(),
@@ -222,6 +226,7 @@ impl Equations {
             objects: Vec::new(),
             variables,
             velocities: characteristics.velocities.clone(),
+            masses: system.mass_rates(&characteristics.velocities),
             accelerations: g.substitute_all(&characteristics.accelerations, &known),
             relations: implicit.iter().map(|(f, s)| (*f, s.symbol)).collect(),
             multipliers: Vec::new(),
@@ -248,6 +253,7 @@ impl Equations {
             objects: Vec::new(),
             accelerations: derive_along(system, &velocities, &velocities, one, &rates),
             variables,
+            masses: system.mass_rates(&velocities),
             velocities,
             relations: Vec::new(),
             multipliers: Vec::new(),
@@ -280,6 +286,24 @@ impl Equations {
     pub fn with_objects(mut self, objects: impl IntoIterator<Item = NamedExpr>) -> Equations {
         self.objects.extend(objects);
         self
+    }
+
+    /// The laws of the masses that have one, as a group of equations `M' = Φ`; `None` without such masses.
+    pub fn laws_of_masses(&self, system: &System) -> Option<EquationGroup> {
+        let g = &system.graph;
+        let masses = system.masses.iter().zip(&self.masses);
+        let laws: Vec<Equation> = masses
+            .map(|(m, &(_, right))| Equation {
+                label: m.name.clone(),
+                left: g.symbol(&m.name, 1),
+                right,
+            })
+            .collect();
+        (!laws.is_empty()).then(|| EquationGroup {
+            title: "masses".into(),
+            schema: None,
+            equations: laws,
+        })
     }
 
     /// The rates of the variables.

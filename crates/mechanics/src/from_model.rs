@@ -1,10 +1,11 @@
 //! From what a user states to a system.
 
+use crate::mass::NamedMasses;
 use crate::system::{
     Assumption, CharacteristicFormulas, FrameFields, Particle, Relation, System, SystemError,
-    SystemParts,
+    SystemParts, Thrust,
 };
-use chetaev_model::model::Model;
+use chetaev_model::model::{MassLaw, Model, Thrust as StatedThrust};
 use chetaev_symbolic::syntax::Relation as Stated;
 use std::sync::Arc;
 
@@ -68,12 +69,54 @@ impl System {
                     mass: p.mass,
                     position: p.position.clone(),
                     force: p.force.clone(),
+                    thrust: thrust(&p.thrust),
                 })
                 .collect(),
+            masses: model
+                .masses
+                .iter()
+                .filter_map(|m| Some((m.name.clone(), model.mass_rate(&m.name)?)))
+                .collect(),
+            reactive_forces: model
+                .reactive_forces
+                .iter()
+                .flatten()
+                .map(|f| (name_of(f.coordinate), f.value))
+                .collect(),
+            named_masses: named_masses(model),
             assumptions: model.assumptions.iter().filter_map(assumption).collect(),
         };
         System::new(Arc::clone(&model.graph), parts)
     }
+}
+
+fn thrust(stated: &StatedThrust) -> Thrust {
+    match stated {
+        StatedThrust::Isotropic => Thrust::Isotropic,
+        StatedThrust::RelativeVelocity(u) => Thrust::RelativeVelocity(u.clone()),
+        StatedThrust::ExhaustSpeed(c) => Thrust::ExhaustSpeed(*c),
+        StatedThrust::AbsoluteVelocity(w) => Thrust::AbsoluteVelocity(w.clone()),
+        StatedThrust::Force(force) => Thrust::Force(force.clone()),
+    }
+}
+
+/// The masses in a kinetic energy that is stated without particles and without reactive forces.
+fn named_masses(model: &Model) -> Option<NamedMasses> {
+    if model.reactive_forces.is_some() || !model.particles.is_empty() {
+        return None;
+    }
+    let value = |law: &MassLaw, symbol| match law {
+        MassLaw::Value(value) => *value,
+        MassLaw::Rate { .. } => symbol,
+    };
+    let masses = model.masses.iter();
+    Some(NamedMasses {
+        inertia: model.inertia_by_masses?,
+        is_kinetic: model.kinetic.is_some(),
+        masses: masses
+            .map(|m| (m.symbol, value(&m.law, m.symbol)))
+            .collect(),
+    })
 }
 
 /// An equality is no assumption on signs; it is left out.

@@ -11,6 +11,7 @@ pub mod formulations;
 pub mod frame;
 mod from_model;
 mod linear;
+pub mod mass;
 pub mod order;
 pub mod particles;
 pub mod prover;

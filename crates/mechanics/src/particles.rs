@@ -1,6 +1,7 @@
 //! What particles give to a system: kinetic energy, forces, and whether they carry its whole inertia.
 
 use crate::characteristics::Manifold;
+use crate::mass;
 use crate::prover::Prover;
 use crate::system::{Particle, System};
 use crate::terms::freeze_accelerations;
@@ -16,13 +17,12 @@ pub fn velocity(system: &System, particle: &Particle) -> Vec<Expr> {
 /// `Σ_a ½ m_a r_a'·r_a'`; zero without particles.
 pub fn kinetic_energy(system: &System) -> Expr {
     let g = &system.graph;
-    let mut parts = Vec::new();
-    for particle in &system.particles {
-        for rate in velocity(system, particle) {
-            parts.push(g.div(g.mul(&[particle.mass, rate, rate]), g.integer(2)));
-        }
-    }
-    g.add(&parts)
+    let half = g.div(g.one(), g.integer(2));
+    let energies = system.particles.iter().map(|particle| {
+        let squared = mass::squared(system, &velocity(system, particle));
+        g.mul(&[half, particle.mass, squared])
+    });
+    g.add(&energies.collect::<Vec<_>>())
 }
 
 /// The generalized forces `Σ_a F_a · ∂r_a/∂q^i` of the particles' applied forces, length n.
@@ -53,8 +53,9 @@ pub(crate) fn generalized_forces(
 }
 
 /// The generalized forces beside those of the particles, as functions of (q, v, t), length n: what the Lagrangian contains
-/// beyond the particles' kinetic energy, `E_i[L - T]`, and the part of Q that is not of the particles. They contain no
-/// accelerations where the particles carry the whole inertia ([`carry_inertia`]).
+/// beyond the particles' kinetic energy, `E_i[L - T]`, and the part of Q that is neither their applied nor their reactive
+/// forces. They contain no accelerations where the particles carry the whole inertia ([`carry_inertia`]) and no mass contains
+/// velocities.
 pub fn further_forces(system: &System) -> Vec<Expr> {
     let g = &system.graph;
     let rest = g.sub(system.lagrangian, kinetic_energy(system));
@@ -62,11 +63,20 @@ pub fn further_forces(system: &System) -> Vec<Expr> {
     g.gradient(rest, &system.coordinate_symbols())
         .into_iter()
         .zip(drift)
-        .zip(system.forces.iter().zip(applied_forces(system)))
-        .map(|((slope, drift), (&force, applied))| {
-            g.add(&[slope, g.neg(drift), force, g.neg(applied)])
-        })
+        .zip(system.forces.iter().zip(own_forces(system)))
+        .map(|((slope, drift), (&force, own))| g.add(&[slope, g.neg(drift), force, g.neg(own)]))
         .collect()
+}
+
+/// The applied and reactive forces of the particles, as far as they are contained in the forces of the system.
+pub fn own_forces(system: &System) -> Vec<Expr> {
+    let applied = applied_forces(system);
+    if mass::with_velocity(system).is_some() {
+        return applied;
+    }
+    let reactive = mass::reactive_forces(system).into_iter();
+    let pairs = applied.into_iter().zip(reactive);
+    pairs.map(|(a, b)| system.graph.add(&[a, b])).collect()
 }
 
 /// Whether the particles carry the whole inertia: `∂²(L - T)/∂v∂v ≡ 0` for their kinetic energy T. Without particles it is

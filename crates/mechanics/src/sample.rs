@@ -143,10 +143,12 @@ fn free_point(system: &System, terms: &MotionTerms, generator: &mut Generator) -
         let value = match known.get(&symbol) {
             Some(&value) => value,
             None => {
-                let is_parameter = system
-                    .parameters
-                    .iter()
-                    .any(|p| g.as_symbol(p.expr) == Some(symbol));
+                // Masses are positive, as most parameters are.
+                let is_parameter = system.masses.iter().any(|m| m.symbol == symbol)
+                    || system
+                        .parameters
+                        .iter()
+                        .any(|p| g.as_symbol(p.expr) == Some(symbol));
                 let (low, high) = bounds(
                     system,
                     symbol,

@@ -3,6 +3,7 @@
 //! Everything derived here is exact. Indices: `i, j` run over the `n` coordinates, `l` over the constraints.
 
 use crate::constraint::{Constraint, ConstraintKind};
+use crate::mass::{self, NamedMasses};
 use crate::particles;
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 use std::collections::BTreeMap;
@@ -95,17 +96,48 @@ pub struct CharacteristicFormulas {
     pub formulas: Vec<Expr>,
 }
 
+/// A mass with a law of its own, M' = Φ(t, q, v, M): a state beside the coordinates.
+#[derive(Clone, Debug)]
+pub struct MassVariable {
+    /// The name in the model.
+    pub name: String,
+    /// M.
+    pub expr: Expr,
+    /// Its symbol.
+    pub symbol: Symbol,
+    /// Φ.
+    pub rate: Expr,
+}
+
+/// How the matter that a particle loses or gains leaves or arrives (Meshchersky; T2 (1)).
+#[derive(Clone, Debug, Default)]
+pub enum Thrust {
+    /// With the velocity of the particle: R = 0.
+    #[default]
+    Isotropic,
+    /// With the velocity u relative to the particle: R = μ' u.
+    RelativeVelocity(Vec<Expr>),
+    /// Against the velocity of the particle with the relative speed c: u = −c ξ'/|ξ'|.
+    ExhaustSpeed(Expr),
+    /// With the velocity w: R = μ' (w − ξ').
+    AbsoluteVelocity(Vec<Expr>),
+    /// R itself.
+    Force(Vec<Expr>),
+}
+
 /// A particle: a mass at a place that the coordinates give, under an applied force.
 #[derive(Clone, Debug)]
 pub struct Particle {
     /// The name in the model.
     pub name: String,
-    /// Its mass, a constant.
+    /// Its mass μ(t, q, v), in which masses with a law of their own may occur.
     pub mass: Expr,
     /// Its one to three Cartesian coordinates as functions of (q, t).
     pub position: Vec<Expr>,
     /// The components of the applied force, functions of (q, v, t).
     pub force: Vec<Expr>,
+    /// The thrust of the matter that it loses or gains.
+    pub thrust: Thrust,
 }
 
 /// How a sign or range is assumed.
@@ -165,6 +197,12 @@ pub struct SystemParts {
     pub characteristics: Option<CharacteristicFormulas>,
     /// Particles; their applied forces count beside the generalized forces.
     pub particles: Vec<Particle>,
+    /// Masses with a law of their own, as (name, rate).
+    pub masses: Vec<(String, Expr)>,
+    /// Reactive forces by coordinate name, beside those of the particles.
+    pub reactive_forces: Vec<(String, Expr)>,
+    /// The masses in a kinetic energy that is stated, where they change isotropically.
+    pub named_masses: Option<NamedMasses>,
     /// Assumptions.
     pub assumptions: Vec<Assumption>,
 }
@@ -202,6 +240,22 @@ pub enum SystemError {
         /// "square", "cube", "4th power".
         power: String,
     },
+    /// A mass in a stated kinetic energy contains velocities.
+    #[error("the mass `{mass}` contains `{symbol}`, and T is stated: where a mass depends on velocities the equations follow from the particle law; state [particles] in the place of T, or the forces of the change under [reactive_forces]")]
+    MassWithVelocity {
+        /// The mass.
+        mass: String,
+        /// A velocity in it.
+        symbol: String,
+    },
+    /// A mass in a Lagrangian that is stated as a whole contains coordinates.
+    #[error("the mass `{mass}` contains `{symbol}`, and L is stated as a whole: what belongs to the kinetic energy is not known; state T and V apart, or the forces of the change under [reactive_forces]")]
+    MassInLagrangian {
+        /// The mass.
+        mass: String,
+        /// A coordinate in it.
+        symbol: String,
+    },
     /// The Lagrangian contains accelerations.
     #[error("the {what} contains `{symbol}`; only coordinates and velocities may occur in it")]
     OrderTooHigh {
@@ -231,8 +285,13 @@ pub struct System {
     pub potential: Option<Expr>,
     /// L(q, v, t).
     pub lagrangian: Expr,
-    /// Generalized forces Qᵢ, those of Rayleigh's function and of the particles included; one per coordinate.
+    /// Generalized forces Qᵢ, those of Rayleigh's function and of the particles included; one per coordinate. They contain
+    /// the reactive forces Ψᵢ, unless these contain accelerations, as they do where a mass contains velocities.
     pub forces: Vec<Expr>,
+    /// Reactive forces Ψᵢ on the jet (q, v, a, t), of the particles and those stated; one per coordinate.
+    pub reactive_forces: Vec<Expr>,
+    /// Masses with a law of their own.
+    pub masses: Vec<MassVariable>,
     /// Rayleigh's dissipation function.
     pub rayleigh: Option<Expr>,
     /// All constraints as stated, redundant ones included.
@@ -284,11 +343,16 @@ impl System {
                     role,
                 })
         };
-        let mut forces = vec![g.zero(); coordinates.len()];
-        for (name, force) in &parts.forces {
-            let i = index(name, "generalized force")?;
-            forces[i] = g.add(&[forces[i], *force]);
-        }
+        let by_coordinate = |stated: &[(String, Expr)], role| {
+            let mut forces = vec![g.zero(); coordinates.len()];
+            for (name, force) in stated {
+                let i = index(name, role)?;
+                forces[i] = g.add(&[forces[i], *force]);
+            }
+            Ok(forces)
+        };
+        let mut forces = by_coordinate(&parts.forces, "generalized force")?;
+        let reactive_forces = by_coordinate(&parts.reactive_forces, "reactive force")?;
         let symbols: Vec<Symbol> = coordinates.iter().map(|c| c.q_symbol).collect();
         let applied = particles::generalized_forces(g, &symbols, &parts.particles);
         for (force, applied) in forces.iter_mut().zip(applied) {
@@ -317,6 +381,8 @@ impl System {
             potential: parts.potential,
             lagrangian,
             forces,
+            reactive_forces,
+            masses: masses(g, parts.masses),
             rayleigh: parts.rayleigh,
             constraints: Vec::new(),
             independent,
@@ -333,12 +399,31 @@ impl System {
             coordinates,
             graph: graph.clone(),
         };
+        system.add_reactive_forces(parts.named_masses.as_ref())?;
         system.check_orders()?;
         for (name, stated) in parts.constraints {
             let constraint = Constraint::classify(&system, name, stated)?;
             system.constraints.push(constraint);
         }
         Ok(system)
+    }
+
+    /// Completes Ψ by that of the particles and of isotropic change, and adds it to the forces where it has no accelerations.
+    fn add_reactive_forces(&mut self, named: Option<&NamedMasses>) -> Result<(), SystemError> {
+        let g = Arc::clone(&self.graph);
+        let of_particles = mass::reactive_forces(self);
+        let isotropic = named
+            .map(|named| mass::isotropic_change(self, named))
+            .transpose()?;
+        let beside: Vec<Expr> = match isotropic {
+            Some(isotropic) => sums(&g, &self.reactive_forces, &isotropic),
+            None => self.reactive_forces.clone(),
+        };
+        self.reactive_forces = sums(&g, &beside, &of_particles);
+        let free = mass::with_velocity(self).is_none();
+        let added = if free { &self.reactive_forces } else { &beside };
+        self.forces = sums(&g, &self.forces, added);
+        Ok(())
     }
 
     fn check_orders(&self) -> Result<(), SystemError> {
@@ -373,20 +458,80 @@ impl System {
         self.places.get(name).copied()
     }
 
-    /// Whether the symbol called `name` moves: a coordinate or a control.
+    /// Whether the symbol called `name` moves: a coordinate, a control, or a mass with a law of its own.
     pub fn moves(&self, name: &str) -> bool {
-        self.coordinate_index(name).is_some() || self.controls.iter().any(|u| u.name == name)
+        self.coordinate_index(name).is_some() || self.is_prescribed(name)
     }
 
-    /// The total time derivative D along the jets.
+    /// Whether the symbol called `name` changes but is never varied: a control, or a mass with a law of its own.
+    fn is_prescribed(&self, name: &str) -> bool {
+        self.controls.iter().any(|u| u.name == name) || self.masses.iter().any(|m| m.name == name)
+    }
+
+    /// The rate in time of a symbol that is never varied: 1 of t, u' of a control, Φ of a mass with a law of its own.
+    pub fn prescribed_rate(&self, symbol: Symbol) -> Option<Expr> {
+        let g = &self.graph;
+        let (name, order) = (g.symbol_name(symbol), g.symbol_order(symbol));
+        if name == "t" && order == 0 {
+            return Some(g.one());
+        }
+        if let Some(mass) = self.masses.iter().find(|m| m.symbol == symbol) {
+            return Some(mass.rate);
+        }
+        let is_control = self.controls.iter().any(|u| u.name == name);
+        is_control.then(|| g.symbol(name, order + 1))
+    }
+
+    /// The rates of the masses with a law of their own where the velocities are `velocities`.
+    pub fn mass_rates(&self, velocities: &[Expr]) -> Vec<(Symbol, Expr)> {
+        let rates: Vec<Expr> = self.masses.iter().map(|m| m.rate).collect();
+        let pairs: Vec<(Expr, Expr)> = self
+            .coordinates
+            .iter()
+            .zip(velocities)
+            .filter(|(c, v)| c.v != **v)
+            .map(|(c, &v)| (c.v, v))
+            .collect();
+        let restricted = self.graph.substitute_all(&rates, &pairs);
+        self.masses
+            .iter()
+            .map(|m| m.symbol)
+            .zip(restricted)
+            .collect()
+    }
+
+    /// The total time derivative D along the jets; masses with a law of their own change by it.
     pub fn total_derivative(&self, e: Expr) -> Expr {
-        self.graph.total_derivative(e, &|name| self.moves(name))
+        let g = &self.graph;
+        let rate = |s| {
+            let (name, order) = (g.symbol_name(s), g.symbol_order(s));
+            match self.coordinate_index(name) {
+                Some(_) => Some(g.symbol(name, order + 1)),
+                None => self.prescribed_rate(s),
+            }
+        };
+        g.derive(&[e], &rate).swap_remove(0)
     }
 
-    /// The explicit time derivative ∂/∂t with q and all its derivatives frozen; controls count as time.
+    /// The same along the jets of further symbols too, given by name: multipliers with their derivatives.
+    pub fn total_derivative_with(&self, e: Expr, further: &[String]) -> Expr {
+        let g = &self.graph;
+        let rate = |s| {
+            let (name, order) = (g.symbol_name(s), g.symbol_order(s));
+            let moves = self.coordinate_index(name).is_some() || further.iter().any(|f| f == name);
+            match moves {
+                true => Some(g.symbol(name, order + 1)),
+                false => self.prescribed_rate(s),
+            }
+        };
+        g.derive(&[e], &rate).swap_remove(0)
+    }
+
+    /// The explicit time derivative ∂/∂t with q and all its derivatives frozen; controls and masses with a law of their own
+    /// count as time.
     pub fn time_derivative(&self, e: Expr) -> Expr {
-        self.graph
-            .total_derivative(e, &|name| self.controls.iter().any(|u| u.name == name))
+        let rate = |s| self.prescribed_rate(s);
+        self.graph.derive(&[e], &rate).swap_remove(0)
     }
 
     /// The assumptions as the model states them, each once: a chain such as `0 < a < b` is two assumptions of one text.
@@ -418,13 +563,11 @@ impl System {
         self.coordinates.iter().map(|c| c.q_symbol).collect()
     }
 
-    /// Whether `e` depends explicitly on the time (or on a control).
+    /// Whether `e` depends explicitly on the time (or on a control, or a mass with a law of its own).
     pub fn is_rheonomic(&self, e: Expr) -> bool {
-        let g = &self.graph;
-        !g.is_free_of(e, &|s| {
-            let name = g.symbol_name(s);
-            name == "t" || self.controls.iter().any(|u| u.name == name)
-        })
+        !self
+            .graph
+            .is_free_of(e, &|s| self.prescribed_rate(s).is_some())
     }
 
     /// Constraints of order at most one: those that have equations of motion of the first-order theory.
@@ -473,20 +616,44 @@ impl System {
         g.add(&parts)
     }
 
+    /// Q + Ψ on the jet (q, v, a, t), with accelerations where a mass contains velocities.
+    pub fn all_forces(&self) -> Vec<Expr> {
+        match mass::with_velocity(self) {
+            None => self.forces.clone(),
+            Some(_) => sums(&self.graph, &self.forces, &mass::reactive_forces(self)),
+        }
+    }
+
     /// Euler's operator with the sign of Lagrange's left side: `D(∂L/∂vⁱ) - ∂L/∂qⁱ` on the jet (q, v, a, t).
     pub fn lagrange_left_sides(&self) -> Vec<Expr> {
+        self.left_sides_of(self.lagrangian)
+    }
+
+    /// `D(∂F/∂vⁱ) - ∂F/∂qⁱ` of a function of (q, v, t).
+    pub(crate) fn left_sides_of(&self, f: Expr) -> Vec<Expr> {
         let g = &self.graph;
-        let momenta = g.gradient(self.lagrangian, &self.velocity_symbols());
-        let slopes = g.gradient(self.lagrangian, &self.coordinate_symbols());
+        let momenta = g.gradient(f, &self.velocity_symbols());
+        let slopes = g.gradient(f, &self.coordinate_symbols());
         momenta
             .into_iter()
             .zip(slopes)
             .map(|(momentum, slope)| g.sub(self.total_derivative(momentum), slope))
             .collect()
     }
+
+    /// What the reactions balance, `D(∂L/∂vⁱ) - ∂L/∂qⁱ - Qᵢ - Ψᵢ` on the jet (q, v, a, t): by the particle law where a mass
+    /// contains velocities (T2 (5)).
+    pub fn motion_left_sides(&self) -> Vec<Expr> {
+        if mass::with_velocity(self).is_some() {
+            return mass::left_sides(self);
+        }
+        let lefts = self.lagrange_left_sides().into_iter().zip(&self.forces);
+        lefts
+            .map(|(left, &force)| self.graph.sub(left, force))
+            .collect()
+    }
 }
 
-/// Adds `Σ_a F_a · ∂r_a/∂q^i`.
 /// Places by name; the first of equal names counts.
 fn places(names: &[String]) -> BTreeMap<String, usize> {
     let mut places = BTreeMap::new();
@@ -505,4 +672,20 @@ fn parameters(g: &Graph, stated: Vec<(String, Option<Expr>)>) -> Vec<Parameter> 
             value,
         })
         .collect()
+}
+
+fn masses(g: &Graph, stated: Vec<(String, Expr)>) -> Vec<MassVariable> {
+    stated
+        .into_iter()
+        .map(|(name, rate)| MassVariable {
+            expr: g.symbol(&name, 0),
+            symbol: g.intern_symbol(&name, 0),
+            name,
+            rate,
+        })
+        .collect()
+}
+
+fn sums(g: &Graph, a: &[Expr], b: &[Expr]) -> Vec<Expr> {
+    a.iter().zip(b).map(|(&a, &b)| g.add(&[a, b])).collect()
 }

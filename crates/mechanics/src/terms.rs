@@ -1,5 +1,6 @@
 //! The terms every formulation is built from.
 
+use crate::mass;
 use crate::order::lifting;
 use crate::system::{Coordinate, System};
 use chetaev_symbolic::{Expr, Symbol};
@@ -14,7 +15,8 @@ pub struct MotionTerms {
     pub order: u32,
     /// The coordinates with q^(m-1), q^(m), q^(m+1) in the places of q, v, a: what the constraints are conditions on.
     pub jets: Vec<Coordinate>,
-    /// W = ∂²L/∂v∂v, n × n, row by row.
+    /// W = ∂²L/∂v∂v, n × n, row by row. Where a mass contains velocities, the coefficients of the accelerations in the
+    /// particle law, in general not symmetric (T2 §1).
     pub mass_matrix: Vec<Vec<Expr>>,
     /// b = ∂L/∂q + Q - L_vq v - L_vt, length n.
     pub force: Vec<Expr>,
@@ -39,16 +41,10 @@ impl MotionTerms {
     /// The terms with the constraints of orders up to m only, lifted to m.
     pub fn of_order(system: &System, order: u32) -> MotionTerms {
         let g = &system.graph;
-        let velocities = system.velocity_symbols();
-        let momenta: Vec<Expr> = g.gradient(system.lagrangian, &velocities);
-        let mass_matrix = g.jacobian(&momenta, &velocities);
-        let drift = freeze_accelerations(system, &momenta);
-        let force = g
-            .gradient(system.lagrangian, &system.coordinate_symbols())
-            .into_iter()
-            .enumerate()
-            .map(|(i, slope)| g.add(&[slope, system.forces[i], g.neg(drift[i])]))
-            .collect();
+        let (mass_matrix, force) = match mass::with_velocity(system) {
+            None => of_lagrangian(system),
+            Some(_) => of_particle_law(system),
+        };
         let stated = system.constraints.iter().enumerate();
         let (constraint_index, constraints): (Vec<usize>, Vec<Expr>) = stated
             .filter(|(_, c)| c.order <= order)
@@ -76,6 +72,34 @@ impl MotionTerms {
     }
 }
 
+/// W and b from L and the forces.
+fn of_lagrangian(system: &System) -> (Vec<Vec<Expr>>, Vec<Expr>) {
+    let g = &system.graph;
+    let velocities = system.velocity_symbols();
+    let momenta: Vec<Expr> = g.gradient(system.lagrangian, &velocities);
+    let drift = freeze_accelerations(system, &momenta);
+    let force = g
+        .gradient(system.lagrangian, &system.coordinate_symbols())
+        .into_iter()
+        .enumerate()
+        .map(|(i, slope)| g.add(&[slope, system.forces[i], g.neg(drift[i])]))
+        .collect();
+    (g.jacobian(&momenta, &velocities), force)
+}
+
+/// `M_eff` and b from the particle law, which is linear in the accelerations.
+fn of_particle_law(system: &System) -> (Vec<Vec<Expr>>, Vec<Expr>) {
+    let g = &system.graph;
+    let lefts = system.motion_left_sides();
+    let symbols: Vec<Symbol> = system.coordinates.iter().map(|c| c.a_symbol).collect();
+    let at_rest: Vec<(Expr, Expr)> = system.coordinates.iter().map(|c| (c.a, g.zero())).collect();
+    let force = g.substitute_all(&lefts, &at_rest).into_iter();
+    (
+        g.jacobian(&lefts, &symbols),
+        force.map(|e| g.neg(e)).collect(),
+    )
+}
+
 /// `Σ v ∂e/∂q + ∂e/∂t`: the total derivative without its acceleration terms.
 pub fn freeze_accelerations(system: &System, es: &[Expr]) -> Vec<Expr> {
     freeze_derivatives(system, es, 1)
@@ -84,17 +108,11 @@ pub fn freeze_accelerations(system: &System, es: &[Expr]) -> Vec<Expr> {
 /// The total derivative with the derivatives of order m and more frozen.
 fn freeze_derivatives(system: &System, es: &[Expr], m: u32) -> Vec<Expr> {
     let g = &system.graph;
-    let one = g.one();
     g.derive(es, &|s| {
         let (name, order) = (g.symbol_name(s), g.symbol_order(s));
-        if name == "t" && order == 0 {
-            Some(one)
-        } else if system.coordinate_index(name).is_some() {
-            (order < m).then(|| g.symbol(name, order + 1))
-        } else if system.moves(name) {
-            Some(g.symbol(name, order + 1))
-        } else {
-            None
+        match system.coordinate_index(name) {
+            Some(_) => (order < m).then(|| g.symbol(name, order + 1)),
+            None => system.prescribed_rate(s),
         }
     })
 }

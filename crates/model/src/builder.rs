@@ -196,6 +196,35 @@ impl ModelBuilder {
         self.set_below("particles", name, "force", array_of(force))
     }
 
+    /// The thrust of a particle, as a TOML value: `{ exhaust_speed = "c" }`, or a word.
+    ///
+    /// A value that is no TOML is taken as a word.
+    #[must_use]
+    pub fn particle_thrust(self, name: &str, thrust: &str) -> Self {
+        let value = thrust.parse::<Value>();
+        let value = value.unwrap_or_else(|_| Value::from(thrust));
+        self.set_below("particles", name, "thrust", value)
+    }
+
+    /// A definition that counts as a mass.
+    #[must_use]
+    pub fn mass(self, name: &str, expression: &str) -> Self {
+        self.set("masses", name, expression)
+    }
+
+    /// A mass with a law of its own, its rate, and its value at the start.
+    #[must_use]
+    pub fn mass_with_law(self, name: &str, rate: &str, initial: &str) -> Self {
+        let law = InlineTable::from_iter([("rate", rate), ("initial", initial)]);
+        self.set("masses", name, law)
+    }
+
+    /// The reactive force on a coordinate, for a model that states T.
+    #[must_use]
+    pub fn reactive_force(self, coordinate: &str, expression: &str) -> Self {
+        self.set("reactive_forces", coordinate, expression)
+    }
+
     /// The generalized force on a coordinate.
     #[must_use]
     pub fn force(self, coordinate: &str, expression: &str) -> Self {

@@ -39,9 +39,15 @@ pub(crate) fn check(resolver: &mut Resolver) -> bool {
         .controls
         .iter()
         .map(|own| (&own.name, &own.unit, own.place, "control"));
+    let masses = resolver
+        .masses
+        .iter()
+        .filter(|own| own.has_law)
+        .map(|own| (&own.name, &own.unit, own.place, "mass"));
     let all: Vec<(String, bool, Place, &str)> = coordinates
         .chain(parameters)
         .chain(controls)
+        .chain(masses)
         .map(|(name, unit, place, what)| (name.clone(), unit.is_some(), place, what))
         .collect();
     if !all.iter().any(|(_, stated, ..)| *stated)
@@ -182,7 +188,12 @@ impl Checker<'_> {
                 .find(|own| own.name == name)
                 .and_then(|own| own.unit.as_ref())
         };
-        coordinate.or_else(parameter).or_else(control)
+        let mass = || {
+            let named = resolver.masses.iter();
+            let mut own = named.filter(|own| own.has_law && own.name == name);
+            own.next().and_then(|own| own.unit.as_ref())
+        };
+        coordinate.or_else(parameter).or_else(control).or_else(mass)
     }
 
     /// The indices of sums get their first values: all terms of a sum have one dimension if the model makes sense.

@@ -34,6 +34,11 @@ impl Scope for WholeModel<'_> {
         if model.varies(name) || is_multiplier {
             return Resolution::Known(model.graph.symbol(name, order));
         }
+        if model.mass_rate(name).is_some() {
+            let mass = model.graph.symbol(name, 0);
+            let derived = (0..order).fold(mass, |value, _| model.total_derivative(value));
+            return Resolution::Known(derived);
+        }
         if name == "t"
             || model
                 .parameters
@@ -77,6 +82,7 @@ impl Scope for WholeModel<'_> {
             .chain(&model.quasi_velocities)
             .map(|own| &own.name);
         let controls = model.controls.iter().map(|own| &own.name);
+        let masses = model.masses.iter().map(|own| &own.name);
         let sizes = model.sizes.iter().map(|own| &own.0);
         let multipliers =
             (0..model.constraints.len()).map(|constraint| model.multiplier(constraint));
@@ -84,6 +90,7 @@ impl Scope for WholeModel<'_> {
             .chain(parameters)
             .chain(defines)
             .chain(controls)
+            .chain(masses)
             .chain(sizes)
             .cloned()
             .chain(multipliers)
@@ -163,10 +170,20 @@ impl Model {
         Err(Diagnostics { sources, list })
     }
 
-    /// The total derivative with respect to the time of an expression of coordinates, controls and t.
+    /// The total derivative with respect to the time of an expression of coordinates, controls, masses and t: a mass with a
+    /// law of its own changes by its rate.
     pub fn total_derivative(&self, value: Expr) -> Expr {
-        self.graph
-            .total_derivative(value, &|name| self.varies(name))
+        let graph = &self.graph;
+        let rate = |symbol| {
+            let (name, order) = (graph.symbol_name(symbol), graph.symbol_order(symbol));
+            match order {
+                0 if name == "t" => Some(graph.one()),
+                _ if self.varies(name) => Some(graph.symbol(name, order + 1)),
+                0 => self.mass_rate(name),
+                _ => None,
+            }
+        };
+        graph.derive(&[value], &rate).swap_remove(0)
     }
 
     /// What a computation of the motion needs and the model leaves open: values of parameters, laws of controls.

@@ -39,6 +39,12 @@ pub struct Model {
     pub assumptions: Vec<Assumption>,
     /// Named sub-expressions, each after those that it uses.
     pub defines: Vec<Definition>,
+    /// Named masses, in the order of the file. Those that are definitions stand in the expressions with their values, and
+    /// are among [`Model::defines`]; those with a law of their own are symbols of order 0, and their derivatives are rates.
+    pub masses: Vec<Mass>,
+    /// T, or L where T is not stated, with all named masses as symbols; `None` where the model names no masses or states
+    /// neither.
+    pub inertia_by_masses: Option<Expr>,
     /// Particles, in the order of the file.
     pub particles: Vec<Particle>,
     /// Whether [`Model::kinetic`] is the sum over the particles, because the model states neither T nor L.
@@ -51,6 +57,8 @@ pub struct Model {
     pub lagrangian: Expr,
     /// Generalized forces Q_i that are not in L, at most one for each coordinate.
     pub forces: Vec<Force>,
+    /// Reactive forces Ψ_s by coordinate, where the model states them.
+    pub reactive_forces: Option<Vec<Force>>,
     /// Rayleigh's dissipation function R; it adds −∂R/∂v to the forces.
     pub rayleigh: Option<Expr>,
     /// Constraints f = left − right, in the order of the file.
@@ -167,18 +175,69 @@ pub struct Definition {
     pub place: Place,
 }
 
-/// A particle: a point with a constant mass, moved by the coordinates.
+/// A named mass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mass {
+    /// Its name.
+    pub name: String,
+    /// Its symbol of order 0.
+    pub symbol: Expr,
+    /// How it changes.
+    pub law: MassLaw,
+    /// Its value or its rate as it is written.
+    pub text: String,
+    /// Its unit, where stated.
+    pub unit: Option<Unit>,
+    /// A word about it; may be empty.
+    pub description: String,
+    /// Where it is declared.
+    pub place: Place,
+}
+
+/// How a named mass changes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MassLaw {
+    /// It is this function of t, q, q' and other masses.
+    Value(Expr),
+    /// It is a state with this rate, a function of t, q, q' and masses.
+    Rate {
+        /// M'.
+        rate: Expr,
+        /// Its value at the start, an expression of parameters.
+        initial: Expr,
+    },
+}
+
+/// How the matter that a particle loses or gains leaves or arrives (Meshchersky).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Thrust {
+    /// With the velocity of the particle: no thrust.
+    #[default]
+    Isotropic,
+    /// With this velocity u relative to the particle: R = μ' u.
+    RelativeVelocity(Vec<Expr>),
+    /// Against the velocity of the particle with this relative speed c: u = −c r'/|r'|.
+    ExhaustSpeed(Expr),
+    /// With this velocity w: R = μ' (w − r').
+    AbsoluteVelocity(Vec<Expr>),
+    /// The thrust R itself.
+    Force(Vec<Expr>),
+}
+
+/// A particle: a point with a mass, moved by the coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Particle {
     /// Its name.
     pub name: String,
-    /// Its mass, an expression of parameters.
+    /// Its mass μ(t, q, v), in which masses with a law of their own may occur.
     pub mass: Expr,
     /// Its Cartesian position r(q, t), one to three components; controls may occur.
     pub position: Vec<Expr>,
     /// The applied force F(q, v, t), as many components as the position has; zero where none is stated. It is not
     /// among [`Model::forces`].
     pub force: Vec<Expr>,
+    /// The thrust of the matter that it loses or gains.
+    pub thrust: Thrust,
     /// A word about it; may be empty.
     pub description: String,
     /// Where it is stated.
@@ -397,6 +456,22 @@ impl Model {
             .iter()
             .any(|coordinate| coordinate.name == name)
             || self.controls.iter().any(|control| control.name == name)
+    }
+
+    /// The rate of a mass with a law of its own.
+    pub fn mass_rate(&self, name: &str) -> Option<Expr> {
+        self.masses.iter().find_map(|mass| match mass.law {
+            MassLaw::Rate { rate, .. } if mass.name == name => Some(rate),
+            _ => None,
+        })
+    }
+
+    /// The initial value of a mass with a law of its own.
+    pub fn initial_mass(&self, name: &str) -> Option<Expr> {
+        self.masses.iter().find_map(|mass| match mass.law {
+            MassLaw::Rate { initial, .. } if mass.name == name => Some(initial),
+            _ => None,
+        })
     }
 
     /// Symbols of the parameters with their values, where they have one: the input of a substitution.

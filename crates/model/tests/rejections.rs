@@ -167,7 +167,8 @@ fn a_suggestion_carried_out_gives_a_model() {
 fn wrong_particles_and_frames_of_the_gallery() {
     for text in [
         include_str!("../../../gallery/wrong/massless-particle.toml"),
-        include_str!("../../../gallery/wrong/variable-mass-particle.toml"),
+        include_str!("../../../gallery/wrong/two-thrusts.toml"),
+        include_str!("../../../gallery/wrong/mass-without-start.toml"),
         include_str!("../../../gallery/wrong/velocity-in-position.toml"),
         include_str!("../../../gallery/wrong/incomplete-frame.toml"),
         include_str!("../../../gallery/wrong/dependent-fields.toml"),

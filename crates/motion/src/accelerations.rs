@@ -1,6 +1,7 @@
 //! Accelerations and multipliers of the multiplier form at a state (theory 5.1 (2)).
 //!
-//! With `B` spanning ker J and `J a* = g`: `a = a* + B c`, `(Bᵀ M B) c = Bᵀ (b - M a*)`.
+//! With `B` spanning ker J and `J a* = g`: `a = a* + B c`, `(Bᵀ M B) c = Bᵀ (b - M a*)`. The matrix is symmetric unless a mass
+//! contains velocities.
 
 use crate::chart::Chart;
 use crate::dense::{Lu, SmallPivot, Symmetric};
@@ -18,6 +19,8 @@ pub struct Accelerations {
     pub factorizations: u64,
     dependent: Lu,
     reduced: Symmetric,
+    /// In the place of `reduced` where M is not symmetric.
+    general: Lu,
     block: Vec<f64>,
     /// B restricted to dependent rows: ρ × k.
     slope: Vec<f64>,
@@ -68,7 +71,10 @@ impl Accelerations {
         self.factor_reduced(system, chart)
             .map_err(SolveFailure::Inertia)?;
         let mut c = std::mem::take(&mut self.rhs);
-        self.reduced.solve(&mut c);
+        match system.is_symmetric {
+            true => self.reduced.solve(&mut c),
+            false => self.general.solve(&mut c),
+        }
         for (sigma, &i) in chart.independent.iter().enumerate() {
             self.a[i] += c[sigma];
         }
@@ -181,6 +187,13 @@ impl Accelerations {
     }
 
     fn factor_reduced(&mut self, system: &NumericSystem, chart: &Chart) -> Result<(), SmallPivot> {
+        if !system.is_symmetric {
+            if is_free(system, chart) {
+                self.matrix.clear();
+                self.matrix.extend_from_slice(system.mass());
+            }
+            return self.general.factor(chart.independent.len(), &self.matrix);
+        }
         if !is_free(system, chart) {
             return self.reduced.factor(chart.independent.len(), &self.matrix);
         }

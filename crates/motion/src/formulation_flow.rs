@@ -1,7 +1,7 @@
 //! The motion by the equations of a formulation: its own first-order system, derived and compiled; where its variables
 //! belong to a chart of independent velocities, another chart is derived and compiled when the present one degrades.
 //!
-//! State (q, variables). Relations between the variables (constraints that stay implicit, momenta that are no closed
+//! State (q, variables), where masses with a law of their own stand behind the coordinates. Relations between the variables (constraints that stay implicit, momenta that are no closed
 //! functions of velocities) are brought back to zero after each step.
 
 use crate::accelerations::Accelerations;
@@ -63,7 +63,7 @@ pub enum FlowError {
 #[derive(Clone, Debug)]
 struct ChartFunctions {
     selection: Selection,
-    /// (t, q, variables) → velocities, accelerations, rates, multipliers by row.
+    /// (t, q, variables) → velocities, accelerations, rates, multipliers by row, rates of masses.
     motion: Functions,
     /// (t, q, v) → variables; zero for those of its own.
     definitions: Functions,
@@ -171,7 +171,9 @@ impl<'a> FormulationFlow<'a> {
 
     /// Layout of the rows.
     pub fn layout(&self) -> RowLayout {
-        RowLayout::new(self.numeric.n, self.numeric.r).with_own(self.apart.len())
+        RowLayout::new(self.numeric.n, self.numeric.r)
+            .with_masses(self.numeric.masses.len())
+            .with_own(self.apart.len())
     }
 
     /// Names of the variables at the end of a row.
@@ -229,9 +231,9 @@ impl<'a> FormulationFlow<'a> {
     }
 
     fn evaluate(&mut self, t: f64, y: &[f64]) -> Result<(), EvaluationFailure> {
-        let n = self.numeric.n;
-        self.current.motion.evaluate(t, &[&y[..n], &y[n..]])?;
-        self.q.copy_from_slice(&y[..n]);
+        let (positions, rest) = y.split_at(self.numeric.positions());
+        self.current.motion.evaluate(t, &[positions, rest])?;
+        self.q.copy_from_slice(positions);
         self.v.copy_from_slice(self.current.motion.group(0));
         Ok(())
     }
@@ -343,7 +345,7 @@ impl<'a> FormulationFlow<'a> {
 
     /// Newton on the variables that relations determine; true when y changed.
     fn project(&mut self, t: f64, y: &mut [f64]) -> bool {
-        let n = self.numeric.n;
+        let n = self.numeric.positions();
         let Some(relations) = &mut self.current.relations else {
             return false;
         };
@@ -424,12 +426,17 @@ fn compile(
     let g = &system.graph;
     let mut variables: Vec<Symbol> = vec![g.intern_symbol("t", 0)];
     variables.extend(system.coordinate_symbols());
+    variables.extend(system.masses.iter().map(|m| m.symbol));
     variables.extend(equations.variables.iter().map(|x| x.symbol));
     let groups = [
         ("velocities", equations.velocities.clone()),
         ("accelerations", equations.accelerations.clone()),
         ("rates", equations.rates()),
         ("multipliers", multipliers(&equations, terms, g.zero())),
+        (
+            "masses",
+            equations.masses.iter().map(|(_, rate)| *rate).collect(),
+        ),
     ];
     let definitions: Vec<Expr> = equations
         .variables
@@ -466,7 +473,7 @@ fn multipliers(equations: &Equations, terms: &MotionTerms, zero: Expr) -> Vec<Ex
 
 impl Flow for FormulationFlow<'_> {
     fn dimension(&self) -> usize {
-        self.numeric.n + self.variables.len()
+        self.numeric.positions() + self.variables.len()
     }
 
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure> {
@@ -477,8 +484,10 @@ impl Flow for FormulationFlow<'_> {
             }
         }
         let n = self.numeric.n;
-        dy[..n].copy_from_slice(&self.v);
-        dy[n..].copy_from_slice(self.current.motion.group(2));
+        let (positions, rest) = dy.split_at_mut(self.numeric.positions());
+        positions[..n].copy_from_slice(&self.v);
+        positions[n..].copy_from_slice(self.current.motion.group(4));
+        rest.copy_from_slice(self.current.motion.group(2));
         Ok(())
     }
 
@@ -519,7 +528,7 @@ impl Flow for FormulationFlow<'_> {
         let motion = &self.current.motion;
         layout.write(row, &self.q, &self.v, motion.group(1), motion.group(3));
         for (value, &place) in row[layout.own()].iter_mut().zip(&self.apart) {
-            *value = y[self.numeric.n + place];
+            *value = y[self.numeric.positions() + place];
         }
         if let Some((accelerations, reference)) = &mut self.reactions {
             let system = &mut self.numeric;
@@ -567,6 +576,12 @@ impl WatchedFlow for FormulationFlow<'_> {
             return true;
         }
         self.watch.vanishes(index, t, &self.q, &self.v)
+    }
+
+    fn lost_mass(&mut self, t: f64, y: &[f64]) -> Option<(usize, f64)> {
+        self.evaluate(t, y).ok()?;
+        let a = self.current.motion.group(1);
+        self.watch.lost_mass(t, &self.q, &self.v, a)
     }
 
     fn settled(&self) -> f64 {

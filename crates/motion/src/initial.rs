@@ -14,7 +14,7 @@ use crate::numeric::NumericSystem;
 pub struct InitialData {
     /// Start time.
     pub t: f64,
-    /// Values or first guesses of q, length n.
+    /// Values or first guesses of q, length n, and behind them those of the masses with a law of their own.
     pub q: Vec<f64>,
     /// Values or first guesses of v, length n.
     pub v: Vec<f64>,
@@ -31,7 +31,7 @@ pub struct InitialData {
 pub struct ConsistentState {
     /// Start time.
     pub t: f64,
-    /// q, length n.
+    /// q, length n, and behind it the masses with a law of their own.
     pub q: Vec<f64>,
     /// v, length n.
     pub v: Vec<f64>,
@@ -312,7 +312,7 @@ impl Search<'_> {
         let (q, v) = (self.q.clone(), self.v.clone());
         let n = self.system.n;
         match self.system.evaluate(t, &q, &v) {
-            Ok(()) => self.system.mass().to_vec(),
+            Ok(()) => self.system.metric(),
             Err(_) => identity(n),
         }
     }

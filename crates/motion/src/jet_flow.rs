@@ -2,7 +2,7 @@
 //! integrated in its own state, which holds derivatives of coordinates up to order m - 1, multipliers, and unknowns that no
 //! formula gives (T2 §5).
 //!
-//! State (q, variables). What vanishes along every motion, constraints of lower order, equations that were differentiated
+//! State (q, masses with a law of their own, variables). What vanishes along every motion, constraints of lower order, equations that were differentiated
 //! and implicit equations, is measured at each step and brought back to zero where asked.
 
 use crate::chart::{self, Chart};
@@ -16,7 +16,7 @@ use crate::least_norm::{identity, least_step};
 use crate::numeric::Binding;
 use crate::row::RowLayout;
 use crate::run::WatchedFlow;
-use crate::watch::{vanishing_parts, Watch, Watched};
+use crate::watch::{masses_and_speeds, vanishing_parts, Watch, Watched};
 use chetaev_integrate::{Control, EvaluationFailure, HaltReason, System as Flow};
 use chetaev_mechanics::words::quoted;
 use chetaev_mechanics::{Basis, Equations, Formulation, MotionTerms, Selection, System};
@@ -27,15 +27,16 @@ use chetaev_symbolic::{Expr, Graph, Node, Symbol};
 const VELOCITIES: usize = 0;
 const RATES: usize = 1;
 const HIGHER: usize = 2;
+const MASSES: usize = 3;
 
 /// The equations for one selection of dependent derivatives, compiled.
 #[derive(Clone, Debug)]
 struct Compiled {
     selection: Selection,
-    /// The state: coordinates, then the variables.
+    /// The state: coordinates, masses with a law of their own, then the variables.
     symbols: Vec<Symbol>,
     names: Vec<String>,
-    /// (t, state) → q', rates of the variables, and derivatives of orders 2 to m.
+    /// (t, state) → q', rates of the variables, derivatives of orders 2 to m, rates of the masses.
     motion: Functions,
     /// (t, state) → what vanishes, and its gradient by the state.
     invariants: Functions,
@@ -131,6 +132,8 @@ impl<'a> JetFlow<'a> {
             known.push((c.q_symbol, start.q[i]));
             known.push((c.v_symbol, start.v[i]));
         }
+        let masses = system.masses.iter().zip(&start.q[system.n()..]);
+        known.extend(masses.map(|(m, &value)| (m.symbol, value)));
         known.extend(&jets.values);
         let value = |s: &Symbol| known.iter().find(|(own, _)| own == s).map(|(_, x)| *x);
         let open: Vec<Symbol> = self
@@ -216,7 +219,9 @@ impl<'a> JetFlow<'a> {
     pub fn layout(&self) -> RowLayout {
         let (n, terms) = (self.parts.system.n(), self.parts.terms);
         let higher = terms.order.saturating_sub(2) as usize * n;
-        RowLayout::new(n, terms.constraints.len()).with_own(higher + self.parameter_places().len())
+        RowLayout::new(n, terms.constraints.len())
+            .with_masses(self.parts.system.masses.len())
+            .with_own(higher + self.parameter_places().len())
     }
 
     /// Names of what a row ends with.
@@ -242,7 +247,8 @@ impl<'a> JetFlow<'a> {
         symbols
             .filter(|(_, &s)| {
                 let name = g.symbol_name(s);
-                system.coordinate_index(name).is_none() && !name.starts_with("lambda_")
+                let is_mass = system.masses.iter().any(|m| m.symbol == s);
+                system.coordinate_index(name).is_none() && !is_mass && !name.starts_with("lambda_")
             })
             .map(|(i, _)| i)
             .collect()
@@ -267,11 +273,17 @@ impl<'a> JetFlow<'a> {
         self.current.motion.evaluate(t, &[y])
     }
 
-    /// q, q', …, q^(m) at a state that was evaluated.
+    /// Masses with a law of their own, q, q', …, q^(m) at a state that was evaluated.
     fn jets(&self, y: &[f64]) -> Vec<f64> {
-        let n = self.parts.system.n();
+        let (n, masses) = (self.parts.system.n(), self.parts.system.masses.len());
         let motion = &self.current.motion;
-        [&y[..n], motion.group(VELOCITIES), motion.group(HIGHER)].concat()
+        [
+            &y[n..n + masses],
+            &y[..n],
+            motion.group(VELOCITIES),
+            motion.group(HIGHER),
+        ]
+        .concat()
     }
 
     /// A at a state that was evaluated, r × n.
@@ -335,8 +347,8 @@ impl<'a> JetFlow<'a> {
             let place = self.current.symbols.iter().position(|s| *s == symbol)?;
             Some(y[place])
         };
+        row[layout.positions()].copy_from_slice(&y[layout.positions()]);
         for (i, c) in system.coordinates.iter().enumerate() {
-            row[layout.q().start + i] = y[i];
             row[layout.v().start + i] = value(&c.name, 1)?;
             for order in 2..self.parts.terms.order {
                 let start = match order {
@@ -399,7 +411,7 @@ impl<'a> JetFlow<'a> {
     /// Newton steps of least size on what must vanish, coordinates fixed unless nothing else helps; true when y changed.
     fn bring_back(&mut self, t: f64, y: &mut [f64]) -> bool {
         let n = self.parts.system.n();
-        let movable: Vec<usize> = (n..y.len()).collect();
+        let movable: Vec<usize> = (n + self.parts.system.masses.len()..y.len()).collect();
         let mut changed = false;
         for _ in 0..6 {
             if self.current.invariants.evaluate(t, &[y]).is_err() {
@@ -465,8 +477,10 @@ fn compile(
     };
     let equations = parts.formulation.equations(&basis)?;
     let mut symbols = system.coordinate_symbols();
+    symbols.extend(system.masses.iter().map(|m| m.symbol));
     symbols.extend(equations.variables.iter().map(|x| x.symbol));
     let mut names: Vec<String> = system.coordinates.iter().map(|c| c.name.clone()).collect();
+    names.extend(system.masses.iter().map(|m| m.name.clone()));
     names.extend(equations.variables.iter().map(|x| x.name.clone()));
     let variables = with_time(g, &symbols);
     let mut higher = Vec::new();
@@ -481,6 +495,10 @@ fn compile(
         ("velocities", equations.velocities.clone()),
         ("rates", equations.rates()),
         ("higher", higher),
+        (
+            "masses",
+            equations.masses.iter().map(|(_, rate)| *rate).collect(),
+        ),
     ];
     let vanishing = equations.conditions.iter().map(|c| c.value);
     let implicit = equations.relations.iter().map(|(f, _)| *f);
@@ -498,19 +516,19 @@ fn compile(
     Ok((equations, compiled))
 }
 
-/// w and A as functions of t, q, …, q^(m) (and q'' for m = 1).
+/// w and A as functions of t, masses, q, …, q^(m) (and q'' for m = 1).
 fn reactions(parts: Parts<'_>) -> Result<Functions, FlowError> {
     let (system, g) = (parts.system, &parts.system.graph);
     let highest = parts.terms.order.max(2);
-    let symbols: Vec<Symbol> = (0..=highest)
-        .flat_map(|order| {
-            let own = system.coordinates.iter();
-            own.map(move |c| g.intern_symbol(&c.name, order))
-        })
-        .collect();
-    let sides = system.lagrange_left_sides().into_iter().zip(&system.forces);
-    let w: Vec<Expr> = sides.map(|(left, &force)| g.sub(left, force)).collect();
-    let groups = [("w", w), ("gradient", parts.terms.jacobian.concat())];
+    let mut symbols: Vec<Symbol> = system.masses.iter().map(|m| m.symbol).collect();
+    symbols.extend((0..=highest).flat_map(|order| {
+        let own = system.coordinates.iter();
+        own.map(move |c| g.intern_symbol(&c.name, order))
+    }));
+    let groups = [
+        ("w", system.motion_left_sides()),
+        ("gradient", parts.terms.jacobian.concat()),
+    ];
     let variables = with_time(g, &symbols);
     Ok(Functions::new(g, parts.binding, &variables, &groups)?)
 }
@@ -602,6 +620,7 @@ fn watched(parts: Parts<'_>, equations: &Equations, state: &[Symbol]) -> Vec<(Wa
             found.push((what, square));
         }
     }
+    found.extend(masses_and_speeds(system));
     found.extend(vanishing_parts(system, &parts.terms.constraints));
     let of_state = |e: &Expr| {
         let symbols = g.symbols_in(&[g.substitute(*e, &parts.binding.controls)]);
@@ -626,9 +645,12 @@ impl Flow for JetFlow<'_> {
 
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure> {
         self.evaluate(t, y)?;
-        let n = self.parts.system.n();
-        dy[..n].copy_from_slice(self.current.motion.group(VELOCITIES));
-        dy[n..].copy_from_slice(self.current.motion.group(RATES));
+        let motion = &self.current.motion;
+        let (q, rest) = dy.split_at_mut(self.parts.system.n());
+        let (masses, variables) = rest.split_at_mut(self.parts.system.masses.len());
+        q.copy_from_slice(motion.group(VELOCITIES));
+        masses.copy_from_slice(motion.group(MASSES));
+        variables.copy_from_slice(motion.group(RATES));
         Ok(())
     }
 
@@ -636,9 +658,8 @@ impl Flow for JetFlow<'_> {
         if self.evaluate(t, y).is_err() {
             return Control::Continue;
         }
-        let n = self.parts.system.n();
         if let Some(follow) = &mut self.follow {
-            follow.record(t, &y[..n], &y[n..]);
+            follow.record(t, y, &[]);
         }
         let modified = self.project && self.bring_back(t, y);
         self.settled = t;
@@ -667,7 +688,8 @@ impl Flow for JetFlow<'_> {
         let lambda = self.multipliers(t, y);
         let motion = &self.current.motion;
         let (a, further) = motion.group(HIGHER).split_at(n);
-        layout.write(row, &y[..n], motion.group(VELOCITIES), a, &lambda);
+        let positions = &y[..layout.positions().end];
+        layout.write(row, positions, motion.group(VELOCITIES), a, &lambda);
         let parameters = self.parameter_places();
         let own = further
             .iter()
@@ -704,6 +726,14 @@ impl Flow for JetFlow<'_> {
 impl WatchedFlow for JetFlow<'_> {
     fn vanishes(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
         self.zero_between || self.evaluate(t, y).is_err() || self.watch.vanishes(index, t, y, &[])
+    }
+
+    fn lost_mass(&mut self, t: f64, y: &[f64]) -> Option<(usize, f64)> {
+        let mut rates = std::mem::take(&mut self.rates);
+        let found = self.derivative(t, y, &mut rates);
+        self.rates = rates;
+        found.ok()?;
+        self.watch.lost_mass(t, y, &[], &self.rates)
     }
 
     fn settled(&self) -> f64 {

@@ -1,6 +1,6 @@
 //! The motion by Routh's equations: the multiplier form solved numerically at every state.
 //!
-//! State (q, v), projected on the constraints where asked; or (q, v_i) with the dependent velocities from the
+//! State (q, v), where masses with a law of their own stand behind the coordinates, projected on the constraints where asked; or (q, v_i) with the dependent velocities from the
 //! constraints, which are then satisfied identically (affine constraints only).
 
 use crate::accelerations::Accelerations;
@@ -133,6 +133,11 @@ impl MultiplierFlow {
         y
     }
 
+    /// Layout of the rows.
+    pub fn layout(&self) -> RowLayout {
+        RowLayout::new(self.system.n, self.system.r).with_masses(self.system.masses.len())
+    }
+
     /// Which variables are integrated.
     pub fn kind(&self) -> StateKind {
         self.kind
@@ -160,12 +165,12 @@ impl MultiplierFlow {
     }
 
     fn unpack(&mut self, t: f64, y: &[f64]) -> Result<(), EvaluationFailure> {
-        let n = self.system.n;
-        self.q.copy_from_slice(&y[..n]);
+        let (positions, rest) = y.split_at(self.system.positions());
+        self.q.copy_from_slice(positions);
         match self.kind {
-            StateKind::Full => self.v.copy_from_slice(&y[n..]),
+            StateKind::Full => self.v.copy_from_slice(rest),
             StateKind::Reduced => {
-                for (&i, &value) in self.chart.independent.iter().zip(&y[n..]) {
+                for (&i, &value) in self.chart.independent.iter().zip(rest) {
                     self.v[i] = value;
                 }
                 self.system.complete_velocities(
@@ -276,14 +281,15 @@ impl MultiplierFlow {
                 residual,
                 n,
                 &all,
-                self.system.mass(),
+                &self.system.metric(),
             );
             self.v.iter_mut().zip(&step).for_each(|(v, dv)| *v -= dv);
             changed = true;
         }
         if changed {
-            y[..n].copy_from_slice(&self.q);
-            y[n..].copy_from_slice(&self.v);
+            let (positions, rest) = y.split_at_mut(self.system.positions());
+            positions.copy_from_slice(&self.q);
+            rest.copy_from_slice(&self.v);
         }
         changed
     }
@@ -352,7 +358,8 @@ impl MultiplierFlow {
                 return;
             }
             let gradient = self.system.position_gradient();
-            let step = least_step(gradient, residual, self.system.n, all, self.system.mass());
+            let metric = self.system.metric();
+            let step = least_step(gradient, residual, self.system.n, all, &metric);
             self.q.iter_mut().zip(&step).for_each(|(q, dq)| *q -= dq);
             *changed = true;
         }
@@ -362,8 +369,8 @@ impl MultiplierFlow {
 impl System for MultiplierFlow {
     fn dimension(&self) -> usize {
         match self.kind {
-            StateKind::Full => 2 * self.system.n,
-            StateKind::Reduced => self.system.n + self.chart.independent.len(),
+            StateKind::Full => self.system.positions() + self.system.n,
+            StateKind::Reduced => self.system.positions() + self.chart.independent.len(),
         }
     }
 
@@ -380,12 +387,12 @@ impl System for MultiplierFlow {
                 return Err(EvaluationFailure::LeftConstraint { constraint });
             }
         }
-        let n = self.system.n;
-        dy[..n].copy_from_slice(&self.v);
+        let (positions, rest) = dy.split_at_mut(self.system.positions());
+        self.system.position_rates(t, &self.q, &self.v, positions)?;
         match self.kind {
-            StateKind::Full => dy[n..].copy_from_slice(&self.accelerations.a),
+            StateKind::Full => rest.copy_from_slice(&self.accelerations.a),
             StateKind::Reduced => {
-                for (rate, &i) in dy[n..].iter_mut().zip(&self.chart.independent) {
+                for (rate, &i) in rest.iter_mut().zip(&self.chart.independent) {
                     *rate = self.accelerations.a[i];
                 }
             }
@@ -424,12 +431,12 @@ impl System for MultiplierFlow {
     }
 
     fn output_dimension(&self) -> usize {
-        RowLayout::new(self.system.n, self.system.r).len()
+        self.layout().len()
     }
 
     fn output(&mut self, t: f64, y: &[f64], row: &mut [f64]) -> Result<(), EvaluationFailure> {
         self.evaluate(t, y)?;
-        let layout = RowLayout::new(self.system.n, self.system.r);
+        let layout = self.layout();
         layout.write(
             row,
             &self.q,
@@ -475,6 +482,14 @@ impl WatchedFlow for MultiplierFlow {
             return true;
         }
         self.watch.vanishes(index, t, &self.q, &self.v)
+    }
+
+    fn lost_mass(&mut self, t: f64, y: &[f64]) -> Option<(usize, f64)> {
+        if self.evaluate(t, y).is_err() {
+            self.accelerations.fill_unknown(self.system.n);
+        }
+        let (q, v) = (&self.q, &self.v);
+        self.watch.lost_mass(t, q, v, &self.accelerations.a)
     }
 
     fn settled(&self) -> f64 {

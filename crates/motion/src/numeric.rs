@@ -25,7 +25,8 @@ pub enum NumericError {
     Functions(#[from] FunctionsError),
 }
 
-/// `M a - Jᵀ λ = b`, `J a = g`, `f = 0` and the holonomic `φ = 0` as numeric functions of (t, q, v).
+/// `M a - Jᵀ λ = b`, `J a = g`, `f = 0` and the holonomic `φ = 0` as numeric functions of (t, q, v). Wherever positions q are
+/// taken, the masses with a law of their own stand behind the coordinates.
 #[derive(Clone, Debug)]
 pub struct NumericSystem {
     /// Number of coordinates.
@@ -34,6 +35,10 @@ pub struct NumericSystem {
     pub r: usize,
     /// Names of the coordinates.
     pub coordinates: Vec<String>,
+    /// Names of the masses with a law of their own.
+    pub masses: Vec<String>,
+    /// Whether the mass matrix is symmetric, as it is unless a mass contains velocities.
+    pub is_symmetric: bool,
     /// Names of the constraints, by row.
     pub constraints: Vec<String>,
     /// Rows that are affine in the velocities.
@@ -50,6 +55,7 @@ pub struct NumericSystem {
     dynamics: Functions,
     kinematics: Functions,
     positions: Functions,
+    rates: Functions,
 }
 
 /// Groups of the dynamics program, in order.
@@ -66,7 +72,7 @@ pub struct Binding {
     pub parameters: Vec<(Symbol, f64)>,
     /// Substitution of controls and their derivatives by their laws.
     pub controls: Vec<(Expr, Expr)>,
-    /// The variables (t, q, v) in this order.
+    /// The variables (t, q, masses with a law of their own, v) in this order.
     pub variables: Vec<Symbol>,
 }
 
@@ -102,6 +108,7 @@ impl Binding {
 fn variables(g: &Graph, system: &System) -> Vec<Symbol> {
     let mut variables = vec![g.intern_symbol("t", 0)];
     variables.extend(system.coordinate_symbols());
+    variables.extend(system.masses.iter().map(|m| m.symbol));
     variables.extend(system.velocity_symbols());
     variables
 }
@@ -158,6 +165,8 @@ impl NumericSystem {
             n: system.n(),
             r,
             coordinates: system.coordinates.iter().map(|c| c.name.clone()).collect(),
+            masses: system.masses.iter().map(|m| m.name.clone()).collect(),
+            is_symmetric: chetaev_mechanics::mass::with_velocity(system).is_none(),
             constraints: (0..r).map(|row| constraint(row).name.clone()).collect(),
             affine: (0..r)
                 .map(|row| constraint(row).is_affine_in_velocities())
@@ -174,6 +183,12 @@ impl NumericSystem {
                 binding,
                 &binding.variables,
                 &[("position", stated), ("gradient", gradient)],
+            )?,
+            rates: Functions::new(
+                g,
+                binding,
+                &binding.variables,
+                &[("rate", system.masses.iter().map(|m| m.rate).collect())],
             )?,
         })
     }
@@ -222,6 +237,40 @@ impl NumericSystem {
         v: &[f64],
     ) -> Result<(), EvaluationFailure> {
         self.positions.evaluate(t, &[q, v])
+    }
+
+    /// The length of a vector of positions: coordinates, and masses with a law of their own.
+    pub fn positions(&self) -> usize {
+        self.n + self.masses.len()
+    }
+
+    /// The rates of the positions: v, and those of the masses by their laws.
+    ///
+    /// # Errors
+    /// When a value is not finite.
+    pub fn position_rates(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        rates: &mut [f64],
+    ) -> Result<(), EvaluationFailure> {
+        rates[..self.n].copy_from_slice(v);
+        if !self.masses.is_empty() {
+            self.rates.evaluate(t, &[q, v])?;
+            rates[self.n..].copy_from_slice(self.rates.group(0));
+        }
+        Ok(())
+    }
+
+    /// M as a metric: its symmetric part.
+    pub fn metric(&self) -> Vec<f64> {
+        let (n, mass) = (self.n, self.mass());
+        if self.is_symmetric {
+            return mass.to_vec();
+        }
+        let entry = |k: usize| (mass[k] + mass[k % n * n + k / n]) / 2.0;
+        (0..n * n).map(entry).collect()
     }
 
     /// M, n × n.

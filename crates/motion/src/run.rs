@@ -172,6 +172,9 @@ pub(crate) trait WatchedFlow: chetaev_integrate::System {
     /// Whether watched quantity `index` vanishes at the state y, where the integrator has found its minimum.
     fn vanishes(&mut self, index: usize, t: f64, y: &[f64]) -> bool;
 
+    /// The watched mass that is about to vanish at the state y, and when.
+    fn lost_mass(&mut self, t: f64, y: &[f64]) -> Option<(usize, f64)>;
+
     /// The time of the last accepted state from which constraints are followed.
     fn settled(&self) -> f64;
 }
@@ -231,7 +234,7 @@ impl Subject<'_> {
                 let names = stop::Names {
                     coordinates: &self.numeric.coordinates,
                     constraints: &self.numeric.constraints,
-                    state: stop::component_names(&self.numeric.coordinates, kind, chart),
+                    state: stop::component_names(self.numeric, kind, chart),
                     unknowns: None,
                 };
                 stop::ending(&stop, &names, pivot)
@@ -242,7 +245,7 @@ impl Subject<'_> {
             && (kind == StateKind::Full || !self.numeric.holonomic.is_empty()))
         .then(|| flow.drift.clone());
         let followed = flow.follow.take();
-        let layout = (RowLayout::new(self.numeric.n, self.numeric.r), Vec::new());
+        let layout = (flow.layout(), Vec::new());
         Ok(self.collect("routh", layout, settings, pieces, ending, (drift, followed)))
     }
 
@@ -294,9 +297,22 @@ impl Subject<'_> {
             } = stop
             {
                 if let Some(what) = watched.get(index as usize) {
+                    // The last accepted state lies a little before a mass is lost.
+                    let lost = flow
+                        .lost_mass(t, &y)
+                        .filter(|(own, _)| *own == index as usize);
+                    let t = lost.map_or(t, |(_, t)| t);
                     let ending = stop::vanished(what, t, &self.constraint_names());
                     return Ok((pieces, End::Vanished(ending)));
                 }
+            }
+            let singular = !matches!(
+                stop,
+                Stop::Finished | Stop::Interrupted { .. } | Stop::Event { .. }
+            );
+            if let Some((index, t)) = flow.lost_mass(t, &y).filter(|_| singular) {
+                let ending = stop::vanished(&watched[index], t, &self.numeric.constraints);
+                return Ok((pieces, End::Vanished(ending)));
             }
             return Ok((pieces, End::Stopped(stop, t, y)));
         }
@@ -321,10 +337,9 @@ impl Subject<'_> {
             JetFlow::new(parts, self.selection, self.start, jets, settings.project)?;
         if !settings.follow.is_empty() {
             let kept = [settings.follow.clone(), self.residuals()].concat();
-            let (q, rest) = y0.split_at(self.system.n());
             let mut variables = vec![self.system.graph.intern_symbol("t", 0)];
             variables.extend(flow.symbols());
-            let at = (self.start.t, q, rest);
+            let at = (self.start.t, &y0[..], &[][..]);
             flow.follow = Some(Follow::over(
                 self.system,
                 self.binding,
@@ -396,6 +411,7 @@ impl Subject<'_> {
             End::Vanished(ending) => ending,
             End::Stopped(stop, ..) => {
                 let mut state = self.numeric.coordinates.clone();
+                state.extend_from_slice(&self.numeric.masses);
                 state.extend_from_slice(flow.variables());
                 let names = stop::Names {
                     coordinates: &self.numeric.coordinates,
@@ -596,7 +612,7 @@ impl Subject<'_> {
         options.step_limit = 10_000;
         let span = (self.start.t, settings.t_end);
         let solution = integrate(&mut flow, span, &y0, &mut [], options).ok()?;
-        let layout = RowLayout::new(self.numeric.n, self.numeric.r);
+        let layout = flow.layout();
         let row = solution.rows.get(..layout.v().end)?;
         (solution.stop == Stop::Finished).then(|| row.to_vec())
     }

@@ -2,6 +2,7 @@
 
 use crate::chart::Chart;
 use crate::multiplier_flow::StateKind;
+use crate::numeric::NumericSystem;
 use crate::watch::Watched;
 use chetaev_integrate::{EvaluationFailure, HaltReason, Stop};
 use chetaev_mechanics::words::quoted;
@@ -33,8 +34,10 @@ pub struct Names<'a> {
 }
 
 /// Names of the components of the state of the multiplier form.
-pub fn component_names(coordinates: &[String], kind: StateKind, chart: &Chart) -> Vec<String> {
-    let mut names = coordinates.to_vec();
+pub fn component_names(system: &NumericSystem, kind: StateKind, chart: &Chart) -> Vec<String> {
+    let coordinates = &system.coordinates;
+    let mut names = coordinates.clone();
+    names.extend_from_slice(&system.masses);
     match kind {
         StateKind::Full => names.extend(coordinates.iter().map(|c| format!("{c}'"))),
         StateKind::Reduced => {
@@ -55,6 +58,12 @@ pub fn vanished(what: &Watched, t: f64, constraints: &[String]) -> Ending {
         Watched::Gradient { row } => format!(
             "the gradient of constraint `{}` by the velocities vanishes at t = {t:.9}: the rank of the constraints falls and the motion beyond is not determined",
             constraints[*row]
+        ),
+        Watched::Mass { name } => {
+            format!("the mass of `{name}` reaches zero at t = {t:.9}: there is nothing left to move")
+        }
+        Watched::Speed { particle } => format!(
+            "the velocity of `{particle}` vanishes at t = {t:.9}: the thrust against it has no direction there"
         ),
         Watched::Expression { text } => format!(
             "{text} vanishes at t = {t:.9}: the equations are singular there{}",

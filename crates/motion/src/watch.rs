@@ -1,4 +1,4 @@
-//! Quantities whose vanishing makes the equations of motion singular: gradients of constraints, radicands, denominators.
+//! Quantities whose vanishing makes the equations of motion singular: gradients of constraints, masses, radicands, denominators.
 //!
 //! An integrator can step across such a point without noticing (pursuit at the moment of capture). Each watched quantity
 //! is non-negative; a local minimum along the motion that is zero to the accuracy of the run stops it.
@@ -6,8 +6,9 @@
 use crate::functions::{Functions, FunctionsError};
 use crate::numeric::Binding;
 use chetaev_integrate::EvaluationFailure;
+use chetaev_mechanics::system::Thrust;
 use chetaev_mechanics::terms::freeze_accelerations;
-use chetaev_mechanics::{MotionTerms, System};
+use chetaev_mechanics::{mass, particles, MotionTerms, System};
 use chetaev_symbolic::{rational, Expr, Node, Symbol};
 
 /// What vanishes.
@@ -17,6 +18,16 @@ pub enum Watched {
     Gradient {
         /// The row.
         row: usize,
+    },
+    /// The square of a mass.
+    Mass {
+        /// Of the particle, or of the mass with a law of its own.
+        name: String,
+    },
+    /// The squared velocity of a particle with thrust against it.
+    Speed {
+        /// The particle.
+        particle: String,
     },
     /// The argument of a root, or the square of a denominator.
     Expression {
@@ -48,6 +59,8 @@ const ZERO: f64 = 1e-12;
 const ZERO_DETERMINANT: f64 = 1e-22;
 /// Rates below this, relative to the largest value, count as none.
 const FLAT: f64 = 1e-12;
+/// A mass that would be zero this soon, relative to the time, has ended the run.
+const SOON: f64 = 1e-3;
 const MOST: usize = 12;
 
 impl Watch {
@@ -66,6 +79,7 @@ impl Watch {
             let squares: Vec<Expr> = gradient.iter().map(|&e| g.powi(e, 2)).collect();
             found.push((Watched::Gradient { row }, g.add(&squares)));
         }
+        found.extend(masses_and_speeds(system));
         found.retain(|(_, value)| {
             !g.is_free_of(*value, &|s| {
                 system.moves(g.symbol_name(s)) || g.symbol_name(s) == "t"
@@ -100,15 +114,9 @@ impl Watch {
         found.truncate(MOST);
         let values: Vec<Expr> = found.iter().map(|(_, value)| *value).collect();
         let state = &variables[1..];
-        let drift = g.derive(&values, &|s| {
-            let (name, order) = (g.symbol_name(s), g.symbol_order(s));
-            match name == "t" && order == 0 {
-                true => Some(g.one()),
-                false => {
-                    let is_control = system.controls.iter().any(|u| u.name == name);
-                    is_control.then(|| g.symbol(name, order + 1))
-                }
-            }
+        let drift = g.derive(&values, &|s| match state.contains(&s) {
+            true => None,
+            false => system.prescribed_rate(s),
         });
         let slopes = g.jacobian(&values, state).concat();
         let groups = [("value", values), ("drift", drift), ("slope", slopes)];
@@ -166,6 +174,30 @@ impl Watch {
         Ok(if rate.abs() < FLAT { -FLAT } else { rate })
     }
 
+    /// The mass that a run lost which ended near (t, q, v), with the time at which it reaches zero at its present rate: the
+    /// velocities may grow without bound before the mass is zero to rounding.
+    pub fn lost_mass(&mut self, t: f64, q: &[f64], v: &[f64], a: &[f64]) -> Option<(usize, f64)> {
+        self.functions.evaluate(t, &[q, v]).ok()?;
+        let (values, drift, slopes) = (
+            self.functions.group(0),
+            self.functions.group(1),
+            self.functions.group(2),
+        );
+        let masses = self.quantities.iter().enumerate();
+        let mut lost = masses.filter_map(|(index, what)| {
+            let small = values[index] <= NEAR * self.reference[index];
+            if !matches!(what, Watched::Mass { .. }) || !small {
+                return None;
+            }
+            let slope = &slopes[index * self.n..(index + 1) * self.n];
+            let along: f64 = slope.iter().zip(a).map(|(s, a)| s * a).sum();
+            // The square of a mass has twice the relative rate of the mass.
+            let left = -2.0 * values[index] / (drift[index] + along);
+            (left.abs() <= SOON * (1.0 + t.abs())).then_some((index, t + left))
+        });
+        lost.next()
+    }
+
     /// Whether quantity `index` is small enough at (t, q, v) for its minimum to be looked at closely.
     pub fn is_near(&mut self, index: usize, t: f64, q: &[f64], v: &[f64]) -> bool {
         match self.functions.evaluate(t, &[q, v]) {
@@ -206,6 +238,46 @@ pub(crate) fn vanishing_parts(system: &System, constraints: &[Expr]) -> Vec<(Wat
                 },
                 value,
             )
+        })
+        .collect()
+}
+
+/// The squares of the masses that vary, and of the velocities of particles with thrust against them.
+pub(crate) fn masses_and_speeds(system: &System) -> Vec<(Watched, Expr)> {
+    masses(system).into_iter().chain(speeds(system)).collect()
+}
+
+/// The squares of the masses that vary, each once.
+fn masses(system: &System) -> Vec<(Watched, Expr)> {
+    let g = &system.graph;
+    let of_particles = system.particles.iter().map(|p| (&p.name, p.mass));
+    let own = system.masses.iter().map(|m| (&m.name, m.expr));
+    let mut seen: Vec<Expr> = Vec::new();
+    let mut found = Vec::new();
+    for (name, value) in own.chain(of_particles) {
+        if !mass::varies(system, value) || seen.contains(&value) {
+            continue;
+        }
+        seen.push(value);
+        let name = name.clone();
+        found.push((Watched::Mass { name }, g.powi(value, 2)));
+    }
+    found
+}
+
+/// The squared velocities of the particles with thrust against them.
+fn speeds(system: &System) -> Vec<(Watched, Expr)> {
+    let g = &system.graph;
+    let driven = system
+        .particles
+        .iter()
+        .filter(|p| matches!(p.thrust, Thrust::ExhaustSpeed(_)) && mass::varies(system, p.mass));
+    driven
+        .map(|p| {
+            let components = particles::velocity(system, p).into_iter();
+            let squares: Vec<Expr> = components.map(|e| g.powi(e, 2)).collect();
+            let particle = p.name.clone();
+            (Watched::Speed { particle }, g.add(&squares))
         })
         .collect()
 }

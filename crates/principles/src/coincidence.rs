@@ -48,7 +48,11 @@ impl Claim for VakonomicCoincides {
     }
 
     fn requires(&self, subject: Option<&str>) -> Vec<String> {
-        let mut hypotheses = vec!["model.forces-absent", "model.accelerations-unique"];
+        let mut hypotheses = vec![
+            "model.forces-absent",
+            "model.accelerations-unique",
+            "model.masses-of-time",
+        ];
         if subject == Some(SYSTEM) {
             hypotheses.push("model.constrained-extremum-regular");
         }

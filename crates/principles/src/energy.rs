@@ -37,7 +37,7 @@ impl Claim for EnergyIntegral {
     fn explanation(&self) -> &'static str {
         "The energy H = Σ p v - L, with p = ∂L/∂v of the unconstrained Lagrangian, keeps its value along every motion. \
          Its rate is dH/dt = -∂L/∂t + Σ Q v + Σ λ (∂f/∂v · v): the explicit time in the Lagrangian, the power of the \
-         forces that are not in the Lagrangian, and the power of the reactions. The last one vanishes when ∂f/∂v · v = 0 \
+         forces that are not in the Lagrangian, among them the reactive forces of masses that vary, and the power of the reactions. The last one vanishes when ∂f/∂v · v = 0 \
          at all states that satisfy the constraints, for example when every constraint is homogeneous in the velocities, \
          of any degree; the constraints may contain the time. The claim is decided by dH/dt = 0 with the accelerations \
          of the motion; the three hypotheses, each decided by itself, say why. `refuted` comes with a state at which \
@@ -45,7 +45,10 @@ impl Claim for EnergyIntegral {
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
-        vec!["model.accelerations-unique".into()]
+        vec![
+            "model.accelerations-unique".into(),
+            "model.masses-free-of-velocity".into(),
+        ]
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
@@ -165,7 +168,10 @@ fn hypotheses(cx: &Context<'_>) -> Vec<Hypothesis> {
     let mut all = vec![Hypothesis {
         term: explicit,
         holding: "∂L/∂t = 0".into(),
-        failing: "L depends on the time".into(),
+        failing: match system.masses.is_empty() {
+            true => "L depends on the time".into(),
+            false => "L depends on the time, or on masses that change".into(),
+        },
         constraint: None,
         verdict: cx.prover.identity(
             system,
@@ -183,7 +189,10 @@ fn hypotheses(cx: &Context<'_>) -> Vec<Hypothesis> {
         } else {
             "the forces Q do no work, Σ Q v = 0".into()
         },
-        failing: "the forces Q do work".into(),
+        failing: match system.reactive_forces.iter().all(|&e| g.is_zero(e)) {
+            true => "the forces Q do work".into(),
+            false => "the forces Q and the reactive forces Ψ do work".into(),
+        },
         constraint: None,
         verdict: on_motion(cx, &[power]),
     });

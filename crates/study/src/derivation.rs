@@ -95,9 +95,11 @@ pub fn derivation(
         problem,
     })?;
     let system = cx.system;
+    let laws = equations.laws_of_masses(system);
     let groups = equations
         .groups
         .iter()
+        .chain(&laws)
         .map(|group| ReadableGroup {
             title: group.title.clone(),
             schema: group.schema,

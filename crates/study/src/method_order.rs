@@ -160,7 +160,10 @@ impl Laboratory<'_> {
             return Some(self.subject.start.clone());
         }
         let (values, layout) = (self.run.row(row), self.run.layout);
-        let (q, v) = (values[layout.q()].to_vec(), values[layout.v()].to_vec());
+        let (q, v) = (
+            values[layout.positions()].to_vec(),
+            values[layout.v()].to_vec(),
+        );
         let mut numeric = self.subject.numeric.clone();
         let t = self.run.times[row];
         numeric.evaluate(t, &q, &v).ok()?;
@@ -237,7 +240,7 @@ impl Laboratory<'_> {
         places: u32,
     ) -> Option<Vec<f64>> {
         let part = length / f64::from(places);
-        let n = self.subject.numeric.n;
+        let n = self.subject.numeric.positions();
         let mut here = start.clone();
         let mut states = Vec::new();
         for place in 1..=places {

@@ -243,5 +243,7 @@ fn start_values(subject: &Subject<'_>) -> Vec<(String, f64)> {
         .iter()
         .zip(&subject.start.v)
         .map(|(c, &x)| (format!("{}'", c.name), x));
-    q.chain(v).collect()
+    let masses = subject.system.masses.iter().map(|m| m.name.clone());
+    let masses = masses.zip(subject.start.q[coordinates.len()..].iter().copied());
+    q.chain(masses).chain(v).collect()
 }

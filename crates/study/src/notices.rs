@@ -4,7 +4,7 @@ use crate::start::{holds, Start};
 use crate::study::Motion;
 use chetaev_mechanics::words::quoted;
 use chetaev_mechanics::{choice, Prepared, System};
-use chetaev_model::model::Model;
+use chetaev_model::model::{MassLaw, Model};
 use chetaev_motion::initial::jets::describe;
 use chetaev_motion::observe::Observer;
 use chetaev_symbolic::Expr;
@@ -26,6 +26,8 @@ pub(crate) fn notices(
     if prepared.terms.order == 1 {
         notices.extend(unused_multipliers(model, formulation));
     }
+    notices.extend(isotropic(model, system));
+    notices.extend(mass_in_potential(model));
     if let Some(start) = start {
         notices.extend(redundant(start));
         notices.extend(completed(start));
@@ -54,6 +56,39 @@ fn holonomic(model: &Model, system: &System) -> Vec<String> {
         }
     }
     notices
+}
+
+/// A stated kinetic energy with masses that vary, of which nothing more is said.
+fn isotropic(model: &Model, system: &System) -> Option<String> {
+    let g = &system.graph;
+    let computed = model.inertia_by_masses.is_some()
+        && model.particles.is_empty()
+        && model.reactive_forces.is_none()
+        && system.reactive_forces.iter().any(|&e| !g.is_zero(e));
+    computed.then(|| {
+        "the masses in the kinetic energy change isotropically: what leaves or arrives has the velocity of its body and pushes nothing; state [reactive_forces] where that is not meant".to_owned()
+    })
+}
+
+/// A potential with a mass that depends on the coordinates: its gradient is not the force on that mass.
+fn mass_in_potential(model: &Model) -> Option<String> {
+    let (g, potential) = (&model.graph, model.potential?);
+    let coordinates: Vec<Expr> = model.coordinates.iter().map(|c| c.symbol).collect();
+    let moves = |e: Expr| {
+        let symbols = g.symbols_in(&[e]);
+        symbols
+            .into_iter()
+            .any(|s| coordinates.contains(&g.symbol(g.symbol_name(s), 0)))
+    };
+    let named = model.masses.iter().find_map(|mass| match mass.law {
+        MassLaw::Value(value) if moves(value) && g.reachable(&[potential]).contains(&value) => {
+            Some(&mass.name)
+        }
+        _ => None,
+    })?;
+    Some(format!(
+        "the potential contains the mass `{named}`, which depends on the coordinates: its gradient contains the slope of the mass, which is no force on it; state the force on the particle where that is not meant"
+    ))
 }
 
 /// Initial values of multipliers that the state determines: all of them but those of the constrained extremum, in it.

@@ -22,7 +22,7 @@ pub fn diagnostics(problem: &StudyError, model: &Model) -> Vec<Diagnostic> {
         .collect()
 }
 
-/// A diagnostic at the places of the constraints, parameters, controls, initial values and coordinates that `problem`
+/// A diagnostic at the places of the constraints, parameters, controls, masses, initial values and coordinates that `problem`
 /// names in quotes (`` `roll` ``); where it names none, at the initial data or at the beginning of the file.
 pub fn placed(problem: &str, model: &Model) -> Diagnostic {
     let mut places: Vec<Place> = Vec::new();
@@ -51,11 +51,13 @@ fn place_of(name: &str, model: &Model) -> Option<Place> {
     let constraint = model.constraints.iter().find(|c| c.name == name);
     let parameter = model.parameters.iter().find(|p| p.name == name);
     let control = model.controls.iter().find(|u| u.name == name);
+    let mass = model.masses.iter().find(|m| m.name == name);
     let assumption = model.assumptions.iter().find(|a| a.text == name);
     constraint
         .map(|c| c.place)
         .or_else(|| parameter.map(|p| p.place))
         .or_else(|| control.map(|u| u.place))
+        .or_else(|| mass.map(|m| m.place))
         .or_else(|| assumption.map(|a| a.place))
         .or_else(|| {
             let given = model.initial.values.get(&(coordinate?, order));

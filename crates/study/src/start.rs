@@ -64,7 +64,13 @@ pub(crate) fn start_of_motion(
 fn is_regular_elsewhere(numeric: &mut NumericSystem, data: &InitialData) -> bool {
     let spread = |i: usize, least: f64| least + 0.37 * ((i + 1) as f64).sin().abs();
     let elsewhere = InitialData {
-        q: (0..data.q.len()).map(|i| spread(i, 0.4)).collect(),
+        q: (0..data.q.len())
+            .map(|i| match i < data.q_fixed.len() {
+                true => spread(i, 0.4),
+                // A mass with a law of its own has its initial value.
+                false => data.q[i],
+            })
+            .collect(),
         v: (0..data.v.len()).map(|i| spread(i, 0.5)).collect(),
         project: true,
         ..data.clone()
@@ -104,6 +110,11 @@ fn check_assumptions(system: &System, start: &ConsistentState) -> Result<(), Stu
                 (Some(i), 0) => Some(start.q[i]),
                 (Some(i), 1) => Some(start.v[i]),
                 (None, 0) if name == "t" => Some(start.t),
+                (None, 0) => {
+                    let masses = system.masses.iter().zip(&start.q[system.n()..]);
+                    let mut own = masses.filter(|(m, _)| m.name == name);
+                    own.next().map(|(_, &value)| value)
+                }
                 _ => None,
             }
         };
@@ -164,13 +175,15 @@ fn initial_data(
     let n = system.n();
     let values = system.parameter_values();
     let g = &model.graph;
+    let mut q = vec![0.0; n];
+    q.extend(initial_masses(model, system)?);
     let mut data = InitialData {
         t: model
             .simulation
             .t_start
             .and_then(|t| number(g, t, &values))
             .unwrap_or(0.0),
-        q: vec![0.0; n],
+        q,
         v: vec![0.0; n],
         q_fixed: vec![false; n],
         v_fixed: vec![false; n],
@@ -234,6 +247,22 @@ pub(crate) fn add_jets(
     let jets = jet_start(&basis, &start.binding, (at.t, &at.q, &at.v), &data)?;
     start.start.jets = Some(jets);
     Ok(())
+}
+
+/// The masses with a law of their own at the start.
+fn initial_masses(model: &Model, system: &System) -> Result<Vec<f64>, StudyError> {
+    let values = system.parameter_values();
+    let start = |name: &str| {
+        let initial = model.initial_mass(name)?;
+        number(&model.graph, initial, &values)
+    };
+    let masses = system.masses.iter();
+    masses
+        .map(|m| {
+            let name = m.name.clone();
+            start(&m.name).ok_or(StudyError::InitialValue { name })
+        })
+        .collect()
 }
 
 /// How the motion is computed: options, else the model, else the program decides.

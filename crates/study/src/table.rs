@@ -11,7 +11,7 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 /// Named columns of equal length, the time first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// Names: `t`, coordinates, velocities, accelerations, `lambda_NAME`, variables of the formulation alone (momenta,
+    /// Names: `t`, coordinates, masses with a law of their own, velocities, accelerations, `lambda_NAME`, variables of the formulation alone (momenta,
     /// quasi-velocities, `kappa_NAME`), `energy`, integrals.
     pub names: Vec<String>,
     /// Columns.
@@ -28,11 +28,13 @@ impl Table {
         };
         let column = |i: usize| (0..run.len()).map(|j| run.row(j)[i]).collect::<Vec<f64>>();
         let coordinates = &study.system.coordinates;
-        for (primes, range) in [
-            ("", run.layout.q()),
-            ("'", run.layout.v()),
-            ("''", run.layout.a()),
-        ] {
+        for (c, i) in coordinates.iter().zip(run.layout.q()) {
+            table.push(c.name.clone(), column(i));
+        }
+        for (mass, i) in study.system.masses.iter().zip(run.layout.masses()) {
+            table.push(mass.name.clone(), column(i));
+        }
+        for (primes, range) in [("'", run.layout.v()), ("''", run.layout.a())] {
             for (c, i) in coordinates.iter().zip(range) {
                 table.push(format!("{}{primes}", c.name), column(i));
             }

@@ -4,6 +4,7 @@ mod constraints;
 mod draw;
 mod frames;
 mod lagrangian;
+mod masses;
 mod particles;
 mod singular;
 mod text;
@@ -44,6 +45,10 @@ pub enum Family {
     Particles,
     /// Neither L nor the constraints contain the coordinates of the dependent velocities.
     Chaplygin,
+    /// Particles whose masses are functions of t and q, or have laws of their own, with every mode of thrust.
+    VariableMass,
+    /// The same with masses that contain velocities.
+    VelocityMass,
 }
 
 /// Seeds below it make larger systems too.
@@ -51,7 +56,7 @@ const LARGER: u64 = 50;
 
 impl Family {
     /// All families, in the order of [`FAMILY_NAMES`].
-    pub const ALL: [Family; 11] = [
+    pub const ALL: [Family; 13] = [
         Family::PolynomialLinear,
         Family::TrigonometricLinear,
         Family::PolynomialNonlinear,
@@ -63,6 +68,8 @@ impl Family {
         Family::Singular,
         Family::Particles,
         Family::Chaplygin,
+        Family::VariableMass,
+        Family::VelocityMass,
     ];
 
     /// The name on the command line.
@@ -92,6 +99,7 @@ impl Family {
         match self {
             _ if seed >= LARGER => &[2, 2, 2, 2, 2, 3, 3, 4],
             Family::Radicals | Family::MovingFrame | Family::Singular => &[2, 2, 3, 3, 3, 4],
+            Family::VariableMass | Family::VelocityMass => &[2, 2, 2, 3],
             Family::Particles | Family::Chaplygin => &[2, 3, 3, 4],
             _ => &[2, 2, 3, 3, 3, 4, 4, 5, 6],
         }
@@ -151,6 +159,8 @@ fn parts(g: &Graph, family: Family, seed: u64) -> SystemParts {
     let mut parts = match family {
         Family::Singular => singular_system(&mut draw),
         Family::Particles => particle_system(&mut draw, &values),
+        Family::VariableMass => variable_mass_system(&mut draw, &values, false),
+        Family::VelocityMass => variable_mass_system(&mut draw, &values, true),
         Family::Chaplygin => chaplygin_system(&mut draw, &values),
         _ => usual_system(&mut draw, family, &values),
     };
@@ -191,8 +201,22 @@ fn singular_system(draw: &mut Draw<'_>) -> SystemParts {
 }
 
 fn particle_system(draw: &mut Draw<'_>, masses: &[Expr]) -> SystemParts {
-    let g = draw.g;
     let found = particles::particles(draw, masses);
+    of_particles(draw, found)
+}
+
+/// Particles with masses that vary, some of them by laws of their own.
+fn variable_mass_system(draw: &mut Draw<'_>, masses: &[Expr], velocities: bool) -> SystemParts {
+    let mut found = particles::particles(draw, masses);
+    let laws = masses::vary(draw, &mut found.particles, velocities);
+    SystemParts {
+        masses: laws,
+        ..of_particles(draw, found)
+    }
+}
+
+fn of_particles(draw: &mut Draw<'_>, found: particles::Particles) -> SystemParts {
+    let g = draw.g;
     let kinetic = particles::kinetic(g, &draw.names, &found.particles);
     let mut rows = found.holonomic;
     if rows.is_empty() {
@@ -311,7 +335,8 @@ mod tests {
     fn mass_matrices_are_positive_definite_at_sampled_states() {
         for family in Family::ALL {
             for seed in 0..20 {
-                if family == Family::Singular {
+                // The matrix of a mass that contains velocities is not even symmetric.
+                if matches!(family, Family::Singular | Family::VelocityMass) {
                     continue;
                 }
                 let random = generate(family, seed).unwrap();

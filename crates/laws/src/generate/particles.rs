@@ -1,7 +1,7 @@
 //! Random systems of particles: positions as functions of the coordinates, or Cartesian coordinates with holonomic constraints.
 
 use super::draw::Draw;
-use chetaev_mechanics::system::Particle;
+use chetaev_mechanics::system::{Particle, Thrust};
 use chetaev_symbolic::{Expr, Graph};
 
 /// The particles and holonomic constraints between their coordinates.
@@ -68,6 +68,7 @@ fn particle(draw: &mut Draw<'_>, number: usize, position: Vec<Expr>, masses: &[E
         mass,
         position,
         force,
+        thrust: Thrust::default(),
     }
 }
 

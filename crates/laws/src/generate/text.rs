@@ -1,6 +1,6 @@
 //! A random system as the text of a model file, so that a failure can be studied like any other model.
 
-use chetaev_mechanics::system::{FrameFields, Particle};
+use chetaev_mechanics::system::{FrameFields, Particle, Thrust};
 use chetaev_mechanics::SystemParts;
 use chetaev_symbolic::print::{Document, Format, Options};
 use chetaev_symbolic::{Expr, Graph};
@@ -49,6 +49,7 @@ pub(super) fn model(g: &Graph, parts: &SystemParts) -> String {
         Some(frame) => fields(&mut text, g, parts, frame),
         None => forms(&mut text, g, parts),
     }
+    masses(&mut text, g, parts);
     for particle in &parts.particles {
         particle_table(&mut text, g, particle);
     }
@@ -103,6 +104,29 @@ fn particle_table(text: &mut String, g: &Graph, particle: &Particle) {
         .any(|component| !g.is_zero(*component))
     {
         line(text, &format!("force = [{}]", list(&particle.force)));
+    }
+    let mode = match &particle.thrust {
+        Thrust::Isotropic => return,
+        Thrust::RelativeVelocity(u) => format!("relative_velocity = [{}]", list(u)),
+        Thrust::ExhaustSpeed(c) => format!("exhaust_speed = \"{}\"", whole(g, *c)),
+        Thrust::AbsoluteVelocity(w) => format!("absolute_velocity = [{}]", list(w)),
+        Thrust::Force(force) => format!("force = [{}]", list(force)),
+    };
+    line(text, &format!("thrust = {{ {mode} }}"));
+}
+
+/// Masses with a law of their own, all of which begin with 1.
+fn masses(text: &mut String, g: &Graph, parts: &SystemParts) {
+    if parts.masses.is_empty() {
+        return;
+    }
+    line(text, "\n[masses]");
+    for (name, rate) in &parts.masses {
+        let rate = whole(g, *rate);
+        line(
+            text,
+            &format!("{name} = {{ rate = \"{rate}\", initial = 1 }}"),
+        );
     }
 }
 

@@ -4,7 +4,7 @@ use super::{Expected, Kind, Subject, Trial};
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::formulations::{Basis, Formulation, Routh};
 use chetaev_mechanics::particles;
-use chetaev_mechanics::system::Particle;
+use chetaev_mechanics::system::{Particle, Thrust};
 use chetaev_mechanics::{
     Characteristics, Context, Prepared, Registry, System, SystemParts, FORMULATIONS,
 };
@@ -157,6 +157,11 @@ impl Change {
             assumptions: system.assumptions.clone(),
             quasi_velocities: self.quasi_velocities(system),
             particles: self.particles(system),
+            masses: system
+                .masses
+                .iter()
+                .map(|m| (m.name.clone(), self.rewrite(system, &[m.rate])[0]))
+                .collect(),
             ..SystemParts::default()
         };
         System::new(system.graph.clone(), parts).map_err(|problem| problem.to_string())
@@ -173,10 +178,23 @@ impl Change {
             .collect()
     }
 
+    fn thrust(&self, system: &System, thrust: &Thrust) -> Thrust {
+        let all = |es: &[Expr]| self.rewrite(system, es);
+        match thrust {
+            Thrust::Isotropic => Thrust::Isotropic,
+            Thrust::RelativeVelocity(u) => Thrust::RelativeVelocity(all(u)),
+            Thrust::ExhaustSpeed(c) => Thrust::ExhaustSpeed(all(&[*c])[0]),
+            Thrust::AbsoluteVelocity(w) => Thrust::AbsoluteVelocity(all(w)),
+            Thrust::Force(force) => Thrust::Force(all(force)),
+        }
+    }
+
     fn particles(&self, system: &System) -> Vec<Particle> {
         let particles = system.particles.iter();
         particles
             .map(|particle| Particle {
+                mass: self.rewrite(system, &[particle.mass])[0],
+                thrust: self.thrust(system, &particle.thrust),
                 position: self.rewrite(system, &particle.position),
                 force: self.rewrite(system, &particle.force),
                 ..particle.clone()
@@ -263,9 +281,9 @@ impl Change {
 
 /// The generalized forces beside those of the particles.
 fn own_forces(system: &System) -> Vec<Expr> {
-    let applied = particles::applied_forces(system);
-    let both = system.forces.iter().zip(applied);
-    both.map(|(&force, applied)| system.graph.sub(force, applied))
+    let own = particles::own_forces(system);
+    let both = system.forces.iter().zip(own);
+    both.map(|(&force, own)| system.graph.sub(force, own))
         .collect()
 }
 

@@ -14,7 +14,7 @@ use chetaev_symbolic::{Expr, Symbol, Verdict};
 pub(super) fn without_brackets(subject: &Subject<'_>) -> Option<Trial> {
     let cx = subject.cx;
     let (frame, _) = Frame::adapted(cx.system, cx.terms, cx.selection).ok()?;
-    if frame.is_natural(cx.system) {
+    if frame.is_natural(cx.system) || chetaev_mechanics::mass::with_velocity(cx.system).is_some() {
         return None;
     }
     let wrong = equations(subject, &frame)?;

@@ -6,7 +6,7 @@
 use super::numbers::{moved, rank, values, Rank, Size};
 use super::Sampled;
 use chetaev_mechanics::sample::Point;
-use chetaev_mechanics::System;
+use chetaev_mechanics::{mass, System};
 use chetaev_symbolic::{Expr, Graph, Symbol};
 
 /// What double precision says of a hypothesis.
@@ -29,7 +29,11 @@ pub(super) fn seen(subject: &Sampled<'_>, id: &str) -> Seen {
         }
         "model.restricted-hessian-regular" => restricted_hessian(subject),
         "model.frame-regular" => regular(subject, &frame(subject), &subject.states),
-        "model.forces-absent" => vanish(subject, &subject.cx.system.forces, &subject.free_states),
+        "model.forces-absent" => vanish(
+            subject,
+            &subject.cx.system.all_forces(),
+            &subject.free_states,
+        ),
         "model.lagrangian-autonomous" => without_time(subject, &[subject.cx.system.lagrangian]),
         "model.lagrangian-quadratic" => quadratic(subject),
         "model.constraints-homogeneous" => homogeneous(subject),
@@ -39,6 +43,14 @@ pub(super) fn seen(subject: &Sampled<'_>, id: &str) -> Seen {
             without_time(subject, &stated)
         }
         "model.chaplygin" => chaplygin(subject),
+        "model.masses-free-of-velocity" => {
+            masses_of(subject, &velocities(subject.cx.system), false)
+        }
+        "model.masses-of-time" => {
+            let mut symbols = velocities(subject.cx.system);
+            symbols.extend(subject.cx.system.coordinate_symbols());
+            masses_of(subject, &symbols, true)
+        }
         "model.particles" => particles(subject),
         "model.cartesian-coordinates" => cartesian(subject.cx.system),
         _ => Seen::Unclear,
@@ -343,12 +355,43 @@ fn chaplygin(subject: &Sampled<'_>) -> Seen {
     regular_values(&gram, r)
 }
 
+fn velocities(system: &System) -> Vec<Symbol> {
+    system.velocity_symbols()
+}
+
+/// Whether masses, and rates of masses where asked for, keep their values where each of the symbols is shifted.
+fn masses_of(subject: &Sampled<'_>, symbols: &[Symbol], rates: bool) -> Seen {
+    const STEP: f64 = 0.21;
+    let system = subject.cx.system;
+    let mut all: Vec<Expr> = system.particles.iter().map(|p| p.mass).collect();
+    if rates {
+        all.extend(system.masses.iter().map(|m| m.rate));
+    }
+    let before = values(subject, &all, &subject.free_states);
+    let mut changes = vec![(0.0, 1.0)];
+    for &symbol in symbols {
+        let states: Vec<Point> = subject
+            .free_states
+            .iter()
+            .map(|state| moved(state, &[(symbol, STEP)]))
+            .collect();
+        let after = values(subject, &all, &states);
+        let pairs = before.iter().flatten().zip(after.iter().flatten());
+        changes.extend(pairs.map(|(a, b)| ((a - b) / STEP, 1.0 + a.abs())));
+    }
+    zero(Size::of(changes))
+}
+
 /// W is `Σ m (∂r/∂q)ᵀ ∂r/∂q`.
 fn particles(subject: &Sampled<'_>) -> Seen {
     let system = subject.cx.system;
     let (g, n) = (&system.graph, system.n());
     if system.particles.is_empty() {
         return Seen::Fails;
+    }
+    if mass::with_velocity(system).is_some() {
+        // The matrix of the terms is then not that of the kinetic energy.
+        return Seen::Unclear;
     }
     let mut inertia = vec![Vec::new(); n * n];
     for particle in &system.particles {

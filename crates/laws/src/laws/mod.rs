@@ -5,6 +5,7 @@ mod counterexample;
 mod equal;
 mod frames;
 mod hypotheses;
+mod masses;
 mod mutants;
 mod numbers;
 mod power;
@@ -185,8 +186,10 @@ pub(crate) const CLAIMS: &[&[&dyn Claim]] =
 /// A law: a trial on the subject, or `None` where there is nothing to try.
 type Law = fn(&Subject<'_>) -> Option<Trial>;
 
-const LAWS: [Law; 7] = [
+const LAWS: [Law; 9] = [
     power::balance,
+    masses::balance,
+    masses::thrust_alone,
     coordinates::invariance,
     coordinates::same_verdicts,
     wrong::dropped_term,

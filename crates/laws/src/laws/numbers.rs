@@ -119,6 +119,9 @@ fn state(cx: &Context<'_>, seed: u64) -> Option<Point> {
             point.entry(symbol).or_insert(value[0]);
         }
     }
+    for mass in &cx.system.masses {
+        point.entry(mass.symbol).or_insert(1.2);
+    }
     point.entry(g.intern_symbol("t", 0)).or_insert(0.4);
     Some(point)
 }

@@ -3,7 +3,7 @@
 use super::{Expected, Kind, Subject, Trial};
 use chetaev_symbolic::Expr;
 
-/// `DH = Σ Qᵢ vⁱ - ∂L/∂t + Σ λ_l Σ vⁱ ∂f^l/∂vⁱ` with `H = Σ pᵢ vⁱ - L`, on the motion by Routh's equations.
+/// `DH = Σ (Qᵢ + Ψᵢ) vⁱ - ∂L/∂t + Σ λ_l Σ vⁱ ∂f^l/∂vⁱ` with `H = Σ pᵢ vⁱ - L`, on the motion by Routh's equations.
 pub(super) fn balance(subject: &Subject<'_>) -> Option<Trial> {
     let (cx, system) = (subject.cx, subject.cx.system);
     let g = &system.graph;
@@ -15,7 +15,8 @@ pub(super) fn balance(subject: &Subject<'_>) -> Option<Trial> {
         .collect();
     let rate = g.substitute(system.total_derivative(system.energy()), &motion);
     let mut power = vec![g.neg(system.time_derivative(system.lagrangian))];
-    for (c, &force) in system.coordinates.iter().zip(&system.forces) {
+    let forces = g.substitute_all(&system.all_forces(), &motion);
+    for (c, &force) in system.coordinates.iter().zip(&forces) {
         power.push(g.mul(&[force, c.v]));
     }
     for &(l, lambda) in &subject.routh.multipliers {

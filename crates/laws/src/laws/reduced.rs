@@ -14,7 +14,9 @@ const LAW: &str = "Lagrange's equations of the reduced L*";
 
 /// The trial; `None` without constraints.
 pub(super) fn lagrange_of_restricted(subject: &Subject<'_>) -> Option<Trial> {
-    if subject.natural.dependent.is_empty() {
+    // Where a mass contains velocities, Lagrange's equations take no Ψ without accelerations.
+    let lagrangian = chetaev_mechanics::mass::with_velocity(subject.cx.system).is_none();
+    if subject.natural.dependent.is_empty() || !lagrangian {
         return None;
     }
     // A singular L* has no equations of motion, right or wrong.

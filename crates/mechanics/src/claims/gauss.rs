@@ -30,7 +30,10 @@ impl Claim for Least {
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
-        vec!["model.accelerations-unique".into()]
+        vec![
+            "model.accelerations-unique".into(),
+            "model.masses-free-of-velocity".into(),
+        ]
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {

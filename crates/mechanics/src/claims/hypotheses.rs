@@ -95,7 +95,7 @@ impl Claim for ForcesAbsent {
     }
 
     fn explanation(&self) -> &'static str {
-        "The generalized forces Q beside the Lagrangian vanish identically in (q, v, t). Only then is there an action that could \
+        "The generalized forces Q beside the Lagrangian, and the reactive forces of masses that vary, vanish identically in (q, v, t). Only then is there an action that could \
          be stationary, and an energy integral from the Lagrangian alone."
     }
 
@@ -105,7 +105,13 @@ impl Claim for ForcesAbsent {
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         let by_form = "the model states no forces beside the Lagrangian";
-        vanish(cx, &cx.system.forces, "identically in q, v, t", by_form).into()
+        vanish(
+            cx,
+            &cx.system.all_forces(),
+            "identically in q, v, t",
+            by_form,
+        )
+        .into()
     }
 }
 

@@ -7,6 +7,7 @@
 pub mod formulation;
 pub mod gauss;
 pub mod hypotheses;
+pub mod mass;
 pub mod model;
 pub mod order;
 pub mod particles;
@@ -179,9 +180,12 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &hypotheses::ConstrainedExtremumRegular,
     &particles::Particles,
     &particles::CartesianCoordinates,
+    &mass::MassesFreeOfVelocity,
+    &mass::MassesOfTime,
     &model::FrameRegular,
     &formulation::Equivalent,
     &formulation::Identities,
+    &mass::Balance,
     &gauss::Least,
 ];
 

@@ -5,6 +5,7 @@ use crate::characteristics::Manifold;
 use crate::claims::formulation::{basis, manifold};
 use crate::constraint::Constraint;
 use crate::frame::{Frame, FrameOrigin};
+use crate::mass;
 use crate::order::determined::with_multipliers;
 use crate::redundancy::LeftOut;
 use crate::sample;
@@ -41,22 +42,29 @@ impl Claim for HessianRegular {
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
-        let verdict = cx.prover.nonsingular(
-            cx.system,
-            &cx.terms.mass_matrix,
-            &Manifold::default(),
-            "det ∂²L/∂v∂v",
-        );
+        let hessian = hessian(cx);
+        let verdict =
+            cx.prover
+                .nonsingular(cx.system, &hessian, &Manifold::default(), "det ∂²L/∂v∂v");
         Finding {
             verdict,
-            formulas: hessian_formula(cx).into_iter().collect(),
+            formulas: hessian_formula(cx, &hessian).into_iter().collect(),
         }
     }
 }
 
+/// ∂²L/∂v∂v, which is the matrix of the terms unless a mass contains velocities.
+fn hessian(cx: &Context<'_>) -> Vec<Vec<Expr>> {
+    if mass::with_velocity(cx.system).is_none() {
+        return cx.terms.mass_matrix.clone();
+    }
+    let (g, velocities) = (&cx.system.graph, cx.system.velocity_symbols());
+    g.jacobian(&g.gradient(cx.system.lagrangian, &velocities), &velocities)
+}
+
 /// det W where it is short enough to read: a diagonal matrix, or one of two coordinates.
-fn hessian_formula(cx: &Context<'_>) -> Option<Formula> {
-    let (g, w) = (&cx.system.graph, &cx.terms.mass_matrix);
+fn hessian_formula(cx: &Context<'_>, w: &[Vec<Expr>]) -> Option<Formula> {
+    let g = &cx.system.graph;
     let n = w.len();
     let diagonal = (0..n).all(|i| (0..n).all(|j| i == j || g.is_zero(w[i][j])));
     let right = if diagonal {

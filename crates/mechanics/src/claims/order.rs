@@ -359,8 +359,7 @@ pub(crate) fn equivalence(cx: &Context<'_>, c: &Characteristics, residuals: &[Ex
 /// `w_i - Σ_l λ_l A^l_i` for the independent i, λ from the dependent ones, as functions on the jet of coordinates.
 fn without_multipliers(cx: &Context<'_>) -> Result<Vec<Expr>, String> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let sides = system.lagrange_left_sides().into_iter().zip(&system.forces);
-    let w: Vec<Expr> = sides.map(|(left, &force)| g.sub(left, force)).collect();
+    let w = system.motion_left_sides();
     let rows: Vec<&Vec<Expr>> = cx
         .selection
         .rows

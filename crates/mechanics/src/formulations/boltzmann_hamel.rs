@@ -26,7 +26,7 @@ static CARD: Card = Card {
     statement: "The equations of motion in k independent quasi-velocities of a moving frame, from the Lagrangian restricted to the constraints and the brackets of the restricted fields.",
     principle: Principle::DalembertLagrangeChetaev,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique", "model.frame-regular"],
+    requires: &["model.accelerations-unique", "model.frame-regular", "model.masses-free-of-velocity"],
     identity: Some("the coefficients K and G of the brackets of the restricted fields are those given by the structure coefficients of the frame"),
     unknowns: "rates of the k independent quasi-velocities",
     highest_order: 1,

@@ -21,7 +21,7 @@ static CARD: Card = Card {
     statement: "Hamilton's equations for coordinates and momenta with the reactions λ ∂f/∂q' in the equations of the momenta.",
     principle: Principle::Hamilton,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique", "model.hessian-regular"],
+    requires: &["model.accelerations-unique", "model.hessian-regular", "model.masses-free-of-velocity"],
     identity: None,
     unknowns: "rates of the momenta of all coordinates and one multiplier for each independent constraint",
     highest_order: 1,

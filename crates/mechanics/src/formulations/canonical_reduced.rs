@@ -24,7 +24,7 @@ static CARD: Card = Card {
     statement: "Hamilton's equations for the momenta of the restricted Lagrangian, with the curvature of the constraints and the momenta of the dependent velocities on the right.",
     principle: Principle::Hamilton,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique", "model.restricted-hessian-regular"],
+    requires: &["model.accelerations-unique", "model.restricted-hessian-regular", "model.masses-free-of-velocity"],
     identity: None,
     unknowns: "rates of the k momenta of the independent velocities",
     highest_order: 1,

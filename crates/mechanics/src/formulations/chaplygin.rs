@@ -21,7 +21,7 @@ static CARD: Card = Card {
     statement: "Lagrange's equations of the independent coordinates for the restricted Lagrangian with Chaplygin's correction; where the forces contain no dependent coordinates either, they are closed.",
     principle: Principle::Hamilton,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique", "model.chaplygin"],
+    requires: &["model.accelerations-unique", "model.chaplygin", "model.masses-free-of-velocity"],
     identity: None,
     unknowns: "accelerations of the k independent coordinates",
     highest_order: 1,

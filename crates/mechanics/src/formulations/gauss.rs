@@ -27,7 +27,7 @@ static CARD: Card = Card {
     statement: "Among the accelerations that the constraints allow at a state, those of the motion make the deviation from the free ones stationary, least where the mass matrix is positive on the virtual displacements.",
     principle: Principle::Gauss,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique"],
+    requires: &["model.accelerations-unique", "model.masses-free-of-velocity"],
     identity: None,
     unknowns: "accelerations of all coordinates",
     highest_order: 1,

@@ -1,13 +1,14 @@
 //! The equations of Gibbs and Appell.
 //!
 //! `∂S/∂P'_σ = Π_σ` with the acceleration energy `S = ½ Σ_a m_a r_a''·r_a''` on the jet (t, q, P, P') and
-//! `Π_σ = Σ_a F_a · ∂r_a''/∂P'_σ` (T1 (48)). Where the model states no particles that carry the whole inertia,
+//! `Π_σ = Σ_a (F_a + R_a) · ∂r_a''/∂P'_σ`, R_a the thrust where masses vary (T1 (48)). Where the model states no particles that carry the whole inertia,
 //! `S = ½ aᵀ W a + aᵀ c`, `c_i = -E_i[L]` at a = 0, which is the same combination as Maggi's.
 
 use super::{bare, Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::Characteristics;
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::mass;
 use crate::particles;
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
@@ -22,7 +23,7 @@ static CARD: Card = Card {
     statement: "The derivatives of the acceleration energy by the independent accelerations are the forces along them.",
     principle: Principle::Gauss,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique"],
+    requires: &["model.accelerations-unique", "model.masses-free-of-velocity"],
     identity: None,
     unknowns: "rates of the k kinematic parameters",
     highest_order: 1,
@@ -33,8 +34,8 @@ static CARD: Card = Card {
 };
 
 const SCHEMA: Schema = Schema {
-    text: "∂S/∂P'_σ = Π_σ,  S = ½ Σ_a m_a r_a''·r_a'',  Π_σ = Σ_a F_a·∂r_a''/∂P'_σ",
-    latex: r"\frac{\partial S}{\partial \dot P_\sigma} = \Pi_\sigma, \quad S = \tfrac12 \sum_a m_a \ddot r_a \cdot \ddot r_a, \quad \Pi_\sigma = \sum_a F_a \cdot \frac{\partial \ddot r_a}{\partial \dot P_\sigma}",
+    text: "∂S/∂P'_σ = Π_σ,  S = ½ Σ_a m_a r_a''·r_a'',  Π_σ = Σ_a (F_a + R_a)·∂r_a''/∂P'_σ",
+    latex: r"\frac{\partial S}{\partial \dot P_\sigma} = \Pi_\sigma, \quad S = \tfrac12 \sum_a m_a \ddot r_a \cdot \ddot r_a, \quad \Pi_\sigma = \sum_a (F_a + R_a) \cdot \frac{\partial \ddot r_a}{\partial \dot P_\sigma}",
 };
 
 /// Without particles, from L alone.
@@ -128,7 +129,7 @@ fn from_particles(system: &System, c: &Characteristics) -> AccelerationEnergy {
         let accelerations = c.on_jet(system, &accelerations);
         let partial = g.jacobian(&accelerations, &symbols);
         let offsets = g.substitute_all(&accelerations, &at_rest);
-        let applied = c.restrict(system, &particle.force);
+        let applied = c.restrict(system, &mass::force_with_thrust(system, particle));
         for ((row, offset), force) in partial.iter().zip(offsets).zip(applied) {
             energy.push(g.mul(&[particle.mass, without_constant(system, c, row, offset)]));
             for (parts, &slope) in forces.iter_mut().zip(row) {

@@ -34,6 +34,7 @@ static CARD: Card = Card {
         "model.lagrangian-quadratic",
         "model.constraints-homogeneous",
         "model.constraints-scleronomic",
+        "model.masses-free-of-velocity",
     ],
     identity: None,
     unknowns: "second derivatives of the coordinates by the arc length and one multiplier for each independent constraint",

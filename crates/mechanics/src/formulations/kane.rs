@@ -1,13 +1,14 @@
 //! Kane's equations.
 //!
 //! `F_σ + F*_σ = 0` with generalized speeds P, partial velocities `∂r_a'/∂P_σ`, active forces
-//! `F_σ = Σ_a F_a · ∂r_a'/∂P_σ` and inertia forces `F*_σ = -Σ_a m_a r_a'' · ∂r_a'/∂P_σ` (T1 (49)). Where the model states
+//! `F_σ = Σ_a (F_a + R_a) · ∂r_a'/∂P_σ` (R_a: thrust where masses vary) and inertia forces `F*_σ = -Σ_a m_a r_a'' · ∂r_a'/∂P_σ` (T1 (49)). Where the model states
 //! no particles that carry the whole inertia, `F_σ = Σ_i Q_i ∂v^i/∂P_σ`, `F*_σ = Σ_i E_i[L] ∂v^i/∂P_σ`.
 
 use super::{bare, Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::Characteristics;
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::mass;
 use crate::particles;
 use crate::system::System;
 use chetaev_symbolic::Expr;
@@ -22,7 +23,7 @@ static CARD: Card = Card {
     statement: "Active forces and inertia forces along the partial velocities of the generalized speeds balance.",
     principle: Principle::Jourdain,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique"],
+    requires: &["model.accelerations-unique", "model.masses-free-of-velocity"],
     identity: None,
     unknowns: "rates of the k generalized speeds",
     highest_order: 1,
@@ -30,8 +31,8 @@ static CARD: Card = Card {
 };
 
 const SCHEMA: Schema = Schema {
-    text: "F_σ + F*_σ = 0,  F_σ = Σ_a F_a·∂r_a'/∂P_σ,  F*_σ = −Σ_a m_a r_a''·∂r_a'/∂P_σ",
-    latex: r"F_\sigma + F^*_\sigma = 0, \quad F_\sigma = \sum_a F_a \cdot \frac{\partial \dot r_a}{\partial P_\sigma}, \quad F^*_\sigma = -\sum_a m_a \ddot r_a \cdot \frac{\partial \dot r_a}{\partial P_\sigma}",
+    text: "F_σ + F*_σ = 0,  F_σ = Σ_a (F_a + R_a)·∂r_a'/∂P_σ,  F*_σ = −Σ_a m_a r_a''·∂r_a'/∂P_σ",
+    latex: r"F_\sigma + F^*_\sigma = 0, \quad F_\sigma = \sum_a (F_a + R_a) \cdot \frac{\partial \dot r_a}{\partial P_\sigma}, \quad F^*_\sigma = -\sum_a m_a \ddot r_a \cdot \frac{\partial \dot r_a}{\partial P_\sigma}",
 };
 
 /// Without particles, from L alone.
@@ -124,7 +125,7 @@ fn from_particles(system: &System, c: &Characteristics) -> Balance {
         let velocity = c.restrict(system, &particles::velocity(system, particle));
         let slopes = c.by_parameters(system, &velocity);
         let accelerations = c.total_derivative(system, &velocity);
-        let applied = c.restrict(system, &particle.force);
+        let applied = c.restrict(system, &mass::force_with_thrust(system, particle));
         for (component, row) in slopes.iter().enumerate() {
             let mass_times = g.mul(&[particle.mass, accelerations[component]]);
             for (sigma, &slope) in row

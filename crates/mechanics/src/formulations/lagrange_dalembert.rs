@@ -44,13 +44,7 @@ impl Formulation for LagrangeDalembert {
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
         let (system, g) = (basis.system, &basis.system.graph);
         let displacements = VirtualDisplacements::new(basis)?;
-        let residuals: Vec<Expr> = system
-            .lagrange_left_sides()
-            .into_iter()
-            .zip(&system.forces)
-            .map(|(left, &force)| g.sub(left, force))
-            .collect();
-        let motion = displacements.contract(system, &residuals);
+        let motion = displacements.contract(system, &system.motion_left_sides());
         let mut determined = motion.clone();
         let constraints = basis.constraints();
         determined.extend(constraints.iter().map(|&f| system.total_derivative(f)));

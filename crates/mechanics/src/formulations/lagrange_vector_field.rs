@@ -8,6 +8,7 @@ use super::poincare_chetaev::frame_objects;
 use super::routh::multiplier_objects;
 use super::{Basis, DeriveError, Formulation, Identity};
 use crate::card::{Card, Principle, Relation, Source};
+use crate::characteristics::derive_along;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
 use crate::frame::Frame;
 use crate::linear::dot;
@@ -24,7 +25,7 @@ static CARD: Card = Card {
     statement: "The motion is the field X of the space (t, q, η) with dt(X) = 1 whose contraction with the dynamical 2-form vanishes.",
     principle: Principle::DalembertLagrangeChetaev,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique", "model.frame-regular"],
+    requires: &["model.accelerations-unique", "model.frame-regular", "model.masses-free-of-velocity"],
     identity: Some("every component of X ⌟ Ω vanishes on the constraints, that along dt and those along dη included"),
     unknowns: "the components of X along the quasi-velocities and one multiplier for each independent constraint",
     highest_order: 1,
@@ -155,8 +156,11 @@ impl<'a> TwoForm<'a> {
         symbols.extend(self.frame.speeds.iter().map(|s| s.symbol));
         // Rows: components; columns: derivatives by (t, q, η).
         let by_state = g.jacobian(components, &symbols);
+        let still = vec![g.zero(); system.n()];
+        let masses = system.mass_rates(&self.velocities);
+        let by_time = derive_along(system, components, &still, g.one(), &masses);
         let derivative = |b: usize, a: usize| match a {
-            0 => system.time_derivative(components[b]),
+            0 => by_time[b],
             a => by_state[b][a - 1],
         };
         let size = components.len();
@@ -226,13 +230,7 @@ impl<'a> TwoForm<'a> {
         let symbols: Vec<Symbol> = self.frame.speeds.iter().map(|s| s.symbol).collect();
         let gradient = g.jacobian(&self.constraints, &symbols);
         let one = g.one();
-        let frozen = crate::characteristics::derive_along(
-            system,
-            &self.constraints,
-            &self.velocities,
-            one,
-            &[],
-        );
+        let frozen = derive_along(system, &self.constraints, &self.velocities, one, &[]);
         for (l, row) in gradient.iter().enumerate() {
             matrix[(n + l) * size..(n + l) * size + n].copy_from_slice(row);
             right.push(g.neg(frozen[l]));

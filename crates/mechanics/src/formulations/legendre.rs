@@ -49,7 +49,7 @@ pub(crate) struct Legendre {
     pub(crate) by_momenta: Vec<Expr>,
     /// `∂H/∂q`.
     pub(crate) by_coordinates: Vec<Expr>,
-    /// `∂H/∂t`; controls count as time.
+    /// `∂H/∂t`; controls and masses with a law of their own count as time.
     pub(crate) by_time: Expr,
     /// Whether the velocities are functions of (q, p, t) in closed form.
     pub(crate) is_explicit: bool,
@@ -126,8 +126,9 @@ impl Legendre {
         self.by_momenta = g.gradient(self.hamiltonian, &symbols);
         self.by_coordinates = g.gradient(self.hamiltonian, &system.coordinate_symbols());
         let still = vec![g.zero(); system.n()];
-        self.by_time =
-            derive_along(system, &[self.hamiltonian], &still, g.one(), &[]).swap_remove(0);
+        let masses = system.mass_rates(&self.by_momenta);
+        let moved = derive_along(system, &[self.hamiltonian], &still, g.one(), &masses);
+        self.by_time = moved[0];
         Ok(())
     }
 

@@ -66,14 +66,7 @@ impl Formulation for Maggi {
 /// `Σ_s ( D(∂L/∂v^s) - ∂L/∂q^s - Q_s ) B_sσ` on the jet (t, q, P, P'), σ = 1..k: what all forms with kinematic
 /// characteristics must equal identically (T2 §3).
 pub(crate) fn left_sides(system: &System, characteristics: &Characteristics) -> Vec<Expr> {
-    let g = &system.graph;
-    let residuals: Vec<Expr> = system
-        .lagrange_left_sides()
-        .into_iter()
-        .zip(&system.forces)
-        .map(|(left, &force)| g.sub(left, force))
-        .collect();
-    let on_jet = characteristics.on_jet(system, &residuals);
+    let on_jet = characteristics.on_jet(system, &system.motion_left_sides());
     characteristics.contract(system, &on_jet)
 }
 

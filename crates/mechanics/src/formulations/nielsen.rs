@@ -11,6 +11,7 @@ use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::{Characteristics, Manifold};
 use crate::curvature::brackets;
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::linear::dot;
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -24,7 +25,7 @@ static CARD: Card = Card {
     statement: "The rate of the Lagrangian, differentiated by the velocities with the accelerations frozen, in the place of the rates of the momenta.",
     principle: Principle::DalembertLagrangeChetaev,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique"],
+    requires: &["model.accelerations-unique", "model.masses-free-of-velocity"],
     identity: Some("Nielsen's and Tsenov's left sides are Lagrange's on the whole jet"),
     unknowns: "rates of the k kinematic parameters",
     highest_order: 1,
@@ -102,7 +103,8 @@ pub fn nielsen_left_sides(system: &System, order: u32) -> Vec<Expr> {
     let m = order.max(1);
     let mut rate = system.lagrangian;
     for _ in 0..m {
-        rate = system.total_derivative(rate);
+        // A mass with a law of its own is a function of the time here: its rates are not differentiated by those of q.
+        rate = g.total_derivative(rate, &|name| system.moves(name));
     }
     let top: Vec<Symbol> = system
         .coordinates
@@ -110,7 +112,8 @@ pub fn nielsen_left_sides(system: &System, order: u32) -> Vec<Expr> {
         .map(|c| g.intern_symbol(&c.name, m))
         .collect();
     let factor = g.integer(i64::from(m) + 1);
-    g.gradient(rate, &top)
+    let slopes = g.substitute_all(&g.gradient(rate, &top), &mass_derivatives(system, m));
+    slopes
         .into_iter()
         .zip(g.gradient(system.lagrangian, &system.coordinate_symbols()))
         .map(|(slope, force)| {
@@ -118,6 +121,20 @@ pub fn nielsen_left_sides(system: &System, order: u32) -> Vec<Expr> {
             g.div(numerator, g.integer(i64::from(m)))
         })
         .collect()
+}
+
+/// M', M'', … up to the order m with what they are by the laws of the masses.
+fn mass_derivatives(system: &System, m: u32) -> Vec<(Expr, Expr)> {
+    let g = &system.graph;
+    let mut pairs = Vec::new();
+    for mass in &system.masses {
+        let mut value = mass.expr;
+        for order in 1..=m {
+            value = system.total_derivative(value);
+            pairs.push((g.symbol(&mass.name, order), value));
+        }
+    }
+    pairs
 }
 
 fn in_coordinates(basis: &Basis<'_>) -> Vec<Equation> {
@@ -157,6 +174,7 @@ impl Reduced {
     fn equations(&self, system: &System, c: &Characteristics) -> Vec<Equation> {
         let g = &system.graph;
         let slopes = c.by_parameters(system, &[self.rate]).concat();
+        let held = self.by_mass_rates(system, c);
         let along = c.by_quasi_coordinates(system, &[self.lagrangian]).concat();
         let forces = c.restrict(system, &system.forces);
         let work = c.contract(system, &forces);
@@ -173,10 +191,27 @@ impl Reduced {
                 }
                 Equation {
                     label: p.name.clone(),
-                    left: g.sub(slopes[sigma], g.mul(&[two, along[sigma]])),
+                    left: g.add(&[
+                        slopes[sigma],
+                        g.neg(held[sigma]),
+                        g.neg(g.mul(&[two, along[sigma]])),
+                    ]),
                     right: g.add(&right),
                 }
             })
+            .collect()
+    }
+
+    /// `Σ_a ∂L*/∂M_a ∂M_a'/∂P_σ`: what D L* depends on the parameters through the rates of masses, which are functions of the
+    /// time for the rule of Nielsen.
+    fn by_mass_rates(&self, system: &System, c: &Characteristics) -> Vec<Expr> {
+        let g = &system.graph;
+        let (symbols, rates): (Vec<Symbol>, Vec<Expr>) =
+            system.mass_rates(&c.velocities).into_iter().unzip();
+        let slopes = g.gradient(self.lagrangian, &symbols);
+        let rows = c.by_parameters(system, &rates);
+        (0..c.k())
+            .map(|sigma| dot(g, &slopes, rows.iter().map(|row| &row[sigma])))
             .collect()
     }
 

@@ -24,7 +24,7 @@ static CARD: Card = Card {
     statement: "Coordinates and time are functions of a parameter τ: n + 1 equations with one identity among them; τ is fixed by d²t/dτ² = 0.",
     principle: Principle::Hamilton,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique"],
+    requires: &["model.accelerations-unique", "model.masses-free-of-velocity"],
     identity: Some("The left sides minus the right sides, contracted with x', vanish for arbitrary curves and arbitrary multipliers"),
     unknowns: "second derivatives of coordinates and time by the parameter and one multiplier for each independent constraint",
     highest_order: 1,
@@ -199,7 +199,7 @@ impl Extended {
             &[self.lagrangian],
             &still,
             g.one(),
-            &[],
+            &system.mass_rates(&self.velocities(system)),
         ));
         self.derive(system, &momenta)
             .into_iter()

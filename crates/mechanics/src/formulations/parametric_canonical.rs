@@ -24,7 +24,7 @@ static CARD: Card = Card {
     statement: "Time is a coordinate with the momentum p_t = −H; the relation K = p_t + H = 0 among the momenta takes the place of the Hamiltonian.",
     principle: Principle::Hamilton,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique", "model.hessian-regular"],
+    requires: &["model.accelerations-unique", "model.hessian-regular", "model.masses-free-of-velocity"],
     identity: Some("K keeps its value, DK = 0, for arbitrary multipliers"),
     unknowns: "rates of the n + 1 momenta and one multiplier for each independent constraint",
     highest_order: 1,

@@ -23,7 +23,7 @@ static CARD: Card = Card {
     statement: "Lagrange's equations in the quasi-velocities of a moving frame: the brackets of its fields add terms, the reactions are λ ∂f/∂η.",
     principle: Principle::DalembertLagrangeChetaev,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique", "model.frame-regular"],
+    requires: &["model.accelerations-unique", "model.frame-regular", "model.masses-free-of-velocity"],
     identity: None,
     unknowns: "rates of the n quasi-velocities and one multiplier for each independent constraint",
     highest_order: 1,

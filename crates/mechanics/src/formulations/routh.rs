@@ -6,6 +6,7 @@
 use super::{Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::mass;
 use crate::order::determined;
 use chetaev_symbolic::Expr;
 
@@ -35,6 +36,18 @@ const SCHEMA: Schema = Schema {
     latex: r"\frac{d}{dt}\frac{\partial L}{\partial \dot q^i} - \frac{\partial L}{\partial q^i} = Q_i + \sum_l \lambda_l \frac{\partial f^l}{\partial \dot q^i}",
 };
 
+/// With reactive forces.
+const VARIABLE_MASS: Schema = Schema {
+    text: "D(∂L/∂v^i) − ∂L/∂q^i = Q_i + Ψ_i + Σ_l λ_l ∂f^l/∂v^i",
+    latex: r"\frac{d}{dt}\frac{\partial L}{\partial \dot q^i} - \frac{\partial L}{\partial q^i} = Q_i + \Psi_i + \sum_l \lambda_l \frac{\partial f^l}{\partial \dot q^i}",
+};
+
+/// Where a mass contains velocities.
+const PARTICLES: Schema = Schema {
+    text: "Σ_a (m_a r_a'' − F_a − R_a)·∂r_a/∂q^i − … = Σ_l λ_l ∂f^l/∂v^i",
+    latex: r"\sum_a (m_a \ddot r_a - F_a - R_a) \cdot \frac{\partial r_a}{\partial q^i} - \dots = \sum_l \lambda_l \frac{\partial f^l}{\partial \dot q^i}",
+};
+
 impl Formulation for Routh {
     fn card(&self) -> &'static Card {
         &CARD
@@ -49,9 +62,14 @@ impl Formulation for Routh {
                 .with_group("constraints", None, basis.constraint_equations()));
         }
         let (accelerations, values) = solve(basis)?;
-        let objects = multiplier_objects(basis, &values);
+        let mut objects = multiplier_objects(basis, &values);
+        objects.extend(reactive_objects(basis));
         let mut equations = Equations::in_velocities(CARD.name, basis.system, accelerations)
-            .with_group("equations of motion", Some(SCHEMA), stated_equations(basis))
+            .with_group(
+                "equations of motion",
+                Some(schema(basis)),
+                stated_equations(basis),
+            )
             .with_group("constraints", None, basis.constraint_equations())
             .with_objects(objects);
         equations.multipliers = basis.constraint_indices().into_iter().zip(values).collect();
@@ -71,6 +89,19 @@ pub(crate) fn multiplier_objects(basis: &Basis<'_>, values: &[Expr]) -> Vec<Name
                 value,
                 format!("multiplier of `{name}`"),
             )
+        })
+        .collect()
+}
+
+/// The reactive forces that do not vanish.
+fn reactive_objects(basis: &Basis<'_>) -> Vec<NamedExpr> {
+    let system = basis.system;
+    let forces = system.coordinates.iter().zip(&system.reactive_forces);
+    forces
+        .filter(|(_, &force)| !system.graph.is_zero(force))
+        .map(|(c, &force)| {
+            let meaning = format!("reactive force along `{}`", c.name);
+            NamedExpr::new(format!("Psi_{}", c.name), force, meaning)
         })
         .collect()
 }
@@ -102,6 +133,20 @@ fn solve(basis: &Basis<'_>) -> Result<(Vec<Expr>, Vec<Expr>), DeriveError> {
 
 fn stated_equations(basis: &Basis<'_>) -> Vec<Equation> {
     let system = basis.system;
+    if mass::with_velocity(system).is_some() {
+        let lefts = system.motion_left_sides();
+        return Equation::of_coordinates(system, lefts, basis.reactions());
+    }
     let lefts = system.lagrange_left_sides();
     Equation::of_coordinates(system, lefts, basis.forces_with_reactions())
+}
+
+/// The general form of the equations as they are built.
+fn schema(basis: &Basis<'_>) -> Schema {
+    let (system, g) = (basis.system, &basis.system.graph);
+    match mass::with_velocity(system) {
+        Some(_) => PARTICLES,
+        None if system.reactive_forces.iter().all(|&e| g.is_zero(e)) => SCHEMA,
+        None => VARIABLE_MASS,
+    }
 }

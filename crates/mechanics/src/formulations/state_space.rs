@@ -13,7 +13,6 @@ use crate::characteristics::{derive_along, Manifold};
 use crate::equations::unused_name;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
 use crate::linear::{dot, solve_with_multipliers};
-use crate::particles;
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -27,7 +26,7 @@ static CARD: Card = Card {
     statement: "Coordinates and velocities are unknowns on the same footing; the kinematic law Dq = v follows from the regular Hessian together with the equations of motion.",
     principle: Principle::SecondKind,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique", "model.hessian-regular"],
+    requires: &["model.accelerations-unique", "model.hessian-regular", "model.masses-free-of-velocity"],
     identity: Some("Zhu's differential principle equals δZ + Σ Q δq − D(Σ ∂L/∂v δq) for arbitrary curves and variations, and Dq = v follows from the closed equations"),
     unknowns: "rates of coordinates and velocities and one multiplier for each independent constraint",
     highest_order: 1,
@@ -40,8 +39,8 @@ const SCHEMA: Schema = Schema {
 };
 
 const NEWTON: Schema = Schema {
-    text: "Σ_a m_a (Dr_a − u_a)·∂r_a/∂q^s = 0, Σ_a (m_a Du_a − F_a)·∂r_a/∂q^s − Σ_a m_a (Dr_a − u_a)·∂u_a/∂q^s = Σ_l λ_l ∂f^l/∂v^s",
-    latex: r"\sum_a m_a (D r_a - u_a) \cdot \frac{\partial r_a}{\partial q^s} = 0, \quad \sum_a (m_a D u_a - F_a) \cdot \frac{\partial r_a}{\partial q^s} - \sum_a m_a (D r_a - u_a) \cdot \frac{\partial u_a}{\partial q^s} = \sum_l \lambda_l \frac{\partial f^l}{\partial v^s}",
+    text: "Σ_a m_a (Dr_a − u_a)·∂r_a/∂q^s = 0, Σ_a (m_a Du_a − F_a − R_a)·∂r_a/∂q^s − Σ_a m_a (Dr_a − u_a)·∂u_a/∂q^s = Σ_l λ_l ∂f^l/∂v^s",
+    latex: r"\sum_a m_a (D r_a - u_a) \cdot \frac{\partial r_a}{\partial q^s} = 0, \quad \sum_a (m_a D u_a - F_a - R_a) \cdot \frac{\partial r_a}{\partial q^s} - \sum_a m_a (D r_a - u_a) \cdot \frac{\partial u_a}{\partial q^s} = \sum_l \lambda_l \frac{\partial f^l}{\partial v^s}",
 };
 
 impl Formulation for StateSpace {
@@ -101,7 +100,7 @@ impl Formulation for StateSpace {
                 on: "outside the singular set of the Hessian",
             },
         ];
-        if particles::suffice(system) {
+        if newton::applies(system) {
             identities.extend(of_newton(system, &jet));
         }
         Ok(identities)
@@ -128,7 +127,7 @@ fn of_newton(system: &System, jet: &StateJet) -> [Identity; 2] {
 
 /// The statement that the equations are built from.
 fn schema(basis: &Basis<'_>) -> Schema {
-    match particles::suffice(basis.system) {
+    match newton::applies(basis.system) {
         true => NEWTON,
         false => SCHEMA,
     }
@@ -158,7 +157,9 @@ impl StateJet {
     /// D along the curve.
     fn derive(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
         let symbols = system.velocity_symbols().into_iter();
-        let rates: Vec<(Symbol, Expr)> = symbols.zip(self.velocities.iter().copied()).collect();
+        let mut rates: Vec<(Symbol, Expr)> = symbols.zip(self.velocities.iter().copied()).collect();
+        // The law of a mass is one of the state (q, v), also where Dq is not v.
+        rates.extend(system.masses.iter().map(|m| (m.symbol, m.rate)));
         derive_along(system, es, &self.coordinates, system.graph.one(), &rates)
     }
 }
@@ -202,7 +203,7 @@ fn solve(basis: &Basis<'_>, jet: &StateJet) -> Result<Rates, DeriveError> {
 fn residuals(basis: &Basis<'_>, jet: &StateJet) -> (Vec<Expr>, Vec<Expr>, Vec<Expr>) {
     let (system, g) = (basis.system, &basis.system.graph);
     let constraints = jet.derive(system, &basis.constraints());
-    if particles::suffice(system) {
+    if newton::applies(system) {
         let newton = newton::of_particles(system, jet);
         return (newton.velocities, newton.coordinates, constraints);
     }

@@ -20,7 +20,7 @@ static CARD: Card = Card {
     statement: "The second-kind principle in Hamilton's form: the reactions are directed by the gradients of u(q, p, t) by the momenta and the inverse Hessian of H, without velocities.",
     principle: Principle::SecondKind,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique", "model.hessian-regular"],
+    requires: &["model.accelerations-unique", "model.hessian-regular", "model.masses-free-of-velocity"],
     identity: None,
     unknowns: "rates of coordinates and momenta and one multiplier for each independent constraint",
     highest_order: 1,

@@ -22,7 +22,7 @@ static CARD: Card = Card {
     statement: "Euler's equations of the action with the constraints as side conditions and multipliers κ(t): another system, whose solutions may contain the motions.",
     principle: Principle::Vakonomic,
     relation: Relation::Coincidence,
-    requires: &["model.forces-absent", "model.constrained-extremum-regular"],
+    requires: &["model.forces-absent", "model.constrained-extremum-regular", "model.masses-of-time"],
     identity: None,
     unknowns: "accelerations of all coordinates and the rates of the multipliers κ",
     highest_order: 1,

@@ -12,6 +12,7 @@
 use super::{bare, maggi, Basis, DeriveError, Identity};
 use crate::characteristics::{Characteristics, Manifold};
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
+use crate::mass;
 use crate::order::determined::in_characteristics;
 use crate::order::lifting;
 use crate::particles;
@@ -45,6 +46,8 @@ pub(crate) struct Volterra<'a> {
     kinetic_slopes: Vec<Expr>,
     /// Ẽ_σ, length k.
     forces: Vec<Expr>,
+    /// Ψ̃_σ, length k.
+    reactive: Vec<Expr>,
     /// What T is.
     meaning: &'static str,
 }
@@ -58,29 +61,25 @@ impl<'a> Volterra<'a> {
         let (kinetic, forces, meaning) = match stated_apart(system) {
             Some((kinetic, potential)) => {
                 let slopes = g.gradient(potential, &system.coordinate_symbols());
-                let pairs = system.forces.iter().zip(slopes);
-                let forces = pairs.map(|(&force, slope)| g.sub(force, slope)).collect();
+                let pairs = without_reactive(system).into_iter().zip(slopes);
+                let forces = pairs.map(|(force, slope)| g.sub(force, slope)).collect();
                 let meaning = "kinetic energy with the velocities of the characteristics";
                 (kinetic, forces, meaning)
             }
             None => (
                 system.lagrangian,
-                system.forces.clone(),
+                without_reactive(system),
                 "Lagrangian, in the place of the kinetic energy, with the velocities of the characteristics",
             ),
         };
-        Ok(Volterra::new(
-            system,
-            characteristics,
-            (kinetic, &forces),
-            meaning,
-        ))
+        let of = (kinetic, &forces[..], &system.reactive_forces[..]);
+        Ok(Volterra::new(system, characteristics, of, meaning))
     }
 
     fn new(
         system: &'a System,
         characteristics: Characteristics,
-        (kinetic, forces): (Expr, &[Expr]),
+        (kinetic, forces, reactive): (Expr, &[Expr], &[Expr]),
         meaning: &'static str,
     ) -> Volterra<'a> {
         let (g, c) = (&system.graph, &characteristics);
@@ -92,8 +91,10 @@ impl<'a> Volterra<'a> {
         functions.extend(g.gradient(derivative, &lower));
         functions.extend(g.gradient(kinetic, &system.coordinate_symbols()));
         functions.extend(forces);
+        functions.extend(reactive);
         let n = system.n();
         let mut restricted = c.restrict(system, &functions);
+        let reactive = restricted.split_off(1 + 4 * n);
         let forces = restricted.split_off(1 + 3 * n);
         let kinetic_slopes = restricted.split_off(1 + 2 * n);
         let slopes = restricted.split_off(1 + n);
@@ -108,6 +109,7 @@ impl<'a> Volterra<'a> {
             slopes,
             kinetic_slopes,
             forces: c.contract(system, &forces),
+            reactive: c.contract(system, &reactive),
             characteristics,
             meaning,
         }
@@ -128,8 +130,9 @@ impl<'a> Volterra<'a> {
             .zip(particles::further_forces(system))
             .map(|(applied, further)| g.add(&[applied, further]))
             .collect();
+        let reactive = mass::reactive_forces(system);
         let meaning = "kinetic energy of the particles with the velocities of the characteristics";
-        let of = (kinetic, &forces[..]);
+        let of = (kinetic, &forces[..], &reactive[..]);
         Ok(Volterra {
             cartesian: true,
             ..Volterra::new(system, basis.kinematic_characteristics()?, of, meaning)
@@ -198,9 +201,9 @@ impl<'a> Volterra<'a> {
         let motion: Vec<Equation> = self
             .left_sides(form)
             .into_iter()
-            .zip(&self.forces)
+            .zip(self.right_sides())
             .zip(&c.parameters)
-            .map(|((left, &right), p)| Equation {
+            .map(|((left, right), p)| Equation {
                 label: p.name.clone(),
                 left,
                 right,
@@ -212,6 +215,15 @@ impl<'a> Volterra<'a> {
             .with_objects(self.objects(form)))
     }
 
+    /// Ẽ_σ + Ψ̃_σ.
+    fn right_sides(&self) -> Vec<Expr> {
+        let g = &self.system.graph;
+        let pairs = self.forces.iter().zip(&self.reactive);
+        pairs
+            .map(|(&force, &reactive)| g.add(&[force, reactive]))
+            .collect()
+    }
+
     fn objects(&self, form: Form) -> Vec<NamedExpr> {
         let (system, c) = (self.system, &self.characteristics);
         let mut objects = vec![NamedExpr::new("Ttilde", self.restricted, self.meaning)];
@@ -219,14 +231,16 @@ impl<'a> Volterra<'a> {
             let meaning = format!("momentum of {} before the restriction", coordinate.name);
             objects.push(NamedExpr::new(format!("p_{}", coordinate.name), p, meaning));
         }
-        for (p, &force) in c.parameters.iter().zip(&self.forces) {
-            if !system.graph.is_zero(force) {
-                let meaning = format!("force along {}", p.name);
-                objects.push(NamedExpr::new(
-                    format!("Etilde_{}", bare(&p.name)),
-                    force,
-                    meaning,
-                ));
+        for (name, word, values) in [
+            ("Etilde", "force", &self.forces),
+            ("Psitilde", "reactive force", &self.reactive),
+        ] {
+            for (p, &value) in c.parameters.iter().zip(values) {
+                if !system.graph.is_zero(value) {
+                    let meaning = format!("{word} along {}", p.name);
+                    let name = format!("{name}_{}", bare(&p.name));
+                    objects.push(NamedExpr::new(name, value, meaning));
+                }
             }
         }
         objects.extend(maggi::virtual_basis(system, c));
@@ -264,9 +278,9 @@ impl<'a> Volterra<'a> {
         let residuals = self
             .left_sides(form)
             .into_iter()
-            .zip(&self.forces)
+            .zip(self.right_sides())
             .zip(maggi)
-            .map(|((left, &force), maggi)| g.add(&[left, g.neg(force), g.neg(maggi)]))
+            .map(|((left, force), maggi)| g.add(&[left, g.neg(force), g.neg(maggi)]))
             .collect();
         let (lemma, statement) = match form {
             Form::First => (
@@ -408,6 +422,14 @@ impl<'a> Volterra<'a> {
             })
             .collect()
     }
+}
+
+/// Q without Ψ.
+fn without_reactive(system: &System) -> Vec<Expr> {
+    let pairs = system.forces.iter().zip(&system.reactive_forces);
+    pairs
+        .map(|(&force, &reactive)| system.graph.sub(force, reactive))
+        .collect()
 }
 
 /// `∂F/∂π_σ` with the parameters fixed, σ = 1..k, of a function F on the jet (t, q, P) with a name for the program and one

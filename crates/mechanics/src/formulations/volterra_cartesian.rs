@@ -18,7 +18,7 @@ static CARD_FIRST: Card = Card {
     statement: "Rates of the momenta along kinematic characteristics of particles in Cartesian coordinates, corrected by the turning of the virtual displacements.",
     principle: Principle::DalembertLagrangeChetaev,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique", "model.particles", "model.cartesian-coordinates"],
+    requires: &["model.accelerations-unique", "model.particles", "model.cartesian-coordinates", "model.masses-of-time"],
     identity: Some("Volterra's left sides minus forces are Maggi's on the whole jet (t, q, P, P')"),
     unknowns: "rates of the k kinematic characteristics",
     highest_order: u32::MAX,
@@ -29,8 +29,8 @@ static CARD_FIRST: Card = Card {
 };
 
 const SCHEMA_FIRST: Schema = Schema {
-    text: "D ∂T/∂P_σ − Σ_i μ_i ξ_i' D(∂ξ_i'/∂P_σ) = Ẽ_σ",
-    latex: r"\frac{d}{dt}\frac{\partial T}{\partial P_\sigma} - \sum_i \mu_i \dot\xi_i \frac{d}{dt}\frac{\partial \dot\xi_i}{\partial P_\sigma} = \tilde E_\sigma",
+    text: "D ∂T/∂P_σ − Σ_i μ_i ξ_i' D(∂ξ_i'/∂P_σ) = Ẽ_σ + Ψ̃_σ",
+    latex: r"\frac{d}{dt}\frac{\partial T}{\partial P_\sigma} - \sum_i \mu_i \dot\xi_i \frac{d}{dt}\frac{\partial \dot\xi_i}{\partial P_\sigma} = \tilde E_\sigma + \tilde\Psi_\sigma",
 };
 
 impl Formulation for VolterraFirstCartesian {
@@ -62,7 +62,7 @@ static CARD_SECOND: Card = Card {
     statement: "Lagrange's equations in quasi-coordinates for particles in Cartesian coordinates, corrected by the brackets of the virtual displacements with the motion.",
     principle: Principle::DalembertLagrangeChetaev,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique", "model.particles", "model.cartesian-coordinates"],
+    requires: &["model.accelerations-unique", "model.particles", "model.cartesian-coordinates", "model.masses-of-time"],
     identity: Some("Volterra's left sides minus forces are Maggi's on the whole jet (t, q, P, P')"),
     unknowns: "rates of the k kinematic characteristics",
     highest_order: u32::MAX,
@@ -73,8 +73,8 @@ static CARD_SECOND: Card = Card {
 };
 
 const SCHEMA_SECOND: Schema = Schema {
-    text: "D ∂T/∂P_σ − ∂T/∂π_σ − Σ_i μ_i ξ_i' ( D(∂ξ_i'/∂P_σ) − ∂ξ_i'/∂π_σ ) = Ẽ_σ",
-    latex: r"\frac{d}{dt}\frac{\partial T}{\partial P_\sigma} - \frac{\partial T}{\partial \pi_\sigma} - \sum_i \mu_i \dot\xi_i \Bigl( \frac{d}{dt}\frac{\partial \dot\xi_i}{\partial P_\sigma} - \frac{\partial \dot\xi_i}{\partial \pi_\sigma} \Bigr) = \tilde E_\sigma",
+    text: "D ∂T/∂P_σ − ∂T/∂π_σ − Σ_i μ_i ξ_i' ( D(∂ξ_i'/∂P_σ) − ∂ξ_i'/∂π_σ ) = Ẽ_σ + Ψ̃_σ",
+    latex: r"\frac{d}{dt}\frac{\partial T}{\partial P_\sigma} - \frac{\partial T}{\partial \pi_\sigma} - \sum_i \mu_i \dot\xi_i \Bigl( \frac{d}{dt}\frac{\partial \dot\xi_i}{\partial P_\sigma} - \frac{\partial \dot\xi_i}{\partial \pi_\sigma} \Bigr) = \tilde E_\sigma + \tilde\Psi_\sigma",
 };
 
 impl Formulation for VolterraSecondCartesian {

@@ -18,7 +18,7 @@ static CARD: Card = Card {
     statement: "Rates of the momenta along kinematic characteristics, corrected by the turning of the virtual displacements and by the slope of the unrestricted kinetic energy.",
     principle: Principle::DalembertLagrangeChetaev,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique"],
+    requires: &["model.accelerations-unique", "model.masses-free-of-velocity"],
     identity: Some("Volterra's left sides minus forces are Maggi's on the whole jet (t, q, P, P')"),
     unknowns: "rates of the k kinematic characteristics",
     highest_order: u32::MAX,
@@ -29,8 +29,8 @@ static CARD: Card = Card {
 };
 
 const SCHEMA: Schema = Schema {
-    text: "D ∂T̃/∂P_σ − Σ_s p_s D(∂v^s/∂P_σ) − Σ_s ∂T/∂q^s ∂v^s/∂P_σ = Ẽ_σ",
-    latex: r"\frac{d}{dt}\frac{\partial \tilde T}{\partial P_\sigma} - \sum_s p_s \frac{d}{dt}\frac{\partial \dot q^s}{\partial P_\sigma} - \sum_s \frac{\partial T}{\partial q^s}\frac{\partial \dot q^s}{\partial P_\sigma} = \tilde E_\sigma",
+    text: "D ∂T̃/∂P_σ − Σ_s p_s D(∂v^s/∂P_σ) − Σ_s ∂T/∂q^s ∂v^s/∂P_σ = Ẽ_σ + Ψ̃_σ",
+    latex: r"\frac{d}{dt}\frac{\partial \tilde T}{\partial P_\sigma} - \sum_s p_s \frac{d}{dt}\frac{\partial \dot q^s}{\partial P_\sigma} - \sum_s \frac{\partial T}{\partial q^s}\frac{\partial \dot q^s}{\partial P_\sigma} = \tilde E_\sigma + \tilde\Psi_\sigma",
 };
 
 impl Formulation for VolterraFirst {

@@ -18,7 +18,7 @@ static CARD: Card = Card {
     statement: "Lagrange's equations in quasi-coordinates for the restricted kinetic energy, corrected by the brackets of the virtual displacements with the motion.",
     principle: Principle::DalembertLagrangeChetaev,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique"],
+    requires: &["model.accelerations-unique", "model.masses-free-of-velocity"],
     identity: Some("Volterra's left sides minus forces are Maggi's on the whole jet (t, q, P, P')"),
     unknowns: "rates of the k kinematic characteristics",
     highest_order: u32::MAX,
@@ -29,8 +29,8 @@ static CARD: Card = Card {
 };
 
 const SCHEMA: Schema = Schema {
-    text: "D ∂T̃/∂P_σ − ∂T̃/∂π_σ − Σ_s p_s ( D(∂v^s/∂P_σ) − ∂v^s/∂π_σ ) = Ẽ_σ",
-    latex: r"\frac{d}{dt}\frac{\partial \tilde T}{\partial P_\sigma} - \frac{\partial \tilde T}{\partial \pi_\sigma} - \sum_s p_s \Bigl( \frac{d}{dt}\frac{\partial \dot q^s}{\partial P_\sigma} - \frac{\partial \dot q^s}{\partial \pi_\sigma} \Bigr) = \tilde E_\sigma",
+    text: "D ∂T̃/∂P_σ − ∂T̃/∂π_σ − Σ_s p_s ( D(∂v^s/∂P_σ) − ∂v^s/∂π_σ ) = Ẽ_σ + Ψ̃_σ",
+    latex: r"\frac{d}{dt}\frac{\partial \tilde T}{\partial P_\sigma} - \frac{\partial \tilde T}{\partial \pi_\sigma} - \sum_s p_s \Bigl( \frac{d}{dt}\frac{\partial \dot q^s}{\partial P_\sigma} - \frac{\partial \dot q^s}{\partial \pi_\sigma} \Bigr) = \tilde E_\sigma + \tilde\Psi_\sigma",
 };
 
 impl Formulation for VolterraSecond {

@@ -21,7 +21,7 @@ static CARD: Card = Card {
     statement: "Lagrange's equations of the independent coordinates for the restricted Lagrangian, with the curvature of the constraints on the right.",
     principle: Principle::Hamilton,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique"],
+    requires: &["model.accelerations-unique", "model.masses-free-of-velocity"],
     identity: None,
     unknowns: "accelerations of the k independent coordinates",
     highest_order: 1,

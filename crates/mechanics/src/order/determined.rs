@@ -46,14 +46,14 @@ pub fn with_multipliers(basis: &Basis<'_>) -> Determined {
     let (system, terms) = (basis.system, basis.terms);
     let (g, m) = (&system.graph, terms.order);
     let names: Vec<String> = multiplier_names(basis);
-    let forces = basis.forces_with_reactions();
-    let sides = system.lagrange_left_sides().into_iter().zip(forces);
-    let balance: Vec<Expr> = sides.map(|(left, right)| g.sub(left, right)).collect();
+    let sides = system
+        .motion_left_sides()
+        .into_iter()
+        .zip(basis.reactions());
+    let balance: Vec<Expr> = sides.map(|(w, reaction)| g.sub(w, reaction)).collect();
     let own_order = highest_derivative(system, &balance).unwrap_or(0).min(m);
     let levels = derivatives(&balance, m - own_order, &|e| {
-        g.total_derivative(e, &|name| {
-            system.moves(name) || names.iter().any(|own| own == name)
-        })
+        system.total_derivative_with(e, &names)
     });
     let conditions = levels[..levels.len() - 1]
         .iter()
@@ -317,14 +317,10 @@ fn unknown_variables(
     let mut rates: FxHashMap<Symbol, Expr> = known.iter().map(|x| (x.symbol, x.rate)).collect();
     rates.extend(system.coordinates.iter().map(|c| (c.q_symbol, c.v)));
     let moved = g.derive(&determined.equations, &|s| {
-        let (name, order) = (g.symbol_name(s), g.symbol_order(s));
         if let Some(&rate) = rates.get(&s) {
             Some(rate)
-        } else if name == "t" && order == 0 {
-            Some(g.one())
         } else {
-            let is_control = system.controls.iter().any(|u| u.name == name);
-            is_control.then(|| g.symbol(name, order + 1))
+            system.prescribed_rate(s)
         }
     });
     let matrix = g

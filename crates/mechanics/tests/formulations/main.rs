@@ -10,6 +10,7 @@
 mod acceptance_canonical;
 mod acceptance_embedding;
 mod acceptance_frames;
+mod acceptance_mass;
 mod acceptance_motion;
 mod acceptance_order;
 mod acceptance_state_space;

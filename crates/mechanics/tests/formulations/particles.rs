@@ -3,7 +3,7 @@
 use crate::common::{expect, Case, PARTICLE};
 use crate::gibbs_appell::{BEAD, PARTICLE_POLAR};
 use chetaev_mechanics::particles;
-use chetaev_mechanics::system::Particle;
+use chetaev_mechanics::system::{Particle, Thrust};
 use chetaev_mechanics::{System, SystemParts};
 use std::sync::Arc;
 
@@ -86,6 +86,7 @@ fn masses_of_cartesian_coordinates() {
         mass: g.integer(mass),
         position: vec![place],
         force: vec![g.zero()],
+        thrust: Thrust::default(),
     };
     let parts = SystemParts {
         coordinates: vec!["x".into(), "y".into()],

@@ -46,6 +46,7 @@ impl Checker<'_> {
             Expected::Mass => self.mass(checked),
             Expected::Length => self.length(checked),
             Expected::ForceOnParticle => self.force_on_particle(checked),
+            Expected::VelocityOfParticle => self.velocity_of_particle(checked),
             Expected::FieldComponent { define, coordinate } => {
                 self.field_component(*define, coordinate, checked)
             }
@@ -176,6 +177,12 @@ impl Checker<'_> {
             &wanted,
             "the force on a particle has the dimension",
         );
+    }
+
+    fn velocity_of_particle(&mut self, checked: &Checked<'_>) {
+        let Some(length) = &self.length else { return };
+        let wanted = length.kind.over(&Dimension::time());
+        self.compare_kind(checked, &wanted, "a velocity of matter has the dimension");
     }
 
     // ---- frames

@@ -358,23 +358,7 @@ impl Resolver {
     }
 
     fn declare_coordinate(&mut self, key: &Text, unit: Option<Unit>, description: String) {
-        let mut unit = unit;
-        if let Some(own) = unit.take_if(|unit| !unit.is_coherent()) {
-            let message = format!(
-                "a coordinate is measured in an SI unit without prefix, not in `{}`",
-                own.text
-            );
-            let hint = if own.dimension.is_none() {
-                "rad".to_owned()
-            } else {
-                own.dimension.to_string()
-            };
-            self.unreadable_units.push(key.place);
-            self.push(
-                Diagnostic::error("incoherent-unit", key.place, message)
-                    .hint(format!("state it in {hint}")),
-            );
-        }
+        let unit = self.coherent(unit, key.place, "a coordinate");
         for instance in self.instances(key, "a coordinate", &[]) {
             if instance.order > 0 {
                 let message = format!(
@@ -399,6 +383,32 @@ impl Resolver {
     }
 
     // ---- units
+
+    /// A unit without prefix; another one is reported, and none is left.
+    pub(crate) fn coherent(
+        &mut self,
+        mut unit: Option<Unit>,
+        place: Place,
+        what: &str,
+    ) -> Option<Unit> {
+        if let Some(own) = unit.take_if(|unit| !unit.is_coherent()) {
+            let message = format!(
+                "{what} is measured in an SI unit without prefix, not in `{}`",
+                own.text
+            );
+            let hint = if own.dimension.is_none() {
+                "rad".to_owned()
+            } else {
+                own.dimension.to_string()
+            };
+            self.unreadable_units.push(place);
+            self.push(
+                Diagnostic::error("incoherent-unit", place, message)
+                    .hint(format!("state it in {hint}")),
+            );
+        }
+        unit
+    }
 
     pub(crate) fn unit(&mut self, text: &Text) -> Option<Unit> {
         match parse_unit(&text.content) {

@@ -33,12 +33,18 @@ pub(crate) enum DefineKind {
     QuasiVelocity,
     /// `[frame.fields]`; the value follows from all fields together.
     FrameVelocity,
+    /// A value in `[masses]`.
+    Mass,
+    /// A rate in `[masses]`; called like the derivative of its mass.
+    MassRate,
 }
 
 impl DefineKind {
     fn word(self) -> &'static str {
         match self {
             DefineKind::Definition => "a definition",
+            DefineKind::Mass => "a mass",
+            DefineKind::MassRate => "the rate of a mass",
             _ => "a quasi-velocity",
         }
     }
@@ -56,11 +62,21 @@ pub(crate) struct Define {
     pub(crate) description: String,
     pub(crate) place: Place,
     pub(crate) state: State,
+    /// The value with all named masses as symbols, where masses are named by definitions.
+    pub(crate) by_masses: Option<Expr>,
     /// Order in which it was resolved: after everything that it uses.
     pub(crate) rank: usize,
 }
 
 impl Define {
+    /// Whether it is a quasi-velocity.
+    pub(crate) fn is_quasi_velocity(&self) -> bool {
+        matches!(
+            self.kind,
+            DefineKind::QuasiVelocity | DefineKind::FrameVelocity
+        )
+    }
+
     /// The public form, where it has a value.
     pub(crate) fn definition(&self) -> Option<Definition> {
         match self.state {
@@ -91,17 +107,19 @@ impl Resolver {
         }
     }
 
-    fn declare_define(&mut self, key: &Text, raw: &Raw, kind: DefineKind) {
+    pub(crate) fn declare_define(&mut self, key: &Text, raw: &Raw, kind: DefineKind) {
         let what = kind.word();
         let mut unit = None;
         let mut description = String::new();
         let mut value = Some(raw);
         if let Kind::Table(table) = &raw.kind {
-            self.known_keys(
-                table,
-                &["value", "unit", "description"],
-                &format!("of {what}"),
-            );
+            if kind != DefineKind::Mass {
+                self.known_keys(
+                    table,
+                    &["value", "unit", "description"],
+                    &format!("of {what}"),
+                );
+            }
             (unit, description) = self.unit_and_description(table);
             value = table.get("value");
         }
@@ -141,6 +159,7 @@ impl Resolver {
                 description: description.clone(),
                 place: key.place,
                 state,
+                by_masses: None,
                 rank: 0,
             });
         }
@@ -185,7 +204,9 @@ impl Resolver {
         } = self.defines[number].clone();
         let context = match kind {
             DefineKind::Definition => Context::jet("a definition"),
-            DefineKind::QuasiVelocity => Context::state("a quasi-velocity"),
+            DefineKind::QuasiVelocity => Context::state("a quasi-velocity").without_masses(),
+            DefineKind::Mass => Context::state("a mass"),
+            DefineKind::MassRate => Context::state("the rate of a mass"),
             DefineKind::FrameVelocity => return self.resolve_frame(rank),
         };
         let (value, wanted) = self.lower_wanting(&text, &parsed, parsed.root(), &bindings, context);
@@ -196,15 +217,31 @@ impl Resolver {
         self.defines[number].rank = *rank;
         self.defines[number].state = value.map_or(State::Failed, State::Known);
         if value.is_some() {
+            if self.has_named_values() {
+                let context = context.with_masses_as_symbols();
+                let root = parsed.root();
+                self.defines[number].by_masses =
+                    self.lower(&text, &parsed, root, &bindings, context);
+            }
+            let (expected, define) = self.expected_of_define(number, kind);
             self.formulas.push(Formula {
                 text,
                 parsed,
                 bindings,
-                expected: Expected::Anything,
-                define: Some(number),
+                expected,
+                define,
             });
         }
         Vec::new()
+    }
+
+    /// The dimension of a rate is that of its mass over the time; that of a definition is its own.
+    fn expected_of_define(&self, number: usize, kind: DefineKind) -> (Expected, Option<usize>) {
+        let mass = self.masses.iter().find(|mass| mass.define == number);
+        match (kind, mass) {
+            (DefineKind::MassRate, Some(mass)) => (Expected::Quantity(mass.name.clone(), 1), None),
+            _ => (Expected::Anything, Some(number)),
+        }
     }
 
     fn circle(&mut self, members: &[usize]) {

@@ -34,6 +34,8 @@ pub(crate) enum Expected {
     Length,
     /// That of a mass times a length over the square of the time.
     ForceOnParticle,
+    /// That of a length over the time.
+    VelocityOfParticle,
     /// That of the coordinate's velocity over that of the quasi-velocity, which the first component decides.
     FieldComponent {
         /// The quasi-velocity, by its number among the definitions.

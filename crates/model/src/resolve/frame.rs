@@ -193,6 +193,7 @@ impl Resolver {
                 description: String::new(),
                 place: key.place,
                 state: State::Open,
+                by_masses: None,
                 rank: 0,
             });
             all.push(FieldStated {

@@ -9,6 +9,7 @@ mod define;
 mod drawing;
 pub(crate) mod formula;
 pub(crate) mod frame;
+mod masses;
 mod parameters;
 mod particles;
 mod run;
@@ -64,6 +65,8 @@ pub(crate) struct Resolver {
     pub(crate) controls: Vec<Control>,
     /// Definitions and quasi-velocities; both may be used by name.
     pub(crate) defines: Vec<define::Define>,
+    /// Named masses, whose values and rates are among the definitions.
+    pub(crate) masses: Vec<masses::MassStated>,
     /// The frame, whose quasi-velocities are among the definitions.
     pub(crate) frame: Option<frame::FrameStated>,
     /// Names of the parameters of the user's characteristics.
@@ -90,8 +93,10 @@ const SECTIONS: &[&str] = &[
     "assumptions",
     "define",
     "lagrangian",
+    "masses",
     "particles",
     "forces",
+    "reactive_forces",
     "constraints",
     "velocities",
     "quasi_velocities",
@@ -125,6 +130,7 @@ pub(crate) fn resolve(
         stated: Vec::new(),
         controls: Vec::new(),
         defines: Vec::new(),
+        masses: Vec::new(),
         frame: None,
         characteristic_parameters: Vec::new(),
         contents: RefCell::default(),
@@ -154,6 +160,7 @@ impl Resolver {
         let particles = self.particles(root);
         let lagrangian = self.lagrangian(root, file, &particles);
         let (forces, rayleigh) = self.forces(root);
+        let reactive_forces = self.reactive_forces(root);
         let constraints = self.constraints(root);
         let characteristics = self.characteristics(root, &constraints);
         let independent = self.independent_velocities(root);
@@ -170,6 +177,7 @@ impl Resolver {
         let history = self.prose(root, "history");
         let source = self.references(root);
         let lagrangian = lagrangian?;
+        let masses = self.masses();
         Some(Model {
             time: self.graph.symbol("t", 0),
             graph: Arc::clone(&self.graph),
@@ -182,12 +190,15 @@ impl Resolver {
             controls: std::mem::take(&mut self.controls),
             assumptions,
             defines: self.definitions(false),
+            masses,
+            inertia_by_masses: lagrangian.by_masses,
             particles,
             kinetic_from_particles: lagrangian.from_particles,
             kinetic: lagrangian.kinetic,
             potential: lagrangian.potential,
             lagrangian: lagrangian.total,
             forces,
+            reactive_forces,
             rayleigh,
             constraints,
             independent,
@@ -212,11 +223,13 @@ impl Resolver {
         self.declare_coordinates(root, file);
         self.declare_controls(root);
         self.declare_parameters(root);
+        self.declare_masses(root);
         self.declare_defines(root);
         self.declare_frame(root);
         self.declare_characteristics(root);
         self.resolve_parameters();
         self.resolve_defines();
+        self.resolve_masses();
         self.resolve_controls(root);
         self.unused_overrides();
     }
@@ -226,7 +239,8 @@ impl Resolver {
         let mut chosen: Vec<&define::Define> = self
             .defines
             .iter()
-            .filter(|define| (define.kind != define::DefineKind::Definition) == quasi)
+            .filter(|define| define.is_quasi_velocity() == quasi)
+            .filter(|define| define.kind != define::DefineKind::MassRate)
             .collect();
         chosen.sort_by_key(|define| if quasi { 0 } else { define.rank });
         chosen
@@ -341,7 +355,6 @@ fn near_key<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {
         ("potential", "V"),
         ("dissipation", "rayleigh"),
         ("quasi-velocities", "quasi_velocities"),
-        ("masses", "particles"),
         ("points", "particles"),
         ("moving_frame", "frame"),
         ("vectors", "fields"),
@@ -349,6 +362,12 @@ fn near_key<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {
         ("r", "position"),
         ("m", "mass"),
         ("F", "force"),
+        ("u", "relative_velocity"),
+        ("w", "absolute_velocity"),
+        ("R", "force"),
+        ("law", "rate"),
+        ("start", "initial"),
+        ("reactive", "reactive_forces"),
         ("X_0", "drift"),
         ("inputs", "controls"),
         ("initial_conditions", "initial"),

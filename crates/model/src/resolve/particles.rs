@@ -1,14 +1,14 @@
-//! Particles: constant masses at positions r(q, t), with applied forces; the kinetic energy is their sum.
+//! Particles: masses at positions r(q, t), with applied forces and thrust; the kinetic energy is their sum.
 
 use chetaev_symbolic::syntax::lower::Bindings;
 use chetaev_symbolic::syntax::parse_expression;
 use chetaev_symbolic::{Expr, Rational};
 
 use super::formula::Expected;
-use super::scope::Context;
+use super::scope::{Context, NamedKind};
 use super::Resolver;
 use crate::diagnostic::Diagnostic;
-use crate::model::Particle;
+use crate::model::{Particle, Thrust};
 use crate::raw::{Kind, Raw, Table};
 use crate::source::Place;
 use crate::text::Text;
@@ -18,8 +18,31 @@ struct Parts {
     mass: Option<Text>,
     position: Option<Vec<Text>>,
     force: Force,
+    thrust: Option<ThrustText>,
     description: String,
 }
+
+/// The thrust as it is written, with its place; what is wrong with it is reported.
+struct ThrustText {
+    place: Place,
+    mode: Mode,
+}
+
+enum Mode {
+    Isotropic,
+    Velocity(Vec<Text>),
+    Absolute(Vec<Text>),
+    Exhaust(Text),
+    Force(Vec<Text>),
+}
+
+/// The keys of a thrust, one of which is stated.
+const MODES: &[&str] = &[
+    "relative_velocity",
+    "exhaust_speed",
+    "absolute_velocity",
+    "force",
+];
 
 /// The applied force as it is written.
 enum Force {
@@ -58,7 +81,7 @@ impl Resolver {
             self.wrong_kind(raw, "a particle", "a table with `mass` and `position`");
             return None;
         };
-        let known = ["mass", "position", "force", "description"];
+        let known = ["mass", "position", "force", "thrust", "description"];
         self.known_keys(table, &known, "of a particle");
         let description = self.prose(table, "description");
         for part in ["mass", "position"] {
@@ -80,15 +103,19 @@ impl Resolver {
             Some(raw) => match self.components_of(raw, "the force on a particle") {
                 None => Force::Unreadable,
                 Some(force) => {
-                    self.same_length(position.as_deref(), &force, raw.place);
+                    self.same_length("force", position.as_deref(), &force, raw.place);
                     Force::Stated(force)
                 }
             },
         };
+        let thrust = table
+            .get("thrust")
+            .and_then(|raw| self.thrust_text(raw, position.as_deref()));
         Some(Parts {
             mass,
             position,
             force,
+            thrust,
             description,
         })
     }
@@ -123,15 +150,140 @@ impl Resolver {
         texts.into_iter().collect()
     }
 
-    fn same_length(&mut self, position: Option<&[Text]>, force: &[Text], place: Place) {
-        let wanted = position.map_or(force.len(), <[Text]>::len);
-        if wanted != force.len() {
+    fn same_length(
+        &mut self,
+        word: &str,
+        position: Option<&[Text]>,
+        vector: &[Text],
+        place: Place,
+    ) {
+        let wanted = position.map_or(vector.len(), <[Text]>::len);
+        if wanted != vector.len() {
             let message = format!(
-                "the force on a particle has as many components as its position, {wanted}, not {}",
-                force.len()
+                "the {word} on a particle has as many components as its position, {wanted}, not {}",
+                vector.len()
             );
             self.push(Diagnostic::error("wrong-length", place, message));
         }
+    }
+
+    /// A table with one key, or the word `isotropic`.
+    fn thrust_text(&mut self, raw: &Raw, position: Option<&[Text]>) -> Option<ThrustText> {
+        let place = raw.place;
+        let table = match &raw.kind {
+            Kind::Text(text) if text.content == "isotropic" => {
+                let mode = Mode::Isotropic;
+                return Some(ThrustText { place, mode });
+            }
+            Kind::Table(table) => table,
+            _ => {
+                let message = "the thrust on a particle is \"isotropic\", or a table with one key";
+                let hint = format!("one of {}", MODES.join(", "));
+                self.push(Diagnostic::error("wrong-kind", place, message).hint(hint));
+                return None;
+            }
+        };
+        self.known_keys(table, MODES, "of a thrust");
+        let mut stated = table
+            .entries
+            .iter()
+            .filter(|(key, _)| MODES.contains(&key.content.as_str()));
+        let Some((key, value)) = stated.next() else {
+            if table.entries.is_empty() {
+                let message = "the thrust of a particle is empty";
+                let hint = format!("state one of {}", MODES.join(", "));
+                self.push(Diagnostic::error("missing-value", place, message).hint(hint));
+            }
+            return None;
+        };
+        if let Some((other, _)) = stated.next() {
+            let message = format!(
+                "the thrust is stated twice, by `{}` and by `{}`",
+                key.content, other.content
+            );
+            self.push(
+                Diagnostic::error("stated-twice", other.place, message)
+                    .related(key.place, "first here")
+                    .hint("leave one of them"),
+            );
+            return None;
+        }
+        let mode = self.mode(&key.content, value, position)?;
+        Some(ThrustText { place, mode })
+    }
+
+    fn mode(&mut self, key: &str, raw: &Raw, position: Option<&[Text]>) -> Option<Mode> {
+        if key == "exhaust_speed" {
+            let text = self.expression_text(raw, "the exhaust speed")?;
+            self.parse(&text, parse_expression);
+            return Some(Mode::Exhaust(text));
+        }
+        let (what, word) = match key {
+            "force" => ("the thrust on a particle", "thrust"),
+            _ => ("a velocity of matter", "velocity of matter"),
+        };
+        let components = self.components_of(raw, what)?;
+        self.same_length(word, position, &components, raw.place);
+        Some(match key {
+            "relative_velocity" => Mode::Velocity(components),
+            "absolute_velocity" => Mode::Absolute(components),
+            _ => Mode::Force(components),
+        })
+    }
+
+    /// The thrust of one particle; `None` where it cannot be understood.
+    fn thrust(
+        &mut self,
+        parts: &Parts,
+        bindings: &Bindings,
+        (name, mass): (&str, Option<Expr>),
+    ) -> Option<Thrust> {
+        let Some(stated) = &parts.thrust else {
+            return Some(Thrust::Isotropic);
+        };
+        let velocity = Context::state("a velocity of matter");
+        let expected = Expected::VelocityOfParticle;
+        let thrust = match &stated.mode {
+            Mode::Isotropic => Thrust::Isotropic,
+            Mode::Velocity(texts) => {
+                Thrust::RelativeVelocity(self.all_of(texts, bindings, velocity, &expected)?)
+            }
+            Mode::Absolute(texts) => {
+                Thrust::AbsoluteVelocity(self.all_of(texts, bindings, velocity, &expected)?)
+            }
+            Mode::Exhaust(text) => {
+                Thrust::ExhaustSpeed(self.expression(text, bindings, velocity, expected)?)
+            }
+            Mode::Force(texts) => {
+                let context = Context::state("the thrust on a particle");
+                Thrust::Force(self.all_of(texts, bindings, context, &Expected::ForceOnParticle)?)
+            }
+        };
+        if mass.is_some_and(|mass| self.is_constant(mass)) {
+            self.idle_thrust(name, &thrust, stated.place);
+        }
+        Some(thrust)
+    }
+
+    /// Matter with a velocity acts by the rate of the mass only.
+    fn idle_thrust(&mut self, name: &str, thrust: &Thrust, place: Place) {
+        if !matches!(thrust, Thrust::Isotropic | Thrust::Force(_)) {
+            let message =
+                format!("the mass of the particle `{name}` is constant: its thrust has no effect");
+            self.push(
+                Diagnostic::warning("no-effect", place, message)
+                    .hint("let the mass vary, or state the thrust itself by `force`"),
+            );
+        }
+    }
+
+    /// Whether nothing that moves occurs.
+    fn is_constant(&self, e: Expr) -> bool {
+        let symbols = self.graph.symbols_in(&[e]);
+        symbols.into_iter().all(|symbol| {
+            let kind = self.names.get(self.graph.symbol_name(symbol));
+            matches!(kind.map(|named| named.kind), Some(NamedKind::Parameter))
+        })
     }
 
     fn particle(
@@ -159,12 +311,14 @@ impl Resolver {
                 self.all_of(texts, bindings, context, &Expected::ForceOnParticle)
             }
         };
+        let thrust = self.thrust(parts, bindings, (&name, mass));
         let (position, force) = (position?, force?);
         (force.len() == position.len()).then_some(Particle {
             name,
             mass: mass?,
             position,
             force,
+            thrust: thrust?,
             description: parts.description.clone(),
             place,
         })
@@ -185,24 +339,16 @@ impl Resolver {
         values.into_iter().collect()
     }
 
-    /// A constant that is not zero; where its value is known and negative, a warning.
+    /// An expression that is not zero; where its value is known and negative, a warning.
     fn mass(&mut self, name: &str, text: &Text, bindings: &Bindings) -> Option<Expr> {
-        let context = Context::constant("the mass of a particle").hint(
-            "the mass of a particle is a constant here; state `T` or `L` instead of the particle where it varies",
-        );
+        let context = Context::state("the mass of a particle");
         let mass = self.expression(text, bindings, context, Expected::Mass)?;
-        let values: Vec<(Expr, Expr)> = self
-            .parameters
-            .iter()
-            .filter_map(|parameter| Some((parameter.symbol, parameter.value?)))
-            .collect();
-        let value = self.graph.substitute(mass, &values);
+        let value = self.with_parameters(mass);
         if self.graph.is_zero(value) {
             let message = format!("the mass of the particle `{name}` is zero");
             self.push(
-                Diagnostic::error("zero-mass", text.place, message).hint(
-                    "the mass of a particle is a constant here, and not zero; a point without mass needs no particle",
-                ),
+                Diagnostic::error("zero-mass", text.place, message)
+                    .hint("a point without mass needs no particle"),
             );
             return None;
         }
@@ -226,7 +372,7 @@ impl Resolver {
             let squares: Vec<Expr> = particle
                 .position
                 .iter()
-                .map(|&r| graph.powi(graph.total_derivative(r, &|name| self.varies(name)), 2))
+                .map(|&r| graph.powi(self.total_derivative(r), 2))
                 .collect();
             terms.push(graph.mul(&[half, particle.mass, graph.add(&squares)]));
         }

@@ -19,6 +19,8 @@ pub(crate) enum NamedKind {
     Parameter,
     Control,
     Define(usize),
+    /// A mass with a law of its own, by the number of the definition of its rate.
+    Mass(usize),
     Size(i64),
     Characteristic,
 }
@@ -30,6 +32,7 @@ impl NamedKind {
             NamedKind::Parameter => "a parameter",
             NamedKind::Control => "a control",
             NamedKind::Define(_) => "a definition",
+            NamedKind::Mass(_) => "a mass",
             NamedKind::Size(_) => "a size",
             NamedKind::Characteristic => "a parameter of the characteristics",
         }
@@ -56,6 +59,10 @@ pub(crate) struct Context {
     pub(crate) parameters: bool,
     /// Whether parameters of the characteristics may occur.
     pub(crate) characteristics: bool,
+    /// Whether masses with a law of their own may occur.
+    pub(crate) masses: bool,
+    /// Whether masses that are definitions stand as symbols too.
+    pub(crate) masses_as_symbols: bool,
     /// Advice where something that varies occurs and may not; may be empty.
     pub(crate) hint: &'static str,
 }
@@ -69,6 +76,8 @@ impl Context {
             time: true,
             parameters: true,
             characteristics: false,
+            masses: true,
+            masses_as_symbols: false,
             hint: "",
         }
     }
@@ -81,13 +90,27 @@ impl Context {
             time: true,
             parameters: true,
             characteristics: false,
+            masses: false,
+            masses_as_symbols: false,
             hint: "only coordinates, controls, parameters and the time may occur there",
         }
     }
 
-    /// The same with advice for somebody who uses what may not occur.
-    pub(crate) const fn hint(self, hint: &'static str) -> Self {
-        Context { hint, ..self }
+    /// The same without masses that have a law of their own: they are states, and no part of the kinematics.
+    pub(crate) const fn without_masses(self) -> Self {
+        Context {
+            masses: false,
+            hint: "a mass with a law of its own is a state of the motion: the kinematics cannot depend on it",
+            ..self
+        }
+    }
+
+    /// The same with all named masses as symbols.
+    pub(crate) const fn with_masses_as_symbols(self) -> Self {
+        Context {
+            masses_as_symbols: true,
+            ..self
+        }
     }
 
     /// A function of all derivatives.
@@ -98,6 +121,8 @@ impl Context {
             time: true,
             parameters: true,
             characteristics: false,
+            masses: true,
+            masses_as_symbols: false,
             hint: "",
         }
     }
@@ -120,6 +145,8 @@ impl Context {
             time: true,
             parameters: true,
             characteristics: false,
+            masses: false,
+            masses_as_symbols: false,
             hint: "",
         }
     }
@@ -132,6 +159,8 @@ impl Context {
             time: false,
             parameters: true,
             characteristics: false,
+            masses: false,
+            masses_as_symbols: false,
             hint: "",
         }
     }
@@ -144,6 +173,8 @@ impl Context {
             time: false,
             parameters: false,
             characteristics: false,
+            masses: false,
+            masses_as_symbols: false,
             hint: "",
         }
     }
@@ -159,6 +190,8 @@ pub(crate) struct Contents {
     parameter: Option<String>,
     /// The time or a control.
     time: Option<String>,
+    /// A mass with a law of its own.
+    mass: Option<String>,
 }
 
 /// A context with the names of a model; remembers which definitions were wanted before they were known.
@@ -225,7 +258,14 @@ impl ModelScope<'_> {
             let message = format!("`{name}` is a quasi-velocity and may not occur in {what}");
             return refused("not-allowed-here", message, hint);
         }
+        let as_symbols = self.context.masses_as_symbols;
+        if as_symbols && order == 0 && define.kind == DefineKind::Mass {
+            return Resolution::Known(resolver.graph.symbol(name, 0));
+        }
         let value = match define.state {
+            State::Known(_) if as_symbols && define.by_masses.is_some() => {
+                return self.defined_by_masses(define.by_masses, order);
+            }
             State::Known(value) => value,
             State::Failed => return Resolution::Failed,
             State::Open => {
@@ -240,6 +280,11 @@ impl ModelScope<'_> {
                 "",
             );
         }
+        if order > 0 {
+            if let Some(unknown) = self.unknown_rates(value) {
+                return unknown;
+            }
+        }
         let contents = self.contents(number, value, order);
         match self.forbidden(&contents) {
             None => Resolution::Known(contents.value),
@@ -250,6 +295,54 @@ impl ModelScope<'_> {
                 refused("not-allowed-here", message, hint)
             }
         }
+    }
+
+    /// A definition, or a derivative of it, with named masses as symbols; what may not occur was found before.
+    fn defined_by_masses(&self, value: Option<Expr>, order: u32) -> Resolution {
+        let derived = value
+            .map(|value| (0..order).fold(value, |value, _| self.resolver.total_derivative(value)));
+        derived.map_or(Resolution::Failed, Resolution::Known)
+    }
+
+    /// Where a derivative needs rates of masses that are not known yet, or never will be.
+    fn unknown_rates(&self, value: Expr) -> Option<Resolution> {
+        let resolver = self.resolver;
+        let mut unknown = None;
+        for law in resolver.laws_in(value) {
+            match resolver.defines[law].state {
+                State::Known(_) => {}
+                State::Failed => unknown = Some(Resolution::Failed),
+                State::Open => {
+                    self.wanted.borrow_mut().push(law);
+                    unknown = Some(Resolution::Failed);
+                }
+            }
+        }
+        unknown
+    }
+
+    /// A mass with a law of its own: a state, whose derivatives are those of its rate.
+    fn mass(&self, name: &str, law: usize, order: u32) -> Resolution {
+        let Context {
+            what,
+            hint,
+            coordinates,
+            masses,
+            ..
+        } = self.context;
+        if let Some(lower) = order.checked_sub(1) {
+            return self.defined(name, law, lower);
+        }
+        if masses {
+            return Resolution::Known(self.resolver.graph.symbol(name, 0));
+        }
+        let message = match coordinates {
+            None => format!("the mass `{name}` may not occur in {what}, which is constant"),
+            Some(_) => {
+                format!("the mass `{name}` has a law of its own and may not occur in {what}")
+            }
+        };
+        refused("not-allowed-here", message, hint)
     }
 
     /// The derivative of a definition with an example of each kind of symbol in it. Both cost time in proportion to
@@ -264,7 +357,7 @@ impl ModelScope<'_> {
             None => value,
             Some(lower) => {
                 let lower = self.contents(number, value, lower).value;
-                graph.total_derivative(lower, &|name| resolver.varies(name))
+                resolver.total_derivative(lower)
             }
         };
         let mut contents = Contents {
@@ -272,6 +365,7 @@ impl ModelScope<'_> {
             highest: None,
             parameter: None,
             time: None,
+            mass: None,
         };
         for symbol in graph.symbols_in(&[value]) {
             let place = match resolver
@@ -291,6 +385,7 @@ impl ModelScope<'_> {
                     continue;
                 }
                 Some(NamedKind::Parameter) => &mut contents.parameter,
+                Some(NamedKind::Mass(_)) => &mut contents.mass,
                 _ => &mut contents.time,
             };
             place.get_or_insert_with(|| graph.symbol_text(symbol));
@@ -308,6 +403,7 @@ impl ModelScope<'_> {
             coordinates,
             time,
             parameters,
+            masses,
             ..
         } = self.context;
         let high = contents
@@ -316,9 +412,11 @@ impl ModelScope<'_> {
             .filter(|(order, _)| coordinates.is_none_or(|most| *order > most));
         let parameter = contents.parameter.as_ref().filter(|_| !parameters);
         let timely = contents.time.as_ref().filter(|_| !time);
+        let mass = contents.mass.as_ref().filter(|_| !masses);
         high.map(|(_, symbol)| symbol)
             .or(parameter)
             .or(timely)
+            .or(mass)
             .cloned()
     }
 }
@@ -357,6 +455,7 @@ impl Scope for ModelScope<'_> {
                 format!("`{name}` is a parameter of the characteristics and may not occur in {}", self.context.what),
                 "it occurs in the formulas of [characteristics] only, without primes",
             ),
+            Some(NamedKind::Mass(law)) => self.mass(name, law, order),
             Some(NamedKind::Size(value)) if order == 0 => Resolution::Known(resolver.graph.integer(value)),
             Some(NamedKind::Size(_)) => {
                 refused("derivative-of-constant", format!("`{name}` is a size, an integer, and has no derivative"), "")
@@ -377,7 +476,7 @@ impl Scope for ModelScope<'_> {
         let rank = |kind: NamedKind| match kind {
             NamedKind::Coordinate => 0,
             NamedKind::Parameter => 1,
-            NamedKind::Define(_) => 2,
+            NamedKind::Define(_) | NamedKind::Mass(_) => 2,
             NamedKind::Control => 3,
             NamedKind::Size(_) => 4,
             NamedKind::Characteristic => 5,
@@ -394,14 +493,6 @@ impl Scope for ModelScope<'_> {
 }
 
 impl Resolver {
-    /// Whether a name is that of a coordinate or a control.
-    pub(crate) fn varies(&self, name: &str) -> bool {
-        matches!(
-            self.names.get(name).map(|named| named.kind),
-            Some(NamedKind::Coordinate | NamedKind::Control)
-        )
-    }
-
     /// The highest derivative of a coordinate in an expression; none where no coordinate occurs.
     pub(crate) fn order_of(&self, value: Expr) -> Option<u32> {
         let is_coordinate = |name: &str| {

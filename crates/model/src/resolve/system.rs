@@ -22,16 +22,19 @@ pub(crate) struct Lagrangian {
     pub(crate) potential: Option<Expr>,
     pub(crate) total: Expr,
     pub(crate) from_particles: bool,
+    /// T, or L where T is not stated, with named masses as symbols.
+    pub(crate) by_masses: Option<Expr>,
 }
 
 impl Lagrangian {
     /// L stated by itself.
-    fn whole(total: Expr) -> Self {
+    fn whole(total: Expr, by_masses: Option<Expr>) -> Self {
         Lagrangian {
             kinetic: None,
             potential: None,
             total,
             from_particles: false,
+            by_masses,
         }
     }
 }
@@ -65,7 +68,9 @@ impl Resolver {
             return None;
         };
         if raw.expression().is_some() {
-            return Some(Lagrangian::whole(self.energy(raw, "the Lagrangian")?));
+            let total = self.energy(raw, "the Lagrangian")?;
+            let by_masses = self.by_masses(raw, Context::state("the Lagrangian"));
+            return Some(Lagrangian::whole(total, by_masses));
         }
         let Some(table) = raw.table() else {
             self.wrong_kind(
@@ -100,8 +105,11 @@ impl Resolver {
             ));
             return None;
         }
+        let inertia = table.get("T").or_else(|| table.get("L"));
+        let by_masses =
+            inertia.and_then(|raw| self.by_masses(raw, Context::state("the kinetic energy")));
         match (whole, kinetic, potential, particles) {
-            (Some(whole), ..) => Some(Lagrangian::whole(whole?)),
+            (Some(whole), ..) => Some(Lagrangian::whole(whole?, by_masses)),
             (None, None, None, None) => {
                 self.push(
                     Diagnostic::error("missing-section", raw.place, "[lagrangian] is empty")
@@ -124,6 +132,7 @@ impl Resolver {
                     potential,
                     total,
                     from_particles: false,
+                    by_masses,
                 })
             }
         }
@@ -136,6 +145,7 @@ impl Resolver {
             potential,
             total: potential.map_or(kinetic, |potential| self.graph.sub(kinetic, potential)),
             from_particles: true,
+            by_masses: None,
         }
     }
 
@@ -153,7 +163,6 @@ impl Resolver {
             return (forces, rayleigh);
         };
         for (key, raw) in &table.entries {
-            let what = "a generalized force";
             if key.content == "rayleigh" && !self.names.contains_key("rayleigh") {
                 let Some(text) = self.expression_text(raw, "Rayleigh's function") else {
                     continue;
@@ -166,43 +175,57 @@ impl Resolver {
                 );
                 continue;
             }
-            let Some(text) = self.expression_text(raw, what) else {
-                continue;
-            };
-            for Instance {
-                name,
-                order,
-                bindings,
-            } in self.instances(key, what, &[])
-            {
-                let Some(coordinate) =
-                    self.coordinate_named(key, &name, order, "a force acts on a coordinate")
-                else {
-                    break;
-                };
-                if let Some(earlier) = forces.iter().find(|force| force.coordinate == coordinate) {
-                    let message = format!("the force on `{name}` is stated twice");
-                    self.push(
-                        Diagnostic::error("stated-twice", key.place, message)
-                            .related(earlier.place, "first here"),
-                    );
-                    break;
-                }
-                let expected = Expected::Force(name);
-                if let Some(value) =
-                    self.expression(&text, &bindings, Context::state(what), expected)
-                {
-                    forces.push(Force {
-                        coordinate,
-                        value,
-                        text: text.content.clone(),
-                        place: key.place,
-                    });
-                }
-            }
+            self.force(key, raw, "a generalized force", &mut forces);
         }
         forces.sort_by_key(|force| force.coordinate);
         (forces, rayleigh)
+    }
+
+    /// The reactive forces Ψ_s by coordinate; none where the section is left out.
+    pub(crate) fn reactive_forces(&mut self, root: &Table) -> Option<Vec<Force>> {
+        let table = self.section(root, "reactive_forces")?;
+        let mut forces = Vec::new();
+        for (key, raw) in &table.entries {
+            self.force(key, raw, "a reactive force", &mut forces);
+        }
+        forces.sort_by_key(|force| force.coordinate);
+        Some(forces)
+    }
+
+    /// The forces of one key, which names a coordinate or a family of them.
+    fn force(&mut self, key: &Text, raw: &Raw, what: &'static str, forces: &mut Vec<Force>) {
+        let Some(text) = self.expression_text(raw, what) else {
+            return;
+        };
+        for Instance {
+            name,
+            order,
+            bindings,
+        } in self.instances(key, what, &[])
+        {
+            let Some(coordinate) =
+                self.coordinate_named(key, &name, order, "a force acts on a coordinate")
+            else {
+                break;
+            };
+            if let Some(earlier) = forces.iter().find(|force| force.coordinate == coordinate) {
+                let message = format!("the force on `{name}` is stated twice");
+                self.push(
+                    Diagnostic::error("stated-twice", key.place, message)
+                        .related(earlier.place, "first here"),
+                );
+                break;
+            }
+            let expected = Expected::Force(name);
+            if let Some(value) = self.expression(&text, &bindings, Context::state(what), expected) {
+                forces.push(Force {
+                    coordinate,
+                    value,
+                    text: text.content.clone(),
+                    place: key.place,
+                });
+            }
+        }
     }
 
     /// The number of a coordinate that a key names without primes; else a diagnostic.
@@ -358,7 +381,7 @@ impl Resolver {
             return;
         }
         for instance in instances {
-            let context = Context::jet("a constraint");
+            let context = Context::jet("a constraint").without_masses();
             let side = |resolver: &mut Self, at: usize| {
                 resolver.lower(text, &parsed, parsed.sides[at], &instance.bindings, context)
             };
@@ -419,9 +442,7 @@ impl Resolver {
     }
 
     fn differentiated(&self, e: Expr, times: u32) -> Expr {
-        (0..times).fold(e, |e, _| {
-            self.graph.total_derivative(e, &|name| self.varies(name))
-        })
+        (0..times).fold(e, |e, _| self.total_derivative(e))
     }
 
     /// A constraint is its equation, or a table with that.

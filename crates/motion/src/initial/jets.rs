@@ -460,8 +460,7 @@ impl Search<'_> {
         let n = system.n();
         let all = [state, &values[..]].concat();
         let (symbols, numbers): (Vec<Symbol>, Vec<f64>) = all.into_iter().unzip();
-        let sides = system.lagrange_left_sides().into_iter().zip(&system.forces);
-        let w: Vec<Expr> = sides.map(|(left, &force)| g.sub(left, force)).collect();
+        let w = system.motion_left_sides();
         let jets: Vec<Symbol> = terms.jets.iter().map(|c| c.v_symbol).collect();
         let balance: Vec<Expr> = self
             .equations

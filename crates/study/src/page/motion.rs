@@ -53,10 +53,14 @@ fn pivot(value: f64) -> String {
 /// What was recorded, but for the accelerations.
 fn curves(study: &Study, motion: &Motion) -> Vec<Series> {
     let table = Table::new(study, motion);
-    let n = study.system.n();
+    let (n, masses) = (study.system.n(), study.system.masses.len());
     let mut series = Vec::new();
     for (i, (name, values)) in table.names.iter().zip(table.columns).enumerate().skip(1) {
-        let group = match i {
+        let is_mass = (n + 1..=n + masses).contains(&i);
+        // The place among coordinates, velocities and accelerations.
+        let place = if i <= n { i } else { i - masses };
+        let group = match place {
+            _ if is_mass => SeriesGroup::Coordinates,
             i if i <= n => SeriesGroup::Coordinates,
             i if i <= 2 * n => SeriesGroup::Velocities,
             i if i <= 3 * n => continue,
@@ -74,13 +78,20 @@ fn curves(study: &Study, motion: &Motion) -> Vec<Series> {
             label,
             group,
             values,
-            unit: (i <= 2 * n)
-                .then(|| unit(study, (i - 1) % n, (i - 1) / n))
-                .flatten(),
+            unit: match is_mass {
+                true => mass_unit(study, name),
+                false if place <= 2 * n => unit(study, (place - 1) % n, (place - 1) / n),
+                false => None,
+            },
             ..Series::default()
         });
     }
     series
+}
+
+fn mass_unit(study: &Study, name: &str) -> Option<String> {
+    let mass = study.model.masses.iter().find(|m| m.name == name)?;
+    Some(mass.unit.as_ref()?.text.clone())
 }
 
 /// Deviations of energy and integrals from their initial values and residuals of the constraints, each with the claim

@@ -35,6 +35,8 @@ pub(super) fn source(
 struct Inputs {
     time: Symbol,
     coordinates: Vec<Symbol>,
+    /// Masses with a law of their own.
+    masses: Vec<Symbol>,
     velocities: Vec<Symbol>,
     parameters: Vec<Symbol>,
     /// Controls without a law, with their derivatives up to the second.
@@ -62,6 +64,7 @@ impl Inputs {
         Inputs {
             time: g.intern_symbol("t", 0),
             coordinates: system.coordinate_symbols(),
+            masses: system.masses.iter().map(|m| m.symbol).collect(),
             velocities: system.velocity_symbols(),
             parameters: system
                 .parameters
@@ -87,11 +90,17 @@ impl Inputs {
             let texts: Vec<String> = symbols.iter().map(|&s| g.symbol_text(s)).collect();
             texts.join(", ")
         };
-        let arrays = [
+        let mut arrays = vec![
             format!("q = ({})", listed(&self.coordinates)),
             format!("z = ({})", listed(&state)),
             format!("p = ({})", listed(&self.parameters)),
         ];
+        if !self.masses.is_empty() {
+            arrays.push(format!(
+                "m = ({}), masses with a law of their own",
+                listed(&self.masses)
+            ));
+        }
         let about = |what: &str| -> Vec<String> {
             let mut lines = vec![format!("{}: {what}", derivation.card.title)];
             lines.extend(arrays.iter().cloned());
@@ -99,6 +108,9 @@ impl Inputs {
         };
         let inputs = |second: (&'a str, Vec<Symbol>)| {
             let mut inputs = vec![("q", self.coordinates.clone()), second];
+            if !self.masses.is_empty() {
+                inputs.push(("m", self.masses.clone()));
+            }
             inputs.push(("p", self.parameters.clone()));
             if !self.controls.is_empty() {
                 inputs.push(("u", self.controls.clone()));
@@ -112,13 +124,19 @@ impl Inputs {
             inputs,
             outputs,
         };
-        let rates = vec![
+        let mut rates = vec![
             ("dq", lawful(equations.velocities.clone())),
             ("dz", lawful(equations.rates())),
         ];
+        let mut state_in_words = "the rates of the state (q, z).";
+        if !self.masses.is_empty() {
+            let laws = equations.masses.iter().map(|(_, rate)| *rate);
+            rates.push(("dm", lawful(laws.collect())));
+            state_in_words = "the rates of the state (q, z, m).";
+        }
         let mut functions = vec![function(
             &names[0],
-            "the rates of the state (q, z).",
+            state_in_words,
             inputs(("z", state.clone())),
             rates,
         )];

@@ -141,11 +141,12 @@ fn as_module(system: &System, found: &[Result<Derivation, NotDerived>]) -> Strin
     sympy_module(&modules, &moving(system, &derived))
 }
 
-/// Names that vary with the time beside the coordinates: controls, quasi-velocities, momenta and other variables of a state.
+/// Names that vary with the time beside the coordinates: controls, masses, quasi-velocities, momenta and other variables of a state.
 fn moving(system: &System, derived: &[&Derivation]) -> Vec<String> {
     let controls = system.controls.iter().map(|u| u.name.clone());
     let quasi = system.quasi_velocities.iter().map(|u| u.name.clone());
-    let mut names: Vec<String> = controls.chain(quasi).collect();
+    let masses = system.masses.iter().map(|m| m.name.clone());
+    let mut names: Vec<String> = controls.chain(masses).chain(quasi).collect();
     for variable in derived.iter().flat_map(|d| &d.equations.variables) {
         let name = system.graph.symbol_name(variable.symbol);
         if system.coordinate_index(name).is_none() && !names.iter().any(|n| n == name) {
@@ -208,8 +209,13 @@ fn derivation_json(system: &System, derivation: &Derivation) -> serde_json::Valu
         .iter()
         .map(|x| x.name.as_str())
         .collect();
-    serde_json::json!({
+    let masses: Vec<&str> = system.masses.iter().map(|m| m.name.as_str()).collect();
+    let mut json = serde_json::json!({
         "formulation": card.name, "title": card.title, "statement": card.statement, "principle": card.principle.words(), "requires": card.requires,
         "unknowns": card.unknowns, "sources": sources, "state": state, "groups": groups, "objects": objects,
-    })
+    });
+    if !masses.is_empty() {
+        json["masses"] = serde_json::json!(masses);
+    }
+    json
 }

@@ -1,11 +1,12 @@
 //! Newton's statement of the principle of the second kind, for systems of particles.
 //!
-//! `Σ_a (F_a − m_a Du_a)·δr_a + Σ_a m_a (Dr_a − u_a)·δu_a = 0` for virtual δr and arbitrary δu (Zhu; T1 (32)), where in
+//! `Σ_a (F_a + R_a − m_a Du_a)·δr_a + Σ_a m_a (Dr_a − u_a)·δu_a = 0` for virtual δr and arbitrary δu (Zhu; T1 (32)), where in
 //! coordinates `r = r(q, t)`, `u = ∂r/∂t + Σ ∂r/∂q^s v^s`, `δr = Σ ∂r/∂q^s δq^s` and
-//! `δu = Σ ∂r/∂q^s δv^s + Σ ∂u/∂q^s δq^s`.
+//! `δu = Σ ∂r/∂q^s δv^s + Σ ∂u/∂q^s δq^s`; R is the thrust where masses vary.
 
 use super::StateJet;
 use crate::linear::dot;
+use crate::mass;
 use crate::particles;
 use crate::system::System;
 use chetaev_symbolic::Expr;
@@ -18,15 +19,25 @@ pub(super) struct Coefficients {
     pub(super) coordinates: Vec<Expr>,
 }
 
-/// `Σ m (Dr − u)·∂r/∂q^s` and `Σ (m Du − F)·∂r/∂q^s − Σ m (Dr − u)·∂u/∂q^s`, with what the Lagrangian and the forces contain
+/// Whether the statement applies: the particles carry the whole inertia, and no mass contains coordinates or velocities,
+/// along which it would change otherwise than by D.
+pub(super) fn applies(system: &System) -> bool {
+    let mut symbols = system.coordinate_symbols();
+    symbols.extend(system.velocity_symbols());
+    let mut particles = system.particles.iter();
+    particles.all(|p| mass::first_symbol(system, p.mass, &symbols).is_none())
+        && particles::suffice(system)
+}
+
+/// `Σ m (Dr − u)·∂r/∂q^s` and `Σ (m Du − F − R)·∂r/∂q^s − Σ m (Dr − u)·∂u/∂q^s`, with what the Lagrangian and the forces contain
 /// beside the particles as in Lagrange's statement.
 pub(super) fn of_particles(system: &System, jet: &StateJet) -> Coefficients {
     let (g, symbols) = (&system.graph, system.coordinate_symbols());
     let beside = g.sub(system.lagrangian, particles::kinetic_energy(system));
-    let applied = particles::applied_forces(system).into_iter();
-    let forces: Vec<Expr> = applied
+    let own = particles::own_forces(system).into_iter();
+    let forces: Vec<Expr> = own
         .zip(&system.forces)
-        .map(|(applied, &whole)| g.sub(whole, applied))
+        .map(|(own, &whole)| g.sub(whole, own))
         .collect();
     let mut sum = of_lagrangian(system, jet, beside, &forces);
     for particle in &system.particles {
@@ -35,10 +46,11 @@ pub(super) fn of_particles(system: &System, jet: &StateJet) -> Coefficients {
         let accelerated = jet.derive(system, &velocity);
         let slopes = g.jacobian(&particle.position, &symbols);
         let turned = g.jacobian(&velocity, &symbols);
+        let thrust = mass::thrust(system, particle);
         for (i, &u) in velocity.iter().enumerate() {
             let gap = g.mul(&[particle.mass, g.sub(moved[i], u)]);
             let inertia = g.mul(&[particle.mass, accelerated[i]]);
-            let unbalanced = g.sub(inertia, particle.force[i]);
+            let unbalanced = g.add(&[inertia, g.neg(particle.force[i]), g.neg(thrust[i])]);
             for s in 0..system.n() {
                 let (of_v, of_q) = (&mut sum.velocities[s], &mut sum.coordinates[s]);
                 *of_v = g.add(&[*of_v, g.mul(&[gap, slopes[i][s]])]);
