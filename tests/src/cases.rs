@@ -324,8 +324,6 @@ fn particle(builder: ModelBuilder, of: &PublishedParticle) -> ModelBuilder {
 
 /// What a program must be able to do for a case or a check, with why it cannot yet.
 pub const NOT_COVERED: &[(&str, &str)] = &[
-    ("order-2", "constraints of higher order are classified; their dynamics comes with Volterra's equations"),
-    ("order-3", "constraints of higher order are classified; their dynamics comes with Volterra's equations"),
     ("controls", "no published case has controls"),
     ("linearization", "linearization about a steady motion is a later part of the motion"),
 ];

@@ -58,6 +58,25 @@ pub const CLOSED_FORMS: &[ClosedForm] = &[
         "0",
         1e-6,
     ),
+    // Theory of constraints of order m, worked examples (Qiao): circle, central field, jerk along the acceleration.
+    form("prescribed-curvature/model.toml", "x - y'/(gamma v)", "0", 1e-9),
+    form("prescribed-curvature/model.toml", "y + x'/(gamma v)", "1/gamma", 1e-9),
+    form("prescribed-curvature/model.toml", "lambda_bend", "m (gamma v + g x'/v^2)", 1e-7),
+    form("fixed-acceleration/model.toml", "lambda_push", "(m - k r/alpha)/2", 1e-9),
+    form("fixed-acceleration/model.toml", "x y' - y x'", "v0", 1e-9),
+    form("fixed-acceleration/model.toml", "(x'^2 + y'^2)/2 + alpha r", "v0^2/2 + alpha", 1e-9),
+    form("fixed-acceleration/circle.toml", "x", "cos(v0 t)", 1e-8),
+    form("fixed-acceleration/circle.toml", "y", "sin(v0 t)", 1e-8),
+    form("fixed-jerk/model.toml", "x''", "0.6 (1 + j t)", 1e-10),
+    form("fixed-jerk/model.toml", "x", "1 + t/2 + 0.3 (t^2 + j t^3/3)", 1e-10),
+    form("fixed-jerk/stop.toml", "y", "t + 0.4 (t^2 - j t^3/3)", 1e-9),
+    form("third-order-linear/model.toml", "x + y", "1 + t + (2 l0 - gamma) t^2/2", 1e-9),
+    form("third-order-linear/model.toml", "x - y", "cos(sqrt(gamma) t) - sin(sqrt(gamma) t)/sqrt(gamma)", 1e-9),
+    form("third-order-linear/model.toml", "lambda_sum", "l0 + gamma (x + y - 1)/2", 1e-9),
+    form("knife-edge-order-2/model.toml", "slip", "c", 1e-9),
+    form("knife-edge-order-2/model.toml", "u", "u0 - c W t", 1e-9),
+    form("knife-edge-order-3/model.toml", "slip", "c + d t", 1e-9),
+    form("knife-edge-order-3/model.toml", "u", "u0 - W (c t + d t^2/2)", 1e-9),
     // Klein and Sommerfeld 1910; Whittaker 1937.
     form("heavy-top/model.toml", "A phi' sin(theta)^2 + C W3 cos(theta)", "1.5", 1e-9),
     form("heavy-top/model.toml", "C W3", "3", 1e-9),
@@ -164,6 +183,41 @@ const fn number(
 
 /// Numbers; those without a closed form come from integrations by other programs, at two tolerances each.
 pub const NUMBERS: &[Number] = &[
+    number(
+        "prescribed-curvature/model.toml",
+        "y",
+        1.77919556895971,
+        "0",
+        1e-8,
+    ),
+    number(
+        "radial-acceleration/model.toml",
+        "x",
+        1.0,
+        "2.98009605064369",
+        1e-9,
+    ),
+    number(
+        "radial-acceleration/model.toml",
+        "y",
+        1.0,
+        "-1.4271860761853",
+        1e-9,
+    ),
+    number(
+        "radial-acceleration-polar/model.toml",
+        "x",
+        1.0,
+        "2.98009605064369",
+        1e-9,
+    ),
+    number(
+        "radial-acceleration-polar/model.toml",
+        "y",
+        1.0,
+        "-1.4271860761853",
+        1e-9,
+    ),
     number(
         "appell-hamel/model.toml",
         "z",

@@ -38,10 +38,6 @@ const LEFT_OUT: &[&str] = &[
     "whipple-bicycle-linear: eigenvalues at 10 m/s",
     "whipple-bicycle-linear: weave speed (complex pair crosses zero), m/s",
     "whipple-bicycle-linear: capsize speed, m/s",
-    "second-order-linear: constraints of higher order are classified; their dynamics comes with Volterra's equations",
-    "second-order-constant-acceleration: constraints of higher order are classified; their dynamics comes with Volterra's equations",
-    "third-order-linear: constraints of higher order are classified; their dynamics comes with Volterra's equations",
-    "third-order-jerk-normal: constraints of higher order are classified; their dynamics comes with Volterra's equations",
 ];
 
 #[test]
