@@ -105,7 +105,7 @@ fn closed_forms_of_the_point_law() {
         );
         last(&ended_text(&text, &ask("routh")), "x'")
     };
-    let burning = "5 exp(-t/3)";
+    let burning = "(5 exp(-t/3))";
     let upwards = line(
         burning,
         &format!("-10 {burning}"),
@@ -141,7 +141,7 @@ masses = { M = { rate = "M x'/2", initial = 3 } }
 [particles.drop]
 mass = "M"
 position = ["x"]
-force = ["M 9"]
+force = ["9 M"]
 thrust = { absolute_velocity = [0] }
 [initial]
 "x'" = 1
@@ -262,7 +262,7 @@ fn thrust_against_a_velocity_that_vanishes() {
         at_rest.text
     );
     // Thrown up against its jet it comes to rest.
-    let thrown = ended_text(&falling("(9 - t)", "", thrust, "1/4"), &ask("routh"));
+    let thrown = ended_text(&falling("(9 - t)", "", thrust, "\"1/4\""), &ask("routh"));
     assert!(
         thrown.text.contains("the velocity of `p` vanishes at t = "),
         "{}",

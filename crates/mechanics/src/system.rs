@@ -616,6 +616,22 @@ impl System {
         g.add(&parts)
     }
 
+    /// Q without Ψ.
+    pub fn applied_forces(&self) -> Vec<Expr> {
+        let g = &self.graph;
+        let contained = match mass::with_velocity(self) {
+            None => self.reactive_forces.clone(),
+            // Those of the particles contain accelerations, and stand apart.
+            Some(_) => {
+                let apart = mass::reactive_forces(self).into_iter();
+                let pairs = self.reactive_forces.iter().zip(apart);
+                pairs.map(|(&all, own)| g.sub(all, own)).collect()
+            }
+        };
+        let pairs = self.forces.iter().zip(contained);
+        pairs.map(|(&force, own)| g.sub(force, own)).collect()
+    }
+
     /// Q + Ψ on the jet (q, v, a, t), with accelerations where a mass contains velocities.
     pub fn all_forces(&self) -> Vec<Expr> {
         match mass::with_velocity(self) {

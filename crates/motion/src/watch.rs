@@ -191,8 +191,11 @@ impl Watch {
             }
             let slope = &slopes[index * self.n..(index + 1) * self.n];
             let along: f64 = slope.iter().zip(a).map(|(s, a)| s * a).sum();
-            // The square of a mass has twice the relative rate of the mass.
-            let left = -2.0 * values[index] / (drift[index] + along);
+            // The square of a mass has twice the relative rate of the mass; where it is zero it has none.
+            let left = match values[index] <= ZERO * self.reference[index] {
+                true => 0.0,
+                false => -2.0 * values[index] / (drift[index] + along),
+            };
             (left.abs() <= SOON * (1.0 + t.abs())).then_some((index, t + left))
         });
         lost.next()

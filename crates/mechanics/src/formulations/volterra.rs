@@ -61,14 +61,14 @@ impl<'a> Volterra<'a> {
         let (kinetic, forces, meaning) = match stated_apart(system) {
             Some((kinetic, potential)) => {
                 let slopes = g.gradient(potential, &system.coordinate_symbols());
-                let pairs = without_reactive(system).into_iter().zip(slopes);
+                let pairs = system.applied_forces().into_iter().zip(slopes);
                 let forces = pairs.map(|(force, slope)| g.sub(force, slope)).collect();
                 let meaning = "kinetic energy with the velocities of the characteristics";
                 (kinetic, forces, meaning)
             }
             None => (
                 system.lagrangian,
-                without_reactive(system),
+                system.applied_forces(),
                 "Lagrangian, in the place of the kinetic energy, with the velocities of the characteristics",
             ),
         };
@@ -422,14 +422,6 @@ impl<'a> Volterra<'a> {
             })
             .collect()
     }
-}
-
-/// Q without Ψ.
-fn without_reactive(system: &System) -> Vec<Expr> {
-    let pairs = system.forces.iter().zip(&system.reactive_forces);
-    pairs
-        .map(|(&force, &reactive)| system.graph.sub(force, reactive))
-        .collect()
 }
 
 /// `∂F/∂π_σ` with the parameters fixed, σ = 1..k, of a function F on the jet (t, q, P) with a name for the program and one

@@ -42,17 +42,16 @@ impl Resolver {
             return;
         };
         for (key, raw) in &table.entries {
-            let law = match &raw.kind {
-                Kind::Table(table) => {
-                    self.known_keys(table, KEYS, "of a mass");
-                    self.check_law(key, table);
-                    table.get("rate")
-                }
-                _ => None,
+            let Kind::Table(table) = &raw.kind else {
+                self.declare_named_mass(key, raw);
+                continue;
             };
-            match law {
-                Some(rate) => self.declare_mass_with_law(key, raw, rate),
-                None => self.declare_named_mass(key, raw),
+            self.known_keys(table, KEYS, "of a mass");
+            self.check_law(key, table);
+            match (table.get("rate"), table.get("value")) {
+                (Some(rate), _) => self.declare_mass_with_law(key, raw, rate),
+                (None, Some(_)) => self.declare_named_mass(key, raw),
+                (None, None) => self.declare_unknown_mass(key),
             }
         }
     }
@@ -84,6 +83,34 @@ impl Resolver {
                 Diagnostic::error("missing-value", initial.place, message)
                     .hint("state the law of its own by `rate`, or its `value` as a function"),
             );
+        } else if table.get("value").or_else(|| table.get("rate")).is_none() {
+            let message = format!(
+                "the mass `{}` needs its `value`, or its `rate`",
+                key.content
+            );
+            self.push(Diagnostic::error("missing-value", key.place, message));
+        }
+    }
+
+    /// The name of a mass of which nothing is known gives no further diagnostics.
+    fn declare_unknown_mass(&mut self, key: &Text) {
+        for Instance { name, bindings, .. } in self.instances(key, "a mass", &[]) {
+            let number = self.defines.len();
+            if self.declare(key, &name, NamedKind::Define(number)) {
+                self.defines.push(Define {
+                    name,
+                    kind: DefineKind::Mass,
+                    text: key.clone(),
+                    parsed: Rc::new(parse_expression("0")),
+                    bindings,
+                    unit: None,
+                    description: String::new(),
+                    place: key.place,
+                    state: State::Failed,
+                    by_masses: None,
+                    rank: 0,
+                });
+            }
         }
     }
 

@@ -95,10 +95,19 @@ fn lagrangian(study: &Study, set: &Typesetter<'_>) -> EquationSection {
     if study.model.kinetic.is_none() {
         equations.push(set.equation(g.symbol("L", 0), study.model.lagrangian));
     }
-    for (c, &force) in study.system.coordinates.iter().zip(&study.system.forces) {
-        if !g.is_zero(force) {
-            equations.push(set.equation(g.symbol(&format!("Q_{}", c.name), 0), force));
+    let system = &study.system;
+    for (letter, forces) in [
+        ("Q", system.applied_forces()),
+        ("Psi", system.reactive_forces.clone()),
+    ] {
+        for (c, force) in system.coordinates.iter().zip(forces) {
+            if !g.is_zero(force) {
+                equations.push(set.equation(g.symbol(&format!("{letter}_{}", c.name), 0), force));
+            }
         }
+    }
+    for mass in &system.masses {
+        equations.push(set.equation(g.symbol(&mass.name, 1), mass.rate));
     }
     for d in &study.model.defines {
         let mut equation = set.equation(g.symbol(&d.name, 0), d.value);
