@@ -325,7 +325,10 @@ fn particle(builder: ModelBuilder, of: &PublishedParticle) -> ModelBuilder {
 /// What a program must be able to do for a case or a check, with why it cannot yet.
 pub const NOT_COVERED: &[(&str, &str)] = &[
     ("controls", "no published case has controls"),
-    ("linearization", "linearization about a steady motion is a later part of the motion"),
+    (
+        "linearization",
+        "linearization about a steady motion is a later part of the motion",
+    ),
 ];
 
 impl Statement {

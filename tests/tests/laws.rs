@@ -135,3 +135,23 @@ fn meaning(system: &System) -> Vec<u128> {
     all.extend(&system.reactive_forces);
     all.into_iter().map(|e| g.digest(e)).collect()
 }
+
+#[test]
+fn constraints_of_second_order_linear_in_the_accelerations() {
+    obeys_the_laws(Family::SecondOrderLinear);
+}
+
+#[test]
+fn constraints_of_second_order_nonlinear_in_the_accelerations() {
+    obeys_the_laws(Family::SecondOrderNonlinear);
+}
+
+#[test]
+fn constraints_of_third_order_linear_in_the_highest_derivatives() {
+    obeys_the_laws(Family::ThirdOrderLinear);
+}
+
+#[test]
+fn constraints_of_third_order_nonlinear_in_the_highest_derivatives() {
+    obeys_the_laws(Family::ThirdOrderNonlinear);
+}

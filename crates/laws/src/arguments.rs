@@ -3,7 +3,7 @@
 //! Plain standard library: the task runner reads the same file, so that it refuses a slip before anything is built.
 
 /// The names of the families, in the order they are run.
-pub const FAMILY_NAMES: [&str; 13] = [
+pub const FAMILY_NAMES: [&str; 17] = [
     "polynomial-linear",
     "trigonometric-linear",
     "polynomial-nonlinear",
@@ -17,6 +17,10 @@ pub const FAMILY_NAMES: [&str; 13] = [
     "chaplygin",
     "variable-mass",
     "velocity-mass",
+    "second-order-linear",
+    "second-order-nonlinear",
+    "third-order-linear",
+    "third-order-nonlinear",
 ];
 
 /// Systems of each family without `--full`.
@@ -38,7 +42,8 @@ Usage: cargo xtask laws [--full | --count N] [--family NAME] [--seed N]
   --help           this text
 
 Families: polynomial-linear, trigonometric-linear, polynomial-nonlinear, trigonometric-nonlinear, nonquadratic,
-rheonomic-affine, radicals, moving-frame, singular, particles, chaplygin, variable-mass, velocity-mass.
+rheonomic-affine, radicals, moving-frame, singular, particles, chaplygin, variable-mass, velocity-mass,
+second-order-linear, second-order-nonlinear, third-order-linear, third-order-nonlinear.
 
 Exit status: 0 all laws hold, 1 a law fails, 2 the arguments are wrong.
 

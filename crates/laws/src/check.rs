@@ -75,6 +75,10 @@ fn fill(outcome: &mut Outcome) -> Result<(), String> {
         &registry,
         Prover::default(),
     );
+    if random.system.order() > 1 {
+        outcome.trials = laws::all_of_order(&cx, outcome.seed).map_err(|p| p.to_string())?;
+        return Ok(());
+    }
     let sampled = Sampled::new(&cx, outcome.seed).map_err(|p| p.to_string())?;
     (outcome.trials, outcome.nodes) = laws::all(sampled).map_err(|p| p.to_string())?;
     Ok(())

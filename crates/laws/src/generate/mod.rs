@@ -49,6 +49,14 @@ pub enum Family {
     VariableMass,
     /// The same with masses that contain velocities.
     VelocityMass,
+    /// Constraints of second order, linear in the accelerations.
+    SecondOrderLinear,
+    /// A constraint of second order, nonlinear in the accelerations.
+    SecondOrderNonlinear,
+    /// Constraints of third order, linear in the highest derivatives.
+    ThirdOrderLinear,
+    /// A constraint of third order, nonlinear in the highest derivatives.
+    ThirdOrderNonlinear,
 }
 
 /// Seeds below it make larger systems too.
@@ -56,7 +64,7 @@ const LARGER: u64 = 50;
 
 impl Family {
     /// All families, in the order of [`FAMILY_NAMES`].
-    pub const ALL: [Family; 13] = [
+    pub const ALL: [Family; 17] = [
         Family::PolynomialLinear,
         Family::TrigonometricLinear,
         Family::PolynomialNonlinear,
@@ -70,6 +78,10 @@ impl Family {
         Family::Chaplygin,
         Family::VariableMass,
         Family::VelocityMass,
+        Family::SecondOrderLinear,
+        Family::SecondOrderNonlinear,
+        Family::ThirdOrderLinear,
+        Family::ThirdOrderNonlinear,
     ];
 
     /// The name on the command line.
@@ -80,6 +92,17 @@ impl Family {
     /// The family called `name`.
     pub fn named(name: &str) -> Option<Family> {
         Family::ALL.into_iter().find(|family| family.name() == name)
+    }
+
+    /// The order of its constraints and whether they are nonlinear, where it is made for constraints of order two and more.
+    fn higher_order(self) -> Option<(u32, bool)> {
+        match self {
+            Family::SecondOrderLinear => Some((2, false)),
+            Family::SecondOrderNonlinear => Some((2, true)),
+            Family::ThirdOrderLinear => Some((3, false)),
+            Family::ThirdOrderNonlinear => Some((3, true)),
+            _ => None,
+        }
     }
 
     /// Which functions occur; the others take either.
@@ -100,6 +123,7 @@ impl Family {
             _ if seed >= LARGER => &[2, 2, 2, 2, 2, 3, 3, 4],
             Family::Radicals | Family::MovingFrame | Family::Singular => &[2, 2, 3, 3, 3, 4],
             Family::VariableMass | Family::VelocityMass => &[2, 2, 2, 3],
+            _ if self.higher_order().is_some() => &[2, 2, 2, 3],
             Family::Particles | Family::Chaplygin => &[2, 3, 3, 4],
             _ => &[2, 2, 3, 3, 3, 4, 4, 5, 6],
         }
@@ -162,6 +186,7 @@ fn parts(g: &Graph, family: Family, seed: u64) -> SystemParts {
         Family::VariableMass => variable_mass_system(&mut draw, &values, false),
         Family::VelocityMass => variable_mass_system(&mut draw, &values, true),
         Family::Chaplygin => chaplygin_system(&mut draw, &values),
+        _ if family.higher_order().is_some() => higher_order_system(&mut draw, family, &values),
         _ => usual_system(&mut draw, family, &values),
     };
     if family == Family::MovingFrame {
@@ -253,6 +278,19 @@ fn chaplygin_system(draw: &mut Draw<'_>, masses: &[Expr]) -> SystemParts {
         g.add(&row)
     });
     parts.constraints = named(rows.collect());
+    parts
+}
+
+/// The constraints are those of first order with higher derivatives in the place of velocities, and velocities in the place of
+/// some coordinates.
+fn higher_order_system(draw: &mut Draw<'_>, family: Family, masses: &[Expr]) -> SystemParts {
+    let (order, nonlinear) = family.higher_order().unwrap_or((2, false));
+    let mut parts = usual_system(draw, family, masses);
+    let rows = match nonlinear {
+        true => constraints::nonlinear(draw),
+        false => constraints::linear(draw, 1, Form::Linear),
+    };
+    parts.constraints = named(constraints::raised(draw, &rows, order));
     parts
 }
 

@@ -8,6 +8,7 @@ mod hypotheses;
 mod masses;
 mod mutants;
 mod numbers;
+mod order;
 mod power;
 mod reduced;
 mod rewrite;
@@ -197,6 +198,9 @@ const LAWS: [Law; 9] = [
     reduced::lagrange_of_restricted,
     frames::without_brackets,
 ];
+
+/// Tries the laws of constraints of order two and more.
+pub(crate) use order::all as all_of_order;
 
 /// Tries every law; where the accelerations are not determined, what is said of the formulations only.
 ///

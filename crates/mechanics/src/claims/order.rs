@@ -5,7 +5,7 @@ use super::{Claim, Context, Finding, Group};
 use crate::characteristics::{Characteristics, Manifold};
 use crate::equations::Equations;
 use crate::formulations::{Formulation, Routh};
-use crate::linear::dot;
+use crate::linear::{dot, solve_linear};
 use crate::order::determined::{self, Determined};
 use crate::order::lifting;
 use chetaev_symbolic::verdict::Proof;
@@ -231,18 +231,46 @@ pub(crate) fn regular(cx: &Context<'_>, determined: &Determined) -> Verdict {
     let matrix = g.jacobian(&determined.equations, &determined.unknowns);
     let manifold = match determined.linear {
         true => Manifold::default(),
-        false => Manifold {
-            solved: Vec::new(),
-            implicit: determined
-                .equations
-                .iter()
-                .copied()
-                .zip(determined.unknowns.iter().copied())
-                .collect(),
-        },
+        false => states(cx, determined),
     };
     let what = "the Jacobian of the equations by the unknowns";
     cx.prover.nonsingular(cx.system, &matrix, &manifold, what)
+}
+
+/// The jets that satisfy equations nonlinear in the unknowns, as exact data for a zero test: where the reactions have
+/// directions free of accelerations, and m ≥ 3, the accelerations are those of the equations of motion, and each constraint
+/// determines a derivative of order m.
+fn states(cx: &Context<'_>, determined: &Determined) -> Manifold {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let pairs = determined.equations.iter().zip(&determined.unknowns);
+    let all = Manifold {
+        solved: Vec::new(),
+        implicit: pairs.map(|(&e, &s)| (e, s)).collect(),
+    };
+    let basis = basis(cx);
+    let accelerations: Vec<_> = system.coordinates.iter().map(|c| c.a_symbol).collect();
+    let reactions = basis.reactions();
+    if determined.order < 3 || g.any_contains_any(&reactions, &accelerations) {
+        return all;
+    }
+    let sides = system.motion_left_sides().into_iter().zip(reactions);
+    let balance: Vec<Expr> = sides.map(|(w, reaction)| g.sub(w, reaction)).collect();
+    let Ok(values) = solve_linear(g, &balance, &accelerations) else {
+        return all;
+    };
+    let highest = |i: usize| cx.terms.jets[i].v_symbol;
+    let n = system.n();
+    let differentiated = determined.times.iter().enumerate().filter(|(_, &t)| t > 0);
+    let constraints = determined.equations[n..]
+        .iter()
+        .zip(&cx.selection.dependent);
+    let implicit = differentiated
+        .map(|(i, _)| (determined.equations[i], highest(i)))
+        .chain(constraints.map(|(&f, &d)| (f, highest(d))));
+    Manifold {
+        implicit: implicit.collect(),
+        solved: accelerations.into_iter().zip(values).collect(),
+    }
 }
 
 /// What is solved for, the dimension, the data and the integrals, in words.
@@ -254,13 +282,12 @@ fn description(cx: &Context<'_>, determined: &Determined) -> String {
         .map(|&s| g.symbol_text(s))
         .collect();
     let mut parts = vec![format!(
-        "constraints of order {}, equations of motion of order {}{}, solved for {}",
+        "constraints of order {}, equations of motion {}, solved for {}",
         determined.order,
-        determined.own_order,
         match determined.differentiations() {
-            0 => String::new(),
-            1 => ", differentiated once".into(),
-            times => format!(", differentiated {times} times"),
+            0 => "as they are".to_string(),
+            1 => "differentiated once".into(),
+            times => format!("differentiated {times} times"),
         },
         unknowns.join(", ")
     )];

@@ -1,9 +1,9 @@
 //! From equations of motion under constraints of order m to a determined system for the derivatives of that order (T2 §5).
 //!
-//! The equations `G = 0` of a formulation have an order s of their own, that of the forces and of the directions of the
-//! reactions. Where s < m they are differentiated m - s times; with the constraints they then determine `q^(m)`. What was
+//! Each equation `G = 0` of a formulation has an order s of its own, that of the forces and of the directions of the
+//! reactions. Where s < m it is differentiated m - s times; with the constraints they then determine `q^(m)`. What was
 //! passed over, `G, D G, …, D^(m-s-1) G`, and the constraints of lower order with their derivatives, are conditions on the
-//! initial data and integrals of the motion.
+//! initial data and integrals of the motion. Equations that contain multipliers are differentiated equally often.
 
 use super::{highest_derivative, lifting};
 use crate::characteristics::Characteristics;
@@ -19,8 +19,10 @@ use rustc_hash::FxHashMap;
 pub struct Determined {
     /// m.
     pub order: u32,
-    /// s, the order of the equations of motion.
-    pub own_order: u32,
+    /// How often each equation of motion was differentiated.
+    pub times: Vec<u32>,
+    /// The order of the derivatives of the multipliers that are solved for, where there are any.
+    pub multiplier_order: Option<u32>,
     /// What is solved for: parameters of the derivatives of order m, or these and derivatives of the multipliers.
     pub unknowns: Vec<Symbol>,
     /// The equations, differentiated, and constraints; functions of t, of derivatives of orders below m, and the unknowns.
@@ -34,9 +36,9 @@ pub struct Determined {
 }
 
 impl Determined {
-    /// How often the equations of motion were differentiated.
+    /// How often the equations of motion were differentiated at most.
     pub fn differentiations(&self) -> u32 {
-        self.order - self.own_order
+        self.times.iter().copied().max().unwrap_or(0)
     }
 }
 
@@ -51,31 +53,41 @@ pub fn with_multipliers(basis: &Basis<'_>) -> Determined {
         .into_iter()
         .zip(basis.reactions());
     let balance: Vec<Expr> = sides.map(|(w, reaction)| g.sub(w, reaction)).collect();
-    let own_order = highest_derivative(system, &balance).unwrap_or(0).min(m);
-    let levels = derivatives(&balance, m - own_order, &|e| {
-        system.total_derivative_with(e, &names)
-    });
-    let conditions = levels[..levels.len() - 1]
+    let lambdas: Vec<Symbol> = names.iter().map(|name| g.intern_symbol(name, 0)).collect();
+    let with_reaction: Vec<bool> = balance
         .iter()
-        .enumerate()
-        .flat_map(|(times, es)| {
-            let labels = system.coordinates.iter().map(|c| c.name.as_str());
-            labels
-                .zip(es)
-                .map(move |(label, &value)| balance_condition(label, times, value))
+        .map(|&e| g.contains_any(e, &lambdas))
+        .collect();
+    let times_of = |es: &[Expr]| m - highest_derivative(system, es).unwrap_or(0).min(m);
+    let reacting: Vec<Expr> = balance
+        .iter()
+        .zip(&with_reaction)
+        .filter(|(_, &own)| own)
+        .map(|(&e, _)| e)
+        .collect();
+    let multiplier_order = times_of(&reacting);
+    let times: Vec<u32> = balance
+        .iter()
+        .zip(&with_reaction)
+        .map(|(&e, &own)| match own {
+            true => multiplier_order,
+            false => times_of(&[e]),
         })
         .collect();
+    let labels = system.coordinates.iter().map(|c| c.name.as_str());
+    let (mut equations, conditions) = differentiated(labels, &balance, &times, &|es| {
+        es.iter()
+            .map(|&e| system.total_derivative_with(e, &names))
+            .collect()
+    });
     let mut unknowns: Vec<Symbol> = terms.jets.iter().map(|c| c.v_symbol).collect();
-    unknowns.extend(
-        names
-            .iter()
-            .map(|name| g.intern_symbol(name, m - own_order)),
-    );
-    let mut equations = levels.last().cloned().unwrap_or_default();
+    let multipliers = names.iter();
+    unknowns.extend(multipliers.map(|name| g.intern_symbol(name, multiplier_order)));
     equations.extend(basis.constraints());
     Determined {
         order: m,
-        own_order,
+        times,
+        multiplier_order: Some(multiplier_order),
         linear: basis.selection.rows.iter().all(|&row| terms.affine[row]),
         highest: terms.jets.iter().map(|c| c.v).collect(),
         unknowns,
@@ -84,41 +96,57 @@ pub fn with_multipliers(basis: &Basis<'_>) -> Determined {
     }
 }
 
-/// Equations `G_σ = 0` on the jet (t, q, …, q^(m-1), P) of characteristics, for P. G does not depend on P', which may be left in
-/// it by its form; s is the order of Maggi's equations, to which G is equal.
+/// Each equation differentiated as often as asked, and what was passed over.
+fn differentiated<'a>(
+    labels: impl Iterator<Item = &'a str>,
+    equations: &[Expr],
+    times: &[u32],
+    derive: &dyn Fn(&[Expr]) -> Vec<Expr>,
+) -> (Vec<Expr>, Vec<NamedExpr>) {
+    let labels: Vec<&str> = labels.collect();
+    let mut level = equations.to_vec();
+    let mut found = equations.to_vec();
+    let mut conditions = Vec::new();
+    for done in 0..times.iter().copied().max().unwrap_or(0) {
+        for ((label, &value), &times) in labels.iter().zip(&level).zip(times) {
+            if done < times {
+                conditions.push(balance_condition(label, done as usize, value));
+            }
+        }
+        level = derive(&level);
+        for ((found, &next), &times) in found.iter_mut().zip(&level).zip(times) {
+            if done < times {
+                *found = next;
+            }
+        }
+    }
+    (found, conditions)
+}
+
+/// Equations `G_σ = 0` on the jet (t, q, …, q^(m-1), P) of characteristics, for P, each of which is differentiated so many
+/// `times`. G does not depend on P', which may be left in it by its form.
 pub fn for_parameters(
     system: &System,
     characteristics: &Characteristics,
     motion: &[Expr],
-    own_order: u32,
+    times: Vec<u32>,
 ) -> Determined {
     let (g, c) = (&system.graph, characteristics);
     let frozen: Vec<(Expr, Expr)> = c.parameters.iter().map(|p| (p.rate, g.zero())).collect();
     let motion = g.substitute_all(motion, &frozen);
-    let mut levels = vec![motion];
-    for _ in own_order..c.order {
-        let rates = c.total_derivative(system, &levels[levels.len() - 1]);
-        levels.push(g.substitute_all(&rates, &frozen));
-    }
-    let conditions = levels[..levels.len() - 1]
-        .iter()
-        .enumerate()
-        .flat_map(|(times, es)| {
-            let labels = c.parameters.iter().map(|p| p.name.as_str());
-            labels
-                .zip(es)
-                .map(move |(label, &value)| balance_condition(label, times, value))
-        })
-        .collect();
+    let labels = c.parameters.iter().map(|p| p.name.as_str());
+    let (mut equations, conditions) = differentiated(labels, &motion, &times, &|es| {
+        g.substitute_all(&c.total_derivative(system, es), &frozen)
+    });
     let implicit: Vec<(Expr, Symbol)> = c.implicit().map(|(f, s)| (f, s.symbol)).collect();
     let mut unknowns: Vec<Symbol> = c.parameters.iter().map(|p| p.symbol).collect();
     let linear = implicit.is_empty() && !g.any_contains_any(&c.basis.concat(), &unknowns);
     unknowns.extend(implicit.iter().map(|(_, symbol)| *symbol));
-    let mut equations = levels.pop().unwrap_or_default();
     equations.extend(implicit.iter().map(|(f, _)| *f));
     Determined {
         order: c.order,
-        own_order,
+        times,
+        multiplier_order: None,
         unknowns,
         equations,
         highest: c.velocities.clone(),
@@ -147,13 +175,8 @@ pub(crate) fn in_characteristics(
         let rates = c.rates_from(system, &residuals)?;
         Equations::in_characteristics(name, system, c, &rates)
     } else {
-        let maggi = crate::formulations::maggi_left_sides(system, c);
-        let occurs = system.graph.any_contains_any(&maggi, &parameters(c));
-        let own_order = match highest_derivative(system, &maggi) {
-            _ if occurs => c.order,
-            order => order.unwrap_or(0).min(c.order),
-        };
-        let determined = for_parameters(system, c, &residuals, own_order);
+        let times = times_of(system, c);
+        let determined = for_parameters(system, c, &residuals, times);
         on_jets(name, basis, &determined)?
     };
     if system.characteristics.is_some() {
@@ -169,6 +192,18 @@ pub(crate) fn in_characteristics(
     }
     equations.on_characteristics = Some((c.clone(), residuals));
     Ok(equations)
+}
+
+/// How often equations that are Maggi's must be differentiated to contain the parameters.
+fn times_of(system: &System, c: &Characteristics) -> Vec<u32> {
+    let own = parameters(c);
+    let maggi = crate::formulations::maggi_left_sides(system, c).into_iter();
+    maggi
+        .map(|e| match system.graph.contains_any(e, &own) {
+            true => 0,
+            false => c.order - highest_derivative(system, &[e]).unwrap_or(0).min(c.order),
+        })
+        .collect()
 }
 
 fn parameters(c: &Characteristics) -> Vec<Symbol> {
@@ -228,9 +263,7 @@ pub fn on_jets(
 fn solve(basis: &Basis<'_>, determined: &Determined) -> Result<Vec<Expr>, DeriveError> {
     let g = &basis.system.graph;
     let n = basis.system.n();
-    if determined.unknowns.len() == determined.highest.len() + basis.selection.rows.len()
-        && determined.unknowns.len() > n
-    {
+    if determined.multiplier_order.is_some() {
         // What multiplies the multipliers is known, and free of the unknowns.
         let jacobian = basis.jacobian();
         let multipliers: Vec<(Expr, Expr)> = determined.unknowns[n..]
@@ -280,19 +313,8 @@ fn multiplier_variables(
 ) -> Vec<StateVariable> {
     let g = &basis.system.graph;
     let names = multiplier_names(basis);
-    let has_multipliers = determined.unknowns.len() > basis.system.n()
-        && names.first().is_some_and(|name| {
-            determined
-                .unknowns
-                .iter()
-                .any(|&s| g.symbol_name(s) == name)
-        });
     let mut variables = Vec::new();
-    for order in 0..if has_multipliers {
-        determined.differentiations()
-    } else {
-        0
-    } {
+    for order in 0..determined.multiplier_order.unwrap_or(0) {
         for name in &names {
             let symbol = g.intern_symbol(name, order);
             variables.push(StateVariable {
@@ -371,14 +393,4 @@ fn balance_condition(label: &str, times: usize, value: Expr) -> NamedExpr {
 fn multiplier_names(basis: &Basis<'_>) -> Vec<String> {
     let names = basis.constraint_names().into_iter();
     names.map(|name| format!("lambda_{name}")).collect()
-}
-
-/// `es, D es, …, D^times es`.
-fn derivatives(es: &[Expr], times: u32, derive: &dyn Fn(Expr) -> Expr) -> Vec<Vec<Expr>> {
-    let mut levels = vec![es.to_vec()];
-    for _ in 0..times {
-        let last = &levels[levels.len() - 1];
-        levels.push(last.iter().map(|&e| derive(e)).collect());
-    }
-    levels
 }
