@@ -285,6 +285,8 @@ const REFUTED_EVERYWHERE: &[&str] = &[
     "model.constraints-independent",
     "model.restricted-hessian-regular",
     "model.cartesian-coordinates",
+    "model.masses-free-of-velocity",
+    "model.masses-of-time",
 ];
 
 /// Drifts are refuted by the run itself; everything else by a point, with exact independent data and a residual away from zero.
