@@ -578,10 +578,10 @@ impl WatchedFlow for FormulationFlow<'_> {
         self.watch.vanishes(index, t, &self.q, &self.v)
     }
 
-    fn lost_mass(&mut self, t: f64, y: &[f64]) -> Option<(usize, f64)> {
-        self.evaluate(t, y).ok()?;
+    fn lost_mass(&mut self, at: (f64, Option<f64>), y: &[f64]) -> Option<(usize, f64)> {
+        self.evaluate(at.0, y).ok()?;
         let a = self.current.motion.group(1);
-        self.watch.lost_mass(t, &self.q, &self.v, a)
+        self.watch.lost_mass(at, &self.q, &self.v, a)
     }
 
     fn settled(&self) -> f64 {

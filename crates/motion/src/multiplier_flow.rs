@@ -484,12 +484,12 @@ impl WatchedFlow for MultiplierFlow {
         self.watch.vanishes(index, t, &self.q, &self.v)
     }
 
-    fn lost_mass(&mut self, t: f64, y: &[f64]) -> Option<(usize, f64)> {
-        if self.evaluate(t, y).is_err() {
+    fn lost_mass(&mut self, at: (f64, Option<f64>), y: &[f64]) -> Option<(usize, f64)> {
+        if self.evaluate(at.0, y).is_err() {
             self.accelerations.fill_unknown(self.system.n);
         }
         let (q, v) = (&self.q, &self.v);
-        self.watch.lost_mass(t, q, v, &self.accelerations.a)
+        self.watch.lost_mass(at, q, v, &self.accelerations.a)
     }
 
     fn settled(&self) -> f64 {

@@ -172,8 +172,9 @@ pub(crate) trait WatchedFlow: chetaev_integrate::System {
     /// Whether watched quantity `index` vanishes at the state y, where the integrator has found its minimum.
     fn vanishes(&mut self, index: usize, t: f64, y: &[f64]) -> bool;
 
-    /// The watched mass that is about to vanish at the state y, and when.
-    fn lost_mass(&mut self, t: f64, y: &[f64]) -> Option<(usize, f64)>;
+    /// The watched mass that is about to vanish at the time and state y, or at a time at which the equations are singular,
+    /// and when.
+    fn lost_mass(&mut self, at: (f64, Option<f64>), y: &[f64]) -> Option<(usize, f64)>;
 
     /// The time of the last accepted state from which constraints are followed.
     fn settled(&self) -> f64;
@@ -299,7 +300,7 @@ impl Subject<'_> {
                 if let Some(what) = watched.get(index as usize) {
                     // The last accepted state lies a little before a mass is lost.
                     let lost = flow
-                        .lost_mass(t, &y)
+                        .lost_mass((t, None), &y)
                         .filter(|(own, _)| *own == index as usize);
                     let t = lost.map_or(t, |(_, t)| t);
                     let ending = stop::vanished(what, t, &self.constraint_names());
@@ -310,7 +311,12 @@ impl Subject<'_> {
                 stop,
                 Stop::Finished | Stop::Interrupted { .. } | Stop::Event { .. }
             );
-            if let Some((index, t)) = flow.lost_mass(t, &y).filter(|_| singular) {
+            let at = match stop {
+                Stop::Singular { t, .. } => Some(t),
+                Stop::Divergence { singularity, .. } => Some(singularity),
+                _ => None,
+            };
+            if let Some((index, t)) = flow.lost_mass((t, at), &y).filter(|_| singular) {
                 let ending = stop::vanished(&watched[index], t, &self.numeric.constraints);
                 return Ok((pieces, End::Vanished(ending)));
             }

@@ -174,9 +174,16 @@ impl Watch {
         Ok(if rate.abs() < FLAT { -FLAT } else { rate })
     }
 
-    /// The mass that a run lost which ended near (t, q, v), with the time at which it reaches zero at its present rate: the
-    /// velocities may grow without bound before the mass is zero to rounding.
-    pub fn lost_mass(&mut self, t: f64, q: &[f64], v: &[f64], a: &[f64]) -> Option<(usize, f64)> {
+    /// The mass that a run lost whose last state is (t, q, v), with the time at which it reaches zero at its present rate: soon,
+    /// or at the time `singular` where the equations have no value. The velocities may grow without bound before the mass is
+    /// zero to rounding, and a long step may end where it is zero.
+    pub fn lost_mass(
+        &mut self,
+        (t, singular): (f64, Option<f64>),
+        q: &[f64],
+        v: &[f64],
+        a: &[f64],
+    ) -> Option<(usize, f64)> {
         self.functions.evaluate(t, &[q, v]).ok()?;
         let (values, drift, slopes) = (
             self.functions.group(0),
@@ -186,7 +193,7 @@ impl Watch {
         let masses = self.quantities.iter().enumerate();
         let mut lost = masses.filter_map(|(index, what)| {
             let small = values[index] <= NEAR * self.reference[index];
-            if !matches!(what, Watched::Mass { .. }) || !small {
+            if !matches!(what, Watched::Mass { .. }) {
                 return None;
             }
             let slope = &slopes[index * self.n..(index + 1) * self.n];
@@ -196,7 +203,9 @@ impl Watch {
                 true => 0.0,
                 false => -2.0 * values[index] / (drift[index] + along),
             };
-            (left.abs() <= SOON * (1.0 + t.abs())).then_some((index, t + left))
+            let soon = |gap: f64, at: f64| gap.abs() <= SOON * (1.0 + at.abs());
+            let there = singular.is_some_and(|at| soon(t + left - at, at));
+            (there || small && soon(left, t)).then_some((index, t + left))
         });
         lost.next()
     }
