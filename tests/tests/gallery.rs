@@ -293,12 +293,9 @@ const REFUTED_EVERYWHERE: &[&str] = &[
     "model.constraints-independent",
     "model.restricted-hessian-regular",
     "model.cartesian-coordinates",
-<<<<<<< HEAD
     "model.constraints-first-order",
-=======
     "model.masses-free-of-velocity",
     "model.masses-of-time",
->>>>>>> 2d302cbc2ab6ccf385c464cd86d54f1910f54c4b
 ];
 
 /// Drifts are refuted by the run itself; everything else by a point, with exact independent data and a residual away from zero.
