@@ -728,12 +728,12 @@ impl WatchedFlow for JetFlow<'_> {
         self.zero_between || self.evaluate(t, y).is_err() || self.watch.vanishes(index, t, y, &[])
     }
 
-    fn lost_mass(&mut self, t: f64, y: &[f64]) -> Option<(usize, f64)> {
+    fn lost_mass(&mut self, at: (f64, Option<f64>), y: &[f64]) -> Option<(usize, f64)> {
         let mut rates = std::mem::take(&mut self.rates);
-        let found = self.derivative(t, y, &mut rates);
+        let found = self.derivative(at.0, y, &mut rates);
         self.rates = rates;
         found.ok()?;
-        self.watch.lost_mass(t, y, &[], &self.rates)
+        self.watch.lost_mass(at, y, &[], &self.rates)
     }
 
     fn settled(&self) -> f64 {
