@@ -14,6 +14,7 @@ mod linear;
 pub mod particles;
 pub mod prover;
 pub mod redundancy;
+mod restricted;
 pub mod sample;
 pub mod selection;
 pub mod system;
