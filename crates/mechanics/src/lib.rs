@@ -16,6 +16,7 @@ pub mod order;
 pub mod particles;
 pub mod prover;
 pub mod redundancy;
+mod restricted;
 pub mod sample;
 pub mod selection;
 pub mod system;

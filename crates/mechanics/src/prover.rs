@@ -133,7 +133,10 @@ impl Prover {
                     proof.detail = format!("{what} does not vanish identically: {}", proof.detail);
                     Verdict::Proved(proof)
                 }
-                other => other,
+                // Not zero in a field whose generators may be related, as exp of a dependent velocity is to others.
+                other => self
+                    .determinant_at_a_point(system, matrix, manifold, what)
+                    .unwrap_or(other),
             };
         }
         match rank.at_most {
@@ -142,8 +145,8 @@ impl Prover {
         }
     }
 
-    /// Where the constraints have no points in a prime field (they are transcendental): a real point at which the
-    /// determinant is enclosed away from zero.
+    /// Where points in a prime field say nothing, as the constraints have none (they are transcendental) or the generators
+    /// of the matrix may be related: a real point at which the determinant is enclosed away from zero.
     fn determinant_at_a_point(
         &self,
         system: &System,

@@ -1,12 +1,12 @@
-//! A refutation is looked at again: double precision must find the stated state admissible and the equations different there.
+//! A refutation is looked at again: the stated state must be found admissible and the equations different there, in double
+//! precision or, where that loses every digit, in many more.
 
+use super::digits::{reaches, scientific, State};
 use super::Subject;
 use chetaev_mechanics::Equations;
-use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::rational::to_f64;
 use chetaev_symbolic::verdict::{Counterexample, PointValue, Verdict};
-use chetaev_symbolic::zero::enclose::EncloseError;
-use chetaev_symbolic::{Expr, Graph, Symbol};
+use chetaev_symbolic::{Expr, Symbol};
 use std::collections::BTreeMap;
 
 /// Dependent data are printed to twelve digits.
@@ -30,10 +30,32 @@ pub(super) fn looked_at_again(
     }
 }
 
-/// What is wrong with a counterexample.
+/// What is wrong with a counterexample, in double precision and, as that may lose every digit, in many more.
 fn slip(
     subject: &Subject<'_>,
     wrong: &Equations,
+    counterexample: &Counterexample,
+) -> Option<String> {
+    let Some(stated) = scientific(&counterexample.residual.0) else {
+        return Some("its residual is no number".to_string());
+    };
+    let system = subject.cx.system;
+    let wrong = wrong.in_natural_state(system, &wrong.accelerations);
+    let slip = slip_in_doubles(subject, &wrong, counterexample)?;
+    let state = State {
+        subject,
+        point: &counterexample.point,
+        other: ANY,
+    };
+    let largest = state.largest_difference(&subject.routh.accelerations, &wrong);
+    let stands = largest.is_some_and(|largest| reaches(largest, stated, 0.999));
+    (!stands).then_some(slip)
+}
+
+/// What double precision finds wrong with a counterexample.
+fn slip_in_doubles(
+    subject: &Subject<'_>,
+    wrong: &[Expr],
     counterexample: &Counterexample,
 ) -> Option<String> {
     let point: BTreeMap<&str, f64> = counterexample
@@ -41,20 +63,17 @@ fn slip(
         .iter()
         .filter_map(|value| Some((value.name.as_str(), number(value)?)))
         .collect();
-    let Some(stated) = counterexample.residual.0.parse::<f64>().ok() else {
-        return Some("its residual is no number".to_string());
-    };
     let system = subject.cx.system;
     let g = &system.graph;
     let f = &subject.cx.terms.constraints;
     let all: Vec<Expr> = f
         .iter()
         .chain(&subject.routh.accelerations)
-        .chain(&wrong.in_natural_state(system, &wrong.accelerations))
+        .chain(wrong)
         .copied()
         .collect();
     let value = |s: Symbol| Some(point.get(&*g.symbol_text(s)).copied().unwrap_or(ANY));
-    let values = match values(g, &all, &value) {
+    let values = match g.evaluate_f64(&all, &value) {
         Ok(values) => values,
         Err(problem) => return Some(problem.to_string()),
     };
@@ -63,28 +82,20 @@ fn slip(
     if let Some(f) = f.iter().find(|f| f.abs() > TOLERANCE * speed.powi(4)) {
         return Some(format!("a constraint is {f} at it"));
     }
+    if !accelerations.iter().all(|a| a.is_finite()) {
+        return Some("the accelerations have no value in double precision".to_string());
+    }
     let (right, wrong) = accelerations.split_at(system.n());
     let size = accelerations.iter().fold(1.0_f64, |m, a| m.max(a.abs()));
     let largest = right
         .iter()
         .zip(wrong)
         .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-    let enough = 0.999 * stated.abs() - TOLERANCE * size;
+    let stated = &counterexample.residual.0;
+    // A number beyond double precision is infinite, and nothing comes near it.
+    let size_stated = stated.parse::<f64>().map_or(f64::INFINITY, f64::abs);
+    let enough = 0.999 * size_stated - TOLERANCE * size;
     (largest < enough).then(|| format!("the accelerations differ by {largest}, not by {stated}"))
-}
-
-/// In double precision, or in many more digits where a pivot vanishes by its rounding: cosh(40) beside 1.
-fn values(
-    g: &Graph,
-    es: &[Expr],
-    value: &dyn Fn(Symbol) -> Option<f64>,
-) -> Result<Vec<f64>, EncloseError> {
-    const BITS: usize = 512;
-    if let Ok(values) = g.evaluate_f64(es, value) {
-        return Ok(values);
-    }
-    let balls = g.enclose(es, &Precision::new(BITS), &|s| Ball::from_f64(value(s)?))?;
-    Ok(balls.iter().map(Ball::to_f64).collect())
 }
 
 /// An exact value, or the lower end of an enclosure.

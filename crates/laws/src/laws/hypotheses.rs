@@ -6,7 +6,7 @@
 use super::numbers::{moved, rank, values, Rank, Size};
 use super::Sampled;
 use chetaev_mechanics::sample::Point;
-use chetaev_mechanics::{mass, System};
+use chetaev_mechanics::{mass, Characteristics, Selection, System};
 use chetaev_symbolic::{Expr, Graph, Symbol};
 
 /// What double precision says of a hypothesis.
@@ -27,7 +27,7 @@ pub(super) fn seen(subject: &Sampled<'_>, id: &str) -> Seen {
         "model.hessian-regular" => {
             regular(subject, &subject.cx.terms.mass_matrix, &subject.free_states)
         }
-        "model.restricted-hessian-regular" => restricted_hessian(subject),
+        "model.restricted-hessian-regular" => restricted_hessian_by_any(subject),
         "model.frame-regular" => regular(subject, &frame(subject), &subject.states),
         "model.forces-absent" => vanish(
             subject,
@@ -104,10 +104,33 @@ fn bordered(subject: &Sampled<'_>) -> Vec<Vec<Expr>> {
     matrix
 }
 
+/// Whether ∂²L̄/∂v∂v is regular by some choice of independent velocities.
+fn restricted_hessian_by_any(subject: &Sampled<'_>) -> Seen {
+    let (cx, usual) = (subject.cx, &subject.natural);
+    let mut found = restricted_hessian(subject, usual);
+    for bits in 0..1_u32 << cx.system.n().min(16) {
+        if found == Seen::Holds || bits.count_ones() as usize != usual.dependent.len() {
+            continue;
+        }
+        let other = Selection {
+            rows: usual.rows.clone(),
+            dependent: (0..cx.system.n()).filter(|i| bits >> i & 1 == 1).collect(),
+        };
+        let chart = Characteristics::independent_velocities(cx.system, cx.terms, &other);
+        // Velocities that cannot be solved for are no choice.
+        found = match chart.map(|chart| restricted_hessian(subject, &chart)) {
+            Ok(Seen::Holds) => Seen::Holds,
+            Ok(Seen::Unclear) => Seen::Unclear,
+            Ok(Seen::Fails) | Err(_) => found,
+        };
+    }
+    found
+}
+
 /// The second derivatives of L(q, v_s, φ(q, v_s, t), t) by v_s: `Bᵀ (W - Σ_l μ_l ∂²f^l/∂v∂v) B` with
 /// `Σ_l μ_l ∂f^l/∂v_d = ∂L/∂v_d`, as `∂²φ` follows from f = 0 differentiated twice.
-fn restricted_hessian(subject: &Sampled<'_>) -> Seen {
-    let (system, terms, chart) = (subject.cx.system, subject.cx.terms, &subject.natural);
+pub(super) fn restricted_hessian(subject: &Sampled<'_>, chart: &Characteristics) -> Seen {
+    let (system, terms) = (subject.cx.system, subject.cx.terms);
     let g = &system.graph;
     let velocities = system.velocity_symbols();
     let (n, k) = (system.n(), chart.k());

@@ -2,6 +2,7 @@
 
 mod coordinates;
 mod counterexample;
+mod digits;
 mod equal;
 mod frames;
 mod hypotheses;
@@ -278,6 +279,29 @@ mod tests {
             let trial = coordinates::invariance(subject).unwrap();
             assert_eq!(trial.verdict.word(), "refuted");
         });
+    }
+
+    /// 1 beside 10^40 q²: no digit of the difference is left in double precision.
+    #[test]
+    fn a_counterexample_lost_in_double_precision_stands() {
+        let drown = |subject: &mut Subject<'_>| {
+            let g = &subject.cx.system.graph;
+            let square = g.powi(subject.cx.system.coordinates[0].q, 2);
+            let large = g.mul(&[g.powi(g.integer(10), 40), g.add(&[square, g.one()])]);
+            for a in &mut subject.routh.accelerations {
+                *a = g.add(&[*a, large]);
+            }
+        };
+        for family in [Family::PolynomialLinear, Family::TrigonometricNonlinear] {
+            spoilt(family, drown, |subject| {
+                let g = &subject.cx.system.graph;
+                let mut wrong = subject.routh.clone();
+                for a in &mut wrong.accelerations {
+                    *a = g.add(&[*a, g.one()]);
+                }
+                assert_eq!(subject.compared(&wrong).word(), "refuted");
+            });
+        }
     }
 
     #[test]

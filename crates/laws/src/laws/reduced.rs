@@ -5,7 +5,7 @@
 //! The right side is evaluated from φ alone. Where it vanishes, as for an integrable constraint, the equations without
 //! it are right and must be proved; elsewhere they must be refuted.
 
-use super::hypotheses::{seen, Seen};
+use super::hypotheses::{restricted_hessian, Seen};
 use super::numbers::{differ, Size};
 use super::{Expected, Kind, Subject, Trial};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
@@ -20,7 +20,7 @@ pub(super) fn lagrange_of_restricted(subject: &Subject<'_>) -> Option<Trial> {
         return None;
     }
     // A singular L* has no equations of motion, right or wrong.
-    if seen(subject, "model.restricted-hessian-regular") == Seen::Fails {
+    if restricted_hessian(subject, &subject.natural) == Seen::Fails {
         return None;
     }
     let reduction = Reduction::new(subject)?;

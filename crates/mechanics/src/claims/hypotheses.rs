@@ -5,8 +5,10 @@ use super::{Claim, Context, Finding, Group};
 use crate::characteristics::Manifold;
 use crate::claims::formulation::manifold;
 use crate::equations::unused_name;
-use crate::formulations::{extremum_matrix, restricted_hessian};
+use crate::formulations::extremum_matrix;
+use crate::restricted::{regular_choice, restricted_hessian, RegularChoice};
 use crate::system::System;
+use crate::words::{counted, quoted};
 use crate::Characteristics;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
@@ -252,21 +254,60 @@ impl Claim for RestrictedHessianRegular {
         "The Hessian of the Lagrangian restricted to the constraint manifold, ∂²L̄/∂v∂v by the independent velocities, has a \
          determinant that is not identically zero, so independent velocities can be expressed by the momenta p̃ = ∂L̄/∂v. For \
          constraints linear in the velocities this is the restricted Hessian Bᵀ W B; for others it contains second derivatives of \
-         the constraints, and may be singular where the accelerations are unique: v·v = c² with L = m v·v/2 − V(q)."
+         the constraints, depends on which velocities are independent, and may be singular where the accelerations are unique: \
+         v·v = c² with L = m v·v/2 − V(q). Where it is singular by the usual choice of independent velocities, others are tried; \
+         the detail names them. Refuted means singular by every choice tried."
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
-        let found = Characteristics::independent_velocities(cx.system, cx.terms, cx.selection);
-        let characteristics = match found {
-            Ok(characteristics) => characteristics,
-            Err(problem) => return Verdict::undecided(problem.to_string()).into(),
-        };
-        let hessian = restricted_hessian(cx.system, &characteristics);
-        let what = "det ∂²L̄/∂v∂v of the restricted Lagrangian";
-        cx.prover
-            .nonsingular(cx.system, &hessian, &characteristics.manifold, what)
-            .into()
+        match regular_choice(cx.system, cx.terms, cx.selection) {
+            Ok(choice) if choice.singular.is_empty() => chosen_hessian(cx, &choice).into(),
+            Ok(choice) => singular_hessians(cx, &choice).into(),
+            Err(problem) => Verdict::undecided(problem.to_string()).into(),
+        }
     }
+}
+
+/// The verdict on ∂²L̄/∂v∂v by given independent velocities.
+fn hessian_by(cx: &Context<'_>, characteristics: &Characteristics, what: &str) -> Verdict {
+    let hessian = restricted_hessian(cx.system, characteristics);
+    cx.prover
+        .nonsingular(cx.system, &hessian, &characteristics.manifold, what)
+}
+
+const RESTRICTED: &str = "det ∂²L̄/∂v∂v of the restricted Lagrangian";
+
+fn chosen_hessian(cx: &Context<'_>, choice: &RegularChoice) -> Verdict {
+    if !choice.is_another {
+        return hessian_by(cx, &choice.characteristics, RESTRICTED);
+    }
+    let names = choice.characteristics.parameters.iter();
+    let names = quoted(names.map(|p| &p.name));
+    let what = format!("{RESTRICTED} by {names}, chosen as the usual choice of independent velocities gives zero at a sampled state,");
+    hessian_by(cx, &choice.characteristics, &what)
+}
+
+/// Where every choice is singular at a sampled state: refuted if every one is shown to be singular everywhere.
+fn singular_hessians(cx: &Context<'_>, choice: &RegularChoice) -> Verdict {
+    let usual = hessian_by(cx, &choice.characteristics, RESTRICTED);
+    let Verdict::Refuted(mut found) = usual else {
+        return usual;
+    };
+    for other in &choice.singular {
+        let verdict = hessian_by(cx, other, RESTRICTED);
+        if !matches!(verdict, Verdict::Refuted(_)) {
+            let names = quoted(other.parameters.iter().map(|p| &p.name));
+            return Verdict::undecided(format!(
+                "{}; by {names} it is zero at a sampled state, but not shown to vanish identically",
+                found.detail
+            ));
+        }
+    }
+    let others = counted(choice.singular.len(), "other choice", "other choices");
+    found.detail.push_str(&format!(
+        "; so it does by {others} of independent velocities"
+    ));
+    Verdict::Refuted(found)
 }
 
 /// `model.constrained-extremum-regular`.

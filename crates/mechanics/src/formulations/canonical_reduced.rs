@@ -3,7 +3,8 @@
 //! `p̃_s = ∂L̄/∂v^s`, `H̃(q, p̃, t) = Σ p̃_s v^s − L̄` for the restricted Lagrangian L̄, and (T1 (44)–(46))
 //! `q'^s = ∂H̃/∂p̃_s`, `q'^{k+l} = φ^l`,
 //! `p̃'_s = −∂H̃/∂q^s − Σ_l φ^l_s ∂H̃/∂q^{k+l} + Σ_l θ_l A^l_s + Q_s + Σ_l Q_{k+l} φ^l_s`,
-//! with `θ_l = ∂L/∂v^{k+l}` of the full L. It needs that `∂²L̄/∂v∂v` is regular, which is not the restricted Hessian `Bᵀ W B`.
+//! with `θ_l = ∂L/∂v^{k+l}` of the full L. It needs that `∂²L̄/∂v∂v` is regular, which is not the restricted Hessian `Bᵀ W B`;
+//! where it is not by the usual independent velocities, but is by others, those are taken.
 //! For φ nonlinear in the velocities A contains v', hence p̃': the equations are linear in v' and are solved for it.
 
 use super::{Basis, DeriveError, Formulation};
@@ -11,6 +12,7 @@ use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::Characteristics;
 use crate::equations::unused_name;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
+use crate::restricted::regular_choice;
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -53,16 +55,6 @@ impl Formulation for CanonicalReduced {
     }
 }
 
-/// `∂²L̄/∂v^s∂v^u` on the constraint manifold, k × k.
-pub(crate) fn restricted_hessian(
-    system: &System,
-    characteristics: &Characteristics,
-) -> Vec<Vec<Expr>> {
-    let lagrangian = characteristics.restrict(system, &[system.lagrangian]);
-    let momenta = characteristics.by_parameters(system, &lagrangian).concat();
-    characteristics.by_parameters(system, &momenta)
-}
-
 /// What the equations are built from, as functions of (q, v^s, t) on the constraint manifold.
 struct Reduced {
     characteristics: Characteristics,
@@ -87,7 +79,7 @@ struct Reduced {
 impl Reduced {
     fn new(basis: &Basis<'_>) -> Result<Reduced, DeriveError> {
         let (system, g) = (basis.system, &basis.system.graph);
-        let characteristics = basis.independent_velocities()?;
+        let characteristics = regular_choice(system, basis.terms, basis.selection)?.characteristics;
         let lagrangian = characteristics.restrict(system, &[system.lagrangian])[0];
         let definitions = characteristics
             .by_parameters(system, &[lagrangian])

@@ -50,7 +50,6 @@ pub use volterra_first::VolterraFirst;
 pub use volterra_second::VolterraSecond;
 pub use voronets::Voronets;
 
-pub(crate) use canonical_reduced::restricted_hessian;
 pub(crate) use maggi::left_sides as maggi_left_sides;
 
 pub(crate) use vakonomic::extremum_matrix;

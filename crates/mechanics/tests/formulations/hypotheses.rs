@@ -67,6 +67,37 @@ fn restricted_hessians() {
     );
 }
 
+/// cosh of a velocity that a nonlinear constraint determines: prime fields do not know whether it is related to the others,
+/// a real point at which the determinant is not zero does.
+#[test]
+fn regular_with_exponentials_of_dependent_velocities() {
+    let text = "coordinates = [\"x\", \"y\"]\nlagrangian = { L = \"1/2 (x'^2 + y'^2) + cosh(x') + cosh(y')\" }\n\
+                constraints = { c = \"y'^2 = (2 + x^2) (x'^2 + 1)\" }";
+    expect(&Case::new(text), "model.accelerations-unique", "proved");
+}
+
+/// L̄ = y'/2 has no momentum by y', and L̄ = x'²/2 has one by x': whichever of them the constraint is usually solved for.
+#[test]
+fn restricted_hessians_by_other_velocities() {
+    for (lagrangian, constraint) in [
+        ("1/2 (1 + x^2) x'^2 - y", "y' = (2 + sin(y)) x'^2"),
+        ("1/2 (1 + y^2) y'^2 - x", "x' = (2 + sin(x)) y'^2"),
+        (
+            "1/2 (1 + x^2) x'^2 - y",
+            "(2 + sin(y)) x'^2 - 4 x' - y' = 0",
+        ),
+        ("1/2 (x' - y')^2 - y", "x' + y' = (2 + y^2) (x' - y')^2"),
+    ] {
+        for wanted in ["x", "y"] {
+            let case = Case::new(&format!(
+                "coordinates = [\"x\", \"y\"]\nvelocities = {{ independent = [\"{wanted}'\"] }}\nlagrangian = {{ L = \"{lagrangian}\" }}\nconstraints = {{ c = \"{constraint}\" }}"
+            ));
+            expect(&case, "model.restricted-hessian-regular", "proved");
+            expect(&case, "formulation.equivalent#canonical-reduced", "proved");
+        }
+    }
+}
+
 /// R5 where L alone is singular in every direction: the curvature of the constraint makes the problem regular.
 #[test]
 fn constrained_extrema() {

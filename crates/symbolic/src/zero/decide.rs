@@ -9,6 +9,7 @@ use super::modular::{self, Finding, Outcome, Plan};
 use super::prepare::{prepare, Question};
 use super::program::{Generator, Program};
 use super::refute::{self, Claim, Search};
+use super::straighten::straightened;
 use crate::graph::Graph;
 use crate::node::{Expr, Symbol};
 use crate::verdict::{Evidence, Method, Proof, Verdict};
@@ -119,6 +120,13 @@ pub fn decide_zero(graph: &Graph, test: &ZeroTest<'_>) -> Verdict {
         let detail = "the difference cancels in canonical form, by exact rational arithmetic";
         return Verdict::Proved(Proof::exact(place(test, &[]), detail));
     }
+    let straight = straightened(
+        graph,
+        test.residuals,
+        test.implicit,
+        test.solved,
+        test.assumptions,
+    );
     let case = Case {
         graph,
         test,
@@ -126,6 +134,7 @@ pub fn decide_zero(graph: &Graph, test: &ZeroTest<'_>) -> Verdict {
         implicit: &implicit,
         assumptions: &assumptions,
         solved: &solved,
+        straight: straight.as_deref(),
     };
     case.decide()
 }
@@ -139,20 +148,47 @@ struct Case<'a> {
     implicit: &'a [(Expr, Symbol)],
     assumptions: &'a Assumptions,
     solved: &'a [(Symbol, Expr)],
+    /// The residuals as functions of free data on the constraints, where these can be solved jointly.
+    straight: Option<&'a [Expr]>,
 }
 
 impl Case<'_> {
     fn decide(self) -> Verdict {
-        let exact = match self.test.options.exact {
-            true => exact::decide(self.graph, self.residuals, self.assumptions),
-            false => Exact::Open,
+        let Some(straight) = self.straight else {
+            return self.decide_as_stated();
         };
+        let question = Question {
+            outputs: straight,
+            constraints: &[],
+            assumptions: self.assumptions,
+        };
+        let mut program = prepare(self.graph, &question);
+        // Conditions are stated in the symbols of the question.
+        program.conditions = self.program().conditions;
+        let plan = plan_of(&self.test.options, 1, straight.len());
+        match modular::decide(&program, &plan) {
+            Outcome::Found(finding) if finding.maximum == 0 => {
+                self.conclude(&program, Outcome::Found(finding))
+            }
+            _ => self.decide_as_stated(),
+        }
+    }
+
+    fn program(self) -> Program {
         let question = Question {
             outputs: self.residuals,
             constraints: self.implicit,
             assumptions: self.assumptions,
         };
-        let program = prepare(self.graph, &question);
+        prepare(self.graph, &question)
+    }
+
+    fn decide_as_stated(self) -> Verdict {
+        let exact = match self.test.options.exact {
+            true => exact::decide(self.graph, self.residuals, self.assumptions),
+            false => Exact::Open,
+        };
+        let program = self.program();
         let plan = plan_of(&self.test.options, 1, self.residuals.len());
         let outcome = modular::decide(&program, &plan);
         match exact {

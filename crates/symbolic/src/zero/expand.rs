@@ -43,7 +43,7 @@ pub(super) fn linear_form(graph: &Graph, e: Expr) -> LinearForm {
                         budget = budget.saturating_sub(products.len());
                         work.extend(products.into_iter().map(|(t, c)| (t, c * &factor)));
                     }
-                    None => form.push(graph.mul(factors), factor),
+                    None => form.add(graph.mul(factors), factor),
                 }
             }
             Node::Power { .. } => match split(graph, &[term]).filter(|_| budget > 0) {
@@ -51,9 +51,9 @@ pub(super) fn linear_form(graph: &Graph, e: Expr) -> LinearForm {
                     budget = budget.saturating_sub(products.len());
                     work.extend(products.into_iter().map(|(t, c)| (t, c * &factor)));
                 }
-                None => form.push(term, factor),
+                None => form.add(term, factor),
             },
-            _ => form.push(term, factor),
+            _ => form.add(term, factor),
         }
     }
     form.terms.retain(|_, coefficient| !coefficient.is_zero());
@@ -61,7 +61,8 @@ pub(super) fn linear_form(graph: &Graph, e: Expr) -> LinearForm {
 }
 
 impl LinearForm {
-    fn push(&mut self, monomial: Expr, coefficient: Rational) {
+    /// Adds a multiple of a monomial.
+    pub(super) fn add(&mut self, monomial: Expr, coefficient: Rational) {
         *self.terms.entry(monomial).or_insert(Rational::ZERO) += coefficient;
     }
 }

@@ -27,6 +27,7 @@ mod refute;
 mod ring;
 mod signs;
 mod size;
+mod straighten;
 mod tower;
 mod variety;
 

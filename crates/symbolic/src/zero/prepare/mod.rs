@@ -8,6 +8,7 @@
 mod angles;
 mod discover;
 mod radicals;
+mod relations;
 mod transcendental;
 
 use std::collections::BTreeMap;
@@ -16,7 +17,7 @@ use dashu_int::IBig;
 use rustc_hash::FxHashMap;
 
 use super::assumptions::{Assumptions, SignSet};
-use super::expand::{linear_form, LinearForm};
+use super::expand::LinearForm;
 use super::program::{Constant, Generator, Operation, Program, Value};
 use super::signs::Signs;
 use crate::graph::Graph;
@@ -39,6 +40,7 @@ pub(super) fn prepare(graph: &Graph, question: &Question<'_>) -> Program {
     let mut roots = question.outputs.to_vec();
     roots.extend(question.constraints.iter().map(|(f, _)| *f));
     let mut builder = Builder::new(graph, question);
+    builder.relate(&roots);
     builder.discover(&roots);
     for root in &roots {
         builder.build(*root);
@@ -61,6 +63,8 @@ struct Builder<'g> {
     memo: FxHashMap<Expr, Value>,
     constants: BTreeMap<Rational, Constant>,
     forms: FxHashMap<Expr, LinearForm>,
+    /// Monomials of arguments that are combinations of others.
+    relations: relations::Relations,
     dependent: FxHashMap<Symbol, u32>,
     /// Common denominators of the multiples in which an angle occurs, and of exponents.
     angle_parts: FxHashMap<Expr, u64>,
@@ -95,6 +99,7 @@ impl<'g> Builder<'g> {
             memo: FxHashMap::default(),
             constants: BTreeMap::new(),
             forms: FxHashMap::default(),
+            relations: relations::Relations::default(),
             dependent: dependent.collect(),
             angle_parts: FxHashMap::default(),
             exponent_parts: FxHashMap::default(),
@@ -376,11 +381,12 @@ impl<'g> Builder<'g> {
     }
 
     fn form(&mut self, e: Expr) -> LinearForm {
-        let graph = self.graph;
-        self.forms
-            .entry(e)
-            .or_insert_with(|| linear_form(graph, e))
-            .clone()
+        if let Some(form) = self.forms.get(&e) {
+            return form.clone();
+        }
+        let form = self.reduced_form(e);
+        self.forms.insert(e, form.clone());
+        form
     }
 
     /// coefficient·Π base^exponent, with rational exponents; a factor that is no such power stands with exponent 1.

@@ -51,6 +51,21 @@ fn root_of_a_square_is_no_identity_without_a_sign() {
     proved(&g, "sqrt(x^2 * y^4) - abs(x) * y^2");
 }
 
+/// 1/(1 + x) and x/(1 + x) have the sum 1: exponentials and angles of them are related.
+#[test]
+fn arguments_related_by_rational_functions() {
+    let g = Graph::new();
+    proved(&g, "exp(y/(1 + x)) * exp(x*y/(1 + x)) - exp(y)");
+    proved(&g, "exp(1/(1 + x)) * exp(x/(1 + x)) - exp(1)");
+    proved(&g, "cos(y/(1 + x) + x*y/(1 + x)) - cos(y)");
+    proved(
+        &g,
+        "cosh(x - 2*y/(1 + 5*sin(x))) - cosh(x - 2*y + 10*y*sin(x)/(1 + 5*sin(x)))",
+    );
+    refuted(&g, "exp(y/(1 + x)) * exp(x*y/(1 + x)) - exp(2*y)");
+    refuted(&g, "exp(y/(1 + x)) - exp(x*y/(1 + x))");
+}
+
 #[test]
 fn products_of_roots() {
     let g = Graph::new();

@@ -37,6 +37,24 @@ fn quadratic_constraint() {
     assert_eq!(decide_on(&g, "x'^2 - y'^2", &circle).word(), "refuted");
 }
 
+/// Both roots contain both dependent velocities: in x + y and z + w instead of x and z the constraints are solved by hand.
+#[test]
+fn roots_that_are_not_triangular() {
+    let g = Graph::new();
+    let roots = [
+        ("y' - sqrt((x' + y')^2 + 2*(z' + w')^2 + 1)", "y'"),
+        ("w' - 2*sqrt((x' + y')^2 + (2 + sin(q))*(z' + w')^2)", "w'"),
+    ];
+    let square = "y'^2 - (x' + y')^2 - 2*(z' + w')^2 - 1";
+    assert_eq!(decide_on(&g, square, &roots).word(), "proved");
+    let quotient = "(x' + y')/sqrt((x' + y')^2 + (2 + sin(q))*(z' + w')^2) - 2*(x' + y')/w'";
+    assert_eq!(decide_on(&g, quotient, &roots).word(), "proved");
+    // Along the constraints, not beside them; and the other sign of the root is not on them.
+    assert_ne!(decide_on(&g, "y' - w'", &roots).word(), "proved");
+    let other = "y' + sqrt((x' + y')^2 + 2*(z' + w')^2 + 1)";
+    assert_ne!(decide_on(&g, other, &roots).word(), "proved");
+}
+
 #[test]
 fn a_constraint_without_rational_points() {
     // x'² + y'² = 3 has no rational point; the counterexample has x' rational and y' enclosed.
