@@ -36,6 +36,12 @@ const SCHEMA: Schema = Schema {
     latex: r"\sum_s \Bigl( \frac{d}{dt}\frac{\partial L}{\partial \dot q^s} - \frac{\partial L}{\partial q^s} - Q_s \Bigr) \frac{\partial \dot q^s}{\partial P_\sigma} = 0",
 };
 
+/// Of constraints of order m, T2 (7).
+const HIGHER_ORDER: Schema = Schema {
+    text: "Σ_s ( D(∂L/∂v^s) − ∂L/∂q^s − Q_s − Ψ_s ) ∂q^s(m)/∂P_σ = 0",
+    latex: r"\sum_s \Bigl( \frac{d}{dt}\frac{\partial L}{\partial \dot q^s} - \frac{\partial L}{\partial q^s} - Q_s - \Psi_s \Bigr) \frac{\partial q^{s(m)}}{\partial P_\sigma} = 0",
+};
+
 impl Formulation for Maggi {
     fn card(&self) -> &'static Card {
         &CARD
@@ -54,9 +60,13 @@ impl Formulation for Maggi {
                 right: zero,
             })
             .collect();
+        let schema = match characteristics.order {
+            1 => SCHEMA,
+            _ => HIGHER_ORDER,
+        };
         Ok(
             in_characteristics(CARD.name, basis, &characteristics, &motion)?
-                .with_group("equations of motion", Some(SCHEMA), motion)
+                .with_group("equations of motion", Some(schema), motion)
                 .with_group("kinematics", None, basis.kinematics(&characteristics))
                 .with_objects(virtual_basis(system, &characteristics)),
         )
@@ -73,13 +83,13 @@ pub(crate) fn left_sides(system: &System, characteristics: &Characteristics) -> 
 /// The entries of B that do not vanish.
 pub(crate) fn virtual_basis(system: &System, characteristics: &Characteristics) -> Vec<NamedExpr> {
     let mut objects = Vec::new();
-    for (c, row) in system.coordinates.iter().zip(&characteristics.basis) {
+    for (c, row) in characteristics.jets.iter().zip(&characteristics.basis) {
         for (p, &value) in characteristics.parameters.iter().zip(row) {
             if !system.graph.is_zero(value) {
                 objects.push(NamedExpr::new(
                     format!("B_{}_{}", c.name, super::bare(&p.name)),
                     value,
-                    format!("∂{}'/∂({})", c.name, p.name),
+                    format!("∂{}/∂({})", system.graph.symbol_text(c.v_symbol), p.name),
                 ));
             }
         }

@@ -48,6 +48,12 @@ const PARTICLES: Schema = Schema {
     latex: r"\sum_a (m_a \ddot r_a - F_a - R_a) \cdot \frac{\partial r_a}{\partial q^i} - \dots = \sum_l \lambda_l \frac{\partial f^l}{\partial \dot q^i}",
 };
 
+/// Of constraints of order m, T2 (5).
+const HIGHER_ORDER: Schema = Schema {
+    text: "D(∂L/∂v^i) − ∂L/∂q^i = Q_i + Ψ_i + Σ_l λ_l ∂f^l/∂q^i(m)",
+    latex: r"\frac{d}{dt}\frac{\partial L}{\partial \dot q^i} - \frac{\partial L}{\partial q^i} = Q_i + \Psi_i + \sum_l \lambda_l \frac{\partial f^l}{\partial q^{i(m)}}",
+};
+
 impl Formulation for Routh {
     fn card(&self) -> &'static Card {
         &CARD
@@ -58,8 +64,13 @@ impl Formulation for Routh {
             let determined = determined::with_multipliers(basis);
             let equations = determined::on_jets(CARD.name, basis, &determined)?;
             return Ok(equations
-                .with_group("equations of motion", Some(SCHEMA), stated_equations(basis))
-                .with_group("constraints", None, basis.constraint_equations()));
+                .with_group(
+                    "equations of motion",
+                    Some(HIGHER_ORDER),
+                    stated_equations(basis),
+                )
+                .with_group("constraints", None, basis.constraint_equations())
+                .with_objects(reactive_objects(basis)));
         }
         let (accelerations, values) = solve(basis)?;
         let mut objects = multiplier_objects(basis, &values);

@@ -194,10 +194,14 @@ impl<'a> Volterra<'a> {
 
     pub(crate) fn equations(
         &self,
-        (name, schema, form): (&'static str, Schema, Form),
+        (name, [first_order, higher_order], form): (&'static str, [Schema; 2], Form),
         basis: &Basis<'_>,
     ) -> Result<Equations, DeriveError> {
         let c = &self.characteristics;
+        let schema = match c.order {
+            1 => first_order,
+            _ => higher_order,
+        };
         let motion: Vec<Equation> = self
             .left_sides(form)
             .into_iter()

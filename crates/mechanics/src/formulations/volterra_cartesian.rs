@@ -33,13 +33,19 @@ const SCHEMA_FIRST: Schema = Schema {
     latex: r"\frac{d}{dt}\frac{\partial T}{\partial P_\sigma} - \sum_i \mu_i \dot\xi_i \frac{d}{dt}\frac{\partial \dot\xi_i}{\partial P_\sigma} = \tilde E_\sigma + \tilde\Psi_\sigma",
 };
 
+/// Of constraints of order m, T2 (V1).
+const HIGHER_FIRST: Schema = Schema {
+    text: "D ∂T^(m−1)/∂P_σ − Σ_i μ_i ξ_i' D(∂ξ_i(m)/∂P_σ) = Ẽ_σ + Ψ̃_σ",
+    latex: r"\frac{d}{dt}\frac{\partial T^{(m-1)}}{\partial P_\sigma} - \sum_i \mu_i \dot\xi_i \frac{d}{dt}\frac{\partial \xi_i^{(m)}}{\partial P_\sigma} = \tilde E_\sigma + \tilde\Psi_\sigma",
+};
+
 impl Formulation for VolterraFirstCartesian {
     fn card(&self) -> &'static Card {
         &CARD_FIRST
     }
 
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
-        let of = (CARD_FIRST.name, SCHEMA_FIRST, Form::First);
+        let of = (CARD_FIRST.name, [SCHEMA_FIRST, HIGHER_FIRST], Form::First);
         Volterra::cartesian(basis)?.equations(of, basis)
     }
 
@@ -77,13 +83,23 @@ const SCHEMA_SECOND: Schema = Schema {
     latex: r"\frac{d}{dt}\frac{\partial T}{\partial P_\sigma} - \frac{\partial T}{\partial \pi_\sigma} - \sum_i \mu_i \dot\xi_i \Bigl( \frac{d}{dt}\frac{\partial \dot\xi_i}{\partial P_\sigma} - \frac{\partial \dot\xi_i}{\partial \pi_\sigma} \Bigr) = \tilde E_\sigma + \tilde\Psi_\sigma",
 };
 
+/// Of constraints of order m, T2 (V2).
+const HIGHER_SECOND: Schema = Schema {
+    text: "m D ∂T^(m−1)/∂P_σ − ∂T^(m−1)/∂π_σ − Σ_i μ_i ξ_i' ( m D(∂ξ_i(m)/∂P_σ) − ∂ξ_i(m)/∂π_σ ) = Ẽ_σ + Ψ̃_σ",
+    latex: r"m \frac{d}{dt}\frac{\partial T^{(m-1)}}{\partial P_\sigma} - \frac{\partial T^{(m-1)}}{\partial \pi_\sigma} - \sum_i \mu_i \dot\xi_i \Bigl( m \frac{d}{dt}\frac{\partial \xi_i^{(m)}}{\partial P_\sigma} - \frac{\partial \xi_i^{(m)}}{\partial \pi_\sigma} \Bigr) = \tilde E_\sigma + \tilde\Psi_\sigma",
+};
+
 impl Formulation for VolterraSecondCartesian {
     fn card(&self) -> &'static Card {
         &CARD_SECOND
     }
 
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
-        let of = (CARD_SECOND.name, SCHEMA_SECOND, Form::Second);
+        let of = (
+            CARD_SECOND.name,
+            [SCHEMA_SECOND, HIGHER_SECOND],
+            Form::Second,
+        );
         Volterra::cartesian(basis)?.equations(of, basis)
     }
 

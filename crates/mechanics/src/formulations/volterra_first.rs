@@ -33,13 +33,20 @@ const SCHEMA: Schema = Schema {
     latex: r"\frac{d}{dt}\frac{\partial \tilde T}{\partial P_\sigma} - \sum_s p_s \frac{d}{dt}\frac{\partial \dot q^s}{\partial P_\sigma} - \sum_s \frac{\partial T}{\partial q^s}\frac{\partial \dot q^s}{\partial P_\sigma} = \tilde E_\sigma + \tilde\Psi_\sigma",
 };
 
+/// Of constraints of order m, T2 (V1q).
+const HIGHER_ORDER: Schema = Schema {
+    text:
+        "m D ∂T̃/∂P_σ − m Σ_s p_s D(∂q^s(m)/∂P_σ) − Σ_s ∂T^(m−1)/∂q^s(m−1) ∂q^s(m)/∂P_σ = Ẽ_σ + Ψ̃_σ",
+    latex: r"m \frac{d}{dt}\frac{\partial \tilde T^{(m-1)}}{\partial P_\sigma} - m \sum_s p_s \frac{d}{dt}\frac{\partial q^{s(m)}}{\partial P_\sigma} - \sum_s \frac{\partial T^{(m-1)}}{\partial q^{s(m-1)}}\frac{\partial q^{s(m)}}{\partial P_\sigma} = \tilde E_\sigma + \tilde\Psi_\sigma",
+};
+
 impl Formulation for VolterraFirst {
     fn card(&self) -> &'static Card {
         &CARD
     }
 
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
-        let of = (CARD.name, SCHEMA, Form::First);
+        let of = (CARD.name, [SCHEMA, HIGHER_ORDER], Form::First);
         Volterra::generalized(basis)?.equations(of, basis)
     }
 

@@ -33,13 +33,19 @@ const SCHEMA: Schema = Schema {
     latex: r"\frac{d}{dt}\frac{\partial \tilde T}{\partial P_\sigma} - \frac{\partial \tilde T}{\partial \pi_\sigma} - \sum_s p_s \Bigl( \frac{d}{dt}\frac{\partial \dot q^s}{\partial P_\sigma} - \frac{\partial \dot q^s}{\partial \pi_\sigma} \Bigr) = \tilde E_\sigma + \tilde\Psi_\sigma",
 };
 
+/// Of constraints of order m, T2 (V2q).
+const HIGHER_ORDER: Schema = Schema {
+    text: "m D ∂T̃/∂P_σ − ∂T̃/∂π_σ − Σ_s p_s ( m D(∂q^s(m)/∂P_σ) − ∂q^s(m)/∂π_σ ) = Ẽ_σ + Ψ̃_σ",
+    latex: r"m \frac{d}{dt}\frac{\partial \tilde T^{(m-1)}}{\partial P_\sigma} - \frac{\partial \tilde T^{(m-1)}}{\partial \pi_\sigma} - \sum_s p_s \Bigl( m \frac{d}{dt}\frac{\partial q^{s(m)}}{\partial P_\sigma} - \frac{\partial q^{s(m)}}{\partial \pi_\sigma} \Bigr) = \tilde E_\sigma + \tilde\Psi_\sigma",
+};
+
 impl Formulation for VolterraSecond {
     fn card(&self) -> &'static Card {
         &CARD
     }
 
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
-        let of = (CARD.name, SCHEMA, Form::Second);
+        let of = (CARD.name, [SCHEMA, HIGHER_ORDER], Form::Second);
         Volterra::generalized(basis)?.equations(of, basis)
     }
 
