@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn a_run_is_asked_for_in_words() {
         let all = read("").unwrap();
-        assert_eq!((all.families.len(), all.count, all.seed), (13, 50, None));
+        assert_eq!((all.families.len(), all.count, all.seed), (17, 50, None));
         assert_eq!(read("--full").unwrap().count, 1000);
         let one = read("--family nonquadratic --seed=17").unwrap();
         assert_eq!(

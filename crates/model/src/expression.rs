@@ -31,7 +31,11 @@ impl Scope for WholeModel<'_> {
                 .iter()
                 .any(|constraint| constraint.name == of)
         });
-        if model.varies(name) || is_multiplier {
+        let characteristics = model.characteristics.iter();
+        let is_characteristic = characteristics
+            .flat_map(|c| &c.parameters)
+            .any(|own| own == name);
+        if model.varies(name) || is_multiplier || is_characteristic {
             return Resolution::Known(model.graph.symbol(name, order));
         }
         if model.mass_rate(name).is_some() {

@@ -199,8 +199,8 @@ fn what_is_wrong_is_said_at_its_place() {
         &["the mass `M` must begin with a positive value"],
     );
     changed(
-        "S = ",
-        "x = ",
+        "S = \"3 + x^2\"",
+        "S = \"3 + x^2\"\nx = { rate = \"t\", initial = 1 }",
         &["`x` is a coordinate already, and cannot name a mass too"],
     );
     changed(

@@ -91,13 +91,21 @@ fn subtitle(study: &Study) -> String {
     [
         counted(n, "coordinate", "coordinates"),
         counted(study.system.constraints.len(), "constraint", "constraints"),
-        counted(
-            n - study.prepared.selection.rows.len(),
-            "independent velocity",
-            "independent velocities",
-        ),
+        independent(study),
     ]
     .join(", ")
+}
+
+/// "2 independent velocities", and "1 independent derivative of order 3" where the constraints are of that order.
+pub(crate) fn independent(study: &Study) -> String {
+    let k = study.system.n() - study.prepared.selection.rows.len();
+    match study.prepared.terms.order {
+        1 => counted(k, "independent velocity", "independent velocities"),
+        order => {
+            let counted = counted(k, "independent derivative", "independent derivatives");
+            format!("{counted} of order {order}")
+        }
+    }
 }
 
 fn paragraphs(text: &str) -> Vec<String> {
@@ -143,7 +151,10 @@ fn facts(study: &Study, set: &Typesetter<'_>) -> Vec<Fact> {
             Some("model.constraints-independent"),
         ),
         fact(
-            "Independent velocities",
+            match study.prepared.terms.order {
+                1 => "Independent velocities",
+                _ => "Independent derivatives",
+            },
             (n - r).to_string(),
             Some("k"),
             Some("model.accelerations-unique"),

@@ -79,7 +79,7 @@ fn is_regular_elsewhere(numeric: &mut NumericSystem, data: &InitialData) -> bool
 }
 
 /// Initial data or a time span say that a motion is wanted.
-fn asks_for_motion(model: &Model) -> bool {
+pub(crate) fn asks_for_motion(model: &Model) -> bool {
     let s = &model.simulation;
     !model.initial.values.is_empty() || s.t_end.is_some() || s.output.is_some()
 }

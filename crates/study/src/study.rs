@@ -5,7 +5,9 @@ use crate::motion_evidence::MotionEvidence;
 use crate::notices::{left_assumptions, notices};
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
-use crate::start::{add_jets, check_rank, number, settings, start_of_motion, Start};
+use crate::start::{
+    add_jets, asks_for_motion, check_rank, number, settings, start_of_motion, Start,
+};
 use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::{CharacteristicsError, Selection};
 use chetaev_mechanics::claims::formulation::REFERENCE;
@@ -302,8 +304,13 @@ fn prepare(
     let prepared = Prepared { terms, selection };
     prepared.left_out(&system)?;
     let mut start = start;
-    if let (Ok(start), true) = (&mut start, prepared.terms.order > 1) {
-        add_jets(model, &system, &prepared, start, options)?;
+    if let (Ok(found), true) = (&mut start, prepared.terms.order > 1) {
+        match add_jets(model, &system, &prepared, found, options) {
+            Err(StudyError::Jets(problem)) if !asks_for_motion(model) => {
+                start = Err(format!("no motion was computed: {problem}"));
+            }
+            outcome => outcome?,
+        }
     }
     Ok((system, prepared, start))
 }

@@ -1,5 +1,6 @@
 //! The summary for a terminal.
 
+use crate::page::independent;
 use crate::study::{Decided, Study};
 use chetaev_mechanics::Group;
 use std::fmt::Write as _;
@@ -33,10 +34,7 @@ fn bold(style: Style, words: &str) -> String {
 }
 
 fn heading(text: &mut String, study: &Study, style: Style) {
-    let (n, k) = (
-        study.system.n(),
-        study.system.n() - study.prepared.selection.rows.len(),
-    );
+    let n = study.system.n();
     let kinds: Vec<String> = study
         .system
         .constraints
@@ -72,8 +70,7 @@ fn heading(text: &mut String, study: &Study, style: Style) {
             shortened(&kinds.join(", "), 80)
         );
     }
-    let velocities = if k == 1 { "velocity" } else { "velocities" };
-    let _ = writeln!(text, "  freedom       k = {k} independent {velocities}");
+    let _ = writeln!(text, "  freedom       k = {}", independent(study));
     if !study.system.assumptions.is_empty() {
         let stated: Vec<&str> = study
             .system

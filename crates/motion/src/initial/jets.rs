@@ -563,16 +563,21 @@ pub fn describe(system: &System, index: usize, branch: &Branch) -> String {
     let values: Vec<String> = branch
         .values
         .iter()
-        .map(|(s, x)| format!("{} = {x:.9}", g.symbol_text(*s)))
+        .map(|(s, x)| format!("{} = {}", g.symbol_text(*s), rounded(*x)))
         .collect();
     let mut text = format!("{}: {}", index + 1, values.join(", "));
     if let Some(z) = branch.constraint_function {
-        text.push_str(&format!("; Gauss's function {z:.6}"));
+        text.push_str(&format!("; Gauss's function {}", rounded(z)));
     }
     if let Some(kind) = branch.kind {
         text.push_str(&format!(", {kind}"));
     }
     text
+}
+
+/// Without the digits that a search leaves, and without the sign of zero.
+fn rounded(x: f64) -> f64 {
+    (x * 1e9).round() / 1e9 + 0.0
 }
 
 /// Damped Newton steps; the last point with its largest residual, `None` where a value is not finite at the start.

@@ -29,6 +29,8 @@ pub(super) fn sections(study: &Study, set: &Typesetter<'_>) -> Vec<EquationSecti
     if let Ok(routh) = derive(&cx, "routh") {
         let (title, explanation) = if is_free {
             ("Lagrange's equations", "One equation for each coordinate.")
+        } else if prepared.terms.order > 1 {
+            ("Routh's equations with multipliers", "Lagrange's equations of all coordinates; the reaction of each constraint f = left − right is λ times its gradient by the derivatives of highest order.")
         } else {
             ("Routh's equations with multipliers", "Lagrange's equations of all coordinates; the reaction of each constraint f = left − right is λ ∂f/∂q′.")
         };
