@@ -71,6 +71,17 @@ fn records() -> Vec<(String, Value)> {
         let finished = run(&arguments);
         records.push((format!("skate {options:?}"), finished.json()));
     }
+    let out = folder.join("branch");
+    let branched = [
+        "study",
+        "gallery/fixed-acceleration/model.toml",
+        "--branch",
+        "2",
+        "--out",
+        text(&out),
+        "--json",
+    ];
+    records.push(("a branch that was asked for".into(), run(&branched).json()));
     let symbolic = folder.join("symbolic.toml");
     let model = "name = \"symbolic\"\ncoordinates = [\"x\", \"y\"]\nparameters = [\"m\"]\nlagrangian = \"m (x'^2 + y'^2)/2\"\nconstraints = { c = \"x' = y y'\" }\n";
     std::fs::write(&symbolic, model).expect("a model");

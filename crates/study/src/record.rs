@@ -83,7 +83,7 @@ pub struct OptionsRecord {
     #[serde(default)]
     pub project: bool,
     /// Branch of the motion, where it was given on the command line.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub branch: Option<usize>,
 }
 
