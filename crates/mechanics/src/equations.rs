@@ -143,8 +143,6 @@ pub struct Equations {
     pub multipliers: Vec<(usize, Expr)>,
     /// Whether the variables depend on which velocities were chosen as independent.
     pub is_chart: bool,
-    /// m, the order of the derivatives that the equations determine: 2, accelerations, for constraints of first order.
-    pub order: u32,
     /// q^(m) as functions of the state for constraints of order m ≥ 2; empty for those of first order.
     pub highest: Vec<Expr>,
     /// Functions of the state that vanish along every admissible motion: conditions on the initial data that the equations
@@ -178,7 +176,6 @@ impl Equations {
             relations: Vec::new(),
             multipliers: Vec::new(),
             is_chart: false,
-            order: 2,
             highest: Vec::new(),
             conditions: Vec::new(),
             on_characteristics: None,
@@ -231,7 +228,6 @@ impl Equations {
             relations: implicit.iter().map(|(f, s)| (*f, s.symbol)).collect(),
             multipliers: Vec::new(),
             is_chart: characteristics.frame.is_natural(system),
-            order: 2,
             highest: Vec::new(),
             conditions: Vec::new(),
             on_characteristics: None,
@@ -258,7 +254,6 @@ impl Equations {
             relations: Vec::new(),
             multipliers: Vec::new(),
             is_chart: false,
-            order: 2,
             highest: Vec::new(),
             conditions: Vec::new(),
             on_characteristics: None,

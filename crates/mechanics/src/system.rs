@@ -2,7 +2,7 @@
 //!
 //! Everything derived here is exact. Indices: `i, j` run over the `n` coordinates, `l` over the constraints.
 
-use crate::constraint::{Constraint, ConstraintKind};
+use crate::constraint::Constraint;
 use crate::mass::{self, NamedMasses};
 use crate::particles;
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
@@ -568,14 +568,6 @@ impl System {
         !self
             .graph
             .is_free_of(e, &|s| self.prescribed_rate(s).is_some())
-    }
-
-    /// Constraints of order at most one: those that have equations of motion of the first-order theory.
-    pub fn first_order_constraints(&self) -> impl Iterator<Item = (usize, &Constraint)> {
-        self.constraints
-            .iter()
-            .enumerate()
-            .filter(|(_, c)| c.kind != ConstraintKind::HigherOrder)
     }
 
     /// m, the highest order of the constraints, at least 1.

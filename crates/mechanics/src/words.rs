@@ -9,6 +9,15 @@ pub fn quoted<T: AsRef<str>>(names: impl IntoIterator<Item = T>) -> String {
     quoted.join(", ")
 }
 
+/// "the constraint", "the constraint, differentiated once", "the constraint, differentiated 2 times".
+pub fn differentiated_so(what: &str, times: u32) -> String {
+    match times {
+        0 => what.to_string(),
+        1 => format!("{what}, differentiated once"),
+        times => format!("{what}, differentiated {times} times"),
+    }
+}
+
 /// "no constraints", "1 constraint", "2 constraints".
 pub fn counted(count: usize, one: &str, many: &str) -> String {
     match count {

@@ -18,6 +18,12 @@ pub struct Chart {
 /// Relative size below which a pivot of the scaled Jacobian counts as zero.
 pub const RANK_TOLERANCE: f64 = 1e-10;
 
+/// A chart is replaced when its pivot fell below this fraction of its value at the time of choice (theory 5.2).
+pub(crate) const DEGRADED: f64 = 0.1;
+
+/// A new chart must be better by this factor, or charts would chatter.
+pub(crate) const HYSTERESIS: f64 = 3.0;
+
 /// Chooses a chart by Gaussian elimination with complete pivoting on the scaled Jacobian: rows to unit length (zero
 /// rows stay zero), column j divided by `sqrt(|M_jj|)`.
 pub fn choose(jacobian: &[f64], r: usize, n: usize, mass_diagonal: &[f64]) -> Chart {

@@ -5,7 +5,7 @@
 //! functions of velocities) are brought back to zero after each step.
 
 use crate::accelerations::Accelerations;
-use crate::chart::{self, Chart};
+use crate::chart::{self, Chart, DEGRADED, HYSTERESIS};
 use crate::dense::Lu;
 use crate::follow::Follow;
 use crate::functions::{Functions, FunctionsError};
@@ -112,8 +112,6 @@ impl std::fmt::Debug for FormulationFlow<'_> {
 
 /// Velocities that differ by more than this part of the largest are not the same.
 const SAME: f64 = 1e-6;
-const DEGRADED: f64 = 0.1;
-const HYSTERESIS: f64 = 3.0;
 
 impl<'a> FormulationFlow<'a> {
     /// The flow from a consistent state, in the chart of the start. `own` gives data that coordinates and velocities do not

@@ -2,10 +2,10 @@
 //! integrated in its own state, which holds derivatives of coordinates up to order m - 1, multipliers, and unknowns that no
 //! formula gives (T2 §5).
 //!
-//! State (q, masses with a law of their own, variables). What vanishes along every motion, constraints of lower order, equations that were differentiated
-//! and implicit equations, is measured at each step and brought back to zero where asked.
+//! State (q, masses with a law of their own, variables). What vanishes along every motion, constraints of lower order,
+//! equations that were differentiated and implicit equations, is measured at each step and brought back to zero where asked.
 
-use crate::chart::{self, Chart};
+use crate::chart::{self, Chart, DEGRADED, HYSTERESIS};
 use crate::dense::Lu;
 use crate::follow::Follow;
 use crate::formulation_flow::FlowError;
@@ -78,9 +78,6 @@ impl std::fmt::Debug for JetFlow<'_> {
     }
 }
 
-/// A selection is replaced when its pivot fell below this fraction of its value at the time of choice.
-const DEGRADED: f64 = 0.1;
-const HYSTERESIS: f64 = 3.0;
 /// Determinants of larger systems are not watched.
 const LARGEST_WATCHED: usize = 5;
 

@@ -4,7 +4,7 @@
 //! constraints, which are then satisfied identically (affine constraints only).
 
 use crate::accelerations::Accelerations;
-use crate::chart::{self, Chart};
+use crate::chart::{self, Chart, DEGRADED, HYSTERESIS};
 use crate::drift::Drift;
 use crate::follow::Follow;
 use crate::initial::ConsistentState;
@@ -51,10 +51,6 @@ pub struct MultiplierFlow {
     zero_between: bool,
 }
 
-/// A chart is replaced when its pivot fell below this fraction of its value at the time of choice (theory 5.2).
-const DEGRADED: f64 = 0.1;
-/// A new chart must be better by this factor, or charts would chatter.
-const HYSTERESIS: f64 = 3.0;
 /// A stage whose pivot fell below this fraction of its value where the step began rejects the step.
 const UNUSABLE: f64 = 1e-3;
 /// A gradient counts as vanished below this fraction of its largest length so far.

@@ -174,18 +174,8 @@ impl Claim for InitialStateAdmissible {
                 return Verdict::Proved(proof).into();
             }
         }
-        Verdict::Numerical(Evidence {
-            samples: 1,
-            region: "the initial state".into(),
-            digits: 16,
-            residual: evidence.start_residual,
-            seed: None,
-            why_no_proof: format!(
-                "the initial data are rounded or were completed by projection; largest residual {:.1e}; {needed}",
-                evidence.start_residual
-            ),
-        })
-        .into()
+        let why = "the initial data are rounded or were completed by projection";
+        at_start(&evidence, why, &format!("; {needed}")).into()
     }
 }
 
@@ -199,16 +189,20 @@ fn of_higher_order(cx: &Context<'_>, evidence: &MotionEvidence) -> Verdict {
         };
         format!("; {dimension} data are needed{further}")
     });
+    let why = "the conditions on the initial data are evaluated in double precision";
+    at_start(evidence, why, &needed)
+}
+
+/// The largest residual at the start.
+fn at_start(evidence: &MotionEvidence, why: &str, needed: &str) -> Verdict {
+    let residual = evidence.start_residual;
     Verdict::Numerical(Evidence {
         samples: 1,
         region: "the initial state".into(),
         digits: 16,
-        residual: evidence.start_residual,
+        residual,
         seed: None,
-        why_no_proof: format!(
-            "the conditions on the initial data are evaluated in double precision; largest residual {:.1e}{needed}",
-            evidence.start_residual
-        ),
+        why_no_proof: format!("{why}; largest residual {residual:.1e}{needed}"),
     })
 }
 

@@ -8,7 +8,8 @@ use crate::formulations::{Formulation, Routh};
 use crate::linear::{dot, solve_linear};
 use crate::order::determined::{self, Determined};
 use crate::order::lifting;
-use chetaev_symbolic::verdict::Proof;
+use crate::words::differentiated_so;
+use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
 
 /// `order.lifting`.
@@ -151,7 +152,7 @@ pub(crate) fn admissible(cx: &Context<'_>, c: &Characteristics) -> Verdict {
     let rank = match cx.prover.rank(system, &c.basis, &c.manifold) {
         Ok(found) if found.minimum == c.k() => found.at_least,
         Ok(found) => match found.at_most {
-            Verdict::Proved(proof) => Verdict::Refuted(chetaev_symbolic::verdict::Counterexample {
+            Verdict::Proved(proof) => Verdict::Refuted(Counterexample {
                 point: Vec::new(),
                 quantity: "k minus the rank of B, at every state at least".into(),
                 residual: (
@@ -249,13 +250,10 @@ fn states(cx: &Context<'_>, determined: &Determined) -> Manifold {
     };
     let basis = basis(cx);
     let accelerations: Vec<_> = system.coordinates.iter().map(|c| c.a_symbol).collect();
-    let reactions = basis.reactions();
-    if determined.order < 3 || g.any_contains_any(&reactions, &accelerations) {
+    if determined.order < 3 || g.any_contains_any(&basis.reactions(), &accelerations) {
         return all;
     }
-    let sides = system.motion_left_sides().into_iter().zip(reactions);
-    let balance: Vec<Expr> = sides.map(|(w, reaction)| g.sub(w, reaction)).collect();
-    let Ok(values) = solve_linear(g, &balance, &accelerations) else {
+    let Ok(values) = solve_linear(g, &basis.balance(), &accelerations) else {
         return all;
     };
     let highest = |i: usize| cx.terms.jets[i].v_symbol;
@@ -282,13 +280,9 @@ fn description(cx: &Context<'_>, determined: &Determined) -> String {
         .map(|&s| g.symbol_text(s))
         .collect();
     let mut parts = vec![format!(
-        "constraints of order {}, equations of motion {}, solved for {}",
+        "constraints of order {}, {}, solved for {}",
         determined.order,
-        match determined.differentiations() {
-            0 => "as they are".to_string(),
-            1 => "differentiated once".into(),
-            times => format!("differentiated {times} times"),
-        },
+        differentiated_so("equations of motion", determined.differentiations()),
         unknowns.join(", ")
     )];
     if let Ok(equations) = Routh.equations(&basis(cx)) {

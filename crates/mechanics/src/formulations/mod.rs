@@ -155,12 +155,26 @@ impl Basis<'_> {
             .collect()
     }
 
+    /// `lambda_NAME` of the selected rows.
+    pub fn multiplier_names(&self) -> Vec<String> {
+        let names = self.constraint_names().into_iter();
+        names.map(|name| format!("lambda_{name}")).collect()
+    }
+
     /// The symbols `lambda_NAME` of the selected rows.
     pub fn lambda_symbols(&self) -> Vec<Expr> {
-        let g = &self.system.graph;
-        let names = self.constraint_names().into_iter();
+        let names = self.multiplier_names().into_iter();
         names
-            .map(|name| g.symbol(&format!("lambda_{name}"), 0))
+            .map(|name| self.system.graph.symbol(&name, 0))
+            .collect()
+    }
+
+    /// `w_i − Σ_l λ_l ∂f^l/∂q^i(m)` with the multipliers as symbols, length n: what vanishes by the equations of motion.
+    pub fn balance(&self) -> Vec<Expr> {
+        let sides = self.system.motion_left_sides().into_iter();
+        sides
+            .zip(self.reactions())
+            .map(|(w, reaction)| self.system.graph.sub(w, reaction))
             .collect()
     }
 

@@ -11,6 +11,7 @@ use crate::equations::{Equation, Equations, NamedExpr, StateVariable};
 use crate::formulations::{Basis, DeriveError};
 use crate::linear::{solve_linear, solve_with_multipliers};
 use crate::system::System;
+use crate::words::differentiated_so;
 use chetaev_symbolic::{Expr, Symbol};
 use rustc_hash::FxHashMap;
 
@@ -47,12 +48,8 @@ impl Determined {
 pub fn with_multipliers(basis: &Basis<'_>) -> Determined {
     let (system, terms) = (basis.system, basis.terms);
     let (g, m) = (&system.graph, terms.order);
-    let names: Vec<String> = multiplier_names(basis);
-    let sides = system
-        .motion_left_sides()
-        .into_iter()
-        .zip(basis.reactions());
-    let balance: Vec<Expr> = sides.map(|(w, reaction)| g.sub(w, reaction)).collect();
+    let names = basis.multiplier_names();
+    let balance = basis.balance();
     let lambdas: Vec<Symbol> = names.iter().map(|name| g.intern_symbol(name, 0)).collect();
     let with_reaction: Vec<bool> = balance
         .iter()
@@ -110,7 +107,7 @@ fn differentiated<'a>(
     for done in 0..times.iter().copied().max().unwrap_or(0) {
         for ((label, &value), &times) in labels.iter().zip(&level).zip(times) {
             if done < times {
-                conditions.push(balance_condition(label, done as usize, value));
+                conditions.push(balance_condition(label, done, value));
             }
         }
         level = derive(&level);
@@ -247,7 +244,6 @@ pub fn on_jets(
     };
     let mut equations = Equations::in_velocities(name, system, accelerations);
     equations.variables = variables;
-    equations.order = m;
     equations.highest = highest;
     equations.conditions = lifted_conditions(system, m);
     equations
@@ -312,7 +308,7 @@ fn multiplier_variables(
     in_state: &dyn Fn(Expr) -> Expr,
 ) -> Vec<StateVariable> {
     let g = &basis.system.graph;
-    let names = multiplier_names(basis);
+    let names = basis.multiplier_names();
     let mut variables = Vec::new();
     for order in 0..determined.multiplier_order.unwrap_or(0) {
         for name in &names {
@@ -368,29 +364,16 @@ fn lifted_conditions(system: &System, m: u32) -> Vec<NamedExpr> {
         .into_iter()
         .map(|condition| {
             let name = &system.constraints[condition.constraint].name;
-            let meaning = match condition.derivatives {
-                0 => format!("the constraint `{name}`"),
-                1 => format!("the constraint `{name}`, differentiated once"),
-                times => format!("the constraint `{name}`, differentiated {times} times"),
-            };
+            let what = format!("the constraint `{name}`");
+            let meaning = differentiated_so(&what, condition.derivatives);
             let primes = "'".repeat(condition.derivatives as usize);
             NamedExpr::new(format!("{name}{primes}"), condition.value, meaning)
         })
         .collect()
 }
 
-fn balance_condition(label: &str, times: usize, value: Expr) -> NamedExpr {
-    let meaning = match times {
-        0 => format!("the equation of motion of {label}"),
-        1 => format!("the equation of motion of {label}, differentiated once"),
-        times => format!("the equation of motion of {label}, differentiated {times} times"),
-    };
-    let name = format!("balance of {label}{}", "'".repeat(times));
+fn balance_condition(label: &str, times: u32, value: Expr) -> NamedExpr {
+    let meaning = differentiated_so(&format!("the equation of motion of {label}"), times);
+    let name = format!("balance of {label}{}", "'".repeat(times as usize));
     NamedExpr::new(name, value, meaning)
-}
-
-/// `lambda_NAME` of the selected rows.
-fn multiplier_names(basis: &Basis<'_>) -> Vec<String> {
-    let names = basis.constraint_names().into_iter();
-    names.map(|name| format!("lambda_{name}")).collect()
 }

@@ -51,21 +51,22 @@ constraints = { jerk = "x'''^2 + y'''^2 = j^2" }
 
 const NAMES: [&str; 3] = ["maggi", "volterra-first", "volterra-second"];
 
+fn all_forms_are_proved(case: &Case) {
+    for name in NAMES {
+        expect(case, &format!("formulation.equivalent#{name}"), "proved");
+    }
+    for name in &NAMES[1..] {
+        expect(case, &format!("formulation.identity#{name}"), "proved");
+        let special = format!("formulation.identity#{name}-special");
+        expect(case, &special, "proved");
+    }
+}
+
 #[test]
 fn all_forms_are_equivalent_on_the_worked_examples() {
     for text in [CURVATURE, MAGNITUDE, THIRD, REACTION, JERK] {
         let case = Case::new(text);
-        for name in NAMES {
-            expect(&case, &format!("formulation.equivalent#{name}"), "proved");
-        }
-        for name in &NAMES[1..] {
-            expect(&case, &format!("formulation.identity#{name}"), "proved");
-            expect(
-                &case,
-                &format!("formulation.identity#{name}-special"),
-                "proved",
-            );
-        }
+        all_forms_are_proved(&case);
         for claim in ["order.lifting", "order.characteristics", "order.determined"] {
             expect(&case, claim, "proved");
         }
@@ -230,17 +231,7 @@ fn e8_formulas_of_order_one_two_and_three_in_a_curved_chart() {
         ),
     ] {
         expect(&case, "order.characteristics", "proved");
-        for name in NAMES {
-            expect(&case, &format!("formulation.equivalent#{name}"), "proved");
-        }
-        for name in &NAMES[1..] {
-            expect(&case, &format!("formulation.identity#{name}"), "proved");
-            expect(
-                &case,
-                &format!("formulation.identity#{name}-special"),
-                "proved",
-            );
-        }
+        all_forms_are_proved(&case);
     }
 }
 
