@@ -5,45 +5,11 @@
     reason = "test code fails where it stands"
 )]
 
+mod common;
+
 use chetaev_model::model::{MassLaw, Thrust};
-use chetaev_model::{load, Model, ModelBuilder, NoFiles};
-use chetaev_symbolic::zero::assumptions::Assumptions;
-use chetaev_symbolic::zero::{decide_zero, ZeroTest};
-use chetaev_symbolic::{Expr, Verdict};
-
-#[track_caller]
-fn model(text: &str) -> Model {
-    let (model, diagnostics) = load("model.toml", text, &NoFiles, &[])
-        .into_result()
-        .unwrap_or_else(|problems| panic!("{problems}"));
-    assert!(diagnostics.list.is_empty(), "{diagnostics}");
-    model
-}
-
-/// The message about a model that is refused with one error.
-#[track_caller]
-fn refused(text: &str, words: &[&str]) {
-    let loaded = load("model.toml", text, &NoFiles, &[]);
-    let message = loaded.diagnostics.to_string();
-    assert!(loaded.model.is_none(), "accepted: {text}");
-    assert_eq!(loaded.diagnostics.list.len(), 1, "{message}");
-    for word in words {
-        assert!(message.contains(word), "`{word}` is missing in\n{message}");
-    }
-}
-
-#[track_caller]
-fn same(model: &Model, value: Expr, written: &str) {
-    let g = &model.graph;
-    let difference = g.sub(value, model.expression(written).unwrap());
-    let verdict = decide_zero(g, &ZeroTest::everywhere(&[difference], &Assumptions::new()));
-    let text = g.text(value);
-    assert!(
-        matches!(verdict, Verdict::Proved(_)),
-        "{text} is not {written}: {verdict:?}"
-    );
-}
-
+use chetaev_model::{load, ModelBuilder, NoFiles};
+use common::{model, refused, same, vanishes};
 const ROCKET: &str = r#"
 coordinates = ["x", "y"]
 parameters = { k = 0.1, c = 20 }
@@ -92,6 +58,7 @@ fn laws_may_need_each_other_but_not_in_a_circle() {
     );
     refused(
         &circle,
+        1,
         &["the definitions of `A'` and `B'` need each other"],
     );
 }
@@ -122,7 +89,7 @@ fn all_thrusts_are_read() {
 fn what_is_wrong_is_said_at_its_place() {
     let changed = |from: &str, to: &str, words: &[&str]| {
         assert!(ROCKET.contains(from), "{from}");
-        refused(&ROCKET.replace(from, to), words);
+        refused(&ROCKET.replace(from, to), 1, words);
     };
     let thrust = "{ exhaust_speed = \"c\" }";
     changed(
@@ -284,7 +251,7 @@ fn units_of_masses_and_thrust_are_checked() {
     assert!(model(WITH_UNITS).has_units);
     let changed = |from: &str, to: &str, words: &[&str]| {
         assert!(WITH_UNITS.contains(from), "{from}");
-        refused(&WITH_UNITS.replace(from, to), words);
+        refused(&WITH_UNITS.replace(from, to), 1, words);
     };
     changed(
         "rate = \"-k\"",
@@ -331,13 +298,7 @@ lagrangian = { T = "1/2 I x'^2 + p x'" }
         model.expression("x^2 x'^2/2 + 2 x x'^2").unwrap(),
     ]);
     let expected = g.add(&[expected, model.expression("-x^2 x'").unwrap()]);
-    let difference = g.sub(by_masses, expected);
-    let verdict = decide_zero(g, &ZeroTest::everywhere(&[difference], &Assumptions::new()));
-    assert!(
-        matches!(verdict, Verdict::Proved(_)),
-        "{}",
-        g.text(by_masses)
-    );
+    vanishes(&model, g.sub(by_masses, expected));
     same(
         &model,
         model.kinetic.unwrap(),

@@ -5,43 +5,11 @@
     reason = "test code fails where it stands"
 )]
 
+mod common;
+
+use chetaev_model::{load, NoFiles};
+use common::{model, refused, same};
 use std::collections::BTreeMap;
-
-use chetaev_model::{load, Model, NoFiles};
-use chetaev_symbolic::zero::assumptions::Assumptions;
-use chetaev_symbolic::zero::{decide_zero, ZeroTest};
-use chetaev_symbolic::{Expr, Verdict};
-
-fn model(text: &str) -> Model {
-    let (model, diagnostics) = load("model.toml", text, &NoFiles, &[])
-        .into_result()
-        .unwrap_or_else(|problems| panic!("{problems}"));
-    assert!(diagnostics.list.is_empty(), "{diagnostics}");
-    model
-}
-
-/// The message about a model that is refused with so many errors.
-fn refused(text: &str, errors: usize, words: &[&str]) {
-    let loaded = load("model.toml", text, &NoFiles, &[]);
-    let message = loaded.diagnostics.to_string();
-    assert!(loaded.model.is_none(), "accepted: {text}");
-    assert_eq!(loaded.diagnostics.list.len(), errors, "{message}");
-    for word in words {
-        assert!(message.contains(word), "`{word}` is missing in\n{message}");
-    }
-}
-
-/// The two are the same function.
-fn same(model: &Model, value: Expr, written: &str) {
-    let g = &model.graph;
-    let difference = g.sub(value, model.expression(written).unwrap());
-    let verdict = decide_zero(g, &ZeroTest::everywhere(&[difference], &Assumptions::new()));
-    let text = g.text(value);
-    assert!(
-        matches!(verdict, Verdict::Proved(_)),
-        "{text} is not {written}: {verdict:?}"
-    );
-}
 
 const PENDULUM: &str = r#"
 coordinates = ["theta"]

@@ -1,5 +1,6 @@
 //! Consistent initial data (theory 5.10): what is given is fixed, the rest is projected in the kinetic metric.
 
+pub mod branches;
 mod forms;
 pub mod jets;
 mod velocities;

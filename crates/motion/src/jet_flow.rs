@@ -6,55 +6,29 @@
 //! equations that were differentiated and implicit equations, is measured at each step and brought back to zero where asked.
 
 use crate::chart::{self, Chart, DEGRADED, HYSTERESIS};
-use crate::dense::Lu;
 use crate::follow::Follow;
 use crate::formulation_flow::FlowError;
 use crate::functions::Functions;
 use crate::initial::jets::JetStart;
 use crate::initial::ConsistentState;
-use crate::least_norm::{identity, least_step};
-use crate::numeric::Binding;
+use crate::least_norm::{identity, least_squares, least_step};
 use crate::row::RowLayout;
 use crate::run::WatchedFlow;
-use crate::watch::{masses_and_speeds, vanishing_parts, Watch, Watched};
+use crate::watch::Watch;
 use chetaev_integrate::{Control, EvaluationFailure, HaltReason, System as Flow};
-use chetaev_mechanics::words::quoted;
-use chetaev_mechanics::{Basis, Equations, Formulation, MotionTerms, Selection, System};
-use chetaev_symbolic::matrix::determinant;
-use chetaev_symbolic::{Expr, Graph, Node, Symbol};
+use chetaev_mechanics::{Equations, Selection};
+use chetaev_symbolic::Symbol;
+
+mod parts;
+
+pub use parts::Parts;
+use parts::{with_time, Compiled};
 
 /// Groups of the compiled motion, in order.
 const VELOCITIES: usize = 0;
 const RATES: usize = 1;
 const HIGHER: usize = 2;
 const MASSES: usize = 3;
-
-/// The equations for one selection of dependent derivatives, compiled.
-#[derive(Clone, Debug)]
-struct Compiled {
-    selection: Selection,
-    /// The state: coordinates, masses with a law of their own, then the variables.
-    symbols: Vec<Symbol>,
-    names: Vec<String>,
-    /// (t, state) → q', rates of the variables, derivatives of orders 2 to m, rates of the masses.
-    motion: Functions,
-    /// (t, state) → what vanishes, and its gradient by the state.
-    invariants: Functions,
-    pivot: f64,
-}
-
-/// What a flow is made of.
-#[derive(Clone, Copy)]
-pub struct Parts<'a> {
-    /// The formulation.
-    pub formulation: &'static dyn Formulation,
-    /// The system.
-    pub system: &'a System,
-    /// Its terms.
-    pub terms: &'a MotionTerms,
-    /// Values of parameters.
-    pub binding: &'a Binding,
-}
 
 /// A formulation's equations on a jet as a first-order system.
 pub struct JetFlow<'a> {
@@ -78,9 +52,6 @@ impl std::fmt::Debug for JetFlow<'_> {
     }
 }
 
-/// Determinants of larger systems are not watched.
-const LARGEST_WATCHED: usize = 5;
-
 impl<'a> JetFlow<'a> {
     /// The flow and its state at the start.
     ///
@@ -93,11 +64,11 @@ impl<'a> JetFlow<'a> {
         jets: &JetStart,
         project: bool,
     ) -> Result<(JetFlow<'a>, Vec<f64>), FlowError> {
-        let mut reactions = reactions(parts)?;
-        let selection = selection_at(parts, &mut reactions, selection, start, jets);
-        let (equations, current) = compile(parts, selection, 1.0)?;
+        let mut reactions = parts.reactions()?;
+        let selection = parts.selection_at(&mut reactions, selection, start, jets);
+        let (equations, current) = parts.compile(selection, 1.0)?;
         let mut flow = JetFlow {
-            watch: watch(parts, &equations, &current.symbols)?,
+            watch: parts.watch(&equations, &current.symbols)?,
             reactions,
             is_chart: equations.on_characteristics.is_some(),
             project,
@@ -258,7 +229,7 @@ impl<'a> JetFlow<'a> {
 
     /// What the equations determine, in quotes.
     pub fn unknowns(&self) -> String {
-        unknowns(self.parts)
+        self.parts.unknowns()
     }
 
     /// The state symbols.
@@ -381,10 +352,10 @@ impl<'a> JetFlow<'a> {
             rows: next.rows.clone(),
             dependent: next.dependent.clone(),
         };
-        let Ok((equations, entered)) = compile(self.parts, selection, next.pivot) else {
+        let Ok((equations, entered)) = self.parts.compile(selection, next.pivot) else {
             return Control::Continue;
         };
-        let Ok(watch) = watch(self.parts, &equations, &entered.symbols) else {
+        let Ok(watch) = self.parts.watch(&equations, &entered.symbols) else {
             return Control::Continue;
         };
         if watch.quantities != self.watch.quantities {
@@ -432,207 +403,6 @@ impl<'a> JetFlow<'a> {
         }
         changed
     }
-}
-
-/// `x` with least `|A x - f|`, A row by row with `size` columns, by the normal equations.
-fn least_squares(a: &[f64], f: &[f64], size: usize, all: &[usize]) -> Vec<f64> {
-    let mut normal = vec![0.0; size * size];
-    let mut right = vec![0.0; size];
-    for (row, &value) in a.chunks(size.max(1)).zip(f) {
-        for &i in all {
-            right[i] += row[i] * value;
-            for &j in all {
-                normal[i * size + j] += row[i] * row[j];
-            }
-        }
-    }
-    let mut lu = Lu::default();
-    match lu.factor(size, &normal) {
-        Ok(()) => lu.solve(&mut right),
-        Err(_) => return least_step(a, f, size, all, &identity(size)),
-    }
-    right
-}
-
-fn with_time(g: &Graph, symbols: &[Symbol]) -> Vec<Symbol> {
-    let mut variables = vec![g.intern_symbol("t", 0)];
-    variables.extend(symbols);
-    variables
-}
-
-fn compile(
-    parts: Parts<'_>,
-    selection: Selection,
-    pivot: f64,
-) -> Result<(Equations, Compiled), FlowError> {
-    let (system, g) = (parts.system, &parts.system.graph);
-    let basis = Basis {
-        system,
-        terms: parts.terms,
-        selection: &selection,
-        characteristics: None,
-    };
-    let equations = parts.formulation.equations(&basis)?;
-    let mut symbols = system.coordinate_symbols();
-    symbols.extend(system.masses.iter().map(|m| m.symbol));
-    symbols.extend(equations.variables.iter().map(|x| x.symbol));
-    let mut names: Vec<String> = system.coordinates.iter().map(|c| c.name.clone()).collect();
-    names.extend(system.masses.iter().map(|m| m.name.clone()));
-    names.extend(equations.variables.iter().map(|x| x.name.clone()));
-    let variables = with_time(g, &symbols);
-    let mut higher = Vec::new();
-    for order in 2..parts.terms.order {
-        higher.extend(system.coordinates.iter().map(|c| g.symbol(&c.name, order)));
-    }
-    higher.extend(match parts.terms.order {
-        1 => &equations.accelerations,
-        _ => &equations.highest,
-    });
-    let groups = [
-        ("velocities", equations.velocities.clone()),
-        ("rates", equations.rates()),
-        ("higher", higher),
-        (
-            "masses",
-            equations.masses.iter().map(|(_, rate)| *rate).collect(),
-        ),
-    ];
-    let vanishing = equations.conditions.iter().map(|c| c.value);
-    let implicit = equations.relations.iter().map(|(f, _)| *f);
-    let invariants: Vec<Expr> = vanishing.chain(implicit).collect();
-    let gradient = g.jacobian(&invariants, &symbols).concat();
-    let invariants = [("invariants", invariants), ("gradient", gradient)];
-    let compiled = Compiled {
-        motion: Functions::new(g, parts.binding, &variables, &groups)?,
-        invariants: Functions::new(g, parts.binding, &variables, &invariants)?,
-        selection,
-        symbols,
-        names,
-        pivot,
-    };
-    Ok((equations, compiled))
-}
-
-/// w and A as functions of t, masses, q, …, q^(m) (and q'' for m = 1).
-fn reactions(parts: Parts<'_>) -> Result<Functions, FlowError> {
-    let (system, g) = (parts.system, &parts.system.graph);
-    let highest = parts.terms.order.max(2);
-    let mut symbols: Vec<Symbol> = system.masses.iter().map(|m| m.symbol).collect();
-    symbols.extend((0..=highest).flat_map(|order| {
-        let own = system.coordinates.iter();
-        own.map(move |c| g.intern_symbol(&c.name, order))
-    }));
-    let groups = [
-        ("w", system.motion_left_sides()),
-        ("gradient", parts.terms.jacobian.concat()),
-    ];
-    let variables = with_time(g, &symbols);
-    Ok(Functions::new(g, parts.binding, &variables, &groups)?)
-}
-
-/// The derivatives of order m, in quotes.
-fn unknowns(parts: Parts<'_>) -> String {
-    let jets = parts.terms.jets.iter();
-    quoted(jets.map(|c| parts.system.graph.symbol_text(c.v_symbol)))
-}
-
-fn watch(parts: Parts<'_>, equations: &Equations, state: &[Symbol]) -> Result<Watch, FlowError> {
-    let variables = with_time(&parts.system.graph, state);
-    let watched = watched(parts, equations, state);
-    Ok(Watch::of_state(
-        parts.system,
-        parts.binding,
-        &variables,
-        watched,
-    )?)
-}
-
-/// The selection wanted, unless another one is much better conditioned at the start.
-fn selection_at(
-    parts: Parts<'_>,
-    reactions: &mut Functions,
-    wanted: &Selection,
-    start: &ConsistentState,
-    jets: &JetStart,
-) -> Selection {
-    let (system, terms) = (parts.system, parts.terms);
-    let (n, r) = (system.n(), terms.constraints.len());
-    let value = |symbol: Symbol| {
-        jets.values
-            .iter()
-            .find(|(s, _)| *s == symbol)
-            .map(|(_, x)| *x)
-    };
-    let mut state = [&start.q[..], &start.v[..]].concat();
-    for order in 2..=terms.order.max(2) {
-        let own = system.coordinates.iter();
-        state.extend(own.map(|c| {
-            let symbol = system.graph.intern_symbol(&c.name, order);
-            value(symbol).unwrap_or(0.0)
-        }));
-    }
-    if r == 0 || reactions.evaluate(start.t, &[&state]).is_err() {
-        return wanted.clone();
-    }
-    let (a, unit) = (reactions.group(1), vec![1.0; n]);
-    let best = chart::choose(a, r, n, &unit);
-    let present = Chart {
-        rows: wanted.rows.clone(),
-        dependent: wanted.dependent.clone(),
-        independent: Vec::new(),
-        pivot: 1.0,
-        gap: f64::INFINITY,
-    };
-    let poor = chart::quality(&present, a, r, n, &unit) < DEGRADED * best.pivot;
-    match poor && best.rank() == wanted.rows.len() {
-        true => Selection {
-            rows: best.rows,
-            dependent: best.dependent,
-        },
-        false => wanted.clone(),
-    }
-}
-
-/// Determinants of the linear systems of the equations, and what can vanish in constraints and Lagrangian.
-fn watched(parts: Parts<'_>, equations: &Equations, state: &[Symbol]) -> Vec<(Watched, Expr)> {
-    let (system, g) = (parts.system, &parts.system.graph);
-    let unknowns = unknowns(parts);
-    let mut found: Vec<(Watched, Expr)> = Vec::new();
-    for e in g.reachable(&equations.rates()) {
-        let Node::Solve { matrix, rhs } = g.node(e) else {
-            continue;
-        };
-        let Node::Matrix { entries, .. } = g.node(*matrix) else {
-            continue;
-        };
-        if rhs.len() > LARGEST_WATCHED {
-            continue;
-        }
-        let rows: Vec<Vec<Expr>> = entries.chunks(rhs.len()).map(<[Expr]>::to_vec).collect();
-        let square = g.powi(determinant(g, &rows), 2);
-        let what = Watched::Structure {
-            unknowns: unknowns.clone(),
-        };
-        if found.iter().all(|(_, own)| *own != square) {
-            found.push((what, square));
-        }
-    }
-    found.extend(masses_and_speeds(system));
-    found.extend(vanishing_parts(system, &parts.terms.constraints));
-    let of_state = |e: &Expr| {
-        let symbols = g.symbols_in(&[g.substitute(*e, &parts.binding.controls)]);
-        let known = |s: &Symbol| {
-            state.contains(s)
-                || g.symbol_name(*s) == "t"
-                || parts.binding.parameters.iter().any(|(own, _)| own == s)
-        };
-        symbols.iter().all(known)
-            && symbols
-                .iter()
-                .any(|s| state.contains(s) || g.symbol_name(*s) == "t")
-    };
-    found.retain(|(_, value)| of_state(value));
-    found
 }
 
 impl Flow for JetFlow<'_> {

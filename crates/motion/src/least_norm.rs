@@ -1,5 +1,7 @@
 //! Steps of least kinetic norm onto linearized constraints.
 
+use crate::dense::Lu;
+
 /// Euclidean length.
 pub(crate) fn norm(x: &[f64]) -> f64 {
     x.iter().map(|v| v * v).sum::<f64>().sqrt()
@@ -104,4 +106,24 @@ fn backward(l: &[f64], x: &mut [f64]) {
         let sum: f64 = (i + 1..m).map(|j| l[j * m + i] * x[j]).sum();
         x[i] = (x[i] - sum) / l[i * m + i];
     }
+}
+
+/// `x` with least `|A x - f|`, A row by row with `size` columns, by the normal equations.
+pub(crate) fn least_squares(a: &[f64], f: &[f64], size: usize, all: &[usize]) -> Vec<f64> {
+    let mut normal = vec![0.0; size * size];
+    let mut right = vec![0.0; size];
+    for (row, &value) in a.chunks(size.max(1)).zip(f) {
+        for &i in all {
+            right[i] += row[i] * value;
+            for &j in all {
+                normal[i * size + j] += row[i] * row[j];
+            }
+        }
+    }
+    let mut lu = Lu::default();
+    match lu.factor(size, &normal) {
+        Ok(()) => lu.solve(&mut right),
+        Err(_) => return least_step(a, f, size, all, &identity(size)),
+    }
+    right
 }

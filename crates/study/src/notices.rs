@@ -5,7 +5,7 @@ use crate::study::Motion;
 use chetaev_mechanics::words::quoted;
 use chetaev_mechanics::{choice, Prepared, System};
 use chetaev_model::model::{MassLaw, Model};
-use chetaev_motion::initial::jets::describe;
+use chetaev_motion::initial::branches::describe;
 use chetaev_motion::observe::Observer;
 use chetaev_symbolic::Expr;
 

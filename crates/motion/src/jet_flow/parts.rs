@@ -1,0 +1,228 @@
+//! The equations of a formulation on a jet for one selection of dependent derivatives: derived, compiled, and what makes them
+//! singular.
+
+use crate::chart::{self, Chart, DEGRADED};
+use crate::formulation_flow::FlowError;
+use crate::functions::Functions;
+use crate::initial::jets::JetStart;
+use crate::initial::ConsistentState;
+use crate::numeric::Binding;
+use crate::watch::{masses_and_speeds, vanishing_parts, Watch, Watched};
+use chetaev_mechanics::words::quoted;
+use chetaev_mechanics::{Basis, Equations, Formulation, MotionTerms, Selection, System};
+use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::{Expr, Graph, Node, Symbol};
+
+/// Determinants of larger systems are not watched.
+const LARGEST_WATCHED: usize = 5;
+
+/// The equations for one selection of dependent derivatives, compiled.
+#[derive(Clone, Debug)]
+pub(super) struct Compiled {
+    pub(super) selection: Selection,
+    /// The state: coordinates, masses with a law of their own, then the variables.
+    pub(super) symbols: Vec<Symbol>,
+    pub(super) names: Vec<String>,
+    /// (t, state) → q', rates of the variables, derivatives of orders 2 to m, rates of the masses.
+    pub(super) motion: Functions,
+    /// (t, state) → what vanishes, and its gradient by the state.
+    pub(super) invariants: Functions,
+    pub(super) pivot: f64,
+}
+
+/// What a flow is made of.
+#[derive(Clone, Copy)]
+pub struct Parts<'a> {
+    /// The formulation.
+    pub formulation: &'static dyn Formulation,
+    /// The system.
+    pub system: &'a System,
+    /// Its terms.
+    pub terms: &'a MotionTerms,
+    /// Values of parameters.
+    pub binding: &'a Binding,
+}
+
+impl Parts<'_> {
+    /// The equations of the formulation for a selection, and compiled.
+    pub(super) fn compile(
+        self,
+        selection: Selection,
+        pivot: f64,
+    ) -> Result<(Equations, Compiled), FlowError> {
+        let (system, g) = (self.system, &self.system.graph);
+        let basis = Basis {
+            system,
+            terms: self.terms,
+            selection: &selection,
+            characteristics: None,
+        };
+        let equations = self.formulation.equations(&basis)?;
+        let mut symbols = system.coordinate_symbols();
+        symbols.extend(system.masses.iter().map(|m| m.symbol));
+        symbols.extend(equations.variables.iter().map(|x| x.symbol));
+        let mut names: Vec<String> = system.coordinates.iter().map(|c| c.name.clone()).collect();
+        names.extend(system.masses.iter().map(|m| m.name.clone()));
+        names.extend(equations.variables.iter().map(|x| x.name.clone()));
+        let variables = with_time(g, &symbols);
+        let mut higher = Vec::new();
+        for order in 2..self.terms.order {
+            higher.extend(system.coordinates.iter().map(|c| g.symbol(&c.name, order)));
+        }
+        higher.extend(match self.terms.order {
+            1 => &equations.accelerations,
+            _ => &equations.highest,
+        });
+        let groups = [
+            ("velocities", equations.velocities.clone()),
+            ("rates", equations.rates()),
+            ("higher", higher),
+            (
+                "masses",
+                equations.masses.iter().map(|(_, rate)| *rate).collect(),
+            ),
+        ];
+        let vanishing = equations.conditions.iter().map(|c| c.value);
+        let implicit = equations.relations.iter().map(|(f, _)| *f);
+        let invariants: Vec<Expr> = vanishing.chain(implicit).collect();
+        let gradient = g.jacobian(&invariants, &symbols).concat();
+        let invariants = [("invariants", invariants), ("gradient", gradient)];
+        let compiled = Compiled {
+            motion: Functions::new(g, self.binding, &variables, &groups)?,
+            invariants: Functions::new(g, self.binding, &variables, &invariants)?,
+            selection,
+            symbols,
+            names,
+            pivot,
+        };
+        Ok((equations, compiled))
+    }
+
+    /// w and A as functions of t, masses, q, …, q^(m) (and q'' for m = 1).
+    pub(super) fn reactions(self) -> Result<Functions, FlowError> {
+        let (system, g) = (self.system, &self.system.graph);
+        let highest = self.terms.order.max(2);
+        let mut symbols: Vec<Symbol> = system.masses.iter().map(|m| m.symbol).collect();
+        symbols.extend((0..=highest).flat_map(|order| {
+            let own = system.coordinates.iter();
+            own.map(move |c| g.intern_symbol(&c.name, order))
+        }));
+        let groups = [
+            ("w", system.motion_left_sides()),
+            ("gradient", self.terms.jacobian.concat()),
+        ];
+        let variables = with_time(g, &symbols);
+        Ok(Functions::new(g, self.binding, &variables, &groups)?)
+    }
+
+    /// The derivatives of order m, in quotes.
+    pub(super) fn unknowns(self) -> String {
+        let jets = self.terms.jets.iter();
+        quoted(jets.map(|c| self.system.graph.symbol_text(c.v_symbol)))
+    }
+
+    pub(super) fn watch(self, equations: &Equations, state: &[Symbol]) -> Result<Watch, FlowError> {
+        let variables = with_time(&self.system.graph, state);
+        let watched = self.watched(equations, state);
+        Ok(Watch::of_state(
+            self.system,
+            self.binding,
+            &variables,
+            watched,
+        )?)
+    }
+
+    /// The selection wanted, unless another one is much better conditioned at the start.
+    pub(super) fn selection_at(
+        self,
+        reactions: &mut Functions,
+        wanted: &Selection,
+        start: &ConsistentState,
+        jets: &JetStart,
+    ) -> Selection {
+        let (system, terms) = (self.system, self.terms);
+        let (n, r) = (system.n(), terms.constraints.len());
+        let value = |symbol: Symbol| {
+            jets.values
+                .iter()
+                .find(|(s, _)| *s == symbol)
+                .map(|(_, x)| *x)
+        };
+        let mut state = [&start.q[..], &start.v[..]].concat();
+        for order in 2..=terms.order.max(2) {
+            let own = system.coordinates.iter();
+            state.extend(own.map(|c| {
+                let symbol = system.graph.intern_symbol(&c.name, order);
+                value(symbol).unwrap_or(0.0)
+            }));
+        }
+        if r == 0 || reactions.evaluate(start.t, &[&state]).is_err() {
+            return wanted.clone();
+        }
+        let (a, unit) = (reactions.group(1), vec![1.0; n]);
+        let best = chart::choose(a, r, n, &unit);
+        let present = Chart {
+            rows: wanted.rows.clone(),
+            dependent: wanted.dependent.clone(),
+            independent: Vec::new(),
+            pivot: 1.0,
+            gap: f64::INFINITY,
+        };
+        let poor = chart::quality(&present, a, r, n, &unit) < DEGRADED * best.pivot;
+        match poor && best.rank() == wanted.rows.len() {
+            true => Selection {
+                rows: best.rows,
+                dependent: best.dependent,
+            },
+            false => wanted.clone(),
+        }
+    }
+
+    /// Determinants of the linear systems of the equations, and what can vanish in constraints and Lagrangian.
+    fn watched(self, equations: &Equations, state: &[Symbol]) -> Vec<(Watched, Expr)> {
+        let (system, g) = (self.system, &self.system.graph);
+        let unknowns = self.unknowns();
+        let mut found: Vec<(Watched, Expr)> = Vec::new();
+        for e in g.reachable(&equations.rates()) {
+            let Node::Solve { matrix, rhs } = g.node(e) else {
+                continue;
+            };
+            let Node::Matrix { entries, .. } = g.node(*matrix) else {
+                continue;
+            };
+            if rhs.len() > LARGEST_WATCHED {
+                continue;
+            }
+            let rows: Vec<Vec<Expr>> = entries.chunks(rhs.len()).map(<[Expr]>::to_vec).collect();
+            let square = g.powi(determinant(g, &rows), 2);
+            let what = Watched::Structure {
+                unknowns: unknowns.clone(),
+            };
+            if found.iter().all(|(_, own)| *own != square) {
+                found.push((what, square));
+            }
+        }
+        found.extend(masses_and_speeds(system));
+        found.extend(vanishing_parts(system, &self.terms.constraints));
+        let of_state = |e: &Expr| {
+            let symbols = g.symbols_in(&[g.substitute(*e, &self.binding.controls)]);
+            let known = |s: &Symbol| {
+                state.contains(s)
+                    || g.symbol_name(*s) == "t"
+                    || self.binding.parameters.iter().any(|(own, _)| own == s)
+            };
+            symbols.iter().all(known)
+                && symbols
+                    .iter()
+                    .any(|s| state.contains(s) || g.symbol_name(*s) == "t")
+        };
+        found.retain(|(_, value)| of_state(value));
+        found
+    }
+}
+
+pub(super) fn with_time(g: &Graph, symbols: &[Symbol]) -> Vec<Symbol> {
+    let mut variables = vec![g.intern_symbol("t", 0)];
+    variables.extend(symbols);
+    variables
+}
