@@ -294,3 +294,21 @@ fn what_is_not_clear_is_refused() {
     assert_eq!(apart.exit, 0, "{}", apart.text);
     assert!(apart.text.contains("isotropically"), "{}", apart.text);
 }
+
+/// A mass that begins below zero is said, whichever way it is stated; one that begins above is not.
+#[test]
+fn a_negative_mass_at_the_start_is_said() {
+    for (mass, masses, said) in [
+        ("(t - 2)", "", "the mass of `p` = -2"),
+        ("S", "masses = { S = \"x - 1/2\" }", "`S` = -0.5"),
+    ] {
+        let ended = ended_text(&falling(mass, masses, "\"isotropic\"", "1"), &ask("routh"));
+        assert!(
+            ended.text.contains("negative at the start") && ended.text.contains(said),
+            "{mass}: {}",
+            ended.text
+        );
+    }
+    let positive = ended_text(&falling("(9 - t)", "", "\"isotropic\"", "1"), &ask("routh"));
+    assert!(!positive.text.contains("negative"), "{}", positive.text);
+}

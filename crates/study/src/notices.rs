@@ -193,3 +193,39 @@ pub(crate) fn left_assumptions(
         })
         .collect()
 }
+
+/// Masses that are negative where the motion begins; those that vanish later stop it, and those with a law of their own
+/// begin above zero.
+pub(crate) fn negative_masses(
+    model: &Model,
+    system: &System,
+    prepared: &Prepared,
+    motion: &Motion,
+) -> Option<String> {
+    let named = model.masses.iter().filter_map(|mass| match mass.law {
+        MassLaw::Value(value) => Some((format!("`{}`", mass.name), value)),
+        MassLaw::Rate { .. } => None,
+    });
+    let particles = system.particles.iter();
+    let masses: Vec<(String, Expr)> = named
+        .chain(particles.map(|p| (format!("the mass of `{}`", p.name), p.mass)))
+        .collect();
+    let values: Vec<Expr> = masses.iter().map(|(_, value)| *value).collect();
+    let run = &motion.evidence.run;
+    let observer = Observer::with_own(system, &prepared.terms, &motion.binding, &run.own, &values);
+    let series = observer.ok()?.along(run);
+    let negative: Vec<String> = masses
+        .iter()
+        .zip(series)
+        .filter_map(|((name, _), values)| {
+            let first = values.first().filter(|m| **m < 0.0)?;
+            Some(format!("{name} = {first}"))
+        })
+        .collect();
+    (!negative.is_empty()).then(|| {
+        format!(
+            "negative at the start: {}; a body of negative mass is accelerated against the force",
+            negative.join(", ")
+        )
+    })
+}

@@ -2,7 +2,7 @@
 
 use crate::derivation::{check_applies, NotDerived};
 use crate::motion_evidence::MotionEvidence;
-use crate::notices::{left_assumptions, notices};
+use crate::notices::{left_assumptions, negative_masses, notices};
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
 use crate::start::{
@@ -341,6 +341,7 @@ pub fn study(
     };
     if let Some(motion) = &motion {
         notices.extend(left_assumptions(&system, &prepared, motion));
+        notices.extend(negative_masses(&model, &system, &prepared, motion));
     }
     let verdicts = decide(&model, &system, &prepared, motion.as_ref(), &options, hooks);
     let unmatched = unmatched(&model, &verdicts, &options);
