@@ -11,7 +11,7 @@ use chetaev_mechanics::order::determined::with_multipliers;
 use chetaev_mechanics::order::lifting::derivative;
 use chetaev_mechanics::sample::{self, Generator};
 use chetaev_mechanics::{Characteristics, Context};
-use chetaev_symbolic::{Expr, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Graph, Node, Symbol, Verdict};
 use std::time::Instant;
 
 /// What is done to Volterra's equations.
@@ -257,7 +257,21 @@ fn differs(cx: &Context<'_>, residuals: &[Expr], seed: u64) -> bool {
                 .entry(symbol)
                 .or_insert_with(|| generator.between(-1.3, 1.3));
         }
-        let values = g.evaluate_f64(residuals, &|s| point.get(&s).copied());
-        values.is_ok_and(|values| values.iter().any(|x| x.abs() > 1e-6 && x.abs() < 1e9))
+        residuals.iter().any(|&residual| {
+            // Near a zero of a denominator the summands are large, and so is what rounding leaves of their sum.
+            let all = [vec![residual], summands(g, residual)].concat();
+            let values = g.evaluate_f64(&all, &|s| point.get(&s).copied());
+            values.is_ok_and(|values| {
+                let scale = values.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
+                values[0].abs() > 1e-6 * scale && scale < 1e9
+            })
+        })
     })
+}
+
+fn summands(g: &Graph, e: Expr) -> Vec<Expr> {
+    match g.node(e) {
+        Node::Sum { terms, .. } => terms.iter().map(|(e, c)| g.scale(c, *e)).collect(),
+        _ => vec![e],
+    }
 }
