@@ -208,7 +208,7 @@ impl<'a> JetFlow<'a> {
         names
     }
 
-    /// Places in the state of parameters that are no derivatives of coordinates and no multipliers.
+    /// Places in the state of what is no derivative of a coordinate and no multiplier: parameters, derivatives of multipliers.
     fn parameter_places(&self) -> Vec<usize> {
         let (system, g) = (self.parts.system, &self.parts.system.graph);
         let symbols = self.current.symbols.iter().enumerate();
@@ -216,7 +216,9 @@ impl<'a> JetFlow<'a> {
             .filter(|(_, &s)| {
                 let name = g.symbol_name(s);
                 let is_mass = system.masses.iter().any(|m| m.symbol == s);
-                system.coordinate_index(name).is_none() && !is_mass && !name.starts_with("lambda_")
+                // The multipliers themselves have places of their own in a row; their derivatives have none.
+                let is_multiplier = name.starts_with("lambda_") && g.symbol_order(s) == 0;
+                system.coordinate_index(name).is_none() && !is_mass && !is_multiplier
             })
             .map(|(i, _)| i)
             .collect()

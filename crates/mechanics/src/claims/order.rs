@@ -8,6 +8,7 @@ use crate::formulations::{Formulation, Routh};
 use crate::linear::{dot, solve_linear};
 use crate::order::determined::{self, Determined};
 use crate::order::lifting;
+use crate::order::reduced::without_multipliers;
 use crate::words::differentiated_so;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
@@ -353,9 +354,9 @@ pub fn dimension(cx: &Context<'_>, equations: &Equations) -> (usize, usize) {
 /// rank k the two have the same solutions, also after differentiation.
 pub(crate) fn equivalence(cx: &Context<'_>, c: &Characteristics, residuals: &[Expr]) -> Verdict {
     let (system, g) = (cx.system, &cx.system.graph);
-    let reduced = match without_multipliers(cx) {
+    let reduced = match without_multipliers(&basis(cx)) {
         Ok(reduced) => c.on_jet(system, &reduced),
-        Err(problem) => return Verdict::undecided(problem),
+        Err(problem) => return Verdict::undecided(problem.to_string()),
     };
     let independent = cx.selection.independent(system.n());
     let differences: Vec<Expr> = (0..c.k())
@@ -375,33 +376,4 @@ pub(crate) fn equivalence(cx: &Context<'_>, c: &Characteristics, residuals: &[Ex
     };
     let detail = "the left sides are combinations, with a matrix that is not singular, of the equations with multipliers after the multipliers are eliminated";
     with_detail(same, detail).and(admissible(cx, c))
-}
-
-/// `w_i - Σ_l λ_l A^l_i` for the independent i, λ from the dependent ones, as functions on the jet of coordinates.
-fn without_multipliers(cx: &Context<'_>) -> Result<Vec<Expr>, String> {
-    let (system, g) = (cx.system, &cx.system.graph);
-    let w = system.motion_left_sides();
-    let rows: Vec<&Vec<Expr>> = cx
-        .selection
-        .rows
-        .iter()
-        .map(|&row| &cx.terms.jacobian[row])
-        .collect();
-    let dependent = &cx.selection.dependent;
-    let matrix: Vec<Expr> = dependent
-        .iter()
-        .flat_map(|&d| rows.iter().map(move |row| row[d]))
-        .collect();
-    let right: Vec<Expr> = dependent.iter().map(|&d| w[d]).collect();
-    let multipliers = match rows.is_empty() {
-        true => Vec::new(),
-        false => g.solve(&matrix, &right).map_err(|e| e.to_string())?,
-    };
-    let independent = cx.selection.independent(system.n()).into_iter();
-    Ok(independent
-        .map(|i| {
-            let column: Vec<Expr> = rows.iter().map(|row| row[i]).collect();
-            g.sub(w[i], dot(g, &multipliers, &column))
-        })
-        .collect())
 }

@@ -3,9 +3,10 @@
 //! Each equation `G = 0` of a formulation has an order s of its own, that of the forces and of the directions of the
 //! reactions. Where s < m it is differentiated m - s times; with the constraints they then determine `q^(m)`. What was
 //! passed over, `G, D G, …, D^(m-s-1) G`, and the constraints of lower order with their derivatives, are conditions on the
-//! initial data and integrals of the motion. Equations that contain multipliers are differentiated equally often.
+//! initial data and integrals of the motion. Where equations share multipliers, how often each is differentiated follows from
+//! the structure of the whole system.
 
-use super::{highest_derivative, lifting};
+use super::{highest_derivative, lifting, structure};
 use crate::characteristics::Characteristics;
 use crate::equations::{Equation, Equations, NamedExpr, StateVariable};
 use crate::formulations::{Basis, DeriveError};
@@ -22,8 +23,8 @@ pub struct Determined {
     pub order: u32,
     /// How often each equation of motion was differentiated.
     pub times: Vec<u32>,
-    /// The order of the derivatives of the multipliers that are solved for, where there are any.
-    pub multiplier_order: Option<u32>,
+    /// The orders of the derivatives of the multipliers that are solved for; `None` for equations without multipliers.
+    pub multiplier_orders: Option<Vec<u32>>,
     /// What is solved for: parameters of the derivatives of order m, or these and derivatives of the multipliers.
     pub unknowns: Vec<Symbol>,
     /// The equations, differentiated, and constraints; functions of t, of derivatives of orders below m, and the unknowns.
@@ -43,34 +44,14 @@ impl Determined {
     }
 }
 
-/// The multiplier form `w_s = Σ_l λ_l A^l_s`, `f^l = 0` for `q^(m)` and the derivatives of order m - s of the multipliers, which
-/// are variables of the state where they are differentiated (T2 (5)).
+/// The multiplier form `w_s = Σ_l λ_l A^l_s`, `f^l = 0` for `q^(m)` and, where the equations are differentiated, derivatives of the
+/// multipliers; lower ones are variables of the state (T2 (5)).
 pub fn with_multipliers(basis: &Basis<'_>) -> Determined {
     let (system, terms) = (basis.system, basis.terms);
     let (g, m) = (&system.graph, terms.order);
     let names = basis.multiplier_names();
     let balance = basis.balance();
-    let lambdas: Vec<Symbol> = names.iter().map(|name| g.intern_symbol(name, 0)).collect();
-    let with_reaction: Vec<bool> = balance
-        .iter()
-        .map(|&e| g.contains_any(e, &lambdas))
-        .collect();
-    let times_of = |es: &[Expr]| m - highest_derivative(system, es).unwrap_or(0).min(m);
-    let reacting: Vec<Expr> = balance
-        .iter()
-        .zip(&with_reaction)
-        .filter(|(_, &own)| own)
-        .map(|(&e, _)| e)
-        .collect();
-    let multiplier_order = times_of(&reacting);
-    let times: Vec<u32> = balance
-        .iter()
-        .zip(&with_reaction)
-        .map(|(&e, &own)| match own {
-            true => multiplier_order,
-            false => times_of(&[e]),
-        })
-        .collect();
+    let (times, multiplier_orders) = differentiations(basis, &balance);
     let labels = system.coordinates.iter().map(|c| c.name.as_str());
     let (mut equations, conditions) = differentiated(labels, &balance, &times, &|es| {
         es.iter()
@@ -78,19 +59,72 @@ pub fn with_multipliers(basis: &Basis<'_>) -> Determined {
             .collect()
     });
     let mut unknowns: Vec<Symbol> = terms.jets.iter().map(|c| c.v_symbol).collect();
-    let multipliers = names.iter();
-    unknowns.extend(multipliers.map(|name| g.intern_symbol(name, multiplier_order)));
+    let multipliers = names.iter().zip(&multiplier_orders);
+    unknowns.extend(multipliers.map(|(name, &order)| g.intern_symbol(name, order)));
     equations.extend(basis.constraints());
     Determined {
         order: m,
         times,
-        multiplier_order: Some(multiplier_order),
+        multiplier_orders: Some(multiplier_orders),
         linear: basis.selection.rows.iter().all(|&row| terms.affine[row]),
         highest: terms.jets.iter().map(|c| c.v).collect(),
         unknowns,
         equations,
         conditions,
     }
+}
+
+/// How often each equation with multipliers is differentiated, and the orders of the derivatives of the multipliers that are
+/// solved for.
+fn differentiations(basis: &Basis<'_>, balance: &[Expr]) -> (Vec<u32>, Vec<u32>) {
+    let (system, m) = (basis.system, basis.terms.order);
+    let g = &system.graph;
+    let names = basis.multiplier_names();
+    let orders: Vec<Vec<Option<u32>>> = balance
+        .iter()
+        .chain(&basis.constraints())
+        .map(|&e| orders_in(system, &names, e))
+        .collect();
+    let n = system.n();
+    let least: Vec<u32> = (0..n + names.len())
+        .map(|j| if j < n { m } else { 0 })
+        .collect();
+    if let Some(found) = structure::offsets(&orders, &least) {
+        if found.unknowns[..n] == least[..n] && found.equations[n..].iter().all(|&c| c == 0) {
+            return (found.equations[..n].to_vec(), found.unknowns[n..].to_vec());
+        }
+    }
+    // Structurally singular: all that contain multipliers alike, so that what is missing can be said.
+    let times_of = |es: &[Expr]| m - highest_derivative(system, es).unwrap_or(0).min(m);
+    let lambdas: Vec<Symbol> = names.iter().map(|name| g.intern_symbol(name, 0)).collect();
+    let reacts = |e: &Expr| g.contains_any(*e, &lambdas);
+    let reacting: Vec<Expr> = balance.iter().copied().filter(|e| reacts(e)).collect();
+    let together = times_of(&reacting);
+    let times = balance.iter().map(|e| match reacts(e) {
+        true => together,
+        false => times_of(&[*e]),
+    });
+    (times.collect(), vec![together; names.len()])
+}
+
+/// The orders of the highest derivatives of the coordinates and of the multipliers in an equation.
+fn orders_in(system: &System, multipliers: &[String], e: Expr) -> Vec<Option<u32>> {
+    let g = &system.graph;
+    let n = system.n();
+    let mut orders = vec![None; n + multipliers.len()];
+    for symbol in g.symbols_in(&[e]) {
+        let name = g.symbol_name(symbol);
+        let multiplier = || {
+            multipliers
+                .iter()
+                .position(|own| own == name)
+                .map(|l| n + l)
+        };
+        if let Some(j) = system.coordinate_index(name).or_else(multiplier) {
+            orders[j] = orders[j].max(Some(g.symbol_order(symbol)));
+        }
+    }
+    orders
 }
 
 /// Each equation differentiated as often as asked, and what was passed over.
@@ -121,7 +155,8 @@ fn differentiated<'a>(
 }
 
 /// Equations `G_σ = 0` on the jet (t, q, …, q^(m-1), P) of characteristics, for P, each of which is differentiated so many
-/// `times`. G does not depend on P', which may be left in it by its form.
+/// `times`. G does not depend on P', which may be left in it by its form; neither do those depend on P that are
+/// differentiated.
 pub fn for_parameters(
     system: &System,
     characteristics: &Characteristics,
@@ -130,20 +165,34 @@ pub fn for_parameters(
 ) -> Determined {
     let (g, c) = (&system.graph, characteristics);
     let frozen: Vec<(Expr, Expr)> = c.parameters.iter().map(|p| (p.rate, g.zero())).collect();
-    let motion = g.substitute_all(motion, &frozen);
+    let mut motion = g.substitute_all(motion, &frozen);
+    let unknowns: Vec<Symbol> = c.parameters.iter().map(|p| p.symbol).collect();
+    let implicit: Vec<(Expr, Symbol)> = c.implicit().map(|(f, s)| (f, s.symbol)).collect();
+    let linear = implicit.is_empty() && !g.any_contains_any(&c.basis.concat(), &unknowns);
+    if linear {
+        let any: Vec<(Expr, Expr)> = unknowns
+            .iter()
+            .map(|&s| (g.symbol_expr(s), g.zero()))
+            .collect();
+        for (equation, _) in motion
+            .iter_mut()
+            .zip(&times)
+            .filter(|(_, &times)| times > 0)
+        {
+            *equation = g.substitute(*equation, &any);
+        }
+    }
     let labels = c.parameters.iter().map(|p| p.name.as_str());
     let (mut equations, conditions) = differentiated(labels, &motion, &times, &|es| {
         g.substitute_all(&c.total_derivative(system, es), &frozen)
     });
-    let implicit: Vec<(Expr, Symbol)> = c.implicit().map(|(f, s)| (f, s.symbol)).collect();
-    let mut unknowns: Vec<Symbol> = c.parameters.iter().map(|p| p.symbol).collect();
-    let linear = implicit.is_empty() && !g.any_contains_any(&c.basis.concat(), &unknowns);
+    let mut unknowns = unknowns;
     unknowns.extend(implicit.iter().map(|(_, symbol)| *symbol));
     equations.extend(implicit.iter().map(|(f, _)| *f));
     Determined {
         order: c.order,
         times,
-        multiplier_order: None,
+        multiplier_orders: None,
         unknowns,
         equations,
         highest: c.velocities.clone(),
@@ -259,9 +308,16 @@ pub fn on_jets(
 fn solve(basis: &Basis<'_>, determined: &Determined) -> Result<Vec<Expr>, DeriveError> {
     let g = &basis.system.graph;
     let n = basis.system.n();
-    if determined.multiplier_order.is_some() {
-        // What multiplies the multipliers is known, and free of the unknowns.
-        let jacobian = basis.jacobian();
+    if let Some(orders) = &determined.multiplier_orders {
+        // What multiplies the multipliers is known, and free of the unknowns. An equation that is differentiated less often
+        // than a multiplier does not contain the derivative that is solved for.
+        let mut jacobian = basis.jacobian();
+        for (row, &order) in jacobian.iter_mut().zip(orders) {
+            let entries = row.iter_mut().zip(&determined.times);
+            entries
+                .filter(|(_, &times)| times < order)
+                .for_each(|(entry, _)| *entry = g.zero());
+        }
         let multipliers: Vec<(Expr, Expr)> = determined.unknowns[n..]
             .iter()
             .map(|&s| (g.symbol_expr(s), g.zero()))
@@ -309,9 +365,12 @@ fn multiplier_variables(
 ) -> Vec<StateVariable> {
     let g = &basis.system.graph;
     let names = basis.multiplier_names();
+    let orders = determined.multiplier_orders.iter().flatten();
+    let pairs: Vec<(&String, u32)> = names.iter().zip(orders.copied()).collect();
+    let highest = pairs.iter().map(|(_, order)| *order).max().unwrap_or(0);
     let mut variables = Vec::new();
-    for order in 0..determined.multiplier_order.unwrap_or(0) {
-        for name in &names {
+    for order in 0..highest {
+        for (name, _) in pairs.iter().filter(|(_, own)| order < *own) {
             let symbol = g.intern_symbol(name, order);
             variables.push(StateVariable {
                 name: g.symbol_text(symbol),
@@ -372,7 +431,7 @@ fn lifted_conditions(system: &System, m: u32) -> Vec<NamedExpr> {
         .collect()
 }
 
-fn balance_condition(label: &str, times: u32, value: Expr) -> NamedExpr {
+pub(super) fn balance_condition(label: &str, times: u32, value: Expr) -> NamedExpr {
     let meaning = differentiated_so(&format!("the equation of motion of {label}"), times);
     let name = format!("balance of {label}{}", "'".repeat(times as usize));
     NamedExpr::new(name, value, meaning)

@@ -3,6 +3,8 @@
 
 pub mod determined;
 pub mod lifting;
+pub mod reduced;
+mod structure;
 
 use crate::system::System;
 use chetaev_symbolic::Expr;

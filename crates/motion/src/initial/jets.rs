@@ -8,6 +8,7 @@ use crate::least_norm::{identity, least_step};
 use crate::numeric::Binding;
 use chetaev_mechanics::equations::NamedExpr;
 use chetaev_mechanics::formulations::{DeriveError, Routh};
+use chetaev_mechanics::order::reduced::observable_conditions;
 use chetaev_mechanics::{Basis, Equations, Formulation, System};
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -139,10 +140,10 @@ pub fn jet_start(
     let state = search.conditions()?;
     let mut start = search.highest(state)?;
     let stated: Vec<Expr> = basis.system.constraints.iter().map(|c| c.stated).collect();
-    let conditions = equations.conditions.iter();
+    let conditions = observable_conditions(basis, &equations.conditions).into_iter();
     start.conditions = conditions
         .filter(|c| !stated.contains(&c.value))
-        .map(|c| (c.name.clone(), c.value))
+        .map(|c| (c.name, c.value))
         .collect();
     Ok(start)
 }

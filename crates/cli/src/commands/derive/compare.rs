@@ -23,11 +23,41 @@ pub(super) fn text(
     let (first, second) = (derive(a)?, derive(b)?);
     line.show("comparing", None);
     let mut text = format!("{} and {}\n", first.card.title, second.card.title);
-    let verdict = equivalence(cx, &first.equations, &second.equations);
     let of = (&first.equations, &second.equations);
-    text.push_str(&accelerations(cx, of, &verdict));
+    let verdict = match cx.terms.order {
+        1 => equivalence(cx, of.0, of.1),
+        _ => on_the_jet(cx, a, b),
+    };
+    match cx.terms.order {
+        1 => text.push_str(&accelerations(cx, of, &verdict)),
+        order => text.push_str(&format!(
+            "\nequations of order {order}, compared on the jet, where their variables differ:\n{}\n",
+            said(&verdict)
+        )),
+    }
     text.push_str(&left_sides(cx, &first, &second, &verdict));
     Ok(text)
+}
+
+/// Constraints of order two and more: accelerations are data there, so that both forms are held against the equations with
+/// multipliers.
+fn on_the_jet(cx: &Context<'_>, a: &str, b: &str) -> Verdict {
+    let of = |name: &str| {
+        let finding = cx.finding(&format!("formulation.equivalent#{name}"));
+        finding.verdict.clone()
+    };
+    let (first, second) = (of(a), of(b));
+    let is_proved = |verdict: &Verdict| matches!(verdict, Verdict::Proved(_));
+    match (is_proved(&first), is_proved(&second)) {
+        (true, true) => first.and(second),
+        (true, false) => second,
+        (false, true) => first,
+        (false, false) => Verdict::undecided(format!(
+            "neither `{a}` ({}) nor `{b}` ({}) is proved equal to the equations with multipliers",
+            first.word(),
+            second.word()
+        )),
+    }
 }
 
 /// The difference of the accelerations, before and after the constraints are used.
