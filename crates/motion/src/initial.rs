@@ -378,6 +378,9 @@ impl Search<'_> {
     }
 
     fn check_inertia(&self, chart: &Chart) -> Result<(), InitialError> {
+        if self.system.is_part {
+            return Ok(());
+        }
         let mut accelerations = Accelerations::default();
         match accelerations.solve(self.system, chart) {
             Ok(()) => Ok(()),

@@ -51,6 +51,8 @@ pub struct NumericSystem {
     pub constrained_positions: Vec<bool>,
     /// Whether a constraint contains a function with a jump: an angle with its cut, or a sign.
     pub jumps: bool,
+    /// Whether constraints of order two and more are left out here, which also determine accelerations.
+    pub is_part: bool,
     mass_envelope: Vec<usize>,
     dynamics: Functions,
     kinematics: Functions,
@@ -175,6 +177,7 @@ impl NumericSystem {
             constrained_velocities: occurring(g, &terms.jacobian.concat(), system.n()),
             constrained_positions: occurring(g, &gradient, system.n()),
             jumps: has_jumps(g, &[terms.constraints.clone(), stated.clone()].concat()),
+            is_part: lower.is_some(),
             mass_envelope: envelope(g, &terms.mass_matrix),
             dynamics: Functions::new(g, binding, &binding.variables, &groups)?,
             kinematics: Functions::new(g, binding, &binding.variables, &groups[2..5])?,

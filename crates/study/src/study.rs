@@ -185,6 +185,12 @@ pub enum StudyError {
         /// Right side.
         right: f64,
     },
+    /// Constraints of order two and more that leave the motion open everywhere.
+    #[error("constraints and equations of motion do not determine the motion at any state: {detail} (claim order.determined)")]
+    Undetermined {
+        /// What is singular, and how that was found.
+        detail: String,
+    },
     /// A tolerance out of range.
     #[error("the tolerance {tolerance:e} is out of range: it must lie between 2.3e-14 (double precision) and 0.1")]
     Tolerance {
@@ -306,13 +312,31 @@ fn prepare(
     let mut start = start;
     if let (Ok(found), true) = (&mut start, prepared.terms.order > 1) {
         match add_jets(model, &system, &prepared, found, options) {
-            Err(StudyError::Jets(problem)) if !asks_for_motion(model) => {
+            Err(StudyError::Jets(problem)) => {
+                let problem = match undetermined(&system, &prepared) {
+                    Some(detail) => StudyError::Undetermined { detail },
+                    None => StudyError::Jets(problem),
+                };
+                if asks_for_motion(model) {
+                    return Err(problem);
+                }
                 start = Err(format!("no motion was computed: {problem}"));
             }
             outcome => outcome?,
         }
     }
     Ok((system, prepared, start))
+}
+
+/// Why constraints and equations of motion determine no derivatives of order m at any state, if that is so.
+fn undetermined(system: &System, prepared: &Prepared) -> Option<String> {
+    let known = registry();
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let cx = Context::new(system, terms, selection, &known, Prover::default());
+    match &cx.finding("order.determined").verdict {
+        Verdict::Refuted(counterexample) => Some(counterexample.detail.clone()),
+        _ => None,
+    }
 }
 
 /// Takes a model through its claims and its motion.
