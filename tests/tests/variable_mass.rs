@@ -312,3 +312,20 @@ fn a_negative_mass_at_the_start_is_said() {
     let positive = ended_text(&falling("(9 - t)", "", "\"isotropic\"", "1"), &ask("routh"));
     assert!(!positive.text.contains("negative"), "{}", positive.text);
 }
+
+/// A mass that is named and stands in a stated kinetic energy ends the run as that of a particle does, whatever the order of
+/// the constraint and also where the constraint leaves the velocities an inertia.
+#[test]
+fn a_named_mass_that_reaches_zero_stops_the_run() {
+    for constraint in ["", "f = \"x' = 2*y' + t\"", "f = \"x'' = 2*y'' + t\""] {
+        let text = format!(
+            "coordinates = [\"x\", \"y\"]\nmasses = {{ M = \"1 - t\" }}\n\
+             lagrangian = {{ T = \"1/2 M x'^2 + 2 y'^2\", V = \"3 x\" }}\n[constraints]\n{constraint}\n\
+             [initial]\n\"x'\" = 1\n[simulation]\nt_end = 1.3\n"
+        );
+        let ended = ended_text(&text, &ask("routh"));
+        let words = "the mass of `M` reaches zero at t = 1.000000";
+        assert!(ended.text.contains(words), "{constraint}: {}", ended.text);
+        assert_eq!(ended.exit, 3);
+    }
+}

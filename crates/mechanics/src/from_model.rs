@@ -77,6 +77,14 @@ impl System {
                 .iter()
                 .filter_map(|m| Some((m.name.clone(), model.mass_rate(&m.name)?)))
                 .collect(),
+            mass_functions: model
+                .masses
+                .iter()
+                .filter_map(|m| match m.law {
+                    MassLaw::Value(value) => Some((m.name.clone(), value)),
+                    MassLaw::Rate { .. } => None,
+                })
+                .collect(),
             reactive_forces: model
                 .reactive_forces
                 .iter()

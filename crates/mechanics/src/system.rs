@@ -199,6 +199,8 @@ pub struct SystemParts {
     pub particles: Vec<Particle>,
     /// Masses with a law of their own, as (name, rate).
     pub masses: Vec<(String, Expr)>,
+    /// Named masses that are functions of t, q, q' and other masses, as (name, value).
+    pub mass_functions: Vec<(String, Expr)>,
     /// Reactive forces by coordinate name, beside those of the particles.
     pub reactive_forces: Vec<(String, Expr)>,
     /// The masses in a kinetic energy that is stated, where they change isotropically.
@@ -292,6 +294,8 @@ pub struct System {
     pub reactive_forces: Vec<Expr>,
     /// Masses with a law of their own.
     pub masses: Vec<MassVariable>,
+    /// Named masses that are functions of t, q, q' and other masses, as (name, value).
+    pub mass_functions: Vec<(String, Expr)>,
     /// Rayleigh's dissipation function.
     pub rayleigh: Option<Expr>,
     /// All constraints as stated, redundant ones included.
@@ -383,6 +387,7 @@ impl System {
             forces,
             reactive_forces,
             masses: masses(g, parts.masses),
+            mass_functions: parts.mass_functions,
             rayleigh: parts.rayleigh,
             constraints: Vec::new(),
             independent,

@@ -60,7 +60,7 @@ pub fn vanished(what: &Watched, t: f64, constraints: &[String]) -> Ending {
             constraints[*row]
         ),
         Watched::Mass { name } => {
-            format!("the mass of `{name}` reaches zero at t = {t:.9}: there is nothing left to move")
+            format!("the mass of `{name}` reaches zero at t = {t:.6}: there is nothing left to move")
         }
         Watched::Speed { particle } => format!(
             "the velocity of `{particle}` vanishes at t = {t:.9}: the thrust against it has no direction there"

@@ -199,10 +199,8 @@ impl Watch {
             let slope = &slopes[index * self.n..(index + 1) * self.n];
             let along: f64 = slope.iter().zip(a).map(|(s, a)| s * a).sum();
             // The square of a mass has twice the relative rate of the mass; where it is zero it has none.
-            let left = match values[index] <= ZERO * self.reference[index] {
-                true => 0.0,
-                false => -2.0 * values[index] / (drift[index] + along),
-            };
+            let left = -2.0 * values[index] / (drift[index] + along);
+            let left = if left.is_finite() { left } else { 0.0 };
             let soon = |gap: f64, at: f64| gap.abs() <= SOON * (1.0 + at.abs());
             let there = singular.is_some_and(|at| soon(t + left - at, at));
             (there || small && soon(left, t)).then_some((index, t + left))
@@ -264,9 +262,13 @@ fn masses(system: &System) -> Vec<(Watched, Expr)> {
     let g = &system.graph;
     let of_particles = system.particles.iter().map(|p| (&p.name, p.mass));
     let own = system.masses.iter().map(|m| (&m.name, m.expr));
+    let named = system
+        .mass_functions
+        .iter()
+        .map(|(name, value)| (name, *value));
     let mut seen: Vec<Expr> = Vec::new();
     let mut found = Vec::new();
-    for (name, value) in own.chain(of_particles) {
+    for (name, value) in own.chain(of_particles).chain(named) {
         if !mass::varies(system, value) || seen.contains(&value) {
             continue;
         }

@@ -197,15 +197,12 @@ pub(crate) fn left_assumptions(
 /// Masses that are negative where the motion begins; those that vanish later stop it, and those with a law of their own
 /// begin above zero.
 pub(crate) fn negative_masses(
-    model: &Model,
     system: &System,
     prepared: &Prepared,
     motion: &Motion,
 ) -> Option<String> {
-    let named = model.masses.iter().filter_map(|mass| match mass.law {
-        MassLaw::Value(value) => Some((format!("`{}`", mass.name), value)),
-        MassLaw::Rate { .. } => None,
-    });
+    let named = system.mass_functions.iter();
+    let named = named.map(|(name, value)| (format!("`{name}`"), *value));
     let particles = system.particles.iter();
     let masses: Vec<(String, Expr)> = named
         .chain(particles.map(|p| (format!("the mass of `{}`", p.name), p.mass)))

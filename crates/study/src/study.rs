@@ -365,7 +365,7 @@ pub fn study(
     };
     if let Some(motion) = &motion {
         notices.extend(left_assumptions(&system, &prepared, motion));
-        notices.extend(negative_masses(&model, &system, &prepared, motion));
+        notices.extend(negative_masses(&system, &prepared, motion));
     }
     let verdicts = decide(&model, &system, &prepared, motion.as_ref(), &options, hooks);
     let unmatched = unmatched(&model, &verdicts, &options);
