@@ -92,7 +92,7 @@ pub enum CharacteristicsError {
         source: SolveError,
     },
     /// No state satisfies the constraints.
-    #[error("no real state was found that satisfies the constraints {names} with gradients by the velocities that do not vanish: they contradict each other, or hold where nothing moves only")]
+    #[error("no real state was found that satisfies the constraints {names} with gradients that do not vanish: they contradict each other, or hold where nothing moves only")]
     NoAdmissibleState {
         /// The constraints.
         names: String,

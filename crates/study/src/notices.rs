@@ -1,7 +1,9 @@
 //! What a reader must know beside the verdicts.
 
+use crate::options::StudyOptions;
 use crate::start::{holds, Start};
 use crate::study::Motion;
+use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::words::quoted;
 use chetaev_mechanics::{choice, Prepared, System};
 use chetaev_model::model::{MassLaw, Model};
@@ -15,8 +17,9 @@ pub(crate) fn notices(
     system: &System,
     prepared: &Prepared,
     start: Option<&Start>,
-    formulation: &str,
+    options: &StudyOptions,
 ) -> Vec<String> {
+    let formulation = options.formulation.as_deref().unwrap_or(REFERENCE);
     let mut notices = holonomic(model, system);
     notices.extend(choice::unheeded(
         system,
@@ -32,6 +35,7 @@ pub(crate) fn notices(
         notices.extend(redundant(start));
         notices.extend(completed(start));
         notices.extend(branches(system, start));
+        notices.extend(unused_branch(model, start, options));
     }
     notices
 }
@@ -159,6 +163,16 @@ fn branches(system: &System, start: &Start) -> Option<String> {
         jets.taken + 1,
         listed.join(" | ")
     ))
+}
+
+/// A branch that is asked for where there is one motion only.
+fn unused_branch(model: &Model, start: &Start, options: &StudyOptions) -> Option<String> {
+    let wanted = options.branch.or(model.initial.branch)?;
+    let jets = start.start.jets.as_ref();
+    let found = jets.map_or(0, |jets| jets.branches.len());
+    (found < 2).then(|| {
+        format!("branch {wanted} is asked for and not used: the constraints admit one motion from the initial data")
+    })
 }
 
 /// Assumptions that the motion leaves: what was proved under them says nothing of the motion from there on.

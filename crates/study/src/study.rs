@@ -191,6 +191,12 @@ pub enum StudyError {
         /// What is singular, and how that was found.
         detail: String,
     },
+    /// Formulas of the model that violate its constraints.
+    #[error("{detail}; correct [characteristics] (claim order.characteristics)")]
+    WrongCharacteristics {
+        /// What is violated.
+        detail: String,
+    },
     /// A tolerance out of range.
     #[error("the tolerance {tolerance:e} is out of range: it must lie between 2.3e-14 (double precision) and 0.1")]
     Tolerance {
@@ -279,7 +285,11 @@ fn sentences(claims: &[UnknownClaim]) -> String {
 /// # Errors
 /// The first problem.
 pub fn check(model: &Model, hooks: &mut Hooks<'_>) -> Result<(), StudyError> {
-    prepare(model, &StudyOptions::default(), hooks).map(|_| ())
+    let (system, prepared, _) = prepare(model, &StudyOptions::default(), hooks)?;
+    match wrong_characteristics(&system, &prepared) {
+        Some(detail) => Err(StudyError::WrongCharacteristics { detail }),
+        None => Ok(()),
+    }
 }
 
 /// The system, its terms with independent constraints, and the start of the motion or why there is none.
@@ -330,10 +340,20 @@ fn prepare(
 
 /// Why constraints and equations of motion determine no derivatives of order m at any state, if that is so.
 fn undetermined(system: &System, prepared: &Prepared) -> Option<String> {
+    refuted(system, prepared, "order.determined")
+}
+
+/// Why the characteristics that the model states do not parametrize what the constraints admit, if that is so.
+fn wrong_characteristics(system: &System, prepared: &Prepared) -> Option<String> {
+    system.characteristics.as_ref()?;
+    refuted(system, prepared, "order.characteristics")
+}
+
+fn refuted(system: &System, prepared: &Prepared, claim: &str) -> Option<String> {
     let known = registry();
     let (terms, selection) = (&prepared.terms, &prepared.selection);
     let cx = Context::new(system, terms, selection, &known, Prover::default());
-    match &cx.finding("order.determined").verdict {
+    match &cx.finding(claim).verdict {
         Verdict::Refuted(counterexample) => Some(counterexample.detail.clone()),
         _ => None,
     }
@@ -350,8 +370,12 @@ pub fn study(
 ) -> Result<Study, StudyError> {
     let known = registry();
     let (system, prepared, numeric) = prepare(&model, &options, hooks)?;
-    let name = options.formulation.as_deref().unwrap_or(REFERENCE);
-    let mut notices = notices(&model, &system, &prepared, numeric.as_ref().ok(), name);
+    let mut notices = notices(&model, &system, &prepared, numeric.as_ref().ok(), &options);
+    if let Some(detail) = wrong_characteristics(&system, &prepared) {
+        notices.push(format!(
+            "{detail}; Maggi's and Volterra's equations are not derived by them"
+        ));
+    }
     let wants_motion = options.motion && options.claims.wants_group(Group::Motion, known.claims());
     let motion = match numeric {
         Ok(numeric) if wants_motion => Some(compute(
@@ -427,14 +451,17 @@ fn compute(
         times: run.times.clone(),
         ..settings.clone()
     };
-    let comparison = integrate(
-        &subject,
-        other,
-        &reached,
-        "integrating the other form",
-        hooks,
-    )
-    .ok();
+    let comparison = match check_applies(&cx, other.card()) {
+        Ok(()) => integrate(
+            &subject,
+            other,
+            &reached,
+            "integrating the other form",
+            hooks,
+        )
+        .ok(),
+        Err(_) => None,
+    };
     let finer = if options.global_error && !run.ending.interrupted {
         let tolerance = (settings.tolerance / 10.0).max(3e-14);
         let finer = RunSettings {

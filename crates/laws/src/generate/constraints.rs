@@ -207,7 +207,7 @@ pub(super) fn raised(draw: &mut Draw<'_>, rows: &[Expr], order: u32) -> Vec<Expr
     let g = draw.g;
     let mut pairs = Vec::new();
     for i in 0..draw.n() {
-        let lower = draw.index(2) as u32;
+        let lower = draw.index(order as usize) as u32;
         pairs.push((draw.v(i), g.symbol(&draw.names[i], order)));
         pairs.push((draw.q(i), g.symbol(&draw.names[i], lower)));
     }

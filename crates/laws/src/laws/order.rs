@@ -6,11 +6,12 @@
 
 use super::{Expected, Kind, Trial};
 use chetaev_mechanics::claims::formulation::basis;
-use chetaev_mechanics::formulations::DeriveError;
+use chetaev_mechanics::formulations::{formulation, DeriveError};
 use chetaev_mechanics::order::determined::with_multipliers;
 use chetaev_mechanics::order::lifting::derivative;
 use chetaev_mechanics::sample::{self, Generator};
 use chetaev_mechanics::{Characteristics, Context};
+use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Graph, Node, Symbol, Verdict};
 use std::time::Instant;
 
@@ -67,6 +68,9 @@ fn formulations(cx: &Context<'_>) -> Vec<Trial> {
         let claim = format!("formulation.equivalent#{name}");
         trials.push(claimed(cx, Kind::Formulation, name, &claim));
     }
+    for name in ["routh", "maggi", "volterra-first", "volterra-second"] {
+        trials.push(closed(cx, name));
+    }
     for name in ["volterra-first", "volterra-second"] {
         for special in ["", "-special"] {
             let claim = format!("formulation.identity#{name}{special}");
@@ -74,6 +78,44 @@ fn formulations(cx: &Context<'_>) -> Vec<Trial> {
         }
     }
     trials
+}
+
+/// The rates of a formulation are functions of its own state: an unknown that only seems to be solved for is left in them.
+fn closed(cx: &Context<'_>, name: &'static str) -> Trial {
+    let start = Instant::now();
+    let (system, g) = (cx.system, &cx.system.graph);
+    let derived = formulation(name).map(|f| f.equations(&basis(cx)));
+    let verdict = match derived {
+        Some(Ok(equations)) => {
+            let mut known = system.coordinate_symbols();
+            known.extend(system.masses.iter().map(|m| m.symbol));
+            known.extend(equations.variables.iter().map(|x| x.symbol));
+            let free = |s: &Symbol| known.contains(s) || !system.moves(g.symbol_name(*s));
+            let foreign: Vec<String> = g
+                .symbols_in(&equations.rates())
+                .into_iter()
+                .filter(|s| {
+                    !free(s) || g.symbol_name(*s).starts_with("lambda_") && !known.contains(s)
+                })
+                .map(|s| g.symbol_text(s))
+                .collect();
+            match foreign.is_empty() {
+                true => Verdict::Proved(Proof::structural("everywhere", "no other symbols occur")),
+                false => Verdict::undecided(format!("{} in the rates", foreign.join(", "))),
+            }
+        }
+        Some(Err(problem)) => Verdict::undecided(problem.to_string()),
+        None => Verdict::undecided("there is no such formulation"),
+    };
+    Trial {
+        kind: Kind::Other,
+        law: "its rates are functions of its state",
+        formulation: name,
+        about: String::new(),
+        expected: Expected::Proved,
+        verdict,
+        seconds: start.elapsed().as_secs_f64(),
+    }
 }
 
 /// Whether the equations seem to determine the derivatives of order m: the Jacobian has full rank in double precision at some

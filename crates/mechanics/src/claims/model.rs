@@ -120,7 +120,7 @@ impl Claim for ConstraintsIndependent {
                 cx.system,
                 &dependent_block(cx),
                 &manifold(cx),
-                "the minor of ∂f/∂v by the dependent velocities",
+                "the minor of the constraint gradients by the dependent derivatives",
             ),
             Some(left_out) => cx.prover.dependent_rows(left_out, cx.selection.rows.len()),
         };

@@ -119,6 +119,11 @@ impl Claim for OrderCharacteristics {
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        if self.subjects(cx).is_empty() {
+            // Nothing is claimed then; only formulations ask.
+            let detail = "the model states no formulas, and independent velocities are taken";
+            return Verdict::Proved(Proof::structural("everywhere", detail)).into();
+        }
         let basis = basis(cx);
         match basis.kinematic_characteristics() {
             Ok(c) => admissible(cx, &c).into(),
@@ -136,13 +141,18 @@ pub(crate) fn admissible(cx: &Context<'_>, c: &Characteristics) -> Verdict {
         .iter()
         .flat_map(|&row| terms.jacobian[row].clone())
         .collect();
+    let on = "on the jet (t, q, …, P)";
+    for (&row, residual) in rows.iter().zip(c.restrict(system, &constraints)) {
+        if let Verdict::Refuted(found) = cx.prover.identity(system, &[residual], &c.manifold, on) {
+            return Verdict::Refuted(violated(cx, row, found));
+        }
+    }
     let mut residuals = c.restrict(system, &constraints);
     let gradients = c.restrict(system, &gradients);
     for row in gradients.chunks(system.n()) {
         residuals.extend(c.contract(system, row));
     }
     residuals.retain(|&e| !g.is_zero(e));
-    let on = "on the jet (t, q, …, P)";
     let holds = match residuals.is_empty() {
         true => Verdict::Proved(Proof::structural(on, "f(φ) ≡ 0 and A B ≡ 0 by their form")),
         false => cx.prover.identity(system, &residuals, &c.manifold, on),
@@ -178,6 +188,25 @@ pub(crate) fn admissible(cx: &Context<'_>, c: &Characteristics) -> Verdict {
         c.k()
     );
     with_detail(holds.and(rank), &detail)
+}
+
+/// The formulas do not satisfy a constraint.
+fn violated(cx: &Context<'_>, row: usize, mut found: Counterexample) -> Counterexample {
+    let name = &cx.system.constraints[cx.terms.constraint_index[row]].name;
+    found.detail = format!(
+        "the characteristics do not satisfy the constraint `{name}`, which {}",
+        match found.residual.0 == found.residual.1 {
+            true => format!(
+                "is {} and not zero for them at the state found",
+                found.residual.0
+            ),
+            false => format!(
+                "lies between {} and {} and is not zero for them at the state found",
+                found.residual.0, found.residual.1
+            ),
+        }
+    );
+    found
 }
 
 fn with_detail(verdict: Verdict, detail: &str) -> Verdict {

@@ -21,7 +21,7 @@ static CARD: Card = Card {
     statement: "Lagrange's left sides contracted with a basis of virtual displacements: as many equations as degrees of freedom in velocity, without multipliers.",
     principle: Principle::DalembertLagrangeChetaev,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique"],
+    requires: &["model.accelerations-unique", "order.characteristics"],
     identity: None,
     unknowns: "rates of the k kinematic parameters",
     highest_order: u32::MAX,

@@ -18,7 +18,7 @@ static CARD: Card = Card {
     statement: "Rates of the momenta along kinematic characteristics, corrected by the turning of the virtual displacements and by the slope of the unrestricted kinetic energy.",
     principle: Principle::DalembertLagrangeChetaev,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique", "model.masses-free-of-velocity"],
+    requires: &["model.accelerations-unique", "order.characteristics", "model.masses-free-of-velocity"],
     identity: Some("Volterra's left sides minus forces are Maggi's on the whole jet (t, q, P, P')"),
     unknowns: "rates of the k kinematic characteristics",
     highest_order: u32::MAX,

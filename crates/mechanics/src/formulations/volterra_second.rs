@@ -18,7 +18,7 @@ static CARD: Card = Card {
     statement: "Lagrange's equations in quasi-coordinates for the restricted kinetic energy, corrected by the brackets of the virtual displacements with the motion.",
     principle: Principle::DalembertLagrangeChetaev,
     relation: Relation::Equivalent,
-    requires: &["model.accelerations-unique", "model.masses-free-of-velocity"],
+    requires: &["model.accelerations-unique", "order.characteristics", "model.masses-free-of-velocity"],
     identity: Some("Volterra's left sides minus forces are Maggi's on the whole jet (t, q, P, P')"),
     unknowns: "rates of the k kinematic characteristics",
     highest_order: u32::MAX,

@@ -6,6 +6,7 @@ use super::jets::{JetError, Search, STEPS};
 use crate::dense::Lu;
 use crate::functions::Functions;
 use crate::least_norm::{identity, least_step};
+use chetaev_mechanics::mass::with_velocity;
 use chetaev_mechanics::sample::Generator;
 use chetaev_mechanics::System;
 use chetaev_symbolic::{Expr, Symbol};
@@ -157,13 +158,15 @@ impl Search<'_> {
             return Ok(branch);
         }
         let mut lu = Lu::default();
-        if lu.factor(n, functions.group(1)).is_ok() {
+        // Where a mass contains velocities M is not symmetric, and nothing is least.
+        let is_symmetric = with_velocity(self.system).is_none();
+        if is_symmetric && lu.factor(n, functions.group(1)).is_ok() {
             let mut x = functions.group(0).to_vec();
             lu.solve(&mut x);
             let pairs = x.iter().zip(functions.group(0));
             branch.constraint_function = Some(pairs.map(|(a, b)| 0.5 * a * b).sum());
         }
-        if self.basis.terms.order == 2 {
+        if is_symmetric && self.basis.terms.order == 2 {
             branch.kind = kind(functions.group(2), functions.group(3), n);
         }
         Ok(branch)
@@ -199,6 +202,14 @@ impl Search<'_> {
         let given: Vec<(Symbol, f64)> = jets.filter_map(|s| Some((s, self.given(s)?))).collect();
         if !given.is_empty() {
             return match fitting(branches, &given)[..] {
+                [one] if self.data.branch.is_some_and(|wanted| wanted != one + 1) => {
+                    Err(JetError::AnotherBranch {
+                        wanted: self.data.branch.unwrap_or(0),
+                        given: self.texts(&given.iter().map(|(s, _)| *s).collect::<Vec<_>>()),
+                        found: one + 1,
+                        branches: listed(),
+                    })
+                }
                 [one] => Ok(one),
                 [] => Err(JetError::NotOnABranch {
                     given: self.texts(&given.iter().map(|(s, _)| *s).collect::<Vec<_>>()),
