@@ -114,6 +114,9 @@ pub enum JetError {
     },
 }
 
+/// What it costs to move a value that is not given, beside one that is.
+const FREE: f64 = 1e-10;
+
 /// The most steps of Newton's method.
 pub(super) const STEPS: usize = 80;
 
@@ -242,10 +245,11 @@ impl Search<'_> {
                 unknowns: self.texts(&self.beyond()),
             })
         };
+        let metric = self.metric();
         for _ in 0..STEPS {
             evaluate(functions, &x)?;
             let (f, gradient) = (functions.group(0), functions.group(1));
-            let step = least_step(gradient, f, x.len(), movable, &identity(x.len()));
+            let step = least_step(gradient, f, x.len(), movable, &metric);
             x.iter_mut().zip(&step).for_each(|(x, dx)| *x -= dx);
             if largest(&step) <= 1e-15 * (1.0 + largest(&x)) {
                 break;
@@ -253,6 +257,18 @@ impl Search<'_> {
         }
         evaluate(functions, &x)?;
         Ok((x, largest(functions.group(0))))
+    }
+
+    /// What is given moves as little as it can, and what is free follows it.
+    fn metric(&self) -> Vec<f64> {
+        let beyond = self.beyond();
+        let mut metric = identity(beyond.len());
+        for (i, &symbol) in beyond.iter().enumerate() {
+            if self.given(symbol).is_none() {
+                metric[i * beyond.len() + i] = FREE;
+            }
+        }
+        metric
     }
 
     fn contradicted(&self, beyond: &[Symbol], conditions: &[&NamedExpr], left: &[f64]) -> JetError {
