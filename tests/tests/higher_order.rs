@@ -395,12 +395,19 @@ fn an_acceleration_across_the_velocity_is_refused_or_projected() {
     }
 }
 
-/// Data of a multiplier or acceleration that the motion does not need are said to be none.
+/// The multiplier is none of the data where the equations determine it: for m = 2, and for nonlinear constraints of any order.
 #[test]
 fn a_multiplier_that_is_no_datum_is_said() {
-    let ended = run(&magnitude("\"y'\" = \"4/5\"\nlambda_push = 1"));
+    let unused = |name: &str| format!("initial values not used: `{name}`");
+    let fixed = |data: &str| run(&magnitude(&format!("\"y'\" = \"4/5\"\n{data}")));
+    let ended = fixed("lambda_push = 1");
     assert_eq!(ended.exit, 0, "{}", ended.text);
-    says(&ended, &["lambda_push"]);
+    says(&ended, &[&unused("lambda_push")]);
+    let jerked = "\"x''\" = \"3/5\"\n\"y''\" = \"4/5\"\nlambda_drive = 1\nbranch = 1";
+    says(&run(&jerk(jerked)), &[&unused("lambda_drive")]);
+    for used in [fixed(""), run(&sum("lambda_sum = 1"))] {
+        assert!(!used.text.contains("not used"), "{}", used.text);
+    }
 }
 
 fn accelerated(constraints: &str) -> String {

@@ -29,6 +29,8 @@ pub struct JetStart {
     pub values: Vec<(Symbol, f64)>,
     /// Names of what was completed, with the values found.
     pub completed: Vec<(String, f64)>,
+    /// Names of what was given although the other data determine it: multipliers that are no variables of the state.
+    pub unused: Vec<String>,
     /// All real branches found, least constraint first; one where the equations are linear.
     pub branches: Vec<Branch>,
     /// The branch taken.
@@ -141,6 +143,7 @@ pub fn jet_start(
     };
     let state = search.conditions()?;
     let mut start = search.highest(state)?;
+    start.unused = search.unused();
     let stated: Vec<Expr> = basis.system.constraints.iter().map(|c| c.stated).collect();
     let conditions = equations.conditions.iter();
     start.conditions = conditions
@@ -184,6 +187,16 @@ impl Search<'_> {
         let implicit = self.implicit();
         let own = self.equations.variables.iter().map(|x| x.symbol);
         own.filter(|s| !implicit.contains(s) && !self.binding.variables.contains(s))
+            .collect()
+    }
+
+    fn unused(&self) -> Vec<String> {
+        let mut data = self.beyond();
+        data.extend(self.basis.terms.jets.iter().map(|c| c.v_symbol));
+        let given = self.data.given.iter().map(|&(symbol, _)| symbol);
+        given
+            .filter(|symbol| !data.contains(symbol))
+            .map(|symbol| self.text(symbol))
             .collect()
     }
 
@@ -344,6 +357,7 @@ impl Search<'_> {
             return Ok(JetStart {
                 values: state.into_iter().chain(highest.iter().copied()).collect(),
                 completed,
+                unused: Vec::new(),
                 branches: vec![Branch {
                     values: highest,
                     constraint_function: None,
@@ -361,6 +375,7 @@ impl Search<'_> {
                 .chain(branches[taken].values.iter().copied())
                 .collect(),
             completed,
+            unused: Vec::new(),
             taken,
             branches,
             conditions: Vec::new(),
