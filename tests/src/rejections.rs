@@ -5,18 +5,6 @@ use crate::checks::{close, stops};
 use crate::runs::{along, ended, Ask, Ended};
 use crate::words;
 
-/// Why a rejection is not covered: its subject comes with another formulation.
-pub fn not_covered(rejection: &Rejection) -> Option<&'static str> {
-    let higher = rejection
-        .statement
-        .constraints
-        .iter()
-        .any(|constraint| constraint.equation.contains("''"));
-    higher.then_some(
-        "constraints of higher order are classified; their dynamics comes with Volterra's equations",
-    )
-}
-
 /// What is not as published.
 ///
 /// # Errors

@@ -68,7 +68,7 @@ impl<'a> JetFlow<'a> {
         let selection = parts.selection_at(&mut reactions, selection, start, jets);
         let (equations, current) = parts.compile(selection, 1.0)?;
         let mut flow = JetFlow {
-            watch: parts.watch(&equations, &current.symbols)?,
+            watch: parts.watch(&equations, &current)?,
             reactions,
             is_chart: equations.on_characteristics.is_some(),
             project,
@@ -357,7 +357,7 @@ impl<'a> JetFlow<'a> {
         let Ok((equations, entered)) = self.parts.compile(selection, next.pivot) else {
             return Control::Continue;
         };
-        let Ok(watch) = self.parts.watch(&equations, &entered.symbols) else {
+        let Ok(watch) = self.parts.watch(&equations, &entered) else {
             return Control::Continue;
         };
         if watch.quantities != self.watch.quantities {

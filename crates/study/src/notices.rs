@@ -32,6 +32,7 @@ pub(crate) fn notices(
     notices.extend(isotropic(model, system));
     notices.extend(mass_in_potential(model));
     if let Some(start) = start {
+        notices.extend(unused_beyond(start));
         notices.extend(redundant(start));
         notices.extend(completed(start));
         notices.extend(branches(system, start));
@@ -113,6 +114,17 @@ fn unused_multipliers(model: &Model, formulation: &str) -> Option<String> {
                 "vakonomic" => "the constrained extremum has the multipliers κ of the constraints and no others",
                 _ => "the state determines the multipliers in every formulation but `vakonomic`, which takes κ",
             }
+        )
+    })
+}
+
+/// Initial values of multipliers under constraints of higher order that the other data determine.
+fn unused_beyond(start: &Start) -> Option<String> {
+    let unused = &start.start.jets.as_ref()?.unused;
+    (!unused.is_empty()).then(|| {
+        format!(
+            "initial values not used: {}; the other initial data determine them",
+            quoted(unused)
         )
     })
 }

@@ -10,6 +10,7 @@
 mod acceptance_canonical;
 mod acceptance_embedding;
 mod acceptance_frames;
+mod acceptance_higher_order;
 mod acceptance_mass;
 mod acceptance_motion;
 mod acceptance_order;
@@ -17,6 +18,7 @@ mod acceptance_state_space;
 mod acceptance_support;
 mod acceptance_variation;
 mod acceptance_volterra;
+mod acceptance_volterra_higher;
 mod canonical;
 mod canonical_reduced;
 mod chaplygin;

@@ -30,6 +30,8 @@ pub struct JetStart {
     pub values: Vec<(Symbol, f64)>,
     /// Names of what was completed, with the values found.
     pub completed: Vec<(String, f64)>,
+    /// Names of what was given although the other data determine it: multipliers that are no variables of the state.
+    pub unused: Vec<String>,
     /// All real branches found, least constraint first; one where the equations are linear.
     pub branches: Vec<Branch>,
     /// The branch taken.
@@ -127,6 +129,9 @@ pub enum JetError {
     },
 }
 
+/// What it costs to move a value that is not given, beside one that is.
+const FREE: f64 = 1e-10;
+
 /// The most steps of Newton's method.
 pub(super) const STEPS: usize = 80;
 
@@ -151,6 +156,7 @@ pub fn jet_start(
     };
     let state = search.conditions()?;
     let mut start = search.highest(state)?;
+    start.unused = search.unused();
     let stated: Vec<Expr> = basis.system.constraints.iter().map(|c| c.stated).collect();
     let conditions = observable_conditions(basis, &equations.conditions).into_iter();
     start.conditions = conditions
@@ -194,6 +200,16 @@ impl Search<'_> {
         let implicit = self.implicit();
         let own = self.equations.variables.iter().map(|x| x.symbol);
         own.filter(|s| !implicit.contains(s) && !self.binding.variables.contains(s))
+            .collect()
+    }
+
+    fn unused(&self) -> Vec<String> {
+        let mut data = self.beyond();
+        data.extend(self.basis.terms.jets.iter().map(|c| c.v_symbol));
+        let given = self.data.given.iter().map(|&(symbol, _)| symbol);
+        given
+            .filter(|symbol| !data.contains(symbol))
+            .map(|symbol| self.text(symbol))
             .collect()
     }
 
@@ -255,10 +271,11 @@ impl Search<'_> {
                 unknowns: self.texts(&self.beyond()),
             })
         };
+        let metric = self.metric();
         for _ in 0..STEPS {
             evaluate(functions, &x)?;
             let (f, gradient) = (functions.group(0), functions.group(1));
-            let step = least_step(gradient, f, x.len(), movable, &identity(x.len()));
+            let step = least_step(gradient, f, x.len(), movable, &metric);
             x.iter_mut().zip(&step).for_each(|(x, dx)| *x -= dx);
             if largest(&step) <= 1e-15 * (1.0 + largest(&x)) {
                 break;
@@ -266,6 +283,18 @@ impl Search<'_> {
         }
         evaluate(functions, &x)?;
         Ok((x, largest(functions.group(0))))
+    }
+
+    /// What is given moves as little as it can, and what is free follows it.
+    fn metric(&self) -> Vec<f64> {
+        let beyond = self.beyond();
+        let mut metric = identity(beyond.len());
+        for (i, &symbol) in beyond.iter().enumerate() {
+            if self.given(symbol).is_none() {
+                metric[i * beyond.len() + i] = FREE;
+            }
+        }
+        metric
     }
 
     fn contradicted(&self, beyond: &[Symbol], conditions: &[&NamedExpr], left: &[f64]) -> JetError {
@@ -341,6 +370,7 @@ impl Search<'_> {
             return Ok(JetStart {
                 values: state.into_iter().chain(highest.iter().copied()).collect(),
                 completed,
+                unused: Vec::new(),
                 branches: vec![Branch {
                     values: highest,
                     constraint_function: None,
@@ -358,6 +388,7 @@ impl Search<'_> {
                 .chain(branches[taken].values.iter().copied())
                 .collect(),
             completed,
+            unused: Vec::new(),
             taken,
             branches,
             conditions: Vec::new(),

@@ -121,9 +121,13 @@ impl Parts<'_> {
         quoted(jets.map(|c| self.system.graph.symbol_text(c.v_symbol)))
     }
 
-    pub(super) fn watch(self, equations: &Equations, state: &[Symbol]) -> Result<Watch, FlowError> {
-        let variables = with_time(&self.system.graph, state);
-        let watched = self.watched(equations, state);
+    pub(super) fn watch(
+        self,
+        equations: &Equations,
+        compiled: &Compiled,
+    ) -> Result<Watch, FlowError> {
+        let variables = with_time(&self.system.graph, &compiled.symbols);
+        let watched = self.watched(equations, compiled);
         Ok(Watch::of_state(
             self.system,
             self.binding,
@@ -178,9 +182,33 @@ impl Parts<'_> {
         }
     }
 
-    /// Determinants of the linear systems of the equations, and what can vanish in constraints and Lagrangian.
-    fn watched(self, equations: &Equations, state: &[Symbol]) -> Vec<(Watched, Expr)> {
-        let (system, g) = (self.system, &self.system.graph);
+    /// `det A Aᵀ`, zero where the rank of the constraints falls. The equations may hide it: where their right sides vanish,
+    /// the determinant of their matrix is gone from the solution.
+    fn gram(self, rows: &[usize]) -> Option<Expr> {
+        let g = &self.system.graph;
+        if rows.is_empty() || rows.len() > LARGEST_WATCHED {
+            return None;
+        }
+        let product = |a: &[Expr], b: &[Expr]| {
+            let pairs = a.iter().zip(b);
+            g.add(&pairs.map(|(&a, &b)| g.mul(&[a, b])).collect::<Vec<_>>())
+        };
+        let jacobian = &self.terms.jacobian;
+        let matrix: Vec<Vec<Expr>> = rows
+            .iter()
+            .map(|&i| {
+                let others = rows.iter();
+                others
+                    .map(|&j| product(&jacobian[i], &jacobian[j]))
+                    .collect()
+            })
+            .collect();
+        Some(determinant(g, &matrix))
+    }
+
+    /// Determinants of the linear systems of the equations, the rank of the constraints, and what can vanish in constraints and Lagrangian.
+    fn watched(self, equations: &Equations, compiled: &Compiled) -> Vec<(Watched, Expr)> {
+        let (system, g, state) = (self.system, &self.system.graph, &compiled.symbols);
         let unknowns = self.unknowns();
         let mut found: Vec<(Watched, Expr)> = Vec::new();
         for e in g.reachable(&equations.rates()) {
@@ -201,6 +229,9 @@ impl Parts<'_> {
             if found.iter().all(|(_, own)| *own != square) {
                 found.push((what, square));
             }
+        }
+        if let Some(gram) = self.gram(&compiled.selection.rows) {
+            found.push((Watched::Structure { unknowns }, gram));
         }
         found.extend(masses_and_speeds(system));
         found.extend(vanishing_parts(system, &self.terms.constraints));
