@@ -118,11 +118,14 @@ fn both_branches_of_the_acceleration_of_fixed_magnitude() {
             "\"x''\" = \"alpha\"\n\"y''\" = 0",
             "\"x''\" = \"alpha\"",
             "branch = 2",
-            // What is given goes before a number.
-            "\"x''\" = \"alpha\"\nbranch = 1",
         ] {
             follows(&of(data), &second);
         }
+        // What is given goes before a number, and that is said.
+        let contradicting = of("\"x''\" = \"alpha\"\nbranch = 1");
+        follows(&contradicting, &second);
+        let said = "branch 1 is asked for and not used: the derivatives given lie on branch 2";
+        assert!(contradicting.text.contains(said), "{}", contradicting.text);
     }
 }
 
@@ -460,4 +463,132 @@ fn redundant_constraints_of_order_two_move_on() {
 fn a_constraint_without_real_accelerations_is_refused() {
     let text = accelerated("none = \"x''^2 + y''^2 + 1 = 0\"");
     refused(&text, &["no real", "`none`"]);
+}
+
+/// The largest distance of a quantity from what it should be along the motion in every form of the equations.
+fn stays(text: &str, quantity: &str, value: &str) {
+    for formulation in ["routh", "maggi", "volterra-first", "volterra-second"] {
+        let ask = Ask {
+            claims: vec!["motion.constraint-drift"],
+            formulation: Some(formulation),
+            ..Ask::default()
+        };
+        let ended = ended_text(text, &ask);
+        let study = ended.study.as_ref();
+        let study = study.unwrap_or_else(|| panic!("{formulation}: {}", ended.text));
+        let run = &study.motion.as_ref().unwrap().evidence.run;
+        assert!(run.ending.finished, "{formulation}: {}", ended.text);
+        let distance = along(study, run, &format!("{quantity} - ({value})")).unwrap();
+        let largest = distance.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
+        assert!(
+            largest < 1e-9,
+            "{formulation}: {quantity} is off by {largest:e}"
+        );
+    }
+}
+
+/// m = 4, free mass: w = (x'', y'') = λ (1, 1), so x'' = y'' = λ and f = 0 gives λ'' = 0: x = x0 + x1 t + λ0 t²/2 + λ1 t³/6.
+#[test]
+fn order_four_with_the_reaction_and_its_rate_in_the_state() {
+    for data in [
+        "\"x''\" = 0.3\n\"x'''\" = 0.2",
+        "lambda_f = 0.3\n\"lambda_f'\" = 0.2",
+    ] {
+        let text = format!(
+            "coordinates = [\"x\", \"y\"]\nlagrangian = \"1/2 (x'^2 + y'^2)\"\n[constraints]\nf = \"x'''' + y'''' = 0\"\n\
+             [initial]\nx = 1\n\"y'\" = 1\n{data}\n[simulation]\nt_end = 2\n"
+        );
+        stays(&text, "x", "1 + 0.15 t^2 + t^3/30");
+        stays(&text, "y", "t + 0.15 t^2 + t^3/30");
+    }
+}
+
+/// The directions of the reaction contain accelerations: x'' = -x + λ x'', y'' = -y + 2 λ y'' with the integral
+/// x''²/2 + y''² = c + t + t²/2 of the constraint.
+#[test]
+fn reactions_along_accelerations() {
+    let text = "coordinates = [\"x\", \"y\"]\nlagrangian = \"1/2 (x'^2 + y'^2) - 1/2 (x^2 + y^2)\"\n\
+        [constraints]\nf = \"x'' x''' + 2 y'' y''' = 1 + t\"\n[initial]\nx = 1\ny = 0.5\n\"y'\" = 0.5\n\"x'\" = 0.7\nlambda_f = 0.4\n\
+        [simulation]\nt_end = 0.3\n";
+    // At the start x'' = -1/(1 - 0.4), y'' = -0.5/(1 - 0.8).
+    let kept = "25/18 + 25/4 + t + t^2/2";
+    stays(text, "x''^2/2 + y''^2", kept);
+    stays(text, "2 y'' (x'' + x) - x'' (y'' + y)", "0");
+}
+
+/// Two systems side by side, one with a nonlinear constraint, whose equations contain the third derivatives, and one with a
+/// linear constraint, whose equations must be differentiated once: each moves as it does alone.
+#[test]
+fn nonlinear_and_linear_constraints_of_order_three_side_by_side() {
+    let model = |coordinates: &str, t: &str, constraints: &str, initial: &str| {
+        format!(
+            "coordinates = [{coordinates}]\nlagrangian = \"{t}\"\n[constraints]\n{constraints}\n[initial]\n{initial}\n\
+             [simulation]\nt_end = 0.5\n"
+        )
+    };
+    // x'' = λ 2 x''' and y'' = λ 2 y''' with |q'''| = 2: the third derivative stays along q'', so all is on a line.
+    let jerk = "\"x''\" = 0.6\n\"y''\" = 0.8\n\"x'''\" = 1.2\n\"y'''\" = 1.6";
+    let both = model(
+        "\"x\", \"y\", \"u\", \"w\"",
+        "1/2 (x'^2 + y'^2 + u'^2 + w'^2) - 1/2 (u^2 + w^2)",
+        "f = \"x'''^2 + y'''^2 = 4\"\ng = \"u''' + w''' = 0\"",
+        &format!("{jerk}\nu = 1\nlambda_g = 0.25"),
+    );
+    stays(&both, "x", "0.3 t^2 + 0.2 t^3");
+    // u'' + u = w'' + w = λ and (u + w)''' = 0 give u'' - w'' = -(u - w), u'' + w'' = c = 2 λ0 - (u0 + w0).
+    stays(&both, "u - w", "cos(t)");
+    stays(&both, "u + w", "1 - t^2/4");
+}
+
+/// The kinetic energy is singular, and regular on what the constraint admits: Bᵀ M B = 1.
+#[test]
+fn an_inertia_that_only_the_constraint_of_order_two_supplies() {
+    let text = "coordinates = [\"x\", \"y\"]\nlagrangian = \"1/2 x'^2 - y\"\n[constraints]\nf = \"x'' = y''\"\n\
+        [initial]\n\"x'\" = 1\ny = 2\n[simulation]\nt_end = 1\n";
+    stays(text, "x", "t - t^2/2");
+    stays(text, "y", "2 - t^2/2");
+}
+
+/// A motion that nothing determines is refused by the claim that says so.
+#[test]
+fn constraints_that_determine_no_motion() {
+    for text in [
+        "coordinates = [\"x\", \"y\"]\nlagrangian = \"1/2 (x'^2 - y'^2) - y\"\n[constraints]\nf = \"x'' = y''\"\n[simulation]\nt_end = 1\n",
+        "coordinates = [\"x\", \"y\", \"z\"]\nlagrangian = \"1/2 (x'^2 + y'^2 + z'^2)\"\n[constraints]\nf = \"x'''^2 + y'''^2 = z'''^2\"\n\
+         [initial]\n\"x''\" = 1\n\"y''\" = 0\n\"z''\" = 0.5\n[simulation]\nt_end = 1\n",
+    ] {
+        let ended = ended_text(text, &Ask::default());
+        assert_eq!(ended.exit, 2);
+        assert!(
+            ended.text.contains("do not determine the motion at any state") && ended.text.contains("order.determined"),
+            "{}",
+            ended.text
+        );
+    }
+}
+
+/// Formulas that violate a constraint are not used.
+#[test]
+fn characteristics_that_violate_the_constraint() {
+    let text = "coordinates = [\"x\", \"y\"]\nlagrangian = \"1/2 (x'^2 + y'^2) - 1/2 (x^2 + 4 y^2)\"\n[constraints]\nf = \"x''' + y''' = 0\"\n\
+        [characteristics]\nparameters = [\"P\"]\n\"x'''\" = \"P\"\n\"y'''\" = \"2 P + t\"\n[initial]\nx = 1\n\"y'\" = 1\nlambda_f = 0.3\n\
+        [simulation]\nt_end = 1\n";
+    let said = "the characteristics do not satisfy the constraint `f`";
+    let maggi = Ask {
+        formulation: Some("maggi"),
+        ..Ask::default()
+    };
+    let refused = ended_text(text, &maggi);
+    assert!(
+        refused.exit == 2 && refused.text.contains(said),
+        "{}",
+        refused.text
+    );
+    let noticed = ended_text(text, &Ask::default());
+    assert!(noticed.text.contains(said), "{}", noticed.text);
+    assert_eq!(noticed.verdict("order.characteristics").word(), "refuted");
+    assert_eq!(
+        noticed.verdict("formulation.equivalent#maggi").word(),
+        "not-applicable"
+    );
 }

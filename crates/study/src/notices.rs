@@ -180,10 +180,17 @@ fn branches(system: &System, start: &Start) -> Option<String> {
 /// A branch that is asked for where there is one motion only.
 fn unused_branch(model: &Model, start: &Start, options: &StudyOptions) -> Option<String> {
     let wanted = options.branch.or(model.initial.branch)?;
-    let jets = start.start.jets.as_ref();
-    let found = jets.map_or(0, |jets| jets.branches.len());
-    (found < 2).then(|| {
-        format!("branch {wanted} is asked for and not used: the constraints admit one motion from the initial data")
+    let (found, taken) = match &start.start.jets {
+        Some(jets) => (jets.branches.len(), jets.taken + 1),
+        None => (0, 0),
+    };
+    if found < 2 {
+        return Some(format!(
+            "branch {wanted} is asked for and not used: the constraints admit one motion from the initial data"
+        ));
+    }
+    (taken != wanted).then(|| {
+        format!("branch {wanted} is asked for and not used: the derivatives given lie on branch {taken}")
     })
 }
 

@@ -201,15 +201,15 @@ fn radical(draw: &mut Draw<'_>, dependent: usize, others: &[usize]) -> Expr {
     g.add(&parts)
 }
 
-/// Constraints on derivatives of higher order: those in the place of velocities, and velocities in the place of some
-/// coordinates.
-pub(super) fn raised(draw: &mut Draw<'_>, rows: &[Expr], order: u32) -> Vec<Expr> {
+/// Constraints on derivatives of higher order: those in the place of velocities, and derivatives of orders up to `lower` in
+/// the place of some coordinates.
+pub(super) fn raised(draw: &mut Draw<'_>, rows: &[Expr], order: u32, lower: u32) -> Vec<Expr> {
     let g = draw.g;
     let mut pairs = Vec::new();
     for i in 0..draw.n() {
-        let lower = draw.index(order as usize) as u32;
+        let own = draw.index(lower as usize + 1) as u32;
         pairs.push((draw.v(i), g.symbol(&draw.names[i], order)));
-        pairs.push((draw.q(i), g.symbol(&draw.names[i], lower)));
+        pairs.push((draw.q(i), g.symbol(&draw.names[i], own)));
     }
     g.substitute_all(rows, &pairs)
 }

@@ -11,7 +11,7 @@ use crate::order::lifting;
 use crate::order::reduced::without_multipliers;
 use crate::words::differentiated_so;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 
 /// `order.lifting`.
 #[derive(Clone, Copy, Debug)]
@@ -286,19 +286,51 @@ fn states(cx: &Context<'_>, determined: &Determined) -> Manifold {
     let Ok(values) = solve_linear(g, &basis.balance(), &accelerations) else {
         return all;
     };
-    let highest = |i: usize| cx.terms.jets[i].v_symbol;
+    let solved: Vec<_> = accelerations.into_iter().zip(values).collect();
     let n = system.n();
-    let differentiated = determined.times.iter().enumerate().filter(|(_, &t)| t > 0);
+    let differentiated: Vec<usize> = (0..n).filter(|&i| determined.times[i] > 0).collect();
+    if let Some(further) = linear_part(g, determined, &differentiated) {
+        return Manifold {
+            implicit: Vec::new(),
+            solved: [solved, further].concat(),
+        };
+    }
+    let highest = |i: usize| cx.terms.jets[i].v_symbol;
     let constraints = determined.equations[n..]
         .iter()
         .zip(&cx.selection.dependent);
     let implicit = differentiated
-        .map(|(i, _)| (determined.equations[i], highest(i)))
+        .iter()
+        .map(|&i| (determined.equations[i], highest(i)))
         .chain(constraints.map(|(&f, &d)| (f, highest(d))));
     Manifold {
         implicit: implicit.collect(),
-        solved: accelerations.into_iter().zip(values).collect(),
+        solved,
     }
+}
+
+/// The differentiated equations and the constraints solved for the unknowns in which they are affine together, where these
+/// are as many.
+fn linear_part(
+    g: &Graph,
+    determined: &Determined,
+    differentiated: &[usize],
+) -> Option<Vec<(Symbol, Expr)>> {
+    let n = determined.times.len();
+    let mut equations: Vec<Expr> = differentiated
+        .iter()
+        .map(|&i| determined.equations[i])
+        .collect();
+    equations.extend(&determined.equations[n..]);
+    let mut unknowns = determined.unknowns.clone();
+    // What stands in the slopes by the others enters nonlinearly.
+    let slopes = g.jacobian(&equations, &unknowns).concat();
+    unknowns.retain(|&symbol| !g.any_contains_any(&slopes, &[symbol]));
+    if differentiated.is_empty() || unknowns.len() != equations.len() {
+        return None;
+    }
+    let values = solve_linear(g, &equations, &unknowns).ok()?;
+    Some(unknowns.into_iter().zip(values).collect())
 }
 
 /// What is solved for, the dimension, the data and the integrals, in words.

@@ -202,14 +202,6 @@ impl Search<'_> {
         let given: Vec<(Symbol, f64)> = jets.filter_map(|s| Some((s, self.given(s)?))).collect();
         if !given.is_empty() {
             return match fitting(branches, &given)[..] {
-                [one] if self.data.branch.is_some_and(|wanted| wanted != one + 1) => {
-                    Err(JetError::AnotherBranch {
-                        wanted: self.data.branch.unwrap_or(0),
-                        given: self.texts(&given.iter().map(|(s, _)| *s).collect::<Vec<_>>()),
-                        found: one + 1,
-                        branches: listed(),
-                    })
-                }
                 [one] => Ok(one),
                 [] => Err(JetError::NotOnABranch {
                     given: self.texts(&given.iter().map(|(s, _)| *s).collect::<Vec<_>>()),

@@ -107,18 +107,6 @@ pub enum JetError {
         /// As they are listed.
         branches: Vec<String>,
     },
-    /// Given highest derivatives that lie on another branch than the one asked for.
-    #[error("branch {wanted} is asked for, and the given {given} lies on branch {found}; leave one of them out, the branches are:\n{}", branches.join("\n"))]
-    AnotherBranch {
-        /// Asked for.
-        wanted: usize,
-        /// As given.
-        given: String,
-        /// Where it lies.
-        found: usize,
-        /// As they are listed.
-        branches: Vec<String>,
-    },
     /// Given highest derivatives that lie on no branch.
     #[error("the given {given} lies on no branch of the motion; the branches are:\n{}", branches.join("\n"))]
     NotOnABranch {
