@@ -70,6 +70,11 @@ impl<W: Word> Factored<W> {
         }
     }
 
+    /// Number of rows.
+    pub(crate) fn size(&self) -> usize {
+        self.size
+    }
+
     /// The pivots of the last factorization in state l; NaN before the first.
     pub(crate) fn range(&self, l: usize) -> PivotRange {
         self.ranges[l]
@@ -174,6 +179,19 @@ impl<W: Word> Factored<W> {
         None
     }
 
+    /// Writes the factors, the pivots and the rows of `count` states from `first` on, one number for each state,
+    /// the states next to each other; native code solves with them.
+    pub(crate) fn copy_states(&self, first: usize, count: usize, to: &mut [f64]) {
+        let words = self.factors.iter().chain(&self.pivots);
+        let mut cells = to.chunks_exact_mut(count);
+        for (word, cell) in words.zip(&mut cells) {
+            (0..count).for_each(|l| cell[l] = word.lane(first + l));
+        }
+        for (i, cell) in (0..self.size).zip(cells) {
+            (0..count).for_each(|l| cell[l] = f64::from(self.rows[i * W::LANES + first + l]));
+        }
+    }
+
     /// Solves A x = b, where b is `rhs(i, l)`; x replaces the contents of `x`.
     pub(crate) fn solve(&self, rhs: impl Fn(usize, usize) -> f64, x: &mut [W]) {
         let n = self.size;
@@ -199,7 +217,7 @@ impl<W: Word> Factored<W> {
     }
 }
 
-fn range(pivots: impl Iterator<Item = f64>) -> PivotRange {
+pub(crate) fn range(pivots: impl Iterator<Item = f64>) -> PivotRange {
     let nothing = PivotRange {
         smallest: f64::INFINITY,
         largest: 0.0,

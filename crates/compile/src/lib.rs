@@ -35,22 +35,29 @@
 
 mod allocate;
 mod arithmetic;
+mod backend;
 mod decode;
 mod display;
 mod emit;
 pub mod evaluate;
 mod factor;
+mod frames;
 pub mod interpret;
 mod kernel;
 mod lanes;
 pub mod lower;
+#[cfg(all(unix, target_arch = "x86_64"))]
+pub mod native;
 pub mod program;
 mod schedule;
 pub mod verify;
 
+pub use backend::{backend, Backend, VARIABLE};
 pub use evaluate::{BlockEvaluator, EvaluateFailure, Evaluator};
 pub use interpret::{BlockWorkspace, Interpreter, Workspace};
 pub use lanes::{Lanes, LANES};
 pub use lower::{LowerError, Lowering};
+#[cfg(all(unix, target_arch = "x86_64"))]
+pub use native::Native;
 pub use program::Program;
 pub use verify::VerifyError;

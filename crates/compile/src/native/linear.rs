@@ -1,0 +1,175 @@
+//! Linear systems: L D Lᵀ written out up to a measured size, everything else by calls.
+//!
+//! Where a pivot leaves a doubt, the state is marked as failed; the interpreter then evaluates it, pivots, and
+//! reports what there is to report. The quick path stays short, and failures are the interpreter's own.
+
+use super::assembler::{Float, Predicate};
+use super::call::Helper;
+use super::code::{Builder, Value};
+use super::dense;
+use crate::frames::Pivots;
+use crate::program::{Factorization, Matrix};
+
+/// Up to this size L D Lᵀ is written out, see `examples/measure.rs`.
+pub(crate) const UNROLLED: usize = 20;
+
+/// A factorized matrix, as code sees it.
+#[derive(Clone, Debug)]
+pub(crate) enum Factored {
+    /// L below the diagonal, row by row, and the reciprocals of the pivots.
+    Unrolled {
+        size: usize,
+        lower: Vec<Value>,
+        reciprocals: Vec<Value>,
+    },
+    /// In cells of the frame.
+    Called { size: usize, cells: i32 },
+}
+
+/// Factorizes a matrix with these entries.
+pub(crate) fn factor(b: &mut Builder, matrix: &Matrix, entries: &[Value]) -> (Factored, Pivots) {
+    let size = matrix.size;
+    if matrix.factorization == Factorization::Ldlt && size <= UNROLLED {
+        return unrolled(b, size, entries);
+    }
+    let cells = b.unknown_cells(dense::cells(size));
+    for (i, &entry) in entries.iter().enumerate() {
+        b.store(entry, b.cell(cells, i));
+    }
+    let helper = Helper::Factor {
+        size: size as u16,
+        factorization: matrix.factorization,
+    };
+    b.push(super::code::Op::Call { helper, cells });
+    let pivots = Pivots {
+        cells: b.cell(cells, size * size).offset,
+        size,
+    };
+    (Factored::Called { size, cells }, pivots)
+}
+
+/// The position of the entry (i, j), i > j, among those below the diagonal.
+fn below(i: usize, j: usize) -> usize {
+    i * (i - 1) / 2 + j
+}
+
+/// A = L D Lᵀ, row by row; entries that are zero in every state take no part.
+fn unrolled(b: &mut Builder, size: usize, entries: &[Value]) -> (Factored, Pivots) {
+    let zero = b.constant(0.0);
+    let one = b.constant(1.0);
+    let mut lower: Vec<Value> = Vec::with_capacity(size * size / 2);
+    let mut reciprocals: Vec<Value> = Vec::with_capacity(size);
+    let mut pivots: Vec<Value> = Vec::with_capacity(size);
+    let stored = b.unknown_cells(size);
+    for i in 0..size {
+        // The row of D Lᵀ transposed: what is left of the entries before the division by the pivots.
+        let mut scaled: Vec<Value> = Vec::with_capacity(i);
+        for j in 0..i {
+            let factors = (0..j).map(|k| (scaled[k], lower[below(j, k)]));
+            let entry = subtract_products(b, entries[i * size + j], factors);
+            scaled.push(entry);
+        }
+        let row: Vec<Value> = (0..i)
+            .map(|j| {
+                if b.is_zero(scaled[j]) {
+                    zero
+                } else {
+                    b.mul(scaled[j], reciprocals[j])
+                }
+            })
+            .collect();
+        let factors = (0..i).map(|k| (scaled[k], row[k]));
+        let pivot = subtract_products(b, entries[i * size + i], factors);
+        b.store(pivot, b.cell(stored, i));
+        pivots.push(pivot);
+        reciprocals.push(b.float(Float::Div, one, pivot));
+        lower.extend(row);
+    }
+    check(b, &pivots);
+    let factored = Factored::Unrolled {
+        size,
+        lower,
+        reciprocals,
+    };
+    (
+        factored,
+        Pivots {
+            cells: stored,
+            size,
+        },
+    )
+}
+
+/// `start − Σ a b`, without the products that are zero.
+fn subtract_products(
+    b: &mut Builder,
+    start: Value,
+    products: impl Iterator<Item = (Value, Value)>,
+) -> Value {
+    let mut sum = start;
+    for (x, y) in products {
+        if !b.is_zero(x) && !b.is_zero(y) {
+            sum = b.neg_mul_add(x, y, sum);
+        }
+    }
+    sum
+}
+
+/// Marks states in which a pivot is not well above zero. The sum is not a number, or infinite, if a pivot is.
+fn check(b: &mut Builder, pivots: &[Value]) {
+    let threshold = b.constant(dense::NEGLIGIBLE * pivots.len() as f64);
+    let (mut least, mut sum) = (pivots[0], pivots[0]);
+    for &pivot in &pivots[1..] {
+        least = b.float(Float::Min, least, pivot);
+        sum = b.add(sum, pivot);
+    }
+    let bound = b.mul(threshold, sum);
+    // Not: bound < least, so that what is not a number fails.
+    let bad = b.compare(Predicate::NotLess, bound, least);
+    b.fail(bad);
+}
+
+/// Solves for a right-hand side.
+pub(crate) fn solve(b: &mut Builder, factored: &Factored, rhs: &[Value]) -> Vec<Value> {
+    match factored {
+        Factored::Called { size, cells } => {
+            let at = b.cells(*size);
+            for (i, &value) in rhs.iter().enumerate() {
+                b.store(value, b.cell(at, i));
+            }
+            let helper = Helper::Solve {
+                size: *size as u16,
+                distance: cells - at,
+            };
+            b.push(super::code::Op::Call { helper, cells: at });
+            (0..*size)
+                .map(|i| {
+                    let place = b.cell(at, i);
+                    b.at(place.base, place.offset)
+                })
+                .collect()
+        }
+        Factored::Unrolled {
+            size,
+            lower,
+            reciprocals,
+        } => {
+            let mut x: Vec<Value> = Vec::with_capacity(*size);
+            for i in 0..*size {
+                let factors = (0..i).map(|k| (lower[below(i, k)], x[k]));
+                let value = subtract_products(b, rhs[i], factors);
+                x.push(value);
+            }
+            for (x, &reciprocal) in x.iter_mut().zip(reciprocals) {
+                if !b.is_zero(*x) {
+                    *x = b.mul(*x, reciprocal);
+                }
+            }
+            for i in (0..*size).rev() {
+                let factors = (i + 1..*size).map(|k| (lower[below(k, i)], x[k]));
+                x[i] = subtract_products(b, x[i], factors);
+            }
+            x
+        }
+    }
+}
