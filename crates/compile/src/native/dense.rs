@@ -73,14 +73,23 @@ fn eliminate<const W: usize>(
     let (done, below) = factors.split_at_mut((k + 1) * n);
     let (pivot, pivot_row) = done[k * n + k..].split_at_mut(1);
     pivots[k] = pivot[0];
-    let reciprocal: [f64; W] = std::array::from_fn(|l| 1.0 / pivot[0][l]);
+    let mut reciprocal = [0.0; W];
+    for l in 0..W {
+        reciprocal[l] = 1.0 / pivot[0][l];
+    }
     pivot[0] = reciprocal;
     for (i, row) in below.chunks_exact_mut(n).enumerate() {
         let (left, right) = row[..end(k + 1 + i)].split_at_mut(k + 1);
-        let multiplier: [f64; W] = std::array::from_fn(|l| left[k][l] * reciprocal[l]);
+        let mut multiplier = left[k];
+        for l in 0..W {
+            multiplier[l] *= reciprocal[l];
+        }
         left[k] = multiplier;
+        // Closures of the standard library would not be compiled for the processor's fused operations.
         for (a, u) in right.iter_mut().zip(&*pivot_row) {
-            *a = std::array::from_fn(|l| (-multiplier[l]).mul_add(u[l], a[l]));
+            for l in 0..W {
+                a[l] = (-multiplier[l]).mul_add(u[l], a[l]);
+            }
         }
     }
 }
@@ -134,14 +143,17 @@ pub(crate) fn solve<const W: usize>(n: usize, cells: &[f64], x: &mut [f64]) {
         for (upper, known) in row[1..].iter().zip(&*known) {
             subtract(&mut rest[i], upper, known);
         }
-        let reciprocal = row[0];
-        rest[i] = std::array::from_fn(|l| rest[i][l] * reciprocal[l]);
+        for l in 0..W {
+            rest[i][l] *= row[0][l];
+        }
     }
 }
 
 #[target_feature(enable = "avx2,fma")]
 fn subtract<const W: usize>(x: &mut [f64; W], a: &[f64; W], b: &[f64; W]) {
-    *x = std::array::from_fn(|l| (-a[l]).mul_add(b[l], x[l]));
+    for l in 0..W {
+        x[l] = (-a[l]).mul_add(b[l], x[l]);
+    }
 }
 
 /// Puts entry `rows[i]` of `x` first to place i, in each lane by itself, without storage: along each cycle of the

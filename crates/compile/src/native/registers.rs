@@ -554,3 +554,264 @@ impl<'c> Allocator<'c> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::native::assembler::{Bits, Float};
+    use crate::native::code::{Builder, SCRATCH_END};
+    use std::collections::HashMap;
+
+    /// What a place or a register holds, told by how it was computed: two contents are equal if they are computed in
+    /// the same way from the same inputs.
+    type Content = u64;
+
+    fn mix(parts: &[u64]) -> Content {
+        parts.iter().fold(0x9E37_79B9_7F4A_7C15, |hash, &part| {
+            (hash ^ part)
+                .wrapping_mul(0xFF51_AFD7_ED55_8CCD)
+                .rotate_left(29)
+        })
+    }
+
+    fn kind(operation: Operation) -> u64 {
+        let text = format!("{operation:?}");
+        mix(&text.bytes().map(u64::from).collect::<Vec<u64>>())
+    }
+
+    fn of_place(place: Place) -> Content {
+        mix(&[place.base as u64, place.offset as u64])
+    }
+
+    /// A product and a sum; factors may be exchanged.
+    fn fused(sign: Sign, a: Content, b: Content, c: Content) -> Content {
+        mix(&[kind(Operation::Fused(sign)), a.min(b), a.max(b), c])
+    }
+
+    fn applied(operation: Operation, operands: &[Content]) -> Content {
+        match *operands {
+            [a, b] if operation.is_commutative() => mix(&[kind(operation), a.min(b), a.max(b)]),
+            _ => mix(&[&[kind(operation)], operands].concat()),
+        }
+    }
+
+    /// What code stores, as it is written.
+    fn stored_by_code(code: &Code) -> Vec<(Place, Content)> {
+        let home = |v: usize| code.values[v].home.map_or(0, of_place);
+        let mut contents: Vec<Content> = (0..code.values.len()).map(home).collect();
+        let mut stored = Vec::new();
+        for op in &code.ops {
+            match *op {
+                Op::Apply {
+                    operation,
+                    out,
+                    operands,
+                    ..
+                } => {
+                    let operands = operands.map(|v| contents[v.index()]);
+                    contents[out.index()] = match operation {
+                        Operation::Fused(sign) => {
+                            fused(sign, operands[0], operands[1], operands[2])
+                        }
+                        _ => applied(operation, &operands[..operation.arity()]),
+                    };
+                }
+                Op::Guard {
+                    bad,
+                    argument,
+                    quick,
+                    out,
+                    ..
+                } => {
+                    let (bad, argument) = (contents[bad.index()], contents[argument.index()]);
+                    for (quick, out) in quick.into_iter().zip(out) {
+                        if let (Some(quick), Some(out)) = (quick, out) {
+                            let quick = contents[quick.index()];
+                            contents[out.index()] = mix(&[bad, argument, quick]);
+                        }
+                    }
+                }
+                Op::Store { value, to, .. } => stored.push((to, contents[value.index()])),
+                _ => {}
+            }
+        }
+        stored
+    }
+
+    /// What instructions on registers store outside of the places for spilled values.
+    fn stored_by_steps(code: &Code, steps: &[Step]) -> Vec<(Place, Content)> {
+        let mut registers = [0; REGISTERS];
+        let mut memory: HashMap<Place, Content> = HashMap::new();
+        let mut stored = Vec::new();
+        for step in steps {
+            let at = |place: Place| memory.get(&place).copied().unwrap_or(of_place(place));
+            let register = |r: Ymm| registers[r.0 as usize];
+            let read = |spot: Spot| match spot {
+                Spot::Register(r) => register(r),
+                Spot::Memory(place) => at(place),
+            };
+            match *step {
+                Step::Load { to, from, .. } => registers[to.0 as usize] = at(from),
+                Step::Copy { to, from, .. } => registers[to.0 as usize] = register(from),
+                Step::Store { to, from, .. } => {
+                    let content = register(from);
+                    let is_spilled = to.base == Base::Frame && to.offset >= code.frame;
+                    if is_spilled {
+                        memory.insert(to, content);
+                    } else {
+                        stored.push((to, content));
+                    }
+                }
+                Step::Apply {
+                    operation,
+                    width,
+                    out,
+                    a,
+                    b,
+                    c,
+                } => {
+                    let is_beyond = width == Width::One && reads_beyond(operation);
+                    assert!(!is_beyond || !matches!(b, Spot::Memory(p) if p.base != Base::Frame));
+                    let operands = [register(a), read(b), register(c)];
+                    registers[out.0 as usize] = applied(operation, &operands[..operation.arity()]);
+                }
+                Step::Fused {
+                    sign,
+                    order,
+                    first,
+                    second,
+                    third,
+                    ..
+                } => {
+                    let (one, two, three) = (register(first), register(second), read(third));
+                    registers[first.0 as usize] = match order {
+                        Order::O132 => fused(sign, one, three, two),
+                        Order::O213 => fused(sign, two, one, three),
+                        Order::O231 => fused(sign, two, three, one),
+                    };
+                }
+                Step::Guard {
+                    bad,
+                    argument,
+                    results,
+                    ..
+                } => {
+                    let (bad, argument) = (register(bad), register(argument));
+                    for result in results.into_iter().flatten() {
+                        let quick = registers[result.0 as usize];
+                        registers[result.0 as usize] = mix(&[bad, argument, quick]);
+                    }
+                }
+                // Nothing in a register outlives a call.
+                Step::Call { .. } => registers = [0; REGISTERS],
+                Step::Fail { .. } | Step::End => {}
+            }
+        }
+        stored
+    }
+
+    /// Code with many values alive at once, used again at random, with calls and guards among them.
+    fn sample(seed: u64, size: usize, width: Width) -> Code {
+        let mut state = seed.wrapping_mul(2_862_933_555_777_941_757) + 3_037_000_493;
+        let mut below = |n: usize| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as usize % n
+        };
+        let mut b = Builder::new(width);
+        let mut pool: Vec<Value> = (0..6).map(|i| b.at(Base::Variables, 256 * i)).collect();
+        pool.extend((0..4).map(|i| b.constant(f64::from(i))));
+        for i in 0..size {
+            // Mostly recent values, some old ones.
+            let mut pick = |pool: &[Value]| {
+                let reach = if below(3) == 0 {
+                    pool.len()
+                } else {
+                    40.min(pool.len())
+                };
+                pool[pool.len() - 1 - below(reach)]
+            };
+            let (x, y, z) = (pick(&pool), pick(&pool), pick(&pool));
+            let value = match below(12) {
+                0 => b.add(x, y),
+                1 => b.sub(x, y),
+                2 => b.mul(x, x),
+                3 => b.mul_add(x, y, z),
+                4 => b.mul_sub(x, x, z),
+                5 => b.neg_mul_add(x, y, x),
+                6 => b.float(Float::Div, x, y),
+                7 => b.bits(Bits::And, x, y),
+                8 => b.blend(x, y, z),
+                9 => b.shift_left(x, 3),
+                10 => {
+                    let quick = [b.add(x, y), b.sub(x, y)];
+                    b.guard(Helper::SinCos, z, x, quick)[below(2)]
+                }
+                _ if i % 50 == 0 => b.call(Helper::Pow, &[x, y], 1)[0],
+                _ => b.sqrt(x),
+            };
+            pool.push(value);
+            if i % 7 == 0 {
+                let offset = i as i32 * 256;
+                let base = Base::Outputs;
+                b.store(value, Place { base, offset });
+            }
+        }
+        b.finish()
+    }
+
+    #[test]
+    fn large_code_that_spills_computes_what_was_written() {
+        for seed in 0..30 {
+            for width in [Width::One, Width::Four] {
+                let code = sample(seed, 3_000, width);
+                let allocated = allocate(&code);
+                let expected = stored_by_code(&code);
+                assert_eq!(
+                    stored_by_steps(&code, &allocated.steps),
+                    expected,
+                    "seed {seed}"
+                );
+                let spilled = allocated.frame - code.frame;
+                assert!(
+                    spilled > 40 * 8,
+                    "seed {seed} hardly spills: {spilled} bytes"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn places_of_values_no_longer_needed_are_used_again() {
+        let frame = |size| {
+            let code = sample(5, size, Width::Four);
+            let allocated = allocate(&code);
+            allocated.frame - code.frame
+        };
+        // What is picked at random among all stays alive; most is picked among recent values, and dies.
+        assert!(frame(20_000) < 20_000 * 32 / 2);
+    }
+
+    #[test]
+    fn code_that_fits_into_registers_does_not_spill() {
+        let mut b = Builder::new(Width::One);
+        let x = b.at(Base::Variables, 0);
+        let y = b.at(Base::Variables, 8);
+        let mut sum = b.mul(x, y);
+        for _ in 0..100 {
+            let square = b.mul(sum, sum);
+            sum = b.mul_add(square, x, y);
+        }
+        let to = Place {
+            base: Base::Outputs,
+            offset: 0,
+        };
+        b.store(sum, to);
+        let code = b.finish();
+        let allocated = allocate(&code);
+        assert_eq!((code.frame, allocated.frame), (SCRATCH_END, SCRATCH_END));
+        let loads = |step: &&Step| matches!(step, Step::Load { .. });
+        assert_eq!(allocated.steps.iter().filter(loads).count(), 2);
+    }
+}
