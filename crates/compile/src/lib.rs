@@ -1,15 +1,15 @@
-//! Expressions to numeric functions: the flat program and its interpreters.
+//! Expressions to numeric functions: the flat program, its interpreter, and native code.
 //!
 //! ```text
-//! graph ──Lowering──▶ Program ──Interpreter──▶ Evaluator       one state per call
-//!                        │            └───────▶ BlockEvaluator  32 states per call
-//!                        └──▶ later: native code, Taylor recurrences
+//! graph ──Lowering──▶ Program ──┬─ Interpreter ─┬─▶ Evaluator       one state per call
+//!                               └─── Native ────┴─▶ BlockEvaluator  32 states per call
 //! ```
 //!
 //! [`Lowering`] turns expressions of a [`Graph`](chetaev_symbolic::Graph) into a [`Program`], a register tape of plain data with named groups of
 //! outputs. Common subexpressions are computed once, what depends on parameters only is computed once per set of
 //! parameters, and linear systems stay structured: one factorization per matrix, shared by all right-hand sides.
-//! [`Interpreter`] runs a program through the traits [`Evaluator`] and [`BlockEvaluator`], without allocating.
+//! [`Interpreter`] runs a program through the traits [`Evaluator`] and [`BlockEvaluator`], without allocating;
+//! [`Native`](crate::backend()) does so as machine code where the processor has the instructions. [`backend()`] chooses.
 //! Nothing here knows mechanics.
 //!
 //! ```

@@ -57,9 +57,7 @@ impl Width {
 /// The mandatory prefix, as the VEX prefix counts them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Prefix {
-    None = 0,
     P66 = 1,
-    F3 = 2,
     F2 = 3,
 }
 

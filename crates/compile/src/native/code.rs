@@ -90,6 +90,12 @@ pub(crate) enum Op {
         /// As many as the operation has; the others repeat the first.
         operands: [Value; 3],
     },
+    /// Sine and cosine, until [`gather`](super::gather) writes their kernel.
+    Angle {
+        argument: Value,
+        sin: Value,
+        cos: Value,
+    },
     /// Replaces the quick results by those of `slow` where the sign bit of `bad` is set.
     Guard {
         slow: Helper,
@@ -131,10 +137,43 @@ impl Op {
                 visit(*argument);
                 quick.iter().flatten().for_each(|&v| visit(v));
             }
+            Op::Angle { argument, .. } => visit(*argument),
             Op::Store { value, .. } => visit(*value),
             Op::Fail { bad, .. } => visit(*bad),
             Op::Call { .. } | Op::End => {}
         }
+    }
+
+    /// Calls `visit` for every value computed.
+    pub(crate) fn for_each_write(&self, mut visit: impl FnMut(Value)) {
+        match self {
+            Op::Apply { out, .. } => visit(*out),
+            Op::Angle { sin, cos, .. } => [*sin, *cos].into_iter().for_each(visit),
+            Op::Guard { out, .. } => out.iter().flatten().for_each(|&v| visit(v)),
+            Op::Store { .. } | Op::Call { .. } | Op::Fail { .. } | Op::End => {}
+        }
+    }
+
+    /// The same on other values read.
+    pub(crate) fn map_reads(mut self, read: impl Fn(Value) -> Value) -> Op {
+        match &mut self {
+            Op::Apply { operands, .. } => *operands = operands.map(read),
+            Op::Angle { argument, .. } => *argument = read(*argument),
+            Op::Guard {
+                bad,
+                argument,
+                quick,
+                ..
+            } => {
+                *bad = read(*bad);
+                *argument = read(*argument);
+                *quick = quick.map(|value| value.map(&read));
+            }
+            Op::Store { value, .. } => *value = read(*value),
+            Op::Fail { bad, .. } => *bad = read(*bad),
+            Op::Call { .. } | Op::End => {}
+        }
+        self
     }
 }
 
@@ -158,8 +197,6 @@ pub(crate) struct Code {
     pub(crate) initial: Vec<(i32, u64, usize)>,
     /// Bytes of the frame in use.
     pub(crate) frame: i32,
-    /// Number of the states of one run.
-    pub(crate) width: Width,
 }
 
 /// Writes straight-line code.
@@ -167,6 +204,7 @@ pub(crate) struct Code {
 pub(crate) struct Builder {
     code: Code,
     constants: HashMap<(u64, Width), Value>,
+    has_angles: bool,
     /// The width of what is being written; differs from that of the code where several values of one state share
     /// a register.
     pub(crate) width: Width,
@@ -180,17 +218,40 @@ impl Builder {
                 values: Vec::new(),
                 initial: Vec::new(),
                 frame: SCRATCH_END,
-                width,
             },
             constants: HashMap::new(),
+            has_angles: false,
             width,
         }
     }
 
     /// The code, without what nothing needs.
     pub(crate) fn finish(mut self) -> Code {
+        if self.has_angles {
+            super::gather::expand(&mut self);
+        }
         self.code.drop_unused();
         self.code
+    }
+
+    /// Takes what has been written, to write it anew.
+    pub(crate) fn take_ops(&mut self) -> Vec<Op> {
+        std::mem::take(&mut self.code.ops)
+    }
+
+    pub(crate) fn value_count(&self) -> usize {
+        self.code.values.len()
+    }
+
+    /// Sine and cosine; in code for single states the kernel is written last, for several angles at once.
+    pub(crate) fn sin_cos(&mut self, argument: Value) -> (Value, Value) {
+        if self.width == Width::Four {
+            return super::kernels::sin_cos(self, argument);
+        }
+        let (sin, cos) = (self.value(None, None), self.value(None, None));
+        self.push(Op::Angle { argument, sin, cos });
+        self.has_angles = true;
+        (sin, cos)
     }
 
     fn value(&mut self, home: Option<Place>, constant: Option<u64>) -> Value {
@@ -205,8 +266,10 @@ impl Builder {
 
     /// Room in the frame for `count` values, at an offset.
     pub(crate) fn cells(&mut self, count: usize) -> i32 {
-        let offset = self.code.frame;
-        self.code.frame += (count * self.width.lanes() * 8) as i32;
+        let size = self.width.lanes() as i32 * 8;
+        // Aligned to their size, so that none crosses a cache line.
+        let offset = (self.code.frame + size - 1) / size * size;
+        self.code.frame = offset + count as i32 * size;
         offset
     }
 
@@ -320,6 +383,25 @@ impl Builder {
         self.apply(Operation::Blend, [a, b, mask])
     }
 
+    /// An operation on halves of registers, or whose result fills a register though it works on one half.
+    pub(crate) fn wide(&mut self, operation: Operation, operands: [Value; 3]) -> Value {
+        let narrow = std::mem::replace(&mut self.width, Width::Four);
+        let out = self.value(None, None);
+        self.width = narrow;
+        self.push(Op::Apply {
+            operation,
+            width: narrow,
+            out,
+            operands,
+        });
+        out
+    }
+
+    /// The upper half of `a`.
+    pub(crate) fn upper_half(&mut self, a: Value) -> Value {
+        self.wide(Operation::UpperHalf, [a; 3])
+    }
+
     pub(crate) fn sqrt(&mut self, a: Value) -> Value {
         self.float(Float::Sqrt, a, a)
     }
@@ -413,6 +495,7 @@ impl Code {
             let mut op = op;
             let is_needed = match &mut op {
                 Op::Apply { out, .. } => is_used[out.index()],
+                Op::Angle { sin, cos, .. } => is_used[sin.index()] || is_used[cos.index()],
                 Op::Guard { quick, out, .. } => {
                     for (quick, out) in quick.iter_mut().zip(out.iter_mut()) {
                         if out.is_some_and(|out| !is_used[out.index()]) {

@@ -101,7 +101,7 @@ impl Emitter {
                 b,
                 c,
             } => {
-                self.uses_upper |= width == Width::Four;
+                self.uses_upper |= width == Width::Four || operation == Operation::Join;
                 self.apply(operation, width, (out, a, b, c));
             }
             Step::Fused {

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Program ──translate──▶ Code ──registers──▶ Steps ──emit──▶ bytes ──memory──▶ Pages
-//!            │ kernels, linear
+//!            │ kernels, linear, gather
 //! ```
 //!
 //! One emitter makes the code for single states and for four states side by side; the same operations in the same
@@ -17,6 +17,7 @@ mod call;
 mod code;
 mod dense;
 mod emit;
+mod gather;
 mod kernels;
 mod linear;
 mod machine;

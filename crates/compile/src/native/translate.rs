@@ -182,7 +182,7 @@ impl Translator<'_> {
             }
             Instruction::SinCos { sin, cos, a } => {
                 let a = self.read(a);
-                let values = kernels::sin_cos(&mut self.builder, a);
+                let values = self.builder.sin_cos(a);
                 self.write(sin, values.0);
                 self.write(cos, values.1);
             }
@@ -230,8 +230,8 @@ fn unary(b: &mut Builder, operation: Unary, a: Value) -> Value {
         Unary::Neg => b.neg(a),
         Unary::Square => b.mul(a, a),
         Unary::Sqrt => b.sqrt(a),
-        Unary::Function(Function::Sin) => kernels::sin_cos(b, a).0,
-        Unary::Function(Function::Cos) => kernels::sin_cos(b, a).1,
+        Unary::Function(Function::Sin) => b.sin_cos(a).0,
+        Unary::Function(Function::Cos) => b.sin_cos(a).1,
         Unary::Function(Function::Exp) => kernels::exp(b, a),
         Unary::Function(Function::Log) => kernels::log(b, a),
         Unary::Function(Function::Abs) => b.abs(a),
