@@ -28,10 +28,12 @@ impl Frame {
         Frame { lines, owner }
     }
 
+    #[inline]
     pub(crate) fn owner(&self) -> u64 {
         self.owner
     }
 
+    #[inline]
     pub(crate) fn lines(&mut self) -> &mut [Line] {
         &mut self.lines
     }
@@ -79,6 +81,7 @@ impl Frames {
     }
 
     /// The frame for one run of a block.
+    #[inline]
     pub(crate) fn frame(&mut self, run: usize) -> Option<&mut Frame> {
         let count = self.frames.len();
         self.frames.get_mut(if count == 1 { 0 } else { run })

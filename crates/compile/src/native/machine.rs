@@ -121,6 +121,7 @@ impl Machine {
 
     /// Computes the first `groups` groups; the bits of the result are the lanes without one. `None` if a slice is
     /// too short, the frame is not of this code, or there are no such groups.
+    #[inline]
     pub(crate) fn run(&self, frame: &mut Frame, groups: usize, data: Data<'_>) -> Option<u64> {
         let fits = frame.owner() == self.id
             && data.variables.len() >= self.variables

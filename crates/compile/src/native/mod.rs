@@ -46,6 +46,8 @@ pub struct Native {
     /// In the order of the program.
     code: decode::Code,
     single: Machine,
+    /// By number of groups: how many outputs they have.
+    counts: Vec<usize>,
     /// Made when the first block is evaluated; `None` where it cannot be.
     block: OnceLock<Option<Machine>>,
 }
@@ -69,6 +71,9 @@ impl Native {
     pub(crate) fn of_verified(program: &Program) -> Option<Native> {
         Some(Native {
             single: Machine::new(program, Width::One)?,
+            counts: (0..=program.outputs.len())
+                .map(|groups| program.output_count_of(groups))
+                .collect(),
             block: OnceLock::new(),
             code: decode::Code::of(program.clone()),
         })
@@ -136,10 +141,13 @@ impl Evaluator for Native {
         outputs: &mut [f64],
     ) -> Result<(), EvaluateFailure> {
         let Workspace { state, native } = workspace;
-        let program = &self.code.program;
-        let groups = groups.min(program.outputs.len());
-        state.check(program, groups, variables, outputs)?;
-        let Some(native) = native else {
+        let groups = groups.min(self.counts.len() - 1);
+        let fits = state.is_prepared
+            && variables.len() == self.code.program.layout.variables
+            && outputs.len() == self.counts[groups];
+        let Some(native) = native.as_mut().filter(|_| fits) else {
+            // Which it is need not be found out quickly.
+            state.check(&self.code.program, groups, variables, outputs)?;
             return Err(EvaluateFailure::NotPrepared);
         };
         if groups == 0 {
@@ -162,6 +170,15 @@ impl Evaluator for Native {
         }
         state.evaluate(&self.code, groups, variables, outputs)?;
         state.first_failure()
+    }
+
+    fn evaluate(
+        &self,
+        variables: &[f64],
+        workspace: &mut Workspace,
+        outputs: &mut [f64],
+    ) -> Result<(), EvaluateFailure> {
+        self.evaluate_groups(self.counts.len() - 1, variables, workspace, outputs)
     }
 }
 
