@@ -6,7 +6,7 @@
 #![allow(clippy::print_stdout, clippy::unwrap_used)] // A program for people to read from.
 #![allow(clippy::needless_range_loop)] // Matrices read best with their indices.
 
-use chetaev_compile::program::{Binary, Fused, Instruction, Register, Unary};
+use chetaev_compile::program::{Binary, Factorization, Fused, Instruction, Register, Unary};
 use chetaev_compile::{
     BlockEvaluator, Evaluator, Interpreter, Lanes, Lowering, Native, Program, LANES,
 };
@@ -297,8 +297,7 @@ fn medians(contestants: &mut [Box<dyn FnMut() -> f64 + '_>]) -> Vec<f64> {
     times.into_iter().map(median).collect()
 }
 
-/// Single states, one after the other: the state changes a little each time and depends on the last result, as in
-/// an integration, or does not.
+/// Single states, one after the other.
 fn single<'a>(
     evaluator: &'a dyn Evaluator,
     parameters: &[f64],
@@ -349,6 +348,14 @@ fn block<'a>(
 
 /// The program as C, compiled by gcc if there is one; running it prints the seconds per evaluation.
 fn gcc(program: &Program, parameters: &[f64], point: &[f64], repeats: usize) -> Option<PathBuf> {
+    // Pivots cannot be written out.
+    if program
+        .matrices
+        .iter()
+        .any(|m| m.factorization == Factorization::Lu)
+    {
+        return None;
+    }
     let folder = std::env::temp_dir().join(format!("chetaev-measure-{}", std::process::id()));
     std::fs::create_dir_all(&folder).ok()?;
     let (source, binary) = (folder.join("body.c"), folder.join("body"));
@@ -487,7 +494,7 @@ fn c_instruction(program: &Program, instruction: Instruction, text: &mut String)
     *text += "\n";
 }
 
-/// L D Lᵀ written out, also of bordered matrices, for the work it takes; the states measured need no pivots.
+/// L D Lᵀ written out.
 fn c_factor(program: &Program, index: usize) -> String {
     let matrix = &program.matrices[index];
     let n = matrix.size;
@@ -509,10 +516,7 @@ fn c_factor(program: &Program, index: usize) -> String {
             }
             known[i * n + j] = is_zero;
             if i == j {
-                text += &format!(
-                    "double d{index}_{i} = 1 / ({});\n",
-                    sum.replace(&format!("l{index}_{i}_"), &format!("l{index}_{i}_"))
-                );
+                text += &format!("double d{index}_{i} = 1 / ({});\n", sum);
             } else if !is_zero {
                 text += &format!("double u{index}_{i}_{j} = {sum}, l{index}_{i}_{j} = u{index}_{i}_{j} * d{index}_{j};\n");
             }

@@ -180,15 +180,21 @@ impl<W: Word> Factored<W> {
     }
 
     /// Writes the factors, the pivots and the rows of `count` states from `first` on, one number for each state,
-    /// the states next to each other; native code solves with them.
-    pub(crate) fn copy_states(&self, first: usize, count: usize, to: &mut [f64]) {
-        let words = self.factors.iter().chain(&self.pivots);
-        let mut cells = to.chunks_exact_mut(count);
-        for (word, cell) in words.zip(&mut cells) {
-            (0..count).for_each(|l| cell[l] = word.lane(first + l));
-        }
-        for (i, cell) in (0..self.size).zip(cells) {
-            (0..count).for_each(|l| cell[l] = f64::from(self.rows[i * W::LANES + first + l]));
+    /// the states next to each other and the rows of the factors `stride` apart; native code solves with them.
+    pub(crate) fn copy_states(&self, first: usize, count: usize, stride: usize, to: &mut [f64]) {
+        let n = self.size;
+        let mut copy = |cell: usize, value: &dyn Fn(usize) -> f64| {
+            for (l, to) in to[cell * count..][..count].iter_mut().enumerate() {
+                *to = value(first + l);
+            }
+        };
+        for i in 0..n {
+            for j in 0..n {
+                copy(i * stride + j, &|l| self.factors[i * n + j].lane(l));
+            }
+            copy(n * stride + i, &|l| self.pivots[i].lane(l));
+            let row = |l: usize| f64::from(self.rows[i * W::LANES + l]);
+            copy(n * stride + n + i, &row);
         }
     }
 

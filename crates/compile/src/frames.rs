@@ -2,6 +2,7 @@
 
 use crate::evaluate::PivotRange;
 use crate::factor::range;
+use crate::lanes::LANES;
 use std::sync::Arc;
 
 /// States that machine code for blocks takes at once.
@@ -87,18 +88,24 @@ impl Frames {
         self.frames.get_mut(if count == 1 { 0 } else { run })
     }
 
-    /// Keeps the pivots of a run.
+    /// Keeps the pivots of a run of a block.
+    #[inline]
     pub(crate) fn keep(&mut self, run: usize) {
-        let count = Self::kept_per_run(&self.pivots, self.lanes);
+        let count = self.kept.len() / (LANES / SIDE_BY_SIDE);
         let frame = if self.frames.len() == 1 { 0 } else { run };
         let Some(frame) = self.frames.get(frame) else {
             return;
         };
-        let mut kept = self.kept.iter_mut().skip(run * count);
+        let mut kept = &mut self.kept[run * count..];
         for pivots in self.pivots.iter().flatten() {
-            for (i, to) in (0..pivots.size * self.lanes).zip(&mut kept) {
-                *to = frame.at(pivots.cells as usize + 8 * i);
+            let (these, rest) = kept.split_at_mut(pivots.size * self.lanes);
+            // Cells of four are halves of lines.
+            let first = pivots.cells as usize / 8 / SIDE_BY_SIDE;
+            for (cell, to) in (first..).zip(these.chunks_exact_mut(SIDE_BY_SIDE)) {
+                let (halves, _) = frame.lines[cell / 2].0.as_chunks::<SIDE_BY_SIDE>();
+                to.copy_from_slice(&halves[cell % 2]);
             }
+            kept = rest;
         }
     }
 

@@ -3,11 +3,23 @@
 //! The storage is that of the interpreter ([`crate::factor`]): L below the diagonal, reciprocals of the pivots on
 //! it, U = D Lᵀ above it; then the pivots, then for each row of the factors its row in the matrix. Every entry is
 //! updated in the same order whatever the number of lanes, so that results do not depend on it.
+//!
+//! Loops run over indices: iterators of the standard library are not compiled for the processor's vectors.
+#![allow(clippy::needless_range_loop)]
+
+use super::call::add_product;
 
 /// How many cells a matrix and its factors take.
 pub(crate) fn cells(size: usize) -> usize {
-    size * size + 2 * size
+    size * stride(size) + 2 * size
 }
+
+/// Cells from one row to the next: vectors of four may reach beyond the end of a row, where nothing counts.
+pub(crate) fn stride(size: usize) -> usize {
+    size + VECTOR - 1
+}
+
+const VECTOR: usize = 4;
 
 /// A pivot of L D Lᵀ has to be above this, times the sum of all pivots and the size. The interpreter compares with
 /// the largest pivot, which is less: what passes here passes there.
@@ -20,15 +32,16 @@ const UNSUSPICIOUS: f64 = 1e-8;
 #[target_feature(enable = "avx2,fma")]
 pub(crate) fn factor<const W: usize>(size: usize, is_definite: bool, cells: &mut [f64]) -> u64 {
     let (cells, _) = cells.as_chunks_mut::<W>();
-    let (factors, rest) = cells.split_at_mut(size * size);
+    let width = stride(size);
+    let (factors, rest) = cells.split_at_mut(size * width);
     let (pivots, rows) = rest.split_at_mut(size);
-    for (i, row) in rows.iter_mut().enumerate() {
-        *row = [i as f64; W];
+    for i in 0..size {
+        rows[i] = [i as f64; W];
     }
     for k in 0..size {
         if is_definite {
             for i in k + 1..size {
-                factors[k * size + i] = factors[i * size + k];
+                factors[k * width + i] = factors[i * width + k];
             }
             eliminate(size, k, factors, pivots, |i| i + 1);
         } else {
@@ -36,9 +49,11 @@ pub(crate) fn factor<const W: usize>(size: usize, is_definite: bool, cells: &mut
             eliminate(size, k, factors, pivots, |_| size);
         }
     }
-    (0..W)
-        .filter(|&l| !is_sound(is_definite, pivots, l))
-        .fold(0, |bits, l| bits | 1 << l)
+    let mut doubtful = 0;
+    for l in 0..W {
+        doubtful |= u64::from(!is_sound(is_definite, pivots, l)) << l;
+    }
+    doubtful
 }
 
 /// Whether the pivots leave no doubt.
@@ -70,27 +85,46 @@ fn eliminate<const W: usize>(
     pivots: &mut [[f64; W]],
     end: impl Fn(usize) -> usize,
 ) {
-    let (done, below) = factors.split_at_mut((k + 1) * n);
-    let (pivot, pivot_row) = done[k * n + k..].split_at_mut(1);
-    pivots[k] = pivot[0];
+    let width = stride(n);
+    let (done, below) = factors.split_at_mut((k + 1) * width);
+    let pivot_row = &mut done[k * width..];
+    pivots[k] = pivot_row[k];
     let mut reciprocal = [0.0; W];
     for l in 0..W {
-        reciprocal[l] = 1.0 / pivot[0][l];
+        reciprocal[l] = 1.0 / pivots[k][l];
     }
-    pivot[0] = reciprocal;
-    for (i, row) in below.chunks_exact_mut(n).enumerate() {
-        let (left, right) = row[..end(k + 1 + i)].split_at_mut(k + 1);
-        let mut multiplier = left[k];
+    pivot_row[k] = reciprocal;
+    for i in k + 1..n {
+        let row = &mut below[(i - k - 1) * width..][..width];
+        let mut multiplier = row[k];
         for l in 0..W {
             multiplier[l] *= reciprocal[l];
         }
-        left[k] = multiplier;
-        // Closures of the standard library would not be compiled for the processor's fused operations.
-        for (a, u) in right.iter_mut().zip(&*pivot_row) {
-            for l in 0..W {
-                a[l] = (-multiplier[l]).mul_add(u[l], a[l]);
-            }
-        }
+        row[k] = multiplier;
+        let vectors = (end(i) - k - 1) * W;
+        let vectors = vectors.div_ceil(VECTOR);
+        subtract_row(vectors, &mut row[k + 1..], &multiplier, &pivot_row[k + 1..]);
+    }
+}
+
+/// `row − multiplier · pivot_row`, over a number of vectors.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn subtract_row<const W: usize>(
+    vectors: usize,
+    row: &mut [[f64; W]],
+    multiplier: &[f64; W],
+    pivot_row: &[[f64; W]],
+) {
+    let mut wide = [0.0; VECTOR];
+    for l in 0..VECTOR {
+        wide[l] = -multiplier[l % W];
+    }
+    let (row, _) = row.as_flattened_mut().as_chunks_mut::<VECTOR>();
+    let (pivot_row, _) = pivot_row.as_flattened().as_chunks::<VECTOR>();
+    let (row, pivot_row) = (&mut row[..vectors], &pivot_row[..vectors]);
+    for j in 0..vectors {
+        add_product(&mut row[j], &wide, &pivot_row[j]);
     }
 }
 
@@ -101,11 +135,12 @@ fn exchange_rows<const W: usize>(
     factors: &mut [[f64; W]],
     rows: &mut [[f64; W]],
 ) {
+    let width = stride(n);
     for l in 0..W {
         let mut pivot = k;
-        let mut largest = factors[k * n + k][l].abs();
+        let mut largest = factors[k * width + k][l].abs();
         for i in k + 1..n {
-            let magnitude = factors[i * n + k][l].abs();
+            let magnitude = factors[i * width + k][l].abs();
             if magnitude > largest {
                 (pivot, largest) = (i, magnitude);
             }
@@ -113,9 +148,10 @@ fn exchange_rows<const W: usize>(
         if pivot == k {
             continue;
         }
-        let (upper, lower) = factors.split_at_mut(pivot * n);
-        for (above, below) in upper[k * n..(k + 1) * n].iter_mut().zip(&mut lower[..n]) {
-            std::mem::swap(&mut above[l], &mut below[l]);
+        let (upper, lower) = factors.split_at_mut(pivot * width);
+        let (above, below) = (&mut upper[k * width..][..n], &mut lower[..n]);
+        for j in 0..n {
+            (above[j][l], below[j][l]) = (below[j][l], above[j][l]);
         }
         let moved = rows[k][l];
         rows[k][l] = rows[pivot][l];
@@ -127,28 +163,30 @@ fn exchange_rows<const W: usize>(
 #[target_feature(enable = "avx2,fma")]
 pub(crate) fn solve<const W: usize>(n: usize, cells: &[f64], x: &mut [f64]) {
     let (cells, _) = cells.as_chunks::<W>();
-    let (factors, rest) = cells.split_at(n * n);
+    let width = stride(n);
+    let (factors, rest) = cells.split_at(n * width);
     let rows = &rest[n..];
     let (x, _) = x.as_chunks_mut::<W>();
     permute(rows, x);
-    for i in 1..n {
-        let (known, rest) = x.split_at_mut(i);
-        for (lower, known) in factors[i * n..].iter().zip(&*known) {
-            subtract(&mut rest[0], lower, known);
+    // What is known is subtracted from all that is not: many updates at once that do not wait for each other.
+    for k in 0..n {
+        let known = x[k];
+        for i in k + 1..n {
+            subtract(&mut x[i], &factors[i * width + k], &known);
         }
     }
-    for i in (0..n).rev() {
-        let (rest, known) = x.split_at_mut(i + 1);
-        let row = &factors[i * n + i..(i + 1) * n];
-        for (upper, known) in row[1..].iter().zip(&*known) {
-            subtract(&mut rest[i], upper, known);
-        }
+    for k in (0..n).rev() {
         for l in 0..W {
-            rest[i][l] *= row[0][l];
+            x[k][l] *= factors[k * width + k][l];
+        }
+        let known = x[k];
+        for i in 0..k {
+            subtract(&mut x[i], &factors[i * width + k], &known);
         }
     }
 }
 
+#[inline]
 #[target_feature(enable = "avx2,fma")]
 fn subtract<const W: usize>(x: &mut [f64; W], a: &[f64; W], b: &[f64; W]) {
     for l in 0..W {

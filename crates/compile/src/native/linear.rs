@@ -10,8 +10,10 @@ use super::dense;
 use crate::frames::Pivots;
 use crate::program::{Factorization, Matrix};
 
-/// Up to this size L D Lᵀ is written out, see `examples/measure.rs`.
-pub(crate) const UNROLLED: usize = 20;
+/// Up to this size L D Lᵀ is written out. Measured with dense matrices on a machine with other work, written out
+/// against called: 0.07 and 0.4 µs at size 8, 0.7 and 1.6 at 20, 2.7 to 3.9 and 4.2 at 32, 5.1 to 8.7 and 7.5 at 40, where
+/// the code has 168 kB.
+pub(crate) const UNROLLED: usize = 32;
 
 /// A factorized matrix, as code sees it.
 #[derive(Clone, Debug)]
@@ -34,7 +36,8 @@ pub(crate) fn factor(b: &mut Builder, matrix: &Matrix, entries: &[Value]) -> (Fa
     }
     let cells = b.unknown_cells(dense::cells(size));
     for (i, &entry) in entries.iter().enumerate() {
-        b.store(entry, b.cell(cells, i));
+        let index = i / size * dense::stride(size) + i % size;
+        b.store(entry, b.cell(cells, index));
     }
     let helper = Helper::Factor {
         size: size as u16,
@@ -42,7 +45,7 @@ pub(crate) fn factor(b: &mut Builder, matrix: &Matrix, entries: &[Value]) -> (Fa
     };
     b.push(super::code::Op::Call { helper, cells });
     let pivots = Pivots {
-        cells: b.cell(cells, size * size).offset,
+        cells: b.cell(cells, size * dense::stride(size)).offset,
         size,
     };
     (Factored::Called { size, cells }, pivots)
@@ -165,8 +168,9 @@ pub(crate) fn solve(b: &mut Builder, factored: &Factored, rhs: &[Value]) -> Vec<
                     *x = b.mul(*x, reciprocal);
                 }
             }
+            // The unknown found last is needed last.
             for i in (0..*size).rev() {
-                let factors = (i + 1..*size).map(|k| (lower[below(k, i)], x[k]));
+                let factors = (i + 1..*size).rev().map(|k| (lower[below(k, i)], x[k]));
                 x[i] = subtract_products(b, x[i], factors);
             }
             x

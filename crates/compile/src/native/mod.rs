@@ -98,7 +98,8 @@ fn copy_factors<W: Word>(machine: &Machine, state: &State<W>, frames: &mut Frame
         for run in 0..W::LANES / frames.lanes {
             let size = state.factored[matrix].size();
             factors.resize(dense::cells(size) * frames.lanes, 0.0);
-            factored.copy_states(run * frames.lanes, frames.lanes, &mut factors);
+            let first = run * frames.lanes;
+            factored.copy_states(first, frames.lanes, dense::stride(size), &mut factors);
             if let Some(frame) = frames.frame(run) {
                 frame.write(cells, factors.iter().copied());
             }
