@@ -179,23 +179,15 @@ impl<W: Word> Factored<W> {
         None
     }
 
-    /// Writes the factors, the pivots and the rows of `count` states from `first` on, one number for each state,
-    /// the states next to each other and the rows of the factors `stride` apart; native code solves with them.
-    pub(crate) fn copy_states(&self, first: usize, count: usize, stride: usize, to: &mut [f64]) {
-        let n = self.size;
-        let mut copy = |cell: usize, value: &dyn Fn(usize) -> f64| {
-            for (l, to) in to[cell * count..][..count].iter_mut().enumerate() {
-                *to = value(first + l);
-            }
-        };
-        for i in 0..n {
-            for j in 0..n {
-                copy(i * stride + j, &|l| self.factors[i * n + j].lane(l));
-            }
-            copy(n * stride + i, &|l| self.pivots[i].lane(l));
-            let row = |l: usize| f64::from(self.rows[i * W::LANES + l]);
-            copy(n * stride + n + i, &row);
-        }
+    /// The factors of one state, row by row.
+    pub(crate) fn factors(&self, l: usize) -> impl Iterator<Item = f64> + '_ {
+        self.factors.iter().map(move |word| word.lane(l))
+    }
+
+    /// For each row of the factors its row in the matrix, in one state.
+    pub(crate) fn rows(&self, l: usize) -> Vec<usize> {
+        let rows = self.rows.iter().skip(l).step_by(W::LANES);
+        rows.map(|&row| row as usize).collect()
     }
 
     /// Solves A x = b, where b is `rhs(i, l)`; x replaces the contents of `x`.

@@ -1,7 +1,7 @@
 //! Factorization and solution of systems too large to be written out, for one state or four side by side.
 //!
 //! The storage is that of the interpreter ([`crate::factor`]): L below the diagonal, reciprocals of the pivots on
-//! it, U = D Lᵀ above it; then the pivots, then for each row of the factors its row in the matrix. Every entry is
+//! it, U = D Lᵀ above it; then the pivots, then for each row the one it was exchanged with. Every entry is
 //! updated in the same order whatever the number of lanes, so that results do not depend on it.
 //!
 //! Loops run over indices: iterators of the standard library are not compiled for the processor's vectors.
@@ -34,9 +34,9 @@ pub(crate) fn factor<const W: usize>(size: usize, is_definite: bool, cells: &mut
     let (cells, _) = cells.as_chunks_mut::<W>();
     let width = stride(size);
     let (factors, rest) = cells.split_at_mut(size * width);
-    let (pivots, rows) = rest.split_at_mut(size);
+    let (pivots, exchanges) = rest.split_at_mut(size);
     for i in 0..size {
-        rows[i] = [i as f64; W];
+        exchanges[i] = [i as f64; W];
     }
     for k in 0..size {
         if is_definite {
@@ -45,7 +45,7 @@ pub(crate) fn factor<const W: usize>(size: usize, is_definite: bool, cells: &mut
             }
             eliminate(size, k, factors, pivots, |i| i + 1);
         } else {
-            exchange_rows(size, k, factors, rows);
+            exchange_rows(size, k, factors, exchanges);
             eliminate(size, k, factors, pivots, |_| size);
         }
     }
@@ -133,7 +133,7 @@ fn exchange_rows<const W: usize>(
     n: usize,
     k: usize,
     factors: &mut [[f64; W]],
-    rows: &mut [[f64; W]],
+    exchanges: &mut [[f64; W]],
 ) {
     let width = stride(n);
     for l in 0..W {
@@ -153,9 +153,7 @@ fn exchange_rows<const W: usize>(
         for j in 0..n {
             (above[j][l], below[j][l]) = (below[j][l], above[j][l]);
         }
-        let moved = rows[k][l];
-        rows[k][l] = rows[pivot][l];
-        rows[pivot][l] = moved;
+        exchanges[k][l] = pivot as f64;
     }
 }
 
@@ -165,9 +163,9 @@ pub(crate) fn solve<const W: usize>(n: usize, cells: &[f64], x: &mut [f64]) {
     let (cells, _) = cells.as_chunks::<W>();
     let width = stride(n);
     let (factors, rest) = cells.split_at(n * width);
-    let rows = &rest[n..];
+    let exchanges = &rest[n..];
     let (x, _) = x.as_chunks_mut::<W>();
-    permute(rows, x);
+    exchange(exchanges, x);
     // What is known is subtracted from all that is not: many updates at once that do not wait for each other.
     for k in 0..n {
         let known = x[k];
@@ -194,28 +192,27 @@ fn subtract<const W: usize>(x: &mut [f64; W], a: &[f64; W], b: &[f64; W]) {
     }
 }
 
-/// Puts entry `rows[i]` of `x` first to place i, in each lane by itself, without storage: along each cycle of the
-/// permutation, found by its least element.
-fn permute<const W: usize>(rows: &[[f64; W]], x: &mut [[f64; W]]) {
-    for l in 0..W {
-        let source = |i: usize| rows[i][l] as usize;
-        for start in 0..rows.len() {
-            let mut other = source(start);
-            while other > start {
-                other = source(other);
-            }
-            if other < start || source(start) == start {
-                continue;
-            }
-            let first = x[start][l];
-            let mut i = start;
-            while source(i) != start {
-                x[i][l] = x[source(i)][l];
-                i = source(i);
-            }
-            x[i][l] = first;
+/// Exchanges entries as rows were exchanged, in each lane by itself.
+fn exchange<const W: usize>(exchanges: &[[f64; W]], x: &mut [[f64; W]]) {
+    for k in 0..x.len() {
+        for l in 0..W {
+            // Always an index, but a panic in native code would end the process.
+            let other = (exchanges[k][l] as usize).min(x.len() - 1);
+            (x[k][l], x[other][l]) = (x[other][l], x[k][l]);
         }
     }
+}
+
+/// The exchanges that bring row `rows[i]` to place i, for every i.
+pub(crate) fn exchanges(rows: &[usize]) -> Vec<usize> {
+    let mut now: Vec<usize> = (0..rows.len()).collect();
+    (0..rows.len())
+        .map(|i| {
+            let at = now.iter().position(|row| *row == rows[i]).unwrap_or(i);
+            now.swap(i, at);
+            at
+        })
+        .collect()
 }
 
 #[cfg(test)]
@@ -223,10 +220,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn permutations_are_applied_along_their_cycles() {
-        let rows = [3, 1, 0, 5, 4, 2].map(|i| [f64::from(i)]);
+    fn rows_are_brought_to_their_places_by_exchanges() {
+        let rows = [3, 1, 0, 5, 4, 2];
+        let exchanges: Vec<[f64; 1]> = exchanges(&rows).iter().map(|&i| [i as f64]).collect();
         let mut x = [0, 10, 20, 30, 40, 50].map(|i| [f64::from(i)]);
-        permute(&rows, &mut x);
+        exchange(&exchanges, &mut x);
         assert_eq!(x, [30, 10, 0, 50, 40, 20].map(|i| [f64::from(i)]));
     }
 }

@@ -92,16 +92,24 @@ impl Native {
 
 /// Gives the frames the factors of matrices that the prologue has factorized.
 fn copy_factors<W: Word>(machine: &Machine, state: &State<W>, frames: &mut Frames) {
-    let mut factors = Vec::new();
+    let lanes = frames.lanes;
     for &(matrix, cells) in machine.copied() {
         let factored = &state.factored[matrix];
-        for run in 0..W::LANES / frames.lanes {
-            let size = state.factored[matrix].size();
-            factors.resize(dense::cells(size) * frames.lanes, 0.0);
-            let first = run * frames.lanes;
-            factored.copy_states(first, frames.lanes, dense::stride(size), &mut factors);
-            if let Some(frame) = frames.frame(run) {
-                frame.write(cells, factors.iter().copied());
+        let (size, stride) = (factored.size(), dense::stride(factored.size()));
+        for l in 0..W::LANES {
+            let (run, lane) = (l / lanes, l % lanes);
+            let Some(frame) = frames.frame(run) else {
+                continue;
+            };
+            let mut write = |cell: usize, value: f64| {
+                let offset = cells + 8 * (cell * lanes + lane) as i32;
+                frame.write(offset, std::iter::once(value));
+            };
+            for (i, value) in factored.factors(l).enumerate() {
+                write(i / size * stride + i % size, value);
+            }
+            for (i, other) in dense::exchanges(&factored.rows(l)).into_iter().enumerate() {
+                write(size * stride + size + i, other as f64);
             }
         }
     }
