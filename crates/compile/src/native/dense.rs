@@ -26,7 +26,7 @@ const VECTOR: usize = 4;
 pub(crate) const NEGLIGIBLE: f64 = 10.0 * f64::EPSILON;
 
 /// Pivots of L U whose ratio is above this need no closer look.
-const UNSUSPICIOUS: f64 = 1e-8;
+pub(crate) const UNSUSPICIOUS: f64 = 1e-8;
 
 /// Factorizes in place; the bits of the result are the lanes that need a closer look, which is the interpreter's.
 #[target_feature(enable = "avx2,fma")]
