@@ -71,6 +71,7 @@ impl<W: Word> Factored<W> {
     }
 
     /// Number of rows.
+    #[cfg(all(unix, target_arch = "x86_64"))]
     pub(crate) fn size(&self) -> usize {
         self.size
     }
@@ -180,11 +181,13 @@ impl<W: Word> Factored<W> {
     }
 
     /// The factors of one state, row by row.
+    #[cfg(all(unix, target_arch = "x86_64"))]
     pub(crate) fn factors(&self, l: usize) -> impl Iterator<Item = f64> + '_ {
         self.factors.iter().map(move |word| word.lane(l))
     }
 
     /// For each row of the factors its row in the matrix, in one state.
+    #[cfg(all(unix, target_arch = "x86_64"))]
     pub(crate) fn rows(&self, l: usize) -> Vec<usize> {
         let rows = self.rows.iter().skip(l).step_by(W::LANES);
         rows.map(|&row| row as usize).collect()

@@ -1,4 +1,5 @@
 //! Storage that machine code works in, as plain data: it exists, empty, where there is no machine code.
+#![cfg_attr(not(all(unix, target_arch = "x86_64")), allow(dead_code))]
 
 use crate::evaluate::PivotRange;
 use crate::factor::range;

@@ -120,11 +120,7 @@ impl Emitter {
                 results,
             } => {
                 let (entry, back) = (x.label(), x.label());
-                x.signs(width, Gpr::Rax, bad);
-                x.and_immediate(Gpr::Rax, all(width));
-                x.jump(Condition::NotZero, entry);
-                x.bind(back);
-                self.guards.push(Guard {
+                self.guard(Guard {
                     slow,
                     width,
                     bad,
@@ -170,6 +166,16 @@ impl Emitter {
             // Written by `Step::Fused`.
             Operation::Fused(_) => {}
         }
+    }
+
+    /// Leaves for the slow path where the mask is set.
+    fn guard(&mut self, guard: Guard) {
+        let x = &mut self.assembler;
+        x.signs(guard.width, Gpr::Rax, guard.bad);
+        x.and_immediate(Gpr::Rax, all(guard.width));
+        x.jump(Condition::NotZero, guard.entry);
+        x.bind(guard.back);
+        self.guards.push(guard);
     }
 
     /// Calls a function on cells of the frame, through one of the subroutines.

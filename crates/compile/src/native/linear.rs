@@ -186,8 +186,9 @@ fn exchange(b: &mut Builder, rows: &mut [Vec<Value>], k: usize, i: usize) -> Exc
         lower: i,
         mask: b.compare(Predicate::Less, upper, lower),
     };
-    for j in 0..rows.len() {
-        (rows[k][j], rows[i][j]) = exchange.apply(b, rows[k][j], rows[i][j]);
+    let (above, below) = rows.split_at_mut(i);
+    for (upper, lower) in above[k].iter_mut().zip(&mut below[0]) {
+        (*upper, *lower) = exchange.apply(b, *upper, *lower);
     }
     exchange
 }
@@ -225,66 +226,81 @@ fn check(b: &mut Builder, pivots: &[Value], threshold: f64) {
 /// Solves for a right-hand side.
 pub(crate) fn solve(b: &mut Builder, factored: &Factored, rhs: &[Value]) -> Vec<Value> {
     match factored {
-        Factored::Called { size, cells } => {
-            let at = b.cells(*size);
-            for (i, &value) in rhs.iter().enumerate() {
-                b.store(value, b.cell(at, i));
-            }
-            let helper = Helper::Solve {
-                size: *size as u16,
-                distance: cells - at,
-            };
-            b.push(super::code::Op::Call { helper, cells: at });
-            (0..*size)
-                .map(|i| {
-                    let place = b.cell(at, i);
-                    b.at(place.base, place.offset)
-                })
-                .collect()
-        }
-        Factored::Exchanged {
-            rows,
-            reciprocals,
-            exchanges,
-        } => {
-            let mut x = rhs.to_vec();
-            for exchange in exchanges {
-                let (upper, lower) = (exchange.upper, exchange.lower);
-                (x[upper], x[lower]) = exchange.apply(b, x[upper], x[lower]);
-            }
-            for i in 1..rows.len() {
-                let factors = (0..i).map(|k| (rows[i][k], x[k]));
-                x[i] = subtract_products(b, x[i], factors);
-            }
-            for i in (0..rows.len()).rev() {
-                let factors = (i + 1..rows.len()).rev().map(|k| (rows[i][k], x[k]));
-                let rest = subtract_products(b, x[i], factors);
-                x[i] = b.mul(rest, reciprocals[i]);
-            }
-            x
-        }
+        Factored::Called { size, cells } => solve_called(b, *size, *cells, rhs),
         Factored::Unrolled {
             size,
             lower,
             reciprocals,
-        } => {
-            let mut x: Vec<Value> = Vec::with_capacity(*size);
-            for i in 0..*size {
-                let factors = (0..i).map(|k| (lower[below(i, k)], x[k]));
-                let value = subtract_products(b, rhs[i], factors);
-                x.push(value);
-            }
-            for (x, &reciprocal) in x.iter_mut().zip(reciprocals) {
-                if !b.is_zero(*x) {
-                    *x = b.mul(*x, reciprocal);
-                }
-            }
-            // The unknown found last is needed last.
-            for i in (0..*size).rev() {
-                let factors = (i + 1..*size).rev().map(|k| (lower[below(k, i)], x[k]));
-                x[i] = subtract_products(b, x[i], factors);
-            }
-            x
+        } => solve_unrolled(b, *size, lower, reciprocals, rhs),
+        Factored::Exchanged {
+            rows,
+            reciprocals,
+            exchanges,
+        } => solve_exchanged(b, rows, reciprocals, exchanges, rhs),
+    }
+}
+
+fn solve_called(b: &mut Builder, size: usize, matrix: i32, rhs: &[Value]) -> Vec<Value> {
+    let cells = b.cells(size);
+    for (i, &value) in rhs.iter().enumerate() {
+        b.store(value, b.cell(cells, i));
+    }
+    let helper = Helper::Solve {
+        size: size as u16,
+        distance: matrix - cells,
+    };
+    b.push(super::code::Op::Call { helper, cells });
+    let places: Vec<_> = (0..size).map(|i| b.cell(cells, i)).collect();
+    let values = places.into_iter().map(|p| b.at(p.base, p.offset));
+    values.collect()
+}
+
+fn solve_unrolled(
+    b: &mut Builder,
+    size: usize,
+    lower: &[Value],
+    reciprocals: &[Value],
+    rhs: &[Value],
+) -> Vec<Value> {
+    let mut x: Vec<Value> = Vec::with_capacity(size);
+    for i in 0..size {
+        let factors = (0..i).map(|k| (lower[below(i, k)], x[k]));
+        let value = subtract_products(b, rhs[i], factors);
+        x.push(value);
+    }
+    for (x, &reciprocal) in x.iter_mut().zip(reciprocals) {
+        if !b.is_zero(*x) {
+            *x = b.mul(*x, reciprocal);
         }
     }
+    // The unknown found last is needed last.
+    for i in (0..size).rev() {
+        let factors = (i + 1..size).rev().map(|k| (lower[below(k, i)], x[k]));
+        x[i] = subtract_products(b, x[i], factors);
+    }
+    x
+}
+
+fn solve_exchanged(
+    b: &mut Builder,
+    rows: &[Vec<Value>],
+    reciprocals: &[Value],
+    exchanges: &[Exchange],
+    rhs: &[Value],
+) -> Vec<Value> {
+    let mut x = rhs.to_vec();
+    for exchange in exchanges {
+        let (upper, lower) = (exchange.upper, exchange.lower);
+        (x[upper], x[lower]) = exchange.apply(b, x[upper], x[lower]);
+    }
+    for i in 1..rows.len() {
+        let factors = (0..i).map(|k| (rows[i][k], x[k]));
+        x[i] = subtract_products(b, x[i], factors);
+    }
+    for i in (0..rows.len()).rev() {
+        let factors = (i + 1..rows.len()).rev().map(|k| (rows[i][k], x[k]));
+        let rest = subtract_products(b, x[i], factors);
+        x[i] = b.mul(rest, reciprocals[i]);
+    }
+    x
 }
