@@ -314,3 +314,52 @@ fn functions_of_the_library_are_called_with_everything_else_kept() {
         assert!(agree, "output {i}: {e} {f}");
     }
 }
+
+#[test]
+fn angles_of_one_state_do_not_disturb_each_other() {
+    let count = 7;
+    let g = Graph::new();
+    let angles: Vec<Expr> = (0..count).map(|i| g.symbol(&format!("x_{i}"), 0)).collect();
+    let names: Vec<_> = angles.iter().map(|&x| g.as_symbol(x).unwrap()).collect();
+    // Differences need an instruction before they are known; the last sine is needed for another angle.
+    let mut all = angles.clone();
+    all.push(g.sub(angles[0], angles[1]));
+    all.push(g.add(&[g.sin(angles[6]), angles[2]]));
+    let outputs: Vec<Expr> = all.iter().flat_map(|&x| [g.sin(x), g.cos(x)]).collect();
+    let program = Lowering::new(&g)
+        .variables(&names)
+        .output("all", &outputs)
+        .lower()
+        .unwrap();
+    let alone = native(|g, x| vec![g.sin(x), g.cos(x)]);
+    let (Some(together), Some(alone)) = (Native::new(program).unwrap(), alone) else {
+        return;
+    };
+    let mut workspace = together.workspace();
+    together.prepare(&[], &mut workspace).unwrap();
+    let special = [
+        0.5,
+        1e300,
+        f64::NAN,
+        std::f64::consts::PI,
+        -0.0,
+        3e5,
+        -7.25,
+        f64::INFINITY,
+    ];
+    for shift in 0..special.len() {
+        let mut point: Vec<f64> = (0..count).map(|i| special[(i + shift) % 8]).collect();
+        let mut found = vec![0.0; outputs.len()];
+        together
+            .evaluate(&point, &mut workspace, &mut found)
+            .unwrap();
+        point.push(point[0] - point[1]);
+        point.push(found[12] + point[2]);
+        let expected = values(&alone, &point).concat();
+        let bits = |v: &[f64]| -> Vec<u64> {
+            let canonical = |x: &f64| if x.is_nan() { 0 } else { x.to_bits() };
+            v.iter().map(canonical).collect()
+        };
+        assert_eq!(bits(&found), bits(&expected), "{point:?}");
+    }
+}
