@@ -70,6 +70,12 @@ impl<W: Word> Factored<W> {
         }
     }
 
+    /// Number of rows.
+    #[cfg(all(unix, target_arch = "x86_64"))]
+    pub(crate) fn size(&self) -> usize {
+        self.size
+    }
+
     /// The pivots of the last factorization in state l; NaN before the first.
     pub(crate) fn range(&self, l: usize) -> PivotRange {
         self.ranges[l]
@@ -174,6 +180,19 @@ impl<W: Word> Factored<W> {
         None
     }
 
+    /// The factors of one state, row by row.
+    #[cfg(all(unix, target_arch = "x86_64"))]
+    pub(crate) fn factors(&self, l: usize) -> impl Iterator<Item = f64> + '_ {
+        self.factors.iter().map(move |word| word.lane(l))
+    }
+
+    /// For each row of the factors its row in the matrix, in one state.
+    #[cfg(all(unix, target_arch = "x86_64"))]
+    pub(crate) fn rows(&self, l: usize) -> Vec<usize> {
+        let rows = self.rows.iter().skip(l).step_by(W::LANES);
+        rows.map(|&row| row as usize).collect()
+    }
+
     /// Solves A x = b, where b is `rhs(i, l)`; x replaces the contents of `x`.
     pub(crate) fn solve(&self, rhs: impl Fn(usize, usize) -> f64, x: &mut [W]) {
         let n = self.size;
@@ -199,7 +218,7 @@ impl<W: Word> Factored<W> {
     }
 }
 
-fn range(pivots: impl Iterator<Item = f64>) -> PivotRange {
+pub(crate) fn range(pivots: impl Iterator<Item = f64>) -> PivotRange {
     let nothing = PivotRange {
         smallest: f64::INFINITY,
         largest: 0.0,

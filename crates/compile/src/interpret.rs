@@ -6,6 +6,7 @@
 use crate::decode::{Code, Operands, Operation, Run};
 use crate::evaluate::{BlockEvaluator, EvaluateFailure, Evaluator, PivotRange};
 use crate::factor::{Factored, Fault};
+use crate::frames::Frames;
 use crate::kernel;
 use crate::lanes::{Lanes, Word};
 use crate::program::Program;
@@ -40,43 +41,67 @@ impl Interpreter {
 }
 
 #[derive(Clone, Debug)]
-struct State<W> {
-    file: Vec<W>,
-    factored: Vec<Factored<W>>,
+pub(crate) struct State<W> {
+    pub(crate) file: Vec<W>,
+    pub(crate) factored: Vec<Factored<W>>,
     /// A solution on its way from a matrix to the register file.
     solution: Vec<W>,
-    failures: Vec<(usize, EvaluateFailure)>,
+    pub(crate) failures: Vec<(usize, EvaluateFailure)>,
     /// How many failures are of the prologue.
-    lasting: usize,
-    is_prepared: bool,
+    pub(crate) lasting: usize,
+    pub(crate) is_prepared: bool,
 }
 
-/// Storage for the evaluation of single states.
+/// Storage for the evaluation of single states, by the back end that made it.
 #[derive(Clone, Debug)]
-pub struct Workspace(State<f64>);
+pub struct Workspace {
+    pub(crate) state: State<f64>,
+    /// What native code needs beside it.
+    pub(crate) native: Option<Frames>,
+}
 
-/// Storage for the evaluation of blocks of states.
+/// Storage for the evaluation of blocks of states, by the back end that made it.
 #[derive(Clone, Debug)]
-pub struct BlockWorkspace(State<Lanes>);
+pub struct BlockWorkspace {
+    pub(crate) state: State<Lanes>,
+    /// What native code needs beside it.
+    pub(crate) native: Option<Frames>,
+}
 
 impl Workspace {
     /// The pivots of a matrix (an index in [`Program::matrices`]) in the last evaluation that factorized it.
     pub fn pivots(&self, matrix: usize) -> Option<PivotRange> {
-        let factored = self.0.factored.get(matrix)?;
+        let native = self.native.as_ref();
+        if let Some(range) = native.and_then(|native| native.pivots(matrix, 0)) {
+            return Some(range);
+        }
+        let factored = self.state.factored.get(matrix)?;
         Some(factored.range(0))
+    }
+
+    fn interpreted(&mut self) -> Result<&mut State<f64>, EvaluateFailure> {
+        match self.native {
+            None => Ok(&mut self.state),
+            Some(_) => Err(EvaluateFailure::NotPrepared),
+        }
     }
 }
 
 impl BlockWorkspace {
     /// The states that have no value in the last evaluation, with the first reason of each.
     pub fn failures(&self) -> &[(usize, EvaluateFailure)] {
-        &self.0.failures
+        &self.state.failures
     }
 
     /// The pivots of a matrix in one state, in the last evaluation that factorized it.
     pub fn pivots(&self, matrix: usize, state: usize) -> Option<PivotRange> {
-        let factored = self.0.factored.get(matrix)?;
-        (state < Lanes::LANES).then(|| factored.range(state))
+        let factored = self.state.factored.get(matrix)?;
+        if state >= Lanes::LANES {
+            return None;
+        }
+        let native = self.native.as_ref();
+        let range = native.and_then(|native| native.pivots(matrix, state));
+        Some(range.unwrap_or_else(|| factored.range(state)))
     }
 }
 
@@ -86,7 +111,10 @@ impl Evaluator for Interpreter {
     }
 
     fn workspace(&self) -> Workspace {
-        Workspace(State::new(&self.single.program))
+        Workspace {
+            state: State::new(&self.single.program),
+            native: None,
+        }
     }
 
     fn prepare(
@@ -94,7 +122,7 @@ impl Evaluator for Interpreter {
         parameters: &[f64],
         workspace: &mut Workspace,
     ) -> Result<(), EvaluateFailure> {
-        let state = &mut workspace.0;
+        let state = workspace.interpreted()?;
         state.prepare(&self.single, parameters)?;
         state.is_prepared = state.failures.is_empty();
         state.first_failure()
@@ -107,7 +135,7 @@ impl Evaluator for Interpreter {
         workspace: &mut Workspace,
         outputs: &mut [f64],
     ) -> Result<(), EvaluateFailure> {
-        let state = &mut workspace.0;
+        let state = workspace.interpreted()?;
         state.evaluate(&self.single, groups, variables, outputs)?;
         state.first_failure()
     }
@@ -115,7 +143,10 @@ impl Evaluator for Interpreter {
 
 impl BlockEvaluator for Interpreter {
     fn block_workspace(&self) -> BlockWorkspace {
-        BlockWorkspace(State::new(&self.block.program))
+        BlockWorkspace {
+            state: State::new(&self.block.program),
+            native: None,
+        }
     }
 
     fn prepare_block(
@@ -123,7 +154,7 @@ impl BlockEvaluator for Interpreter {
         parameters: &[Lanes],
         workspace: &mut BlockWorkspace,
     ) -> Result<(), EvaluateFailure> {
-        workspace.0.prepare(&self.block, parameters)
+        workspace.state.prepare(&self.block, parameters)
     }
 
     fn evaluate_block(
@@ -133,7 +164,7 @@ impl BlockEvaluator for Interpreter {
         workspace: &mut BlockWorkspace,
         outputs: &mut [Lanes],
     ) -> Result<(), EvaluateFailure> {
-        let state = &mut workspace.0;
+        let state = &mut workspace.state;
         state.evaluate(&self.block, groups, variables, outputs)
     }
 }
@@ -150,7 +181,7 @@ fn check_length(what: &'static str, expected: usize, found: usize) -> Result<(),
 }
 
 impl<W: Word> State<W> {
-    fn new(program: &Program) -> State<W> {
+    pub(crate) fn new(program: &Program) -> State<W> {
         let mut file = vec![W::default(); program.layout.len()];
         for (register, constant) in file.iter_mut().zip(&program.constants) {
             *register = W::splat(constant.value);
@@ -166,14 +197,14 @@ impl<W: Word> State<W> {
         }
     }
 
-    fn first_failure(&self) -> Result<(), EvaluateFailure> {
+    pub(crate) fn first_failure(&self) -> Result<(), EvaluateFailure> {
         match self.failures.first() {
             Some(&(_, failure)) => Err(failure),
             None => Ok(()),
         }
     }
 
-    fn prepare(&mut self, code: &Code, parameters: &[W]) -> Result<(), EvaluateFailure> {
+    pub(crate) fn prepare(&mut self, code: &Code, parameters: &[W]) -> Result<(), EvaluateFailure> {
         let layout = &code.program.layout;
         check_length("parameters", layout.parameters, parameters.len())?;
         self.check_shape(&code.program)?;
@@ -195,32 +226,59 @@ impl<W: Word> State<W> {
         }
     }
 
-    fn evaluate(
+    /// Whether an evaluation with these arguments can begin.
+    pub(crate) fn check(
+        &self,
+        program: &Program,
+        groups: usize,
+        variables: &[W],
+        outputs: &[W],
+    ) -> Result<(), EvaluateFailure> {
+        check_length("variables", program.layout.variables, variables.len())?;
+        check_length("outputs", program.output_count_of(groups), outputs.len())?;
+        self.check_shape(program)?;
+        if self.is_prepared {
+            Ok(())
+        } else {
+            Err(EvaluateFailure::NotPrepared)
+        }
+    }
+
+    pub(crate) fn evaluate(
         &mut self,
         code: &Code,
         groups: usize,
         variables: &[W],
         outputs: &mut [W],
     ) -> Result<(), EvaluateFailure> {
+        self.check(&code.program, groups, variables, outputs)?;
+        self.compute(code, groups, variables, outputs, |output, value| {
+            *output = value;
+        });
+        Ok(())
+    }
+
+    /// Evaluates arguments that have been checked; `write` receives every output and its value.
+    pub(crate) fn compute(
+        &mut self,
+        code: &Code,
+        groups: usize,
+        variables: &[W],
+        outputs: &mut [W],
+        write: impl Fn(&mut W, W),
+    ) {
         let program = &code.program;
-        check_length("variables", program.layout.variables, variables.len())?;
-        check_length("outputs", program.output_count_of(groups), outputs.len())?;
-        self.check_shape(program)?;
-        if !self.is_prepared {
-            return Err(EvaluateFailure::NotPrepared);
-        }
         self.failures.truncate(self.lasting);
         self.file[program.layout.variable_range()].copy_from_slice(variables);
         let mut outputs = outputs.iter_mut();
         for (group, runs) in program.outputs.iter().zip(&code.groups).take(groups) {
             if !self.run(code, runs) {
-                return Ok(());
+                return;
             }
             for (register, output) in group.registers.iter().zip(&mut outputs) {
-                *output = self.file[register.index()];
+                write(output, self.file[register.index()]);
             }
         }
-        Ok(())
     }
 
     /// Runs instructions in order; `false` when no state is left that could go on.

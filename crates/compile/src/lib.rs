@@ -1,15 +1,15 @@
-//! Expressions to numeric functions: the flat program and its interpreters.
+//! Expressions to numeric functions: the flat program, its interpreter, and native code.
 //!
 //! ```text
-//! graph ──Lowering──▶ Program ──Interpreter──▶ Evaluator       one state per call
-//!                        │            └───────▶ BlockEvaluator  32 states per call
-//!                        └──▶ later: native code, Taylor recurrences
+//! graph ──Lowering──▶ Program ──┬─ Interpreter ─┬─▶ Evaluator       one state per call
+//!                               └─── Native ────┴─▶ BlockEvaluator  32 states per call
 //! ```
 //!
 //! [`Lowering`] turns expressions of a [`Graph`](chetaev_symbolic::Graph) into a [`Program`], a register tape of plain data with named groups of
 //! outputs. Common subexpressions are computed once, what depends on parameters only is computed once per set of
 //! parameters, and linear systems stay structured: one factorization per matrix, shared by all right-hand sides.
-//! [`Interpreter`] runs a program through the traits [`Evaluator`] and [`BlockEvaluator`], without allocating.
+//! [`Interpreter`] runs a program through the traits [`Evaluator`] and [`BlockEvaluator`], without allocating;
+//! [`Native`](crate::backend()) does so as machine code where the processor has the instructions. [`backend()`] chooses.
 //! Nothing here knows mechanics.
 //!
 //! ```
@@ -35,22 +35,29 @@
 
 mod allocate;
 mod arithmetic;
+mod backend;
 mod decode;
 mod display;
 mod emit;
 pub mod evaluate;
 mod factor;
+mod frames;
 pub mod interpret;
 mod kernel;
 mod lanes;
 pub mod lower;
+#[cfg(all(unix, target_arch = "x86_64"))]
+pub mod native;
 pub mod program;
 mod schedule;
 pub mod verify;
 
+pub use backend::{backend, Backend, VARIABLE};
 pub use evaluate::{BlockEvaluator, EvaluateFailure, Evaluator};
 pub use interpret::{BlockWorkspace, Interpreter, Workspace};
 pub use lanes::{Lanes, LANES};
 pub use lower::{LowerError, Lowering};
+#[cfg(all(unix, target_arch = "x86_64"))]
+pub use native::Native;
 pub use program::Program;
 pub use verify::VerifyError;

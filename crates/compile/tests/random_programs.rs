@@ -1,7 +1,8 @@
-//! Random expressions: the interpreters against the evaluation of the graph, which shares no code with them.
+//! Random expressions: the interpreters against the evaluation of the graph, which shares no code with them, and
+//! native code against the interpreters.
 #![allow(clippy::unwrap_used)] // A failure here is a failed test.
 
-use chetaev_compile::{BlockEvaluator, Evaluator, Interpreter, Lanes, Lowering, LANES};
+use chetaev_compile::{BlockEvaluator, Evaluator, Interpreter, Lanes, Lowering, Program, LANES};
 use chetaev_symbolic::rational::ratio;
 use chetaev_symbolic::{Expr, Function, Graph, Symbol};
 
@@ -141,7 +142,7 @@ fn point(random: &mut Random, count: usize) -> Vec<f64> {
     (0..count).map(|_| 2.0 * random.unit() - 0.7).collect()
 }
 
-fn values(interpreter: &Interpreter, parameters: &[f64], variables: &[f64]) -> Vec<f64> {
+fn values(interpreter: &dyn Evaluator, parameters: &[f64], variables: &[f64]) -> Vec<f64> {
     let mut workspace = interpreter.workspace();
     interpreter.prepare(parameters, &mut workspace).unwrap();
     let mut outputs = vec![0.0; interpreter.program().output_count()];
@@ -185,6 +186,51 @@ fn the_interpreter_agrees_with_the_graph() {
     }
 }
 
+/// Native code if this machine runs it.
+#[cfg(all(unix, target_arch = "x86_64"))]
+fn native(program: &Program) -> Option<chetaev_compile::Native> {
+    chetaev_compile::Native::new(program.clone()).unwrap()
+}
+
+#[cfg(not(all(unix, target_arch = "x86_64")))]
+fn native(_: &Program) -> Option<Interpreter> {
+    None
+}
+
+#[test]
+fn native_code_agrees_with_the_interpreter() {
+    let mut compared = 0;
+    for seed in 0..400 {
+        let sample = sample(seed, 4 + (seed as usize * 3 % 200));
+        let program = lowering(&sample)
+            .output("f", &sample.roots)
+            .positive_definite(&sample.roots)
+            .lower()
+            .unwrap();
+        let Some(native) = native(&program) else {
+            return;
+        };
+        let interpreter = Interpreter::new(program).unwrap();
+        let mut random = Random(seed + 1000);
+        let parameters = point(&mut random, sample.parameters.len());
+        let variables = point(&mut random, sample.variables.len());
+        let scaled = |scale: f64| -> Vec<f64> { variables.iter().map(|x| x * scale).collect() };
+        let expected = values(&interpreter, &parameters, &variables);
+        // What relative changes in the last places of the variables do bounds what rounding may do.
+        let nudges = [1.0 + 1e-14, 1.0 - 1e-14, 1.0 + 3e-14];
+        let nudged = nudges.map(|nudge| values(&interpreter, &parameters, &scaled(nudge)));
+        let found = values(&native, &parameters, &variables);
+        for (i, (e, f)) in expected.iter().zip(&found).enumerate() {
+            let change = nudged.iter().map(|n| (n[i] - e).abs()).fold(0.0, f64::max);
+            let tolerance = 1e-13 * e.abs().max(1.0) + 10.0 * change;
+            let agree = (e - f).abs() <= tolerance || e.to_bits() == f.to_bits();
+            assert!(agree, "seed {seed}, output {i}: {e} {f}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 3_000);
+}
+
 #[test]
 fn a_block_computes_bit_for_bit_what_single_states_compute() {
     for seed in 0..60 {
@@ -194,42 +240,52 @@ fn a_block_computes_bit_for_bit_what_single_states_compute() {
             .positive_definite(&sample.roots[..6])
             .lower()
             .unwrap();
-        let interpreter = Interpreter::new(program).unwrap();
-        let mut random = Random(seed + 5);
-        let states: Vec<(Vec<f64>, Vec<f64>)> = (0..LANES)
-            .map(|_| {
-                let parameters = point(&mut random, sample.parameters.len());
-                // Far apart, so that states differ in pivots and in quadrants.
-                let mut variables = point(&mut random, sample.variables.len());
-                variables.iter_mut().for_each(|x| *x *= 7.0);
-                (parameters, variables)
-            })
-            .collect();
-        let lanes = |count: usize, value: &dyn Fn(usize, usize) -> f64| -> Vec<Lanes> {
-            (0..count)
-                .map(|i| Lanes::from_fn(|l| value(l, i)))
-                .collect()
-        };
-        let parameters = lanes(sample.parameters.len(), &|l, i| states[l].0[i]);
-        let variables = lanes(sample.variables.len(), &|l, i| states[l].1[i]);
-        let mut workspace = interpreter.block_workspace();
-        let mut outputs = vec![Lanes::default(); sample.roots.len()];
-        interpreter
-            .prepare_block(&parameters, &mut workspace)
-            .unwrap();
-        interpreter
-            .evaluate_block(1, &variables, &mut workspace, &mut outputs)
-            .unwrap();
-        assert!(workspace.failures().is_empty());
-        for (l, (parameters, variables)) in states.iter().enumerate() {
-            let single = values(&interpreter, parameters, variables);
-            for (output, single) in outputs.iter().zip(single) {
-                assert_eq!(
-                    output.as_slice()[l].to_bits(),
-                    single.to_bits(),
-                    "seed {seed}"
-                );
-            }
+        if let Some(native) = native(&program) {
+            compare_block_with_states(seed, &sample, &native);
+        }
+        compare_block_with_states(seed, &sample, &Interpreter::new(program).unwrap());
+    }
+}
+
+fn compare_block_with_states(
+    seed: u64,
+    sample: &Sample,
+    interpreter: &(impl Evaluator + BlockEvaluator),
+) {
+    let mut random = Random(seed + 5);
+    let states: Vec<(Vec<f64>, Vec<f64>)> = (0..LANES)
+        .map(|_| {
+            let parameters = point(&mut random, sample.parameters.len());
+            // Far apart, so that states differ in pivots and in quadrants.
+            let mut variables = point(&mut random, sample.variables.len());
+            variables.iter_mut().for_each(|x| *x *= 7.0);
+            (parameters, variables)
+        })
+        .collect();
+    let lanes = |count: usize, value: &dyn Fn(usize, usize) -> f64| -> Vec<Lanes> {
+        (0..count)
+            .map(|i| Lanes::from_fn(|l| value(l, i)))
+            .collect()
+    };
+    let parameters = lanes(sample.parameters.len(), &|l, i| states[l].0[i]);
+    let variables = lanes(sample.variables.len(), &|l, i| states[l].1[i]);
+    let mut workspace = interpreter.block_workspace();
+    let mut outputs = vec![Lanes::default(); sample.roots.len()];
+    interpreter
+        .prepare_block(&parameters, &mut workspace)
+        .unwrap();
+    interpreter
+        .evaluate_block(1, &variables, &mut workspace, &mut outputs)
+        .unwrap();
+    assert!(workspace.failures().is_empty());
+    for (l, (parameters, variables)) in states.iter().enumerate() {
+        let single = values(interpreter, parameters, variables);
+        for (output, single) in outputs.iter().zip(single) {
+            assert_eq!(
+                output.as_slice()[l].to_bits(),
+                single.to_bits(),
+                "seed {seed}"
+            );
         }
     }
 }
@@ -308,6 +364,7 @@ fn a_large_program_reuses_its_registers() {
         .lower()
         .unwrap();
     assert!(program.body.len() > 100_000);
+    let native = native(&program);
     assert!(
         program.layout.temporaries < 400,
         "{}",
@@ -322,5 +379,11 @@ fn a_large_program_reuses_its_registers() {
         .unwrap();
     for (e, f) in expected.iter().zip(&found) {
         assert!((e - f).abs() <= 1e-11 * e.abs(), "{e} {f}");
+    }
+    if let Some(native) = native {
+        let found = values(&native, &[], &[0.3, -0.8]);
+        for (e, f) in expected.iter().zip(&found) {
+            assert!((e - f).abs() <= 1e-11 * e.abs(), "{e} {f}");
+        }
     }
 }

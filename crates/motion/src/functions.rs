@@ -2,7 +2,7 @@
 
 use crate::numeric::Binding;
 use chetaev_compile::{
-    EvaluateFailure, Evaluator, Interpreter, LowerError, Lowering, VerifyError, Workspace,
+    backend, Backend, EvaluateFailure, Evaluator, LowerError, Lowering, VerifyError, Workspace,
 };
 use chetaev_integrate::EvaluationFailure;
 use chetaev_symbolic::{Expr, Graph, Symbol};
@@ -27,7 +27,8 @@ pub enum FunctionsError {
 /// Named groups of expressions as one numeric function of (t, state).
 #[derive(Clone, Debug)]
 pub struct Functions {
-    interpreter: Arc<Interpreter>,
+    /// Native code where the machine has it.
+    backend: Arc<Backend>,
     workspace: Workspace,
     inputs: Vec<f64>,
     /// All values, those that are zero identically included.
@@ -67,11 +68,11 @@ impl Functions {
             ranges.push(start..start + values.len());
             start += values.len();
         }
-        let interpreter = Interpreter::new(lowering.lower()?)?;
-        let mut workspace = interpreter.workspace();
-        interpreter.prepare(&values, &mut workspace)?;
+        let backend = backend(lowering.lower()?)?;
+        let mut workspace = backend.workspace();
+        backend.prepare(&values, &mut workspace)?;
         Ok(Functions {
-            interpreter: Arc::new(interpreter),
+            backend: Arc::new(backend),
             workspace,
             inputs: vec![0.0; variables.len()],
             outputs: vec![0.0; start],
@@ -93,7 +94,7 @@ impl Functions {
         for (input, &value) in self.inputs.iter_mut().skip(1).zip(state) {
             *input = value;
         }
-        self.interpreter
+        self.backend
             .evaluate(&self.inputs, &mut self.workspace, &mut self.computed)
             .map_err(failure)?;
         let mut infinite = None;

@@ -1,14 +1,13 @@
-//! Linear systems: solutions, and the reasons why there is none.
-#![allow(clippy::unwrap_used)] // A failure here is a failed test.
+// Linear systems: solutions, and the reasons why there is none.
 
 use chetaev_compile::program::Factorization;
 use chetaev_compile::{
-    BlockEvaluator, EvaluateFailure, Evaluator, Interpreter, Lanes, Lowering, LANES,
+    BlockEvaluator, EvaluateFailure, Evaluator, Backend, Lanes, Lowering, LANES,
 };
 use chetaev_symbolic::{Expr, Graph, Symbol};
 
 /// A program for A x = b with all entries of A and b as variables, row by row.
-fn system(n: usize, is_symmetric: bool) -> Interpreter {
+fn system(n: usize, is_symmetric: bool) -> Backend {
     let g = Graph::new();
     let name = |i: usize, j: usize| {
         let (i, j) = if is_symmetric {
@@ -46,10 +45,10 @@ fn system(n: usize, is_symmetric: bool) -> Interpreter {
     };
     assert_eq!(program.matrices[0].factorization, expected);
     assert_eq!(program.matrices[0].name, "mass matrix");
-    Interpreter::new(program).unwrap()
+    make(program)
 }
 
-fn solve(interpreter: &Interpreter, input: &[f64]) -> Result<Vec<f64>, EvaluateFailure> {
+fn solve(interpreter: &Backend, input: &[f64]) -> Result<Vec<f64>, EvaluateFailure> {
     let mut workspace = interpreter.workspace();
     interpreter.prepare(&[], &mut workspace)?;
     let mut x = vec![0.0; interpreter.program().output_count()];
@@ -274,7 +273,7 @@ fn a_matrix_of_parameters_is_factorized_once() {
         .unwrap();
     assert_eq!((program.matrices.len(), program.solves.len()), (1, 2));
     assert_eq!(program.prologue.len(), 1);
-    let interpreter = Interpreter::new(program).unwrap();
+    let interpreter = make(program);
     let mut workspace = interpreter.workspace();
     // 2 1; 1 1, inverse 1 −1; −1 2.
     interpreter
@@ -310,5 +309,72 @@ fn a_matrix_of_parameters_is_factorized_once() {
         let failed: Vec<usize> = block.failures().iter().map(|failure| failure.0).collect();
         assert_eq!(failed, [6]);
         assert_close(&[outputs[2].as_slice()[7]], &[0.5]);
+    }
+}
+
+/// Diagonally dominant, with zeros in a pattern, and x = (1, 2, …).
+fn regular(n: usize, is_symmetric: bool, shift: usize) -> Vec<f64> {
+    let entry = |i: usize, j: usize| {
+        let (i, j) = if is_symmetric { (i.max(j), i.min(j)) } else { (i, j) };
+        match (i * 7 + j * 3 + shift) % 5 {
+            _ if i == j => 3.0 + n as f64 + (i % 3) as f64,
+            0 => 0.0,
+            k => 0.3 * k as f64 - 0.7,
+        }
+    };
+    let mut input = Vec::new();
+    for i in 0..n {
+        let columns = if is_symmetric { 0..i + 1 } else { 0..n };
+        input.extend(columns.map(|j| entry(i, j)));
+    }
+    input.extend((0..n).map(|i| (0..n).map(|j| entry(i, j) * (j + 1) as f64).sum::<f64>()));
+    input
+}
+
+#[test]
+fn systems_of_every_size_are_solved_alone_and_in_blocks() {
+    for n in [2, 3, 4, 5, 8, 13, 19, 20, 21, 24, 33] {
+        for is_symmetric in [true, false] {
+            let system = system(n, is_symmetric);
+            let inputs: Vec<Vec<f64>> = (0..LANES).map(|l| regular(n, is_symmetric, l)).collect();
+            let lanes: Vec<Lanes> = (0..inputs[0].len())
+                .map(|i| Lanes::from_fn(|l| inputs[l][i]))
+                .collect();
+            let mut workspace = system.block_workspace();
+            let mut x = vec![Lanes::default(); n];
+            system.prepare_block(&[], &mut workspace).unwrap();
+            system
+                .evaluate_block(1, &lanes, &mut workspace, &mut x)
+                .unwrap();
+            for (l, input) in inputs.iter().enumerate() {
+                let alone = solve(&system, input).unwrap();
+                let together: Vec<f64> = x.iter().map(|x| x.as_slice()[l]).collect();
+                assert_eq!(alone, together, "size {n}, state {l}");
+                let expected: Vec<f64> = (1..=n).map(|i| i as f64).collect();
+                assert_close(&alone, &expected);
+            }
+        }
+    }
+}
+
+#[test]
+fn pivots_of_a_block_are_those_of_its_states() {
+    for is_symmetric in [true, false] {
+        let system = system(5, is_symmetric);
+        let inputs: Vec<Vec<f64>> = (0..LANES).map(|l| regular(5, is_symmetric, l)).collect();
+        let lanes: Vec<Lanes> = (0..inputs[0].len())
+            .map(|i| Lanes::from_fn(|l| inputs[l][i]))
+            .collect();
+        let mut block = system.block_workspace();
+        let mut x = vec![Lanes::default(); 5];
+        system.prepare_block(&[], &mut block).unwrap();
+        system.evaluate_block(1, &lanes, &mut block, &mut x).unwrap();
+        for (l, input) in inputs.iter().enumerate() {
+            let mut single = system.workspace();
+            system.prepare(&[], &mut single).unwrap();
+            system.evaluate(input, &mut single, &mut [0.0; 5]).unwrap();
+            assert_eq!(block.pivots(0, l), single.pivots(0));
+            assert!(single.pivots(0).unwrap().smallest > 1.0);
+        }
     }
 }

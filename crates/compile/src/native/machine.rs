@@ -1,0 +1,160 @@
+//! Machine code of one program for one width.
+#![allow(unsafe_code)] // Calls machine code through a pointer.
+
+use super::assembler::Width;
+use super::code::Base;
+use super::emit;
+use super::memory::Pages;
+use super::registers;
+use super::translate::{self, Translated};
+use crate::frames::{Frame, Frames, Pivots, SIDE_BY_SIDE};
+use crate::lanes::{Lanes, LANES};
+use crate::program::Program;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::Arc;
+
+/// Frame, variables, register file of the prologue, outputs, and how many groups; the lanes without a result.
+type Entry = unsafe extern "sysv64" fn(*mut f64, *const f64, *const f64, *mut f64, u64) -> u64;
+
+/// The body of a program as machine code.
+#[derive(Debug)]
+pub(crate) struct Machine {
+    pages: Pages,
+    width: Width,
+    /// Tells its frames from those of others.
+    id: u64,
+    initial: Vec<(i32, u64, usize)>,
+    /// Bytes of a frame.
+    frame: usize,
+    pivots: Arc<[Option<Pivots>]>,
+    copied: Vec<(usize, i32)>,
+    /// How many numbers are read of the slices given.
+    variables: usize,
+    file: usize,
+    /// By number of groups: how many numbers they write.
+    outputs: Vec<usize>,
+    bytes: usize,
+}
+
+/// What a run reads and writes, from the first number of its first state on.
+pub(crate) struct Data<'a> {
+    pub(crate) variables: &'a [f64],
+    pub(crate) file: &'a [f64],
+    pub(crate) outputs: &'a mut [f64],
+}
+
+static MACHINES: AtomicU64 = AtomicU64::new(0);
+
+impl Machine {
+    /// Compiles the body; `None` where code cannot be made or placed, or this processor cannot run it.
+    pub(crate) fn new(program: &Program, width: Width) -> Option<Machine> {
+        if !super::is_available() {
+            return None;
+        }
+        let Translated {
+            code,
+            pivots,
+            copied,
+        } = translate::translate(program, width);
+        let allocated = registers::allocate(&code);
+        let bytes = emit::emit(&allocated.steps, width)?;
+        let stride = translate::stride(width) as usize / 8;
+        let reach = |count: usize| match count {
+            0 => 0,
+            _ => (count - 1) * stride + width.lanes(),
+        };
+        let outputs = (0..=program.outputs.len()).map(|g| reach(program.output_count_of(g)));
+        let homes = code.values.iter().filter_map(|info| info.home);
+        let file = homes.filter(|place| place.base == Base::File);
+        let file = file.map(|place| place.offset as usize / 8 + width.lanes());
+        Some(Machine {
+            pages: Pages::new(&bytes)?,
+            width,
+            id: MACHINES.fetch_add(1, Ordering::Relaxed),
+            initial: code.initial,
+            // One number more, for instructions that read sixteen bytes at the last.
+            frame: allocated.frame as usize + 8,
+            pivots: pivots.into(),
+            copied,
+            variables: reach(program.layout.variables),
+            file: file.max().unwrap_or(0),
+            outputs: outputs.collect(),
+            bytes: bytes.len(),
+        })
+    }
+
+    /// Frames with the constants in them.
+    pub(crate) fn frames(&self) -> Frames {
+        let mut frame = Frame::new(self.frame, self.id);
+        for &(offset, bits, copies) in &self.initial {
+            frame.write(offset, std::iter::repeat_n(f64::from_bits(bits), copies));
+        }
+        let runs = match self.width {
+            Width::One => 1,
+            Width::Four => LANES / SIDE_BY_SIDE,
+        };
+        let count = if self.copied.is_empty() { 1 } else { runs };
+        let lanes = self.width.lanes();
+        let kept = if runs == 1 {
+            0
+        } else {
+            runs * Frames::kept_per_run(&self.pivots, lanes)
+        };
+        Frames {
+            frames: vec![frame; count],
+            interpreted: 0,
+            pivots: self.pivots.clone(),
+            lanes,
+            kept: vec![f64::NAN; kept],
+        }
+    }
+
+    /// Matrices of the prologue whose factors a frame has to have: index, and the byte from which they are.
+    pub(crate) fn copied(&self) -> &[(usize, i32)] {
+        &self.copied
+    }
+
+    /// Length of the code.
+    pub(crate) fn bytes(&self) -> usize {
+        self.bytes
+    }
+
+    /// Computes the first `groups` groups; the bits of the result are the lanes without one. `None` if a slice is
+    /// too short, the frame is not of this code, or there are no such groups.
+    #[inline]
+    pub(crate) fn run(&self, frame: &mut Frame, groups: usize, data: Data<'_>) -> Option<u64> {
+        let fits = frame.owner() == self.id
+            && data.variables.len() >= self.variables
+            && data.file.len() >= self.file
+            && data.outputs.len() >= *self.outputs.get(groups)?;
+        if !fits || groups == 0 {
+            return None;
+        }
+        // SAFETY: the pages hold a function of this type, as `emit` writes it.
+        let entry: Entry = unsafe { std::mem::transmute(self.pages.start()) };
+        // SAFETY: the frame was made by this machine, and the code stays within its bytes; it reads variables and
+        // file and writes outputs within the numbers compared above; and this processor has the instructions used,
+        // or there would be no machine.
+        Some(unsafe {
+            entry(
+                frame.lines().as_mut_ptr().cast(),
+                data.variables.as_ptr(),
+                data.file.as_ptr(),
+                data.outputs.as_mut_ptr(),
+                groups as u64,
+            )
+        })
+    }
+}
+
+/// The numbers of lanes, one after the other.
+pub(crate) fn numbers(lanes: &[Lanes]) -> &[f64] {
+    // SAFETY: `Lanes` is an array of that many numbers, whose size is a multiple of its alignment.
+    unsafe { std::slice::from_raw_parts(lanes.as_ptr().cast(), lanes.len() * LANES) }
+}
+
+/// The numbers of lanes, one after the other.
+pub(crate) fn numbers_mut(lanes: &mut [Lanes]) -> &mut [f64] {
+    // SAFETY: as above, and the borrow is passed on.
+    unsafe { std::slice::from_raw_parts_mut(lanes.as_mut_ptr().cast(), lanes.len() * LANES) }
+}
