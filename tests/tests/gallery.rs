@@ -86,6 +86,11 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
         "motion.method-order",
         "too simple",
     ),
+    (
+        "falling-rolling-disc/steady.toml",
+        "motion.method-order",
+        "too simple",
+    ),
     ("heavy-top/steady.toml", "motion.method-order", "too simple"),
     (
         "moving-knife-edge/lift.toml",
