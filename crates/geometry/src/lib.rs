@@ -3,8 +3,18 @@
 pub mod cartan;
 pub mod distribution;
 pub mod integrability;
+pub mod noether;
 
 use chetaev_mechanics::Claim;
 
 /// The claims of this crate.
-pub static CLAIMS: &[&dyn Claim] = &[&integrability::ConstraintsIntegrable];
+pub static CLAIMS: &[&dyn Claim] = &[
+    &integrability::ConstraintsIntegrable,
+    &noether::claims::FamilySearched,
+    &noether::claims::FirstIntegral,
+    &noether::claims::Killing,
+    &noether::claims::Structure,
+    &noether::claims::Contraction,
+    &noether::claims::EmbeddedField,
+    &noether::claims::Inverse,
+];

@@ -84,6 +84,11 @@ impl System {
                 .map(|f| (name_of(f.coordinate), f.value))
                 .collect(),
             named_masses: named_masses(model),
+            integrals: model
+                .integrals
+                .iter()
+                .map(|i| (i.name.clone(), i.value))
+                .collect(),
             assumptions: model.assumptions.iter().filter_map(assumption).collect(),
         };
         System::new(Arc::clone(&model.graph), parts)

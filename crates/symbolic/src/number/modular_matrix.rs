@@ -111,7 +111,12 @@ pub fn null_space(field: &PrimeField, columns: usize, mut matrix: Vec<Residue>) 
     pivots.iter().for_each(|&column| is_pivot[column] = true);
     let vectors = (0..columns)
         .filter(|&column| !is_pivot[column])
-        .map(|column| (column, back_substituted(field, columns, &matrix, &pivots, column)))
+        .map(|column| {
+            (
+                column,
+                back_substituted(field, columns, &matrix, &pivots, column),
+            )
+        })
         .collect();
     NullSpace { pivots, vectors }
 }
@@ -236,15 +241,23 @@ mod tests {
     fn null_vectors_belong_to_dependent_columns_and_use_pivots_to_their_left() {
         let field = field();
         // Columns a, 2a, b, a + 3b, c with a = (1, 1, 0, 2), b = (0, 1, 5, 1), c = (0, 0, 1, 1).
-        let rows = [[1, 2, 0, 1, 0], [1, 2, 1, 4, 0], [0, 0, 5, 15, 1], [2, 4, 1, 5, 1]];
+        let rows = [
+            [1, 2, 0, 1, 0],
+            [1, 2, 1, 4, 0],
+            [0, 0, 5, 15, 1],
+            [2, 4, 1, 5, 1],
+        ];
         let matrix = rows.concat().iter().map(|&n| field.from_u64(n)).collect();
         let found = null_space(&field, 5, matrix);
         let number = |n| field.from_i64(n);
         assert_eq!(found.pivots, [0, 2, 4]);
-        assert_eq!(found.vectors, [
-            (1, vec![(0, number(-2))]),
-            (3, vec![(0, number(-1)), (2, number(-3))]),
-        ]);
+        assert_eq!(
+            found.vectors,
+            [
+                (1, vec![(0, number(-2))]),
+                (3, vec![(0, number(-1)), (2, number(-3))]),
+            ]
+        );
     }
 
     #[test]

@@ -7,14 +7,16 @@
 use super::assumptions::Assumptions;
 use super::eliminate::{eliminate_all, Eliminated};
 use super::evaluate::{Parametrization, Point, Run};
+use super::modular::bound;
 use super::prepare::{prepare, Question};
 use super::program::{Generator, Program};
 use super::ring::Scalars;
+use super::size::{Sizes, SLACK};
 use super::tower::{Element, Tower};
 use super::variety::{Solution, Variety};
 use crate::graph::Graph;
 use crate::node::{Expr, Symbol};
-use crate::number::prime::random_prime;
+use crate::number::prime::{random_prime, LOG2_PRIME_COUNT};
 use crate::number::prime_field::{PrimeField, Residue};
 use crate::number::random::Random;
 
@@ -93,7 +95,9 @@ impl Points {
         );
         if let Some(q) = program.odd_roots.first() {
             if program.order_of_unity.is_multiple_of(*q) {
-                return Err(format!("roots of degree {q} occur with angles of a {q}-th of π"));
+                return Err(format!(
+                    "roots of degree {q} occur with angles of a {q}-th of π"
+                ));
             }
         }
         let is_fixed = |e: Expr| graph.is_free_of(e, question.moves);
@@ -117,6 +121,33 @@ impl Points {
     /// The number of operations of one evaluation.
     pub fn cost(&self) -> usize {
         self.program.operations.len()
+    }
+
+    /// log2 of a bound on the probability that a minor of `size` rows vanishes at random points of one random draw although it does
+    /// not vanish identically, where the entries are polynomials of degree up to `degree` in the first `outputs` expressions.
+    ///
+    /// As in the modular proof: a non-zero integer below 2^h has at most h/61 prime divisors of 62 bits, and a non-zero polynomial of
+    /// degree d vanishes at a random point with probability d/2^60.9 at most, twice that for points of circles; norms
+    /// over the algebraic elements multiply degree and height, refused points the probability.
+    pub fn miss_log2(&self, outputs: usize, degree: u32, size: usize) -> f64 {
+        let program = &self.program;
+        let sizes = Sizes::of(program, &bound::weights(program), None);
+        let (mut largest, mut divisors) = ((0.0_f64, 0.0_f64), (0.0, 0.0));
+        for &output in program.outputs.iter().take(outputs) {
+            let (own, divisor) = (sizes.get(output), sizes.denominator(output));
+            largest = (largest.0.max(own.degree), largest.1.max(own.height));
+            divisors = (divisors.0 + divisor.degree, divisors.1 + divisor.height);
+        }
+        let factor = f64::from(degree) * size.max(1) as f64 * SLACK;
+        let rows = (
+            factor * (largest.0 + divisors.0),
+            factor * (largest.1 + divisors.1 + 8.0),
+        );
+        let tower = if program.constraints.is_empty() { 0 } else { 8 };
+        let norm = f64::from(program.radicals + tower).exp2();
+        let prime = norm * rows.1 / 61.0 / (LOG2_PRIME_COUNT - 4.0).exp2();
+        let point = 2.0 * norm * rows.0 / 60.9_f64.exp2();
+        (prime + point).log2() + f64::from(REFUSED).log2()
     }
 
     /// Draws a prime and values of what does not move; `None` when no suitable prime is found.
@@ -218,7 +249,11 @@ impl Points {
                 Solution::Split(split) => {
                     let mut next = tower.equations(split.level);
                     let [first, second] = split.factors;
-                    next.push(Some(if random.next_u64() & 1 == 0 { first } else { second }));
+                    next.push(Some(if random.next_u64() & 1 == 0 {
+                        first
+                    } else {
+                        second
+                    }));
                     next
                 }
                 Solution::Outputs(outputs) => match tower.first_extension() {

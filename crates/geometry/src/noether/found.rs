@@ -1,0 +1,219 @@
+//! The first integrals of a system in the families that are chosen for it, computed once for all claims about them.
+
+use super::family::Family;
+use super::motion::Motion;
+use super::occurring::Letters;
+use super::search::{Integral, Table};
+use chetaev_mechanics::Context;
+use chetaev_symbolic::number::prime_field::Residue;
+use chetaev_symbolic::simplify::{simplify, Options};
+use chetaev_symbolic::Expr;
+use std::sync::Arc;
+
+/// The most members of a family of a system of up to four coordinates, and of a larger one.
+const MEMBERS: [usize; 2] = [320, 640];
+
+/// Families do not grow beyond this weight of the coefficients.
+const WEIGHT: u32 = 6;
+
+/// A family that was searched, and what was found there.
+#[derive(Clone, Debug)]
+pub struct Searched {
+    /// What it consists of, in words.
+    pub words: String,
+    /// Its members, the constant not counted.
+    pub members: usize,
+    /// Members that are combinations of others on the constraint manifold.
+    pub relations: usize,
+    /// The dimension of the space of its first integrals, constants not counted.
+    pub dimension: usize,
+    /// log2 of a bound on the probability that the dimension is larger.
+    pub error_bound_log2: f64,
+}
+
+/// What the search found.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The families, each exhausted.
+    pub families: Vec<Searched>,
+    /// Functionally independent first integrals, each proved.
+    pub integrals: Vec<Integral>,
+    /// Dimensions whose integrals are functions of `integrals`.
+    pub dependent: usize,
+    /// Independent integrals modulo p that could not be lifted or proved.
+    pub open: usize,
+}
+
+/// A combination of members, with its leading one last.
+struct Candidate<'f> {
+    family: &'f Family,
+    vector: Vec<(usize, Residue)>,
+    /// The degree in the velocities of the leading member; a known function goes before others of its degree.
+    order: (u32, bool, usize),
+    name: Option<String>,
+}
+
+/// What the search finds for the context's system; a sentence where it cannot be made.
+pub fn found(cx: &Context<'_>) -> Arc<Result<Found, String>> {
+    cx.shared(|cx| search(cx))
+}
+
+/// The same, where some claim has asked for it already.
+pub fn if_searched(cx: &Context<'_>) -> Option<Arc<Result<Found, String>>> {
+    cx.known::<Result<Found, String>>()
+}
+
+fn search(cx: &Context<'_>) -> Result<Found, String> {
+    if cx.is_out_of_time() {
+        return Err("the time for claims was spent before the search".into());
+    }
+    let motion = Motion::of(cx)?;
+    let letters = Letters::of(cx);
+    let families = families(cx, &letters);
+    let table = Table::new(&motion, &letters.all(), cx.prover.points_seed())?;
+    let mut candidates: Vec<Candidate<'_>> = Vec::new();
+    let mut searched = Vec::new();
+    for (place, family) in families.iter().enumerate() {
+        let space = table.space(family)?;
+        searched.push(Searched {
+            words: family.words.clone(),
+            members: family.members.len() - 1,
+            relations: space.relations.len(),
+            dimension: space.integrals.len(),
+            error_bound_log2: space.error_bound_log2,
+        });
+        for vector in space.integrals {
+            let leading = vector.last().map_or(0, |&(member, _)| member);
+            let degree = letters.degree(&family.members[leading]);
+            candidates.push(Candidate {
+                order: (degree, true, place),
+                family,
+                vector,
+                name: None,
+            });
+        }
+    }
+    candidates.extend(known(&table, &letters, &families));
+    candidates.sort_by_key(|c| c.order);
+    let (integrals, dependent, open) = chosen(cx, &table, &candidates);
+    Ok(Found {
+        families: searched,
+        integrals,
+        dependent,
+        open,
+    })
+}
+
+/// Known functions that are integrals, as candidates.
+fn known<'f>(table: &Table<'_>, letters: &Letters, families: &'f [Family]) -> Vec<Candidate<'f>> {
+    let first = letters.velocities.len() + letters.coefficients.len();
+    let mut found = Vec::new();
+    for (i, (name, _)) in letters.known.iter().enumerate() {
+        let member = vec![(first + i, 1)];
+        let place = families.iter().find_map(|family| {
+            let place = family.members.iter().position(|m| *m == member)?;
+            Some((family, place))
+        });
+        let Some((family, place)) = place else {
+            continue;
+        };
+        if let Some(one) = table.rate_vanishes(family, place) {
+            found.push(Candidate {
+                family,
+                vector: vec![(place, one)],
+                order: (2, false, 0),
+                name: Some(name.clone()),
+            });
+        }
+    }
+    found
+}
+
+/// The functionally independent candidates, lifted and proved; how many depend on them, and how many stay open.
+fn chosen(
+    cx: &Context<'_>,
+    table: &Table<'_>,
+    candidates: &[Candidate<'_>],
+) -> (Vec<Integral>, usize, usize) {
+    let vectors: Vec<(&Family, &[(usize, Residue)])> = candidates
+        .iter()
+        .map(|c| (c.family, &c.vector[..]))
+        .collect();
+    let independent = table.independent(&vectors).unwrap_or_default();
+    let mut integrals = Vec::new();
+    let mut open = 0;
+    for &i in &independent {
+        let candidate = &candidates[i];
+        match table.proved(cx, candidate.family, &candidate.vector) {
+            Some(integral) => integrals.push(Integral {
+                shown: readable(cx, integral.shown),
+                name: candidate.name.clone(),
+                ..integral
+            }),
+            None => open += 1,
+        }
+    }
+    (integrals, candidates.len() - independent.len(), open)
+}
+
+fn readable(cx: &Context<'_>, e: Expr) -> Expr {
+    simplify(&cx.system.graph, e, &Options::default())
+}
+
+/// The largest families within the budget: polynomials of degree one and two in the velocities, and quotients.
+fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
+    let most = MEMBERS[usize::from(cx.system.n() > 4)];
+    let mut families: Vec<Family> = [1, 2]
+        .into_iter()
+        .map(|degree| {
+            let mut weight = 0;
+            let mut largest = letters.polynomials(degree, 0);
+            while weight < WEIGHT {
+                let next = letters.polynomials(degree, weight + 1);
+                if next.members.len() > most {
+                    break;
+                }
+                weight += 1;
+                largest = next;
+            }
+            largest.words = words(cx, letters, degree, weight);
+            largest
+        })
+        .collect();
+    if letters.velocities.len() > 1 {
+        let mut quotients = letters.quotients();
+        quotients.words = "quotients of two velocities".into();
+        families.push(quotients);
+    }
+    families
+}
+
+fn words(cx: &Context<'_>, letters: &Letters, degree: u32, weight: u32) -> String {
+    let g = &cx.system.graph;
+    let list = |weight: u32| {
+        let own = letters.coefficients.iter().filter(|c| c.weight == weight);
+        own.map(|c| g.text(c.letter.shown)).collect::<Vec<String>>()
+    };
+    let velocities: Vec<String> = letters.velocities.iter().map(|l| g.text(l.shown)).collect();
+    let weights: Vec<String> = (1..=3)
+        .filter(|&w| !list(w).is_empty())
+        .map(|w| format!("{} ({w} each)", list(w).join(", ")))
+        .collect();
+    let top = if degree == 1 { "linear" } else { "quadratic" };
+    let known = match degree >= 2 && !letters.known.is_empty() {
+        true => {
+            let names: Vec<&str> = letters
+                .known
+                .iter()
+                .map(|(name, _)| name.as_str())
+                .collect();
+            format!(", and {}", names.join(", "))
+        }
+        false => String::new(),
+    };
+    format!(
+        "polynomials of degree up to {degree} in the velocities {}, with coefficients of weight up to {weight} in the {top} terms and one more for each velocity less, built of {}{known}",
+        velocities.join(", "),
+        weights.join("; ")
+    )
+}
