@@ -84,6 +84,12 @@ impl System {
                 .map(|f| (name_of(f.coordinate), f.value))
                 .collect(),
             named_masses: named_masses(model),
+            angles: model
+                .coordinates
+                .iter()
+                .filter(|c| c.unit.as_ref().is_some_and(|unit| unit.text == "rad"))
+                .map(|c| c.name.clone())
+                .collect(),
             integrals: model
                 .integrals
                 .iter()

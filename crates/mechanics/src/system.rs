@@ -203,6 +203,8 @@ pub struct SystemParts {
     pub reactive_forces: Vec<(String, Expr)>,
     /// The masses in a kinetic energy that is stated, where they change isotropically.
     pub named_masses: Option<NamedMasses>,
+    /// Names of the coordinates that are angles by their unit.
+    pub angles: Vec<String>,
     /// Functions that the user expects to be first integrals, as (name, G).
     pub integrals: Vec<(String, Expr)>,
     /// Assumptions.
@@ -308,6 +310,8 @@ pub struct System {
     pub characteristics: Option<CharacteristicFormulas>,
     /// Particles of the model; their applied forces are contained in [`forces`](System::forces).
     pub particles: Vec<Particle>,
+    /// Names of the coordinates that are angles by their unit.
+    pub angles: Vec<String>,
     /// Functions that the model states as first integrals, with their names.
     pub integrals: Vec<(String, Expr)>,
     /// Assumptions of the model.
@@ -398,6 +402,7 @@ impl System {
             frame: parts.frame,
             characteristics: parts.characteristics,
             particles: parts.particles,
+            angles: parts.angles,
             integrals: parts.integrals,
             assumptions: parts.assumptions,
             places: places(&parts.coordinates),

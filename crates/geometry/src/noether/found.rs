@@ -11,7 +11,7 @@ use chetaev_symbolic::Expr;
 use std::sync::Arc;
 
 /// The most members of a family of a system of up to four coordinates, and of a larger one.
-const MEMBERS: [usize; 2] = [320, 640];
+const MEMBERS: [usize; 2] = [400, 700];
 
 /// Families do not grow beyond this weight of the coefficients.
 const WEIGHT: u32 = 6;
@@ -48,8 +48,9 @@ pub struct Found {
 struct Candidate<'f> {
     family: &'f Family,
     vector: Vec<(usize, Residue)>,
-    /// The degree in the velocities of the leading member; a known function goes before others of its degree.
-    order: (u32, bool, usize),
+    /// Whether it contains the time, then the degree in the velocities of the leading member; a known function goes before others
+    /// of its degree.
+    order: (bool, u32, bool, usize),
     name: Option<String>,
 }
 
@@ -69,8 +70,13 @@ fn search(cx: &Context<'_>) -> Result<Found, String> {
     }
     let motion = Motion::of(cx)?;
     let letters = Letters::of(cx);
-    let families = families(cx, &letters);
-    let table = Table::new(&motion, &letters.all(), cx.prover.points_seed())?;
+    in_letters(cx, &motion, &letters)
+        .or_else(|_| in_letters(cx, &motion, &letters.without_roots(cx.system)))
+}
+
+fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Result<Found, String> {
+    let families = families(cx, letters);
+    let table = Table::new(motion, &letters.all(), cx.prover.points_seed())?;
     let mut candidates: Vec<Candidate<'_>> = Vec::new();
     let mut searched = Vec::new();
     for (place, family) in families.iter().enumerate() {
@@ -85,15 +91,16 @@ fn search(cx: &Context<'_>) -> Result<Found, String> {
         for vector in space.integrals {
             let leading = vector.last().map_or(0, |&(member, _)| member);
             let degree = letters.degree(&family.members[leading]);
+            let timed = vector.iter().any(|&(m, _)| letters.is_timed(cx.system, &family.members[m]));
             candidates.push(Candidate {
-                order: (degree, true, place),
+                order: (timed, degree, true, place),
                 family,
                 vector,
                 name: None,
             });
         }
     }
-    candidates.extend(known(&table, &letters, &families));
+    candidates.extend(known(&table, letters, &families));
     candidates.sort_by_key(|c| c.order);
     let (integrals, dependent, open) = chosen(cx, &table, &candidates);
     Ok(Found {
@@ -121,7 +128,7 @@ fn known<'f>(table: &Table<'_>, letters: &Letters, families: &'f [Family]) -> Ve
             found.push(Candidate {
                 family,
                 vector: vec![(place, one)],
-                order: (2, false, 0),
+                order: (false, 2, false, 0),
                 name: Some(name.clone()),
             });
         }
@@ -191,15 +198,21 @@ fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
 fn words(cx: &Context<'_>, letters: &Letters, degree: u32, weight: u32) -> String {
     let g = &cx.system.graph;
     let list = |weight: u32| {
-        let own = letters.coefficients.iter().filter(|c| c.weight == weight);
-        own.map(|c| g.text(c.letter.shown)).collect::<Vec<String>>()
+        let numbered = letters.coefficients.iter().enumerate();
+        let own = numbered.filter(|(i, c)| {
+            c.weight == weight && (degree == 1 || !letters.turning.contains(i))
+        });
+        own.map(|(_, c)| g.text(c.letter.shown)).collect::<Vec<String>>()
     };
     let velocities: Vec<String> = letters.velocities.iter().map(|l| g.text(l.shown)).collect();
     let weights: Vec<String> = (1..=3)
         .filter(|&w| !list(w).is_empty())
         .map(|w| format!("{} ({w} each)", list(w).join(", ")))
         .collect();
-    let top = if degree == 1 { "linear" } else { "quadratic" };
+    let more = match degree {
+        1 => "",
+        _ => " in the quadratic terms and one more for each velocity less",
+    };
     let known = match degree >= 2 && !letters.known.is_empty() {
         true => {
             let names: Vec<&str> = letters
@@ -212,7 +225,7 @@ fn words(cx: &Context<'_>, letters: &Letters, degree: u32, weight: u32) -> Strin
         false => String::new(),
     };
     format!(
-        "polynomials of degree up to {degree} in the velocities {}, with coefficients of weight up to {weight} in the {top} terms and one more for each velocity less, built of {}{known}",
+        "polynomials of degree up to {degree} in the velocities {}, with coefficients of weight up to {weight}{more}, built of {}{known}",
         velocities.join(", "),
         weights.join("; ")
     )

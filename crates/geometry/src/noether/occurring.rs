@@ -2,10 +2,10 @@
 //! coefficients.
 
 use super::family::{coefficients, monomials, product, CoefficientLetter, Family, Letter, Member};
-use chetaev_mechanics::{Characteristics, Context, Frame, System};
+use chetaev_mechanics::{sample, Characteristics, Context, Frame, System};
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::matrix::determinant;
-use chetaev_symbolic::{Expr, Function, Node, Symbol};
+use chetaev_symbolic::{simplify, Expr, Function, Node, Symbol};
 
 /// The letters of a system.
 #[derive(Clone, Debug)]
@@ -14,6 +14,8 @@ pub struct Letters {
     pub velocities: Vec<Letter>,
     /// Functions of (t, q).
     pub coefficients: Vec<CoefficientLetter>,
+    /// Places in `coefficients` of the sines and cosines of angles that occur nowhere, which stand in linear integrals only.
+    pub turning: Vec<usize>,
     /// Functions that are members by themselves, with their names: the energy.
     pub known: Vec<(String, Letter)>,
 }
@@ -22,7 +24,10 @@ pub struct Letters {
 const DETERMINANT: usize = 4;
 
 /// The largest factor of a determinant, in nodes, whose root is a letter.
-const FACTOR: usize = 40;
+const FACTOR: usize = 30;
+
+/// Its longest, as it is written.
+const LENGTH: u64 = 40;
 
 impl Letters {
     /// The letters of the context's system.
@@ -35,18 +40,31 @@ impl Letters {
         roots.extend(velocities.iter().map(|l| l.value));
         let mut found = Occurring::in_roots(system, &roots);
         found.roots_of_measure(cx);
+        let (coefficients, turning) = found.letters();
         let energy = Letter::plain(system.energy());
         let is_constant = system
             .graph
             .is_free_of(energy.value, &|s| system.moves(system.graph.symbol_name(s)));
         Letters {
             velocities,
-            coefficients: found.letters(),
+            coefficients,
+            turning,
             known: match is_constant {
                 true => Vec::new(),
                 false => vec![("the energy".into(), energy)],
             },
         }
+    }
+
+    /// The letters without roots, where these leave no points over a prime field.
+    #[must_use]
+    pub fn without_roots(&self, system: &System) -> Letters {
+        let mut without = self.clone();
+        without.coefficients.retain(|c| {
+            let (_, exponent) = system.graph.base_exponent(c.letter.value);
+            system.graph.as_integer(exponent).is_some()
+        });
+        without
     }
 
     /// All letters, velocities first, known functions last.
@@ -63,7 +81,11 @@ impl Letters {
         let count = self.velocities.len();
         let mut members: Vec<(u32, Member)> = Vec::new();
         for d in 0..=degree {
-            let functions = coefficients(&self.coefficients, count, weight + degree - d);
+            // The terms without velocities of an integral linear in these need nothing more than the others.
+            let more = if degree == 1 { 0 } else { degree - d };
+            let usual = coefficients(&self.coefficients, count, weight + more);
+            let is_used = |(_, member): &(u32, Member)| degree == 1 || !self.is_turning(member);
+            let functions: Vec<(u32, Member)> = usual.into_iter().filter(is_used).collect();
             for monomial in monomials(count, d) {
                 let own = functions.iter();
                 members.extend(own.map(|(w, f)| (d + w, product(&monomial, f))));
@@ -97,6 +119,25 @@ impl Letters {
             members,
             words: String::new(),
         }
+    }
+
+    /// Whether a member contains the sine or cosine of a coordinate that occurs nowhere.
+    fn is_turning(&self, member: &Member) -> bool {
+        let first = self.velocities.len();
+        let mut own = member.iter().filter_map(|&(letter, _)| letter.checked_sub(first));
+        own.any(|place| self.turning.contains(&place))
+    }
+
+    /// Whether a member contains the time.
+    pub fn is_timed(&self, system: &System, member: &Member) -> bool {
+        let g = &system.graph;
+        let first = self.velocities.len();
+        let own = member.iter().filter_map(|&(letter, _)| {
+            let coefficient = letter.checked_sub(first)?;
+            self.coefficients.get(coefficient)
+        });
+        own.into_iter()
+            .any(|c| system.is_rheonomic(c.letter.value) || g.text(c.letter.value) == "t")
     }
 
     /// The degree of a member in the velocities.
@@ -134,11 +175,11 @@ fn velocities(cx: &Context<'_>) -> Vec<Letter> {
     if all.len() < system.n() {
         all.extend(cx.selection.dependent.iter().map(|&d| natural(d)));
     }
-    let known: Vec<Expr> = all.iter().map(|l| l.value).collect();
-    let mut place = 0;
+    let mut seen: Vec<Expr> = Vec::new();
     all.retain(|letter| {
-        place += 1;
-        !known[..place - 1].contains(&letter.value)
+        let is_new = !seen.contains(&letter.value);
+        seen.push(letter.value);
+        is_new
     });
     all
 }
@@ -161,6 +202,8 @@ struct Occurring<'a> {
     system: &'a System,
     angles: Vec<Expr>,
     roots: Vec<Expr>,
+    /// Roots of the factors of the determinant of the mass matrix.
+    measure: Vec<Expr>,
     exponentials: Vec<Expr>,
     reciprocals: Vec<Expr>,
 }
@@ -172,6 +215,7 @@ impl<'a> Occurring<'a> {
             system,
             angles: Vec::new(),
             roots: Vec::new(),
+            measure: Vec::new(),
             exponentials: Vec::new(),
             reciprocals: Vec::new(),
         };
@@ -280,14 +324,43 @@ impl<'a> Occurring<'a> {
         };
         for (factor, power) in list {
             let simple = matches!(g.node(factor), Node::Symbol(_) | Node::Apply { .. });
-            let small = g.reachable(&[factor]).len() <= FACTOR;
-            if power % 2 == 1 && !simple && small && self.is_of_place(factor) {
-                insert(&mut self.roots, g.sqrt(factor));
+            let small = g.reachable(&[factor]).len() <= FACTOR && simplify::length(g, factor) <= LENGTH;
+            let wanted = power % 2 == 1 && !simple && small && self.is_of_place(factor);
+            if wanted && !self.vanishes_at_a_corner(factor) {
+                let root = g.sqrt(self.positive(cx, factor));
+                insert(&mut self.measure, root);
             }
         }
     }
 
-    fn letters(&self) -> Vec<CoefficientLetter> {
+    /// Whether a factor vanishes where all angles are multiples of a right angle, as 1 - cos θ does, half of sin² θ: such
+    /// factors come in pairs whose product is a square.
+    fn vanishes_at_a_corner(&self, factor: Expr) -> bool {
+        let g = &self.system.graph;
+        [(0, 1), (1, 0), (0, -1), (-1, 0)].iter().any(|&(sin, cos)| {
+            let pairs: Vec<(Expr, Expr)> = self
+                .angles
+                .iter()
+                .flat_map(|&a| [(g.sin(a), g.integer(sin)), (g.cos(a), g.integer(cos))])
+                .collect();
+            g.is_zero(g.substitute(factor, &pairs))
+        })
+    }
+
+    /// The factor or its negative, whichever is positive at a sampled state.
+    fn positive(&self, cx: &Context<'_>, factor: Expr) -> Expr {
+        let g = &self.system.graph;
+        let value = sample::admissible_point(self.system, cx.terms, 0x6e_6f_65).and_then(|point| {
+            let values = g.evaluate_f64(&[factor], &|s| point.get(&s).copied());
+            values.ok()?.first().copied()
+        });
+        match value.is_some_and(|v| v < 0.0) {
+            true => g.neg(factor),
+            false => factor,
+        }
+    }
+
+    fn letters(&self) -> (Vec<CoefficientLetter>, Vec<usize>) {
         let g = &self.system.graph;
         let letter = |e: Expr, exponents: (i8, i8), weight: u32| CoefficientLetter {
             letter: Letter::plain(e),
@@ -300,7 +373,15 @@ impl<'a> Occurring<'a> {
             all.push(letter(g.sin(angle), (0, 9), 1));
             all.push(letter(g.cos(angle), (0, 1), 1));
         }
-        for &root in &self.roots {
+        let mut turning = Vec::new();
+        for c in &self.system.coordinates {
+            if self.system.angles.contains(&c.name) && !self.angles.contains(&c.q) {
+                turning.extend([all.len(), all.len() + 1]);
+                all.push(letter(g.sin(c.q), (0, 9), 1));
+                all.push(letter(g.cos(c.q), (0, 1), 1));
+            }
+        }
+        for &root in self.roots.iter().chain(&self.measure) {
             all.push(letter(root, (-1, 1), 1));
         }
         for &e in &self.exponentials {
@@ -316,7 +397,7 @@ impl<'a> Occurring<'a> {
             all.push(letter(g.powi(e, -1), (0, 9), 1));
         }
         all.push(letter(g.symbol("t", 0), (0, 9), 2));
-        all
+        (all, turning)
     }
 }
 

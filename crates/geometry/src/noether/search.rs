@@ -13,7 +13,7 @@ use super::family::{Family, Letter, Member};
 use super::lift::{self, Sample};
 use super::motion::Motion;
 use chetaev_mechanics::Context;
-use chetaev_symbolic::number::modular_matrix::null_space;
+use chetaev_symbolic::number::modular_matrix::{null_space, NullSpace};
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::zero::points::{Draw, Points};
@@ -25,7 +25,7 @@ const SURPLUS: usize = 10;
 /// The bound on the probability of error that is wanted, as log2.
 const WANTED_LOG2: f64 = -100.0;
 
-/// At most so many draws of prime and parameters for one family.
+/// At most so many draws of prime and parameters beside the first.
 const MOST_DRAWS: usize = 6;
 
 /// The letters and parameters of a system at points of N.
@@ -43,13 +43,16 @@ pub struct Table<'a> {
 /// A family with its null space modulo p.
 #[derive(Clone, Debug)]
 pub struct Space {
-    /// Members with their coefficients, the leading one, of coefficient 1, last; one list for each integral.
-    pub integrals: Vec<Vec<(usize, Residue)>>,
+    /// The integrals, modulo the prime of the first draw.
+    pub integrals: Vec<Vector>,
     /// Members that are combinations of those before them on N.
     pub relations: Vec<usize>,
     /// log2 of a bound on the probability that one of them is none.
     pub error_bound_log2: f64,
 }
+
+/// A combination of members: pairs (member, coefficient), the leading member, of coefficient 1, last.
+pub type Vector = Vec<(usize, Residue)>;
 
 /// A first integral that was found.
 #[derive(Clone, Debug)]
@@ -143,56 +146,43 @@ impl<'a> Table<'a> {
         Some((draw, random))
     }
 
-    /// The null space of a family, at several draws.
+    /// The null space of a family: found at one draw; its relations are looked at again at others.
     ///
     /// # Errors
     /// A sentence that says why there is none.
     pub fn space(&self, family: &Family) -> Result<Space, String> {
-        let degree = family
-            .members
-            .iter()
-            .map(|m| m.iter().map(|(_, e)| u32::from(e.unsigned_abs())).sum())
-            .max()
-            .unwrap_or(0);
-        let once = self
-            .points
-            .miss_log2(self.letters.len(), degree, family.members.len());
-        let wanted = (WANTED_LOG2 / once).ceil().clamp(1.0, MOST_DRAWS as f64) as usize;
-        let spaces: Result<Vec<Space>, String> = (0..wanted.max(2))
-            .map(|number| self.space_at(family, number))
-            .collect();
-        // A smaller null space is nearer to the truth: of the draws seen, the first that is smallest.
-        let size = |s: &Space| (s.integrals.len() + s.relations.len(), s.relations.len());
-        let spaces = spaces?;
-        let count = spaces.len() as f64;
-        let mut smallest: Option<Space> = None;
-        for space in spaces {
-            if smallest
-                .as_ref()
-                .is_none_or(|known| size(&space) < size(known))
-            {
-                smallest = Some(space);
+        let none = "no points of the constraint manifold were found over a prime field";
+        let (integrals, supports) = self.vectors(family).ok_or(none)?;
+        let size = supports.iter().map(Vec::len).max().unwrap_or(1);
+        let degree = family.members.iter().map(degree).max().unwrap_or(0);
+        let once = self.points.miss_log2(self.letters.len(), degree, size)
+            + (supports.len().max(1) as f64).log2();
+        let draws = (WANTED_LOG2 / once).ceil().clamp(1.0, MOST_DRAWS as f64) as usize;
+        for number in 1..=draws {
+            if !self.are_relations(family, &supports, size, number).ok_or(none)? {
+                return Err("what vanished at the points of one draw does not at those of another".into());
             }
         }
-        let mut space = smallest.ok_or("no points were drawn")?;
-        space.error_bound_log2 = (once * count).min(0.0);
-        Ok(space)
+        Ok(Space {
+            integrals,
+            relations: supports.iter().filter_map(|s| s.last().copied()).collect(),
+            error_bound_log2: (once * draws as f64).min(0.0),
+        })
     }
 
-    fn space_at(&self, family: &Family, number: usize) -> Result<Space, String> {
-        let none =
-            || "no points of the constraint manifold were found over a prime field".to_owned();
-        let (draw, mut random) = self.draw(number).ok_or_else(none)?;
+    /// The null vectors of the first draw that are integrals, and the members of each relation, the leading one last.
+    fn vectors(&self, family: &Family) -> Option<(Vec<Vector>, Vec<Vec<usize>>)> {
+        let (draw, mut random) = self.draw(0)?;
         let field = &draw.field;
         let members = &family.members[1..];
         let mut matrix = Vec::with_capacity(members.len() * (members.len() + SURPLUS));
         for _ in 0..members.len() + SURPLUS {
-            let at = self.at(&draw, &mut random).ok_or_else(none)?;
+            let at = self.at(&draw, &mut random)?;
             matrix.extend(members.iter().map(|m| self.member(field, &at, m).1));
         }
         let found = null_space(field, members.len(), matrix);
         // Members count from the constant on.
-        let vectors: Vec<Vec<(usize, Residue)>> = found
+        let vectors: Vec<Vector> = found
             .vectors
             .into_iter()
             .map(|(leading, rest)| {
@@ -200,31 +190,58 @@ impl<'a> Table<'a> {
                 all.map(|(i, c)| (i + 1, c)).collect()
             })
             .collect();
-        let independent = self
-            .nonconstant(family, &vectors, &draw, &mut random)
-            .ok_or_else(none)?;
-        let (mut integrals, mut relations) = (Vec::new(), Vec::new());
-        for (i, vector) in vectors.into_iter().enumerate() {
-            match independent.contains(&i) {
-                true => integrals.push(vector),
-                false => relations.extend(vector.last().map(|&(leading, _)| leading)),
-            }
+        let functions = self.nonconstant(family, &vectors, &draw, &mut random)?;
+        // A vector that is no new function differs from a relation by integrals before it.
+        let relations = functions.vectors.iter().map(|(own, rest)| {
+            let all = rest.iter().map(|&(i, _)| i).chain([*own]);
+            let mut members: Vec<usize> = all
+                .flat_map(|i| vectors[i].iter().map(|&(member, _)| member))
+                .collect();
+            members.sort_unstable();
+            members.dedup();
+            members
+        });
+        let relations = relations.collect();
+        let integrals = functions.pivots.iter().map(|&i| vectors[i].clone());
+        Some((integrals.collect(), relations))
+    }
+
+    /// Whether the members of each list are linearly dependent, the constant among them, at the points of a further draw.
+    fn are_relations(
+        &self,
+        family: &Family,
+        supports: &[Vec<usize>],
+        size: usize,
+        number: usize,
+    ) -> Option<bool> {
+        if supports.is_empty() {
+            return Some(true);
         }
-        Ok(Space {
-            integrals,
-            relations,
-            error_bound_log2: 0.0,
-        })
+        let (draw, mut random) = self.draw(number)?;
+        let field = &draw.field;
+        let mut rows: Vec<Vec<Residue>> = Vec::new();
+        for _ in 0..size + 1 + SURPLUS {
+            let at = self.at(&draw, &mut random)?;
+            let members = family.members.iter();
+            rows.push(members.map(|m| self.member(field, &at, m).0).collect());
+        }
+        let is_dependent = |support: &Vec<usize>| {
+            let columns: Vec<usize> = std::iter::once(0).chain(support.iter().copied()).collect();
+            let matrix = rows[..columns.len() + SURPLUS].iter();
+            let matrix = matrix.flat_map(|row| columns.iter().map(|&c| row[c]));
+            !null_space(field, columns.len(), matrix.collect()).vectors.is_empty()
+        };
+        Some(supports.iter().all(is_dependent))
     }
 
     /// Which combinations are independent of those before them and of the constants, as functions on N.
     fn nonconstant(
         &self,
         family: &Family,
-        vectors: &[Vec<(usize, Residue)>],
+        vectors: &[Vector],
         draw: &Draw,
         random: &mut Random,
-    ) -> Option<Vec<usize>> {
+    ) -> Option<NullSpace> {
         let field = &draw.field;
         let mut rows: Vec<Vec<Residue>> = Vec::new();
         for _ in 0..vectors.len() + 6 {
@@ -245,7 +262,7 @@ impl<'a> Table<'a> {
         let differences = rest
             .iter()
             .flat_map(|row| row.iter().zip(first).map(|(&a, &b)| field.sub(a, b)));
-        Some(null_space(field, vectors.len(), differences.collect()).pivots)
+        Some(null_space(field, vectors.len(), differences.collect()))
     }
 
     /// Which of the candidates are functionally independent of those before them: the rank of their derivatives along N, at a
@@ -342,6 +359,12 @@ impl<'a> Table<'a> {
             name: None,
         })
     }
+}
+
+/// The degree of a member in the letters.
+fn degree(member: &Member) -> u32 {
+    let exponents = member.iter().map(|(_, e)| u32::from(e.unsigned_abs()));
+    exponents.sum()
 }
 
 /// The linear system of one integral, restricted to the members it uses.
