@@ -214,3 +214,17 @@ fn the_motion_is_the_kernel() {
         );
     }
 }
+
+/// claims.md §6, `cartan.form`: for the Lagrangian and for nonlinear constraints.
+#[test]
+fn cartan_forms() {
+    let appell = system("x y z", APPELL, &[CONE]);
+    for subject in ["L", "cone"] {
+        let finding = common::finding(&appell, &format!("cartan.form#{subject}"));
+        assert!(
+            matches!(finding.verdict, Verdict::Proved(_)),
+            "{subject}: {:?}",
+            finding.verdict
+        );
+    }
+}

@@ -84,6 +84,12 @@ impl System {
                 .map(|f| (name_of(f.coordinate), f.value))
                 .collect(),
             named_masses: named_masses(model),
+            definitions: model
+                .parameters
+                .iter()
+                .filter_map(|p| Some((p.name.clone(), p.definition?)))
+                .filter(|(_, e)| !model.graph.symbols_in(&[*e]).is_empty())
+                .collect(),
             angles: model
                 .coordinates
                 .iter()

@@ -203,6 +203,8 @@ pub struct SystemParts {
     pub reactive_forces: Vec<(String, Expr)>,
     /// The masses in a kinetic energy that is stated, where they change isotropically.
     pub named_masses: Option<NamedMasses>,
+    /// Parameters that are defined by others, with their definitions.
+    pub definitions: Vec<(String, Expr)>,
     /// Names of the coordinates that are angles by their unit.
     pub angles: Vec<String>,
     /// Functions that the user expects to be first integrals, as (name, G).
@@ -310,6 +312,8 @@ pub struct System {
     pub characteristics: Option<CharacteristicFormulas>,
     /// Particles of the model; their applied forces are contained in [`forces`](System::forces).
     pub particles: Vec<Particle>,
+    /// Parameters that are defined by others, with their definitions; free symbols wherever nothing else is said.
+    pub definitions: Vec<(Expr, Expr)>,
     /// Names of the coordinates that are angles by their unit.
     pub angles: Vec<String>,
     /// Functions that the model states as first integrals, with their names.
@@ -402,6 +406,11 @@ impl System {
             frame: parts.frame,
             characteristics: parts.characteristics,
             particles: parts.particles,
+            definitions: parts
+                .definitions
+                .into_iter()
+                .map(|(name, value)| (g.symbol(&name, 0), value))
+                .collect(),
             angles: parts.angles,
             integrals: parts.integrals,
             assumptions: parts.assumptions,

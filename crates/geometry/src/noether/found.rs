@@ -7,11 +7,15 @@ use super::search::{Integral, Table};
 use chetaev_mechanics::Context;
 use chetaev_symbolic::number::prime_field::Residue;
 use chetaev_symbolic::simplify::{simplify, Options};
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::{Expr, Graph};
 use std::sync::Arc;
 
-/// The most members of a family of a system of up to four coordinates, and of a larger one.
-const MEMBERS: [usize; 2] = [400, 700];
+/// The most members of a family of degree one in the velocities, and of degree two for a system of up to four coordinates and for
+/// a larger one.
+const MEMBERS: [usize; 3] = [620, 400, 700];
+
+/// Larger expressions, in nodes, are shown as they are.
+const READABLE: usize = 90;
 
 /// Families do not grow beyond this weight of the coefficients.
 const WEIGHT: u32 = 6;
@@ -75,6 +79,7 @@ fn search(cx: &Context<'_>) -> Result<Found, String> {
 }
 
 fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Result<Found, String> {
+    let letters = &letters.without_zeros(motion, cx.prover.points_seed())?;
     let families = families(cx, letters);
     let table = Table::new(motion, &letters.all(), cx.prover.points_seed())?;
     let mut candidates: Vec<Candidate<'_>> = Vec::new();
@@ -91,7 +96,9 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
         for vector in space.integrals {
             let leading = vector.last().map_or(0, |&(member, _)| member);
             let degree = letters.degree(&family.members[leading]);
-            let timed = vector.iter().any(|&(m, _)| letters.is_timed(cx.system, &family.members[m]));
+            let timed = vector
+                .iter()
+                .any(|&(m, _)| letters.is_timed(cx.system, &family.members[m]));
             candidates.push(Candidate {
                 order: (timed, degree, true, place),
                 family,
@@ -153,7 +160,7 @@ fn chosen(
         let candidate = &candidates[i];
         match table.proved(cx, candidate.family, &candidate.vector) {
             Some(integral) => integrals.push(Integral {
-                shown: readable(cx, integral.shown),
+                shown: readable(&cx.system.graph, integral.shown),
                 name: candidate.name.clone(),
                 ..integral
             }),
@@ -163,16 +170,24 @@ fn chosen(
     (integrals, candidates.len() - independent.len(), open)
 }
 
-fn readable(cx: &Context<'_>, e: Expr) -> Expr {
-    simplify(&cx.system.graph, e, &Options::default())
+/// An expression as a person would write it, where that does not take long.
+pub(super) fn readable(g: &Graph, e: Expr) -> Expr {
+    match g.reachable(&[e]).len() <= READABLE {
+        true => simplify(g, e, &Options::default()),
+        false => e,
+    }
 }
 
 /// The largest families within the budget: polynomials of degree one and two in the velocities, and quotients.
 fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
-    let most = MEMBERS[usize::from(cx.system.n() > 4)];
     let mut families: Vec<Family> = [1, 2]
         .into_iter()
         .map(|degree| {
+            let most = match (degree, cx.system.n()) {
+                (1, _) => MEMBERS[0],
+                (_, 0..=4) => MEMBERS[1],
+                _ => MEMBERS[2],
+            };
             let mut weight = 0;
             let mut largest = letters.polynomials(degree, 0);
             while weight < WEIGHT {
@@ -199,10 +214,10 @@ fn words(cx: &Context<'_>, letters: &Letters, degree: u32, weight: u32) -> Strin
     let g = &cx.system.graph;
     let list = |weight: u32| {
         let numbered = letters.coefficients.iter().enumerate();
-        let own = numbered.filter(|(i, c)| {
-            c.weight == weight && (degree == 1 || !letters.turning.contains(i))
-        });
-        own.map(|(_, c)| g.text(c.letter.shown)).collect::<Vec<String>>()
+        let own = numbered
+            .filter(|(i, c)| c.weight == weight && (degree == 1 || !letters.turning.contains(i)));
+        own.map(|(_, c)| g.text(c.letter.shown))
+            .collect::<Vec<String>>()
     };
     let velocities: Vec<String> = letters.velocities.iter().map(|l| g.text(l.shown)).collect();
     let weights: Vec<String> = (1..=3)

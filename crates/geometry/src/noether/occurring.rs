@@ -2,9 +2,11 @@
 //! coefficients.
 
 use super::family::{coefficients, monomials, product, CoefficientLetter, Family, Letter, Member};
+use super::motion::Motion;
 use chetaev_mechanics::{sample, Characteristics, Context, Frame, System};
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::{simplify, Expr, Function, Node, Symbol};
 
 /// The letters of a system.
@@ -67,6 +69,27 @@ impl Letters {
         without
     }
 
+    /// The letters without velocities that vanish on the constraints, as a quasi-velocity that is a constraint does.
+    ///
+    /// # Errors
+    /// A sentence that says why no points were found.
+    pub fn without_zeros(&self, motion: &Motion<'_>, seed: u64) -> Result<Letters, String> {
+        let values: Vec<Expr> = self.velocities.iter().map(|l| l.value).collect();
+        let points = motion.points(&values)?;
+        let mut random = Random::stream(seed, 1 << 21);
+        let at = points
+            .draw(&mut random)
+            .and_then(|draw| points.at(&draw, &mut random))
+            .ok_or("no points of the constraint manifold were found over a prime field")?;
+        let mut without = self.clone();
+        let mut place = 0;
+        without.velocities.retain(|_| {
+            place += 1;
+            !at[place - 1].is_zero()
+        });
+        Ok(without)
+    }
+
     /// All letters, velocities first, known functions last.
     pub fn all(&self) -> Vec<Letter> {
         let coefficients = self.coefficients.iter().map(|c| c.letter.clone());
@@ -124,7 +147,9 @@ impl Letters {
     /// Whether a member contains the sine or cosine of a coordinate that occurs nowhere.
     fn is_turning(&self, member: &Member) -> bool {
         let first = self.velocities.len();
-        let mut own = member.iter().filter_map(|&(letter, _)| letter.checked_sub(first));
+        let mut own = member
+            .iter()
+            .filter_map(|&(letter, _)| letter.checked_sub(first));
         own.any(|place| self.turning.contains(&place))
     }
 
@@ -324,7 +349,8 @@ impl<'a> Occurring<'a> {
         };
         for (factor, power) in list {
             let simple = matches!(g.node(factor), Node::Symbol(_) | Node::Apply { .. });
-            let small = g.reachable(&[factor]).len() <= FACTOR && simplify::length(g, factor) <= LENGTH;
+            let small =
+                g.reachable(&[factor]).len() <= FACTOR && simplify::length(g, factor) <= LENGTH;
             let wanted = power % 2 == 1 && !simple && small && self.is_of_place(factor);
             if wanted && !self.vanishes_at_a_corner(factor) {
                 let root = g.sqrt(self.positive(cx, factor));
@@ -337,14 +363,16 @@ impl<'a> Occurring<'a> {
     /// factors come in pairs whose product is a square.
     fn vanishes_at_a_corner(&self, factor: Expr) -> bool {
         let g = &self.system.graph;
-        [(0, 1), (1, 0), (0, -1), (-1, 0)].iter().any(|&(sin, cos)| {
-            let pairs: Vec<(Expr, Expr)> = self
-                .angles
-                .iter()
-                .flat_map(|&a| [(g.sin(a), g.integer(sin)), (g.cos(a), g.integer(cos))])
-                .collect();
-            g.is_zero(g.substitute(factor, &pairs))
-        })
+        [(0, 1), (1, 0), (0, -1), (-1, 0)]
+            .iter()
+            .any(|&(sin, cos)| {
+                let pairs: Vec<(Expr, Expr)> = self
+                    .angles
+                    .iter()
+                    .flat_map(|&a| [(g.sin(a), g.integer(sin)), (g.cos(a), g.integer(cos))])
+                    .collect();
+                g.is_zero(g.substitute(factor, &pairs))
+            })
     }
 
     /// The factor or its negative, whichever is positive at a sampled state.

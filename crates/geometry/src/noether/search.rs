@@ -23,7 +23,7 @@ use chetaev_symbolic::{Expr, Node, Symbol, Verdict};
 const SURPLUS: usize = 10;
 
 /// The bound on the probability of error that is wanted, as log2.
-const WANTED_LOG2: f64 = -100.0;
+const WANTED_LOG2: f64 = -104.0;
 
 /// At most so many draws of prime and parameters beside the first.
 const MOST_DRAWS: usize = 6;
@@ -159,8 +159,13 @@ impl<'a> Table<'a> {
             + (supports.len().max(1) as f64).log2();
         let draws = (WANTED_LOG2 / once).ceil().clamp(1.0, MOST_DRAWS as f64) as usize;
         for number in 1..=draws {
-            if !self.are_relations(family, &supports, size, number).ok_or(none)? {
-                return Err("what vanished at the points of one draw does not at those of another".into());
+            if !self
+                .are_relations(family, &supports, size, number)
+                .ok_or(none)?
+            {
+                return Err(
+                    "what vanished at the points of one draw does not at those of another".into(),
+                );
             }
         }
         Ok(Space {
@@ -229,7 +234,9 @@ impl<'a> Table<'a> {
             let columns: Vec<usize> = std::iter::once(0).chain(support.iter().copied()).collect();
             let matrix = rows[..columns.len() + SURPLUS].iter();
             let matrix = matrix.flat_map(|row| columns.iter().map(|&c| row[c]));
-            !null_space(field, columns.len(), matrix.collect()).vectors.is_empty()
+            !null_space(field, columns.len(), matrix.collect())
+                .vectors
+                .is_empty()
         };
         Some(supports.iter().all(is_dependent))
     }

@@ -5,6 +5,7 @@ use crate::noether::embedded::Embedded;
 use crate::noether::generator::Generator;
 use crate::noether::motion::Motion;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
+use chetaev_mechanics::Manifold;
 use chetaev_symbolic::{Expr, Verdict};
 
 /// `noether.inverse#NAME`.
@@ -27,7 +28,8 @@ impl Claim for Inverse {
     fn explanation(&self) -> &'static str {
         "A function G stated under [integrals] keeps its value along every motion: X̄G = 0 on the constraint manifold. If so, the inverse of \
          Noether's theorem gives its field: χ = -W̄⁻¹ ∂G, here with δ = 0, and the gauge g = G + p χ; the Killing-type equations are \
-         proved for them. `refuted` comes with an admissible state at which the rate of G is not zero."
+         proved for them. `conditional` says that it is one for parameters as the model defines them by others, not for \
+         independent ones; `refuted` comes with an admissible state at which the rate of G is not zero."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -51,7 +53,13 @@ impl Claim for Inverse {
             Ok(motion) => motion,
             Err(why) => return Verdict::undecided(why).into(),
         };
-        let verdict = motion.is_integral(cx, *value);
+        let verdict = match motion.is_integral(cx, *value) {
+            Verdict::Proved(proof) => Verdict::Proved(proof),
+            other => by_definitions(cx, &motion, *value).unwrap_or(other),
+        };
+        if matches!(verdict, Verdict::Conditional { .. }) {
+            return verdict.into();
+        }
         if !matches!(verdict, Verdict::Proved(_)) {
             return prepend(
                 verdict,
@@ -63,6 +71,55 @@ impl Claim for Inverse {
         let verdict = prepend(verdict, "X̄G = 0 on motions").and(killing);
         Finding { verdict, formulas }
     }
+}
+
+/// The verdict where it holds for parameters as the model defines them by others, and not for independent ones.
+fn by_definitions(cx: &Context<'_>, motion: &Motion<'_>, value: Expr) -> Option<Verdict> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let occurring = g.symbols_in(&[value]);
+    if system.definitions.is_empty() {
+        return None;
+    }
+    // Definitions may use each other, in as many steps as there are definitions at most.
+    let resolved = |e: Expr| {
+        let steps = 0..system.definitions.len();
+        steps.fold(e, |e, _| g.substitute(e, &system.definitions))
+    };
+    let rate = resolved(*motion.derivatives(&[value]).first()?);
+    let manifold = Manifold {
+        solved: motion
+            .manifold
+            .solved
+            .iter()
+            .map(|&(s, e)| (s, resolved(e)))
+            .collect(),
+        implicit: motion
+            .manifold
+            .implicit
+            .iter()
+            .map(|&(f, s)| (resolved(f), s))
+            .collect(),
+    };
+    let on = "on the constraint manifold, for parameters as the model defines them";
+    let Verdict::Proved(mut proof) = cx.prover.identity(system, &[rate], &manifold, on) else {
+        return None;
+    };
+    let used = system
+        .definitions
+        .iter()
+        .filter(|(symbol, _)| g.as_symbol(*symbol).is_some_and(|s| occurring.contains(&s)));
+    let conditions: Vec<String> = used
+        .map(|&(symbol, e)| format!("{} = {}", g.text(symbol), g.text(e)))
+        .collect();
+    proof.detail = format!(
+        "X̄G = 0 on motions for parameters as the model defines them; {}",
+        proof.detail
+    );
+    Some(Verdict::Conditional {
+        condition: conditions.join(", "),
+        proof,
+        counterexample: None,
+    })
 }
 
 /// The Killing-type equations for the generator of an integral, and its formulas.

@@ -20,9 +20,10 @@ use super::embedded::Embedded;
 use super::found::found;
 use super::generator::Generator;
 use super::search::Integral;
+use crate::noether::found::readable;
 use chetaev_mechanics::claims::Formula;
 use chetaev_mechanics::Context;
-use chetaev_symbolic::simplify::{length, simplify_all, Options};
+use chetaev_symbolic::simplify::length;
 use chetaev_symbolic::{Expr, Verdict};
 
 /// What all claims about first integrals require.
@@ -107,7 +108,7 @@ fn generator_formulas(n: &Embedded<'_>, generator: &Generator) -> Vec<Formula> {
     }
     stated.push(("the gauge function g".into(), generator.gauge));
     let values: Vec<Expr> = stated.iter().map(|(_, e)| *e).collect();
-    let values = simplify_all(g, &values, &Options::default());
+    let values: Vec<Expr> = values.iter().map(|&e| readable(g, e)).collect();
     stated
         .into_iter()
         .zip(values)
