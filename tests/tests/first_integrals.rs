@@ -60,9 +60,17 @@ fn known_integrals_are_functions_of_those_found() {
             let mut wrong = Vec::new();
             let mut values: Vec<Expr> = found.integrals.iter().map(|i| i.value).collect();
             if (found.integrals.len(), found.open) != (count, 0) {
-                wrong.push(format!("{name}: {} integrals, {} open", values.len(), found.open));
+                wrong.push(format!(
+                    "{name}: {} integrals, {} open",
+                    values.len(),
+                    found.open
+                ));
             }
-            if found.integrals.iter().any(|i| !matches!(i.verdict, Verdict::Proved(_))) {
+            if found
+                .integrals
+                .iter()
+                .any(|i| !matches!(i.verdict, Verdict::Proved(_)))
+            {
                 wrong.push(format!("{name}: an integral without proof"));
             }
             if rank(cx, &values) != count {

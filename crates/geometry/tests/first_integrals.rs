@@ -6,7 +6,7 @@ mod common;
 
 use chetaev_geometry::noether::family::{Family, Letter};
 use chetaev_geometry::noether::motion::Motion;
-use chetaev_geometry::noether::search::{exhaust, Exhausted, Integral};
+use chetaev_geometry::noether::search::{exhaust, Exhausted, Integral, Table, Tie};
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::{Prepared, Prover, Registry, System};
 use chetaev_symbolic::Verdict;
@@ -215,4 +215,24 @@ fn eulers_top() {
     );
     let symmetric = system("phi theta psi", &TOP.replace("I2", "I1"), &[]);
     are(&symmetric, &search(&symmetric, &OMEGA, &[], 1), &[OMEGA[2]]);
+}
+
+/// T3 §8.6: η3 where I1 = I2 is found and reported by the search for general moments of inertia.
+#[test]
+fn special_values_of_parameters() {
+    let general = system("phi theta psi", TOP, &[]);
+    let family = Family::over(&letters(&general, &OMEGA), &[], 2);
+    with(&general, |cx, motion| {
+        let table = Table::new(motion, &family.letters, 7).unwrap();
+        let g = &general.graph;
+        let tie = |parameter: &str, other: &str| Tie {
+            parameter: g.intern_symbol(parameter, 0),
+            equals: Some(g.intern_symbol(other, 0)),
+        };
+        let ties = [tie("I2", "I1"), tie("I3", "I1")];
+        let special = table.special(cx, &family, &ties);
+        assert_eq!(special.len(), 2);
+        assert_eq!(special[0].integrals, [expr(g, OMEGA[2])]);
+        assert_eq!(special[1].integrals, [expr(g, OMEGA[1])]);
+    });
 }

@@ -3,7 +3,7 @@
 use super::family::Family;
 use super::motion::Motion;
 use super::occurring::Letters;
-use super::search::{Integral, Table};
+use super::search::{Integral, Special, Table, Tie};
 use chetaev_mechanics::Context;
 use chetaev_symbolic::number::prime_field::Residue;
 use chetaev_symbolic::simplify::{simplify, Options};
@@ -44,6 +44,8 @@ pub struct Found {
     pub integrals: Vec<Integral>,
     /// Dimensions whose integrals are functions of `integrals`.
     pub dependent: usize,
+    /// What there is more of at special values of the parameters, in small families.
+    pub special: Vec<Special>,
     /// Independent integrals modulo p that could not be lifted or proved.
     pub open: usize,
 }
@@ -113,9 +115,50 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
     Ok(Found {
         families: searched,
         integrals,
+        special: special(cx, &table, letters),
         dependent,
         open,
     })
+}
+
+/// The most members of a family that is searched at special values, and the most special values.
+const SMALL: (usize, usize) = (130, 36);
+
+/// Further integrals where two parameters are equal, or one is zero that is not assumed otherwise, in small families.
+fn special(cx: &Context<'_>, table: &Table<'_>, letters: &Letters) -> Vec<Special> {
+    let parameters = table.free_parameters();
+    let mut ties: Vec<Tie> = Vec::new();
+    for (i, &parameter) in parameters.iter().enumerate() {
+        let others = parameters[..i].iter();
+        ties.extend(others.map(|&other| Tie {
+            parameter,
+            equals: Some(other),
+        }));
+    }
+    let g = &cx.system.graph;
+    let zeros = parameters
+        .iter()
+        .filter(|&&s| !is_assumed(cx, g.symbol_expr(s)));
+    ties.extend(zeros.map(|&parameter| Tie {
+        parameter,
+        equals: None,
+    }));
+    ties.truncate(SMALL.1);
+    let family = [
+        letters.polynomials(2, 1),
+        letters.polynomials(2, 0),
+        letters.polynomials(1, 0),
+    ]
+    .into_iter()
+    .find(|family| family.members.len() <= SMALL.0);
+    family.map_or(Vec::new(), |family| table.special(cx, &family, &ties))
+}
+
+/// Whether the model assumes something of a parameter, by which it may not vanish.
+fn is_assumed(cx: &Context<'_>, parameter: Expr) -> bool {
+    let assumptions = cx.system.assumptions.iter();
+    let mut sides = assumptions.flat_map(|a| [a.left, a.right]);
+    sides.any(|side| side == parameter)
 }
 
 /// Known functions that are integrals, as candidates.

@@ -12,7 +12,7 @@
 use super::family::{Family, Letter, Member};
 use super::lift::{self, Sample};
 use super::motion::Motion;
-use chetaev_mechanics::Context;
+use chetaev_mechanics::{Context, Manifold};
 use chetaev_symbolic::number::modular_matrix::{null_space, NullSpace};
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
@@ -178,11 +178,20 @@ impl<'a> Table<'a> {
     /// The null vectors of the first draw that are integrals, and the members of each relation, the leading one last.
     fn vectors(&self, family: &Family) -> Option<(Vec<Vector>, Vec<Vec<usize>>)> {
         let (draw, mut random) = self.draw(0)?;
+        self.vectors_at(family, &draw, &mut random)
+    }
+
+    fn vectors_at(
+        &self,
+        family: &Family,
+        draw: &Draw,
+        random: &mut Random,
+    ) -> Option<(Vec<Vector>, Vec<Vec<usize>>)> {
         let field = &draw.field;
         let members = &family.members[1..];
         let mut matrix = Vec::with_capacity(members.len() * (members.len() + SURPLUS));
         for _ in 0..members.len() + SURPLUS {
-            let at = self.at(&draw, &mut random)?;
+            let at = self.at(draw, random)?;
             matrix.extend(members.iter().map(|m| self.member(field, &at, m).1));
         }
         let found = null_space(field, members.len(), matrix);
@@ -195,7 +204,7 @@ impl<'a> Table<'a> {
                 all.map(|(i, c)| (i + 1, c)).collect()
             })
             .collect();
-        let functions = self.nonconstant(family, &vectors, &draw, &mut random)?;
+        let functions = self.nonconstant(family, &vectors, draw, random)?;
         // A vector that is no new function differs from a relation by integrals before it.
         let relations = functions.vectors.iter().map(|(own, rest)| {
             let all = rest.iter().map(|&(i, _)| i).chain([*own]);
@@ -276,10 +285,18 @@ impl<'a> Table<'a> {
     /// point of the first draw.
     pub fn independent(&self, candidates: &[(&Family, &[(usize, Residue)])]) -> Option<Vec<usize>> {
         let (draw, _) = self.draw(0)?;
+        self.independent_at(&draw, candidates)
+    }
+
+    fn independent_at(
+        &self,
+        draw: &Draw,
+        candidates: &[(&Family, &[(usize, Residue)])],
+    ) -> Option<Vec<usize>> {
         // Another stream than that of the null space.
         let mut random = Random::stream(self.seed, 1 << 20);
         let field = &draw.field;
-        let at = self.at(&draw, &mut random)?;
+        let at = self.at(draw, &mut random)?;
         let columns: Vec<Vec<Residue>> = candidates
             .iter()
             .map(|(family, vector)| self.gradient(field, &at, family, vector))
@@ -320,6 +337,15 @@ impl<'a> Table<'a> {
     /// An integral with its coefficients as functions of the parameters: as (value, shown); `None` where they are none of
     /// moderate degree.
     pub fn lifted(&self, family: &Family, vector: &[(usize, Residue)]) -> Option<(Expr, Expr)> {
+        self.lifted_on(family, vector, None)
+    }
+
+    fn lifted_on(
+        &self,
+        family: &Family,
+        vector: &[(usize, Residue)],
+        tie: Option<Tie>,
+    ) -> Option<(Expr, Expr)> {
         let g = &self.motion.system.graph;
         let (&(leading, _), rest) = vector.split_last()?;
         let support: Vec<usize> = rest.iter().map(|&(member, _)| member).collect();
@@ -331,6 +357,7 @@ impl<'a> Table<'a> {
             support: &support,
             draw,
             random,
+            tie,
         };
         let entries = match support.is_empty() {
             true => Vec::new(),
@@ -382,6 +409,124 @@ struct Restricted<'a> {
     support: &'a [usize],
     draw: Draw,
     random: Random,
+    tie: Option<Tie>,
+}
+
+/// A special value of a parameter: that of another one, or zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tie {
+    /// The parameter.
+    pub parameter: Symbol,
+    /// The one it equals; `None` for zero.
+    pub equals: Option<Symbol>,
+}
+
+/// What a family has more of at a special value of a parameter.
+#[derive(Clone, Debug)]
+pub struct Special {
+    /// The special value.
+    pub tie: Tie,
+    /// The further integrals, as they are shown, none of them a function of simpler ones; of those that exist for all values
+    /// some may be functions of them.
+    pub integrals: Vec<Expr>,
+}
+
+impl Table<'_> {
+    fn tied(&self, draw: &Draw, tie: Tie) -> Option<Draw> {
+        let value = match tie.equals {
+            Some(other) => self.points.value(draw, other)?,
+            None => Residue::ZERO,
+        };
+        let mut tied = draw.clone();
+        self.points.set(&mut tied, &[(tie.parameter, value)]);
+        Some(tied)
+    }
+
+    /// The parameters that the motion contains as symbols of their own.
+    pub fn free_parameters(&self) -> Vec<Symbol> {
+        let g = &self.motion.system.graph;
+        let symbols = self.parameters.iter().filter_map(|&e| g.as_symbol(e));
+        let (draw, _) = match self.draw(0) {
+            Some(draw) => draw,
+            None => return Vec::new(),
+        };
+        symbols
+            .filter(|&s| self.points.value(&draw, s).is_some())
+            .collect()
+    }
+
+    /// What a family has more of at special values of the parameters, each integral proved there.
+    pub fn special(&self, cx: &Context<'_>, family: &Family, ties: &[Tie]) -> Vec<Special> {
+        let Some((general, _)) = self.vectors(family) else {
+            return Vec::new();
+        };
+        let leading = |v: &Vector| v.last().map(|&(member, _)| member);
+        let usual: Vec<Option<usize>> = general.iter().map(leading).collect();
+        let mut found: Vec<Special> = Vec::new();
+        for &tie in ties {
+            let Some((draw, mut random)) = self.draw(0) else {
+                continue;
+            };
+            let Some(draw) = self.tied(&draw, tie) else {
+                continue;
+            };
+            let Some((vectors, _)) = self.vectors_at(family, &draw, &mut random) else {
+                continue;
+            };
+            if vectors.len() <= general.len() {
+                continue;
+            }
+            let candidates: Vec<(&Family, &[(usize, Residue)])> =
+                vectors.iter().map(|v| (family, &v[..])).collect();
+            let independent = self.independent_at(&draw, &candidates).unwrap_or_default();
+            let integrals: Vec<Expr> = independent
+                .iter()
+                .filter(|&&i| !usual.contains(&leading(&vectors[i])))
+                .filter_map(|&i| self.proved_on(cx, family, &vectors[i], tie))
+                .collect();
+            if !integrals.is_empty() {
+                found.push(Special { tie, integrals });
+            }
+        }
+        found
+    }
+
+    /// An integral at a special value, lifted and proved there.
+    fn proved_on(
+        &self,
+        cx: &Context<'_>,
+        family: &Family,
+        vector: &[(usize, Residue)],
+        tie: Tie,
+    ) -> Option<Expr> {
+        let (system, g) = (self.motion.system, &self.motion.system.graph);
+        let (value, shown) = self.lifted_on(family, vector, Some(tie))?;
+        let other = tie.equals.map_or(g.zero(), |s| g.symbol_expr(s));
+        let replaced = |e: Expr| g.substitute(e, &[(g.symbol_expr(tie.parameter), other)]);
+        let manifold = &self.motion.manifold;
+        let manifold = Manifold {
+            solved: manifold
+                .solved
+                .iter()
+                .map(|&(s, e)| (s, replaced(e)))
+                .collect(),
+            implicit: manifold
+                .implicit
+                .iter()
+                .map(|&(f, s)| (replaced(f), s))
+                .collect(),
+        };
+        let rate: Vec<Expr> = self
+            .motion
+            .derivatives(&[value])
+            .into_iter()
+            .map(replaced)
+            .collect();
+        let verdict = cx
+            .prover
+            .identity(system, &rate, &manifold, "at a special value");
+        matches!(verdict, Verdict::Proved(_)).then(|| replaced(shown))
+    }
 }
 
 impl Restricted<'_> {
@@ -425,6 +570,10 @@ impl lift::Source for Restricted<'_> {
             true => self.draw.clone(),
             false => self.table.points.redraw(&self.draw, &mut self.random)?,
         };
+        let draw = match self.tie {
+            Some(tie) => self.table.tied(&draw, tie)?,
+            None => draw,
+        };
         // The first sample is the one that others are compared with.
         self.draw = draw.clone();
         self.solve(&draw)
@@ -436,7 +585,14 @@ impl lift::Source for Restricted<'_> {
         let mut draw = self.draw.clone();
         let value = self.draw.field.random(&mut self.random);
         self.table.points.set(&mut draw, &[(symbol, value)]);
-        self.solve(&draw)
+        match self.tie {
+            // The other follows, so what depends on either is seen to depend on this one.
+            Some(tie) => {
+                let draw = self.table.tied(&draw, tie)?;
+                self.solve(&draw)
+            }
+            None => self.solve(&draw),
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{prepend, requirements};
 use crate::noether::found::{found, Found, Searched};
+use crate::noether::search::Special;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::words::counted;
 use chetaev_symbolic::verdict::{Evidence, Method, Proof};
@@ -66,7 +67,7 @@ impl Claim for FamilySearched {
 }
 
 fn verdict(cx: &Context<'_>, found: &Found) -> Verdict {
-    let sentence = sentence(found);
+    let sentence = sentence(cx, found);
     let bound = found
         .families
         .iter()
@@ -96,7 +97,7 @@ fn verdict(cx: &Context<'_>, found: &Found) -> Verdict {
     prepend(Verdict::Proved(proof), &sentence)
 }
 
-fn sentence(found: &Found) -> String {
+fn sentence(cx: &Context<'_>, found: &Found) -> String {
     let many = counted(
         found.integrals.len(),
         "functionally independent first integral",
@@ -110,9 +111,27 @@ fn sentence(found: &Found) -> String {
         ),
     };
     let families: Vec<String> = found.families.iter().map(exhausted).collect();
+    let special: Vec<String> = found.special.iter().map(|s| special(cx, s)).collect();
+    let special = match special.is_empty() {
+        true => String::new(),
+        false => format!("; more {}", special.join("; ")),
+    };
     format!(
-        "{many} in the families searched{open}; exhausted: {}",
+        "{many} in the families searched{open}{special}; exhausted: {}",
         families.join("; ")
+    )
+}
+
+/// A special value of a parameter with what it adds, in words.
+fn special(cx: &Context<'_>, special: &Special) -> String {
+    let g = &cx.system.graph;
+    let name = |s| g.symbol_text(s);
+    let value = special.tie.equals.map_or("0".to_owned(), name);
+    let integrals: Vec<String> = special.integrals.iter().map(|&e| g.text(e)).collect();
+    format!(
+        "where {} = {value}: {}",
+        name(special.tie.parameter),
+        integrals.join(", ")
     )
 }
 
