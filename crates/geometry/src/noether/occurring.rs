@@ -291,7 +291,7 @@ impl<'a> Occurring<'a> {
             &mut self.exponentials,
             &mut self.reciprocals,
         ] {
-            list.sort_by(|&a, &b| g.text(a).cmp(&g.text(b)));
+            list.sort_by_key(|&e| g.text(e));
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::{bare, generator, generator_formulas, integral, prepend, requirements, subjects};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
+use chetaev_symbolic::Verdict;
 
 /// `noether.integral#j`.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +40,7 @@ impl Claim for FirstIntegral {
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
         let integral = match integral(cx, subject) {
             Ok(integral) => integral,
-            Err(verdict) => return verdict.into(),
+            Err(why) => return Verdict::undecided(why).into(),
         };
         let g = &cx.system.graph;
         let name = integral.name.as_deref();

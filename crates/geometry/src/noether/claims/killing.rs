@@ -2,6 +2,7 @@
 
 use super::{generator, on_manifold, prepend, requirements, subjects};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_symbolic::Verdict;
 
 /// `noether.killing#j`.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +36,7 @@ impl Claim for Killing {
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
         let (integral, n, generator) = match generator(cx, subject) {
             Ok(found) => found,
-            Err(verdict) => return verdict.into(),
+            Err(why) => return Verdict::undecided(why).into(),
         };
         let mut residuals = generator.killing_speeds(&n);
         residuals.push(generator.killing_drift(&n));

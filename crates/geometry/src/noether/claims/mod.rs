@@ -58,40 +58,37 @@ fn subjects(cx: &Context<'_>) -> Vec<Option<String>> {
 /// The integral of a subject.
 ///
 /// # Errors
-/// The verdict that says why there is none.
-fn integral(cx: &Context<'_>, subject: Option<&str>) -> Result<Integral, Verdict> {
+/// A sentence that says why there is none.
+fn integral(cx: &Context<'_>, subject: Option<&str>) -> Result<Integral, String> {
     let found = found(cx);
     let found = match &*found {
         Ok(found) => found,
-        Err(why) => return Err(Verdict::undecided(why.clone())),
+        Err(why) => return Err(why.clone()),
     };
     let number = subject.and_then(|s| s.parse::<usize>().ok()).unwrap_or(0);
     let integral = number.checked_sub(1).and_then(|i| found.integrals.get(i));
-    integral.cloned().ok_or_else(|| {
-        Verdict::undecided(format!(
-            "{} first integrals were found",
-            found.integrals.len()
-        ))
-    })
+    integral
+        .cloned()
+        .ok_or_else(|| format!("{} first integrals were found", found.integrals.len()))
 }
 
 /// The integral of a subject with its generator: δ = 1 for the energy, δ = 0 for the others.
 ///
 /// # Errors
-/// The verdict that says why there is none.
+/// A sentence that says why there is none.
 fn generator<'a>(
     cx: &Context<'a>,
     subject: Option<&str>,
-) -> Result<(Integral, Embedded<'a>, Generator), Verdict> {
+) -> Result<(Integral, Embedded<'a>, Generator), String> {
     let integral = integral(cx, subject)?;
-    let n = Embedded::of(cx).map_err(Verdict::undecided)?;
+    let n = Embedded::of(cx)?;
     let g = &cx.system.graph;
     let delta = match integral.name {
         Some(_) => g.one(),
         None => g.zero(),
     };
     let generator = Generator::of(&n, integral.value, delta)
-        .map_err(|problem| Verdict::undecided(format!("the generator was not found: {problem}")))?;
+        .map_err(|problem| format!("the generator was not found: {problem}"))?;
     Ok((integral, n, generator))
 }
 
