@@ -233,6 +233,9 @@ fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
             };
             let mut weight = 0;
             let mut largest = letters.polynomials(degree, 0);
+            if largest.members.len() > 2 * most {
+                return letters.known_only();
+            }
             while weight < WEIGHT {
                 let next = letters.polynomials(degree, weight + 1);
                 if next.members.len() > most {

@@ -128,6 +128,22 @@ impl Letters {
         }
     }
 
+    /// The known functions alone, for a system too large for polynomials.
+    pub fn known_only(&self) -> Family {
+        let first = self.velocities.len() + self.coefficients.len();
+        let names: Vec<&str> = self.known.iter().map(|(name, _)| name.as_str()).collect();
+        let mut members = vec![Vec::new()];
+        members.extend((0..self.known.len()).map(|i| vec![(first + i, 1)]));
+        Family {
+            letters: self.all(),
+            members,
+            words: format!(
+                "only {}, as polynomials in the velocities are too many",
+                names.join(", ")
+            ),
+        }
+    }
+
     /// Quotients of two velocities.
     pub fn quotients(&self) -> Family {
         let count = self.velocities.len();
