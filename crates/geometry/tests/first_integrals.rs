@@ -236,3 +236,81 @@ fn special_values_of_parameters() {
         assert_eq!(special[1].integrals, [expr(g, OMEGA[1])]);
     });
 }
+
+/// What is found automatically: T3 §8.2 and §8.5 without hints, and a system without integrals says what was exhausted.
+#[test]
+fn automatic_families() {
+    let particle = system("x y z", PARTICLE, &[("c", "z' - y x'")]);
+    let finding = common::finding(&particle, "noether.family");
+    assert!(
+        matches!(finding.verdict, Verdict::Proved(_)),
+        "{:?}",
+        finding.verdict
+    );
+    let shown: Vec<String> = finding
+        .formulas
+        .iter()
+        .map(|f| particle.graph.text(f.right))
+        .collect();
+    for wanted in ["y'", "x' sqrt(1 + y^2)"] {
+        assert!(
+            shown.iter().any(|text| text == wanted),
+            "{wanted} is not among {shown:?}"
+        );
+    }
+    let appell = system("x y z", APPELL, &[CONE]);
+    let found = with(&appell, |cx, _| chetaev_geometry::noether::found::found(cx));
+    let found = found.as_ref().as_ref().unwrap();
+    for wanted in ["x'/y'", "sqrt(x'^2 + y'^2) + g a t/(1 + a^2)"] {
+        let mut gradients: Vec<_> = found.integrals.iter().map(|i| i.value).collect();
+        gradients.push(expr(&appell.graph, wanted));
+        let rank = with(&appell, |cx, motion| {
+            let matrix = motion.gradients(&gradients);
+            cx.prover
+                .rank(&appell, &matrix, &motion.manifold)
+                .unwrap()
+                .maximum
+        });
+        assert_eq!(
+            rank,
+            found.integrals.len(),
+            "{wanted} is no function of those found"
+        );
+    }
+    let driven = system("x", "x'^2/2 - x^4 + x t^3", &[]);
+    let finding = common::finding(&driven, "noether.family");
+    let detail = finding.verdict.detail();
+    assert!(matches!(finding.verdict, Verdict::Proved(_)) && finding.formulas.is_empty());
+    assert!(
+        detail.contains("exhausted") && detail.contains("dimension 0"),
+        "{detail}"
+    );
+}
+
+/// A homogeneous sphere that rolls keeps the velocity of its centre and its spin about the vertical.
+#[test]
+fn rolling_sphere() {
+    let sphere = system(
+        "x y phi theta psi",
+        "m (x'^2 + y'^2)/2 + J (phi'^2 + theta'^2 + psi'^2 + 2 phi' psi' cos(theta))/2",
+        &[
+            (
+                "roll_x",
+                "x' - r (theta' sin(phi) - psi' sin(theta) cos(phi))",
+            ),
+            (
+                "roll_y",
+                "y' + r (theta' cos(phi) + psi' sin(theta) sin(phi))",
+            ),
+        ],
+    );
+    let velocities = ["x'", "y'", "phi'", "theta'", "psi'"];
+    let found = search(&sphere, &velocities, &["sin(theta)", "cos(theta)"], 1);
+    // The angular velocity ω is constant in space, so its product with the axis of the ball is constant too: ω·(ω × e) = 0.
+    let spin = "psi' + phi' cos(theta)";
+    are(
+        &sphere,
+        &found,
+        &["x'", "y'", "phi' + psi' cos(theta)", spin],
+    );
+}

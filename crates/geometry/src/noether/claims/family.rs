@@ -77,7 +77,7 @@ fn verdict(cx: &Context<'_>, found: &Found) -> Verdict {
     if found.open > 0 {
         return Verdict::undecided(sentence);
     }
-    let rest = format!("each is proved by itself, and more of them exist in the families with probability below 2^{bound:.0} only");
+    let rest = format!("each integral is proved by itself, and a dimension is larger with probability below 2^{bound:.0} only");
     if bound > PROOF_LOG2 {
         return Verdict::Numerical(Evidence {
             samples: 0,
