@@ -92,6 +92,23 @@ impl System {
                 .map(|f| (name_of(f.coordinate), f.value))
                 .collect(),
             named_masses: named_masses(model),
+            definitions: model
+                .parameters
+                .iter()
+                .filter_map(|p| Some((p.name.clone(), p.definition?)))
+                .filter(|(_, e)| !model.graph.symbols_in(&[*e]).is_empty())
+                .collect(),
+            angles: model
+                .coordinates
+                .iter()
+                .filter(|c| c.unit.as_ref().is_some_and(|unit| unit.text == "rad"))
+                .map(|c| c.name.clone())
+                .collect(),
+            integrals: model
+                .integrals
+                .iter()
+                .map(|i| (i.name.clone(), i.value))
+                .collect(),
             assumptions: model.assumptions.iter().filter_map(assumption).collect(),
         };
         System::new(Arc::clone(&model.graph), parts)

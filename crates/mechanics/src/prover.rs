@@ -31,7 +31,7 @@ impl Default for Prover {
 }
 
 /// The assumptions of a system as the zero test wants them.
-fn assumptions(system: &System) -> Assumptions {
+pub fn assumptions(system: &System) -> Assumptions {
     let mut list = Assumptions::new();
     for assumption in &system.assumptions {
         let relation = match assumption.relation {
@@ -55,6 +55,14 @@ impl Prover {
             options.replay()
         } else {
             options
+        }
+    }
+
+    /// The seed of random points that no verdict states by itself; another one for a replay.
+    pub fn points_seed(&self) -> u64 {
+        match self.replay {
+            false => self.seed,
+            true => self.seed.rotate_left(23) ^ 0x5eed,
         }
     }
 

@@ -205,6 +205,12 @@ pub struct SystemParts {
     pub reactive_forces: Vec<(String, Expr)>,
     /// The masses in a kinetic energy that is stated, where they change isotropically.
     pub named_masses: Option<NamedMasses>,
+    /// Parameters that are defined by others, with their definitions.
+    pub definitions: Vec<(String, Expr)>,
+    /// Names of the coordinates that are angles by their unit.
+    pub angles: Vec<String>,
+    /// Functions that the user expects to be first integrals, as (name, G).
+    pub integrals: Vec<(String, Expr)>,
     /// Assumptions.
     pub assumptions: Vec<Assumption>,
 }
@@ -310,6 +316,12 @@ pub struct System {
     pub characteristics: Option<CharacteristicFormulas>,
     /// Particles of the model; their applied forces are contained in [`forces`](System::forces).
     pub particles: Vec<Particle>,
+    /// Parameters that are defined by others, with their definitions; free symbols wherever nothing else is said.
+    pub definitions: Vec<(Expr, Expr)>,
+    /// Names of the coordinates that are angles by their unit.
+    pub angles: Vec<String>,
+    /// Functions that the model states as first integrals, with their names.
+    pub integrals: Vec<(String, Expr)>,
     /// Assumptions of the model.
     pub assumptions: Vec<Assumption>,
     /// Places of the coordinates by name.
@@ -399,6 +411,13 @@ impl System {
             frame: parts.frame,
             characteristics: parts.characteristics,
             particles: parts.particles,
+            definitions: parts
+                .definitions
+                .into_iter()
+                .map(|(name, value)| (g.symbol(&name, 0), value))
+                .collect(),
+            angles: parts.angles,
+            integrals: parts.integrals,
             assumptions: parts.assumptions,
             places: places(&parts.coordinates),
             coordinates,

@@ -45,6 +45,15 @@ impl ClaimSelection {
                 .any(|word| word == claim.group().word() || word == claim.id() || word == full)
     }
 
+    /// Whether any subject of a claim may be wanted.
+    pub fn wants_claim(&self, claim: &dyn Claim) -> bool {
+        self.words.is_empty()
+            || self.words.iter().any(|word| {
+                let id = word.split('#').next().unwrap_or(word);
+                word == claim.group().word() || id == claim.id()
+            })
+    }
+
     /// Whether any claim of `group` may be wanted.
     pub fn wants_group(&self, group: Group, known: &[&'static dyn Claim]) -> bool {
         self.words.is_empty()

@@ -588,6 +588,12 @@ fn decide(
     let mut verdicts = Vec::new();
     for group in Group::ALL {
         for claim in known.claims().iter().filter(|c| c.group() == group) {
+            if (hooks.clock)() - began > options.budget {
+                cx.spend_time();
+            }
+            if !options.claims.wants_claim(*claim) {
+                continue;
+            }
             for subject in claim.subjects(&cx) {
                 let full = full_id(claim.id(), subject.as_deref());
                 if !options.claims.wants(*claim, &full) {
@@ -596,6 +602,9 @@ fn decide(
                 (hooks.progress)(&full, None);
                 let start = (hooks.clock)();
                 let interrupted = hooks.interrupt.is_some_and(|i| i.load(Ordering::Relaxed));
+                if interrupted || start - began > options.budget {
+                    cx.spend_time();
+                }
                 let finding = if interrupted {
                     Arc::new(Finding::from(Verdict::undecided(
                         "interrupted before this claim",

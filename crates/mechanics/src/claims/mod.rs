@@ -22,6 +22,7 @@ use crate::terms::MotionTerms;
 use chetaev_symbolic::{Expr, Verdict};
 use std::any::{Any, TypeId};
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The groups that `--claims` selects, in the order they are decided.
@@ -203,6 +204,8 @@ pub struct Context<'a> {
     decided: Mutex<BTreeMap<String, Arc<Finding>>>,
     in_progress: Mutex<Vec<String>>,
     extensions: BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>,
+    shared: Mutex<BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>>,
+    out_of_time: AtomicBool,
 }
 
 impl std::fmt::Debug for Context<'_> {
@@ -241,6 +244,8 @@ impl<'a> Context<'a> {
             decided: Mutex::default(),
             in_progress: Mutex::default(),
             extensions: BTreeMap::new(),
+            shared: Mutex::default(),
+            out_of_time: AtomicBool::new(false),
         }
     }
 
@@ -256,6 +261,32 @@ impl<'a> Context<'a> {
         self.extensions
             .get(&TypeId::of::<T>())
             .and_then(|data| data.clone().downcast::<T>().ok())
+    }
+
+    /// Data that several claims need and one computes, found again by its type.
+    pub fn shared<T: Any + Send + Sync>(&self, compute: impl FnOnce(&Self) -> T) -> Arc<T> {
+        if let Some(known) = self.known::<T>() {
+            return known;
+        }
+        let computed = Arc::new(compute(self));
+        lock(&self.shared).insert(TypeId::of::<T>(), computed.clone());
+        computed
+    }
+
+    /// [`shared`](Context::shared) data, if some claim has computed them already.
+    pub fn known<T: Any + Send + Sync>(&self) -> Option<Arc<T>> {
+        let data = lock(&self.shared).get(&TypeId::of::<T>()).cloned();
+        data.and_then(|data| data.downcast::<T>().ok())
+    }
+
+    /// Says that the time for claims is spent: what takes long is not begun any more.
+    pub fn spend_time(&self) {
+        self.out_of_time.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the time for claims is spent.
+    pub fn is_out_of_time(&self) -> bool {
+        self.out_of_time.load(Ordering::Relaxed)
     }
 
     /// The registry in use.

@@ -8,3 +8,4 @@ pub mod modular_matrix;
 pub mod prime;
 pub mod prime_field;
 pub mod random;
+pub mod reconstruct;

@@ -79,6 +79,74 @@ pub fn rank(field: &PrimeField, rows: usize, columns: usize, matrix: &[Residue])
     rank
 }
 
+/// The null space of a matrix in the echelon form that is unique: each vector belongs to a column that depends on those to
+/// its left, has a one there and its other entries at columns that do not.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NullSpace {
+    /// Columns that do not depend on those to their left, ascending.
+    pub pivots: Vec<usize>,
+    /// For each other column, ascending: the column, and the entries at the pivots to its left that are not zero.
+    pub vectors: Vec<(usize, Vec<(usize, Residue)>)>,
+}
+
+/// The null space of a row-major matrix with `columns` columns, of which columns to the left are preferred as pivots.
+pub fn null_space(field: &PrimeField, columns: usize, mut matrix: Vec<Residue>) -> NullSpace {
+    let rows = matrix.len().checked_div(columns).unwrap_or(0);
+    let mut pivots: Vec<usize> = Vec::new();
+    for column in 0..columns {
+        let rank = pivots.len();
+        let found = (rank..rows).find(|&row| !matrix[row * columns + column].is_zero());
+        let Some(pivot) = found else { continue };
+        swap_rows(&mut matrix, columns, pivot, rank);
+        let Some(reciprocal) = field.inv(matrix[rank * columns + column]) else {
+            continue;
+        };
+        for entry in &mut matrix[rank * columns + column..(rank + 1) * columns] {
+            *entry = field.mul(*entry, reciprocal);
+        }
+        eliminate(field, &mut matrix, columns, rank, column, field.one());
+        pivots.push(column);
+    }
+    let mut is_pivot = vec![false; columns];
+    pivots.iter().for_each(|&column| is_pivot[column] = true);
+    let vectors = (0..columns)
+        .filter(|&column| !is_pivot[column])
+        .map(|column| {
+            (
+                column,
+                back_substituted(field, columns, &matrix, &pivots, column),
+            )
+        })
+        .collect();
+    NullSpace { pivots, vectors }
+}
+
+/// The vector with a one at `free` that the triangular rows of a matrix annul.
+fn back_substituted(
+    field: &PrimeField,
+    columns: usize,
+    matrix: &[Residue],
+    pivots: &[usize],
+    free: usize,
+) -> Vec<(usize, Residue)> {
+    let mut known: Vec<(usize, Residue)> = vec![(free, field.one())];
+    for (row, &pivot) in pivots.iter().enumerate().rev() {
+        if pivot > free {
+            continue;
+        }
+        let row = &matrix[row * columns..(row + 1) * columns];
+        let sum = known.iter().fold(Residue::ZERO, |sum, &(column, x)| {
+            field.add(sum, field.mul(row[column], x))
+        });
+        if !sum.is_zero() {
+            known.push((pivot, field.neg(sum)));
+        }
+    }
+    known.remove(0);
+    known.reverse();
+    known
+}
+
 /// Clears `column` below `row`, leaving the multipliers in its place.
 fn eliminate(
     field: &PrimeField,
@@ -166,6 +234,29 @@ mod tests {
         assert!(
             factorize(&field, 2, vec![Residue::ZERO; 3]).is_none(),
             "not square"
+        );
+    }
+
+    #[test]
+    fn null_vectors_belong_to_dependent_columns_and_use_pivots_to_their_left() {
+        let field = field();
+        // Columns a, 2a, b, a + 3b, c with a = (1, 1, 0, 2), b = (0, 1, 5, 1), c = (0, 0, 1, 1).
+        let rows = [
+            [1, 2, 0, 1, 0],
+            [1, 2, 1, 4, 0],
+            [0, 0, 5, 15, 1],
+            [2, 4, 1, 5, 1],
+        ];
+        let matrix = rows.concat().iter().map(|&n| field.from_u64(n)).collect();
+        let found = null_space(&field, 5, matrix);
+        let number = |n| field.from_i64(n);
+        assert_eq!(found.pivots, [0, 2, 4]);
+        assert_eq!(
+            found.vectors,
+            [
+                (1, vec![(0, number(-2))]),
+                (3, vec![(0, number(-1)), (2, number(-3))]),
+            ]
         );
     }
 

@@ -14,7 +14,7 @@ pub(super) struct Point {
     /// One residue for each generator (ignored for dependent symbols).
     pub(super) generators: Vec<Residue>,
     /// Cosine and sine for each circle.
-    circles: Vec<(Residue, Residue)>,
+    pub(super) circles: Vec<(Residue, Residue)>,
     /// The powers of a primitive root of unity; just 1 if none is needed.
     unity: Vec<Residue>,
     /// The constants of the program.
@@ -83,6 +83,11 @@ impl Point {
             constants,
             cuts: cuts.iter().map(|&value| (value, nonzero(random))).collect(),
         })
+    }
+
+    /// Takes the root of unity of another point of the same field: the constants in which it occurs are then the same.
+    pub(super) fn share_unity(&mut self, other: &Point) {
+        self.unity.clone_from(&other.unity);
     }
 
     /// cos(2πk/N) = (ζ^k + ζ^(−k))/2.

@@ -7,6 +7,7 @@
 //!
 //! * [`assumptions`]: what a model assumes of signs and ranges.
 //! * [`rank`]: generic ranks and regularity of matrices, by the same means.
+//! * [`points`]: values at random points of prime fields, for linear algebra over functions.
 //! * [`enclose`]: evaluation in balls, also for its own sake.
 
 pub mod assumptions;
@@ -19,6 +20,7 @@ mod exact;
 mod expand;
 mod modular;
 mod newton;
+pub mod points;
 mod polynomials;
 mod prepare;
 mod program;

@@ -5,6 +5,7 @@
 
 use dashu_int::IBig;
 
+use crate::node::Expr;
 use crate::rational::Rational;
 
 /// The number of a value of a [`Program`].
@@ -115,7 +116,12 @@ pub(super) enum Generator {
     Dependent(u32),
     /// A transcendental element, described for people; `independent` if it is known to be algebraically independent of
     /// all the others (theory 6.1: zero in the field proves; non-zero refutes only where this is known).
-    Transcendental { text: String, independent: bool },
+    Transcendental {
+        text: String,
+        independent: bool,
+        /// What it is, or, for an exponential, what its argument is a multiple of.
+        of: Expr,
+    },
 }
 
 /// A straight-line program with what is needed to choose points for it.
@@ -133,6 +139,8 @@ pub(super) struct Program {
     pub(super) generators: Vec<Generator>,
     /// Number of circles, one for each base angle.
     pub(super) circles: u32,
+    /// What the base angles are multiples of, one for each circle.
+    pub(super) circle_angles: Vec<Expr>,
     /// Number of square roots.
     pub(super) radicals: u32,
     /// Which of them depend on dependent symbols: these are adjoined to the tower of the constraints, not chosen.

@@ -111,6 +111,13 @@ impl<'a> Tower<'a> {
         Some(x)
     }
 
+    /// The first level that adjoins something, with its monic equation without the leading one.
+    pub(super) fn first_extension(&self) -> Option<(usize, Vec<Element>)> {
+        let levels = self.levels.borrow();
+        let index = levels.iter().position(|level| level.equation.len() > 1)?;
+        Some((index, levels[index].equation.clone()))
+    }
+
     /// The equations of the first `count` levels.
     pub(super) fn equations(&self, count: usize) -> Vec<Option<Vec<Element>>> {
         self.levels

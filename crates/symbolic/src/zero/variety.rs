@@ -32,6 +32,14 @@ pub(super) enum Failure {
     Unsupported(String),
 }
 
+/// What one tower gives for the outputs.
+pub(super) enum Solution {
+    Outputs(Vec<Element>),
+    Split(Split),
+    /// Nothing at this point.
+    None,
+}
+
 /// What one tower says.
 enum Part {
     /// The rank of the outputs, at so many solutions.
@@ -92,30 +100,55 @@ impl<'p> Variety<'p> {
         Ok(parts)
     }
 
+    /// The outputs at the solutions that one tower stands for.
+    pub(super) fn outputs(&self, tower: &Tower<'_>, point: &Point) -> Solution {
+        let solved = match self.evaluated(tower, point) {
+            Ok(Ok(outputs)) => return Solution::Outputs(outputs),
+            Ok(Err(part)) => part,
+            Err(_) => return Solution::None,
+        };
+        match solved {
+            Part::Split(split) => Solution::Split(split),
+            _ => Solution::None,
+        }
+    }
+
     fn part(&self, tower: &Tower<'_>, point: &Point) -> Result<Part, Failure> {
+        let outputs = match self.evaluated(tower, point)? {
+            Ok(outputs) => outputs,
+            Err(part) => return Ok(part),
+        };
+        Ok(match rank_over(tower, self.rows, self.columns, &outputs) {
+            Some(pivots) => Part::Rank(tower.dimension(), pivots),
+            None => tower.split().map_or(Part::Pole, Part::Split),
+        })
+    }
+
+    fn evaluated(
+        &self,
+        tower: &Tower<'_>,
+        point: &Point,
+    ) -> Result<Result<Vec<Element>, Part>, Failure> {
         let dependent = match self.solve(tower, point)? {
             Ok(dependent) => dependent,
-            Err(part) => return Ok(part),
+            Err(part) => return Ok(Err(part)),
         };
         let mut run = Run::new(self.program, point, dependent);
         if let Err(stop) = run.advance(tower, self.program.operations.len()) {
-            return stopped(tower, stop);
+            return stopped(tower, stop).map(Err);
         }
         for &constraint in &self.program.constraints {
             if let Some(part) = off_constraint(tower, run.get(constraint)) {
-                return Ok(part);
+                return Ok(Err(part));
             }
         }
-        let outputs: Vec<Element> = self
+        let outputs = self
             .program
             .outputs
             .iter()
             .map(|&output| run.get(output).clone())
             .collect();
-        Ok(match rank_over(tower, self.rows, self.columns, &outputs) {
-            Some(pivots) => Part::Rank(tower.dimension(), pivots),
-            None => tower.split().map_or(Part::Pole, Part::Split),
-        })
+        Ok(Ok(outputs))
     }
 
     /// The dependent symbols as elements of the tower.

@@ -98,7 +98,7 @@ impl Bound<'_> {
 }
 
 /// Degrees and heights of the constraints, each as coefficients of the equation of its symbol.
-pub(super) fn weights(program: &Program) -> Vec<Weight> {
+pub(in crate::zero) fn weights(program: &Program) -> Vec<Weight> {
     let mut weights = vec![
         Weight {
             degree: 1.0,

@@ -27,7 +27,7 @@
 //! too. The norm from the tower has at most its dimension times the degree; the leading coefficients, the
 //! discriminants and the denominators add as much again.
 
-mod bound;
+pub(super) mod bound;
 mod suspects;
 
 use std::collections::BTreeMap;

@@ -83,6 +83,7 @@ impl Builder<'_> {
                 self.program.faithful &= self.is_monomial_in_symbols(monomial);
                 let index = self.program.circles;
                 self.program.circles += 1;
+                self.program.circle_angles.push(monomial);
                 (
                     self.push(Operation::CircleCos(index)),
                     self.push(Operation::CircleSin(index)),

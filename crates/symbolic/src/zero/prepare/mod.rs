@@ -357,6 +357,7 @@ impl<'g> Builder<'g> {
         let value = self.generator(Generator::Transcendental {
             text: text.to_owned(),
             independent: true,
+            of: e,
         });
         self.transcendental.insert(e, value);
         value
@@ -375,6 +376,7 @@ impl<'g> Builder<'g> {
         let value = self.generator(Generator::Transcendental {
             text,
             independent: false,
+            of: e,
         });
         self.transcendental.insert(e, value);
         value

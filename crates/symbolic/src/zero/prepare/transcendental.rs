@@ -62,6 +62,7 @@ impl Builder<'_> {
         let value = self.generator(Generator::Transcendental {
             text: "exp".to_owned(),
             independent,
+            of: monomial,
         });
         self.exponentials.insert((monomial, parts), value);
         value
@@ -176,6 +177,7 @@ impl Builder<'_> {
         let value = self.generator(Generator::Transcendental {
             text: "log".to_owned(),
             independent: false,
+            of: base,
         });
         self.logarithms.insert(base, value);
         value

@@ -1,0 +1,49 @@
+//! `noether.contraction#j`: Ȳ ⌟ Ω̄ = dG in every component, for a first integral that was found.
+
+use super::{generator, on_manifold, prepend, requirements, subjects};
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_symbolic::Verdict;
+
+/// `noether.contraction#j`.
+#[derive(Clone, Copy, Debug)]
+pub struct Contraction;
+
+impl Claim for Contraction {
+    fn id(&self) -> &'static str {
+        "noether.contraction"
+    }
+
+    fn group(&self) -> Group {
+        Group::Integrals
+    }
+
+    fn title(&self) -> &'static str {
+        "The field of a first integral contracts the 2-form to dG"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "On the fields that annihilate the constraints the dynamical 2-form Ω̄ has rank 2k, and a function G is a first integral exactly when some field Ȳ has Ȳ ⌟ Ω̄ = dG; Ȳ is unique up to multiples of the motion. Every component of Ȳ ⌟ Ω̄ - dG, along dt, along the contact forms and along the velocities, is proved to vanish."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        requirements()
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        subjects(cx)
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        let (integral, n, generator) = match generator(cx, subject) {
+            Ok(found) => found,
+            Err(why) => return Verdict::undecided(why).into(),
+        };
+        let residuals = generator.contraction(&n);
+        let g = &cx.system.graph;
+        let sentence = format!(
+            "Ȳ ⌟ Ω̄ = dG in every component for G = {}",
+            g.text(integral.shown)
+        );
+        prepend(on_manifold(cx, &n, &residuals), &sentence).into()
+    }
+}

@@ -1,0 +1,147 @@
+//! `noether.family`: the families searched, and the dimension found.
+
+use super::{prepend, requirements};
+use crate::noether::found::{found, Found, Searched};
+use crate::noether::search::Special;
+use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
+use chetaev_mechanics::words::counted;
+use chetaev_symbolic::verdict::{Evidence, Method, Proof};
+use chetaev_symbolic::Verdict;
+
+/// `noether.family`.
+#[derive(Clone, Copy, Debug)]
+pub struct FamilySearched;
+
+/// The bound that a proof needs, as log2.
+const PROOF_LOG2: f64 = -100.0;
+
+impl Claim for FamilySearched {
+    fn id(&self) -> &'static str {
+        "noether.family"
+    }
+
+    fn group(&self) -> Group {
+        Group::Integrals
+    }
+
+    fn title(&self) -> &'static str {
+        "First integrals in families chosen for the system: all of them"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "First integrals G(t, q, v) are searched as combinations of the functions of a family: products of velocities, dependent \
+         ones and quasi-velocities too, with functions of the coordinates and the time that occur in the model (sines and cosines of its \
+         angles, its roots and exponentials, powers of coordinates and time, roots of the factors of the determinant of the mass matrix). The \
+         family is as large as the budget allows and is stated. X̄G = 0 on the constraint manifold is a linear system for the \
+         coefficients; it is solved at random points of prime fields with random parameters, the coefficients are lifted to functions of \
+         the parameters, and every integral is then proved. The dimension counts neither constants nor what vanishes on the \
+         constraints. That there are no more is certain except for the stated probability. An integral outside \
+         of the family may exist: the claim never says that a system has none."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        requirements()
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        match &*found(cx) {
+            Ok(found) => Finding {
+                verdict: verdict(cx, found),
+                formulas: found
+                    .integrals
+                    .iter()
+                    .enumerate()
+                    .map(|(j, integral)| Formula {
+                        caption: match &integral.name {
+                            Some(name) => format!("first integral {}, {name}", j + 1),
+                            None => format!("first integral {}", j + 1),
+                        },
+                        left: None,
+                        right: integral.shown,
+                    })
+                    .collect(),
+            },
+            Err(why) => Verdict::undecided(format!("the search was not made: {why}")).into(),
+        }
+    }
+}
+
+fn verdict(cx: &Context<'_>, found: &Found) -> Verdict {
+    let sentence = sentence(cx, found);
+    let bound = found
+        .families
+        .iter()
+        .map(|f| f.error_bound_log2)
+        .fold(f64::NEG_INFINITY, f64::max)
+        + 2.0;
+    if found.open > 0 {
+        return Verdict::undecided(sentence);
+    }
+    let rest = format!("each integral is proved by itself, and a dimension is larger with probability below 2^{bound:.0} only");
+    if bound > PROOF_LOG2 {
+        return Verdict::Numerical(Evidence {
+            samples: 0,
+            region: "random points of prime fields".into(),
+            digits: 18,
+            residual: 0.0,
+            seed: Some(cx.prover.seed),
+            why_no_proof: format!("{sentence}; {rest}, which is more than a proof allows"),
+        });
+    }
+    let proof = Proof {
+        method: Method::Modular,
+        error_bound_log2: Some(bound),
+        seed: Some(cx.prover.seed),
+        ..Proof::exact("for general values of the parameters", rest)
+    };
+    prepend(Verdict::Proved(proof), &sentence)
+}
+
+fn sentence(cx: &Context<'_>, found: &Found) -> String {
+    let many = counted(
+        found.integrals.len(),
+        "functionally independent first integral",
+        "functionally independent first integrals",
+    );
+    let open = match found.open {
+        0 => String::new(),
+        open => format!(
+            "; {} seen whose coefficients were not found",
+            counted(open, "more was", "more were")
+        ),
+    };
+    let families: Vec<String> = found.families.iter().map(exhausted).collect();
+    let special: Vec<String> = found.special.iter().map(|s| special(cx, s)).collect();
+    let special = match special.is_empty() {
+        true => String::new(),
+        false => format!("; more {}", special.join("; ")),
+    };
+    format!(
+        "{many} in the families searched{open}{special}; exhausted: {}",
+        families.join("; ")
+    )
+}
+
+/// A special value of a parameter with what it adds, in words.
+fn special(cx: &Context<'_>, special: &Special) -> String {
+    let g = &cx.system.graph;
+    let name = |s| g.symbol_text(s);
+    let value = special.tie.equals.map_or("0".to_owned(), name);
+    let integrals: Vec<String> = special.integrals.iter().map(|&e| g.text(e)).collect();
+    format!(
+        "where {} = {value}: {}",
+        name(special.tie.parameter),
+        integrals.join(", ")
+    )
+}
+
+fn exhausted(family: &Searched) -> String {
+    let relations = match family.relations {
+        0 => String::new(),
+        relations => format!(", {relations} of them combinations of others"),
+    };
+    format!(
+        "{} ({} functions{relations}): dimension {}",
+        family.words, family.members, family.dimension
+    )
+}

@@ -1,0 +1,65 @@
+//! `noether.integral#j`: a first integral that was found, with its generator.
+
+use super::{bare, generator, generator_formulas, integral, prepend, requirements, subjects};
+use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
+use chetaev_symbolic::Verdict;
+
+/// `noether.integral#j`.
+#[derive(Clone, Copy, Debug)]
+pub struct FirstIntegral;
+
+impl Claim for FirstIntegral {
+    fn id(&self) -> &'static str {
+        "noether.integral"
+    }
+
+    fn group(&self) -> Group {
+        Group::Integrals
+    }
+
+    fn title(&self) -> &'static str {
+        "A first integral, found by the search"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "A function G of the time, the coordinates and the velocities that keeps its value along every motion: its derivative \
+         along the field of the motion, X̄G, vanishes on the constraint manifold, with the accelerations of Routh's \
+         equations. By Noether's theorem it belongs to a field Ȳ = δ Y_0 + ξ Y + ζ ∂/∂η and a gauge function g with \
+         G = g - L̄ δ - p (ξ - η δ); δ may be prescribed, as multiples of the motion itself change nothing. The field is shown \
+         with δ = 1 for the energy and δ = 0 for the others."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        requirements()
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        subjects(cx)
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        let integral = match integral(cx, subject) {
+            Ok(integral) => integral,
+            Err(why) => return Verdict::undecided(why).into(),
+        };
+        let g = &cx.system.graph;
+        let name = integral.name.as_deref();
+        let named = name.map_or(String::new(), |name| format!(", {name}"));
+        let mut formulas = vec![Formula {
+            caption: format!("the first integral G{named}"),
+            left: None,
+            right: integral.shown,
+        }];
+        let mut sentence = format!("X̄G = 0 on motions for G = {}", g.text(integral.shown));
+        if let Ok((_, n, generator)) = generator(cx, subject) {
+            formulas.extend(generator_formulas(&n, &generator));
+            let speeds = n.embedding.chart.parameters.iter();
+            let fields: Vec<&str> = speeds.map(|p| bare(&p.name)).collect();
+            sentence = format!("{sentence}; its field is along {}", fields.join(", "));
+        }
+        Finding {
+            verdict: prepend(integral.verdict, &sentence),
+            formulas,
+        }
+    }
+}

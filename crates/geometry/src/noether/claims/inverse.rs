@@ -1,0 +1,154 @@
+//! `noether.inverse#NAME`: an integral that the model states is one, and its generator.
+
+use super::{generator_formulas, on_manifold, prepend, requirements};
+use crate::noether::embedded::Embedded;
+use crate::noether::generator::Generator;
+use crate::noether::motion::Motion;
+use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
+use chetaev_mechanics::Manifold;
+use chetaev_symbolic::{Expr, Verdict};
+
+/// `noether.inverse#NAME`.
+#[derive(Clone, Copy, Debug)]
+pub struct Inverse;
+
+impl Claim for Inverse {
+    fn id(&self) -> &'static str {
+        "noether.inverse"
+    }
+
+    fn group(&self) -> Group {
+        Group::Integrals
+    }
+
+    fn title(&self) -> &'static str {
+        "An integral of the model is a first integral, with its symmetry"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "A function G stated under [integrals] keeps its value along every motion: X̄G = 0 on the constraint manifold. If so, the inverse of \
+         Noether's theorem gives its field: χ = -W̄⁻¹ ∂G, here with δ = 0, and the gauge g = G + p χ; the Killing-type equations are \
+         proved for them. `conditional` says that it is one for parameters as the model defines them by others, not for \
+         independent ones; `refuted` comes with an admissible state at which the rate of G is not zero."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        requirements()
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        let stated = cx.system.integrals.iter();
+        stated
+            .filter(|(_, value)| is_of_state(cx, *value))
+            .map(|(name, _)| Some(name.clone()))
+            .collect()
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        let mut stated = cx.system.integrals.iter();
+        let Some((_, value)) = stated.find(|(name, _)| Some(name.as_str()) == subject) else {
+            return Verdict::undecided("the model states no integral of this name").into();
+        };
+        let motion = match Motion::of(cx) {
+            Ok(motion) => motion,
+            Err(why) => return Verdict::undecided(why).into(),
+        };
+        let verdict = match motion.is_integral(cx, *value) {
+            Verdict::Proved(proof) => Verdict::Proved(proof),
+            other => by_definitions(cx, &motion, *value).unwrap_or(other),
+        };
+        if matches!(verdict, Verdict::Conditional { .. }) {
+            return verdict.into();
+        }
+        if !matches!(verdict, Verdict::Proved(_)) {
+            return prepend(
+                verdict,
+                "whether the rate of the function vanishes on motions",
+            )
+            .into();
+        }
+        let (killing, formulas) = symmetry(cx, *value);
+        let verdict = prepend(verdict, "X̄G = 0 on motions").and(killing);
+        Finding { verdict, formulas }
+    }
+}
+
+/// The verdict where it holds for parameters as the model defines them by others, and not for independent ones.
+fn by_definitions(cx: &Context<'_>, motion: &Motion<'_>, value: Expr) -> Option<Verdict> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let occurring = g.symbols_in(&[value]);
+    if system.definitions.is_empty() {
+        return None;
+    }
+    // Definitions may use each other, in as many steps as there are definitions at most.
+    let resolved = |e: Expr| {
+        let steps = 0..system.definitions.len();
+        steps.fold(e, |e, _| g.substitute(e, &system.definitions))
+    };
+    let rate = resolved(*motion.derivatives(&[value]).first()?);
+    let manifold = Manifold {
+        solved: motion
+            .manifold
+            .solved
+            .iter()
+            .map(|&(s, e)| (s, resolved(e)))
+            .collect(),
+        implicit: motion
+            .manifold
+            .implicit
+            .iter()
+            .map(|&(f, s)| (resolved(f), s))
+            .collect(),
+    };
+    let on = "on the constraint manifold, for parameters as the model defines them";
+    let Verdict::Proved(mut proof) = cx.prover.identity(system, &[rate], &manifold, on) else {
+        return None;
+    };
+    let used = system
+        .definitions
+        .iter()
+        .filter(|(symbol, _)| g.as_symbol(*symbol).is_some_and(|s| occurring.contains(&s)));
+    let conditions: Vec<String> = used
+        .map(|&(symbol, e)| format!("{} = {}", g.text(symbol), g.text(e)))
+        .collect();
+    proof.detail = format!(
+        "X̄G = 0 on motions for parameters as the model defines them; {}",
+        proof.detail
+    );
+    Some(Verdict::Conditional {
+        condition: conditions.join(", "),
+        proof,
+        counterexample: None,
+    })
+}
+
+/// The Killing-type equations for the generator of an integral, and its formulas.
+fn symmetry(cx: &Context<'_>, value: Expr) -> (Verdict, Vec<Formula>) {
+    let g = &cx.system.graph;
+    let n = match Embedded::of(cx) {
+        Ok(n) => n,
+        Err(why) => return (Verdict::undecided(why), Vec::new()),
+    };
+    let generator = match Generator::of(&n, value, g.zero()) {
+        Ok(generator) => generator,
+        Err(problem) => return (Verdict::undecided(problem.to_string()), Vec::new()),
+    };
+    let mut residuals = generator.killing_speeds(&n);
+    residuals.push(generator.killing_drift(&n));
+    let verdict = prepend(
+        on_manifold(cx, &n, &residuals),
+        "the Killing-type equations hold for its field",
+    );
+    (verdict, generator_formulas(&n, &generator))
+}
+
+/// Whether a function depends on the state (t, q, v) only.
+fn is_of_state(cx: &Context<'_>, e: Expr) -> bool {
+    let g = &cx.system.graph;
+    let known = |name: &str| {
+        name == "t" || cx.system.moves(name) || cx.system.parameters.iter().any(|p| p.name == name)
+    };
+    g.symbols_in(&[e])
+        .into_iter()
+        .all(|s| known(g.symbol_name(s)) && g.symbol_order(s) < 2)
+}

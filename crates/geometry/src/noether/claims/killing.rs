@@ -1,0 +1,50 @@
+//! `noether.killing#j`: the Killing-type equations, for a first integral that was found.
+
+use super::{generator, on_manifold, prepend, requirements, subjects};
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_symbolic::Verdict;
+
+/// `noether.killing#j`.
+#[derive(Clone, Copy, Debug)]
+pub struct Killing;
+
+impl Claim for Killing {
+    fn id(&self) -> &'static str {
+        "noether.killing"
+    }
+
+    fn group(&self) -> Group {
+        Group::Integrals
+    }
+
+    fn title(&self) -> &'static str {
+        "The Killing-type equations hold for the field of a first integral"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The field (δ, ξ) and the gauge g of a first integral satisfy the Killing-type equations of Noether's theorem for constrained systems: one for each independent velocity and one along the motion with velocities frozen. They contain no accelerations. δ = 1 for the energy and δ = 0 for other integrals; ξ = -W̄⁻¹ ∂G + η δ."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        requirements()
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        subjects(cx)
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        let (integral, n, generator) = match generator(cx, subject) {
+            Ok(found) => found,
+            Err(why) => return Verdict::undecided(why).into(),
+        };
+        let mut residuals = generator.killing_speeds(&n);
+        residuals.push(generator.killing_drift(&n));
+        let g = &cx.system.graph;
+        let sentence = format!(
+            "the Killing-type equations for G = {}",
+            g.text(integral.shown)
+        );
+        prepend(on_manifold(cx, &n, &residuals), &sentence).into()
+    }
+}

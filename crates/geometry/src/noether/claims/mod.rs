@@ -1,0 +1,160 @@
+//! The claims about first integrals (claims.md §6), one file each.
+
+mod contraction;
+mod embedded;
+mod family;
+mod integral;
+mod inverse;
+mod killing;
+mod structure;
+
+pub use contraction::Contraction;
+pub use embedded::EmbeddedField;
+pub use family::FamilySearched;
+pub use integral::FirstIntegral;
+pub use inverse::Inverse;
+pub use killing::Killing;
+pub use structure::Structure;
+
+use super::embedded::Embedded;
+use super::found::found;
+use super::generator::Generator;
+use super::search::Integral;
+use crate::noether::found::readable;
+use chetaev_mechanics::claims::Formula;
+use chetaev_mechanics::Context;
+use chetaev_symbolic::simplify::length;
+use chetaev_symbolic::{Expr, Verdict};
+
+/// What all claims about first integrals require.
+fn requirements() -> Vec<String> {
+    vec![
+        "model.accelerations-unique".into(),
+        "model.frame-regular".into(),
+        "model.masses-free-of-velocity".into(),
+    ]
+}
+
+/// The longest component of a generator that is shown.
+const SHOWN: u64 = 200;
+
+/// The numbers of the integrals found, as subjects.
+fn subjects(cx: &Context<'_>) -> Vec<Option<String>> {
+    let obstacle = cx
+        .registry()
+        .find("noether.family")
+        .is_none_or(|claim| cx.obstacle(claim, None).is_some());
+    if obstacle {
+        return Vec::new();
+    }
+    match &*found(cx) {
+        Ok(found) => (1..=found.integrals.len())
+            .map(|j| Some(j.to_string()))
+            .collect(),
+        Err(_) => Vec::new(),
+    }
+}
+
+/// The integral of a subject.
+///
+/// # Errors
+/// A sentence that says why there is none.
+fn integral(cx: &Context<'_>, subject: Option<&str>) -> Result<Integral, String> {
+    let found = found(cx);
+    let found = match &*found {
+        Ok(found) => found,
+        Err(why) => return Err(why.clone()),
+    };
+    let number = subject.and_then(|s| s.parse::<usize>().ok()).unwrap_or(0);
+    let integral = number.checked_sub(1).and_then(|i| found.integrals.get(i));
+    integral
+        .cloned()
+        .ok_or_else(|| format!("{} first integrals were found", found.integrals.len()))
+}
+
+/// The integral of a subject with its generator: δ = 1 for the energy, δ = 0 for the others.
+///
+/// # Errors
+/// A sentence that says why there is none.
+fn generator<'a>(
+    cx: &Context<'a>,
+    subject: Option<&str>,
+) -> Result<(Integral, Embedded<'a>, Generator), String> {
+    let integral = integral(cx, subject)?;
+    let n = Embedded::of(cx)?;
+    let g = &cx.system.graph;
+    let delta = match integral.name {
+        Some(_) => g.one(),
+        None => g.zero(),
+    };
+    let generator = Generator::of(&n, integral.value, delta)
+        .map_err(|problem| format!("the generator was not found: {problem}"))?;
+    Ok((integral, n, generator))
+}
+
+/// The components of the generator and the gauge, as formulas.
+fn generator_formulas(n: &Embedded<'_>, generator: &Generator) -> Vec<Formula> {
+    let g = &n.system.graph;
+    let speeds = &n.embedding.chart.parameters;
+    let mut stated: Vec<(String, Expr)> = vec![("δ, along Y_0".into(), generator.delta)];
+    for (speed, &xi) in speeds.iter().zip(&generator.xi) {
+        stated.push((format!("ξ along Y_{}", bare(&speed.name)), xi));
+    }
+    for (speed, &zeta) in speeds.iter().zip(&generator.zeta) {
+        stated.push((format!("ζ along ∂/∂{}", speed.name), zeta));
+    }
+    stated.push(("the gauge function g".into(), generator.gauge));
+    let values: Vec<Expr> = stated.iter().map(|(_, e)| *e).collect();
+    let values: Vec<Expr> = values.iter().map(|&e| readable(g, e)).collect();
+    stated
+        .into_iter()
+        .zip(values)
+        .filter(|(_, value)| length(g, *value) <= SHOWN)
+        .map(|((caption, _), right)| Formula {
+            caption,
+            left: None,
+            right,
+        })
+        .collect()
+}
+
+/// The name of a velocity as a subscript.
+fn bare(name: &str) -> &str {
+    name.trim_end_matches('\'')
+}
+
+/// Puts a sentence before the detail of any verdict.
+fn prepend(verdict: Verdict, sentence: &str) -> Verdict {
+    let mut verdict = verdict;
+    let detail = match &mut verdict {
+        Verdict::Proved(proof) | Verdict::Conditional { proof, .. } => &mut proof.detail,
+        Verdict::Numerical(evidence) => &mut evidence.why_no_proof,
+        Verdict::Refuted(counterexample) => &mut counterexample.detail,
+        Verdict::NotApplicable { detail, .. } => detail,
+        Verdict::Undecided { tried } => tried,
+    };
+    *detail = match detail.is_empty() {
+        true => sentence.to_owned(),
+        false => format!("{sentence}; {detail}"),
+    };
+    verdict
+}
+
+/// Decides that residuals vanish on N, in its chart (t, q, η).
+fn on_manifold(cx: &Context<'_>, n: &Embedded<'_>, residuals: &[Expr]) -> Verdict {
+    let g = &cx.system.graph;
+    let mut residuals: Vec<Expr> = residuals
+        .iter()
+        .copied()
+        .filter(|&e| !g.is_zero(e))
+        .collect();
+    if residuals.is_empty() {
+        residuals.push(g.zero());
+    }
+    cx.prover.identity(
+        cx.system,
+        &residuals,
+        n.manifold(),
+        "on the constraint manifold",
+    )
+}

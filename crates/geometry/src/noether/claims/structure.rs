@@ -1,0 +1,48 @@
+//! `noether.structure#j`: the structure equations, for a first integral that was found.
+
+use super::{generator, on_manifold, prepend, requirements, subjects};
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_symbolic::Verdict;
+
+/// `noether.structure#j`.
+#[derive(Clone, Copy, Debug)]
+pub struct Structure;
+
+impl Claim for Structure {
+    fn id(&self) -> &'static str {
+        "noether.structure"
+    }
+
+    fn group(&self) -> Group {
+        Group::Integrals
+    }
+
+    fn title(&self) -> &'static str {
+        "The structure equations hold for the field of a first integral"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The condition of Noether's theorem evaluated on the basis of fields on the constraint manifold gives one equation for each ∂/∂η (the first of the Killing-type equations), one for each field Y_i, from which the components ζ along the velocities are found, and one for Y_0. All of them hold for the field and the gauge of a first integral."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        requirements()
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        subjects(cx)
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        let (integral, n, generator) = match generator(cx, subject) {
+            Ok(found) => found,
+            Err(why) => return Verdict::undecided(why).into(),
+        };
+        let mut residuals = generator.killing_speeds(&n);
+        residuals.extend(generator.along_fields(&n));
+        residuals.push(generator.along_time(&n));
+        let g = &cx.system.graph;
+        let sentence = format!("the structure equations for G = {}", g.text(integral.shown));
+        prepend(on_manifold(cx, &n, &residuals), &sentence).into()
+    }
+}

@@ -1,0 +1,293 @@
+//! The first integrals of a system in the families that are chosen for it, computed once for all claims about them.
+
+use super::family::Family;
+use super::motion::Motion;
+use super::occurring::Letters;
+use super::search::{Integral, Special, Table, Tie};
+use chetaev_mechanics::Context;
+use chetaev_symbolic::number::prime_field::Residue;
+use chetaev_symbolic::simplify::{simplify, Options};
+use chetaev_symbolic::{Expr, Graph};
+use std::sync::Arc;
+
+/// The most members of a family of degree one in the velocities, and of degree two for a system of up to four coordinates and for
+/// a larger one.
+const MEMBERS: [usize; 3] = [620, 400, 700];
+
+/// Larger expressions, in nodes, are shown as they are.
+const READABLE: usize = 90;
+
+/// Families do not grow beyond this weight of the coefficients.
+const WEIGHT: u32 = 6;
+
+/// A family that was searched, and what was found there.
+#[derive(Clone, Debug)]
+pub struct Searched {
+    /// What it consists of, in words.
+    pub words: String,
+    /// Its members, the constant not counted.
+    pub members: usize,
+    /// Members that are combinations of others on the constraint manifold.
+    pub relations: usize,
+    /// The dimension of the space of its first integrals, constants not counted.
+    pub dimension: usize,
+    /// log2 of a bound on the probability that the dimension is larger.
+    pub error_bound_log2: f64,
+}
+
+/// What the search found.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The families, each exhausted.
+    pub families: Vec<Searched>,
+    /// Functionally independent first integrals, each proved.
+    pub integrals: Vec<Integral>,
+    /// Dimensions whose integrals are functions of `integrals`.
+    pub dependent: usize,
+    /// What there is more of at special values of the parameters, in small families.
+    pub special: Vec<Special>,
+    /// Independent integrals modulo p that could not be lifted or proved.
+    pub open: usize,
+}
+
+/// A combination of members, with its leading one last.
+struct Candidate<'f> {
+    family: &'f Family,
+    vector: Vec<(usize, Residue)>,
+    /// Whether it contains the time, then the degree in the velocities of the leading member; a known function goes before others
+    /// of its degree.
+    order: (bool, u32, bool, usize),
+    name: Option<String>,
+}
+
+/// What the search finds for the context's system; a sentence where it cannot be made.
+pub fn found(cx: &Context<'_>) -> Arc<Result<Found, String>> {
+    cx.shared(|cx| search(cx))
+}
+
+/// The same, where some claim has asked for it already.
+pub fn if_searched(cx: &Context<'_>) -> Option<Arc<Result<Found, String>>> {
+    cx.known::<Result<Found, String>>()
+}
+
+fn search(cx: &Context<'_>) -> Result<Found, String> {
+    if cx.is_out_of_time() {
+        return Err("the time for claims was spent before the search".into());
+    }
+    let motion = Motion::of(cx)?;
+    let letters = Letters::of(cx);
+    in_letters(cx, &motion, &letters)
+        .or_else(|_| in_letters(cx, &motion, &letters.without_roots(cx.system)))
+}
+
+fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Result<Found, String> {
+    let letters = &letters.without_zeros(motion, cx.prover.points_seed())?;
+    let families = families(cx, letters);
+    let table = Table::new(motion, &letters.all(), cx.prover.points_seed())?;
+    let mut candidates: Vec<Candidate<'_>> = Vec::new();
+    let mut searched = Vec::new();
+    for (place, family) in families.iter().enumerate() {
+        let space = table.space(family)?;
+        searched.push(Searched {
+            words: family.words.clone(),
+            members: family.members.len() - 1,
+            relations: space.relations.len(),
+            dimension: space.integrals.len(),
+            error_bound_log2: space.error_bound_log2,
+        });
+        for vector in space.integrals {
+            let leading = vector.last().map_or(0, |&(member, _)| member);
+            let degree = letters.degree(&family.members[leading]);
+            let timed = vector
+                .iter()
+                .any(|&(m, _)| letters.is_timed(cx.system, &family.members[m]));
+            candidates.push(Candidate {
+                order: (timed, degree, true, place),
+                family,
+                vector,
+                name: None,
+            });
+        }
+    }
+    candidates.extend(known(&table, letters, &families));
+    candidates.sort_by_key(|c| c.order);
+    let (integrals, dependent, open) = chosen(cx, &table, &candidates);
+    Ok(Found {
+        families: searched,
+        integrals,
+        special: special(cx, &table, letters),
+        dependent,
+        open,
+    })
+}
+
+/// The most members of a family that is searched at special values, and the most special values.
+const SMALL: (usize, usize) = (130, 36);
+
+/// Further integrals where two parameters are equal, or one is zero that is not assumed otherwise, in small families.
+fn special(cx: &Context<'_>, table: &Table<'_>, letters: &Letters) -> Vec<Special> {
+    let parameters = table.free_parameters();
+    let mut ties: Vec<Tie> = Vec::new();
+    for (i, &parameter) in parameters.iter().enumerate() {
+        let others = parameters[..i].iter();
+        ties.extend(others.map(|&other| Tie {
+            parameter,
+            equals: Some(other),
+        }));
+    }
+    let g = &cx.system.graph;
+    let zeros = parameters
+        .iter()
+        .filter(|&&s| !is_assumed(cx, g.symbol_expr(s)));
+    ties.extend(zeros.map(|&parameter| Tie {
+        parameter,
+        equals: None,
+    }));
+    ties.truncate(SMALL.1);
+    let family = [
+        letters.polynomials(2, 1),
+        letters.polynomials(2, 0),
+        letters.polynomials(1, 0),
+    ]
+    .into_iter()
+    .find(|family| family.members.len() <= SMALL.0);
+    family.map_or(Vec::new(), |family| table.special(cx, &family, &ties))
+}
+
+/// Whether the model assumes something of a parameter, by which it may not vanish.
+fn is_assumed(cx: &Context<'_>, parameter: Expr) -> bool {
+    let assumptions = cx.system.assumptions.iter();
+    let mut sides = assumptions.flat_map(|a| [a.left, a.right]);
+    sides.any(|side| side == parameter)
+}
+
+/// Known functions that are integrals, as candidates.
+fn known<'f>(table: &Table<'_>, letters: &Letters, families: &'f [Family]) -> Vec<Candidate<'f>> {
+    let first = letters.velocities.len() + letters.coefficients.len();
+    let mut found = Vec::new();
+    for (i, (name, _)) in letters.known.iter().enumerate() {
+        let member = vec![(first + i, 1)];
+        let place = families.iter().find_map(|family| {
+            let place = family.members.iter().position(|m| *m == member)?;
+            Some((family, place))
+        });
+        let Some((family, place)) = place else {
+            continue;
+        };
+        if let Some(one) = table.rate_vanishes(family, place) {
+            found.push(Candidate {
+                family,
+                vector: vec![(place, one)],
+                order: (false, 2, false, 0),
+                name: Some(name.clone()),
+            });
+        }
+    }
+    found
+}
+
+/// The functionally independent candidates, lifted and proved; how many depend on them, and how many stay open.
+fn chosen(
+    cx: &Context<'_>,
+    table: &Table<'_>,
+    candidates: &[Candidate<'_>],
+) -> (Vec<Integral>, usize, usize) {
+    let vectors: Vec<(&Family, &[(usize, Residue)])> = candidates
+        .iter()
+        .map(|c| (c.family, &c.vector[..]))
+        .collect();
+    let independent = table.independent(&vectors).unwrap_or_default();
+    let mut integrals = Vec::new();
+    let mut open = 0;
+    for &i in &independent {
+        let candidate = &candidates[i];
+        match table.proved(cx, candidate.family, &candidate.vector) {
+            Some(integral) => integrals.push(Integral {
+                shown: readable(&cx.system.graph, integral.shown),
+                name: candidate.name.clone(),
+                ..integral
+            }),
+            None => open += 1,
+        }
+    }
+    (integrals, candidates.len() - independent.len(), open)
+}
+
+/// An expression as a person would write it, where that does not take long.
+pub(super) fn readable(g: &Graph, e: Expr) -> Expr {
+    match g.reachable(&[e]).len() <= READABLE {
+        true => simplify(g, e, &Options::default()),
+        false => e,
+    }
+}
+
+/// The largest families within the budget: polynomials of degree one and two in the velocities, and quotients.
+fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
+    let mut families: Vec<Family> = [1, 2]
+        .into_iter()
+        .map(|degree| {
+            let most = match (degree, cx.system.n()) {
+                (1, _) => MEMBERS[0],
+                (_, 0..=4) => MEMBERS[1],
+                _ => MEMBERS[2],
+            };
+            let mut weight = 0;
+            let mut largest = letters.polynomials(degree, 0);
+            if largest.members.len() > 2 * most {
+                return letters.known_only();
+            }
+            while weight < WEIGHT {
+                let next = letters.polynomials(degree, weight + 1);
+                if next.members.len() > most {
+                    break;
+                }
+                weight += 1;
+                largest = next;
+            }
+            largest.words = words(cx, letters, degree, weight);
+            largest
+        })
+        .collect();
+    if letters.velocities.len() > 1 {
+        let mut quotients = letters.quotients();
+        quotients.words = "quotients of two velocities".into();
+        families.push(quotients);
+    }
+    families
+}
+
+fn words(cx: &Context<'_>, letters: &Letters, degree: u32, weight: u32) -> String {
+    let g = &cx.system.graph;
+    let list = |weight: u32| {
+        let numbered = letters.coefficients.iter().enumerate();
+        let own = numbered
+            .filter(|(i, c)| c.weight == weight && (degree == 1 || !letters.turning.contains(i)));
+        own.map(|(_, c)| g.text(c.letter.shown))
+            .collect::<Vec<String>>()
+    };
+    let velocities: Vec<String> = letters.velocities.iter().map(|l| g.text(l.shown)).collect();
+    let weights: Vec<String> = (1..=3)
+        .filter(|&w| !list(w).is_empty())
+        .map(|w| format!("{} ({w} each)", list(w).join(", ")))
+        .collect();
+    let more = match degree {
+        1 => "",
+        _ => " in the quadratic terms and one more for each velocity less",
+    };
+    let known = match degree >= 2 && !letters.known.is_empty() {
+        true => {
+            let names: Vec<&str> = letters
+                .known
+                .iter()
+                .map(|(name, _)| name.as_str())
+                .collect();
+            format!(", and {}", names.join(", "))
+        }
+        false => String::new(),
+    };
+    format!(
+        "polynomials of degree up to {degree} in the velocities {}, with coefficients of weight up to {weight}{more}, built of {}{known}",
+        velocities.join(", "),
+        weights.join("; ")
+    )
+}

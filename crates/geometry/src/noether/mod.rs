@@ -1,0 +1,11 @@
+//! First integrals: their search, their symmetries and generators (T3 §6–7).
+
+pub mod claims;
+pub mod embedded;
+pub mod family;
+pub mod found;
+pub mod generator;
+mod lift;
+pub mod motion;
+pub mod occurring;
+pub mod search;

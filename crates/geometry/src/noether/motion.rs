@@ -1,0 +1,122 @@
+//! The field X̄ of the motion on the constraint manifold N, and derivatives of functions on N.
+//!
+//! `X̄ = ∂/∂t + v ∂/∂q + a(q, v, t) ∂/∂v` with the accelerations of Routh's equations; restricted to N it is the field of T3
+//! (6), and a function G of (t, q, v) is a first integral exactly when `X̄G = 0` on N.
+
+use chetaev_mechanics::characteristics::Direction;
+use chetaev_mechanics::claims::formulation::{derive, manifold, REFERENCE};
+use chetaev_mechanics::prover;
+use chetaev_mechanics::{Characteristics, Context, Manifold, System};
+use chetaev_symbolic::zero::points::{Points, PointsOf};
+use chetaev_symbolic::{Expr, Symbol, Verdict};
+
+/// The motion of a system on its constraint manifold.
+#[derive(Debug)]
+pub struct Motion<'a> {
+    /// The system.
+    pub system: &'a System,
+    /// q'' as functions of (q, v, t).
+    pub accelerations: Vec<Expr>,
+    /// The constraint manifold.
+    pub manifold: Manifold,
+    chart: Characteristics,
+}
+
+impl<'a> Motion<'a> {
+    /// The motion of the context's system.
+    ///
+    /// # Errors
+    /// A sentence that says why its accelerations are not known.
+    pub fn of(cx: &Context<'a>) -> Result<Motion<'a>, String> {
+        let equations = derive(cx, REFERENCE).map_err(|problem| problem.to_string())?;
+        let chart = Characteristics::independent_velocities(cx.system, cx.terms, cx.selection);
+        Ok(Motion {
+            accelerations: equations.in_natural_state(cx.system, &equations.accelerations),
+            manifold: manifold(cx),
+            chart: chart.map_err(|problem| problem.to_string())?,
+            system: cx.system,
+        })
+    }
+
+    /// X̄ of functions of (t, q, v).
+    pub fn derivatives(&self, es: &[Expr]) -> Vec<Expr> {
+        let g = &self.system.graph;
+        let pairs: Vec<(Expr, Expr)> = self
+            .system
+            .coordinates
+            .iter()
+            .zip(&self.accelerations)
+            .map(|(c, &a)| (c.a, a))
+            .collect();
+        let rates: Vec<Expr> = es
+            .iter()
+            .map(|&e| self.system.total_derivative(e))
+            .collect();
+        g.substitute_all(&rates, &pairs)
+    }
+
+    /// The derivatives of functions of (t, q, v) along t, each coordinate and each independent velocity on N: one row for each
+    /// function.
+    pub fn gradients(&self, es: &[Expr]) -> Vec<Vec<Expr>> {
+        let (g, n, k) = (&self.system.graph, self.system.n(), self.chart.k());
+        let restricted = self.chart.restrict(self.system, es);
+        let unit = |size: usize, place: Option<usize>| -> Vec<Expr> {
+            let entry = |i| if Some(i) == place { g.one() } else { g.zero() };
+            (0..size).map(entry).collect()
+        };
+        let directions = (0..=n + k).map(|d| Direction {
+            time: if d == 0 { g.one() } else { g.zero() },
+            coordinates: unit(n, d.checked_sub(1).filter(|&i| i < n)),
+            parameters: unit(k, d.checked_sub(1 + n)),
+        });
+        let columns: Vec<Vec<Expr>> = directions
+            .map(|direction| self.chart.along(self.system, &restricted, &direction))
+            .collect();
+        (0..es.len())
+            .map(|i| columns.iter().map(|column| column[i]).collect())
+            .collect()
+    }
+
+    /// Names of the independent velocities of the chart of N.
+    pub fn independent(&self) -> Vec<String> {
+        self.chart
+            .parameters
+            .iter()
+            .map(|p| p.name.clone())
+            .collect()
+    }
+
+    /// Whether a symbol moves.
+    pub fn moves(&self, symbol: Symbol) -> bool {
+        let name = self.system.graph.symbol_name(symbol);
+        name == "t" || self.system.moves(name)
+    }
+
+    /// Functions of (t, q, v) ready to be evaluated at points of N.
+    ///
+    /// # Errors
+    /// A sentence that says why they cannot be.
+    pub fn points(&self, outputs: &[Expr]) -> Result<Points, String> {
+        Points::new(
+            &self.system.graph,
+            &PointsOf {
+                outputs,
+                solved: &self.manifold.solved,
+                implicit: &self.manifold.implicit,
+                assumptions: &prover::assumptions(self.system),
+                moves: &|symbol| self.moves(symbol),
+            },
+        )
+    }
+
+    /// Decides whether G is a first integral: `X̄G = 0` on N.
+    pub fn is_integral(&self, cx: &Context<'_>, integral: Expr) -> Verdict {
+        let rate = self.derivatives(&[integral]);
+        let on = if self.system.constraints.is_empty() {
+            "everywhere outside the singular set of the mass matrix"
+        } else {
+            "on the constraint manifold outside the singular set of the linear systems"
+        };
+        cx.prover.identity(self.system, &rate, &self.manifold, on)
+    }
+}

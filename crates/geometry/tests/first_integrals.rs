@@ -1,0 +1,316 @@
+//! Dimensions and closed forms of T3 §8, from families that are given.
+
+#![allow(clippy::unwrap_used)] // a panic is how a test fails
+
+mod common;
+
+use chetaev_geometry::noether::family::{Family, Letter};
+use chetaev_geometry::noether::motion::Motion;
+use chetaev_geometry::noether::search::{exhaust, Exhausted, Integral, Table, Tie};
+use chetaev_mechanics::claims::Context;
+use chetaev_mechanics::{Prepared, Prover, Registry, System};
+use chetaev_symbolic::Verdict;
+use common::{expr, system};
+
+fn letters(system: &System, texts: &[&str]) -> Vec<Letter> {
+    let g = &system.graph;
+    texts.iter().map(|t| Letter::plain(expr(g, t))).collect()
+}
+
+fn with<T>(system: &System, ask: impl FnOnce(&Context<'_>, &Motion<'_>) -> T) -> T {
+    let prepared = Prepared::new(system).unwrap();
+    let registry = Registry::new(&[chetaev_mechanics::claims::CLAIMS, chetaev_geometry::CLAIMS]);
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let cx = Context::new(system, terms, selection, &registry, Prover::default());
+    let motion = Motion::of(&cx).unwrap();
+    ask(&cx, &motion)
+}
+
+fn search(system: &System, velocities: &[&str], functions: &[&str], degree: u32) -> Exhausted {
+    let (velocities, functions) = (letters(system, velocities), letters(system, functions));
+    let family = Family::over(&velocities, &functions, degree);
+    with(system, |cx, motion| exhaust(cx, motion, &family).unwrap())
+}
+
+/// The integrals are these up to constant factors.
+fn are(system: &System, found: &Exhausted, expected: &[&str]) {
+    let texts: Vec<String> = found.integrals.iter().map(|i| text(system, i)).collect();
+    assert_eq!(found.dimension, expected.len(), "{texts:?}");
+    assert_eq!(found.integrals.len(), expected.len(), "{texts:?}");
+    assert!(
+        found.error_bound_log2 < -100.0,
+        "{}",
+        found.error_bound_log2
+    );
+    for wanted in expected {
+        let is_there = found
+            .integrals
+            .iter()
+            .any(|i| is_multiple(system, i, wanted));
+        assert!(is_there, "{wanted} is not among {texts:?}");
+    }
+}
+
+/// Proportional: `G dH - H dG = 0` in every direction along N.
+fn is_multiple(system: &System, integral: &Integral, wanted: &str) -> bool {
+    let g = &system.graph;
+    let wanted = expr(g, wanted);
+    with(system, |cx, motion| {
+        let gradients = motion.gradients(&[integral.value, wanted]);
+        let residuals: Vec<_> = gradients[0]
+            .iter()
+            .zip(&gradients[1])
+            .map(|(&da, &db)| g.sub(g.mul(&[integral.value, db]), g.mul(&[wanted, da])))
+            .collect();
+        let same = cx.prover.identity(system, &residuals, &motion.manifold, "");
+        matches!(same, Verdict::Proved(_)) && matches!(integral.verdict, Verdict::Proved(_))
+    })
+}
+
+fn text(system: &System, integral: &Integral) -> String {
+    system.graph.text(integral.shown)
+}
+
+const PARTICLE: &str = "(x'^2 + y'^2 + z'^2)/2";
+
+/// T3 §8.2: dimensions 1, 3, 2, 5.
+#[test]
+fn particle_on_z_is_y_dx() {
+    let system = system("x y z", PARTICLE, &[("c", "z' - y x'")]);
+    let polynomials = ["y", "y^2"];
+    let roots = ["y", "y^2", "sqrt(1+y^2)", "y sqrt(1+y^2)"];
+    let velocities = ["x'", "y'"];
+    are(
+        &system,
+        &search(&system, &velocities, &polynomials, 1),
+        &["y'"],
+    );
+    are(
+        &system,
+        &search(&system, &velocities, &polynomials, 2),
+        &["y'", "(1+y^2) x'^2", "y'^2"],
+    );
+    are(
+        &system,
+        &search(&system, &velocities, &roots, 1),
+        &["y'", "sqrt(1+y^2) x'"],
+    );
+    let five = search(&system, &velocities, &roots, 2);
+    assert_eq!(five.dimension, 5);
+    assert_eq!(five.integrals.len(), 5);
+    assert_eq!(five.integrals.iter().filter(|i| i.independent).count(), 2);
+}
+
+const SLED: &str = "m (x'^2 + y'^2 + b^2 phi'^2)/2";
+const BLADE: (&str, &str) = ("blade", "x' sin(phi) - y' cos(phi)");
+/// η1 along the blade and η2 = φ'.
+const ALONG: &str = "(x' cos(phi) + y' sin(phi))";
+
+/// T3 §8.4: exactly four linear in η over {1, x, y, sin φ, cos φ}.
+#[test]
+fn sled_on_the_level() {
+    let system = system("x y phi", SLED, &[BLADE]);
+    let found = search(
+        &system,
+        &[ALONG, "phi'"],
+        &["x", "y", "sin(phi)", "cos(phi)"],
+        1,
+    );
+    let x = format!("phi' x - {ALONG} sin(phi)");
+    let y = format!("phi' y + {ALONG} cos(phi)");
+    are(&system, &found, &[ALONG, "phi'", &x, &y]);
+    assert!(
+        found.integrals.iter().all(|i| i.independent),
+        "4 of 5 dimensions of N"
+    );
+}
+
+/// T3 §8.4 on a slope: four of degree two, two more with {φ, sin φ cos φ, sin² φ}, one of which depends on the others.
+#[test]
+fn sled_on_a_slope() {
+    let slope = format!("{SLED} + m gamma x");
+    let system = system("x y phi", &slope, &[BLADE]);
+    let functions = ["x", "y", "sin(phi)", "cos(phi)"];
+    are(
+        &system,
+        &search(&system, &[ALONG, "phi'"], &functions, 1),
+        &["phi'"],
+    );
+    let fall = format!("{ALONG} phi' - gamma sin(phi)");
+    let energy = format!("{ALONG}^2 - 2 gamma x");
+    let square = "phi'^2".to_owned();
+    let found = search(&system, &[ALONG, "phi'"], &functions, 2);
+    let texts: Vec<String> = found.integrals.iter().map(|i| text(&system, i)).collect();
+    are(&system, &found, &["phi'", &energy, &fall, &square]);
+    let more = [
+        "x",
+        "y",
+        "sin(phi)",
+        "cos(phi)",
+        "phi",
+        "sin(phi) cos(phi)",
+        "sin(phi)^2",
+    ];
+    let found = search(&system, &[ALONG, "phi'"], &more, 2);
+    let texts_more: Vec<String> = found.integrals.iter().map(|i| text(&system, i)).collect();
+    assert_eq!(found.dimension, 6, "{texts:?} {texts_more:?}");
+    assert_eq!(
+        found.integrals.iter().filter(|i| i.independent).count(),
+        4,
+        "{texts_more:?}"
+    );
+}
+
+const APPELL: &str = "m (x'^2 + y'^2 + z'^2)/2 - m g z";
+const CONE: (&str, &str) = ("cone", "z' - a sqrt(x'^2 + y'^2)");
+
+/// T3 §8.5: one of degree 1, with the time; the energy besides at degree 2; the ratio among the quotients.
+#[test]
+fn appells_example() {
+    let system = system("x y z", APPELL, &[CONE]);
+    let velocities = ["x'", "y'", "z'"];
+    let time = "z' + a^2 g t/(1 + a^2)";
+    let energy = "m (x'^2 + y'^2 + z'^2)/2 + m g z";
+    are(
+        &system,
+        &search(&system, &velocities, &["t", "z"], 1),
+        &[time],
+    );
+    are(
+        &system,
+        &search(&system, &velocities, &["t", "z"], 2),
+        &[time, energy],
+    );
+    let mut family = Family::over(&letters(&system, &velocities), &[], 0);
+    for member in [
+        vec![(0, 1), (1, -1)],
+        vec![(1, 1), (0, -1)],
+        vec![(0, 1), (2, -1)],
+    ] {
+        family.push(member);
+    }
+    let found = with(&system, |cx, motion| exhaust(cx, motion, &family).unwrap());
+    assert_eq!(found.dimension, 3);
+    assert!(found.integrals[0].independent && !found.integrals[1].independent);
+}
+
+const TOP: &str = "(I1 (phi' sin(theta) sin(psi) + theta' cos(psi))^2 + I2 (phi' sin(theta) cos(psi) - theta' sin(psi))^2 + I3 (phi' cos(theta) + psi')^2)/2";
+const OMEGA: [&str; 3] = [
+    "(phi' sin(theta) sin(psi) + theta' cos(psi))",
+    "(phi' sin(theta) cos(psi) - theta' sin(psi))",
+    "(phi' cos(theta) + psi')",
+];
+
+/// T3 §8.6: none of degree 1, two of degree 2, one of degree 1 where I1 = I2.
+#[test]
+fn eulers_top() {
+    let general = system("phi theta psi", TOP, &[]);
+    are(&general, &search(&general, &OMEGA, &[], 1), &[]);
+    let found = search(&general, &OMEGA, &[], 2);
+    let texts: Vec<String> = found.integrals.iter().map(|i| text(&general, i)).collect();
+    assert_eq!(
+        (found.dimension, found.integrals.len()),
+        (2, 2),
+        "{texts:?}"
+    );
+    let symmetric = system("phi theta psi", &TOP.replace("I2", "I1"), &[]);
+    are(&symmetric, &search(&symmetric, &OMEGA, &[], 1), &[OMEGA[2]]);
+}
+
+/// T3 §8.6: η3 where I1 = I2 is found and reported by the search for general moments of inertia.
+#[test]
+fn special_values_of_parameters() {
+    let general = system("phi theta psi", TOP, &[]);
+    let family = Family::over(&letters(&general, &OMEGA), &[], 2);
+    with(&general, |cx, motion| {
+        let table = Table::new(motion, &family.letters, 7).unwrap();
+        let g = &general.graph;
+        let tie = |parameter: &str, other: &str| Tie {
+            parameter: g.intern_symbol(parameter, 0),
+            equals: Some(g.intern_symbol(other, 0)),
+        };
+        let ties = [tie("I2", "I1"), tie("I3", "I1")];
+        let special = table.special(cx, &family, &ties);
+        assert_eq!(special.len(), 2);
+        assert_eq!(special[0].integrals, [expr(g, OMEGA[2])]);
+        assert_eq!(special[1].integrals, [expr(g, OMEGA[1])]);
+    });
+}
+
+/// What is found automatically: T3 §8.2 and §8.5 without hints, and a system without integrals says what was exhausted.
+#[test]
+fn automatic_families() {
+    let particle = system("x y z", PARTICLE, &[("c", "z' - y x'")]);
+    let finding = common::finding(&particle, "noether.family");
+    assert!(
+        matches!(finding.verdict, Verdict::Proved(_)),
+        "{:?}",
+        finding.verdict
+    );
+    let shown: Vec<String> = finding
+        .formulas
+        .iter()
+        .map(|f| particle.graph.text(f.right))
+        .collect();
+    for wanted in ["y'", "x' sqrt(1 + y^2)"] {
+        assert!(
+            shown.iter().any(|text| text == wanted),
+            "{wanted} is not among {shown:?}"
+        );
+    }
+    let appell = system("x y z", APPELL, &[CONE]);
+    let found = with(&appell, |cx, _| chetaev_geometry::noether::found::found(cx));
+    let found = found.as_ref().as_ref().unwrap();
+    for wanted in ["x'/y'", "sqrt(x'^2 + y'^2) + g a t/(1 + a^2)"] {
+        let mut gradients: Vec<_> = found.integrals.iter().map(|i| i.value).collect();
+        gradients.push(expr(&appell.graph, wanted));
+        let rank = with(&appell, |cx, motion| {
+            let matrix = motion.gradients(&gradients);
+            cx.prover
+                .rank(&appell, &matrix, &motion.manifold)
+                .unwrap()
+                .maximum
+        });
+        assert_eq!(
+            rank,
+            found.integrals.len(),
+            "{wanted} is no function of those found"
+        );
+    }
+    let driven = system("x", "x'^2/2 - x^4 + x t^3", &[]);
+    let finding = common::finding(&driven, "noether.family");
+    let detail = finding.verdict.detail();
+    assert!(matches!(finding.verdict, Verdict::Proved(_)) && finding.formulas.is_empty());
+    assert!(
+        detail.contains("exhausted") && detail.contains("dimension 0"),
+        "{detail}"
+    );
+}
+
+/// A homogeneous sphere that rolls keeps the velocity of its centre and its spin about the vertical.
+#[test]
+fn rolling_sphere() {
+    let sphere = system(
+        "x y phi theta psi",
+        "m (x'^2 + y'^2)/2 + J (phi'^2 + theta'^2 + psi'^2 + 2 phi' psi' cos(theta))/2",
+        &[
+            (
+                "roll_x",
+                "x' - r (theta' sin(phi) - psi' sin(theta) cos(phi))",
+            ),
+            (
+                "roll_y",
+                "y' + r (theta' cos(phi) + psi' sin(theta) sin(phi))",
+            ),
+        ],
+    );
+    let velocities = ["x'", "y'", "phi'", "theta'", "psi'"];
+    let found = search(&sphere, &velocities, &["sin(theta)", "cos(theta)"], 1);
+    // The angular velocity ω is constant in space, so its product with the axis of the ball is constant too: ω·(ω × e) = 0.
+    let spin = "psi' + phi' cos(theta)";
+    are(
+        &sphere,
+        &found,
+        &["x'", "y'", "phi' + psi' cos(theta)", spin],
+    );
+}

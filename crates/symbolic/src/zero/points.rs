@@ -1,0 +1,422 @@
+//! Values of expressions at random points of a prime field, on the constraints: for linear algebra over functions.
+//!
+//! A *draw* fixes a prime and values of everything that does not move; each of its points has its own values of the rest.
+//! Every point is the image of a homomorphism from the ring in which the expressions live, so a linear combination that
+//! vanishes there vanishes at every point, and a minor that is not zero at some points is not zero.
+
+use super::assumptions::Assumptions;
+use super::eliminate::{eliminate_all, Eliminated};
+use super::evaluate::{Parametrization, Point, Run};
+use super::modular::bound;
+use super::prepare::{prepare, Question};
+use super::program::{Generator, Program};
+use super::ring::Scalars;
+use super::size::{Sizes, SLACK};
+use super::tower::{Element, Tower};
+use super::variety::{Solution, Variety};
+use crate::graph::Graph;
+use crate::node::{Expr, Symbol};
+use crate::number::prime::{random_prime, LOG2_PRIME_COUNT};
+use crate::number::prime_field::{PrimeField, Residue};
+use crate::number::random::Random;
+
+/// What is to be evaluated.
+#[derive(Clone, Copy)]
+pub struct PointsOf<'a> {
+    /// The expressions.
+    pub outputs: &'a [Expr],
+    /// Symbols determined exactly; see [`ZeroTest::solved`](super::ZeroTest::solved).
+    pub solved: &'a [(Symbol, Expr)],
+    /// Nonlinear constraints, each with the symbol it determines.
+    pub implicit: &'a [(Expr, Symbol)],
+    /// Signs and ranges that may be used.
+    pub assumptions: &'a Assumptions,
+    /// Which symbols move; the others keep their values in one draw.
+    pub moves: &'a dyn Fn(Symbol) -> bool,
+}
+
+impl std::fmt::Debug for PointsOf<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "PointsOf({} outputs)", self.outputs.len())
+    }
+}
+
+/// Expressions ready to be evaluated.
+#[derive(Debug)]
+pub struct Points {
+    program: Program,
+    /// Which generators keep their values in one draw.
+    fixed_generators: Vec<bool>,
+    fixed_circles: Vec<bool>,
+    /// The symbols that are generators of their own.
+    symbols: Vec<Option<Symbol>>,
+}
+
+/// A prime, and values of what does not move.
+#[derive(Clone, Debug)]
+pub struct Draw {
+    /// The prime field.
+    pub field: PrimeField,
+    constants: Point,
+    negative: Vec<bool>,
+}
+
+/// At most so many points are refused one after the other.
+const REFUSED: u32 = 4000;
+
+/// A tower is taken apart at most so often.
+const DEEPEST: usize = 24;
+
+impl Points {
+    /// Prepares the expressions.
+    ///
+    /// # Errors
+    /// A sentence that says why they cannot be evaluated.
+    pub fn new(graph: &Graph, question: &PointsOf<'_>) -> Result<Points, String> {
+        let Eliminated {
+            roots,
+            implicit,
+            assumptions,
+            ..
+        } = eliminate_all(
+            graph,
+            question.solved,
+            question.outputs,
+            question.implicit,
+            question.assumptions,
+        )?;
+        let program = prepare(
+            graph,
+            &Question {
+                outputs: &roots,
+                constraints: &implicit,
+                assumptions: &assumptions,
+            },
+        );
+        if let Some(q) = program.odd_roots.first() {
+            if program.order_of_unity.is_multiple_of(*q) {
+                return Err(format!(
+                    "roots of degree {q} occur with angles of a {q}-th of π"
+                ));
+            }
+        }
+        let is_fixed = |e: Expr| graph.is_free_of(e, question.moves);
+        let fixed_generators = program.generators.iter().map(|generator| match generator {
+            Generator::Symbol(symbol) => !(question.moves)(*symbol),
+            Generator::Dependent(_) => false,
+            Generator::Transcendental { of, .. } => is_fixed(*of),
+        });
+        let symbols = program.generators.iter().map(|generator| match generator {
+            Generator::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        });
+        Ok(Points {
+            fixed_generators: fixed_generators.collect(),
+            fixed_circles: program.circle_angles.iter().map(|&e| is_fixed(e)).collect(),
+            symbols: symbols.collect(),
+            program,
+        })
+    }
+
+    /// The number of operations of one evaluation.
+    pub fn cost(&self) -> usize {
+        self.program.operations.len()
+    }
+
+    /// log2 of a bound on the probability that a minor of `size` rows vanishes at random points of one random draw although it does
+    /// not vanish identically, where the entries are polynomials of degree up to `degree` in the first `outputs` expressions.
+    ///
+    /// As in the modular proof: a non-zero integer below 2^h has at most h/61 prime divisors of 62 bits, and a non-zero polynomial of
+    /// degree d vanishes at a random point with probability d/2^60.9 at most, twice that for points of circles; norms
+    /// over the algebraic elements multiply degree and height, refused points the probability.
+    pub fn miss_log2(&self, outputs: usize, degree: u32, size: usize) -> f64 {
+        let program = &self.program;
+        let sizes = Sizes::of(program, &bound::weights(program), None);
+        let (mut largest, mut divisors) = ((0.0_f64, 0.0_f64), (0.0, 0.0));
+        for &output in program.outputs.iter().take(outputs) {
+            let (own, divisor) = (sizes.get(output), sizes.denominator(output));
+            largest = (largest.0.max(own.degree), largest.1.max(own.height));
+            divisors = (divisors.0 + divisor.degree, divisors.1 + divisor.height);
+        }
+        let factor = f64::from(degree) * size.max(1) as f64 * SLACK;
+        let rows = (
+            factor * (largest.0 + divisors.0),
+            factor * (largest.1 + divisors.1 + 8.0),
+        );
+        let tower = if program.constraints.is_empty() { 0 } else { 8 };
+        let norm = f64::from(program.radicals + tower).exp2();
+        let prime = norm * rows.1 / 61.0 / (LOG2_PRIME_COUNT - 4.0).exp2();
+        let point = 2.0 * norm * rows.0 / 60.9_f64.exp2();
+        (prime + point).log2() + f64::from(REFUSED).log2()
+    }
+
+    /// Draws a prime and values of what does not move; `None` when no suitable prime is found.
+    pub fn draw(&self, random: &mut Random) -> Option<Draw> {
+        let program = &self.program;
+        let suits = |p: u64| {
+            let mut roots = program.odd_roots.iter();
+            roots.all(|q| !(p - 1).is_multiple_of(*q))
+        };
+        for _ in 0..16 {
+            let p = random_prime(random, program.order_of_unity, 1 << 16, suits)?;
+            let field = PrimeField::new(p)?;
+            if let Some(constants) = self.random_point(&field, random) {
+                let negative = (0..program.radicals).map(|_| random.next_u64() & 1 == 1);
+                return Some(Draw {
+                    negative: negative.collect(),
+                    field,
+                    constants,
+                });
+            }
+        }
+        None
+    }
+
+    /// The same prime with other values of what does not move.
+    pub fn redraw(&self, draw: &Draw, random: &mut Random) -> Option<Draw> {
+        Some(Draw {
+            constants: self.random_point(&draw.field, random)?,
+            ..draw.clone()
+        })
+    }
+
+    /// Gives symbols that do not move values of choice.
+    pub fn set(&self, draw: &mut Draw, values: &[(Symbol, Residue)]) {
+        for (generator, symbol) in self.symbols.iter().enumerate() {
+            let value = values.iter().find(|(s, _)| Some(*s) == *symbol);
+            if let Some((_, value)) = value {
+                draw.constants.generators[generator] = *value;
+            }
+        }
+    }
+
+    /// The value of a symbol that does not move; `None` where the expressions do not contain it.
+    pub fn value(&self, draw: &Draw, symbol: Symbol) -> Option<Residue> {
+        let generator = self.symbols.iter().position(|s| *s == Some(symbol))?;
+        Some(draw.constants.generators[generator])
+    }
+
+    fn random_point(&self, field: &PrimeField, random: &mut Random) -> Option<Point> {
+        let parametrization = Parametrization { rotation: None };
+        Point::random(&self.program, field, random, &[], parametrization)
+    }
+
+    /// The values of the expressions at one more random point of the draw; `None` when so many points are refused that there
+    /// seem to be none.
+    pub fn at(&self, draw: &Draw, random: &mut Random) -> Option<Vec<Residue>> {
+        (0..REFUSED).find_map(|_| {
+            let mut point = self.random_point(&draw.field, random)?;
+            for (i, fixed) in self.fixed_generators.iter().enumerate() {
+                if *fixed {
+                    point.generators[i] = draw.constants.generators[i];
+                }
+            }
+            for (i, fixed) in self.fixed_circles.iter().enumerate() {
+                if *fixed {
+                    point.circles[i] = draw.constants.circles[i];
+                }
+            }
+            point.share_unity(&draw.constants);
+            match self.program.constraints.is_empty() {
+                true => self.free(draw, &point),
+                false => self.constrained(draw, &point, random),
+            }
+        })
+    }
+
+    fn free(&self, draw: &Draw, point: &Point) -> Option<Vec<Residue>> {
+        let ring = Scalars {
+            field: draw.field,
+            negative: &draw.negative,
+        };
+        let mut run = Run::new(&self.program, point, Vec::new());
+        // Radicands first: where one is no square the rest is not computed.
+        run.advance(&ring, self.program.prefix).ok()?;
+        run.advance(&ring, self.program.operations.len()).ok()?;
+        let outputs = self.program.outputs.iter();
+        Some(outputs.map(|&output| *run.get(output)).collect())
+    }
+
+    /// A point of the constraints with coordinates in the prime field: in the ring of all solutions a root of each equation
+    /// is chosen, until one solution is left.
+    fn constrained(&self, draw: &Draw, point: &Point, random: &mut Random) -> Option<Vec<Residue>> {
+        let variety = Variety::new(&self.program, 1, self.program.outputs.len());
+        let mut prescribed: Vec<Option<Vec<Element>>> = Vec::new();
+        for _ in 0..DEEPEST {
+            let tower = Tower::new(draw.field, &draw.negative, &prescribed);
+            let next = match variety.outputs(&tower, point) {
+                Solution::None => return None,
+                Solution::Split(split) => {
+                    let mut next = tower.equations(split.level);
+                    let [first, second] = split.factors;
+                    next.push(Some(if random.next_u64() & 1 == 0 {
+                        first
+                    } else {
+                        second
+                    }));
+                    next
+                }
+                Solution::Outputs(outputs) => match tower.first_extension() {
+                    None => {
+                        let scalar = |e: &Element| e.first().copied().unwrap_or(Residue::ZERO);
+                        return Some(outputs.iter().map(scalar).collect());
+                    }
+                    Some((level, equation)) => {
+                        let coefficients = equation
+                            .iter()
+                            .map(|c| c.first().copied().unwrap_or(Residue::ZERO));
+                        let coefficients: Vec<Residue> = coefficients.collect();
+                        let root = random_root(&draw.field, &coefficients, random)?;
+                        let mut next = tower.equations(level);
+                        next.push(Some(vec![vec![draw.field.neg(root)]]));
+                        next
+                    }
+                },
+            };
+            prescribed = next;
+        }
+        None
+    }
+}
+
+/// A random root of the monic polynomial with these lower coefficients, if it has one in the prime field: the part that
+/// splits into linear factors is gcd(x^p − x, f), and (x + a)^((p−1)/2) − 1 takes it apart (Cantor and Zassenhaus, Math. Comp.
+/// 36, 1981).
+fn random_root(field: &PrimeField, lower: &[Residue], random: &mut Random) -> Option<Residue> {
+    let mut f = lower.to_vec();
+    f.push(field.one());
+    let x = vec![Residue::ZERO, field.one()];
+    let mut power = power_modulo(field, &x, field.modulus(), &f);
+    power.resize(power.len().max(2), Residue::ZERO);
+    power[1] = field.sub(power[1], field.one());
+    let mut linear = gcd(field, f, power);
+    for _ in 0..200 {
+        match linear.len() {
+            0 | 1 => return None,
+            2 => return Some(field.neg(linear[0])),
+            _ => {}
+        }
+        let shifted = vec![field.random(random), field.one()];
+        let mut half = power_modulo(field, &shifted, (field.modulus() - 1) / 2, &linear);
+        half.resize(half.len().max(1), Residue::ZERO);
+        half[0] = field.sub(half[0], field.one());
+        let part = gcd(field, linear.clone(), half);
+        if part.len() > 1 && part.len() < linear.len() {
+            linear = part;
+        }
+    }
+    None
+}
+
+/// a^n modulo the monic f.
+fn power_modulo(field: &PrimeField, a: &[Residue], n: u64, f: &[Residue]) -> Vec<Residue> {
+    let mut result = vec![field.one()];
+    for bit in (0..64 - n.leading_zeros()).rev() {
+        result = remainder(field, product(field, &result, &result), f);
+        if n >> bit & 1 == 1 {
+            result = remainder(field, product(field, &result, a), f);
+        }
+    }
+    result
+}
+
+fn product(field: &PrimeField, a: &[Residue], b: &[Residue]) -> Vec<Residue> {
+    if a.is_empty() || b.is_empty() {
+        return Vec::new();
+    }
+    let mut product = vec![Residue::ZERO; a.len() + b.len() - 1];
+    for (i, &x) in a.iter().enumerate() {
+        for (j, &y) in b.iter().enumerate() {
+            product[i + j] = field.add(product[i + j], field.mul(x, y));
+        }
+    }
+    product
+}
+
+/// The remainder by a monic polynomial.
+fn remainder(field: &PrimeField, mut a: Vec<Residue>, monic: &[Residue]) -> Vec<Residue> {
+    let degree = monic.len().saturating_sub(1);
+    while a.len() > degree {
+        let Some(leading) = a.pop() else { break };
+        let shift = a.len() - degree;
+        for (i, &c) in monic[..degree].iter().enumerate() {
+            a[shift + i] = field.sub(a[shift + i], field.mul(leading, c));
+        }
+    }
+    trim(&mut a);
+    a
+}
+
+fn trim(a: &mut Vec<Residue>) {
+    while a.last().is_some_and(|c| c.is_zero()) {
+        a.pop();
+    }
+}
+
+/// The monic greatest common divisor.
+fn gcd(field: &PrimeField, mut a: Vec<Residue>, mut b: Vec<Residue>) -> Vec<Residue> {
+    loop {
+        trim(&mut b);
+        let Some(reciprocal) = b.last().and_then(|&leading| field.inv(leading)) else {
+            return a;
+        };
+        let monic: Vec<Residue> = b.iter().map(|&c| field.mul(c, reciprocal)).collect();
+        let rest = remainder(field, a, &monic);
+        a = monic;
+        b = rest;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_of_products_of_linear_and_irreducible_factors() {
+        let field = PrimeField::new((1 << 61) - 1).unwrap();
+        let mut random = Random::new(5);
+        let number = |n: i64| field.from_i64(n);
+        // (x − 2)(x + 7) and x² − 3 times x − 1; 3 is no square modulo 2^61 − 1 or it is: any root must be one.
+        for coefficients in [vec![-14, 5], vec![3, -3, -1], vec![-5]] {
+            let lower: Vec<Residue> = coefficients.iter().map(|&n| number(n)).collect();
+            let root = random_root(&field, &lower, &mut random).unwrap();
+            let mut value = field.one();
+            for &c in lower.iter().rev() {
+                value = field.add(field.mul(value, root), c);
+            }
+            assert!(value.is_zero());
+        }
+        let nonsquare = (2..).find(|&n| field.legendre(field.from_u64(n)) == -1);
+        let lower = [field.neg(field.from_u64(nonsquare.unwrap())), Residue::ZERO];
+        assert!(random_root(&field, &lower, &mut random).is_none());
+    }
+
+    #[test]
+    fn points_lie_on_the_constraint_and_constants_stay() {
+        let g = Graph::new();
+        let (x, y, a) = (g.symbol("x", 0), g.symbol("y", 0), g.symbol("a", 0));
+        let f = g.add(&[g.powi(x, 2), g.powi(y, 2), g.neg(g.powi(a, 2))]);
+        let angle = g.sin(a);
+        let implicit = [(f, g.intern_symbol("y", 0))];
+        let a_symbol = g.intern_symbol("a", 0);
+        let points = Points::new(
+            &g,
+            &PointsOf {
+                outputs: &[f, a, angle, x, y],
+                solved: &[],
+                implicit: &implicit,
+                assumptions: &Assumptions::new(),
+                moves: &|s| s != a_symbol,
+            },
+        )
+        .unwrap();
+        let mut random = Random::new(1);
+        let draw = points.draw(&mut random).unwrap();
+        let first = points.at(&draw, &mut random).unwrap();
+        let second = points.at(&draw, &mut random).unwrap();
+        assert!(first[0].is_zero() && second[0].is_zero());
+        assert_eq!(first[1..3], second[1..3]);
+        assert_ne!(first[3], second[3]);
+        assert!(!first[4].is_zero());
+    }
+}
