@@ -515,9 +515,16 @@ fn appell_and_hamel_in_several_forms() {
         model: "appell-hamel",
         formulation: "voronets",
         group: OBJECTS,
-        names: &["A_z_x", "A_z_y", "theta_z"],
+        names: &["Lstar", "A_z_x", "A_z_y", "theta_z"],
         equations: &[
-            ("theta_z = m z'", Value("theta_z - m z'")),
+            (
+                "Lstar = 1/2 m ((1 + rho^2) x'^2 + (1 + rho^2) y'^2 - 2 g z)",
+                Value("Lstar - m/2 (1 + rho^2) (x'^2 + y'^2) + m g z"),
+            ),
+            (
+                "theta_z = m rho sqrt(x'^2 + y'^2)",
+                Value("theta_z - m rho sqrt(x'^2 + y'^2)"),
+            ),
             (
                 "A_z_x = rho y' (y' x'' - x' y'')/(x'^2 + y'^2)^(3/2)",
                 Value("A_z_x - rho y' (y' x'' - x' y'')/sqrt(x'^2 + y'^2)^3"),
