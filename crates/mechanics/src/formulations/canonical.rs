@@ -11,6 +11,9 @@ use crate::equations::{Equation, Equations, Schema};
 use crate::system::System;
 use chetaev_symbolic::Expr;
 
+/// The heading of `p = ∂L/∂v` where no closed inverse was found.
+pub(crate) const IMPLICIT: &str = "momenta, of which the velocities are implicit functions";
+
 /// Canonical equations with multipliers.
 #[derive(Clone, Copy, Debug)]
 pub struct Canonical;
@@ -201,7 +204,7 @@ pub(crate) fn with_constraints(
     mut equations: Equations,
 ) -> Equations {
     if !legendre.is_explicit {
-        equations = equations.with_group("momenta", None, legendre.momentum_equations());
+        equations = equations.with_group(IMPLICIT, None, legendre.momentum_equations());
     }
     let constraints = legendre.restrict(basis.system, &basis.constraints());
     let stated = basis.constraints_as(&constraints);

@@ -6,6 +6,7 @@ mod canonical_reduced;
 mod chaplygin;
 pub mod gauss;
 mod gibbs_appell;
+mod inversion;
 mod jacobi;
 mod kane;
 mod lagrange_dalembert;
