@@ -571,6 +571,28 @@ fn the_regularity_of_the_extremum_is_watched() {
     }
 }
 
+/// A form that does not apply says at which point which quantity does not vanish.
+#[test]
+fn what_fails_is_named_with_its_point() {
+    let folder = scratch("formulations-evidence");
+    let path = folder.join("model.toml");
+    for (model, formulation, wanted) in [
+        ("coordinates = [\"x\"]\nlagrangian = \"x'^2/2\"\nforces = { x = \"-2 x'\" }\n", "jacobi", "Q_x = -2 x' does not vanish: it is"),
+        ("coordinates = [\"x\"]\nlagrangian = \"x'^2/2 + t x\"\n", "jacobi", "∂L/∂t = x does not vanish: it is"),
+        ("coordinates = [\"x\", \"y\"]\nlagrangian = \"x'^2/2 + y'^2/2 + x'^4\"\n", "jacobi", "does not vanish: it"),
+        ("coordinates = [\"x\", \"y\"]\nlagrangian = \"x'^2/2 + y'^2/2\"\nconstraints = { b = \"y' = x' + 1\" }\n", "jacobi", "of `b` = "),
+        ("coordinates = [\"x\", \"y\"]\nlagrangian = \"x'^2/2 + y'^2/2 - x^2 - y^2\"\nconstraints = { b = \"y' = x'\" }\n", "chaplygin", "∂L/∂y = -2 y does not vanish: it is"),
+    ] {
+        std::fs::write(&path, model).expect("a scratch file");
+        let finished = run(&["derive", text(&path), "--formulation", formulation]);
+        assert_eq!(finished.status, Some(2), "{}", finished.both());
+        assert!(finished.err.contains(wanted), "{wanted}: {}", finished.err);
+        assert!(!finished.err.contains("at the point stated"), "{}", finished.err);
+        let has_place = [" at ", " everywhere"].iter().any(|at| finished.err.contains(at));
+        assert!(has_place, "{}", finished.err);
+    }
+}
+
 /// Chaplygin's equations of the skate in x and φ contain tan φ, and no other chart is allowed, since L contains x: near φ = π/2
 /// accuracy is lost, and the run says how much.
 #[test]
