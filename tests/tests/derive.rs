@@ -506,7 +506,11 @@ fn what_does_not_apply_says_which_requirement_fails() {
             "model.restricted-hessian-regular",
             "vanishes identically",
         ),
-        ("jacobi", "model.constraints-homogeneous", "residual"),
+        (
+            "jacobi",
+            "model.constraints-homogeneous",
+            "does not vanish: it is",
+        ),
     ];
     assert_eq!(refusals.len(), expected.len(), "{refusals:?}");
     for (refusal, (name, hypothesis, evidence)) in refusals.iter().zip(expected) {

@@ -581,7 +581,7 @@ fn what_fails_is_named_with_its_point() {
         ("coordinates = [\"x\"]\nlagrangian = \"x'^2/2 + t x\"\n", "jacobi", "∂L/∂t = x does not vanish: it is"),
         ("coordinates = [\"x\", \"y\"]\nlagrangian = \"x'^2/2 + y'^2/2 + x'^4\"\n", "jacobi", "does not vanish: it"),
         ("coordinates = [\"x\", \"y\"]\nlagrangian = \"x'^2/2 + y'^2/2\"\nconstraints = { b = \"y' = x' + 1\" }\n", "jacobi", "of `b` = "),
-        ("coordinates = [\"x\", \"y\"]\nlagrangian = \"x'^2/2 + y'^2/2 - x^2 - y^2\"\nconstraints = { b = \"y' = x'\" }\n", "chaplygin", "∂L/∂y = -2 y does not vanish: it is"),
+        ("coordinates = [\"x\", \"y\"]\nlagrangian = \"x'^2/2 + y'^2/2 - x^2 - y^2\"\nconstraints = { b = \"y' = x'\" }\n", "chaplygin", "∂L/∂x = -2 x does not vanish: it is"),
     ] {
         std::fs::write(&path, model).expect("a scratch file");
         let finished = run(&["derive", text(&path), "--formulation", formulation]);

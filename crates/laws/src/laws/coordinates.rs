@@ -35,7 +35,7 @@ pub(super) fn invariance(subject: &Subject<'_>) -> Option<Trial> {
 }
 
 /// Every how many systems the verdicts are compared: it takes as long as all other laws together.
-const VERDICTS_EVERY: u64 = 5;
+const VERDICTS_EVERY: u64 = 10;
 
 /// Frobenius' condition under roots takes a minute where there are more coordinates.
 const INTEGRABLE_UP_TO: usize = 3;
