@@ -472,6 +472,7 @@ fn reduced_canonical_equations_of_the_particle() {
 /// appell1911; hamel1949; neimark-fufaev1972, ch. IV.
 #[test]
 fn appell_and_hamel_in_several_forms() {
+    appell_and_hamel_on_the_constraints();
     Page {
         model: "appell-hamel",
         formulation: "lagrange-dalembert",
@@ -515,9 +516,16 @@ fn appell_and_hamel_in_several_forms() {
         model: "appell-hamel",
         formulation: "voronets",
         group: OBJECTS,
-        names: &["A_z_x", "A_z_y", "theta_z"],
+        names: &["Lstar", "A_z_x", "A_z_y", "theta_z"],
         equations: &[
-            ("theta_z = m z'", Value("theta_z - m z'")),
+            (
+                "Lstar = 1/2 m ((1 + rho^2) x'^2 + (1 + rho^2) y'^2 - 2 g z)",
+                Value("Lstar - m/2 (1 + rho^2) (x'^2 + y'^2) + m g z"),
+            ),
+            (
+                "theta_z = m rho sqrt(x'^2 + y'^2)",
+                Value("theta_z - m rho sqrt(x'^2 + y'^2)"),
+            ),
             (
                 "A_z_x = rho y' (y' x'' - x' y'')/(x'^2 + y'^2)^(3/2)",
                 Value("A_z_x - rho y' (y' x'' - x' y'')/sqrt(x'^2 + y'^2)^3"),
@@ -537,6 +545,132 @@ fn appell_and_hamel_in_several_forms() {
         equations: &[(
             "Zmotion = m g^2/(2 (1 + rho^2))",
             Value("Zmotion - m g^2/(2 (1 + rho^2))"),
+        )],
+    }
+    .check();
+}
+
+/// L̄ = ½ m (1 + ρ²) s² − m g z (theory 3 §8.5), p̃ = m (1 + ρ²) v, and in closed form (theory 1 §9.1)
+/// H̃ = p̃²/(2 m (1 + ρ²)) + m g z, p̃' = −m g ρ p̃/|p̃|.
+fn appell_and_hamel_on_the_constraints() {
+    Page {
+        model: "appell-hamel",
+        formulation: "boltzmann-hamel",
+        group: OBJECTS,
+        names: &["Lbar", "L_z", "p_x", "p_y"],
+        equations: &[
+            (
+                "Lbar = 1/2 m ((1 + rho^2) x'^2 + (1 + rho^2) y'^2 - 2 g z)",
+                Value("Lbar - m/2 (1 + rho^2) (x'^2 + y'^2) + m g z"),
+            ),
+            (
+                "L_z = m rho sqrt(x'^2 + y'^2)",
+                Value("L_z - m rho sqrt(x'^2 + y'^2)"),
+            ),
+            ("p_x = m (1 + rho^2) x'", Value("p_x - m (1 + rho^2) x'")),
+            ("p_y = m (1 + rho^2) y'", Value("p_y - m (1 + rho^2) y'")),
+        ],
+    }
+    .check();
+    Page {
+        model: "appell-hamel",
+        formulation: "canonical-reduced",
+        group: MOTION,
+        names: &["ptilde_x", "ptilde_y"],
+        equations: &[
+            (
+                "x' = ptilde_x/(m + m rho^2)",
+                Value("x' - ptilde_x/(m (1 + rho^2))"),
+            ),
+            (
+                "y' = ptilde_y/(m + m rho^2)",
+                Value("y' - ptilde_y/(m (1 + rho^2))"),
+            ),
+            (
+                "z' = rho sqrt(ptilde_x^2 + ptilde_y^2)/(m + m rho^2)",
+                Value("z' - rho sqrt(ptilde_x^2 + ptilde_y^2)/(m (1 + rho^2))"),
+            ),
+            (
+                "ptilde_x' = -m rho g ptilde_x/sqrt(ptilde_x^2 + ptilde_y^2)",
+                Rate("ptilde_x", "m g rho ptilde_x/sqrt(ptilde_x^2 + ptilde_y^2)"),
+            ),
+            (
+                "ptilde_y' = -m rho g ptilde_y/sqrt(ptilde_x^2 + ptilde_y^2)",
+                Rate("ptilde_y", "m g rho ptilde_y/sqrt(ptilde_x^2 + ptilde_y^2)"),
+            ),
+        ],
+    }
+    .check();
+    Page {
+        model: "appell-hamel",
+        formulation: "canonical-reduced",
+        group: OBJECTS,
+        names: &["Htilde", "ptilde_x", "ptilde_y"],
+        equations: &[
+            (
+                "Htilde = (ptilde_x^2 + ptilde_y^2)/(2 (m + m rho^2)) + m g z",
+                Value("Htilde - (ptilde_x^2 + ptilde_y^2)/(2 m (1 + rho^2)) - m g z"),
+            ),
+            (
+                "ptilde_x = m (1 + rho^2) x'",
+                Value("ptilde_x - m (1 + rho^2) x'"),
+            ),
+            (
+                "ptilde_y = m (1 + rho^2) y'",
+                Value("ptilde_y - m (1 + rho^2) y'"),
+            ),
+        ],
+    }
+    .check();
+}
+
+/// Planck's particle: H = c √(m²c² + p²) − F y and q' = ∂H/∂p = c p/√(m²c² + p²); λ from D(c (p_z − y p_x)/√(m²c² + p²)) = 0,
+/// which on the constraint is c p_x p_y/((1 + y²) √(m²c² + p²)).
+#[test]
+fn a_relativistic_particle_in_canonical_form() {
+    Page {
+        model: "relativistic-particle",
+        formulation: "canonical",
+        group: MOTION,
+        names: &["p_x", "p_y", "p_z", "lambda_rolling"],
+        equations: &[
+            (
+                "x' = c p_x/sqrt(p_x^2 + p_y^2 + p_z^2 + m^2 c^2)",
+                Value("x' - c p_x/sqrt(m^2 c^2 + p_x^2 + p_y^2 + p_z^2)"),
+            ),
+            (
+                "y' = c p_y/sqrt(p_x^2 + p_y^2 + p_z^2 + m^2 c^2)",
+                Value("y' - c p_y/sqrt(m^2 c^2 + p_x^2 + p_y^2 + p_z^2)"),
+            ),
+            (
+                "z' = c p_z/sqrt(p_x^2 + p_y^2 + p_z^2 + m^2 c^2)",
+                Value("z' - c p_z/sqrt(m^2 c^2 + p_x^2 + p_y^2 + p_z^2)"),
+            ),
+            ("p_x' = -lambda_rolling y", Rate("p_x", "lambda_rolling y")),
+            ("p_y' = F", Rate("p_y", "-F")),
+            ("p_z' = lambda_rolling", Rate("p_z", "-lambda_rolling")),
+        ],
+    }
+    .check();
+    Page {
+        model: "relativistic-particle",
+        formulation: "canonical",
+        group: OBJECTS,
+        names: &["H", "p_x", "p_y", "p_z"],
+        equations: &[(
+            "H = c sqrt(p_x^2 + p_y^2 + p_z^2 + m^2 c^2) - F y",
+            Value("H - c sqrt(m^2 c^2 + p_x^2 + p_y^2 + p_z^2) + F y"),
+        )],
+    }
+    .check();
+    Page {
+        model: "relativistic-particle",
+        formulation: "canonical",
+        group: "multipliers",
+        names: &["p_x", "p_y", "p_z", "lambda_rolling"],
+        equations: &[(
+            "lambda_rolling = p_y (F p_z - p_x (F y - c sqrt(p_x^2 + p_y^2 + p_z^2 + m^2 c^2)))/((p_z y + p_x)^2 + p_y^2 (y^2 + 1) + m^2 c^2 (y^2 + 1))",
+            Value("lambda_rolling - p_y (F (p_z - y p_x) + c p_x sqrt(m^2 c^2 + p_x^2 + p_y^2 + p_z^2))/((p_x + y p_z)^2 + (1 + y^2) (m^2 c^2 + p_y^2))"),
         )],
     }
     .check();

@@ -3,7 +3,7 @@
 //! On a terminal a thread repaints the line, so that a single long step shows its seconds too; a log gets a line every
 //! five seconds, when a step reports.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::io::{IsTerminal, Write};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
@@ -20,6 +20,8 @@ const LOG: f64 = 5.0;
 pub(crate) struct ProgressLine {
     began: Instant,
     logged: Cell<f64>,
+    /// What was begun last, and when.
+    last: RefCell<(String, f64)>,
     painter: Option<Painter>,
 }
 
@@ -29,6 +31,7 @@ impl ProgressLine {
         ProgressLine {
             began,
             logged: Cell::new(0.0),
+            last: RefCell::default(),
             painter: std::io::stderr().is_terminal().then(|| Painter::new(began)),
         }
     }
@@ -47,9 +50,18 @@ impl ProgressLine {
             return;
         }
         let now = self.seconds();
+        let (before, since) = self.last.borrow().clone();
+        if before != what {
+            self.last.replace((what.to_owned(), now));
+        }
         if now - self.logged.get() >= LOG {
             self.logged.set(now);
-            let _ = writeln!(std::io::stderr().lock(), "{now:6.1} s  {said}");
+            // A step that reports at its end only took the time, not the one that begins.
+            let took = match before.is_empty() || before == what {
+                true => String::new(),
+                false => format!("{before} took {:.1} s; ", now - since),
+            };
+            let _ = writeln!(std::io::stderr().lock(), "{now:6.1} s  {took}{said}");
         }
     }
 }

@@ -2,9 +2,10 @@
 //!
 //! `v = φ(q, P, t)` with `f(q, φ, t) ≡ 0`, `B = ∂φ/∂P` (n × k), `J B = 0`; for constraints of order m they parametrize the
 //! derivatives of that order, `q^(m) = φ(t, q, …, q^(m-1), P)` (T2 §2). The parameters P are k independent quasi-velocities of
-//! a frame; in the natural frame, independent velocities, or derivatives of order m. For constraints nonlinear in these the
-//! dependent ones stay symbols, tied to the others by f = 0 (implicit embedding, T1 §9.6): then every derivative of a
-//! function on the constraint manifold is taken through [`Characteristics::along`].
+//! a frame; in the natural frame, independent velocities, or derivatives of order m. Where the constraints are affine
+//! in the dependent velocities, φ is explicit, however the others occur; else the dependent ones stay symbols, tied to the
+//! others by f = 0 (implicit embedding, T1 §9.6), and every derivative of a function on the constraint manifold is taken
+//! through [`Characteristics::along`].
 //!
 //! The words of the first order are kept for all: `velocities` are the derivatives of order m, `coordinates` those of order
 //! m - 1; lower ones move with the time.
@@ -581,12 +582,12 @@ impl Builder<'_> {
             .iter()
             .zip(self.dependent)
             .all(|(&row, &s)| self.frame.adapted.contains(&(row, s)));
-        let affine = self.rows.iter().all(|&row| self.terms.affine[row]);
         let in_frame = self.constraints_in_frame();
         let gradient = self.dependent_gradient(&in_frame);
+        let is_explicit = self.is_affine_in_dependent(&gradient);
         let solved = if is_adapted {
             vec![g.zero(); self.dependent.len()]
-        } else if affine {
+        } else if is_explicit {
             self.solved(&in_frame, &gradient)?
         } else {
             let speeds = self.dependent.iter();
@@ -599,7 +600,7 @@ impl Builder<'_> {
         let symbol = |s: usize| self.frame.speeds[s].symbol;
         let mut manifold = Manifold::default();
         let mut implicit = Vec::new();
-        if !is_adapted && !affine {
+        if !is_adapted && !is_explicit {
             // A first solution shows that the matrix is nonsingular by form.
             g.solve(&gradient, &vec![g.one(); self.dependent.len()])?;
             let pairs = in_frame.iter().copied().zip(self.dependent);
@@ -665,7 +666,15 @@ impl Builder<'_> {
         self.system.graph.jacobian(in_frame, &symbols).concat()
     }
 
-    /// F^α from affine constraints: `∂f/∂η^α F^α = -f` at η^α = 0.
+    /// Whether the constraints give the dependent quasi-velocities in closed form: they may be nonlinear in the independent
+    /// ones, as `z' = a sqrt(x'^2 + y'^2)` is.
+    fn is_affine_in_dependent(&self, gradient: &[Expr]) -> bool {
+        let symbols = self.dependent.iter().map(|&s| self.frame.speeds[s].symbol);
+        let symbols: Vec<Symbol> = symbols.collect();
+        !self.system.graph.any_contains_any(gradient, &symbols)
+    }
+
+    /// F^α from constraints affine in η^α: `∂f/∂η^α F^α = -f` at η^α = 0.
     fn solved(&self, in_frame: &[Expr], gradient: &[Expr]) -> Result<Vec<Expr>, SolveError> {
         let g = &self.system.graph;
         let at_rest: Vec<(Expr, Expr)> = self

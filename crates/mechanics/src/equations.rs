@@ -116,6 +116,15 @@ impl StateVariable {
     }
 }
 
+/// A square matrix of functions of the state whose determinant must not vanish.
+#[derive(Clone, Debug)]
+pub struct RegularMatrix {
+    /// What it is, in words and formulas.
+    pub name: &'static str,
+    /// Row by row.
+    pub rows: Vec<Vec<Expr>>,
+}
+
 /// The equations of motion in one formulation.
 ///
 /// Its first-order system has the state (q, masses with a law of their own, variables): `q' = velocities`,
@@ -148,6 +157,9 @@ pub struct Equations {
     /// Functions of the state that vanish along every admissible motion: conditions on the initial data that the equations
     /// keep, as lower constraints and equations of motion that were differentiated.
     pub conditions: Vec<NamedExpr>,
+    /// A matrix that must be nonsingular for the equations to be an ordinary differential equation in their state, where that
+    /// depends on data of its own.
+    pub regular: Option<RegularMatrix>,
     /// The equations of motion as functions on the jet of kinematic characteristics, where they are stated so.
     pub on_characteristics: Option<(Characteristics, Vec<Expr>)>,
 }
@@ -178,6 +190,7 @@ impl Equations {
             is_chart: false,
             highest: Vec::new(),
             conditions: Vec::new(),
+            regular: None,
             on_characteristics: None,
         }
     }
@@ -230,6 +243,7 @@ impl Equations {
             is_chart: characteristics.frame.is_natural(system),
             highest: Vec::new(),
             conditions: Vec::new(),
+            regular: None,
             on_characteristics: None,
         }
     }
@@ -256,6 +270,7 @@ impl Equations {
             is_chart: false,
             highest: Vec::new(),
             conditions: Vec::new(),
+            regular: None,
             on_characteristics: None,
         }
     }

@@ -15,6 +15,7 @@ pub mod mass;
 pub mod order;
 pub mod particles;
 pub mod prover;
+mod radicals;
 pub mod redundancy;
 mod restricted;
 pub mod sample;

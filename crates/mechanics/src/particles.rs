@@ -88,16 +88,21 @@ pub fn carry_inertia(system: &System, prover: &Prover) -> Verdict {
     let (g, velocities) = (&system.graph, system.velocity_symbols());
     let rest = g.sub(system.lagrangian, kinetic_energy(system));
     let hessian = g.jacobian(&g.gradient(rest, &velocities), &velocities);
-    let residuals: Vec<Expr> = hessian
-        .concat()
-        .into_iter()
-        .filter(|&e| !g.is_zero(e))
+    let name = |i: usize, j: usize| {
+        let (a, b) = (&system.coordinates[i].name, &system.coordinates[j].name);
+        format!("∂²(L − Σ ½ m r'·r')/∂{a}'∂{b}'")
+    };
+    let residuals: Vec<(String, Expr)> = hessian
+        .iter()
+        .enumerate()
+        .flat_map(|(i, row)| row.iter().enumerate().map(move |(j, &e)| (name(i, j), e)))
+        .filter(|(_, e)| !g.is_zero(*e))
         .collect();
     if residuals.is_empty() {
         let detail = "the Lagrangian is the kinetic energy of the particles and terms at most linear in the velocities";
         return Verdict::Proved(Proof::structural("identically in q, v, t", detail));
     }
-    prover.identity(
+    prover.named_identity(
         system,
         &residuals,
         &Manifold::default(),

@@ -3,11 +3,12 @@
 use crate::characteristics::Manifold;
 use crate::redundancy::LeftOut;
 use crate::system::{Relation, System};
+use crate::words;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::assumptions::{Assumptions, Relation as Sign};
 use chetaev_symbolic::zero::{decide_zero, generic_rank, GenericRank, Options, RankTest, ZeroTest};
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Graph, Verdict};
 
 /// How hard to try, and with which random choices.
 #[derive(Clone, Debug)]
@@ -89,6 +90,34 @@ impl Prover {
             Verdict::Proved(mut proof) => {
                 proof.on = located(&proof.on, on, system);
                 Verdict::Proved(proof)
+            }
+            other => other,
+        }
+    }
+
+    /// [`identity`](Prover::identity) for residuals with names: a refutation says which one does not vanish, what it is, and
+    /// where.
+    pub fn named_identity(
+        &self,
+        system: &System,
+        residuals: &[(String, Expr)],
+        manifold: &Manifold,
+        on: &str,
+    ) -> Verdict {
+        let g = &system.graph;
+        let values: Vec<Expr> = residuals.iter().map(|(_, value)| *value).collect();
+        match self.identity(system, &values, manifold, on) {
+            Verdict::Refuted(mut found) => {
+                if let Some((name, value)) = residuals.get(place_of(&found)) {
+                    let symbols: Vec<String> = g
+                        .symbols_in(&[*value])
+                        .into_iter()
+                        .map(|s| g.symbol_text(s))
+                        .collect();
+                    found.quantity = quantity(g, name, *value);
+                    found.detail = not_zero(&found, |name| symbols.iter().any(|s| s == name));
+                }
+                Verdict::Refuted(found)
             }
             other => other,
         }
@@ -214,6 +243,40 @@ impl Prover {
             other => other,
         }
     }
+}
+
+/// Formulas of more signs are named, not written out.
+const WRITTEN: usize = 120;
+
+/// `Q_x = -2 x'`.
+fn quantity(g: &Graph, name: &str, value: Expr) -> String {
+    let text = g.text(value);
+    match text.chars().count() <= WRITTEN {
+        true => format!("{name} = {text}"),
+        false => name.to_owned(),
+    }
+}
+
+/// Which of several residuals a counterexample is about: the zero test numbers them from 1.
+fn place_of(found: &Counterexample) -> usize {
+    let number = found.quantity.strip_prefix("residual ");
+    let number = number.and_then(|rest| rest.split(' ').next()?.parse::<usize>().ok());
+    number.map_or(0, |number| number - 1)
+}
+
+/// What a counterexample shows, with its point as far as `is_relevant` says.
+fn not_zero(found: &Counterexample, is_relevant: impl Fn(&str) -> bool) -> String {
+    let (lower, upper) = &found.residual;
+    let size = match lower == upper {
+        true => format!("is {lower}"),
+        false => format!("lies between {lower} and {upper}"),
+    };
+    let point = words::point(found, is_relevant);
+    let place = match point.is_empty() {
+        true => "everywhere".into(),
+        false => format!("at {point}"),
+    };
+    format!("{} does not vanish: it {size} {place}", found.quantity)
 }
 
 /// Cofactors of a larger matrix are too many.

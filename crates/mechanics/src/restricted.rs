@@ -43,7 +43,7 @@ pub(crate) fn regular_choice(
         is_another: false,
         singular: Vec::new(),
     };
-    if choice.characteristics.implicit().next().is_none() {
+    if selection.rows.iter().all(|&row| terms.affine[row]) {
         return Ok(choice);
     }
     // The state at which the usual velocities were selected.

@@ -1,5 +1,23 @@
 //! Words for numbers of things and for lists of names, as messages of all layers have them.
 
+use chetaev_symbolic::verdict::Counterexample;
+
+/// "x = 1, y' in [0.5, 0.6]": the data of a counterexample whose names are relevant.
+pub fn point(found: &Counterexample, is_relevant: impl Fn(&str) -> bool) -> String {
+    let values: Vec<String> = found
+        .point
+        .iter()
+        .filter(|p| is_relevant(&p.name))
+        .map(|p| match (&p.exact, &p.enclosure) {
+            (Some(exact), _) => format!("{} = {exact}", p.name),
+            (None, Some((low, high))) if low == high => format!("{} = {low}", p.name),
+            (None, Some((low, high))) => format!("{} in [{low}, {high}]", p.name),
+            _ => p.name.clone(),
+        })
+        .collect();
+    values.join(", ")
+}
+
 /// "`a`, `b`".
 pub fn quoted<T: AsRef<str>>(names: impl IntoIterator<Item = T>) -> String {
     let quoted: Vec<String> = names

@@ -45,6 +45,16 @@ pub enum FlowError {
         /// The formulation.
         formulation: &'static str,
     },
+    /// The equations do not determine the motion at the start.
+    #[error("`{formulation}` cannot begin at the initial state: {matrix}, is singular there, so that the equations do not determine the motion; choose other initial data, {names} among them")]
+    IrregularStart {
+        /// The formulation.
+        formulation: &'static str,
+        /// What is singular.
+        matrix: &'static str,
+        /// The variables that are data of their own, in quotes.
+        names: String,
+    },
     /// The variables of the formulation do not give the velocities of the start back.
     #[error("the variables of `{formulation}` are singular at the initial state: they give {coordinate}' = {found:.6e} where it is {stated:.6e}; choose another formulation, other quasi-velocities or another initial state")]
     SingularStart {
@@ -71,6 +81,8 @@ struct ChartFunctions {
     relations: Option<Functions>,
     /// Places of those variables.
     determined: Vec<usize>,
+    /// (t, q, variables) → a matrix that must be nonsingular.
+    regular: Option<Functions>,
     pivot: f64,
 }
 
@@ -96,8 +108,11 @@ pub struct FormulationFlow<'a> {
     q: Vec<f64>,
     v: Vec<f64>,
     anchor: Anchor,
-    /// What makes the equations singular when it vanishes.
+    /// What makes the equations singular when it vanishes; functions of the whole state where the equations have a matrix of
+    /// their own that must be nonsingular, else of (q, v).
     pub(crate) watch: Watch,
+    /// That matrix, in words.
+    matrix: Option<&'static str>,
     /// Whether the last minimum of a watched quantity was zero between two steps.
     zero_between: bool,
     /// Quantities followed at accepted steps.
@@ -138,7 +153,8 @@ impl<'a> FormulationFlow<'a> {
         )?;
         let mut flow = FormulationFlow {
             follow: None,
-            watch: Watch::new(system, terms, binding)?,
+            watch: watch((system, terms, binding), &equations)?,
+            matrix: equations.regular.as_ref().map(|regular| regular.name),
             zero_between: false,
             anchor: Anchor::default(),
             own: own_data(&equations, own)?,
@@ -210,6 +226,14 @@ impl<'a> FormulationFlow<'a> {
         let y = self
             .pack(start.t, &start.q, &start.v)
             .map_err(|_| FlowError::Start { formulation })?;
+        if let Some(matrix) = self.matrix.filter(|_| !self.is_regular(start.t, &y)) {
+            let own = self.own.iter().map(|&(place, _)| &self.variables[place]);
+            return Err(FlowError::IrregularStart {
+                formulation,
+                matrix,
+                names: chetaev_mechanics::words::quoted(own),
+            });
+        }
         // What cannot be evaluated here stops the run at its first step, with its reason.
         if self.evaluate(start.t, &y).is_err() {
             return Ok(y);
@@ -226,6 +250,38 @@ impl<'a> FormulationFlow<'a> {
                 stated: start.v[i],
             }),
         }
+    }
+
+    /// The matrix of the equations in words, where it is one of their own.
+    pub fn matrix(&self) -> Option<&'static str> {
+        self.matrix
+    }
+
+    /// Whether the matrix that must be nonsingular is so to rounding.
+    fn is_regular(&mut self, t: f64, y: &[f64]) -> bool {
+        let (positions, rest) = y.split_at(self.numeric.positions());
+        let Some(matrix) = &mut self.current.regular else {
+            return true;
+        };
+        if matrix.evaluate(t, &[positions, rest]).is_err() {
+            return true;
+        }
+        let entries = matrix.group(0);
+        let size = (0..=entries.len())
+            .find(|k| k * k >= entries.len())
+            .unwrap_or(0);
+        Lu::default().factor(size, entries).is_ok()
+    }
+
+    /// The state as the watch takes it: in two pieces with the rates of all its variables, or (q, v, a).
+    fn pieces<'y>(&'y self, y: &'y [f64]) -> (&'y [f64], &'y [f64], Vec<f64>) {
+        if self.matrix.is_none() {
+            return (&self.q, &self.v, self.current.motion.group(1).to_vec());
+        }
+        let (positions, rest) = y.split_at(self.numeric.positions());
+        let motion = &self.current.motion;
+        let rates = [motion.group(0), motion.group(4), motion.group(2)].concat();
+        (positions, rest, rates)
     }
 
     fn evaluate(&mut self, t: f64, y: &[f64]) -> Result<(), EvaluationFailure> {
@@ -383,6 +439,31 @@ fn needs_reactions(
         && formulation.card().relation == Relation::Equivalent
 }
 
+fn watch(
+    (system, terms, binding): (&System, &MotionTerms, &Binding),
+    equations: &Equations,
+) -> Result<Watch, FunctionsError> {
+    match &equations.regular {
+        Some(regular) if regular.rows.len() <= LARGEST_DETERMINANT => {
+            let variables = state(system, equations);
+            Watch::with_determinant((system, terms), binding, &variables, regular)
+        }
+        _ => Watch::new(system, terms, binding),
+    }
+}
+
+/// Determinants of larger matrices are not followed along a run: by cofactors they are too many.
+const LARGEST_DETERMINANT: usize = 8;
+
+/// t, q, masses with a law of their own and the variables of the formulation.
+fn state(system: &System, equations: &Equations) -> Vec<Symbol> {
+    let mut variables: Vec<Symbol> = vec![system.graph.intern_symbol("t", 0)];
+    variables.extend(system.coordinate_symbols());
+    variables.extend(system.masses.iter().map(|m| m.symbol));
+    variables.extend(equations.variables.iter().map(|x| x.symbol));
+    variables
+}
+
 /// Values of the variables without a definition, by place.
 fn own_data(
     equations: &Equations,
@@ -422,10 +503,7 @@ fn compile(
     };
     let equations = formulation.equations(&basis)?;
     let g = &system.graph;
-    let mut variables: Vec<Symbol> = vec![g.intern_symbol("t", 0)];
-    variables.extend(system.coordinate_symbols());
-    variables.extend(system.masses.iter().map(|m| m.symbol));
-    variables.extend(equations.variables.iter().map(|x| x.symbol));
+    let variables = state(system, &equations);
     let groups = [
         ("velocities", equations.velocities.clone()),
         ("accelerations", equations.accelerations.clone()),
@@ -455,6 +533,14 @@ fn compile(
             .then(|| Functions::new(g, binding, &variables, &relations))
             .transpose()?,
         determined: determined.iter().filter_map(place).collect(),
+        regular: equations
+            .regular
+            .as_ref()
+            .map(|regular| {
+                let groups = [("matrix", regular.rows.concat())];
+                Functions::new(g, binding, &variables, &groups)
+            })
+            .transpose()?,
         selection,
         pivot,
     };
@@ -501,7 +587,9 @@ impl Flow for FormulationFlow<'_> {
         if let Some(follow) = &mut self.follow {
             follow.record(t, &self.q, &self.v);
         }
-        self.watch.record(t, &self.q, &self.v);
+        let (q, v, _) = self.pieces(y);
+        let (q, v) = (q.to_vec(), v.to_vec());
+        self.watch.record(t, &q, &v);
         self.settle(t);
         match self.watch.vanished() {
             Some(index) => Control::Stop(HaltReason::Custom(index as u32)),
@@ -548,14 +636,14 @@ impl Flow for FormulationFlow<'_> {
 
     fn switching(&mut self, index: usize, t: f64, y: &[f64]) -> Result<f64, EvaluationFailure> {
         // At the singularity itself there are no accelerations, and the rate of what vanishes there is zero.
-        if let Err(failure) = self.evaluate(t, y) {
-            return match self.watch.is_near(index, t, &self.q, &self.v) {
-                true => Ok(0.0),
-                false => Err(failure),
-            };
+        let failure = self.evaluate(t, y).err();
+        let (q, v, a) = self.pieces(y);
+        let (q, v) = (q.to_vec(), v.to_vec());
+        match failure {
+            None => self.watch.switching(index, t, &q, &v, &a),
+            Some(_) if self.watch.is_near(index, t, &q, &v) => Ok(0.0),
+            Some(failure) => Err(failure),
         }
-        let a = self.current.motion.group(1);
-        self.watch.switching(index, t, &self.q, &self.v, a)
     }
 
     fn is_event(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
@@ -563,8 +651,10 @@ impl Flow for FormulationFlow<'_> {
             self.zero_between = true;
             return true;
         }
-        self.zero_between = self.watch.vanishes(index, t, &self.q, &self.v);
-        self.watch.is_near(index, t, &self.q, &self.v)
+        let (q, v, _) = self.pieces(y);
+        let (q, v) = (q.to_vec(), v.to_vec());
+        self.zero_between = self.watch.vanishes(index, t, &q, &v);
+        self.watch.is_near(index, t, &q, &v)
     }
 }
 
@@ -573,13 +663,16 @@ impl WatchedFlow for FormulationFlow<'_> {
         if self.zero_between || self.evaluate(t, y).is_err() {
             return true;
         }
-        self.watch.vanishes(index, t, &self.q, &self.v)
+        let (q, v, _) = self.pieces(y);
+        let (q, v) = (q.to_vec(), v.to_vec());
+        self.watch.vanishes(index, t, &q, &v)
     }
 
     fn lost_mass(&mut self, at: (f64, Option<f64>), y: &[f64]) -> Option<(usize, f64)> {
         self.evaluate(at.0, y).ok()?;
-        let a = self.current.motion.group(1);
-        self.watch.lost_mass(at, &self.q, &self.v, a)
+        let (q, v, a) = self.pieces(y);
+        let (q, v) = (q.to_vec(), v.to_vec());
+        self.watch.lost_mass(at, &q, &v, &a)
     }
 
     fn settled(&self) -> f64 {

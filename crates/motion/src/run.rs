@@ -237,6 +237,7 @@ impl Subject<'_> {
                     constraints: &self.numeric.constraints,
                     state: stop::component_names(self.numeric, kind, chart),
                     unknowns: None,
+                    matrix: None,
                 };
                 stop::ending(&stop, &names, pivot)
             }
@@ -365,6 +366,7 @@ impl Subject<'_> {
                     constraints: &constraints,
                     state: flow.names().to_vec(),
                     unknowns: Some(flow.unknowns()),
+                    matrix: None,
                 };
                 stop::ending(&stop, &names, 1.0)
             }
@@ -424,6 +426,7 @@ impl Subject<'_> {
                     constraints: &self.numeric.constraints,
                     state,
                     unknowns: None,
+                    matrix: flow.matrix(),
                 };
                 stop::ending(&stop, &names, 1.0)
             }

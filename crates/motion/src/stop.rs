@@ -31,6 +31,8 @@ pub struct Names<'a> {
     pub state: Vec<String>,
     /// What the equations are solved for where that is no matter of the mass matrix.
     pub unknowns: Option<String>,
+    /// The matrix of the equations, where it is not the mass matrix alone.
+    pub matrix: Option<&'static str>,
 }
 
 /// Names of the components of the state of the multiplier form.
@@ -67,6 +69,10 @@ pub fn vanished(what: &Watched, t: f64, constraints: &[String]) -> Ending {
         ),
         Watched::Expression { text } => format!(
             "{text} vanishes at t = {t:.9}: the equations are singular there{}",
+            of_constraints(constraints)
+        ),
+        Watched::Regularity { matrix } => format!(
+            "{matrix}, becomes singular at t = {t:.9}: the equations do not determine the motion beyond{}",
             of_constraints(constraints)
         ),
         Watched::Structure { unknowns } => format!(
@@ -185,6 +191,9 @@ fn singular(failure: &EvaluationFailure, names: &Names<'_>) -> String {
             "the equations do not determine {} there, the determinant of the system for them vanishes and the structure changes",
             names.unknowns.as_deref().unwrap_or_default()
         ),
+        EvaluationFailure::Singular { .. } if names.matrix.is_some() => {
+            format!("{} is singular", names.matrix.unwrap_or_default())
+        }
         EvaluationFailure::Singular { .. } => {
             "the mass matrix restricted to the constraints is singular".to_string()
         }

@@ -6,9 +6,11 @@
 use crate::functions::{Functions, FunctionsError};
 use crate::numeric::Binding;
 use chetaev_integrate::EvaluationFailure;
+use chetaev_mechanics::equations::RegularMatrix;
 use chetaev_mechanics::system::Thrust;
 use chetaev_mechanics::terms::freeze_accelerations;
 use chetaev_mechanics::{mass, particles, MotionTerms, System};
+use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::{rational, Expr, Node, Symbol};
 
 /// What vanishes.
@@ -33,6 +35,11 @@ pub enum Watched {
     Expression {
         /// As printed.
         text: String,
+    },
+    /// The squared determinant of a matrix on which the equations depend.
+    Regularity {
+        /// What matrix.
+        matrix: String,
     },
     /// The squared determinant of the equations for these unknowns.
     Structure {
@@ -97,6 +104,25 @@ impl Watch {
             functions: Functions::new(g, binding, &binding.variables, &groups)?,
             n: system.n(),
         })
+    }
+
+    /// What [`new`](Watch::new) watches and a determinant, as functions of t and the variables of a state.
+    ///
+    /// # Errors
+    /// [`FunctionsError`].
+    pub(crate) fn with_determinant(
+        (system, terms): (&System, &MotionTerms),
+        binding: &Binding,
+        variables: &[Symbol],
+        regular: &RegularMatrix,
+    ) -> Result<Watch, FunctionsError> {
+        let g = &system.graph;
+        let matrix = regular.name.to_owned();
+        let square = g.powi(determinant(g, &regular.rows), 2);
+        let mut found = vec![(Watched::Regularity { matrix }, square)];
+        found.extend(masses_and_speeds(system));
+        found.extend(vanishing_parts(system, &terms.constraints));
+        Watch::of_state(system, binding, variables, found)
     }
 
     /// Quantities as functions of t and the variables of a state of any kind; where (q, v, a) are meant below, the state in

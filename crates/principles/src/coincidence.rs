@@ -7,8 +7,10 @@
 use chetaev_mechanics::characteristics::derive_along;
 use chetaev_mechanics::claims::formulation::{basis, derive, manifold, residuals, REFERENCE};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
-use chetaev_mechanics::formulations::{kappa_symbols, Basis, DeriveError};
+use chetaev_mechanics::formulations::{extremum_matrix, kappa_symbols, Basis, DeriveError};
 use chetaev_mechanics::{Equations, Manifold};
+use chetaev_symbolic::factors::factors;
+use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{simplify, Expr, Symbol, Verdict};
 
@@ -98,13 +100,61 @@ fn systems_agree(cx: &Context<'_>) -> Finding {
         .prover
         .identity(cx.system, &differences, &manifold(cx), on);
     let sentence = match &verdict {
-        Verdict::Proved(_) => "the extremals are the motions, for every κ",
-        Verdict::Refuted(_) => "the extremals are other curves than the motions for some κ",
-        _ => "accelerations of the extremum against those of the motion",
+        Verdict::Proved(_) => format!("the extremals are the motions, for {}", every_kappa(cx)),
+        Verdict::Refuted(_) => "the extremals are other curves than the motions for some κ".into(),
+        _ => "accelerations of the extremum against those of the motion".into(),
     };
     let sentence = format!("{sentence}{}", kerner(cx, &verdict));
     prepend(&mut verdict, &sentence);
     verdict.into()
+}
+
+/// Determinants of larger matrices are not written out.
+const LARGEST_DETERMINANT: usize = 8;
+
+/// Longer equations are not printed in a sentence.
+const LONGEST_EQUATION: usize = 200;
+
+/// "every κ", less the set where the bordered matrix of the extremum (R5) is singular.
+fn every_kappa(cx: &Context<'_>) -> String {
+    let basis = basis(cx);
+    let g = &cx.system.graph;
+    let names = kappa_symbols(&basis);
+    let symbols: Vec<Symbol> = names.iter().filter_map(|&e| g.as_symbol(e)).collect();
+    let matrix = extremum_matrix(&basis);
+    if !g.any_contains_any(&matrix.concat(), &symbols) {
+        return "every κ".into();
+    }
+    match singular_set(cx, &matrix, &symbols) {
+        None => "every κ off the singular set of [[W + Σ κ f_vv, fᵥᵀ], [fᵥ, 0]]".into(),
+        Some(equations) if equations.is_empty() => "every κ".into(),
+        Some(equations) => format!("every κ off the singular set {}", equations.join(" and ")),
+    }
+}
+
+/// The equations with κ under which the determinant vanishes; `None` where they are too long to be read.
+fn singular_set(cx: &Context<'_>, matrix: &[Vec<Expr>], symbols: &[Symbol]) -> Option<Vec<String>> {
+    let g = &cx.system.graph;
+    if matrix.len() > LARGEST_DETERMINANT {
+        return None;
+    }
+    let solved: Vec<(Expr, Expr)> = manifold(cx)
+        .solved
+        .iter()
+        .map(|&(symbol, value)| (g.symbol_expr(symbol), value))
+        .collect();
+    let value = g.substitute(determinant(g, matrix), &solved);
+    let short = simplify::simplify(g, value, &simplify::Options::default());
+    let equations = factors(g, short, symbols)?;
+    let texts = equations
+        .into_iter()
+        .map(|(factor, _)| simplify::simplify(g, factor, &simplify::Options::default()))
+        .map(|factor| format!("{} = 0", g.text(factor)));
+    let texts: Vec<String> = texts.collect();
+    let is_short = texts
+        .iter()
+        .all(|text| text.chars().count() <= LONGEST_EQUATION);
+    is_short.then_some(texts)
 }
 
 /// What Kerner's theorem says: about linear and affine constraints only.
@@ -296,11 +346,16 @@ impl Closure {
             .map(|row| difference(cx, &all[row], &rank.pivots.columns, &values))
             .collect();
         let on = "on the constraint manifold, for almost every motion";
-        self.verdict = cx
-            .prover
-            .identity(cx.system, &differences, manifold, on)
-            .and(rank.at_least)
-            .and(rank.at_most);
+        let follow = cx.prover.identity(cx.system, &differences, manifold, on);
+        let ranks = rank.at_least.and(rank.at_most);
+        self.verdict = match (follow, ranks) {
+            // The rank is that at almost every state: its place is contained in the other one.
+            (Verdict::Proved(follow), Verdict::Proved(mut ranks)) => {
+                ranks.on.clone_from(&follow.on);
+                Verdict::Proved(follow).and(Verdict::Proved(ranks))
+            }
+            (follow, ranks) => follow.and(ranks),
+        };
         self.conditions = independent;
         self.columns = rank.pivots.columns;
         Ok(())

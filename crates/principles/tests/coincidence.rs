@@ -71,6 +71,35 @@ fn table_of_coincidence() {
     expect(&INTEGRABLE, "proved", "proved");
 }
 
+/// A proof holds off the set where the extremum is not determined (T1 §4.3: det = −m (1 + a²)(m − κ a/ρ) for S3), and the
+/// sentence says so; for linear constraints there is no such set. For y' = x'² and L = x'²/2 the matrix holds 1 − 2κ.
+#[test]
+fn singular_sets_are_stated() {
+    let bent = text("x y", "x'^2/2", &[("b", "y' - x'^2")]);
+    for (stated, set) in [
+        (&S3, "for every κ off the singular set"),
+        (&S3, "a kappa_cone = 0;"),
+        (&bent, "off the singular set 2 kappa_b - 1 = 0;"),
+        (&INTEGRABLE, "the extremals are the motions, for every κ;"),
+    ] {
+        let found = verdict(&system(stated), "system");
+        assert_eq!(found.word(), "proved", "{}", found.detail());
+        assert!(found.detail().contains(set), "{}", found.detail());
+    }
+}
+
+/// Where an inclusion holds is said once.
+#[test]
+fn the_place_of_an_inclusion_is_legible() {
+    for stated in [&S2, &S3] {
+        let Verdict::Proved(proof) = verdict(&system(stated), "inclusion") else {
+            panic!("proved");
+        };
+        assert!(!proof.on.contains("everywhere and"), "{}", proof.on);
+        assert_eq!(proof.on.matches("wherever").count(), 1, "{}", proof.on);
+    }
+}
+
 /// The level skate, G = 0.
 #[test]
 fn level_skate() {

@@ -4,6 +4,7 @@ use crate::graph::Graph;
 use crate::node::{Expr, Symbol};
 use crate::polynomial::normal_form::{normal_forms, Options};
 use crate::polynomial::Budget;
+use crate::rational::Rational;
 
 /// Room for a factorization.
 const BUDGET: Budget = Budget {
@@ -26,4 +27,32 @@ pub fn factors(graph: &Graph, e: Expr, symbols: &[Symbol]) -> Option<Vec<(Expr, 
         .filter(|(factor, _)| graph.contains_any(*factor, symbols))
         .collect();
     Some(list)
+}
+
+/// A rational function as a number times powers of its factors.
+#[derive(Clone, Debug)]
+pub struct Factored {
+    /// The number.
+    pub coefficient: Rational,
+    /// Square-free, mutually prime factors with their exponents, negative ones in the denominator.
+    pub factors: Vec<(Expr, i64)>,
+}
+
+/// `e` over a common denominator, both sides factored as far as [`factors`] promises; `None` where that is too large.
+pub fn factored(graph: &Graph, e: Expr) -> Option<Factored> {
+    let (field, values) = normal_forms(graph, &[e], &Options::display(BUDGET)).ok()?;
+    let value = values.first()?;
+    let above = value.numerator().factorize(field.meter()).ok()?;
+    let below = value.denominator().factorize(field.meter()).ok()?;
+    let powers = |list: &[(crate::polynomial::Polynomial, u32)], sign: i64| -> Vec<(Expr, i64)> {
+        let list = list.iter();
+        list.map(|(f, n)| (field.polynomial_expression(f), sign * i64::from(*n)))
+            .collect()
+    };
+    let mut all = powers(&above.factors, 1);
+    all.extend(powers(&below.factors, -1));
+    Some(Factored {
+        coefficient: Rational::from(above.content) / Rational::from(below.content),
+        factors: all,
+    })
 }

@@ -109,7 +109,7 @@ fn all(
     let mut found: Vec<Result<Derivation, NotDerived>> = Vec::new();
     for formulation in asked {
         let name = formulation.card().name;
-        line.show(&format!("deriving {name}"), None);
+        line.show(&format!("deriving and simplifying {name}"), None);
         let began = Instant::now();
         let one = derivation(cx, *formulation, (!is_code).then_some(&readings));
         let derived = began.elapsed().as_secs_f64();

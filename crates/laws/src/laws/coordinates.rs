@@ -83,7 +83,8 @@ fn compared(n: usize) -> Vec<String> {
         .collect()
 }
 
-/// A triangular change of coordinates: `qᵢ = sᵢ + a polynomial in later s and t`, invertible everywhere.
+/// A change of coordinates that is invertible everywhere: a linear mixing `uᵢ = sᵢ + c sⱼ` with earlier s, then
+/// `qᵢ = uᵢ + a polynomial in later u and t`, the q in another order.
 struct Change {
     names: Vec<String>,
     /// Φ(s, t).
@@ -102,9 +103,15 @@ impl Change {
         let names: Vec<String> = (1..=n).map(|i| format!("s_{i}")).collect();
         let s: Vec<Expr> = names.iter().map(|name| g.symbol(name, 0)).collect();
         let t = moving.then(|| g.symbol("t", 0));
-        let q: Vec<Expr> = (0..n)
-            .map(|i| g.add(&[s[i], shift(g, &mut random, &s[i + 1..], t)]))
+        let u: Vec<Expr> = (0..n)
+            .map(|i| g.add(&[s[i], mixing(g, &mut random, &s[..i])]))
             .collect();
+        let mut q: Vec<Expr> = (0..n)
+            .map(|i| g.add(&[u[i], shift(g, &mut random, &u[i + 1..], t)]))
+            .collect();
+        for last in (1..n).rev() {
+            q.swap(last, random.below(last as u64 + 1) as usize);
+        }
         let moves = |name: &str| names.iter().any(|s| s == name);
         let v = q.iter().map(|&e| g.total_derivative(e, &moves)).collect();
         Change { names, q, v }
@@ -285,6 +292,20 @@ fn own_forces(system: &System) -> Vec<Expr> {
     let both = system.forces.iter().zip(own);
     both.map(|(&force, own)| system.graph.sub(force, own))
         .collect()
+}
+
+/// A multiple of an earlier coordinate, or nothing.
+fn mixing(g: &Graph, random: &mut Random, earlier: &[Expr]) -> Expr {
+    if earlier.is_empty() || random.below(2) == 0 {
+        return g.zero();
+    }
+    let one = earlier[random.below(earlier.len() as u64) as usize];
+    let factor = match random.below(3) {
+        0 => -1,
+        1 => 1,
+        _ => 2,
+    };
+    g.mul(&[g.integer(factor), one])
 }
 
 /// A polynomial of degree at most two in the later coordinates.

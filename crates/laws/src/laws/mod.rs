@@ -188,7 +188,7 @@ pub(crate) const CLAIMS: &[&[&dyn Claim]] =
 /// A law: a trial on the subject, or `None` where there is nothing to try.
 type Law = fn(&Subject<'_>) -> Option<Trial>;
 
-const LAWS: [Law; 9] = [
+const LAWS: [Law; 10] = [
     power::balance,
     masses::balance,
     masses::thrust_alone,
@@ -197,6 +197,7 @@ const LAWS: [Law; 9] = [
     wrong::dropped_term,
     wrong::wrong_sign,
     reduced::lagrange_of_restricted,
+    reduced::momenta_of_full,
     frames::without_brackets,
 ];
 

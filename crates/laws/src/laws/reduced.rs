@@ -3,7 +3,8 @@
 //! With `v_d = φ_d(q, v, t)` and `B = ∂φ/∂v` the equations of motion are (T1 (7), (10) for constraints of any form)
 //! `D(∂L*/∂v_s) - ∂L*/∂q_s - Σ_d B_ds ∂L*/∂q_d - Q*_s = Σ_d p_d ( D B_ds - ∂φ_d/∂q_s - Σ_e B_es ∂φ_d/∂q_e )`.
 //! The right side is evaluated from φ alone. Where it vanishes, as for an integrable constraint, the equations without
-//! it are right and must be proved; elsewhere they must be refuted.
+//! it are right and must be proved; elsewhere they must be refuted. So must the equations with `p_s = ∂L/∂v_s` in the place of
+//! `∂L*/∂v_s`: momenta from L instead of L*, which differ by `Σ_d p_d B_ds`.
 
 use super::hypotheses::{restricted_hessian, Seen};
 use super::numbers::{differ, Size};
@@ -11,6 +12,7 @@ use super::{Expected, Kind, Subject, Trial};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 
 const LAW: &str = "Lagrange's equations of the reduced L*";
+const FULL: &str = "momenta from L instead of L*";
 
 /// The trial; `None` without constraints.
 pub(super) fn lagrange_of_restricted(subject: &Subject<'_>) -> Option<Trial> {
@@ -27,32 +29,76 @@ pub(super) fn lagrange_of_restricted(subject: &Subject<'_>) -> Option<Trial> {
     let missing = subject.on_jet(&reduction.voronets());
     let zeros = vec![subject.cx.system.graph.zero(); missing.len()];
     let term = differ(subject, &missing, &zeros);
-    let wrong = subject.motion_of(&subject.natural, &subject.on_jet(&reduction.equations()));
-    let (expected, about) = match term {
-        Size::Zero => (Expected::Proved, "Voronets' term vanishes"),
-        _ => (Expected::Refuted, "Voronets' term is missing"),
+    let wrong = subject.on_jet(&reduction.equations());
+    let about = match term {
+        Size::Zero => "Voronets' term vanishes",
+        _ => "Voronets' term is missing",
     };
-    let verdict = match (term, wrong) {
+    Some(trial(subject, LAW, about, term, &wrong))
+}
+
+/// Voronets' equations with the momenta of L in the place of those of L*; `None` without constraints.
+pub(super) fn momenta_of_full(subject: &Subject<'_>) -> Option<Trial> {
+    let lagrangian = chetaev_mechanics::mass::with_velocity(subject.cx.system).is_none();
+    if subject.natural.dependent.is_empty() || !lagrangian {
+        return None;
+    }
+    let g = &subject.cx.system.graph;
+    let reduction = Reduction::new(subject)?;
+    let moved = reduction.moved_momenta();
+    let wrong: Vec<Expr> = reduction
+        .equations()
+        .into_iter()
+        .zip(reduction.voronets())
+        .zip(&moved)
+        .map(|((left, term), &moved)| g.add(&[left, g.neg(term), g.neg(moved)]))
+        .collect();
+    let wrong = subject.on_jet(&wrong);
+    // Where the momenta of L alone do not determine the motion, there is nothing to compare.
+    let motion = subject.motion_of(&subject.natural, &wrong)?;
+    let seen = differ(
+        subject,
+        &motion.in_natural_state(subject.cx.system, &motion.accelerations),
+        &subject.routh.accelerations,
+    );
+    let about = match seen {
+        Size::Zero => "both are equal on the motion",
+        _ => "∂L/∂v for ∂L*/∂v",
+    };
+    Some(trial(subject, FULL, about, seen, &wrong))
+}
+
+/// Wrong equations, refuted unless what they miss is zero.
+fn trial(
+    subject: &Subject<'_>,
+    law: &'static str,
+    about: &str,
+    term: Size,
+    equations: &[Expr],
+) -> Trial {
+    let expected = match term {
+        Size::Zero => Expected::Proved,
+        _ => Expected::Refuted,
+    };
+    let verdict = match (term, subject.motion_of(&subject.natural, equations)) {
         (Size::Unclear, _) => {
-            Verdict::undecided("double precision cannot tell Voronets' term from zero")
+            Verdict::undecided("double precision cannot tell what is missing from zero")
         }
-        (_, None) => {
-            Verdict::undecided("Lagrange's equations of L* do not determine the accelerations")
-        }
+        (_, None) => Verdict::undecided("the wrong equations do not determine the accelerations"),
         (_, Some(wrong)) => subject.compared(&wrong),
     };
-    Some(Trial {
+    Trial {
         kind: match expected {
             Expected::Refuted => Kind::Mutant,
             _ => Kind::Other,
         },
         formulation: "voronets",
-        law: LAW,
+        law,
         about: about.to_string(),
         expected,
         verdict,
         seconds: 0.0,
-    })
+    }
 }
 
 /// The derivatives of φ and L, as functions of (q, v, t) on the constraints.
@@ -97,6 +143,22 @@ impl<'a> Reduction<'a> {
                     parts.push(g.neg(g.mul(&[along, basis[i][sigma]])));
                 }
                 g.add(&parts)
+            })
+            .collect()
+    }
+
+    /// `D(Σ_d p_d B_ds)`, by which the momenta of L* differ from those of L.
+    fn moved_momenta(&self) -> Vec<Expr> {
+        let system = self.subject.cx.system;
+        let g = &system.graph;
+        let chart = &self.subject.natural;
+        (0..self.independent.len())
+            .map(|sigma| {
+                let dependent = chart.dependent.iter();
+                let parts: Vec<Expr> = dependent
+                    .map(|&d| g.mul(&[self.momentum[d], chart.basis[d][sigma]]))
+                    .collect();
+                system.total_derivative(g.add(&parts))
             })
             .collect()
     }

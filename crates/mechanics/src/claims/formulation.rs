@@ -230,7 +230,15 @@ pub fn equivalence(cx: &Context<'_>, reference: &Equations, other: &Equations) -
     } else {
         "on the constraint manifold outside the singular set of the linear systems"
     };
-    cx.prover.identity(cx.system, &residuals, &manifold(cx), on)
+    let verdict = cx.prover.identity(cx.system, &residuals, &manifold(cx), on);
+    if matches!(verdict, Verdict::Proved(_) | Verdict::Refuted(_)) {
+        return verdict;
+    }
+    // Perhaps roots of the formulation's own state are those of the model, written otherwise.
+    match roots::split(cx, &residuals) {
+        split if split == residuals => verdict,
+        split => cx.prover.identity(cx.system, &split, &manifold(cx), on),
+    }
 }
 
 /// `a_other - a_reference` as functions of (q, v, t), and what of q' in either form is not v; all zero on the constraint
@@ -238,16 +246,20 @@ pub fn equivalence(cx: &Context<'_>, reference: &Equations, other: &Equations) -
 pub fn residuals(cx: &Context<'_>, reference: &Equations, other: &Equations) -> Vec<Expr> {
     let (system, g) = (cx.system, &cx.system.graph);
     let natural = |equations: &Equations| {
-        let accelerations = equations.in_natural_state(system, &equations.accelerations);
-        roots::identified(cx, &accelerations)
+        let mut functions = equations.in_natural_state(system, &equations.accelerations);
+        functions.extend(equations.velocity_residuals(system));
+        roots::identified(cx, &functions)
     };
-    natural(other)
+    let (mut other, mut reference) = (natural(other), natural(reference));
+    let velocities: Vec<Expr> = [&mut other, &mut reference]
         .into_iter()
-        .zip(natural(reference))
+        .flat_map(|functions| functions.split_off(system.n()))
+        .collect();
+    let accelerations = other.into_iter().zip(reference);
+    accelerations
         .map(|(a, b)| g.sub(a, b))
+        .chain(velocities)
         .filter(|&residual| !g.is_zero(residual))
-        .chain(other.velocity_residuals(system))
-        .chain(reference.velocity_residuals(system))
         .collect()
 }
 

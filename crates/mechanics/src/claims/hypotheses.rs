@@ -13,19 +13,19 @@ use crate::Characteristics;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
 
-/// Proves that expressions vanish identically, structurally where they are zero by form.
-fn vanish(cx: &Context<'_>, residuals: &[Expr], on: &str, by_form: &str) -> Verdict {
-    let g = &cx.system.graph;
-    let residuals: Vec<Expr> = residuals
-        .iter()
-        .copied()
-        .filter(|&e| !g.is_zero(e))
-        .collect();
+/// Proves that named expressions vanish identically, structurally where they are zero by form.
+fn vanish(
+    cx: &Context<'_>,
+    mut residuals: Vec<(String, Expr)>,
+    on: &str,
+    by_form: &str,
+) -> Verdict {
+    residuals.retain(|(_, e)| !cx.system.graph.is_zero(*e));
     if residuals.is_empty() {
         return Verdict::Proved(Proof::structural(on, by_form));
     }
     cx.prover
-        .identity(cx.system, &residuals, &Manifold::default(), on)
+        .named_identity(cx.system, &residuals, &Manifold::default(), on)
 }
 
 /// `model.constraints-first-order`.
@@ -107,13 +107,13 @@ impl Claim for ForcesAbsent {
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         let by_form = "the model states no forces beside the Lagrangian";
-        vanish(
-            cx,
-            &cx.system.all_forces(),
-            "identically in q, v, t",
-            by_form,
-        )
-        .into()
+        let names = cx
+            .system
+            .coordinates
+            .iter()
+            .map(|c| format!("Q_{}", c.name));
+        let forces = names.zip(cx.system.all_forces()).collect();
+        vanish(cx, forces, "identically in q, v, t", by_form).into()
     }
 }
 
@@ -145,7 +145,8 @@ impl Claim for LagrangianAutonomous {
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         let rate = cx.system.time_derivative(cx.system.lagrangian);
         let by_form = "the Lagrangian does not contain the time";
-        vanish(cx, &[rate], "identically in q, v, t", by_form).into()
+        let rate = vec![("∂L/∂t".to_owned(), rate)];
+        vanish(cx, rate, "identically in q, v, t", by_form).into()
     }
 }
 
@@ -183,12 +184,13 @@ impl Claim for LagrangianQuadratic {
             let proof = Proof::structural("identically in q, v, t", by_form);
             return Verdict::Proved(proof).into();
         }
-        let residual = [expansion_residual(cx)];
+        let name = "L(v) − L(w) − L_v(w)(v − w) − ½ (v − w) L_vv(w) (v − w)".to_owned();
+        let residual = [(name, expansion_residual(cx))];
         let free = Manifold::default();
-        let verdict = cx
-            .prover
-            .identity(system, &residual, &free, "identically in q, v, t");
-        verdict.into()
+        let prover = &cx.prover;
+        prover
+            .named_identity(system, &residual, &free, "identically in q, v, t")
+            .into()
     }
 }
 

@@ -19,6 +19,7 @@ use crate::prover::Prover;
 use crate::redundancy::LeftOut;
 use crate::system::System;
 use crate::terms::MotionTerms;
+use crate::words;
 use chetaev_symbolic::{Expr, Verdict};
 use std::any::{Any, TypeId};
 use std::collections::BTreeMap;
@@ -350,19 +351,20 @@ impl<'a> Context<'a> {
     fn failed_hypothesis(&self, hypotheses: &[String]) -> Option<Verdict> {
         hypotheses.iter().find_map(|hypothesis| {
             let finding = self.finding(hypothesis);
-            match &finding.verdict {
-                Verdict::Refuted(_) | Verdict::NotApplicable { .. } => {
-                    Some(Verdict::not_applicable(
-                        hypothesis.clone(),
-                        format!(
-                            "`{hypothesis}` is {}: {}",
-                            finding.verdict.word(),
-                            finding.verdict.detail()
-                        ),
-                    ))
-                }
-                _ => None,
-            }
+            let evidence = match &finding.verdict {
+                // The point goes with the sentence, which may be all that is printed.
+                Verdict::Refuted(found) => match &words::point(found, |_| true)[..] {
+                    "" => found.detail.clone(),
+                    point => found
+                        .detail
+                        .replace("at the point stated", &format!("at {point}")),
+                },
+                Verdict::NotApplicable { detail, .. } => detail.clone(),
+                _ => return None,
+            };
+            let word = finding.verdict.word();
+            let detail = format!("`{hypothesis}` is {word}: {evidence}");
+            Some(Verdict::not_applicable(hypothesis.clone(), detail))
         })
     }
 

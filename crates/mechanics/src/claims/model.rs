@@ -299,13 +299,14 @@ impl Claim for ConstraintsLinear {
         if cx.system.constraints.is_empty() {
             return no_constraints().into();
         }
-        let residuals: Vec<Expr> = cx
+        let name = |c: &Constraint| format!("f(v) + f(w) − 2 f((v + w)/2) of `{}`", c.name);
+        let residuals: Vec<(String, Expr)> = cx
             .system
             .constraints
             .iter()
             .filter(|constraint| !constraint.is_affine_in_velocities())
-            .map(|constraint| bend(cx, constraint))
-            .filter(|&e| !cx.system.graph.is_zero(e))
+            .map(|constraint| (name(constraint), bend(cx, constraint)))
+            .filter(|(_, e)| !cx.system.graph.is_zero(*e))
             .collect();
         if residuals.is_empty() {
             let proof = Proof::structural(
@@ -315,7 +316,7 @@ impl Claim for ConstraintsLinear {
             return Verdict::Proved(proof).into();
         }
         cx.prover
-            .identity(
+            .named_identity(
                 cx.system,
                 &residuals,
                 &Manifold::default(),
@@ -391,10 +392,13 @@ impl Claim for ConstraintsHomogeneous {
                 .collect();
             let euler = g.add(&products);
             let degree = guess_degree(cx, f, euler);
-            residuals.push(g.sub(euler, g.scale(&degree, f)));
+            residuals.push((
+                format!("Σ v ∂f/∂v − {degree} f of `{name}`"),
+                g.sub(euler, g.scale(&degree, f)),
+            ));
             degrees.push(format!("{degree} for `{name}`"));
         }
-        let verdict = cx.prover.identity(
+        let verdict = cx.prover.named_identity(
             cx.system,
             &residuals,
             &Manifold::default(),
@@ -470,19 +474,20 @@ impl Claim for ConstraintsScleronomic {
         if cx.system.constraints.is_empty() {
             return no_constraints().into();
         }
-        let residuals: Vec<Expr> = cx
+        let rate = |c: &Constraint| cx.system.time_derivative(c.stated);
+        let residuals: Vec<(String, Expr)> = cx
             .system
             .constraints
             .iter()
-            .map(|constraint| cx.system.time_derivative(constraint.stated))
-            .filter(|&e| !cx.system.graph.is_zero(e))
+            .map(|constraint| (format!("∂f/∂t of `{}`", constraint.name), rate(constraint)))
+            .filter(|(_, e)| !cx.system.graph.is_zero(*e))
             .collect();
         if residuals.is_empty() {
             let proof = Proof::structural("identically", "no constraint contains the time");
             return Verdict::Proved(proof).into();
         }
         cx.prover
-            .identity(
+            .named_identity(
                 cx.system,
                 &residuals,
                 &Manifold::default(),
@@ -533,7 +538,7 @@ impl Claim for Chaplygin {
             );
             Verdict::Proved(Proof::structural("everywhere", detail))
         } else {
-            cx.prover.identity(
+            cx.prover.named_identity(
                 cx.system,
                 &residuals,
                 &manifold(cx),
@@ -550,17 +555,19 @@ fn chaplygin_residuals(
     terms: &MotionTerms,
     rows: &[usize],
     dependent: &[usize],
-) -> Vec<Expr> {
+) -> Vec<(String, Expr)> {
     let g = &system.graph;
     let mut residuals = Vec::new();
     for &d in dependent {
-        let symbol = system.coordinates[d].q_symbol;
-        residuals.push(g.diff(system.lagrangian, symbol));
+        let (symbol, name) = (system.coordinates[d].q_symbol, &system.coordinates[d].name);
+        residuals.push((format!("∂L/∂{name}"), g.diff(system.lagrangian, symbol)));
         for &row in rows {
-            residuals.push(g.diff(terms.constraints[row], symbol));
+            let constraint = &system.constraints[terms.constraint_index[row]].name;
+            let slope = g.diff(terms.constraints[row], symbol);
+            residuals.push((format!("∂f/∂{name} of `{constraint}`"), slope));
         }
     }
-    residuals.retain(|&e| !g.is_zero(e));
+    residuals.retain(|(_, e)| !g.is_zero(*e));
     residuals
 }
 

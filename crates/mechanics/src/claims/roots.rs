@@ -7,6 +7,7 @@
 
 use super::formulation::manifold;
 use super::Context;
+use crate::radicals::split_roots;
 use crate::sample::{admissible_point, radicands, Point};
 use chetaev_symbolic::rational::{ratio, to_i64};
 use chetaev_symbolic::{Expr, Node, Rational, Verdict};
@@ -20,10 +21,7 @@ const DENOMINATORS: i64 = 100_000;
 /// The expressions with the roots of the system wherever theirs are proved to be the same on the constraints.
 pub(super) fn identified(cx: &Context<'_>, es: &[Expr]) -> Vec<Expr> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let mut stated = vec![system.lagrangian];
-    stated.extend(&system.forces);
-    stated.extend(&cx.terms.constraints);
-    let known = radicands(g, &stated);
+    let known = stated_radicands(cx);
     let mut open = radicands(g, es);
     open.retain(|e| !known.contains(e));
     if known.is_empty() || open.is_empty() {
@@ -58,6 +56,26 @@ pub(super) fn identified(cx: &Context<'_>, es: &[Expr]) -> Vec<Expr> {
         }
     }
     g.substitute_all(es, &pairs)
+}
+
+/// The expressions with every root written by the factors of its radicand, where there are others than those of the model:
+/// `√(m²c² + p²)` of the momenta of a relativistic particle is `m c²/√(c² − v²)`.
+pub(super) fn split(cx: &Context<'_>, es: &[Expr]) -> Vec<Expr> {
+    let g = &cx.system.graph;
+    let known = stated_radicands(cx);
+    let is_known = |e: &Expr| known.contains(e);
+    match known.is_empty() || radicands(g, es).iter().all(is_known) {
+        true => es.to_vec(),
+        false => split_roots(cx.system, es),
+    }
+}
+
+/// The radicands of the model.
+fn stated_radicands(cx: &Context<'_>) -> Vec<Expr> {
+    let mut stated = vec![cx.system.lagrangian];
+    stated.extend(&cx.system.forces);
+    stated.extend(&cx.terms.constraints);
+    radicands(&cx.system.graph, &stated)
 }
 
 /// Powers of a radicand that is `c A/B`, A a radicand of the model and B one that occurs: with a real root of B they are

@@ -11,6 +11,9 @@ use crate::equations::{Equation, Equations, Schema};
 use crate::system::System;
 use chetaev_symbolic::Expr;
 
+/// The heading of `p = ∂L/∂v` where no closed inverse was found.
+pub(crate) const IMPLICIT: &str = "momenta, of which the velocities are implicit functions";
+
 /// Canonical equations with multipliers.
 #[derive(Clone, Copy, Debug)]
 pub struct Canonical;
@@ -25,7 +28,7 @@ static CARD: Card = Card {
     identity: None,
     unknowns: "rates of the momenta of all coordinates and one multiplier for each independent constraint",
     highest_order: 1,
-    sources: &[Source { key: "rumyantsev1982", place: "canonical equations with multipliers" }],
+    sources: &[Source { key: "rumyantsev1982", place: "canonical equations with multipliers; theory note 1, (10)" }],
 };
 
 const SCHEMA: Schema = Schema {
@@ -201,7 +204,7 @@ pub(crate) fn with_constraints(
     mut equations: Equations,
 ) -> Equations {
     if !legendre.is_explicit {
-        equations = equations.with_group("momenta", None, legendre.momentum_equations());
+        equations = equations.with_group(IMPLICIT, None, legendre.momentum_equations());
     }
     let constraints = legendre.restrict(basis.system, &basis.constraints());
     let stated = basis.constraints_as(&constraints);

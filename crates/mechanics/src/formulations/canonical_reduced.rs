@@ -7,12 +7,17 @@
 //! where it is not by the usual independent velocities, but is by others, those are taken.
 //! For φ nonlinear in the velocities A contains v', hence p̃': the equations are linear in v' and are solved for it.
 
+use super::canonical::IMPLICIT;
+use super::inversion::Transform;
 use super::{Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
-use crate::characteristics::Characteristics;
+use crate::characteristics::{derive_along, Characteristics};
 use crate::equations::unused_name;
 use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
+use crate::linear::solve_linear;
+use crate::radicals::split_roots;
 use crate::restricted::regular_choice;
+use crate::sample::radicands;
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -31,8 +36,8 @@ static CARD: Card = Card {
     unknowns: "rates of the k momenta of the independent velocities",
     highest_order: 1,
     sources: &[
-        Source { key: "rumyantsev1982", place: "canonical equations without multipliers" },
-        Source { key: "bates1993", place: "the bracket of linear constraints" },
+        Source { key: "rumyantsev1982", place: "canonical equations without multipliers; theory note 1, (44)–(46)" },
+        Source { key: "bates1993", place: "the bracket of linear constraints; theory note 1, (47)" },
     ],
 };
 
@@ -49,7 +54,7 @@ impl Formulation for CanonicalReduced {
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
         let reduced = Reduced::new(basis)?;
         match ReducedLegendre::new(basis.system, &reduced)? {
-            Some(legendre) => Ok(explicit_equations(basis, &reduced, &legendre)),
+            Some(legendre) => explicit_equations(basis, &reduced, &legendre),
             None => implicit_equations(basis, &reduced),
         }
     }
@@ -202,7 +207,7 @@ fn curvature(system: &System, characteristics: &Characteristics) -> Vec<Vec<Expr
         .collect()
 }
 
-/// The transform in closed form: L̄ quadratic in v^s with coefficients free of velocities.
+/// The transform in closed form.
 struct ReducedLegendre {
     /// H̃(q, p̃, t).
     hamiltonian: Expr,
@@ -217,69 +222,83 @@ impl ReducedLegendre {
     fn new(system: &System, reduced: &Reduced) -> Result<Option<ReducedLegendre>, DeriveError> {
         let g = &system.graph;
         let ch = &reduced.characteristics;
-        let parameters: Vec<Symbol> = ch.parameters.iter().map(|p| p.symbol).collect();
-        let implicit = ch.implicit().next().is_some()
-            || g.any_contains_any(&reduced.hessian, &parameters)
-            || g.any_contains_any(&ch.basis.concat(), &parameters);
-        if implicit {
+        if ch.implicit().next().is_some() {
             return Ok(None);
         }
-        let at_rest: Vec<(Expr, Expr)> =
-            ch.parameters.iter().map(|p| (p.value, g.zero())).collect();
-        let rest = g.substitute_all(&reduced.definitions, &at_rest);
-        let kinetic: Vec<Expr> = reduced
-            .momenta
-            .iter()
-            .zip(rest)
-            .map(|(&p, slope)| g.sub(p, slope))
-            .collect();
-        let half = g.div(g.one(), g.integer(2));
-        let mut parts = vec![g.neg(g.substitute(reduced.lagrangian, &at_rest))];
-        for (&p, v) in kinetic.iter().zip(g.solve(&reduced.hessian, &kinetic)?) {
-            parts.push(g.mul(&[half, p, v]));
-        }
-        let hamiltonian = g.add(&parts);
-        let symbols: Vec<Symbol> = reduced
-            .momenta
-            .iter()
-            .filter_map(|&p| g.as_symbol(p))
-            .collect();
-        let velocities = g.gradient(hamiltonian, &symbols);
-        Ok(Some(ReducedLegendre {
-            by_coordinates: g.gradient(hamiltonian, &system.coordinate_symbols()),
-            velocities: ch
-                .parameters
-                .iter()
-                .map(|p| p.value)
-                .zip(velocities)
-                .collect(),
-            hamiltonian,
+        let parameters: Vec<Expr> = ch.parameters.iter().map(|p| p.value).collect();
+        let transform = Transform {
+            lagrangian: reduced.lagrangian,
+            velocities: &parameters,
+            definitions: &reduced.definitions,
+            hessian: &reduced.hessian,
+            momenta: &reduced.momenta,
+        };
+        Ok(transform.closed(system)?.map(|inverse| ReducedLegendre {
+            by_coordinates: g.gradient(inverse.hamiltonian, &system.coordinate_symbols()),
+            velocities: parameters.into_iter().zip(inverse.velocities).collect(),
+            hamiltonian: inverse.hamiltonian,
         }))
     }
 
     fn restrict(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
-        system.graph.substitute_all(es, &self.velocities)
+        self.with_known_roots(system, system.graph.substitute_all(es, &self.velocities))
+    }
+
+    /// Each expression as it is where it has no other roots than H̃, else with its roots split, so that those which depend
+    /// on each other meet.
+    fn with_known_roots(&self, system: &System, es: Vec<Expr>) -> Vec<Expr> {
+        let g = &system.graph;
+        let known = radicands(g, &[self.hamiltonian]);
+        let is_known = |e: Expr| radicands(g, &[e]).iter().all(|root| known.contains(root));
+        es.into_iter()
+            .map(|e| match is_known(e) {
+                true => e,
+                false => split_roots(system, &[e])[0],
+            })
+            .collect()
+    }
+
+    /// Pairs of v'^s and `D(∂H̃/∂p̃_s)`, with the rates of the momenta as symbols.
+    fn rates(&self, system: &System, reduced: &Reduced) -> Vec<(Expr, Expr)> {
+        let g = &system.graph;
+        let parameters = &reduced.characteristics.parameters;
+        let momenta = reduced.momenta.iter().zip(&reduced.names);
+        let rates: Vec<(Symbol, Expr)> = momenta
+            .filter_map(|(&p, name)| Some((g.as_symbol(p)?, g.symbol(name, 1))))
+            .collect();
+        let velocities = self.restrict(system, &reduced.characteristics.velocities);
+        let closed: Vec<Expr> = self.velocities.iter().map(|(_, v)| *v).collect();
+        let moved = derive_along(system, &closed, &velocities, g.one(), &rates);
+        parameters.iter().map(|p| p.rate).zip(moved).collect()
+    }
+
+    /// Functions on the jet (q, v, v', t) as functions of (q, p̃, p̃', t).
+    fn restrict_jet(&self, system: &System, reduced: &Reduced, es: &[Expr]) -> Vec<Expr> {
+        let mut pairs = self.velocities.clone();
+        pairs.extend(self.rates(system, reduced));
+        self.with_known_roots(system, system.graph.substitute_all(es, &pairs))
     }
 }
 
-/// (46) with H̃ in closed form.
+/// (46) with H̃ in closed form. A contains p̃' where φ is nonlinear: the equations are linear in it and are solved for it.
 fn explicit_equations(
     basis: &Basis<'_>,
     reduced: &Reduced,
     legendre: &ReducedLegendre,
-) -> Equations {
+) -> Result<Equations, DeriveError> {
     let (system, g) = (basis.system, &basis.system.graph);
     let ch = &reduced.characteristics;
     let velocities = legendre.restrict(system, &ch.velocities);
-    let gyroscopic = legendre.restrict(system, &reduced.gyroscopic(system));
+    let slopes = legendre.restrict(system, &ch.contract(system, &legendre.by_coordinates));
+    let gyroscopic = legendre.restrict_jet(system, reduced, &reduced.gyroscopic(system));
     let forces = legendre.restrict(system, &reduced.forces);
-    let rates: Vec<Expr> = ch
-        .contract(system, &legendre.by_coordinates)
+    let rights: Vec<Expr> = slopes
         .into_iter()
         .zip(gyroscopic)
         .zip(forces)
         .map(|((slope, gyroscopic), force)| g.add(&[g.neg(slope), gyroscopic, force]))
         .collect();
+    let rates = solved_for_rates(system, reduced, rights)?;
     let mut stated: Vec<Equation> = system
         .coordinates
         .iter()
@@ -300,12 +319,32 @@ fn explicit_equations(
             "Hamiltonian of the restricted Lagrangian",
         )])
         .with_objects(reduced.definition_objects())
-        .with_objects(reduced.objects(system, |es| legendre.restrict(system, es)));
+        .with_objects(reduced.objects(system, |es| legendre.restrict_jet(system, reduced, es)));
     if let Some(curvature) = linear_curvature(system, ch) {
         equations = equations.with_objects(curvature_objects(system, ch, &curvature));
     }
     equations.is_chart = true;
-    equations
+    Ok(equations)
+}
+
+/// p̃' from `p̃' = right(q, p̃, p̃', t)`, linear in it.
+fn solved_for_rates(
+    system: &System,
+    reduced: &Reduced,
+    rights: Vec<Expr>,
+) -> Result<Vec<Expr>, DeriveError> {
+    let g = &system.graph;
+    let names = reduced.names.iter();
+    let symbols: Vec<Symbol> = names.map(|name| g.intern_symbol(name, 1)).collect();
+    if !g.any_contains_any(&rights, &symbols) {
+        return Ok(rights);
+    }
+    let residuals: Vec<Expr> = symbols
+        .iter()
+        .zip(rights)
+        .map(|(&rate, right)| g.sub(g.symbol_expr(rate), right))
+        .collect();
+    Ok(solve_linear(g, &residuals, &symbols)?)
 }
 
 fn momentum_equations(system: &System, reduced: &Reduced, rights: &[Expr]) -> Vec<Equation> {
@@ -364,7 +403,7 @@ fn implicit_equations(basis: &Basis<'_>, reduced: &Reduced) -> Result<Equations,
             Some(SCHEMA),
             momentum_equations(system, reduced, &right),
         )
-        .with_group("momenta", None, definition_equations(system, reduced))
+        .with_group(IMPLICIT, None, definition_equations(system, reduced))
         .with_group("constraints", None, basis.constraint_equations())
         .with_objects([implicit_hamiltonian(system, reduced)])
         .with_objects(reduced.definition_objects())
@@ -418,7 +457,7 @@ fn implicit_hamiltonian(system: &System, reduced: &Reduced) -> NamedExpr {
     NamedExpr::new(
         name,
         g.add(&parts),
-        "Hamiltonian of the restricted Lagrangian",
+        "Hamiltonian of the restricted Lagrangian, with the velocities as implicit functions of (q, p̃, t)",
     )
 }
 

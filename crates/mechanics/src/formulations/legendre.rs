@@ -1,15 +1,18 @@
 //! The Legendre transform: momenta `pᵢ = ∂L/∂vⁱ`, velocities as functions of (q, p, t), and the Hamiltonian.
 //!
-//! For L quadratic in the velocities, `v = W⁻¹ (p − L₁)` is one solve node and `H = ½ (p − L₁)·v − L₀` is closed; its
-//! derivatives are those of that expression. For any other L the velocities stay symbols tied by `p − ∂L/∂v = 0`, and a
+//! For L quadratic in the velocities, `v = W⁻¹ (p − L₁)` is one solve node and `H = ½ (p − L₁)·v − L₀` is closed; so it is
+//! for some functions of a quadratic form ([`inversion`](super::inversion)). The derivatives are then those of that expression.
+//! For any other L the velocities stay symbols tied by `p − ∂L/∂v = 0`, and a
 //! function of (q, p, t) changes along a direction with `v' = W⁻¹ (p' − L_vq q' − L_vt t')`; there
 //! `∂H/∂p = v`, `∂H/∂q = −∂L/∂q`, `∂H/∂t = −∂L/∂t`, since `H = p·v − L` is stationary in v (T1 §6.1, §7.3).
 
+use super::inversion::{Inverse, Transform};
 use super::DeriveError;
 use crate::characteristics::derive_along;
 use crate::equations::unused_name;
 use crate::equations::{Equation, NamedExpr, StateVariable};
 use crate::system::System;
+use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::{Expr, Symbol};
 
 /// A momentum.
@@ -82,54 +85,48 @@ impl Legendre {
                 }
             })
             .collect();
-        let is_explicit = !g.any_contains_any(&mass_matrix, &velocities);
         let mut legendre = Legendre {
             hamiltonian: g.zero(),
             by_momenta: Vec::new(),
             by_coordinates: Vec::new(),
             by_time: g.zero(),
-            is_explicit,
+            is_explicit: false,
             mass_matrix,
             momenta,
         };
-        if is_explicit {
-            legendre.close(system)?;
-        } else {
-            legendre.keep_implicit(system)?;
+        match legendre.inverse(system)? {
+            Some(inverse) => legendre.close(system, inverse),
+            None => legendre.keep_implicit(system)?,
         }
         Ok(legendre)
     }
 
+    /// The velocities as closed functions of the momenta, where they are found.
+    fn inverse(&self, system: &System) -> Result<Option<Inverse>, SolveError> {
+        let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
+        let definitions: Vec<Expr> = self.momenta.iter().map(|p| p.definition).collect();
+        let momenta: Vec<Expr> = self.momenta.iter().map(|p| p.value).collect();
+        let transform = Transform {
+            lagrangian: system.lagrangian,
+            velocities: &velocities,
+            definitions: &definitions,
+            hessian: &self.mass_matrix,
+            momenta: &momenta,
+        };
+        transform.closed(system)
+    }
+
     /// H in closed form, and its derivatives by differentiating it.
-    fn close(&mut self, system: &System) -> Result<(), DeriveError> {
+    fn close(&mut self, system: &System, inverse: Inverse) {
         let g = &system.graph;
-        let at_rest: Vec<(Expr, Expr)> =
-            system.coordinates.iter().map(|c| (c.v, g.zero())).collect();
-        let mut functions: Vec<Expr> = self.momenta.iter().map(|p| p.definition).collect();
-        functions.push(system.lagrangian);
-        let mut linear = g.substitute_all(&functions, &at_rest);
-        let potential = linear.pop().unwrap_or_else(|| g.zero());
-        let kinetic_momenta: Vec<Expr> = self
-            .momenta
-            .iter()
-            .zip(linear)
-            .map(|(p, slope)| g.sub(p.value, slope))
-            .collect();
-        let velocities = g.solve(&self.mass_matrix, &kinetic_momenta)?;
-        let half = g.div(g.one(), g.integer(2));
-        let mut parts = vec![g.neg(potential)];
-        for (&p, &v) in kinetic_momenta.iter().zip(&velocities) {
-            parts.push(g.mul(&[half, p, v]));
-        }
-        self.hamiltonian = g.add(&parts);
-        let symbols: Vec<Symbol> = self.momenta.iter().map(|p| p.symbol).collect();
-        self.by_momenta = g.gradient(self.hamiltonian, &symbols);
+        self.is_explicit = true;
+        self.hamiltonian = inverse.hamiltonian;
+        self.by_momenta = inverse.velocities;
         self.by_coordinates = g.gradient(self.hamiltonian, &system.coordinate_symbols());
         let still = vec![g.zero(); system.n()];
         let masses = system.mass_rates(&self.by_momenta);
         let moved = derive_along(system, &[self.hamiltonian], &still, g.one(), &masses);
         self.by_time = moved[0];
-        Ok(())
     }
 
     /// `H = p·v − L` with v tied by the momenta.
@@ -297,11 +294,11 @@ impl Legendre {
                 format!("momentum ∂L/∂{}' as a function of (q, v, t)", c.name),
             )
         });
-        let hamiltonian = NamedExpr::new(
-            unused_name(system, "H"),
-            self.hamiltonian,
-            "Hamiltonian as a function of (q, p, t)",
-        );
+        let meaning = match self.is_explicit {
+            true => "Hamiltonian as a function of (q, p, t)",
+            false => "Hamiltonian, with the velocities as implicit functions of (q, p, t)",
+        };
+        let hamiltonian = NamedExpr::new(unused_name(system, "H"), self.hamiltonian, meaning);
         momenta.chain([hamiltonian]).collect()
     }
 }

@@ -6,6 +6,7 @@ mod canonical_reduced;
 mod chaplygin;
 pub mod gauss;
 mod gibbs_appell;
+mod inversion;
 mod jacobi;
 mod kane;
 mod lagrange_dalembert;
@@ -44,15 +45,13 @@ pub use poincare_chetaev::PoincareChetaev;
 pub use routh::Routh;
 pub use state_space::StateSpace;
 pub use state_space_canonical::StateSpaceCanonical;
-pub use vakonomic::{kappa_symbols, Vakonomic};
+pub use vakonomic::{extremum_matrix, kappa_symbols, Vakonomic};
 pub use volterra_cartesian::{VolterraFirstCartesian, VolterraSecondCartesian};
 pub use volterra_first::VolterraFirst;
 pub use volterra_second::VolterraSecond;
 pub use voronets::Voronets;
 
 pub(crate) use maggi::left_sides as maggi_left_sides;
-
-pub(crate) use vakonomic::extremum_matrix;
 
 use crate::card::Card;
 use crate::characteristics::{Characteristics, CharacteristicsError, Manifold, Selection};

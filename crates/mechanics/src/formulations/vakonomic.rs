@@ -8,7 +8,7 @@
 use super::{Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::equations::unused_name;
-use crate::equations::{Equation, Equations, NamedExpr, Schema, StateVariable};
+use crate::equations::{Equation, Equations, NamedExpr, RegularMatrix, Schema, StateVariable};
 use crate::terms::freeze_accelerations;
 use chetaev_symbolic::{Expr, Symbol};
 
@@ -47,6 +47,10 @@ impl Formulation for Vakonomic {
         let (accelerations, rates) = solve(basis)?;
         let mut equations = Equations::in_velocities(CARD.name, system, accelerations);
         let names = kappa_names(basis);
+        equations.regular = Some(RegularMatrix {
+            name: "the matrix of W + Σ κ ∂²f/∂v∂v bordered by ∂f/∂v, regularity R5 of the constrained extremum",
+            rows: extremum_matrix(basis),
+        });
         equations
             .variables
             .extend(names.iter().zip(rates).map(|(name, rate)| StateVariable {
@@ -94,7 +98,7 @@ fn augmented(basis: &Basis<'_>) -> Expr {
 }
 
 /// `W + Σ κ_l f^l_vv` bordered by f_v, (n + r) × (n + r), with free κ.
-pub(crate) fn extremum_matrix(basis: &Basis<'_>) -> Vec<Vec<Expr>> {
+pub fn extremum_matrix(basis: &Basis<'_>) -> Vec<Vec<Expr>> {
     let (system, g) = (basis.system, &basis.system.graph);
     let velocities: Vec<Symbol> = system.velocity_symbols();
     let momenta = g.gradient(augmented(basis), &velocities);

@@ -114,15 +114,32 @@ fn appell_hamel_in_closed_form() {
     let equations = case.equations(NAME);
     let p = case.object(&equations, "ptilde_x");
     assert!(case.equal_on_constraints(p, case.read("m (1 + a^2) x'")));
+    // v = p̃/(m (1 + a²)), so that A, which is homogeneous of degree zero, is the same function of p̃ and p̃'.
     let a_x = case.object(&equations, "A_z_x");
-    let printed = case.read("a y' (y' x'' - x' y'')/sqrt(x'^2 + y'^2)^3");
-    assert!(case.equal_on_constraints(a_x, printed));
-    let stated = equations.groups[0].equations[0].right;
-    let expected = "-m g a x'/sqrt(x'^2 + y'^2) + m a sqrt(x'^2 + y'^2)";
-    let printed = case.read(&format!(
-        "{expected} a y' (y' x'' - x' y'')/sqrt(x'^2 + y'^2)^3"
-    ));
-    assert!(case.equal_on_constraints(stated, printed));
+    let rates = "(ptilde_y ptilde_x' - ptilde_x ptilde_y')";
+    let printed = format!("a ptilde_y {rates}/sqrt(ptilde_x^2 + ptilde_y^2)^3");
+    assert!(case.equal(a_x, case.read(&printed)));
+    let hamiltonian = case.object(&equations, "Htilde");
+    let printed = "(ptilde_x^2 + ptilde_y^2)/(2 m (1 + a^2)) + m g z";
+    assert!(case.equal(hamiltonian, case.read(printed)));
+    // A vanishes on the motions, and p̃' = −m g a p̃/|p̃|.
+    assert!(equations.relations.is_empty());
+    for (variable, name) in equations.variables.iter().zip(["x", "y"]) {
+        let printed = format!("-m g a ptilde_{name}/sqrt(ptilde_x^2 + ptilde_y^2)");
+        assert!(case.equal(variable.rate, case.read(&printed)), "{name}");
+    }
+}
+
+/// A relativistic particle on z' = y x': H̃ = c √(m²c² + p̃_x²/(1 + y²) + p̃_y²), the kinetic part of S4 under the root.
+#[test]
+fn relativistic_particle_in_closed_form() {
+    let case = Case::new(RELATIVISTIC);
+    let equations = case.equations(NAME);
+    assert!(equations.relations.is_empty());
+    let hamiltonian = case.object(&equations, "Htilde");
+    let printed = "c sqrt(m^2 c^2 + ptilde_x^2/(1 + y^2) + ptilde_y^2)";
+    assert!(case.equal(hamiltonian, case.read(printed)));
+    expect(&case, "formulation.equivalent#canonical-reduced", "proved");
 }
 
 /// Isokinetic particle: accelerations are unique, but p̃ = 0 on the whole constraint manifold.

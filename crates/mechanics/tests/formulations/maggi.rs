@@ -26,9 +26,13 @@ fn quasi_velocities_of_every_kind() {
         assert_eq!(names, ["u", "w"]);
         expect(&case, "formulation.equivalent#maggi", "proved");
     }
-    let implicit =
-        format!("{APPELL_HAMEL}[quasi_velocities]\nu = \"x' + y'\"\nw = \"x' - 2 y'\"\n");
-    let case = Case::new(&implicit);
-    assert_eq!(case.equations("maggi").relations.len(), 1);
-    expect(&case, "formulation.equivalent#maggi", "proved");
+    let quasi = "[quasi_velocities]\nu = \"x' + y'\"\nw = \"x' - 2 y'\"\n";
+    let squared = APPELL_HAMEL.replace("z' = a sqrt(x'^2 + y'^2)", "z'^2 = a^2 (x'^2 + y'^2)");
+    assert_ne!(squared, APPELL_HAMEL);
+    // Affine in z', solved; quadratic in it, implicit.
+    for (text, relations) in [(APPELL_HAMEL, 0), (squared.as_str(), 1)] {
+        let case = Case::new(&format!("{text}{quasi}"));
+        assert_eq!(case.equations("maggi").relations.len(), relations);
+        expect(&case, "formulation.equivalent#maggi", "proved");
+    }
 }

@@ -136,6 +136,7 @@ fn the_shortened_formula_is_refuted() {
     assert_eq!(residual(g.sub(first, maggi)).word(), "proved");
     assert_eq!(residual(g.sub(shortened, maggi)).word(), "refuted");
     let defect = case.read("mu q1 q2 q2'^2 + mu P (P q2 + t) q2'");
+    let defect = c.restrict(&case.system, &[defect])[0];
     let difference = g.add(&[shortened, g.neg(maggi), g.neg(defect)]);
     assert_eq!(residual(difference).word(), "proved");
 }

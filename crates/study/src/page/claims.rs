@@ -67,20 +67,11 @@ fn evidence(claim: &mut Claim, verdict: &Verdict) {
             claim.seed = evidence.seed;
         }
         Verdict::Refuted(c) => {
-            let point: Vec<String> = c
-                .point
-                .iter()
-                .map(|p| match (&p.exact, &p.enclosure) {
-                    (Some(exact), _) => format!("{} = {exact}", p.name),
-                    (None, Some((low, high))) if low == high => format!("{} = {low}", p.name),
-                    (None, Some((low, high))) => format!("{} in [{low}, {high}]", p.name),
-                    _ => p.name.clone(),
-                })
-                .collect();
+            let point = chetaev_mechanics::words::point(c, |_| true);
             let at = if point.is_empty() {
                 String::new()
             } else {
-                format!("at {}: ", point.join(", "))
+                format!("at {point}: ")
             };
             claim.counterexample = Some(format!(
                 "{at}{} in [{}, {}]",

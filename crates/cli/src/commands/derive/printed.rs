@@ -25,13 +25,23 @@ pub(super) fn text(
     match notation {
         Notation::Json => as_json(system, found),
         Notation::Sympy => as_module(system, found),
-        _ => found
-            .iter()
-            .map(|one| match one {
+        _ => {
+            let parts = found.iter().map(|one| match one {
                 Ok(derivation) => printed(system, derivation, notation),
                 Err(problem) => marked(&problem.to_string(), notation) + "\n",
-            })
-            .collect(),
+            });
+            in_one_document(&parts.collect::<String>(), notation)
+        }
+    }
+}
+
+/// Markup has one root, however many formulas there are.
+fn in_one_document(text: &str, notation: Notation) -> String {
+    match notation {
+        Notation::Mathml => {
+            format!("<div xmlns=\"http://www.w3.org/1999/xhtml\">\n{text}</div>\n")
+        }
+        _ => text.to_owned(),
     }
 }
 
