@@ -19,7 +19,7 @@
 //! Square roots ρ² = R are independent if each R is no square in the field of those before it. A point where R is
 //! not a square although all earlier ones are shows just this. Roots for which no such point is seen are not taken as independent:
 //! for them every combination of signs is tried at each point, which decides zero in the ring K\[ρ\]/(ρ² − R), a product of
-//! fields, and needs no independence.
+//! fields, and needs no independence. Roots of proportional radicands are multiples of each other (see `related`).
 //!
 //! # Constraints
 //! Dependent symbols of nonlinear constraints are adjoined (see [`tower`](super::tower)): the outputs are tested in the
@@ -28,6 +28,7 @@
 //! discriminants and the denominators add as much again.
 
 pub(super) mod bound;
+mod related;
 mod suspects;
 
 use std::collections::BTreeMap;
@@ -141,6 +142,9 @@ pub(super) fn decide(program: &Program, plan: &Plan) -> Outcome {
         trial: 0,
     };
     session.find_suspects();
+    if let Some(outcome) = session.with_related_roots() {
+        return outcome;
+    }
     if session.suspects.len() > MOST_SUSPECTS {
         let why = format!(
             "{} radicals are not known to be independent",

@@ -277,3 +277,38 @@ fn the_sign_of_zero_is_excluded() {
     };
     assert!(proof.on.contains("x != 0"), "{}", proof.on);
 }
+
+/// √(9 v·v) = 3 √(v·v) where the components of 3v are the solution of a linear system too large for normal forms: the roots are
+/// multiples of each other, and the sign is that of positive numbers.
+#[test]
+fn roots_of_proportional_radicands_hidden_in_a_linear_system() {
+    let graph = Graph::new();
+    let size = 9;
+    let symbol = |name: String| graph.symbol(&name, 0);
+    let v: Vec<Expr> = (0..size).map(|i| symbol(format!("v{i}"))).collect();
+    let matrix: Vec<Expr> = (0..size * size).map(|i| symbol(format!("a{i}"))).collect();
+    let three = graph.integer(3);
+    let right: Vec<Expr> = matrix
+        .chunks(size)
+        .map(|row| {
+            let terms = row.iter().zip(&v);
+            let terms: Vec<Expr> = terms.map(|(&a, &v)| graph.mul(&[three, a, v])).collect();
+            graph.add(&terms)
+        })
+        .collect();
+    let solved = graph.solve(&matrix, &right).unwrap();
+    let length = |x: &[Expr]| {
+        let squares: Vec<Expr> = x.iter().map(|&x| graph.powi(x, 2)).collect();
+        graph.sqrt(graph.add(&squares))
+    };
+    let (long, short) = (length(&solved), length(&v));
+    let equal = decide(&graph, graph.sub(long, graph.mul(&[three, short])));
+    let Verdict::Proved(proof) = &equal else {
+        panic!("{equal:?}")
+    };
+    assert!(proof.error_bound_log2.is_some_and(|bound| bound <= -100.0));
+    for wrong in [graph.integer(-3), graph.integer(2)] {
+        let verdict = decide(&graph, graph.sub(long, graph.mul(&[wrong, short])));
+        assert!(!matches!(verdict, Verdict::Proved(_)), "{verdict:?}");
+    }
+}
