@@ -33,6 +33,8 @@ pub struct Searched {
     pub dimension: usize,
     /// log2 of a bound on the probability that the dimension is larger.
     pub error_bound_log2: f64,
+    /// At how many draws of primes and parameters the relations were looked at.
+    pub draws: u32,
 }
 
 /// What the search found.
@@ -94,6 +96,7 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
             relations: space.relations.len(),
             dimension: space.integrals.len(),
             error_bound_log2: space.error_bound_log2,
+            draws: space.draws,
         });
         for vector in space.integrals {
             let leading = vector.last().map_or(0, |&(member, _)| member);

@@ -49,6 +49,8 @@ pub struct Space {
     pub relations: Vec<usize>,
     /// log2 of a bound on the probability that one of them is none.
     pub error_bound_log2: f64,
+    /// At how many draws of primes and parameters they were looked at.
+    pub draws: u32,
 }
 
 /// A combination of members: pairs (member, coefficient), the leading member, of coefficient 1, last.
@@ -172,6 +174,7 @@ impl<'a> Table<'a> {
             integrals,
             relations: supports.iter().filter_map(|s| s.last().copied()).collect(),
             error_bound_log2: (once * draws as f64).min(0.0),
+            draws: draws as u32,
         })
     }
 

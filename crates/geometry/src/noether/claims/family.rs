@@ -74,13 +74,14 @@ fn verdict(cx: &Context<'_>, found: &Found) -> Verdict {
         .map(|f| f.error_bound_log2)
         .fold(f64::NEG_INFINITY, f64::max)
         + 2.0;
+    let samples = found.families.iter().map(|f| f.draws).min().unwrap_or(0);
     if found.open > 0 {
         return Verdict::undecided(sentence);
     }
     let rest = format!("each integral is proved by itself, and a dimension is larger with probability below 2^{bound:.0} only");
     if bound > PROOF_LOG2 {
         return Verdict::Numerical(Evidence {
-            samples: 0,
+            samples,
             region: "random points of prime fields".into(),
             digits: 18,
             residual: 0.0,
@@ -91,6 +92,7 @@ fn verdict(cx: &Context<'_>, found: &Found) -> Verdict {
     let proof = Proof {
         method: Method::Modular,
         error_bound_log2: Some(bound),
+        samples: samples.max(1),
         seed: Some(cx.prover.seed),
         ..Proof::exact("for general values of the parameters", rest)
     };
