@@ -4,7 +4,8 @@
 //! that only looks different from zero is not divided by. For large systems, where nothing may be expanded, there is
 //! [`solve`](crate::Graph::solve), which keeps the system as a node.
 
-use crate::simplify::{simplify, Options};
+use crate::linear::SolveError;
+use crate::simplify::{length, simplify, simplify_all, Options};
 use crate::zero::assumptions::Assumptions;
 use crate::zero::{decide_zero, ZeroTest};
 use crate::{Expr, Graph, Verdict};
@@ -186,6 +187,66 @@ pub fn determinant(g: &Graph, matrix: &[Vec<Expr>]) -> Expr {
     minors[(1 << n) - 1]
 }
 
+/// Matrices of more rows are not inverted in closed form.
+const LARGEST_CLOSED: usize = 6;
+/// Longest determinant, and longest entry, of an inverse in closed form.
+const LONGEST_CLOSED: u64 = 120;
+
+/// The inverse of a square matrix: by cofactors where the determinant and the entries are short, as those of a rotation
+/// are, else by linear solves.
+///
+/// # Errors
+/// A matrix that is singular by its form.
+pub fn inverse(g: &Graph, matrix: &[Vec<Expr>]) -> Result<Vec<Vec<Expr>>, SolveError> {
+    let n = matrix.len();
+    if let Some(closed) = (n <= LARGEST_CLOSED)
+        .then(|| cofactors(g, matrix))
+        .flatten()
+    {
+        return Ok(closed);
+    }
+    let flat = matrix.concat();
+    let mut rows = vec![vec![g.zero(); n]; n];
+    for u in 0..n {
+        let mut unit = vec![g.zero(); n];
+        unit[u] = g.one();
+        for (s, entry) in g.solve(&flat, &unit)?.into_iter().enumerate() {
+            rows[s][u] = entry;
+        }
+    }
+    Ok(rows)
+}
+
+/// The inverse by cofactors; `None` where it is long, or the determinant vanishes by its form.
+fn cofactors(g: &Graph, matrix: &[Vec<Expr>]) -> Option<Vec<Vec<Expr>>> {
+    let n = matrix.len();
+    let options = Options::default();
+    let whole = simplify(g, determinant(g, matrix), &options);
+    if g.is_zero(whole) || length(g, whole) > LONGEST_CLOSED {
+        return None;
+    }
+    let minor = |row: usize, column: usize| -> Vec<Vec<Expr>> {
+        let rows = matrix.iter().enumerate().filter(|(i, _)| *i != row);
+        let kept = |line: &Vec<Expr>| [&line[..column], &line[column + 1..]].concat();
+        rows.map(|(_, line)| kept(line)).collect()
+    };
+    let entry = |s: usize, u: usize| {
+        let cofactor = determinant(g, &minor(u, s));
+        let signed = if (s + u).is_multiple_of(2) {
+            cofactor
+        } else {
+            g.neg(cofactor)
+        };
+        g.div(signed, whole)
+    };
+    let entries: Vec<Expr> = (0..n * n)
+        .map(|place| entry(place / n, place % n))
+        .collect();
+    let simple = simplify_all(g, &entries, &options);
+    let short = simple.iter().all(|&e| length(g, e) <= LONGEST_CLOSED);
+    short.then(|| simple.chunks(n.max(1)).map(<[Expr]>::to_vec).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -301,5 +362,62 @@ mod tests {
         let product = read(&g, "(b - a) (c - a) (d - a) (c - b) (d - b) (d - c)");
         assert_zero(&g, g.sub(determinant(&g, &rows), product));
         assert_eq!(determinant(&g, &[]), g.one());
+    }
+
+    #[test]
+    fn the_inverse_of_a_rotation_is_written_out() {
+        let g = Graph::new();
+        let m = matrix(
+            &g,
+            &[
+                &["sin(psi)/sin(theta)", "cos(psi)/sin(theta)", "0"],
+                &["cos(psi)", "-sin(psi)", "0"],
+                &[
+                    "-cos(theta) sin(psi)/sin(theta)",
+                    "-cos(theta) cos(psi)/sin(theta)",
+                    "1",
+                ],
+            ],
+        );
+        let expected = matrix(
+            &g,
+            &[
+                &["sin(theta) sin(psi)", "cos(psi)", "0"],
+                &["sin(theta) cos(psi)", "-sin(psi)", "0"],
+                &["cos(theta)", "0", "1"],
+            ],
+        );
+        assert_eq!(inverse(&g, &m).unwrap(), expected);
+    }
+
+    #[test]
+    fn an_inverse_times_its_matrix_is_one() {
+        let g = Graph::new();
+        for rows in [
+            vec![vec!["a", "b"], vec!["c", "d"]],
+            vec![
+                vec!["1", "x", "0"],
+                vec!["0", "1", "y"],
+                vec!["z", "0", "1"],
+            ],
+            vec![
+                vec!["exp(t)", "1"],
+                vec!["1", "x + y + z + sqrt(1 + x^2) cos(y)"],
+            ],
+        ] {
+            let rows: Vec<&[&str]> = rows.iter().map(|row| &row[..]).collect();
+            let m = matrix(&g, &rows);
+            let inverse = inverse(&g, &m).unwrap();
+            for (i, row) in inverse.iter().enumerate() {
+                for j in 0..m.len() {
+                    let parts: Vec<Expr> =
+                        (0..m.len()).map(|k| g.mul(&[row[k], m[k][j]])).collect();
+                    let unit = if i == j { g.one() } else { g.zero() };
+                    assert_zero(&g, g.sub(g.add(&parts), unit));
+                }
+            }
+        }
+        let singular = matrix(&g, &[&["x", "y"], &["0", "0"]]);
+        assert!(inverse(&g, &singular).is_err());
     }
 }

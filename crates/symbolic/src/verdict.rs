@@ -217,6 +217,27 @@ impl Verdict {
             Verdict::Undecided { tried } => tried,
         }
     }
+
+    /// The verdict with `sentence` put before what it says already.
+    pub fn prefixed(mut self, sentence: &str) -> Verdict {
+        self.prefix(sentence);
+        self
+    }
+
+    /// Puts `sentence` before what the verdict says already.
+    pub fn prefix(&mut self, sentence: &str) {
+        let detail = match self {
+            Verdict::Proved(proof) | Verdict::Conditional { proof, .. } => &mut proof.detail,
+            Verdict::Numerical(evidence) => &mut evidence.why_no_proof,
+            Verdict::Refuted(counterexample) => &mut counterexample.detail,
+            Verdict::NotApplicable { detail, .. } => detail,
+            Verdict::Undecided { tried } => tried,
+        };
+        *detail = match detail.is_empty() {
+            true => sentence.to_owned(),
+            false => format!("{sentence}; {detail}"),
+        };
+    }
 }
 
 fn join(a: Proof, b: Proof) -> Proof {

@@ -137,7 +137,7 @@ impl Polynomial {
         let len = self
             .terms
             .iter()
-            .map(|(m, _)| m.exponents().len())
+            .map(|(m, _)| m.extent())
             .max()
             .unwrap_or(0);
         let mut occurs = vec![false; len];
@@ -319,19 +319,16 @@ impl Polynomial {
         let mut groups: std::collections::BTreeMap<Monomial, Vec<(Monomial, IBig)>> =
             Default::default();
         for (monomial, coefficient) in &self.terms {
-            let mut inside = vec![0; monomial.exponents().len()];
-            let mut outside = monomial.exponents().to_vec();
+            let (mut inside, mut outside) = (Monomial::one(), monomial.clone());
             for &generator in generators {
-                if generator < inside.len() {
-                    inside[generator] = outside[generator];
-                    outside[generator] = 0;
+                let exponent = monomial.exponent(generator);
+                if exponent != 0 {
+                    inside = inside.with_exponent(generator, exponent);
+                    outside = outside.with_exponent(generator, 0);
                 }
             }
-            let term = (Monomial::from_exponents(&outside), coefficient.clone());
-            groups
-                .entry(Monomial::from_exponents(&inside))
-                .or_default()
-                .push(term);
+            let term = (outside, coefficient.clone());
+            groups.entry(inside).or_default().push(term);
         }
         groups
             .into_iter()

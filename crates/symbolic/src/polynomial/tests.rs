@@ -54,6 +54,54 @@ fn product(factors: &[&Polynomial]) -> Polynomial {
         .fold(Polynomial::one(), |p, f| p.mul(f, &meter()).unwrap())
 }
 
+/// Monomials against their vectors of exponents, short and long, with the largest exponents.
+#[test]
+fn monomials_are_their_exponents() {
+    let mut random = Random::new(5);
+    let draw = |random: &mut Random| -> Vec<u16> {
+        let length = random.below(40) as usize;
+        let exponent = |random: &mut Random| match random.below(4) {
+            0 => 0,
+            1 => random.below(3) as u16,
+            2 => 32_767,
+            _ => random.below(32_768) as u16,
+        };
+        (0..length).map(|_| exponent(random)).collect()
+    };
+    let padded = |v: &[u16]| [v, &[0; 40]].concat()[..40].to_vec();
+    for _ in 0..3000 {
+        let (a, b) = (draw(&mut random), draw(&mut random));
+        let (m, n) = (Monomial::from_exponents(&a), Monomial::from_exponents(&b));
+        let (a, b) = (padded(&a), padded(&b));
+        let pairs = || a.iter().zip(&b);
+        let exponents = |m: &Monomial| padded(&m.exponents());
+        assert_eq!(exponents(&m), a);
+        let sum: Vec<u16> = pairs().map(|(x, y)| x + y).collect();
+        let product = m.product(&n);
+        assert_eq!(exponents(&product), sum);
+        assert_eq!(product.quotient(&n), Some(m.clone()));
+        let divides = pairs().all(|(x, y)| x >= y);
+        assert_eq!(m.quotient(&n).is_some(), divides, "{m:?} by {n:?}");
+        let least: Vec<u16> = pairs().map(|(x, y)| *x.min(y)).collect();
+        assert_eq!(exponents(&m.gcd(&n)), least);
+        let degree = |v: &[u16]| v.iter().map(|&e| u32::from(e)).sum::<u32>();
+        assert_eq!(m.gcd(&n).degree(), degree(&least));
+        assert_eq!(m.cmp(&n), degree(&a).cmp(&degree(&b)).then(a.cmp(&b)));
+        let (place, exponent) = (random.below(40) as usize, random.below(9) as u16);
+        let mut changed = a.clone();
+        changed[place] = exponent;
+        assert_eq!(
+            m.with_exponent(place, exponent),
+            Monomial::from_exponents(&changed)
+        );
+        assert_eq!(m.with_exponent(place, exponent).degree(), degree(&changed));
+        let nonzero = |(k, &e): (usize, &u16)| (e != 0).then_some((k, e));
+        let listed: Vec<(usize, u16)> = a.iter().enumerate().filter_map(nonzero).collect();
+        assert_eq!(m.iter().collect::<Vec<_>>(), listed);
+        assert_eq!(m.extent(), listed.last().map_or(0, |(k, _)| k + 1));
+    }
+}
+
 #[test]
 fn ring_operations_agree_with_evaluation() {
     let mut random = Random::new(1);

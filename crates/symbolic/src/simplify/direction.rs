@@ -1,6 +1,6 @@
 //! Pythagoras in both directions: other representatives of the same element of the field.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use dashu_int::IBig;
 
@@ -110,9 +110,14 @@ pub(super) fn shortened(field: &Field<'_>, p: &Polynomial) -> Polynomial {
 
 fn shifted(p: &Polynomial, pair: &Pythagoras) -> Polynomial {
     let mut terms: BTreeMap<Monomial, IBig> = p.terms().iter().cloned().collect();
-    // Each accepted shift removes a term, so this ends.
-    while let Some(shift) = best_shift(&terms, pair) {
+    let mut open: BTreeSet<Monomial> = terms.keys().flat_map(|m| corners(m, pair)).collect();
+    // Each accepted shift removes a term, and opens a corner only where it changed a value, so this ends.
+    while let Some(corner) = open.pop_last() {
+        let Some(shift) = shift_at(&terms, corner, pair) else {
+            continue;
+        };
         for (monomial, change) in shift {
+            open.extend(corners(&monomial, pair));
             let value = terms.remove(&monomial).unwrap_or(IBig::ZERO) + change;
             if !value.is_zero() {
                 terms.insert(monomial, value);
@@ -122,37 +127,42 @@ fn shifted(p: &Polynomial, pair: &Pythagoras) -> Polynomial {
     Polynomial::from_terms(terms.into_iter().collect())
 }
 
+/// The corners m whose relation `(s² m, c² m, m)` contains the monomial.
+fn corners(monomial: &Monomial, pair: &Pythagoras) -> impl Iterator<Item = Monomial> {
+    let divided = |generator: usize| {
+        let exponent = monomial.exponent(generator).checked_sub(2)?;
+        Some(monomial.with_exponent(generator, exponent))
+    };
+    [
+        Some(monomial.clone()),
+        divided(pair.sine),
+        divided(pair.cosine),
+    ]
+    .into_iter()
+    .flatten()
+}
+
 type Shift = [(Monomial, IBig); 3];
 
-fn best_shift(terms: &BTreeMap<Monomial, IBig>, pair: &Pythagoras) -> Option<Shift> {
+/// The multiple of the relation at the corner that leaves fewer terms.
+fn shift_at(
+    terms: &BTreeMap<Monomial, IBig>,
+    corner: Monomial,
+    pair: &Pythagoras,
+) -> Option<Shift> {
     let (s, c) = (pair.sine, pair.cosine);
     let value = |m: &Monomial| terms.get(m).cloned().unwrap_or(IBig::ZERO);
-    let mut corners: Vec<Monomial> = Vec::new();
-    for monomial in terms.keys() {
-        let (i, j) = (monomial.exponent(s), monomial.exponent(c));
-        corners.push(monomial.clone());
-        if i >= 2 {
-            corners.push(monomial.with_exponent(s, i - 2));
-        }
-        if j >= 2 {
-            corners.push(monomial.with_exponent(c, j - 2));
-        }
-    }
-    corners.sort();
-    corners.dedup();
-    for corner in corners.into_iter().rev() {
-        let sine = corner.with_exponent(s, corner.exponent(s) + 2);
-        let cosine = corner.with_exponent(c, corner.exponent(c) + 2);
-        let (at_sine, at_cosine, at_corner) = (value(&sine), value(&cosine), value(&corner));
-        // The relation is  a s² + c² - 1 = 0  with a = +1 for circular, and  a = -1, that is c² - s² - 1 = 0.
-        let a = IBig::from(if pair.circular { 1 } else { -1 });
-        let before = count(&[&at_sine, &at_cosine, &at_corner]);
-        for t in [&at_sine * &a, at_cosine.clone(), -at_corner.clone()] {
-            let (new_sine, new_cosine, new_corner) =
-                (&at_sine - &t * &a, &at_cosine - &t, &at_corner + &t);
-            if count(&[&new_sine, &new_cosine, &new_corner]) < before {
-                return Some([(sine, -(&t * &a)), (cosine, -t.clone()), (corner, t)]);
-            }
+    let sine = corner.with_exponent(s, corner.exponent(s) + 2);
+    let cosine = corner.with_exponent(c, corner.exponent(c) + 2);
+    let (at_sine, at_cosine, at_corner) = (value(&sine), value(&cosine), value(&corner));
+    // The relation is  a s² + c² - 1 = 0  with a = +1 for circular, and  a = -1, that is c² - s² - 1 = 0.
+    let a = IBig::from(if pair.circular { 1 } else { -1 });
+    let before = count(&[&at_sine, &at_cosine, &at_corner]);
+    for t in [&at_sine * &a, at_cosine.clone(), -at_corner.clone()] {
+        let (new_sine, new_cosine, new_corner) =
+            (&at_sine - &t * &a, &at_cosine - &t, &at_corner + &t);
+        if count(&[&new_sine, &new_cosine, &new_corner]) < before {
+            return Some([(sine, -(&t * &a)), (cosine, -t.clone()), (corner, t)]);
         }
     }
     None

@@ -36,5 +36,14 @@ mod variety;
 pub use decide::{decide_zero, Options, ZeroTest};
 pub use rank::{generic_determinant_nonzero, generic_rank, GenericRank, RankTest};
 
+/// The signs that an expression can have under assumptions, as far as its structure tells.
+pub fn known_sign(
+    graph: &crate::Graph,
+    e: crate::Expr,
+    assumptions: &assumptions::Assumptions,
+) -> assumptions::SignSet {
+    signs::Signs::new(graph, assumptions).sign(e)
+}
+
 #[cfg(test)]
 mod tests;

@@ -151,6 +151,8 @@ pub(super) struct Program {
     pub(super) odd_roots: Vec<u64>,
     /// The first so many operations suffice for all radicands that depend on no dependent symbol.
     pub(super) prefix: usize,
+    /// Values known to be positive wherever the expressions are defined.
+    pub(super) positive: Vec<Value>,
     /// Conditions under which the program represents the expressions, for people: `x >= 0, because of sqrt(x)`.
     pub(super) conditions: Vec<String>,
     /// Are all generators known to be algebraically independent, so that non-zero in the field means non-zero?
@@ -247,7 +249,11 @@ impl Program {
                 self.operations.push(operation);
             }
         }
+        let kept: rustc_hash::FxHashSet<usize> = sequence.iter().copied().collect();
+        self.positive
+            .retain(|&value| kept.contains(&(value as usize)));
         let renumber = |value: &mut Value| *value = position[*value as usize];
+        self.positive.iter_mut().for_each(renumber);
         self.outputs.iter_mut().for_each(renumber);
         self.constraints.iter_mut().for_each(renumber);
     }

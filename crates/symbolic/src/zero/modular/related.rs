@@ -1,15 +1,17 @@
-//! Roots of proportional radicands: where `R_i = k² R_j` for a positive rational k, `√R_i = k √R_j`.
+//! Roots of related radicands: where `R_i = k² w² R_j` for a positive rational k and a product w of values known to be
+//! positive, `√R_i = k w √R_j`.
 //!
-//! That two radicands are proportional is guessed from two points over one prime. The second root is then replaced, and
-//! `R_i - k² R_j` becomes a further output: if all outputs are zero so is this one, and the replacement was right.
+//! That two radicands are related is guessed from two points over one prime. The second root is then replaced, and
+//! `R_i - k² w² R_j` becomes a further output: if all outputs are zero so is this one, and the replacement was right.
 
 use dashu_base::Abs;
+use rustc_hash::FxHashMap;
 
 use super::super::evaluate::{Point, Run};
 use super::super::program::{Operation, Program, Value};
 use super::super::ring::Scalars;
 use super::{decide, Outcome, Plan, Session};
-use crate::number::prime_field::PrimeField;
+use crate::number::prime_field::{PrimeField, Residue};
 use crate::number::random::Random;
 use crate::number::reconstruct;
 use crate::rational::Rational;
@@ -31,7 +33,12 @@ struct Relation {
     root: Root,
     of: Root,
     factor: Rational,
+    /// At most two positive values, which stand before the root.
+    by: Vec<Value>,
 }
+
+/// The values of the prefix at a point.
+type Values = Vec<Option<Residue>>;
 
 impl Session<'_> {
     /// The outcome with suspects replaced by multiples of other roots, if all outputs are zero then.
@@ -57,7 +64,7 @@ impl Session<'_> {
         let mut random = Random::stream(self.plan.seed, u64::MAX - 1);
         let (field, first) = (0..DRAWS).find_map(|_| {
             let (field, point) = self.draw(&mut random)?;
-            Some((field, self.radicands(&field, &point, &roots)?))
+            Some((field, self.prefix_at(&field, &point)?))
         })?;
         let second = (0..DRAWS).find_map(|_| {
             let point = Point::random(
@@ -67,43 +74,27 @@ impl Session<'_> {
                 &self.sizes.cuts,
                 self.plan.parametrization,
             )?;
-            self.radicands(&field, &point, &roots)
+            self.prefix_at(&field, &point)
         })?;
+        let guess = Guess::new(field, first, second, &self.program.positive);
         let mut found: Vec<Relation> = Vec::new();
-        for (i, root) in roots.iter().enumerate() {
+        for root in &roots {
             if !self.suspects.contains(&root.radical) {
                 continue;
             }
-            let earlier = roots
-                .iter()
-                .enumerate()
-                .filter(|(_, of)| of.place < root.place);
-            found.extend(earlier.into_iter().find_map(|(j, of)| {
-                if found.iter().any(|known| known.root.radical == of.radical) {
-                    return None;
+            let earlier = roots.iter().filter(|of| of.place < root.place);
+            found.extend(earlier.into_iter().find_map(|of| {
+                match found.iter().any(|known| known.root.radical == of.radical) {
+                    true => None,
+                    false => guess.relation(*root, *of),
                 }
-                let ratio = |values: &[_]| -> Option<_> {
-                    Some(field.mul(values[i], field.inv(values[j])?))
-                };
-                let common = ratio(&first).filter(|&r| Some(r) == ratio(&second))?;
-                let factor = reconstruct::rational(&field, field.sqrt(common)?)?.abs();
-                Some(Relation {
-                    root: *root,
-                    of: *of,
-                    factor,
-                })
             }));
         }
         (!found.is_empty()).then_some(found)
     }
 
-    /// The radicands at a point where all roots exist.
-    fn radicands(
-        &self,
-        field: &PrimeField,
-        point: &Point,
-        roots: &[Root],
-    ) -> Option<Vec<crate::number::prime_field::Residue>> {
+    /// The values of the prefix at a point where all roots exist.
+    fn prefix_at(&self, field: &PrimeField, point: &Point) -> Option<Values> {
         let negative = vec![false; self.program.radicals as usize];
         let ring = Scalars {
             field: *field,
@@ -111,7 +102,87 @@ impl Session<'_> {
         };
         let mut run = Run::new(self.program, point, Vec::new());
         run.advance(&ring, self.program.prefix).ok()?;
-        Some(roots.iter().map(|root| *run.get(root.radicand)).collect())
+        let scalar = |place: usize| match self.program.operations[place] {
+            Operation::Matrix { .. } | Operation::Solve { .. } => None,
+            _ => Some(*run.get(place as Value)),
+        };
+        Some((0..self.program.prefix).map(scalar).collect())
+    }
+}
+
+/// What two points over one prime show.
+struct Guess {
+    field: PrimeField,
+    first: Values,
+    second: Values,
+    /// Positive values, each with what it is multiplied with from the first point to the second, squared.
+    changes: Vec<(Value, Residue)>,
+    by_change: FxHashMap<u64, Value>,
+}
+
+impl Guess {
+    fn new(field: PrimeField, first: Values, second: Values, positive: &[Value]) -> Guess {
+        let mut guess = Guess {
+            field,
+            first,
+            second,
+            changes: Vec::new(),
+            by_change: FxHashMap::default(),
+        };
+        for &value in positive {
+            let Some(change) = guess.change(value) else {
+                continue;
+            };
+            let square = field.mul(change, change);
+            guess.changes.push((value, square));
+            guess.by_change.entry(field.to_u64(square)).or_insert(value);
+        }
+        guess
+    }
+
+    fn change(&self, value: Value) -> Option<Residue> {
+        let at = |values: &Values| values.get(value as usize).copied().flatten();
+        Some(
+            self.field
+                .mul(at(&self.second)?, self.field.inv(at(&self.first)?)?),
+        )
+    }
+
+    /// How the radicands are related, if the points show it.
+    fn relation(&self, root: Root, of: Root) -> Option<Relation> {
+        let field = &self.field;
+        let change = field.mul(
+            self.change(root.radicand)?,
+            field.inv(self.change(of.radicand)?)?,
+        );
+        let before = |value: &Value| *value < root.place;
+        let one = |change: Residue| {
+            let value = self.by_change.get(&field.to_u64(change)).copied();
+            value.filter(before)
+        };
+        let by = if change == field.one() {
+            Vec::new()
+        } else if let Some(value) = one(change) {
+            vec![value]
+        } else {
+            self.changes.iter().find_map(|&(value, square)| {
+                let other = one(field.mul(change, field.inv(square)?))?;
+                before(&value).then(|| vec![value, other])
+            })?
+        };
+        let at = |value: Value| self.first.get(value as usize).copied().flatten();
+        let mut ratio = field.mul(at(root.radicand)?, field.inv(at(of.radicand)?)?);
+        for &value in &by {
+            let inverse = field.inv(at(value)?)?;
+            ratio = field.mul(ratio, field.mul(inverse, inverse));
+        }
+        let factor = reconstruct::rational(field, field.sqrt(ratio)?)?.abs();
+        Some(Relation {
+            root,
+            of,
+            factor,
+            by,
+        })
     }
 }
 
@@ -147,16 +218,19 @@ fn replaced(program: &Program, relations: &[Relation]) -> Program {
         let square = constant(-(&relation.factor * &relation.factor));
         program.operations[relation.root.place as usize] = Operation::Product {
             coefficient: factor,
-            factors: Box::new([relation.of.place]),
+            factors: [&relation.by[..], &[relation.of.place]].concat().into(),
         };
         // It is no longer chosen.
         program.adjoined[relation.root.radical as usize] = true;
+        let twice = [&relation.by[..], &relation.by[..]].concat();
+        program.operations.push(Operation::Product {
+            coefficient: one,
+            factors: [&twice[..], &[relation.of.radicand]].concat().into(),
+        });
+        let multiple = program.operations.len() as Value - 1;
         program.operations.push(Operation::Sum {
             constant: zero,
-            terms: Box::new([
-                (relation.root.radicand, one),
-                (relation.of.radicand, square),
-            ]),
+            terms: Box::new([(relation.root.radicand, one), (multiple, square)]),
         });
         program.outputs.push(program.operations.len() as Value - 1);
     }

@@ -48,6 +48,7 @@ pub(super) fn prepare(graph: &Graph, question: &Question<'_>) -> Program {
     let value = |e: &Expr| builder.memo.get(e).copied().unwrap_or_default();
     builder.program.outputs = question.outputs.iter().map(value).collect();
     builder.program.constraints = question.constraints.iter().map(|(f, _)| value(f)).collect();
+    builder.program.positive = builder.positive();
     builder.program.arranged()
 }
 
@@ -113,6 +114,21 @@ impl<'g> Builder<'g> {
             moduli: FxHashMap::default(),
             lowered: FxHashMap::default(),
         }
+    }
+
+    /// Values of known sign, from which roots could be taken; of use only where several roots may be related.
+    fn positive(&mut self) -> Vec<Value> {
+        if self.program.radicals < 2 {
+            return Vec::new();
+        }
+        let graph = self.graph;
+        let built = self.memo.iter();
+        let known = built
+            .filter(|(&e, _)| graph.as_number(e).is_none() && self.signs.sign(e).is_positive());
+        let mut positive: Vec<Value> = known.map(|(_, &value)| value).collect();
+        positive.sort_unstable();
+        positive.dedup();
+        positive
     }
 
     /// Builds `e` and everything below it, on an explicit stack.
