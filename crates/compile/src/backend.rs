@@ -106,15 +106,6 @@ impl Evaluator for Backend {
         let evaluator = self.evaluator();
         evaluator.evaluate_groups(groups, variables, workspace, outputs)
     }
-
-    fn evaluate(
-        &self,
-        variables: &[f64],
-        workspace: &mut Workspace,
-        outputs: &mut [f64],
-    ) -> Result<(), EvaluateFailure> {
-        self.evaluator().evaluate(variables, workspace, outputs)
-    }
 }
 
 impl BlockEvaluator for Backend {

@@ -44,6 +44,8 @@ pub struct NamedExpr {
     pub value: Expr,
     /// What it is, in a few words.
     pub meaning: String,
+    /// Whether it is one of many components of which only those that do not vanish are of interest.
+    pub is_component: bool,
 }
 
 impl NamedExpr {
@@ -53,6 +55,19 @@ impl NamedExpr {
             name: name.into(),
             value,
             meaning: meaning.into(),
+            is_component: false,
+        }
+    }
+
+    /// A component of an array, of interest where it does not vanish.
+    pub fn component(
+        name: impl Into<String>,
+        value: Expr,
+        meaning: impl Into<String>,
+    ) -> NamedExpr {
+        NamedExpr {
+            is_component: true,
+            ..NamedExpr::new(name, value, meaning)
         }
     }
 }
@@ -359,7 +374,7 @@ impl Equations {
 }
 
 /// A name that nothing in the system has: `wanted`, with underscores behind it where needed.
-pub(crate) fn unused_name(system: &System, wanted: &str) -> String {
+pub fn unused_name(system: &System, wanted: &str) -> String {
     let mut name = wanted.to_string();
     while is_used(system, &name) {
         name.push('_');

@@ -9,6 +9,7 @@ use crate::selection::{eliminate, pivot_cost, Selection};
 use crate::system::{Coordinate, System};
 use crate::terms::MotionTerms;
 use chetaev_symbolic::linear::SolveError;
+use chetaev_symbolic::matrix::inverse;
 use chetaev_symbolic::{Expr, Symbol};
 
 /// A quasi-velocity: its name, its symbol and the symbol of its rate.
@@ -160,21 +161,12 @@ impl Frame {
         drift: Vec<Expr>,
     ) -> Result<Frame, SolveError> {
         let (g, n) = (&system.graph, system.n());
-        let transposed: Vec<Expr> = (0..n)
-            .flat_map(|i| (0..n).map(move |s| (s, i)))
-            .map(|(s, i)| fields[s][i])
+        let transposed: Vec<Vec<Expr>> = (0..n)
+            .map(|i| fields.iter().map(|field| field[i]).collect())
             .collect();
-        let mut forms = vec![vec![g.zero(); n]; n];
-        for u in 0..n {
-            let mut unit = vec![g.zero(); n];
-            unit[u] = g.one();
-            for (s, entry) in g.solve(&transposed, &unit)?.into_iter().enumerate() {
-                forms[s][u] = entry;
-            }
-        }
         Ok(Frame {
             speeds: (0..n).map(|s| stated(system, s)).collect(),
-            forms,
+            forms: inverse(g, &transposed)?,
             fields,
             drift,
             adapted: Vec::new(),
@@ -283,23 +275,18 @@ impl Forms {
         let velocities = system.velocity_symbols();
         let definitions: Vec<Expr> = self.speeds.iter().map(|s| s.definition).collect();
         let forms = g.jacobian(&definitions, &velocities);
-        let matrix = forms.concat();
         let at_rest: Vec<(Expr, Expr)> =
             system.coordinates.iter().map(|c| (c.v, g.zero())).collect();
         let offsets = g.substitute_all(&definitions, &at_rest);
         let negative: Vec<Expr> = offsets.iter().map(|&a| g.neg(a)).collect();
-        let fields = (0..n)
-            .map(|s| {
-                let mut unit = vec![g.zero(); n];
-                unit[s] = g.one();
-                g.solve(&matrix, &unit)
-            })
-            .collect::<Result<_, _>>()?;
+        let inverse = inverse(g, &forms)?;
         Ok(Frame {
-            drift: g.solve(&matrix, &negative)?,
+            drift: inverse.iter().map(|row| dot(g, row, &negative)).collect(),
             speeds: self.speeds,
+            fields: (0..n)
+                .map(|s| inverse.iter().map(|row| row[s]).collect())
+                .collect(),
             forms,
-            fields,
             adapted: self.adapted,
         })
     }

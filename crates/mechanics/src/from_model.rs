@@ -3,7 +3,7 @@
 use crate::mass::NamedMasses;
 use crate::system::{
     Assumption, CharacteristicFormulas, FrameFields, Particle, Relation, System, SystemError,
-    SystemParts, Thrust,
+    SystemParts, Thrust, VariationOperator,
 };
 use chetaev_model::model::{MassLaw, Model, Thrust as StatedThrust};
 use chetaev_symbolic::syntax::Relation as Stated;
@@ -104,10 +104,24 @@ impl System {
                 .filter(|c| c.unit.as_ref().is_some_and(|unit| unit.text == "rad"))
                 .map(|c| c.name.clone())
                 .collect(),
+            integral_conditions: model
+                .integral_conditions
+                .iter()
+                .map(|c| (c.integral.clone(), c.left, c.right, c.text.clone()))
+                .collect(),
+            search_functions: model.search.iter().map(|f| f.value).collect(),
             integrals: model
                 .integrals
                 .iter()
                 .map(|i| (i.name.clone(), i.value))
+                .collect(),
+            variations: model
+                .variations
+                .iter()
+                .map(|v| VariationOperator {
+                    name: v.name.clone(),
+                    relations: v.relations.clone(),
+                })
                 .collect(),
             assumptions: model.assumptions.iter().filter_map(assumption).collect(),
         };

@@ -10,7 +10,7 @@ pub mod equations;
 pub mod formulations;
 pub mod frame;
 mod from_model;
-mod linear;
+pub mod linear;
 pub mod mass;
 pub mod order;
 pub mod particles;

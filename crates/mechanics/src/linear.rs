@@ -4,7 +4,7 @@ use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::{Expr, Graph, Symbol};
 
 /// `Σ_i a_i b_i`; terms with a factor zero are left out.
-pub(crate) fn dot<'a>(
+pub fn dot<'a>(
     g: &Graph,
     a: impl IntoIterator<Item = &'a Expr>,
     b: impl IntoIterator<Item = &'a Expr>,
@@ -21,7 +21,7 @@ pub(crate) fn dot<'a>(
 ///
 /// # Errors
 /// A matrix that is singular by its form.
-pub(crate) fn solve_linear(
+pub fn solve_linear(
     g: &Graph,
     equations: &[Expr],
     unknowns: &[Symbol],
@@ -35,7 +35,7 @@ pub(crate) fn solve_linear(
 ///
 /// # Errors
 /// A matrix that is singular by its form.
-pub(crate) fn solve_with_multipliers(
+pub fn solve_with_multipliers(
     g: &Graph,
     equations: &[Expr],
     unknowns: &[Symbol],

@@ -1,6 +1,6 @@
 //! Deterministic sample states in double precision, for heuristic choices only: never evidence of a claim.
 
-use crate::system::{Relation, System};
+use crate::system::{Coordinate, Relation, System};
 use crate::terms::MotionTerms;
 use chetaev_symbolic::{Expr, Graph, Node, Symbol};
 use std::collections::BTreeMap;
@@ -224,7 +224,9 @@ fn project_velocities(
     let mut metric = w.as_deref().and_then(|w| KineticMetric::of(w, n));
     for _ in 0..steps {
         let (f, jacobian) = values.split_at(r);
-        if f.iter().all(|x| x.abs() < 1e-11) {
+        let speed = |c: &Coordinate| point.get(&c.v_symbol).copied().unwrap_or(0.0);
+        let speeds: Vec<f64> = terms.jets.iter().map(speed).collect();
+        if is_satisfied(f, jacobian, &speeds) {
             return true;
         }
         let step = match &metric {
@@ -251,6 +253,15 @@ fn project_velocities(
         (*point, values) = (next, found);
     }
     false
+}
+
+/// Whether constraints vanish up to rounding of summands of the size of `∂f/∂v · v`.
+fn is_satisfied(f: &[f64], jacobian: &[f64], speeds: &[f64]) -> bool {
+    let rows = jacobian.chunks(speeds.len().max(1));
+    f.iter().zip(rows).all(|(f, row)| {
+        let summands = row.iter().zip(speeds).map(|(j, v)| (j * v).abs());
+        f.abs() < 1e-11 + 1e-14 * summands.sum::<f64>()
+    })
 }
 
 /// Directions in which gradients are seen to change count ten times as heavy from then on.

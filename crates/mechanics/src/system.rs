@@ -96,6 +96,15 @@ pub struct CharacteristicFormulas {
     pub formulas: Vec<Expr>,
 }
 
+/// A linear differential operator on virtual displacements for the variations of some velocities, δv = A(δq) (T1 (42)).
+#[derive(Clone, Debug)]
+pub struct VariationOperator {
+    /// The name in the model.
+    pub name: String,
+    /// Pairs of a coordinate and δv of it, linear in symbols `delta_NAME` and their derivatives.
+    pub relations: Vec<(usize, Expr)>,
+}
+
 /// A mass with a law of its own, M' = Φ(t, q, v, M): a state beside the coordinates.
 #[derive(Clone, Debug)]
 pub struct MassVariable {
@@ -209,8 +218,14 @@ pub struct SystemParts {
     pub definitions: Vec<(String, Expr)>,
     /// Names of the coordinates that are angles by their unit.
     pub angles: Vec<String>,
+    /// Equations (left, right) of the states on which such a function is one, with its name and their text.
+    pub integral_conditions: Vec<(String, Expr, Expr, String)>,
+    /// Functions of (t, q) for the families in which integrals are searched, beside those that occur.
+    pub search_functions: Vec<Expr>,
     /// Functions that the user expects to be first integrals, as (name, G).
     pub integrals: Vec<(String, Expr)>,
+    /// Operators for the variations of velocities.
+    pub variations: Vec<VariationOperator>,
     /// Assumptions.
     pub assumptions: Vec<Assumption>,
 }
@@ -320,8 +335,14 @@ pub struct System {
     pub definitions: Vec<(Expr, Expr)>,
     /// Names of the coordinates that are angles by their unit.
     pub angles: Vec<String>,
+    /// Equations (left, right) of the states on which such a function is one, with its name and their text.
+    pub integral_conditions: Vec<(String, Expr, Expr, String)>,
+    /// Functions of (t, q) for the families in which integrals are searched, beside those that occur.
+    pub search_functions: Vec<Expr>,
     /// Functions that the model states as first integrals, with their names.
     pub integrals: Vec<(String, Expr)>,
+    /// Operators for the variations of velocities that the model states.
+    pub variations: Vec<VariationOperator>,
     /// Assumptions of the model.
     pub assumptions: Vec<Assumption>,
     /// Places of the coordinates by name.
@@ -417,7 +438,10 @@ impl System {
                 .map(|(name, value)| (g.symbol(&name, 0), value))
                 .collect(),
             angles: parts.angles,
+            integral_conditions: parts.integral_conditions,
+            search_functions: parts.search_functions,
             integrals: parts.integrals,
+            variations: parts.variations,
             assumptions: parts.assumptions,
             places: places(&parts.coordinates),
             coordinates,

@@ -77,6 +77,12 @@ pub struct Model {
     pub simulation: Simulation,
     /// Candidate first integrals.
     pub integrals: Vec<Definition>,
+    /// Operators for the variations of velocities.
+    pub variations: Vec<Variation>,
+    /// Where such an integral holds on a part of the states only: the name of the integral, and an equation of the part.
+    pub integral_conditions: Vec<IntegralCondition>,
+    /// Functions of (t, q) that may occur in first integrals and invariant measures, beside those that occur in the model.
+    pub search: Vec<Definition>,
     /// How to draw the system.
     pub drawing: Option<Drawing>,
     /// What the author expects to be found.
@@ -89,6 +95,19 @@ pub struct Model {
     pub sources: Sources,
     /// The same texts as they are embedded in a study.
     pub text: ModelText,
+}
+
+/// An equation of the states on which an integral holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IntegralCondition {
+    /// The name of the integral.
+    pub integral: String,
+    /// Left side.
+    pub left: Expr,
+    /// Right side.
+    pub right: Expr,
+    /// As it is written.
+    pub text: String,
 }
 
 /// A coordinate.
@@ -171,6 +190,17 @@ pub struct Definition {
     pub text: String,
     /// A word about it; may be empty.
     pub description: String,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// A linear differential operator for the variations of velocities, δv = A(δq).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variation {
+    /// Its name.
+    pub name: String,
+    /// Pairs of a coordinate and the variation of its velocity, linear in symbols `delta_x` and their derivatives.
+    pub relations: Vec<(usize, Expr)>,
     /// Where it is stated.
     pub place: Place,
 }
@@ -363,6 +393,8 @@ pub struct Simulation {
     pub state: Option<StateKind>,
     /// Whether the state is projected on the constraints during the run.
     pub project: Option<bool>,
+    /// Whether the first integrals that are found are kept by projection.
+    pub keep_integrals: Option<bool>,
 }
 
 /// When the state is put out.

@@ -12,6 +12,7 @@ pub mod formulation_flow;
 pub mod functions;
 pub mod initial;
 pub mod jet_flow;
+pub mod keep;
 mod least_norm;
 mod leaving;
 pub mod multiplier_flow;

@@ -8,6 +8,7 @@ use crate::chart::{self, Chart, DEGRADED, HYSTERESIS};
 use crate::drift::Drift;
 use crate::follow::Follow;
 use crate::initial::ConsistentState;
+use crate::keep::Keep;
 use crate::least_norm::least_step;
 use crate::leaving::Anchor;
 use crate::numeric::{Completion, NumericSystem};
@@ -44,6 +45,8 @@ pub struct MultiplierFlow {
     accepted_pivot: f64,
     /// Quantities followed at accepted steps.
     pub follow: Option<Follow>,
+    /// Integrals kept by projection.
+    pub keep: Option<Keep>,
     anchor: Anchor,
     /// Quantities whose vanishing makes the equations singular.
     pub watch: Watch,
@@ -73,6 +76,7 @@ impl MultiplierFlow {
         };
         let mut flow = MultiplierFlow {
             follow: None,
+            keep: None,
             anchor: Anchor::default(),
             q: start.q.clone(),
             v: start.v.clone(),
@@ -290,6 +294,23 @@ impl MultiplierFlow {
         changed
     }
 
+    /// Moves an accepted state onto the integrals to keep; true when y changed.
+    fn bring_back(&mut self, t: f64, y: &mut [f64]) -> bool {
+        if self.keep.is_none() || self.unpack(t, y).is_err() {
+            return false;
+        }
+        let metric = self.system.metric();
+        let moved = self
+            .keep
+            .as_mut()
+            .is_some_and(|keep| keep.bring_back(t, &mut self.q, &mut self.v, &metric));
+        if moved {
+            let packed = self.pack(&self.q, &self.v);
+            y.copy_from_slice(&packed);
+        }
+        moved
+    }
+
     /// Records an accepted state, projects it and looks for a better chart.
     fn settle_and_choose(&mut self, t: f64, y: &mut [f64]) -> Control {
         if self.unpack(t, y).is_err() || self.system.evaluate(t, &self.q, &self.v).is_err() {
@@ -397,7 +418,11 @@ impl System for MultiplierFlow {
     }
 
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Control {
-        let control = self.settle_and_choose(t, y);
+        let moved = self.bring_back(t, y);
+        let control = match self.settle_and_choose(t, y) {
+            Control::Continue if moved => Control::StateModified,
+            other => other,
+        };
         if matches!(control, Control::Stop(HaltReason::LeftConstraint { .. })) {
             return control;
         }

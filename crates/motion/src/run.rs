@@ -5,6 +5,7 @@ use crate::formulation_flow::{FlowError, FormulationFlow};
 use crate::initial::jets::JetStart;
 use crate::initial::ConsistentState;
 use crate::jet_flow::{self, JetFlow};
+use crate::keep::Keep;
 use crate::multiplier_flow::{MultiplierFlow, StateKind};
 use crate::numeric::{Binding, NumericSystem};
 use crate::row::RowLayout;
@@ -44,6 +45,8 @@ pub struct RunSettings {
     /// Quantities in (t, q, v) whose deviation from their initial values is measured at every step, and with them those of
     /// the constraints; nothing is measured when empty.
     pub follow: Vec<Expr>,
+    /// First integrals in (t, q, v) whose values are kept by projection after each step, in the multiplier form.
+    pub keep: Vec<Expr>,
     /// Initial values of variables that coordinates and velocities do not determine, by name (`kappa_NAME`).
     pub own: Vec<(String, f64)>,
 }
@@ -62,6 +65,7 @@ impl RunSettings {
             state: StateKind::Reduced,
             project: false,
             follow: Vec::new(),
+            keep: Vec::new(),
             own: Vec::new(),
         }
     }
@@ -225,6 +229,7 @@ impl Subject<'_> {
             watch,
         );
         flow.follow = self.follow(settings)?;
+        flow.keep = self.keep(settings)?;
         let y0 = flow.pack(&self.start.q, &self.start.v);
         let (pieces, end) = self.watched(&mut flow, &watched, y0, settings, watcher)?;
         let ending = match end {
@@ -476,6 +481,16 @@ impl Subject<'_> {
         let kept = [settings.follow.clone(), self.residuals()].concat();
         let follow = Follow::new(self.system, self.binding, &kept, start)?;
         Ok(Some(follow))
+    }
+
+    fn keep(&self, settings: &RunSettings) -> Result<Option<Keep>, RunError> {
+        if settings.keep.is_empty() {
+            return Ok(None);
+        }
+        let start = (self.start.t, &self.start.q[..], &self.start.v[..]);
+        let (vanishing, kept) = (self.residuals(), &settings.keep[..]);
+        let keep = Keep::new(self.system, self.binding, (&vanishing, kept), start)?;
+        Ok(Some(keep))
     }
 
     fn options<'o>(

@@ -180,15 +180,6 @@ impl Evaluator for Native {
         state.evaluate(&self.code, groups, variables, outputs)?;
         state.first_failure()
     }
-
-    fn evaluate(
-        &self,
-        variables: &[f64],
-        workspace: &mut Workspace,
-        outputs: &mut [f64],
-    ) -> Result<(), EvaluateFailure> {
-        self.evaluate_groups(self.counts.len() - 1, variables, workspace, outputs)
-    }
 }
 
 impl BlockEvaluator for Native {

@@ -15,6 +15,7 @@ mod roots;
 
 use crate::card::Card;
 use crate::characteristics::{self, Selection};
+use crate::formulations::DeriveError;
 use crate::prover::Prover;
 use crate::redundancy::LeftOut;
 use crate::system::System;
@@ -81,6 +82,18 @@ pub struct Finding {
     pub verdict: Verdict,
     /// Formulas to show.
     pub formulas: Vec<Formula>,
+}
+
+impl From<&DeriveError> for Verdict {
+    fn from(problem: &DeriveError) -> Verdict {
+        Verdict::undecided(format!("the equations could not be derived: {problem}"))
+    }
+}
+
+impl From<DeriveError> for Finding {
+    fn from(problem: DeriveError) -> Finding {
+        Verdict::from(&problem).into()
+    }
 }
 
 impl From<Verdict> for Finding {
@@ -212,6 +225,22 @@ pub struct Context<'a> {
 impl std::fmt::Debug for Context<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "Context({})", self.system.name)
+    }
+}
+
+/// Subjects of a claim that is made once where `holds`, and else not at all.
+pub fn once_where(holds: bool) -> Vec<Option<String>> {
+    match holds {
+        true => vec![None],
+        false => Vec::new(),
+    }
+}
+
+/// The verdict, which says first what was proved where it is proved.
+fn stating(verdict: Verdict, what: &str) -> Verdict {
+    match verdict {
+        Verdict::Proved(_) => verdict.prefixed(what),
+        other => other,
     }
 }
 

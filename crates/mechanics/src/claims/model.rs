@@ -1,6 +1,6 @@
 //! The claims of claims.md §1 that need no geometry: regularity and the form of the constraints.
 
-use super::{order, Claim, Context, Finding, Formula, Group};
+use super::{order, stating, Claim, Context, Finding, Formula, Group};
 use crate::characteristics::Manifold;
 use crate::claims::formulation::{basis, manifold};
 use crate::constraint::Constraint;
@@ -404,17 +404,7 @@ impl Claim for ConstraintsHomogeneous {
             &Manifold::default(),
             "identically in q, v, t",
         );
-        with_detail(verdict, &format!("degree {}", degrees.join(", "))).into()
-    }
-}
-
-fn with_detail(verdict: Verdict, addition: &str) -> Verdict {
-    match verdict {
-        Verdict::Proved(mut proof) => {
-            proof.detail = format!("{addition}; {}", proof.detail);
-            Verdict::Proved(proof)
-        }
-        other => other,
+        stating(verdict, &format!("degree {}", degrees.join(", "))).into()
     }
 }
 

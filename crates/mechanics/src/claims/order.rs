@@ -1,7 +1,7 @@
 //! Claims about constraints of order m (claims.md §5, T2 §2 and §5).
 
 use super::formulation::basis;
-use super::{Claim, Context, Finding, Group};
+use super::{stating, Claim, Context, Finding, Group};
 use crate::characteristics::{Characteristics, Manifold};
 use crate::equations::Equations;
 use crate::formulations::{Formulation, Routh};
@@ -9,6 +9,7 @@ use crate::linear::{dot, solve_linear};
 use crate::order::determined::{self, Determined};
 use crate::order::lifting;
 use crate::order::reduced::without_multipliers;
+use crate::order::structure::assignment;
 use crate::words::differentiated_so;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
@@ -187,7 +188,7 @@ pub(crate) fn admissible(cx: &Context<'_>, c: &Characteristics) -> Verdict {
         names.join(", "),
         c.k()
     );
-    with_detail(holds.and(rank), &detail)
+    stating(holds.and(rank), &detail)
 }
 
 /// The formulas do not satisfy a constraint.
@@ -207,16 +208,6 @@ fn violated(cx: &Context<'_>, row: usize, mut found: Counterexample) -> Countere
         }
     );
     found
-}
-
-fn with_detail(verdict: Verdict, detail: &str) -> Verdict {
-    match verdict {
-        Verdict::Proved(mut proof) => {
-            proof.detail = format!("{detail}: {}", proof.detail);
-            Verdict::Proved(proof)
-        }
-        other => other,
-    }
 }
 
 impl Claim for OrderDetermined {
@@ -252,7 +243,7 @@ impl Claim for OrderDetermined {
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         let determined = determined::with_multipliers(&basis(cx));
         let detail = description(cx, &determined);
-        with_detail(regular(cx, &determined), &detail).into()
+        stating(regular(cx, &determined), &detail).into()
     }
 }
 
@@ -295,18 +286,34 @@ fn states(cx: &Context<'_>, determined: &Determined) -> Manifold {
             solved: [solved, further].concat(),
         };
     }
-    let highest = |i: usize| cx.terms.jets[i].v_symbol;
-    let constraints = determined.equations[n..]
+    let constraints = determined.equations[n..].iter();
+    let differentiated = differentiated.iter().map(|&i| &determined.equations[i]);
+    let equations: Vec<Expr> = constraints.chain(differentiated).copied().collect();
+    let implicit = with_symbols(cx, &equations, &determined.unknowns);
+    Manifold { implicit, solved }
+}
+
+/// Each equation with a symbol of its own that occurs in it, for the constraints, which come first, preferably the dependent
+/// derivative chosen. Equations for which there are not enough symbols have a singular Jacobian wherever they hold.
+fn with_symbols(cx: &Context<'_>, equations: &[Expr], symbols: &[Symbol]) -> Vec<(Expr, Symbol)> {
+    let g = &cx.system.graph;
+    let chosen = |row: usize| cx.selection.dependent.get(row).copied();
+    let occurs: Vec<Vec<Option<u32>>> = equations
         .iter()
-        .zip(&cx.selection.dependent);
-    let implicit = differentiated
-        .iter()
-        .map(|&i| (determined.equations[i], highest(i)))
-        .chain(constraints.map(|(&f, &d)| (f, highest(d))));
-    Manifold {
-        implicit: implicit.collect(),
-        solved,
-    }
+        .enumerate()
+        .map(|(row, &e)| {
+            let preferred = |j: usize| u32::from(chosen(row) == Some(j));
+            (0..symbols.len())
+                .map(|j| {
+                    g.any_contains_any(&[e], &[symbols[j]])
+                        .then(|| preferred(j))
+                })
+                .collect()
+        })
+        .collect();
+    let partners = assignment(&occurs).unwrap_or_default();
+    let pairs = equations.iter().zip(partners);
+    pairs.map(|(&e, j)| (e, symbols[j])).collect()
 }
 
 /// The differentiated equations and the constraints solved for the unknowns in which they are affine together, where these
@@ -325,7 +332,9 @@ fn linear_part(
     let mut unknowns = determined.unknowns.clone();
     // What stands in the slopes by the others enters nonlinearly.
     let slopes = g.jacobian(&equations, &unknowns).concat();
-    unknowns.retain(|&symbol| !g.any_contains_any(&slopes, &[symbol]));
+    unknowns.retain(|symbol| {
+        g.any_contains_any(&equations, &[*symbol]) && !g.any_contains_any(&slopes, &[*symbol])
+    });
     if differentiated.is_empty() || unknowns.len() != equations.len() {
         return None;
     }
@@ -436,5 +445,5 @@ pub(crate) fn equivalence(cx: &Context<'_>, c: &Characteristics, residuals: &[Ex
         false => cx.prover.identity(system, &differences, &c.manifold, on),
     };
     let detail = "the left sides are combinations, with a matrix that is not singular, of the equations with multipliers after the multipliers are eliminated";
-    with_detail(same, detail).and(admissible(cx, c))
+    stating(same, detail).and(admissible(cx, c))
 }

@@ -237,11 +237,19 @@ impl<'a> Embedding<'a> {
             g.neg(terms.slopes[i]),
             g.neg(terms.forces[i]),
         ];
-        for (alpha, &momentum) in terms.dependent_momenta.iter().enumerate() {
-            let curvature = g.add(&[terms.g[i][alpha], terms.turning[alpha][i]]);
-            parts.push(g.neg(g.mul(&[curvature, momentum])));
-        }
+        parts.push(g.neg(self.curvature_term(terms, i)));
         g.add(&parts)
+    }
+
+    /// `(G^α_i + A^j ∂_jC^α_i) L_α`.
+    fn curvature_term(&self, terms: &Terms, i: usize) -> Expr {
+        let g = &self.system.graph;
+        let momenta = terms.dependent_momenta.iter().enumerate();
+        let parts = momenta.map(|(alpha, &momentum)| {
+            let curvature = g.add(&[terms.g[i][alpha], terms.turning[alpha][i]]);
+            g.mul(&[curvature, momentum])
+        });
+        g.add(&parts.collect::<Vec<_>>())
     }
 
     /// K and G by `K^l_i = Γ^l_i + C^β_iΓ^l_β`, `G^α_i = Γ^α_i + C^β_iΓ^α_β - C^α_lK^l_i + (Y_0+η^jY_j)C^α_i - Y_iF^α`
@@ -326,24 +334,39 @@ impl<'a> Embedding<'a> {
                 format!("∂L̄/∂{own}"),
             ));
             for (l, other) in independent.iter().enumerate() {
-                objects.push(NamedExpr::new(
+                objects.push(NamedExpr::component(
                     format!("K_{other}_{own}"),
                     terms.k[i][l],
                     format!("component of the bracket of the motion and Y_{own} along Y_{other}"),
                 ));
             }
             for (a, alpha) in dependent.iter().enumerate() {
-                objects.push(NamedExpr::new(
+                objects.push(NamedExpr::component(
                     format!("C_{alpha}_{own}"),
                     self.slopes[a][i],
                     format!("∂F_{alpha}/∂{own}"),
                 ));
-                objects.push(NamedExpr::new(
+                objects.push(NamedExpr::component(
                     format!("G_{alpha}_{own}"),
                     terms.g[i][a],
                     format!("component of the bracket of the motion and Y_{own} along X_{alpha}"),
                 ));
             }
+            objects.push(NamedExpr::new(
+                format!("Dp_{own}"),
+                terms.moved[i],
+                format!("D(p_{own})"),
+            ));
+            objects.push(NamedExpr::component(
+                format!("Kp_{own}"),
+                dot(g, &terms.k[i], &terms.momenta),
+                format!("Σ K p, the term of the brackets along Y for {own}"),
+            ));
+            objects.push(NamedExpr::component(
+                format!("GL_{own}"),
+                self.curvature_term(terms, i),
+                format!("Σ (G + A ∂C/∂η) ∂L/∂η, the term across the constraints for {own}"),
+            ));
         }
         objects.retain(|o| o.name.starts_with("Lbar") || !g.is_zero(o.value));
         objects

@@ -215,6 +215,8 @@ struct ReducedLegendre {
     velocities: Vec<(Expr, Expr)>,
     /// `∂H̃/∂q^i`, all i.
     by_coordinates: Vec<Expr>,
+    /// The radicands of φ and L*, as functions of (q, v^s, t).
+    radicands: Vec<Expr>,
 }
 
 impl ReducedLegendre {
@@ -237,23 +239,30 @@ impl ReducedLegendre {
             by_coordinates: g.gradient(inverse.hamiltonian, &system.coordinate_symbols()),
             velocities: parameters.into_iter().zip(inverse.velocities).collect(),
             hamiltonian: inverse.hamiltonian,
+            radicands: radicands(g, &[&ch.velocities[..], &[reduced.lagrangian]].concat()),
         }))
     }
 
     fn restrict(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
-        self.with_known_roots(system, system.graph.substitute_all(es, &self.velocities))
+        self.substituted(system, es, &self.velocities)
     }
 
-    /// Each expression as it is where it has no other roots than H̃, else with its roots split, so that those which depend
-    /// on each other meet.
-    fn with_known_roots(&self, system: &System, es: Vec<Expr>) -> Vec<Expr> {
+    /// The expressions with roots of φ and L* split, so that those which depend on each other meet; not where H̃ has no others,
+    /// and no roots of the forces, which meet those of the model as they are.
+    fn substituted(&self, system: &System, es: &[Expr], pairs: &[(Expr, Expr)]) -> Vec<Expr> {
         let g = &system.graph;
         let known = radicands(g, &[self.hamiltonian]);
         let is_known = |e: Expr| radicands(g, &[e]).iter().all(|root| known.contains(root));
-        es.into_iter()
-            .map(|e| match is_known(e) {
-                true => e,
-                false => split_roots(system, &[e])[0],
+        let meets = |e: Expr| {
+            let mut roots = radicands(g, &[e]).into_iter();
+            roots.any(|root| self.radicands.contains(&root))
+        };
+        let after = g.substitute_all(es, pairs);
+        es.iter()
+            .zip(after)
+            .map(|(&before, after)| match meets(before) && !is_known(after) {
+                true => split_roots(system, &[after])[0],
+                false => after,
             })
             .collect()
     }
@@ -276,7 +285,7 @@ impl ReducedLegendre {
     fn restrict_jet(&self, system: &System, reduced: &Reduced, es: &[Expr]) -> Vec<Expr> {
         let mut pairs = self.velocities.clone();
         pairs.extend(self.rates(system, reduced));
-        self.with_known_roots(system, system.graph.substitute_all(es, &pairs))
+        self.substituted(system, es, &pairs)
     }
 }
 

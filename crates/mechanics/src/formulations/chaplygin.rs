@@ -60,7 +60,10 @@ impl Formulation for Chaplygin {
 
 /// Independent velocities whose dependent coordinates occur nowhere: those of the selection where they are of this kind,
 /// else the choice of `model.chaplygin`.
-fn ignorable(basis: &Basis<'_>) -> Result<Characteristics, DeriveError> {
+///
+/// # Errors
+/// [`DeriveError`] where the dependent velocities cannot be solved for.
+pub fn ignorable(basis: &Basis<'_>) -> Result<Characteristics, DeriveError> {
     let (system, terms) = (basis.system, basis.terms);
     let rows = &basis.selection.rows;
     let given = natural(basis)?;

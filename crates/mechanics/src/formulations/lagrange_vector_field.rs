@@ -56,6 +56,8 @@ impl Formulation for LagrangeVectorField {
             .with_group("constraints", None, basis.constraint_equations())
             .with_objects(frame_objects(basis.system, &form.frame))
             .with_objects(form.cartan_objects())
+            .with_objects(form.two_form_objects())
+            .with_objects(form.field_objects(&rates))
             .with_objects(objects);
         equations.multipliers = indices.into_iter().zip(multipliers).collect();
         Ok(equations)
@@ -75,6 +77,9 @@ impl Formulation for LagrangeVectorField {
         }])
     }
 }
+
+/// Components of the 2-form, and of the field, are written out for so many coordinates.
+const MOST_COMPONENTS: usize = 4;
 
 /// Ω without its multipliers, and the forms Θ(f^l) ∧ dt, in the basis (dt, dq^1..dq^n, dη^1..dη^n).
 struct TwoForm<'a> {
@@ -268,6 +273,54 @@ impl<'a> TwoForm<'a> {
     }
 
     /// The components of Θ(L) that do not vanish.
+    /// The components of dΘ(L) + Q_s θ^s ∧ dt that do not vanish; nothing where they are too many to read.
+    fn two_form_objects(&self) -> Vec<NamedExpr> {
+        let (system, g) = (self.system, &self.system.graph);
+        if system.n() > MOST_COMPONENTS {
+            return Vec::new();
+        }
+        let mut names = vec!["t".to_string()];
+        names.extend(system.coordinates.iter().map(|c| c.name.clone()));
+        let bare = |name: &str| super::bare(name).to_string();
+        names.extend(
+            self.frame
+                .speeds
+                .iter()
+                .map(|s| match self.frame.is_natural(system) {
+                    true => format!("v_{}", bare(&s.name)),
+                    false => bare(&s.name),
+                }),
+        );
+        let mut objects = Vec::new();
+        for (a, first) in names.iter().enumerate() {
+            for (b, second) in names.iter().enumerate().skip(a + 1) {
+                if !g.is_zero(self.matrix[a][b]) {
+                    objects.push(NamedExpr::component(
+                        format!("Omega_{first}_{second}"),
+                        self.matrix[a][b],
+                        format!("component of dΘ(L) + Q ∧ dt along d{first} ∧ d{second}"),
+                    ));
+                }
+            }
+        }
+        objects
+    }
+
+    /// The components of X along ∂/∂η.
+    fn field_objects(&self, rates: &[Expr]) -> Vec<NamedExpr> {
+        if self.system.n() > MOST_COMPONENTS {
+            return Vec::new();
+        }
+        let pairs = self.frame.speeds.iter().zip(rates);
+        pairs
+            .map(|(speed, &rate)| {
+                let name = format!("A_{}", super::bare(&speed.name));
+                let meaning = format!("component of X along ∂/∂{}", speed.name);
+                NamedExpr::new(name, rate, meaning)
+            })
+            .collect()
+    }
+
     fn cartan_objects(&self) -> Vec<NamedExpr> {
         let g = &self.system.graph;
         let mut names = vec!["t".to_string()];

@@ -1,7 +1,7 @@
 //! The Legendre transform: momenta `pᵢ = ∂L/∂vⁱ`, velocities as functions of (q, p, t), and the Hamiltonian.
 //!
 //! For L quadratic in the velocities, `v = W⁻¹ (p − L₁)` is one solve node and `H = ½ (p − L₁)·v − L₀` is closed; so it is
-//! for some functions of a quadratic form ([`inversion`](super::inversion)). The derivatives are then those of that expression.
+//! for some functions of a quadratic form (`inversion`). The derivatives are then those of that expression.
 //! For any other L the velocities stay symbols tied by `p − ∂L/∂v = 0`, and a
 //! function of (q, p, t) changes along a direction with `v' = W⁻¹ (p' − L_vq q' − L_vt t')`; there
 //! `∂H/∂p = v`, `∂H/∂q = −∂L/∂q`, `∂H/∂t = −∂L/∂t`, since `H = p·v − L` is stationary in v (T1 §6.1, §7.3).
@@ -17,45 +17,45 @@ use chetaev_symbolic::{Expr, Symbol};
 
 /// A momentum.
 #[derive(Clone, Debug)]
-pub(crate) struct Momentum {
+pub struct Momentum {
     /// `p_x`.
-    pub(crate) name: String,
+    pub name: String,
     /// It as an expression.
-    pub(crate) value: Expr,
+    pub value: Expr,
     /// Its symbol.
-    pub(crate) symbol: Symbol,
+    pub symbol: Symbol,
     /// Its rate as a symbol.
-    pub(crate) rate: Expr,
+    pub rate: Expr,
     /// `∂L/∂v` as a function of (q, v, t).
-    pub(crate) definition: Expr,
+    pub definition: Expr,
 }
 
 /// A direction in the space of (t, q, p).
 #[derive(Clone, Debug)]
-pub(crate) struct PhaseDirection {
+pub struct PhaseDirection {
     /// The rate of t.
-    pub(crate) time: Expr,
+    pub time: Expr,
     /// The rates of q.
-    pub(crate) coordinates: Vec<Expr>,
+    pub coordinates: Vec<Expr>,
     /// The rates of p.
-    pub(crate) momenta: Vec<Expr>,
+    pub momenta: Vec<Expr>,
 }
 
 /// The Legendre transform of a system's Lagrangian.
 #[derive(Clone, Debug)]
-pub(crate) struct Legendre {
+pub struct Legendre {
     /// The momenta, one for each coordinate.
-    pub(crate) momenta: Vec<Momentum>,
+    pub momenta: Vec<Momentum>,
     /// H(q, p, t), with the velocities as symbols where they are implicit.
-    pub(crate) hamiltonian: Expr,
+    pub hamiltonian: Expr,
     /// `∂H/∂p`.
-    pub(crate) by_momenta: Vec<Expr>,
+    pub by_momenta: Vec<Expr>,
     /// `∂H/∂q`.
-    pub(crate) by_coordinates: Vec<Expr>,
+    pub by_coordinates: Vec<Expr>,
     /// `∂H/∂t`; controls and masses with a law of their own count as time.
-    pub(crate) by_time: Expr,
+    pub by_time: Expr,
     /// Whether the velocities are functions of (q, p, t) in closed form.
-    pub(crate) is_explicit: bool,
+    pub is_explicit: bool,
     /// W, row by row.
     mass_matrix: Vec<Expr>,
 }
@@ -65,7 +65,7 @@ impl Legendre {
     ///
     /// # Errors
     /// [`DeriveError::Singular`] where `∂²L/∂v∂v` is singular by its form.
-    pub(crate) fn new(system: &System) -> Result<Legendre, DeriveError> {
+    pub fn new(system: &System) -> Result<Legendre, DeriveError> {
         let g = &system.graph;
         let velocities = system.velocity_symbols();
         let definitions = g.gradient(system.lagrangian, &velocities);
@@ -150,12 +150,7 @@ impl Legendre {
     }
 
     /// The rates of functions of (q, p, t) along a direction.
-    pub(crate) fn along(
-        &self,
-        system: &System,
-        es: &[Expr],
-        direction: &PhaseDirection,
-    ) -> Vec<Expr> {
+    pub fn along(&self, system: &System, es: &[Expr], direction: &PhaseDirection) -> Vec<Expr> {
         let mut rates: Vec<(Symbol, Expr)> = self
             .momenta
             .iter()
@@ -188,7 +183,7 @@ impl Legendre {
     }
 
     /// The direction in which p alone moves.
-    pub(crate) fn momentum_direction(&self, system: &System, momenta: &[Expr]) -> PhaseDirection {
+    pub fn momentum_direction(&self, system: &System, momenta: &[Expr]) -> PhaseDirection {
         let zero = system.graph.zero();
         PhaseDirection {
             time: zero,
@@ -198,7 +193,7 @@ impl Legendre {
     }
 
     /// `∂e/∂p_j`: one row per expression, one column per momentum.
-    pub(crate) fn jacobian(&self, system: &System, es: &[Expr]) -> Vec<Vec<Expr>> {
+    pub fn jacobian(&self, system: &System, es: &[Expr]) -> Vec<Vec<Expr>> {
         let g = &system.graph;
         if self.is_explicit {
             let symbols: Vec<Symbol> = self.momenta.iter().map(|p| p.symbol).collect();
@@ -217,7 +212,7 @@ impl Legendre {
     }
 
     /// Functions of (q, v, t) as functions of (q, p, t), `v = ∂H/∂p`.
-    pub(crate) fn restrict(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
+    pub fn restrict(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
         if !self.is_explicit {
             return es.to_vec();
         }
@@ -231,7 +226,7 @@ impl Legendre {
     }
 
     /// The state beside q: the momenta with these rates, and the velocities where they are implicit.
-    pub(crate) fn state(
+    pub fn state(
         &self,
         system: &System,
         velocities: &[Expr],
@@ -263,7 +258,7 @@ impl Legendre {
     }
 
     /// `p − ∂L/∂v = 0` with the velocities they determine, where these are implicit.
-    pub(crate) fn relations(&self, system: &System) -> Vec<(Expr, Symbol)> {
+    pub fn relations(&self, system: &System) -> Vec<(Expr, Symbol)> {
         if self.is_explicit {
             return Vec::new();
         }
@@ -274,7 +269,7 @@ impl Legendre {
     }
 
     /// `p = ∂L/∂v` as equations, where the velocities are implicit.
-    pub(crate) fn momentum_equations(&self) -> Vec<Equation> {
+    pub fn momentum_equations(&self) -> Vec<Equation> {
         let momenta = self.momenta.iter().filter(|_| !self.is_explicit);
         momenta
             .map(|p| Equation {
@@ -286,7 +281,7 @@ impl Legendre {
     }
 
     /// The momenta and H as named objects.
-    pub(crate) fn objects(&self, system: &System) -> Vec<NamedExpr> {
+    pub fn objects(&self, system: &System) -> Vec<NamedExpr> {
         let momenta = self.momenta.iter().zip(&system.coordinates).map(|(p, c)| {
             NamedExpr::new(
                 p.name.clone(),

@@ -56,6 +56,7 @@ impl Formulation for PoincareChetaev {
             .with_group("kinematics", None, form.kinematics())
             .with_objects(frame_objects(basis.system, &form.frame))
             .with_objects(form.momenta())
+            .with_objects(form.turning())
             .with_objects(objects);
         equations.multipliers = indices.into_iter().zip(multipliers).collect();
         Ok(equations)
@@ -80,7 +81,7 @@ pub(super) fn frame_objects(system: &System, frame: &Frame) -> Vec<NamedExpr> {
     {
         for (c, &component) in system.coordinates.iter().zip(field) {
             if !g.is_zero(component) {
-                objects.push(NamedExpr::new(
+                objects.push(NamedExpr::component(
                     format!("X_{}_{}", label(s), c.name),
                     component,
                     format!("component of the field X_{} along {}", label(s), c.name),
@@ -90,7 +91,7 @@ pub(super) fn frame_objects(system: &System, frame: &Frame) -> Vec<NamedExpr> {
     }
     if system.n() <= MOST_BRACKETS {
         for (w, s, u, c) in frame.structure_coefficients(system) {
-            objects.push(NamedExpr::new(
+            objects.push(NamedExpr::component(
                 // The lower indices first: a number after a name would be read as the name's own index.
                 format!("C_{}_{}_{}", label(s), label(u), label(w)),
                 c,
@@ -211,6 +212,30 @@ impl<'a> InFrame<'a> {
             .map(|(a, b)| g.sub(a, b))
             .collect();
         self.frame.components(system, &bracket)
+    }
+
+    /// Γ^w_s, those that do not vanish; nothing where they are too many to read.
+    fn turning(&self) -> Vec<NamedExpr> {
+        let (system, g) = (self.basis.system, &self.basis.system.graph);
+        if self.frame.is_natural(system) || system.n() > MOST_BRACKETS {
+            return Vec::new();
+        }
+        let label = |s: usize| super::bare(&self.frame.speeds[s].name).to_string();
+        let mut objects = Vec::new();
+        for (s, field) in self.frame.fields.iter().enumerate() {
+            for (w, value) in self.bracket_with_motion(field).into_iter().enumerate() {
+                if !g.is_zero(value) {
+                    let (s, w) = (label(s), label(w));
+                    objects.push(NamedExpr::component(
+                        // The lower index first, as in the structure coefficients.
+                        format!("Gamma_{s}_{w}"),
+                        value,
+                        format!("component of the bracket of the motion and X_{s} along X_{w}"),
+                    ));
+                }
+            }
+        }
+        objects
     }
 
     /// η' and λ from the equations and `X f = 0`.

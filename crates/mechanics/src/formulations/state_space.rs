@@ -134,13 +134,17 @@ fn schema(basis: &Basis<'_>) -> Schema {
 }
 
 /// The symbols of the rates Dq, Dv of a curve (q(t), v(t)).
-pub(crate) struct StateJet {
-    coordinates: Vec<Expr>,
-    velocities: Vec<Expr>,
+#[derive(Debug)]
+pub struct StateJet {
+    /// Dq.
+    pub coordinates: Vec<Expr>,
+    /// Dv.
+    pub velocities: Vec<Expr>,
 }
 
 impl StateJet {
-    pub(crate) fn new(system: &System) -> StateJet {
+    /// The symbols of a system.
+    pub fn new(system: &System) -> StateJet {
         let g = &system.graph;
         let symbols = |prefix: &str, order: u32| -> Vec<Expr> {
             let names = system.coordinates.iter();
@@ -155,7 +159,7 @@ impl StateJet {
     }
 
     /// D along the curve.
-    fn derive(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
+    pub fn derive(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
         let symbols = system.velocity_symbols().into_iter();
         let mut rates: Vec<(Symbol, Expr)> = symbols.zip(self.velocities.iter().copied()).collect();
         // The law of a mass is one of the state (q, v), also where Dq is not v.
@@ -238,7 +242,7 @@ fn stated_equations(basis: &Basis<'_>, jet: &StateJet) -> (Vec<Equation>, Vec<Eq
 }
 
 /// `Z = L + Σ (Dq^s − v^s) ∂L/∂v^s` (T1 (35)).
-pub(crate) fn second_kind_density(system: &System, jet: &StateJet) -> Expr {
+pub fn second_kind_density(system: &System, jet: &StateJet) -> Expr {
     let g = &system.graph;
     let mut parts = vec![system.lagrangian];
     let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());

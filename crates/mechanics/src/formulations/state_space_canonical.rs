@@ -52,10 +52,7 @@ impl Formulation for StateSpaceCanonical {
 }
 
 /// `Σ_j ∂u^l/∂p_j [H_pp]⁻¹_js` (T1 (40)), one covector per selected row.
-pub(crate) fn reactions(
-    basis: &Basis<'_>,
-    legendre: &Legendre,
-) -> Result<Vec<Vec<Expr>>, DeriveError> {
+pub fn reactions(basis: &Basis<'_>, legendre: &Legendre) -> Result<Vec<Vec<Expr>>, DeriveError> {
     let (system, g) = (basis.system, &basis.system.graph);
     let constraints = legendre.restrict(system, &basis.constraints());
     // H_pp is symmetric, so a row times its inverse is a solution with it.

@@ -143,9 +143,7 @@ impl<'a> Volterra<'a> {
     pub(crate) fn left_sides(&self, form: Form) -> Vec<Expr> {
         let (system, g, c) = (self.system, &self.system.graph, &self.characteristics);
         let m = g.integer(self.factor(form));
-        let momenta = c.by_parameters(system, &[self.restricted]).concat();
-        let rates = c.total_derivative(system, &momenta);
-        let turning = self.turning(form);
+        let (rates, turned) = (self.momentum_rates(), self.turned(form));
         let slopes = match form {
             Form::First if self.cartesian => vec![g.zero(); c.k()],
             Form::First => c.contract(system, &self.slopes),
@@ -153,15 +151,54 @@ impl<'a> Volterra<'a> {
         };
         (0..c.k())
             .map(|sigma| {
-                let mut parts = vec![g.mul(&[m, rates[sigma]]), g.neg(slopes[sigma])];
-                for (&p, row) in self.momenta.iter().zip(&turning) {
-                    if !g.is_zero(row[sigma]) {
-                        parts.push(g.neg(g.mul(&[p, row[sigma]])));
-                    }
-                }
-                g.add(&parts)
+                let rate = g.mul(&[m, rates[sigma]]);
+                g.add(&[rate, g.neg(turned[sigma]), g.neg(slopes[sigma])])
             })
             .collect()
+    }
+
+    /// `D ∂T̃/∂P_σ`, length k.
+    fn momentum_rates(&self) -> Vec<Expr> {
+        let (system, c) = (self.system, &self.characteristics);
+        let momenta = c.by_parameters(system, &[self.restricted]).concat();
+        c.total_derivative(system, &momenta)
+    }
+
+    /// `Σ_s p_s m D B_sσ`, in the second form minus `Σ_s p_s ∂q^s(m)/∂π_σ`; length k.
+    fn turned(&self, form: Form) -> Vec<Expr> {
+        let g = &self.system.graph;
+        let turning = self.turning(form);
+        let summand = |(&p, row): (&Expr, &Vec<Expr>), sigma: usize| g.mul(&[p, row[sigma]]);
+        let rows = || self.momenta.iter().zip(&turning);
+        (0..self.characteristics.k())
+            .map(|sigma| g.add(&rows().map(|row| summand(row, sigma)).collect::<Vec<_>>()))
+            .collect()
+    }
+
+    /// The terms of the equations that are no forces and no slopes.
+    fn terms(&self, form: Form) -> Vec<NamedExpr> {
+        let parameters = &self.characteristics.parameters;
+        let turned = match form {
+            Form::First => "Σ p DB, the momenta times the rates of the basis",
+            Form::Second => "Σ p (DB − ∂v/∂π), the momenta times what the basis turns",
+        };
+        let named = |name: &str, meaning: &str, values: Vec<Expr>| -> Vec<NamedExpr> {
+            let pairs = parameters.iter().zip(values);
+            pairs
+                .filter(|(_, value)| !self.system.graph.is_zero(*value))
+                .map(|(p, value)| {
+                    let name = format!("{name}_{}", bare(&p.name));
+                    NamedExpr::new(name, value, format!("{meaning}, along {}", p.name))
+                })
+                .collect()
+        };
+        let mut terms = named(
+            "DTtilde",
+            "D(∂T̃/∂P), the rate of the momentum after the restriction",
+            self.momentum_rates(),
+        );
+        terms.extend(named("pDB", turned, self.turned(form)));
+        terms
     }
 
     /// m, and 1 in the first form in Cartesian coordinates.
@@ -248,6 +285,7 @@ impl<'a> Volterra<'a> {
             }
         }
         objects.extend(maggi::virtual_basis(system, c));
+        objects.extend(self.terms(form));
         if form == Form::Second {
             objects.extend(self.slopes_by_quasi_coordinates());
         }

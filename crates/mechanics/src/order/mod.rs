@@ -4,7 +4,7 @@
 pub mod determined;
 pub mod lifting;
 pub mod reduced;
-mod structure;
+pub(crate) mod structure;
 
 use crate::system::System;
 use chetaev_symbolic::Expr;

@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use chetaev_symbolic::matrix::inverse;
 use chetaev_symbolic::syntax::lower::Bindings;
 use chetaev_symbolic::syntax::{parse_expression, Parsed, Severity};
 use chetaev_symbolic::zero::assumptions::Assumptions;
@@ -363,8 +364,8 @@ impl Resolver {
             return None;
         }
         let graph = &self.graph;
-        let matrix: Vec<Expr> = (0..n)
-            .flat_map(|i| rows.iter().map(move |row| row[i]))
+        let matrix: Vec<Vec<Expr>> = (0..n)
+            .map(|i| rows.iter().map(|row| row[i]).collect())
             .collect();
         let right: Vec<Expr> = self
             .coordinates
@@ -372,11 +373,17 @@ impl Resolver {
             .zip(&drift)
             .map(|(own, &drift)| graph.sub(graph.symbol(&own.name, 1), drift))
             .collect();
-        let Ok(speeds) = graph.solve(&matrix, &right) else {
+        let Ok(inverse) = inverse(graph, &matrix) else {
             let all: Vec<usize> = (0..n).collect();
             self.dependent_fields(frame, &all, "the matrix of their components is singular");
             return None;
         };
+        let along = |row: &Vec<Expr>| {
+            let pairs = row.iter().zip(&right);
+            let parts: Vec<Expr> = pairs.map(|(&e, &v)| graph.mul(&[e, v])).collect();
+            graph.add(&parts)
+        };
+        let speeds = inverse.iter().map(along).collect();
         frame.solved = Some(FrameFields {
             fields: rows,
             drift,

@@ -9,6 +9,7 @@ mod define;
 mod drawing;
 pub(crate) mod formula;
 pub(crate) mod frame;
+mod integrals;
 mod masses;
 mod parameters;
 mod particles;
@@ -16,6 +17,7 @@ mod run;
 pub(crate) mod scope;
 mod sections;
 mod system;
+mod variation;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -106,6 +108,8 @@ const SECTIONS: &[&str] = &[
     "initial",
     "simulation",
     "integrals",
+    "variation",
+    "search",
     "drawing",
     "expect",
 ];
@@ -166,7 +170,9 @@ impl Resolver {
         let independent = self.independent_velocities(root);
         let initial = self.initial(root, &constraints);
         let simulation = self.simulation(root);
-        let integrals = self.integrals(root);
+        let (integrals, integral_conditions) = self.integrals(root);
+        let search = self.search_functions(root);
+        let variations = self.variations(root);
         let drawing = self.drawing(root);
         let expect = self.expect(root);
         let has_units = dimension::check(self);
@@ -208,6 +214,9 @@ impl Resolver {
             initial,
             simulation,
             integrals,
+            variations,
+            integral_conditions,
+            search,
             drawing,
             expect,
             sizes: std::mem::take(&mut self.sizes),
@@ -373,6 +382,7 @@ fn near_key<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {
         ("initial_conditions", "initial"),
         ("solver", "simulation"),
         ("first_integrals", "integrals"),
+        ("variations", "variation"),
         ("animation", "drawing"),
         ("title", "name"),
         ("rtol", "tolerance"),

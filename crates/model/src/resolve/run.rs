@@ -148,6 +148,7 @@ impl Resolver {
             "max_steps",
             "state",
             "project",
+            "keep_integrals",
         ];
         let mut simulation = Simulation::default();
         let Some(table) = self.section(root, "simulation") else {
@@ -166,6 +167,7 @@ impl Resolver {
             self.check_times(raw, times, &simulation);
         }
         simulation.project = self.optional_truth(table, "project");
+        simulation.keep_integrals = self.optional_truth(table, "keep_integrals");
         simulation.max_steps = table
             .get("max_steps")
             .and_then(|raw| self.count(raw, "the number of steps"));

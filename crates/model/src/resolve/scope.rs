@@ -6,6 +6,7 @@ use chetaev_symbolic::syntax::{Resolution, Scope};
 use chetaev_symbolic::Expr;
 
 use super::define::{DefineKind, State};
+use super::variation::DISPLACEMENT;
 use super::Resolver;
 use crate::source::Place;
 
@@ -59,6 +60,8 @@ pub(crate) struct Context {
     pub(crate) parameters: bool,
     /// Whether parameters of the characteristics may occur.
     pub(crate) characteristics: bool,
+    /// Whether virtual displacements may occur.
+    pub(crate) displacements: bool,
     /// Whether masses with a law of their own may occur.
     pub(crate) masses: bool,
     /// Whether masses that are definitions stand as symbols too.
@@ -76,6 +79,7 @@ impl Context {
             time: true,
             parameters: true,
             characteristics: false,
+            displacements: false,
             masses: true,
             masses_as_symbols: false,
             hint: "",
@@ -90,6 +94,7 @@ impl Context {
             time: true,
             parameters: true,
             characteristics: false,
+            displacements: false,
             masses: false,
             masses_as_symbols: false,
             hint: "only coordinates, controls, parameters and the time may occur there",
@@ -121,6 +126,7 @@ impl Context {
             time: true,
             parameters: true,
             characteristics: false,
+            displacements: false,
             masses: true,
             masses_as_symbols: false,
             hint: "",
@@ -137,6 +143,14 @@ impl Context {
         }
     }
 
+    /// The same with virtual displacements `delta_x` of the coordinates and their derivatives.
+    pub(crate) const fn with_displacements(self) -> Self {
+        Context {
+            displacements: true,
+            ..self
+        }
+    }
+
     /// A function of the time.
     pub(crate) const fn time(what: &'static str) -> Self {
         Context {
@@ -145,6 +159,7 @@ impl Context {
             time: true,
             parameters: true,
             characteristics: false,
+            displacements: false,
             masses: false,
             masses_as_symbols: false,
             hint: "",
@@ -159,6 +174,7 @@ impl Context {
             time: false,
             parameters: true,
             characteristics: false,
+            displacements: false,
             masses: false,
             masses_as_symbols: false,
             hint: "",
@@ -173,6 +189,7 @@ impl Context {
             time: false,
             parameters: false,
             characteristics: false,
+            displacements: false,
             masses: false,
             masses_as_symbols: false,
             hint: "",
@@ -210,6 +227,16 @@ fn refused(code: &'static str, message: String, hint: impl Into<String>) -> Reso
 }
 
 impl ModelScope<'_> {
+    /// Whether this names the virtual displacement of a coordinate, where one may occur.
+    fn is_displacement(&self, name: &str) -> bool {
+        let coordinate = name.strip_prefix(DISPLACEMENT);
+        self.context.displacements
+            && coordinate.is_some_and(|name| {
+                let known = self.resolver.names.get(name);
+                known.is_some_and(|named| named.kind == NamedKind::Coordinate)
+            })
+    }
+
     fn varying(&self, name: &str, order: u32, word: &str) -> Resolution {
         let Context {
             what,
@@ -443,6 +470,9 @@ impl Scope for ModelScope<'_> {
             };
         }
         match resolver.names.get(name).map(|named| named.kind) {
+            None if self.is_displacement(name) => {
+                Resolution::Known(resolver.graph.symbol(name, order))
+            }
             None => Resolution::Unknown,
             Some(NamedKind::Coordinate) => self.varying(name, order, "coordinate"),
             Some(NamedKind::Control) => self.varying(name, order, "control"),

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use chetaev_symbolic::syntax::lower::Bindings;
-use chetaev_symbolic::syntax::{parse_equation, parse_expression, parse_relation, Parsed};
+use chetaev_symbolic::syntax::{parse_equation, parse_relation, Parsed};
 use chetaev_symbolic::Expr;
 
 use super::declare::{all_bindings, Instance};
@@ -11,7 +11,7 @@ use super::formula::{Expected, Formula};
 use super::scope::Context;
 use super::{start_of, Resolver};
 use crate::diagnostic::Diagnostic;
-use crate::model::{Assumption, Constraint, Definition, Force, Particle};
+use crate::model::{Assumption, Constraint, Force, Particle};
 use crate::raw::{Kind, Raw, Table};
 use crate::source::Place;
 use crate::text::Text;
@@ -515,7 +515,7 @@ impl Resolver {
         Some(chosen)
     }
 
-    // ---- assumptions and integrals
+    // ---- assumptions
 
     pub(crate) fn assumptions(&mut self, root: &Table) -> Vec<Assumption> {
         let mut assumptions = Vec::new();
@@ -580,52 +580,6 @@ impl Resolver {
             expected: Expected::EqualSides,
             define: None,
         });
-    }
-
-    pub(crate) fn integrals(&mut self, root: &Table) -> Vec<Definition> {
-        let mut integrals: Vec<Definition> = Vec::new();
-        let Some(table) = self.section(root, "integrals") else {
-            return integrals;
-        };
-        for (key, raw) in &table.entries {
-            let mut description = String::new();
-            let mut value = Some(raw);
-            if let Kind::Table(table) = &raw.kind {
-                self.known_keys(table, &["value", "description"], "of an integral");
-                description = self
-                    .optional_text(table, "description")
-                    .map_or_else(String::new, |text| text.content.trim().to_owned());
-                value = table.get("value");
-            }
-            let Some(value) = value else {
-                self.push(Diagnostic::error(
-                    "missing-value",
-                    raw.place,
-                    "an integral needs its `value`",
-                ));
-                continue;
-            };
-            let Some(text) = self.expression_text(value, "an integral") else {
-                continue;
-            };
-            self.parse(&text, parse_expression);
-            for Instance { name, bindings, .. } in self.own_names(key, "an integral") {
-                let expected = Expected::Anything;
-                if let Some(value) =
-                    self.expression(&text, &bindings, Context::jet("an integral"), expected)
-                {
-                    let (text, description) = (text.content.clone(), description.clone());
-                    integrals.push(Definition {
-                        name,
-                        value,
-                        text,
-                        description,
-                        place: key.place,
-                    });
-                }
-            }
-        }
-        integrals
     }
 }
 

@@ -1,0 +1,143 @@
+//! First integrals that the author states, on all states or on a part of them, and functions for the search.
+
+use chetaev_symbolic::syntax::lower::Bindings;
+use chetaev_symbolic::syntax::{parse_expression, parse_relation, Relation};
+use chetaev_symbolic::Expr;
+
+use super::declare::Instance;
+use super::formula::Expected;
+use super::scope::Context;
+use super::Resolver;
+use crate::diagnostic::Diagnostic;
+use crate::model::{Definition, IntegralCondition};
+use crate::raw::{Kind, Raw, Table};
+
+impl Resolver {
+    pub(crate) fn integrals(&mut self, root: &Table) -> (Vec<Definition>, Vec<IntegralCondition>) {
+        let mut integrals: Vec<Definition> = Vec::new();
+        let mut conditions = Vec::new();
+        let Some(table) = self.section(root, "integrals") else {
+            return (integrals, conditions);
+        };
+        for (key, raw) in &table.entries {
+            let mut description = String::new();
+            let mut value = Some(raw);
+            let mut on = None;
+            if let Kind::Table(table) = &raw.kind {
+                self.known_keys(table, &["value", "on", "description"], "of an integral");
+                on = table.get("on");
+                description = self
+                    .optional_text(table, "description")
+                    .map_or_else(String::new, |text| text.content.trim().to_owned());
+                value = table.get("value");
+            }
+            let Some(value) = value else {
+                self.push(Diagnostic::error(
+                    "missing-value",
+                    raw.place,
+                    "an integral needs its `value`",
+                ));
+                continue;
+            };
+            let Some(text) = self.expression_text(value, "an integral") else {
+                continue;
+            };
+            self.parse(&text, parse_expression);
+            for Instance { name, bindings, .. } in self.own_names(key, "an integral") {
+                if let Some(on) = on {
+                    self.integral_on(on, &name, &bindings, &mut conditions);
+                }
+                let expected = Expected::Anything;
+                if let Some(value) =
+                    self.expression(&text, &bindings, Context::jet("an integral"), expected)
+                {
+                    let (text, description) = (text.content.clone(), description.clone());
+                    integrals.push(Definition {
+                        name,
+                        value,
+                        text,
+                        description,
+                        place: key.place,
+                    });
+                }
+            }
+        }
+        (integrals, conditions)
+    }
+
+    /// `on = ["theta = th", "theta' = 0"]`.
+    fn integral_on(
+        &mut self,
+        raw: &Raw,
+        integral: &str,
+        bindings: &Bindings,
+        conditions: &mut Vec<IntegralCondition>,
+    ) {
+        let wanted = "an array of equations such as \"theta' = 0\"";
+        let Kind::Array(items) = &raw.kind else {
+            self.wrong_kind(raw, "`on`", wanted);
+            return;
+        };
+        for item in items {
+            let Kind::Text(text) = &item.kind else {
+                self.wrong_kind(item, "an equation", "a text such as \"theta' = 0\"");
+                continue;
+            };
+            let parsed = self.parse(text, parse_relation);
+            let is_equation = matches!(parsed.relations[..], [(Relation::Equal, _)]);
+            if parsed.has_errors() || !is_equation {
+                self.wrong_kind(raw, "`on`", wanted);
+                continue;
+            }
+            let context = Context::state("where an integral holds");
+            let sides: Vec<Option<Expr>> = parsed
+                .sides
+                .iter()
+                .map(|side| self.lower(text, &parsed, *side, bindings, context))
+                .collect();
+            if let [Some(left), Some(right)] = sides[..] {
+                conditions.push(IntegralCondition {
+                    integral: integral.to_owned(),
+                    left,
+                    right,
+                    text: text.content.clone(),
+                });
+            }
+        }
+    }
+
+    /// `[search] functions = ["sqrt(1 + x^2)", …]`.
+    pub(crate) fn search_functions(&mut self, root: &Table) -> Vec<Definition> {
+        let mut functions = Vec::new();
+        let Some(table) = self.section(root, "search") else {
+            return functions;
+        };
+        self.known_keys(table, &["functions"], "of [search]");
+        let Some(raw) = table.get("functions") else {
+            return functions;
+        };
+        let Kind::Array(items) = &raw.kind else {
+            let wanted = "an array of functions such as \"sqrt(1 + x^2)\"";
+            self.wrong_kind(raw, "`functions`", wanted);
+            return functions;
+        };
+        for item in items {
+            let what = "a function for the search";
+            let Some(text) = self.expression_text(item, what) else {
+                continue;
+            };
+            self.parse(&text, parse_expression);
+            let context = Context::position(what);
+            if let Some(value) = self.expression(&text, &Vec::new(), context, Expected::Anything) {
+                functions.push(Definition {
+                    name: text.content.clone(),
+                    value,
+                    text: text.content.clone(),
+                    description: String::new(),
+                    place: item.place,
+                });
+            }
+        }
+        functions
+    }
+}
