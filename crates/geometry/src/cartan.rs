@@ -11,6 +11,7 @@
 //!
 //! in which the components of U and V are not differentiated: the form is a tensor.
 
+use crate::exterior::{Form, Space};
 use chetaev_mechanics::System;
 use chetaev_symbolic::{Expr, Symbol};
 use std::collections::BTreeMap;
@@ -88,6 +89,15 @@ impl CartanForm {
             g.substitute(f, &at_rest)
         };
         CartanForm { dt, dq }
+    }
+
+    /// As a form on J¹.
+    pub fn form(&self, space: &Space<'_>) -> Form {
+        let n = self.dq.len();
+        let mut components = vec![self.dt];
+        components.extend(&self.dq);
+        components.extend((0..n).map(|_| space.graph().zero()));
+        space.one_form(&components)
     }
 
     /// The contraction Θ(U).

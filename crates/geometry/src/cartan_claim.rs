@@ -4,7 +4,8 @@
 //! kernel of the θ^s is spanned by `D = ∂/∂t + v ∂/∂q` and the `∂/∂v`, so these are `Θ(D) = F`, `Θ(∂_v) = 0` and
 //! `dΘ(D, ∂_v) = 0`, `dΘ(∂_v, ∂_v) = 0`.
 
-use crate::cartan::{exterior_derivative, CartanForm, JetField};
+use crate::cartan::{CartanForm, JetField};
+use crate::exterior::{Field, Space};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::{Manifold, System};
 use chetaev_symbolic::{Expr, Verdict};
@@ -66,31 +67,24 @@ impl Claim for Cartan {
     }
 }
 
+/// Θ(D) = F and Θ(∂/∂v) = 0, and dΘ vanishes on pairs of the motion D with frozen velocities and the ∂/∂v.
 fn conditions(system: &System, function: Expr, form: &CartanForm) -> Vec<Expr> {
-    let g = &system.graph;
+    let (g, n) = (&system.graph, system.n());
+    let space = Space::Jet(system);
     let mut motion = JetField::zero(system, "D");
     motion.t = g.one();
     motion.q = system.coordinates.iter().map(|c| c.v).collect();
-    let along_motion = form.rate(system, &motion);
-    let vertical: Vec<JetField> = (0..system.n())
-        .map(|s| {
-            let mut field = JetField::zero(system, format!("∂/∂{}'", system.coordinates[s].name));
-            field.v[s] = g.one();
-            field
-        })
-        .collect();
-    let rates: Vec<CartanForm> = vertical.iter().map(|v| form.rate(system, v)).collect();
-    let mut residuals = vec![g.sub(form.contract(system, &motion), function)];
-    for (s, (v, along)) in vertical.iter().zip(&rates).enumerate() {
-        residuals.push(form.contract(system, v));
-        residuals.push(exterior_derivative(
-            system,
-            (&motion, &along_motion),
-            (v, along),
-        ));
-        for (w, other) in vertical.iter().zip(&rates).take(s) {
-            residuals.push(exterior_derivative(system, (w, other), (v, along)));
+    let theta = form.form(&space);
+    let change = theta.d(&space);
+    let mut fields = vec![Field::of_jet(&motion)];
+    fields.extend((0..n).map(|s| Field::unit(&space, 1 + n + s)));
+    let mut residuals = vec![g.sub(theta.on(g, &[&fields[0]]), function)];
+    for (b, second) in fields.iter().enumerate() {
+        if b > 0 {
+            residuals.push(theta.on(g, &[second]));
         }
+        let pairs = fields[..b].iter();
+        residuals.extend(pairs.map(|first| change.on(g, &[first, second])));
     }
     residuals
 }

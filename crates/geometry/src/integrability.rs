@@ -262,7 +262,7 @@ impl Claim for ConstraintsIntegrable {
         if let Some(parts) = subsystems(cx, strength) {
             sentence = format!("{sentence}; {parts}");
         }
-        prepend(&mut finding.verdict, &sentence);
+        finding.verdict = finding.verdict.prefixed(&sentence);
         finding
     }
 }
@@ -456,20 +456,4 @@ fn restricted_terms(terms: &MotionTerms, rows: &[usize]) -> MotionTerms {
             .map(|&row| terms.constraint_index[row])
             .collect(),
     }
-}
-
-/// Puts a sentence before the detail of any verdict.
-fn prepend(verdict: &mut Verdict, sentence: &str) {
-    let detail = match verdict {
-        Verdict::Proved(proof) | Verdict::Conditional { proof, .. } => &mut proof.detail,
-        Verdict::Numerical(evidence) => &mut evidence.why_no_proof,
-        Verdict::Refuted(counterexample) => &mut counterexample.detail,
-        Verdict::NotApplicable { detail, .. } => detail,
-        Verdict::Undecided { tried } => tried,
-    };
-    *detail = if detail.is_empty() {
-        sentence.to_string()
-    } else {
-        format!("{sentence}; {detail}")
-    };
 }

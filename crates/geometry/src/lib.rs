@@ -3,8 +3,13 @@
 pub mod cartan;
 pub mod cartan_claim;
 pub mod distribution;
+pub mod exterior;
+pub mod flag;
+pub mod growth;
 pub mod integrability;
 pub mod jacobi;
+pub mod liouville;
+pub mod measure;
 pub mod noether;
 
 use chetaev_mechanics::Claim;
@@ -21,4 +26,10 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &noether::claims::Contraction,
     &noether::claims::EmbeddedField,
     &noether::claims::Inverse,
+    &noether::claims::ReducedSymmetry,
+    &noether::claims::MovingAxis,
+    &noether::claims::MovingDirection,
+    &growth::Growth,
+    &measure::InvariantMeasure,
+    &liouville::Liouville,
 ];

@@ -1,6 +1,6 @@
 //! The first integrals of a system in the families that are chosen for it, computed once for all claims about them.
 
-use super::family::Family;
+use super::family::{Family, Member};
 use super::motion::Motion;
 use super::occurring::Letters;
 use super::search::{Integral, Special, Table, Tie};
@@ -23,10 +23,8 @@ const WEIGHT: u32 = 6;
 /// A family that was searched, and what was found there.
 #[derive(Clone, Debug)]
 pub struct Searched {
-    /// What it consists of, in words.
-    pub words: String,
-    /// Its members, the constant not counted.
-    pub members: usize,
+    /// Its members, and what it consists of in words.
+    pub family: Family,
     /// Members that are combinations of others on the constraint manifold.
     pub relations: usize,
     /// The dimension of the space of its first integrals, constants not counted.
@@ -57,8 +55,8 @@ struct Candidate<'f> {
     family: &'f Family,
     vector: Vec<(usize, Residue)>,
     /// Whether it contains the time, then the degree in the velocities of the leading member; a known function goes before others
-    /// of its degree.
-    order: (bool, u32, bool, usize),
+    /// of its degree, and what contains neither roots nor reciprocals before what does.
+    order: (bool, u32, bool, u8, usize),
     name: Option<String>,
 }
 
@@ -91,8 +89,7 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
     for (place, family) in families.iter().enumerate() {
         let space = table.space(family)?;
         searched.push(Searched {
-            words: family.words.clone(),
-            members: family.members.len() - 1,
+            family: family.clone(),
             relations: space.relations.len(),
             dimension: space.integrals.len(),
             error_bound_log2: space.error_bound_log2,
@@ -104,8 +101,13 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
             let timed = vector
                 .iter()
                 .any(|&(m, _)| letters.is_timed(cx.system, &family.members[m]));
+            let awkward = vector
+                .iter()
+                .map(|&(m, _)| awkwardness(cx, family, &family.members[m]))
+                .max()
+                .unwrap_or(0);
             candidates.push(Candidate {
-                order: (timed, degree, true, place),
+                order: (timed, degree, true, awkward, place),
                 family,
                 vector,
                 name: None,
@@ -122,6 +124,20 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
         dependent,
         open,
     })
+}
+
+/// 2 for a member with reciprocals, 1 for one with roots.
+fn awkwardness(cx: &Context<'_>, family: &Family, member: &Member) -> u8 {
+    let g = &cx.system.graph;
+    let is_root = |letter: usize| {
+        let (_, exponent) = g.base_exponent(family.letters[letter].value);
+        g.as_integer(exponent).is_none()
+    };
+    match member {
+        _ if member.iter().any(|&(_, e)| e < 0) => 2,
+        _ if member.iter().any(|&(letter, _)| is_root(letter)) => 1,
+        _ => 0,
+    }
 }
 
 /// The most members of a family that is searched at special values, and the most special values.
@@ -181,7 +197,7 @@ fn known<'f>(table: &Table<'_>, letters: &Letters, families: &'f [Family]) -> Ve
             found.push(Candidate {
                 family,
                 vector: vec![(place, one)],
-                order: (false, 2, false, 0),
+                order: (false, 2, false, 0, 0),
                 name: Some(name.clone()),
             });
         }
@@ -217,7 +233,7 @@ fn chosen(
 }
 
 /// An expression as a person would write it, where that does not take long.
-pub(super) fn readable(g: &Graph, e: Expr) -> Expr {
+pub(crate) fn readable(g: &Graph, e: Expr) -> Expr {
     match g.reachable(&[e]).len() <= READABLE {
         true => simplify(g, e, &Options::default()),
         false => e,

@@ -1,5 +1,6 @@
 //! First integrals: their search, their symmetries and generators (T3 §6–7).
 
+pub mod ansatz;
 pub mod claims;
 pub mod embedded;
 pub mod family;
@@ -7,5 +8,7 @@ pub mod found;
 pub mod generator;
 mod lift;
 pub mod motion;
+pub mod moving;
 pub mod occurring;
+pub mod reduced;
 pub mod search;

@@ -7,8 +7,22 @@ use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::claims::formulation::{derive, manifold, REFERENCE};
 use chetaev_mechanics::prover;
 use chetaev_mechanics::{Characteristics, Context, Manifold, System};
-use chetaev_symbolic::zero::points::{Points, PointsOf};
+use chetaev_symbolic::number::random::Random;
+use chetaev_symbolic::zero::points::{Draw, Points, PointsOf};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
+
+/// How many draws are tried until one has points.
+const DRAWS: usize = 12;
+
+/// A draw that has points: where a root of parameters alone must be rational, as √(1 + a²) on Appell's cone, half of all draws
+/// have none.
+pub(crate) fn draw_with_points(points: &Points, random: &mut Random) -> Option<Draw> {
+    (0..DRAWS).find_map(|_| {
+        let draw = points.draw(random)?;
+        let mut probe = random.clone();
+        points.at(&draw, &mut probe).map(|_| draw)
+    })
+}
 
 /// The motion of a system on its constraint manifold.
 #[derive(Debug)]

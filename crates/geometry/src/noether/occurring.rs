@@ -428,6 +428,14 @@ impl<'a> Occurring<'a> {
         for &root in self.roots.iter().chain(&self.measure) {
             all.push(letter(root, (-1, 1), 1));
         }
+        for &e in &self.system.search_functions {
+            if !all
+                .iter()
+                .any(|own: &CoefficientLetter| own.letter.value == e)
+            {
+                all.push(letter(e, (-1, 2), 1));
+            }
+        }
         for &e in &self.exponentials {
             all.push(letter(e, (-2, 2), 1));
         }
@@ -446,7 +454,11 @@ impl<'a> Occurring<'a> {
 }
 
 /// Bᵀ W B.
-fn congruent(system: &System, mass: &[Vec<Expr>], basis: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
+pub(crate) fn congruent(
+    system: &System,
+    mass: &[Vec<Expr>],
+    basis: &[Vec<Expr>],
+) -> Vec<Vec<Expr>> {
     let g = &system.graph;
     let (n, k) = (basis.len(), basis.first().map_or(0, Vec::len));
     let entry = |s: usize, u: usize| {

@@ -600,7 +600,7 @@ impl lift::Source for Restricted<'_> {
 }
 
 /// The parameters that occur, and the functions of parameters alone that are no rational functions of them.
-fn constants(motion: &Motion<'_>, outputs: &[Expr]) -> Vec<Expr> {
+pub(super) fn constants(motion: &Motion<'_>, outputs: &[Expr]) -> Vec<Expr> {
     let g = &motion.system.graph;
     let is_constant = |e: Expr| g.is_free_of(e, &|s| motion.moves(s));
     let mut found: Vec<Expr> = Vec::new();

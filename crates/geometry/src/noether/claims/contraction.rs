@@ -1,8 +1,8 @@
 //! `noether.contraction#j`: Ȳ ⌟ Ω̄ = dG in every component, for a first integral that was found.
 
-use super::{generator, on_manifold, prepend, requirements, subjects};
+use super::{of_generator, requirements, subjects};
+use crate::noether::generator::Generator;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
-use chetaev_symbolic::Verdict;
 
 /// `noether.contraction#j`.
 #[derive(Clone, Copy, Debug)]
@@ -34,16 +34,7 @@ impl Claim for Contraction {
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        let (integral, n, generator) = match generator(cx, subject) {
-            Ok(found) => found,
-            Err(why) => return Verdict::undecided(why).into(),
-        };
-        let residuals = generator.contraction(&n);
-        let g = &cx.system.graph;
-        let sentence = format!(
-            "Ȳ ⌟ Ω̄ = dG in every component for G = {}",
-            g.text(integral.shown)
-        );
-        prepend(on_manifold(cx, &n, &residuals), &sentence).into()
+        let statement = "Ȳ ⌟ Ω̄ = dG in every component";
+        of_generator(cx, subject, statement, Generator::contraction)
     }
 }

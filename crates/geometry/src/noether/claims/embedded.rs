@@ -1,6 +1,6 @@
 //! `noether.embedded`: the motion on the constraint manifold is the kernel of the embedded 2-form.
 
-use super::{on_manifold, prepend, requirements};
+use super::{on_manifold, requirements};
 use crate::noether::embedded::Embedded;
 use crate::noether::motion::Motion;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
@@ -78,6 +78,6 @@ impl Claim for EmbeddedField {
             2 * k,
             2 * k + 1
         );
-        prepend(kernel.and(rank), &sentence).into()
+        kernel.and(rank).prefixed(&sentence).into()
     }
 }

@@ -1,6 +1,6 @@
 //! `noether.family`: the families searched, and the dimension found.
 
-use super::{prepend, requirements};
+use super::requirements;
 use crate::noether::found::{found, Found, Searched};
 use crate::noether::search::Special;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
@@ -96,7 +96,7 @@ fn verdict(cx: &Context<'_>, found: &Found) -> Verdict {
         seed: Some(cx.prover.seed),
         ..Proof::exact("for general values of the parameters", rest)
     };
-    prepend(Verdict::Proved(proof), &sentence)
+    Verdict::Proved(proof).prefixed(&sentence)
 }
 
 fn sentence(cx: &Context<'_>, found: &Found) -> String {
@@ -137,13 +137,15 @@ fn special(cx: &Context<'_>, special: &Special) -> String {
     )
 }
 
-fn exhausted(family: &Searched) -> String {
-    let relations = match family.relations {
+fn exhausted(searched: &Searched) -> String {
+    let relations = match searched.relations {
         0 => String::new(),
         relations => format!(", {relations} of them combinations of others"),
     };
     format!(
         "{} ({} functions{relations}): dimension {}",
-        family.words, family.members, family.dimension
+        searched.family.words,
+        searched.family.members.len() - 1,
+        searched.dimension
     )
 }

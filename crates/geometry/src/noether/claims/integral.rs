@@ -1,6 +1,6 @@
 //! `noether.integral#j`: a first integral that was found, with its generator.
 
-use super::{bare, generator, generator_formulas, integral, prepend, requirements, subjects};
+use super::{bare, generator, generator_formulas, integral, requirements, subjects};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_symbolic::Verdict;
 
@@ -58,7 +58,7 @@ impl Claim for FirstIntegral {
             sentence = format!("{sentence}; its field is along {}", fields.join(", "));
         }
         Finding {
-            verdict: prepend(integral.verdict, &sentence),
+            verdict: integral.verdict.prefixed(&sentence),
             formulas,
         }
     }

@@ -1,6 +1,6 @@
 //! `noether.inverse#NAME`: an integral that the model states is one, and its generator.
 
-use super::{generator_formulas, on_manifold, prepend, requirements};
+use super::{generator_formulas, on_manifold, requirements};
 use crate::noether::embedded::Embedded;
 use crate::noether::generator::Generator;
 use crate::noether::motion::Motion;
@@ -29,7 +29,7 @@ impl Claim for Inverse {
         "A function G stated under [integrals] keeps its value along every motion: X̄G = 0 on the constraint manifold. If so, the inverse of \
          Noether's theorem gives its field: χ = -W̄⁻¹ ∂G, here with δ = 0, and the gauge g = G + p χ; the Killing-type equations are \
          proved for them. `conditional` says that it is one for parameters as the model defines them by others, not for \
-         independent ones; `refuted` comes with an admissible state at which the rate of G is not zero."
+         independent ones, or on the part of the states that the model states with `on`, which is proved to be invariant; `refuted` comes with an admissible state at which the rate of G is not zero."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -55,22 +55,98 @@ impl Claim for Inverse {
         };
         let verdict = match motion.is_integral(cx, *value) {
             Verdict::Proved(proof) => Verdict::Proved(proof),
-            other => by_definitions(cx, &motion, *value).unwrap_or(other),
+            other => match on_part(cx, &motion, subject, *value) {
+                Some(verdict) => verdict,
+                None => by_definitions(cx, &motion, *value).unwrap_or(other),
+            },
         };
         if matches!(verdict, Verdict::Conditional { .. }) {
             return verdict.into();
         }
         if !matches!(verdict, Verdict::Proved(_)) {
-            return prepend(
-                verdict,
-                "whether the rate of the function vanishes on motions",
-            )
-            .into();
+            return verdict
+                .prefixed("whether the rate of the function vanishes on motions")
+                .into();
         }
         let (killing, formulas) = symmetry(cx, *value);
-        let verdict = prepend(verdict, "X̄G = 0 on motions").and(killing);
+        let verdict = verdict.prefixed("X̄G = 0 on motions").and(killing);
         Finding { verdict, formulas }
     }
+}
+
+/// The verdict where the model says on which part of the states it holds: the part is invariant, and the rate vanishes there.
+fn on_part(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    name: Option<&str>,
+    value: Expr,
+) -> Option<Verdict> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let own: Vec<_> = system
+        .integral_conditions
+        .iter()
+        .filter(|(integral, ..)| Some(integral.as_str()) == name)
+        .collect();
+    if own.is_empty() {
+        return None;
+    }
+    let mut pairs: Vec<(Expr, Expr)> = Vec::new();
+    let mut watched = vec![value];
+    for (_, left, right, text) in &own {
+        let given = |e: Expr, by: Expr| {
+            let symbol = g.as_symbol(e).filter(|&s| motion.moves(s))?;
+            (!g.contains_any(by, &[symbol])).then_some((e, by))
+        };
+        match given(*left, *right).or_else(|| given(*right, *left)) {
+            Some(pair) => pairs.push(pair),
+            None => {
+                let tried = format!("`{text}` gives no coordinate or velocity by the others");
+                return Some(Verdict::undecided(tried));
+            }
+        }
+        watched.push(g.sub(*left, *right));
+    }
+    let steps = pairs.len() + system.definitions.len();
+    let all: Vec<(Expr, Expr)> = pairs.iter().chain(&system.definitions).copied().collect();
+    let there = |e: Expr| (0..steps).fold(e, |e, _| g.substitute(e, &all));
+    let rates: Vec<Expr> = motion
+        .derivatives(&watched)
+        .into_iter()
+        .map(there)
+        .collect();
+    let solved = motion.manifold.solved.iter();
+    let given = |e: Expr| pairs.iter().any(|&(symbol, _)| symbol == e);
+    let manifold = Manifold {
+        solved: solved
+            .filter(|&&(s, _)| !given(g.symbol_expr(s)))
+            .map(|&(s, e)| (s, there(e)))
+            .collect(),
+        implicit: motion
+            .manifold
+            .implicit
+            .iter()
+            .map(|&(f, s)| (there(f), s))
+            .collect(),
+    };
+    let on = "on this part of the constraint manifold";
+    let texts: Vec<&str> = own.iter().map(|(.., text)| text.as_str()).collect();
+    let condition = texts.join(", ");
+    Some(match cx.prover.identity(system, &rates, &manifold, on) {
+        Verdict::Proved(mut proof) => {
+            proof.detail = format!(
+                "motions that begin with {condition} stay there, and X̄G = 0 on them; {}",
+                proof.detail
+            );
+            Verdict::Conditional {
+                condition,
+                proof,
+                counterexample: None,
+            }
+        }
+        other => other.prefixed(
+            "whether states as stated with `on` stay such, and the rate of the function vanishes there",
+        ),
+    })
 }
 
 /// The verdict where it holds for parameters as the model defines them by others, and not for independent ones.
@@ -135,10 +211,8 @@ fn symmetry(cx: &Context<'_>, value: Expr) -> (Verdict, Vec<Formula>) {
     };
     let mut residuals = generator.killing_speeds(&n);
     residuals.push(generator.killing_drift(&n));
-    let verdict = prepend(
-        on_manifold(cx, &n, &residuals),
-        "the Killing-type equations hold for its field",
-    );
+    let verdict =
+        on_manifold(cx, &n, &residuals).prefixed("the Killing-type equations hold for its field");
     (verdict, generator_formulas(&n, &generator))
 }
 

@@ -6,6 +6,8 @@ mod family;
 mod integral;
 mod inverse;
 mod killing;
+mod moving;
+mod reduced;
 mod structure;
 
 pub use contraction::Contraction;
@@ -14,6 +16,8 @@ pub use family::FamilySearched;
 pub use integral::FirstIntegral;
 pub use inverse::Inverse;
 pub use killing::Killing;
+pub use moving::{MovingAxis, MovingDirection};
+pub use reduced::ReducedSymmetry;
 pub use structure::Structure;
 
 use super::embedded::Embedded;
@@ -21,7 +25,7 @@ use super::found::found;
 use super::generator::Generator;
 use super::search::Integral;
 use crate::noether::found::readable;
-use chetaev_mechanics::claims::Formula;
+use chetaev_mechanics::claims::{Finding, Formula};
 use chetaev_mechanics::Context;
 use chetaev_symbolic::simplify::length;
 use chetaev_symbolic::{Expr, Verdict};
@@ -92,6 +96,23 @@ fn generator<'a>(
     Ok((integral, n, generator))
 }
 
+/// The claim that what is stated holds for the generator of an integral found: its residuals vanish on N.
+fn of_generator(
+    cx: &Context<'_>,
+    subject: Option<&str>,
+    statement: &str,
+    residuals: impl Fn(&Generator, &Embedded<'_>) -> Vec<Expr>,
+) -> Finding {
+    let (integral, n, generator) = match generator(cx, subject) {
+        Ok(found) => found,
+        Err(why) => return Verdict::undecided(why).into(),
+    };
+    let g = &cx.system.graph;
+    let sentence = format!("{statement} for G = {}", g.text(integral.shown));
+    let verdict = on_manifold(cx, &n, &residuals(&generator, &n));
+    verdict.prefixed(&sentence).into()
+}
+
 /// The components of the generator and the gauge, as formulas.
 fn generator_formulas(n: &Embedded<'_>, generator: &Generator) -> Vec<Formula> {
     let g = &n.system.graph;
@@ -121,23 +142,6 @@ fn generator_formulas(n: &Embedded<'_>, generator: &Generator) -> Vec<Formula> {
 /// The name of a velocity as a subscript.
 fn bare(name: &str) -> &str {
     name.trim_end_matches('\'')
-}
-
-/// Puts a sentence before the detail of any verdict.
-fn prepend(verdict: Verdict, sentence: &str) -> Verdict {
-    let mut verdict = verdict;
-    let detail = match &mut verdict {
-        Verdict::Proved(proof) | Verdict::Conditional { proof, .. } => &mut proof.detail,
-        Verdict::Numerical(evidence) => &mut evidence.why_no_proof,
-        Verdict::Refuted(counterexample) => &mut counterexample.detail,
-        Verdict::NotApplicable { detail, .. } => detail,
-        Verdict::Undecided { tried } => tried,
-    };
-    *detail = match detail.is_empty() {
-        true => sentence.to_owned(),
-        false => format!("{sentence}; {detail}"),
-    };
-    verdict
 }
 
 /// Decides that residuals vanish on N, in its chart (t, q, η).

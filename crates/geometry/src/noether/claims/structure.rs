@@ -1,8 +1,7 @@
 //! `noether.structure#j`: the structure equations, for a first integral that was found.
 
-use super::{generator, on_manifold, prepend, requirements, subjects};
+use super::{of_generator, requirements, subjects};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
-use chetaev_symbolic::Verdict;
 
 /// `noether.structure#j`.
 #[derive(Clone, Copy, Debug)]
@@ -34,15 +33,11 @@ impl Claim for Structure {
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        let (integral, n, generator) = match generator(cx, subject) {
-            Ok(found) => found,
-            Err(why) => return Verdict::undecided(why).into(),
-        };
-        let mut residuals = generator.killing_speeds(&n);
-        residuals.extend(generator.along_fields(&n));
-        residuals.push(generator.along_time(&n));
-        let g = &cx.system.graph;
-        let sentence = format!("the structure equations for G = {}", g.text(integral.shown));
-        prepend(on_manifold(cx, &n, &residuals), &sentence).into()
+        of_generator(cx, subject, "the structure equations", |generator, n| {
+            let mut residuals = generator.killing_speeds(n);
+            residuals.extend(generator.along_fields(n));
+            residuals.push(generator.along_time(n));
+            residuals
+        })
     }
 }

@@ -1,0 +1,280 @@
+//! `liouville.integrable`: enough first integrals and an invariant measure for integration by quadratures (Euler, Jacobi).
+//!
+//! A motion of m variables with m - 2 independent integrals and an invariant measure is integrated by quadratures (Jacobi's last
+//! multiplier); m - 1 integrals need no measure. Coordinates on which neither the rates of the others nor their own depend are
+//! left out first (Routh's ignorable coordinates, also where their momenta are no integrals, as for rolling bodies); they
+//! follow by quadratures at the end.
+
+use crate::measure::measure;
+use crate::noether::found::found;
+use crate::noether::motion::Motion;
+use chetaev_mechanics::characteristics::Direction;
+use chetaev_mechanics::claims::formulation::basis;
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_mechanics::words::counted;
+use chetaev_mechanics::Characteristics;
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::{Expr, Symbol, Verdict};
+
+/// `liouville.integrable`.
+#[derive(Clone, Copy, Debug)]
+pub struct Liouville;
+
+/// The motion without the coordinates that can be left out.
+#[derive(Clone, Debug)]
+pub struct Reduced {
+    /// Indices of the coordinates left out.
+    pub ignorable: Vec<usize>,
+    /// Numbers of independent (quasi-)velocities that keep their values and occur alone, as symbols.
+    pub constant: Vec<String>,
+    /// m.
+    pub variables: usize,
+    /// Whether the time is one of them.
+    pub timed: bool,
+    chart: Characteristics,
+}
+
+impl Reduced {
+    /// What can be left out of the context's system.
+    ///
+    /// # Errors
+    /// A sentence that says why the motion is not known.
+    pub fn of(cx: &Context<'_>) -> Result<Reduced, String> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let motion = Motion::of(cx)?;
+        let chart: Characteristics = basis(cx)
+            .characteristics()
+            .map_err(|problem| problem.to_string())?;
+        if chart.implicit().next().is_some() {
+            return Err("the dependent velocities stay implicit".into());
+        }
+        let definitions: Vec<Expr> = chart.parameters.iter().map(|p| p.definition).collect();
+        let rates = chart.restrict(system, &motion.derivatives(&definitions));
+        let free = |e: Expr, s: Symbol| is_free(cx, e, s);
+        let mut ignorable: Vec<usize> = Vec::new();
+        loop {
+            let kept = |i: &usize| !ignorable.contains(i);
+            let rest: Vec<usize> = (0..system.n()).filter(kept).collect();
+            let next = rest.iter().copied().find(|&i| {
+                let s = system.coordinates[i].q_symbol;
+                let others = rest.iter().filter(|&&j| j != i);
+                rates.iter().all(|&e| free(e, s))
+                    && others.into_iter().all(|&j| free(chart.velocities[j], s))
+            });
+            match next {
+                Some(i) => ignorable.push(i),
+                None => break,
+            }
+        }
+        let constant = chart
+            .parameters
+            .iter()
+            .zip(&rates)
+            .filter(|(_, &rate)| vanishes(cx, &chart, rate))
+            .map(|(p, _)| p.name.clone())
+            .collect();
+        let mut all = rates;
+        let rest = (0..system.n()).filter(|i| !ignorable.contains(i));
+        all.extend(rest.map(|i| chart.velocities[i]));
+        let timed = g.as_symbol(g.symbol("t", 0)).is_some_and(|t| {
+            let own = g.symbols_in(&all);
+            own.into_iter()
+                .any(|s| s == t || system.prescribed_rate(s).is_some())
+        });
+        Ok(Reduced {
+            variables: system.n() - ignorable.len() + chart.k() + usize::from(timed),
+            ignorable,
+            constant,
+            timed,
+            chart,
+        })
+    }
+}
+
+/// Whether an expression does not depend on a symbol, by its form or by its derivative.
+fn is_free(cx: &Context<'_>, e: Expr, s: Symbol) -> bool {
+    let (system, g) = (cx.system, &cx.system.graph);
+    if !g.contains_any(e, &[s]) {
+        return true;
+    }
+    let slope = g.diff(e, s);
+    let manifold = chetaev_mechanics::Manifold::default();
+    let verdict = cx.prover.identity(system, &[slope], &manifold, "");
+    matches!(verdict, Verdict::Proved(_))
+}
+
+fn vanishes(cx: &Context<'_>, chart: &Characteristics, e: Expr) -> bool {
+    let verdict = cx.prover.identity(cx.system, &[e], &chart.manifold, "");
+    matches!(verdict, Verdict::Proved(_))
+}
+
+impl Claim for Liouville {
+    fn id(&self) -> &'static str {
+        "liouville.integrable"
+    }
+
+    fn group(&self) -> Group {
+        Group::Integrals
+    }
+
+    fn title(&self) -> &'static str {
+        "Integrals and an invariant measure suffice for quadratures"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "A motion of m variables with m - 2 independent first integrals and an invariant measure is integrated by quadratures (Euler, Jacobi's last multiplier); with m - 1 integrals the measure is not needed. Coordinates on which no rate depends are left out before, and follow by quadratures at the end. The integrals counted are the functions of those that the search found which contain neither these coordinates nor, for a motion free of it, the time. What is missing is stated; that no more integrals exist is never said."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        vec![
+            "model.accelerations-unique".into(),
+            "model.frame-regular".into(),
+            "model.masses-free-of-velocity".into(),
+        ]
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        match counted_out(cx) {
+            Ok(verdict) => verdict.into(),
+            Err(why) => Verdict::undecided(why).into(),
+        }
+    }
+}
+
+fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let reduced = Reduced::of(cx)?;
+    let found = found(cx);
+    let found = found.as_ref().as_ref().map_err(Clone::clone)?;
+    let mut excluded: Vec<Symbol> = reduced
+        .ignorable
+        .iter()
+        .map(|&i| system.coordinates[i].q_symbol)
+        .collect();
+    if !reduced.timed {
+        excluded.extend(g.as_symbol(g.symbol("t", 0)));
+    }
+    let counts = |e: Expr| excluded.iter().all(|&s| is_free(cx, e, s));
+    let values: Vec<Expr> = found.integrals.iter().map(|i| i.value).collect();
+    let values = reduced.chart.restrict(system, &values);
+    let free = values.iter().filter(|&&e| counts(e)).count();
+    let many = invariant(cx, &reduced, &values).unwrap_or(0).max(free);
+    let m = reduced.variables;
+    let about = about(cx, &reduced, many);
+    if many + 1 >= m {
+        let detail = format!("{about}, which determine the path without a measure");
+        let on = "where the integrals are independent";
+        return Ok(Verdict::Proved(Proof::exact(on, detail)));
+    }
+    let measure = measure(cx);
+    let measure = measure.as_ref().as_ref().map_err(Clone::clone)?;
+    // A density without a formula may contain what is left out.
+    let exists = matches!(&measure.verdict, Verdict::Proved(_));
+    let usable = measure
+        .density
+        .map_or(exists && excluded.is_empty(), counts);
+    let missing = m - 2 - many.min(m - 2);
+    Ok(match (missing, usable) {
+        (0, true) => {
+            let detail = format!("{about}, and the measure of `measure.invariant` is kept");
+            let on = "where the integrals are independent";
+            Verdict::Proved(Proof::exact(on, detail)).and(measure.verdict.clone())
+        }
+        (0, false) => Verdict::undecided(format!(
+            "{about}; an invariant measure of the reduced motion is missing (`measure.invariant`)"
+        )),
+        (missing, usable) => {
+            let measure = match usable {
+                true => "the invariant measure is there",
+                false => "and an invariant measure of the reduced motion is not known",
+            };
+            let more = counted(missing, "further integral is", "further integrals are");
+            Verdict::undecided(format!("{about}; {more} missing, {measure}"))
+        }
+    })
+}
+
+/// How many functions of the integrals do not contain what is left out. Shifts of it carry motions into motions, so they act on
+/// the values of the integrals, where these are closed under derivatives by it; a group has as many invariants as the
+/// dimension exceeds that of its orbits.
+fn invariant(cx: &Context<'_>, reduced: &Reduced, values: &[Expr]) -> Option<usize> {
+    let (system, chart) = (cx.system, &reduced.chart);
+    let g = &system.graph;
+    if values.is_empty() {
+        return Some(0);
+    }
+    let unit = |size: usize, place: Option<usize>| -> Vec<Expr> {
+        let entry = |i| if Some(i) == place { g.one() } else { g.zero() };
+        (0..size).map(entry).collect()
+    };
+    let (n, k) = (system.n(), chart.k());
+    let along = |es: &[Expr], place: usize| {
+        let direction = Direction {
+            time: if place == 0 { g.one() } else { g.zero() },
+            coordinates: unit(n, place.checked_sub(1).filter(|&i| i < n)),
+            parameters: unit(k, place.checked_sub(1 + n)),
+        };
+        chart.along(system, es, &direction)
+    };
+    let mut shifts: Vec<usize> = reduced.ignorable.iter().map(|&i| i + 1).collect();
+    if !reduced.timed {
+        shifts.push(0);
+    }
+    let columns: Vec<Vec<Expr>> = shifts.iter().map(|&place| along(values, place)).collect();
+    let moved: Vec<Expr> = columns
+        .concat()
+        .into_iter()
+        .filter(|&e| !g.is_zero(e))
+        .collect();
+    if moved.is_empty() {
+        return Some(values.len());
+    }
+    let rank = |matrix: &[Vec<Expr>]| {
+        let rank = cx.prover.rank(system, matrix, &chart.manifold).ok()?;
+        matches!(rank.at_most, Verdict::Proved(_)).then_some(rank.maximum)
+    };
+    let orbit = rank(&columns)?;
+    let all = [values, &moved].concat();
+    let gradients: Vec<Vec<Expr>> = (0..=n + k).map(|place| along(&all, place)).collect();
+    (rank(&gradients)? == values.len()).then(|| values.len() - orbit)
+}
+
+fn about(cx: &Context<'_>, reduced: &Reduced, many: usize) -> String {
+    let names: Vec<&str> = reduced
+        .ignorable
+        .iter()
+        .map(|&i| cx.system.coordinates[i].name.as_str())
+        .collect();
+    let left_out = match names.is_empty() {
+        true => String::new(),
+        false => format!(" after {} left out", {
+            let list = names.join(", ");
+            match names.len() {
+                1 => format!("{list} is"),
+                _ => format!("{list} are"),
+            }
+        }),
+    };
+    let constant = match reduced.constant.is_empty() {
+        true => String::new(),
+        false => format!(
+            "; {} by {}",
+            {
+                let list = reduced.constant.join(", ");
+                match reduced.constant.len() {
+                    1 => format!("{list} keeps its value"),
+                    _ => format!("{list} keep their values"),
+                }
+            },
+            match reduced.constant.len() {
+                1 => "itself",
+                _ => "themselves",
+            }
+        ),
+    };
+    format!(
+        "the motion has {}{left_out} and {} of them{constant}",
+        counted(reduced.variables, "variable", "variables"),
+        counted(many, "independent integral", "independent integrals")
+    )
+}

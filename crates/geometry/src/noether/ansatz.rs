@@ -1,0 +1,208 @@
+//! Linear equations for unknown constants: `Σ c_ν e_ν = 0` in several equations, with columns e_ν that are functions on a manifold.
+//!
+//! Solved as the search for first integrals is: modulo a prime at random points with random parameters, then lifted to functions
+//! of the parameters. Nothing found here is believed: whoever asks proves what it is for.
+
+use super::lift::{self, Sample};
+use super::motion::{draw_with_points, Motion};
+use super::search::constants;
+use chetaev_mechanics::prover;
+use chetaev_mechanics::Manifold;
+use chetaev_symbolic::number::modular_matrix::null_space;
+use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
+use chetaev_symbolic::number::random::Random;
+use chetaev_symbolic::zero::points::{Draw, Points, PointsOf};
+use chetaev_symbolic::{Expr, Symbol};
+
+/// More equations than unknowns.
+const SURPLUS: usize = 6;
+
+/// A leading column with coefficient one, and the coefficients of the others.
+type NullVector = (usize, Vec<(usize, Residue)>);
+
+/// Columns with one entry for each equation.
+#[derive(Debug)]
+pub struct Ansatz<'a> {
+    motion: &'a Motion<'a>,
+    points: Points,
+    columns: usize,
+    equations: usize,
+    parameters: Vec<Expr>,
+    seed: u64,
+}
+
+impl<'a> Ansatz<'a> {
+    /// Columns as functions on a manifold; `further` symbols move beside those of the system.
+    ///
+    /// # Errors
+    /// A sentence that says why they cannot be evaluated.
+    pub fn new(
+        motion: &'a Motion<'a>,
+        columns: &[Vec<Expr>],
+        manifold: &Manifold,
+        further: &[Symbol],
+        seed: u64,
+    ) -> Result<Ansatz<'a>, String> {
+        let mut outputs = columns.concat();
+        let mut parameters = constants(motion, &outputs);
+        let g = &motion.system.graph;
+        parameters.retain(|&e| g.as_symbol(e).is_none_or(|s| !further.contains(&s)));
+        outputs.extend(&parameters);
+        let moves = |symbol: Symbol| motion.moves(symbol) || further.contains(&symbol);
+        let points = Points::new(
+            g,
+            &PointsOf {
+                outputs: &outputs,
+                solved: &manifold.solved,
+                implicit: &manifold.implicit,
+                assumptions: &prover::assumptions(motion.system),
+                moves: &moves,
+            },
+        )?;
+        Ok(Ansatz {
+            motion,
+            points,
+            columns: columns.len(),
+            equations: columns.first().map_or(0, Vec::len),
+            parameters,
+            seed,
+        })
+    }
+
+    /// Columns that are no combinations of those before them.
+    pub fn independent(&self) -> Option<Vec<usize>> {
+        let all: Vec<usize> = (0..self.columns).collect();
+        let mut random = Random::stream(self.seed, 0);
+        let draw = draw_with_points(&self.points, &mut random)?;
+        let space = self.space(&draw, &mut random, &all)?;
+        let is_free = |place: &usize| space.iter().any(|(free, _)| free == place);
+        Some(all.into_iter().filter(|place| !is_free(place)).collect())
+    }
+
+    /// Coefficients of the solution whose last nonzero coefficient stands at the first possible column; a leading one.
+    pub fn first(&self) -> Option<Vec<Expr>> {
+        let all: Vec<usize> = (0..self.columns).collect();
+        let mut random = Random::stream(self.seed, 0);
+        let draw = draw_with_points(&self.points, &mut random)?;
+        let space = self.space(&draw, &mut random, &all)?;
+        let (leading, rest) = space.into_iter().next()?;
+        self.lifted(draw, random, leading, &rest)
+    }
+
+    /// A solution in which the last column has the coefficient one.
+    pub fn with_last(&self) -> Option<Vec<Expr>> {
+        let all: Vec<usize> = (0..self.columns).collect();
+        let mut random = Random::stream(self.seed, 0);
+        let draw = draw_with_points(&self.points, &mut random)?;
+        let space = self.space(&draw, &mut random, &all)?;
+        let last = self.columns.checked_sub(1)?;
+        let (leading, rest) = space.into_iter().find(|(leading, _)| *leading == last)?;
+        self.lifted(draw, random, leading, &rest)
+    }
+
+    fn lifted(
+        &self,
+        draw: Draw,
+        random: Random,
+        leading: usize,
+        rest: &[(usize, Residue)],
+    ) -> Option<Vec<Expr>> {
+        let g = &self.motion.system.graph;
+        let support: Vec<usize> = rest.iter().map(|&(place, _)| place).collect();
+        let mut source = Restricted {
+            ansatz: self,
+            used: support.iter().copied().chain([leading]).collect(),
+            draw,
+            random,
+        };
+        let entries = match support.is_empty() {
+            true => Vec::new(),
+            false => lift::entries(&mut source, support.len())?,
+        };
+        let polynomials = lift::cleared(&entries)?;
+        let mut coefficients = vec![g.zero(); self.columns];
+        for (place, polynomial) in std::iter::once(leading).chain(support).zip(&polynomials) {
+            coefficients[place] = lift::expression(g, polynomial, &self.parameters);
+        }
+        Some(coefficients)
+    }
+
+    /// Null vectors among some columns: the leading column with the rest of each.
+    fn space(&self, draw: &Draw, random: &mut Random, used: &[usize]) -> Option<Vec<NullVector>> {
+        let mut matrix = Vec::new();
+        let points = (used.len() + SURPLUS).div_ceil(self.equations.max(1)) + 2;
+        for _ in 0..points {
+            let at = (0..20).find_map(|_| self.points.at(draw, random))?;
+            for equation in 0..self.equations {
+                matrix.extend(used.iter().map(|&c| at[c * self.equations + equation]));
+            }
+        }
+        let space = null_space(&draw.field, used.len(), matrix);
+        let named = space.vectors.into_iter().map(|(free, rest)| {
+            let rest = rest.into_iter().map(|(i, c)| (used[i], c)).collect();
+            (used[free], rest)
+        });
+        Some(named.collect())
+    }
+
+    fn parameters_at(&self, draw: &Draw, random: &mut Random) -> Option<Vec<Residue>> {
+        let at = (0..20).find_map(|_| self.points.at(draw, random))?;
+        Some(at[self.columns * self.equations..].to_vec())
+    }
+}
+
+/// The equations of one solution, restricted to the columns it uses, the leading one last.
+struct Restricted<'a> {
+    ansatz: &'a Ansatz<'a>,
+    used: Vec<usize>,
+    draw: Draw,
+    random: Random,
+}
+
+impl Restricted<'_> {
+    fn solve(&mut self, draw: &Draw) -> Option<Sample> {
+        let space = self.ansatz.space(draw, &mut self.random, &self.used)?;
+        let leading = *self.used.last()?;
+        let [(found, rest)] = &space[..] else {
+            return None;
+        };
+        if *found != leading {
+            return None;
+        }
+        let entries = self.used[..self.used.len() - 1]
+            .iter()
+            .map(|place| {
+                let own = rest.iter().find(|(i, _)| i == place);
+                own.map_or(Residue::ZERO, |&(_, c)| c)
+            })
+            .collect();
+        Some(Sample {
+            parameters: self.ansatz.parameters_at(draw, &mut self.random)?,
+            entries,
+        })
+    }
+}
+
+impl lift::Source for Restricted<'_> {
+    fn field(&self) -> PrimeField {
+        self.draw.field
+    }
+
+    fn sample(&mut self) -> Option<Sample> {
+        if !self.ansatz.parameters.is_empty() {
+            let (points, random) = (&self.ansatz.points, &mut self.random);
+            self.draw = points.redraw(&self.draw, random)?;
+        }
+        let draw = self.draw.clone();
+        self.solve(&draw)
+    }
+
+    fn varied(&mut self, parameter: usize) -> Option<Sample> {
+        let g = &self.ansatz.motion.system.graph;
+        let symbol = g.as_symbol(self.ansatz.parameters[parameter])?;
+        let mut draw = self.draw.clone();
+        let value = self.draw.field.random(&mut self.random);
+        self.ansatz.points.set(&mut draw, &[(symbol, value)]);
+        self.solve(&draw)
+    }
+}

@@ -1,0 +1,149 @@
+//! `noether.moving-direction#j` and `noether.moving-axis#j`: momenta and moments of momentum that particles keep.
+
+use super::requirements;
+use crate::noether::found::readable;
+use crate::noether::motion::Motion;
+use crate::noether::moving::{axes, directions, Kept, Searched};
+use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
+use chetaev_symbolic::Verdict;
+use std::sync::Arc;
+
+/// `noether.moving-direction#j`.
+#[derive(Clone, Copy, Debug)]
+pub struct MovingDirection;
+
+/// `noether.moving-axis#j`.
+#[derive(Clone, Copy, Debug)]
+pub struct MovingAxis;
+
+struct Directions(Result<Searched, String>);
+struct Axes(Result<Searched, String>);
+
+fn subjects(cx: &Context<'_>, id: &str, count: impl FnOnce() -> usize) -> Vec<Option<String>> {
+    let claim = cx.registry().find(id);
+    let obstacle = claim.is_none_or(|claim| cx.obstacle(claim, None).is_some());
+    if cx.system.particles.is_empty() || obstacle || cx.is_out_of_time() {
+        return Vec::new();
+    }
+    match count() {
+        0 => vec![None],
+        count => (1..=count).map(|j| Some(j.to_string())).collect(),
+    }
+}
+
+fn decide(cx: &Context<'_>, searched: &Result<Searched, String>, subject: Option<&str>) -> Finding {
+    let searched = match searched {
+        Ok(searched) => searched,
+        Err(why) => return Verdict::undecided(why.clone()).into(),
+    };
+    let number = subject.and_then(|s| s.parse::<usize>().ok()).unwrap_or(0);
+    match number.checked_sub(1).and_then(|i| searched.kept.get(i)) {
+        Some(kept) => proved(cx, kept),
+        None => Verdict::undecided(format!(
+            "none of {} candidates is kept: the axes, directions that turn with an angle of the model, and those from particle to particle; points at rest, on particles and at the centre of mass",
+            searched.tried
+        ))
+        .into(),
+    }
+}
+
+fn proved(cx: &Context<'_>, kept: &Kept) -> Finding {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let motion = match Motion::of(cx) {
+        Ok(motion) => motion,
+        Err(why) => return Verdict::undecided(why).into(),
+    };
+    let mut residuals = vec![kept.rate];
+    let rate = motion.derivatives(&[kept.value]);
+    residuals.extend(rate.iter().map(|&rate| g.sub(rate, kept.rate)));
+    let on = "on the constraint manifold";
+    let verdict = cx.prover.identity(system, &residuals, &motion.manifold, on);
+    let shown = readable(g, kept.value);
+    let what = match &kept.point {
+        None => format!("the momentum along {}", kept.direction),
+        Some(point) => format!(
+            "the moment of momentum about {} through {point}",
+            kept.direction
+        ),
+    };
+    Finding {
+        verdict: verdict.prefixed(&format!("{what} is kept: {}", g.text(shown))),
+        formulas: vec![Formula {
+            caption: what,
+            left: None,
+            right: shown,
+        }],
+    }
+}
+
+impl Claim for MovingDirection {
+    fn id(&self) -> &'static str {
+        "noether.moving-direction"
+    }
+
+    fn group(&self) -> Group {
+        Group::Integrals
+    }
+
+    fn title(&self) -> &'static str {
+        "Particles keep their momentum along a direction, which may move"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The momentum K of particles along a direction e, a function of the state, changes at the rate K·e' + F·e with all forces F on the particles, reactions among them. Where a translation along e is a virtual displacement, reactions do no work on it and active forces suffice; otherwise they are needed, and are taken from the motion. Directions are searched among the axes, those that turn with an angle of the model, and those from particle to particle."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        requirements()
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        subjects(cx, self.id(), || {
+            of_directions(cx).0.as_ref().map_or(0, |s| s.kept.len())
+        })
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        decide(cx, &of_directions(cx).0, subject)
+    }
+}
+
+impl Claim for MovingAxis {
+    fn id(&self) -> &'static str {
+        "noether.moving-axis"
+    }
+
+    fn group(&self) -> Group {
+        Group::Integrals
+    }
+
+    fn title(&self) -> &'static str {
+        "Particles keep their moment of momentum about an axis, which may move"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The moment of momentum of particles about an axis e through a point A, both functions of the state, changes at the rate K·(r_A' × e) + H_A·e' + M_A·e with the moment M_A of all forces, reactions among them. Axes are searched among those of the directions of `noether.moving-direction`, in the plane the one across it; points among the origin, the particles and the centre of mass."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        requirements()
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        subjects(cx, self.id(), || {
+            of_axes(cx).0.as_ref().map_or(0, |s| s.kept.len())
+        })
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        decide(cx, &of_axes(cx).0, subject)
+    }
+}
+
+fn of_directions(cx: &Context<'_>) -> Arc<Directions> {
+    cx.shared(|cx| Directions(directions(cx)))
+}
+
+fn of_axes(cx: &Context<'_>) -> Arc<Axes> {
+    cx.shared(|cx| Axes(axes(cx)))
+}

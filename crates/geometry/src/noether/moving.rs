@@ -1,0 +1,325 @@
+//! Momentum along a moving direction and moment of momentum about a moving axis, for particles (T3 §8.3).
+//!
+//! With the forces `F_a = m_a r_a''` on the particles, reactions among them, `K = Σ m r'`, `H_A = Σ (r - r_A) × m r'`:
+//! `d/dt (K·e) = K·e' + F·e` (18a) and `d/dt (H_A·e) = K·(r_A' × e) + H_A·e' + M_A·e` (18), for any e and A that are functions of the
+//! state. Directions e are searched among the axes, the directions that turn with an angle, and those from particle to particle;
+//! points A among the origin, the particles and the centre of mass.
+
+use super::motion::{draw_with_points, Motion};
+use chetaev_mechanics::{mass, particles, Context};
+use chetaev_symbolic::number::random::Random;
+use chetaev_symbolic::{Expr, Function, Graph, Node};
+
+/// Three components.
+type Vector = [Expr; 3];
+
+/// A direction or an axis with what is kept.
+#[derive(Clone, Debug)]
+pub struct Kept {
+    /// The direction in words.
+    pub direction: String,
+    /// The point in words, for an axis.
+    pub point: Option<String>,
+    /// K·e or H_A·e.
+    pub value: Expr,
+    /// The left side of (18a) or (18) on the motion.
+    pub rate: Expr,
+}
+
+/// What the search found.
+#[derive(Clone, Debug)]
+pub struct Searched {
+    /// Directions or axes with an integral, not proved yet.
+    pub kept: Vec<Kept>,
+    /// How many were tried.
+    pub tried: usize,
+}
+
+/// Names what is moved.
+struct Named<T> {
+    words: String,
+    value: T,
+}
+
+/// The particles of a system with their motion.
+struct Swarm<'a> {
+    g: &'a Graph,
+    masses: Vec<Expr>,
+    positions: Vec<Vector>,
+    velocities: Vec<Vector>,
+    /// m r''.
+    forces: Vec<Vector>,
+    names: Vec<String>,
+}
+
+fn padded(g: &Graph, components: &[Expr]) -> Vector {
+    [0, 1, 2].map(|i| components.get(i).copied().unwrap_or(g.zero()))
+}
+
+fn dot(g: &Graph, a: &Vector, b: &Vector) -> Expr {
+    let parts: Vec<Expr> = (0..3).map(|i| g.mul(&[a[i], b[i]])).collect();
+    g.add(&parts)
+}
+
+fn cross(g: &Graph, a: &Vector, b: &Vector) -> Vector {
+    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| g.sub(g.mul(&[a[i], b[j]]), g.mul(&[a[j], b[i]])))
+}
+
+fn difference(g: &Graph, a: &Vector, b: &Vector) -> Vector {
+    [0, 1, 2].map(|i| g.sub(a[i], b[i]))
+}
+
+impl<'a> Swarm<'a> {
+    fn of(motion: &Motion<'a>) -> Swarm<'a> {
+        let (system, g) = (motion.system, &motion.system.graph);
+        let all = &system.particles;
+        let velocities: Vec<Vec<Expr>> =
+            all.iter().map(|p| particles::velocity(system, p)).collect();
+        let forces = all.iter().zip(&velocities).map(|(p, v)| {
+            let a = motion.derivatives(v);
+            let force: Vec<Expr> = a.iter().map(|&a| g.mul(&[p.mass, a])).collect();
+            padded(g, &force)
+        });
+        Swarm {
+            g,
+            masses: all.iter().map(|p| p.mass).collect(),
+            positions: all.iter().map(|p| padded(g, &p.position)).collect(),
+            forces: forces.collect(),
+            velocities: velocities.iter().map(|v| padded(g, v)).collect(),
+            names: all.iter().map(|p| p.name.clone()).collect(),
+        }
+    }
+
+    /// Σ m r', or Σ of other vectors with the masses.
+    fn weighted(&self, vectors: &[Vector]) -> Vector {
+        [0, 1, 2].map(|i| {
+            let parts = self.masses.iter().zip(vectors);
+            let parts: Vec<Expr> = parts.map(|(&m, r)| self.g.mul(&[m, r[i]])).collect();
+            self.g.add(&parts)
+        })
+    }
+
+    fn sum(&self, vectors: impl Iterator<Item = Vector>) -> Vector {
+        let all: Vec<Vector> = vectors.collect();
+        [0, 1, 2].map(|i| self.g.add(&all.iter().map(|v| v[i]).collect::<Vec<_>>()))
+    }
+
+    fn dimension(&self, motion: &Motion<'_>) -> usize {
+        let sizes = motion.system.particles.iter().map(|p| p.position.len());
+        sizes.max().unwrap_or(0)
+    }
+
+    fn directions(&self, motion: &Motion<'_>) -> Vec<Named<Vector>> {
+        let g = self.g;
+        let (one, zero) = (g.one(), g.zero());
+        let dimension = self.dimension(motion);
+        let mut found: Vec<Named<Vector>> = (0..dimension)
+            .map(|i| {
+                let mut e = [zero; 3];
+                e[i] = one;
+                Named {
+                    words: format!("the {} axis", ["x", "y", "z"][i]),
+                    value: e,
+                }
+            })
+            .collect();
+        if dimension > 1 {
+            for angle in angles(motion) {
+                let (s, c) = (g.sin(angle), g.cos(angle));
+                let text = g.text(angle);
+                found.push(Named {
+                    words: format!("(cos({text}), sin({text}))"),
+                    value: [c, s, zero],
+                });
+                found.push(Named {
+                    words: format!("(-sin({text}), cos({text}))"),
+                    value: [g.neg(s), c, zero],
+                });
+            }
+        }
+        for (b, end) in self.positions.iter().enumerate() {
+            for (a, start) in self.positions[..b].iter().enumerate() {
+                found.push(Named {
+                    words: format!("the line from {} to {}", self.names[a], self.names[b]),
+                    value: difference(g, end, start),
+                });
+            }
+        }
+        found
+    }
+
+    /// Axes: in the plane only the one across it.
+    fn axes(&self, motion: &Motion<'_>) -> Vec<Named<Vector>> {
+        let g = self.g;
+        match self.dimension(motion) {
+            0 | 1 => Vec::new(),
+            2 => vec![Named {
+                words: "the axis across the plane".into(),
+                value: [g.zero(), g.zero(), g.one()],
+            }],
+            _ => self.directions(motion),
+        }
+    }
+
+    fn points(&self) -> Vec<Named<Vector>> {
+        let g = self.g;
+        let mut found = vec![Named {
+            words: "the origin".into(),
+            value: [g.zero(); 3],
+        }];
+        let named = self.names.iter().zip(&self.positions);
+        found.extend(named.map(|(name, &value)| Named {
+            words: name.clone(),
+            value,
+        }));
+        if self.names.len() > 1 {
+            let whole = g.add(&self.masses);
+            let sum = self.weighted(&self.positions);
+            found.push(Named {
+                words: "the centre of mass".into(),
+                value: sum.map(|x| g.div(x, whole)),
+            });
+        }
+        found
+    }
+
+    /// K·e with the left side of (18a).
+    fn along(&self, motion: &Motion<'_>, e: Named<Vector>) -> Kept {
+        let g = self.g;
+        let momentum = self.weighted(&self.velocities);
+        let force = self.sum(self.forces.iter().copied());
+        let turned = padded(g, &motion.derivatives(&e.value));
+        Kept {
+            value: dot(g, &momentum, &e.value),
+            rate: g.add(&[dot(g, &momentum, &turned), dot(g, &force, &e.value)]),
+            direction: e.words,
+            point: None,
+        }
+    }
+
+    /// H_A·e with the left side of (18).
+    fn about(&self, motion: &Motion<'_>, e: &Named<Vector>, a: &Named<Vector>) -> Kept {
+        let g = self.g;
+        let arms: Vec<Vector> = self
+            .positions
+            .iter()
+            .map(|r| difference(g, r, &a.value))
+            .collect();
+        let moment = self.sum(
+            arms.iter()
+                .zip(&self.velocities)
+                .zip(&self.masses)
+                .map(|((arm, v), &m)| cross(g, arm, v).map(|x| g.mul(&[m, x]))),
+        );
+        let of_forces = self.sum(
+            arms.iter()
+                .zip(&self.forces)
+                .map(|(arm, f)| cross(g, arm, f)),
+        );
+        let momentum = self.weighted(&self.velocities);
+        let turned = padded(g, &motion.derivatives(&e.value));
+        let moved = padded(g, &motion.derivatives(&a.value));
+        Kept {
+            direction: e.words.clone(),
+            point: Some(a.words.clone()),
+            value: dot(g, &moment, &e.value),
+            rate: g.add(&[
+                dot(g, &momentum, &cross(g, &moved, &e.value)),
+                dot(g, &moment, &turned),
+                dot(g, &of_forces, &e.value),
+            ]),
+        }
+    }
+}
+
+/// Coordinates whose sine or cosine occurs.
+fn angles(motion: &Motion<'_>) -> Vec<Expr> {
+    let (system, g) = (motion.system, &motion.system.graph);
+    let mut roots = vec![system.lagrangian];
+    roots.extend(system.constraints.iter().map(|c| c.f));
+    roots.extend(system.particles.iter().flat_map(|p| p.position.clone()));
+    let mut found = Vec::new();
+    for e in g.reachable(&roots) {
+        if let Node::Apply {
+            function: Function::Sin | Function::Cos | Function::Tan,
+            arguments,
+        } = g.node(e)
+        {
+            let own = system.coordinates.iter().map(|c| c.q);
+            found.extend(own.filter(|q| arguments.contains(q)));
+        }
+    }
+    found.sort_by(|&a, &b| g.compare(a, b));
+    found.dedup();
+    found
+}
+
+/// At most so many candidates.
+const CANDIDATES: usize = 120;
+
+/// Momenta along directions that are kept, as far as points over a prime field tell.
+///
+/// # Errors
+/// A sentence that says why the search could not be made.
+pub fn directions(cx: &Context<'_>) -> Result<Searched, String> {
+    let motion = of_particles(cx)?;
+    let swarm = Swarm::of(&motion);
+    let all = swarm.directions(&motion).into_iter().take(CANDIDATES);
+    let candidates = all.map(|e| swarm.along(&motion, e)).collect();
+    kept(cx, &motion, candidates)
+}
+
+/// Moments of momentum about axes that are kept, likewise.
+///
+/// # Errors
+/// A sentence that says why the search could not be made.
+pub fn axes(cx: &Context<'_>) -> Result<Searched, String> {
+    let motion = of_particles(cx)?;
+    let swarm = Swarm::of(&motion);
+    let (axes, points) = (swarm.axes(&motion), swarm.points());
+    let pairs = axes.iter().flat_map(|e| points.iter().map(move |a| (e, a)));
+    let candidates = pairs
+        .take(CANDIDATES)
+        .map(|(e, a)| swarm.about(&motion, e, a))
+        .collect();
+    kept(cx, &motion, candidates)
+}
+
+fn of_particles<'a>(cx: &Context<'a>) -> Result<Motion<'a>, String> {
+    let g = &cx.system.graph;
+    let is_constant = |e: Expr| {
+        g.is_free_of(e, &|s| {
+            g.symbol_name(s) == "t" || cx.system.moves(g.symbol_name(s))
+        })
+    };
+    if mass::with_velocity(cx.system).is_some()
+        || cx.system.particles.iter().any(|p| !is_constant(p.mass))
+    {
+        return Err("the masses vary".into());
+    }
+    Motion::of(cx)
+}
+
+/// The candidates whose rate vanishes at points of the manifold and whose value is not the same at all of them.
+fn kept(cx: &Context<'_>, motion: &Motion<'_>, candidates: Vec<Kept>) -> Result<Searched, String> {
+    let tried = candidates.len();
+    let outputs: Vec<Expr> = candidates.iter().flat_map(|c| [c.rate, c.value]).collect();
+    let points = motion.points(&outputs)?;
+    let mut random = Random::stream(cx.prover.points_seed(), 1 << 22);
+    let none = "no points of the constraint manifold were found over a prime field";
+    let draw = draw_with_points(&points, &mut random).ok_or(none)?;
+    let mut all = Vec::new();
+    for _ in 0..3 {
+        all.push(points.at(&draw, &mut random).ok_or(none)?);
+    }
+    let place = |i: usize| {
+        let vanishes = all.iter().all(|at| at[2 * i].is_zero());
+        vanishes && all.iter().any(|at| at[2 * i + 1] != all[0][2 * i + 1])
+    };
+    let numbered = candidates.into_iter().enumerate();
+    let kept = numbered.filter(|(i, _)| place(*i)).map(|(_, c)| c);
+    Ok(Searched {
+        kept: kept.collect(),
+        tried,
+    })
+}
