@@ -73,7 +73,7 @@ impl Claim for EnergyIntegral {
                 phrases(&hypotheses, |_| true)
             ),
         };
-        prepend(&mut verdict, &sentence);
+        verdict = verdict.prefixed(&sentence);
         let mut formulas = vec![Formula {
             caption: "the energy H = Σ p v - L".into(),
             left: None,
@@ -285,20 +285,4 @@ fn power_balance(
         });
     }
     formulas
-}
-
-/// Puts a sentence before the detail of any verdict.
-fn prepend(verdict: &mut Verdict, sentence: &str) {
-    let detail = match verdict {
-        Verdict::Proved(proof) | Verdict::Conditional { proof, .. } => &mut proof.detail,
-        Verdict::Numerical(evidence) => &mut evidence.why_no_proof,
-        Verdict::Refuted(counterexample) => &mut counterexample.detail,
-        Verdict::NotApplicable { detail, .. } => detail,
-        Verdict::Undecided { tried } => tried,
-    };
-    *detail = if detail.is_empty() {
-        sentence.to_string()
-    } else {
-        format!("{sentence}; {detail}")
-    };
 }

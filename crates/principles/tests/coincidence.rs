@@ -6,7 +6,7 @@ mod common;
 
 use chetaev_mechanics::claims::formulation::manifold;
 use chetaev_mechanics::{Context, Prepared, Prover, Registry, System};
-use chetaev_principles::coincidence::Closure;
+use chetaev_principles::stationarity::Closure;
 use chetaev_symbolic::Verdict;
 use common::{expr, finding, system, Text};
 

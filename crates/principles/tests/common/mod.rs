@@ -107,3 +107,70 @@ pub(crate) fn largest(values: &[f64]) -> f64 {
     assert!(values.iter().all(|x| x.is_finite()), "{values:?}");
     values.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
 }
+
+/// Systems of theory 1 §0.
+pub(crate) mod worked {
+    use super::Text;
+
+    pub(crate) const fn text(
+        coordinates: &'static str,
+        lagrangian: &'static str,
+        constraints: &'static [(&'static str, &'static str)],
+    ) -> Text {
+        Text {
+            coordinates,
+            lagrangian,
+            forces: &[],
+            constraints,
+        }
+    }
+
+    /// S1, on an incline.
+    pub(crate) const SKATE: Text = text(
+        "x y phi",
+        "m/2 (x'^2 + y'^2) + J/2 phi'^2 + m G x",
+        &[("blade", "x' sin(phi) - y' cos(phi)")],
+    );
+    /// S1, level.
+    pub(crate) const LEVEL_SKATE: Text = text(
+        "x y phi",
+        "m/2 (x'^2 + y'^2) + J/2 phi'^2",
+        &[("blade", "x' sin(phi) - y' cos(phi)")],
+    );
+    /// S2.
+    pub(crate) const DISC: Text = text(
+        "theta phi x y",
+        "I/2 theta'^2 + J/2 phi'^2 + m/2 (x'^2 + y'^2)",
+        &[
+            ("rolling_x", "x' - R cos(phi) theta'"),
+            ("rolling_y", "y' - R sin(phi) theta'"),
+        ],
+    );
+    /// S3.
+    pub(crate) const CONE: Text = text(
+        "x y z",
+        "m/2 (x'^2 + y'^2 + z'^2) - m g z",
+        &[("cone", "z' - a sqrt(x'^2 + y'^2)")],
+    );
+    /// S4.
+    pub(crate) const PARTICLE: Text =
+        text("x y z", "1/2 (x'^2 + y'^2 + z'^2)", &[("c", "z' - y x'")]);
+    /// Holonomic in disguise.
+    pub(crate) const INTEGRABLE: Text = text(
+        "x y z",
+        "m/2 (x'^2 + y'^2 + z'^2) - m g z",
+        &[("c", "z' - y x' - x y'")],
+    );
+}
+
+/// Looks at a system with the claims of mechanics and of this crate.
+pub(crate) fn with_context<T>(system: &System, look: impl FnOnce(&Context<'_>) -> T) -> T {
+    let prepared = Prepared::new(system).unwrap();
+    let registry = Registry::new(&[
+        chetaev_mechanics::claims::CLAIMS,
+        chetaev_principles::CLAIMS,
+    ]);
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let cx = Context::new(system, terms, selection, &registry, Prover::default());
+    look(&cx)
+}

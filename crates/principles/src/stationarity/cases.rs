@@ -1,0 +1,429 @@
+//! Which motions satisfy conditions that most do not: the closure with a distinction of cases.
+//!
+//! A case is a subset of the states, given by symbols that others determine (`x' = 0`, `phi = 0`) and by quantities that do not
+//! vanish there. On it the linear conditions on κ are brought to echelon form; a pivot that may vanish splits the case. What is
+//! left without κ must vanish, by one of its factors; every equation must be kept by the motion, and every condition
+//! differentiated along it must follow. Parameters are general: what contains only parameters does not vanish.
+
+mod confirm;
+mod factors;
+
+pub(crate) use confirm::confirmed;
+
+use super::closed_form::short;
+use super::motion::Motion;
+use chetaev_mechanics::claims::Context;
+use chetaev_symbolic::factors::factored;
+use chetaev_symbolic::{simplify, Expr, Graph, Symbol};
+use std::cell::Cell;
+
+/// At most so many cases.
+const CASES: usize = 120;
+/// At most so many signs are simplified for one question.
+const SIGNS: u64 = 150_000;
+/// Longer equations are not followed.
+const LONGEST: u64 = 600;
+
+/// `Σ coefficients_l κ_l = right`.
+#[derive(Clone, Debug)]
+struct Row {
+    coefficients: Vec<Expr>,
+    right: Expr,
+}
+
+/// A subset of the states with conditions on κ there.
+#[derive(Clone, Debug, Default)]
+struct Case {
+    /// Symbols with their values, free of all these symbols.
+    solved: Vec<(Expr, Expr)>,
+    /// What an angle was found from, `sin(phi)` for φ = 0 and φ = π.
+    angles: Vec<(Expr, Expr)>,
+    /// Factors that do not vanish.
+    nonzero: Vec<Expr>,
+    rows: Vec<Row>,
+}
+
+/// A set of motions for which κ exists.
+#[derive(Clone, Debug)]
+pub(crate) struct Leaf {
+    /// The equations of the set, symbol and value.
+    pub(crate) solved: Vec<(Expr, Expr)>,
+    /// The equations as they are written: `x' = 0`, `sin(phi) = 0`, with `≠` last.
+    pub(crate) equations: Vec<String>,
+    /// κ where the conditions determine it.
+    pub(crate) kappa: Vec<Option<Expr>>,
+    /// Whether all speeds vanish.
+    pub(crate) at_rest: bool,
+    /// The conditions on κ in echelon form, with their pivots; `None` where no multipliers are asked for.
+    rows: Option<Vec<(usize, Row)>>,
+    nonzero: Vec<Expr>,
+}
+
+/// What was found.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Found {
+    /// The sets of motions.
+    pub(crate) leaves: Vec<Leaf>,
+    /// What was not followed, in words.
+    pub(crate) open: Vec<String>,
+}
+
+/// The motions along which κ exists with (12) and (13).
+pub(crate) fn with_multipliers(cx: &Context<'_>, motion: &Motion) -> Found {
+    let zero = cx.system.graph.zero();
+    let rows = motion.conditions.iter().map(|row| Row {
+        coefficients: row.clone(),
+        right: zero,
+    });
+    let case = Case {
+        rows: rows.collect(),
+        ..Case::default()
+    };
+    Search::new(cx, motion, true).run(vec![case])
+}
+
+/// The motions along which functions of the state vanish.
+pub(crate) fn where_zero(cx: &Context<'_>, motion: &Motion, functions: &[Expr]) -> Found {
+    let search = Search::new(cx, motion, false);
+    let mut found = Found::default();
+    let cases = search.require_all(&mut found, Case::default(), functions);
+    let rest = search.run(cases);
+    found.leaves.extend(rest.leaves);
+    found.open.extend(rest.open);
+    found
+}
+
+/// What one step with a case gives.
+enum Step {
+    Cases(Vec<Case>),
+    Leaf(Box<Leaf>),
+}
+
+struct Search<'a, 'b> {
+    cx: &'b Context<'a>,
+    g: &'b Graph,
+    motion: &'b Motion,
+    state: Vec<Symbol>,
+    with_multipliers: bool,
+    spent: Cell<u64>,
+}
+
+impl<'a, 'b> Search<'a, 'b> {
+    fn new(cx: &'b Context<'a>, motion: &'b Motion, with_multipliers: bool) -> Search<'a, 'b> {
+        Search {
+            cx,
+            g: &cx.system.graph,
+            motion,
+            state: motion.state(),
+            with_multipliers,
+            spent: Cell::new(0),
+        }
+    }
+
+    fn run(&self, mut queue: Vec<Case>) -> Found {
+        let mut found = Found::default();
+        for _ in 0..CASES {
+            let Some(case) = queue.pop() else {
+                break;
+            };
+            if self.spent.get() > SIGNS {
+                found
+                    .open
+                    .push(format!("{} (the budget was spent)", self.place(&case)));
+                continue;
+            }
+            match self.advance(&mut found, case) {
+                Step::Cases(cases) => queue.extend(cases),
+                Step::Leaf(leaf) => found.leaves.push(*leaf),
+            }
+        }
+        let rest = queue
+            .iter()
+            .map(|case| format!("{} (too many cases)", self.place(case)));
+        found.open.extend(rest);
+        self.arranged(found)
+    }
+
+    /// The state of a case in words.
+    fn place(&self, case: &Case) -> String {
+        let equations = self.equations(case);
+        match equations.is_empty() {
+            true => "states in general position".into(),
+            false => equations.join(" and "),
+        }
+    }
+
+    /// An expression on the subset of a case.
+    fn on(&self, case: &Case, e: Expr) -> Expr {
+        if self.g.as_number(e).is_some() {
+            return e;
+        }
+        let restricted = self.g.substitute(e, &case.solved);
+        self.spent
+            .set(self.spent.get() + simplify::length(self.g, restricted));
+        short(self.g, restricted)
+    }
+
+    /// Makes equations kept by the motion and conditions closed, as far as one step goes.
+    fn advance(&self, found: &mut Found, mut case: Case) -> Step {
+        for &(symbol, value) in &case.solved {
+            let rate = self
+                .g
+                .as_symbol(symbol)
+                .map(|s| self.motion.rate(self.g, s));
+            let moved = self.motion.along(self.cx, value);
+            let residual = self.on(&case, self.g.sub(rate.unwrap_or(self.g.zero()), moved));
+            if !self.g.is_zero(residual) {
+                return Step::Cases(self.require(found, &case, residual));
+            }
+        }
+        let mut echelon: Vec<(usize, Row)> = Vec::new();
+        for row in &case.rows {
+            let row = self.reduced(&case, row, &echelon);
+            match self.pivot(&case, &row) {
+                Pivot::None if self.g.is_zero(row.right) => {}
+                Pivot::None => return Step::Cases(self.require(found, &case, row.right)),
+                Pivot::Certain(column) => self.enter(&case, &mut echelon, column, &row),
+                Pivot::Open(column) => {
+                    return Step::Cases(self.split(found, &case, row.coefficients[column]))
+                }
+            }
+        }
+        let fresh: Vec<Row> = echelon
+            .iter()
+            .map(|(_, row)| self.reduced(&case, &self.derived(row), &echelon))
+            .filter(|row| !self.is_zero(row))
+            .collect();
+        if fresh.is_empty() {
+            return Step::Leaf(Box::new(self.leaf(case, &echelon)));
+        }
+        case.rows = echelon
+            .into_iter()
+            .map(|(_, row)| row)
+            .chain(fresh)
+            .collect();
+        Step::Cases(vec![case])
+    }
+
+    fn is_zero(&self, row: &Row) -> bool {
+        let mut all = row.coefficients.iter().chain([&row.right]);
+        all.all(|&e| self.g.is_zero(e))
+    }
+
+    /// `(X n + n Φ) κ = X b + n·λ`.
+    fn derived(&self, row: &Row) -> Row {
+        let g = self.g;
+        let coefficients = (0..row.coefficients.len())
+            .map(|l| {
+                let mut parts = vec![self.motion.along(self.cx, row.coefficients[l])];
+                for (&n, transport) in row.coefficients.iter().zip(&self.motion.transport) {
+                    parts.push(g.mul(&[n, transport[l]]));
+                }
+                g.add(&parts)
+            })
+            .collect();
+        let mut right = vec![self.motion.along(self.cx, row.right)];
+        for (&n, &lambda) in row.coefficients.iter().zip(&self.motion.multipliers) {
+            right.push(g.mul(&[n, lambda]));
+        }
+        Row {
+            coefficients,
+            right: g.add(&right),
+        }
+    }
+
+    /// A row on the subset, with the pivots of the echelon form eliminated.
+    fn reduced(&self, case: &Case, row: &Row, echelon: &[(usize, Row)]) -> Row {
+        let g = self.g;
+        let mut row = row.clone();
+        for (column, pivot) in echelon {
+            let factor = row.coefficients[*column];
+            if g.is_zero(factor) {
+                continue;
+            }
+            let less = |e: Expr, p: Expr| g.sub(e, g.mul(&[factor, p]));
+            let pairs = row.coefficients.iter().zip(&pivot.coefficients);
+            row.coefficients = pairs.map(|(&e, &p)| less(e, p)).collect();
+            row.right = less(row.right, pivot.right);
+        }
+        for e in row.coefficients.iter_mut().chain([&mut row.right]) {
+            *e = self.on(case, *e);
+        }
+        row
+    }
+
+    /// Enters a row with a pivot that does not vanish, and eliminates it from the others.
+    fn enter(&self, case: &Case, echelon: &mut Vec<(usize, Row)>, column: usize, row: &Row) {
+        let pivot = row.coefficients[column];
+        let over = |e: Expr| self.on(case, self.g.div(e, pivot));
+        let row = Row {
+            coefficients: row.coefficients.iter().map(|&e| over(e)).collect(),
+            right: over(row.right),
+        };
+        let entered = [(column, row)];
+        for (_, known) in echelon.iter_mut() {
+            *known = self.reduced(case, known, &entered);
+        }
+        echelon.extend(entered);
+    }
+
+    fn pivot(&self, case: &Case, row: &Row) -> Pivot {
+        let entries = row.coefficients.iter().enumerate();
+        let nonzero: Vec<(usize, Expr)> = entries
+            .map(|(l, &e)| (l, e))
+            .filter(|(_, e)| !self.g.is_zero(*e))
+            .collect();
+        let shortest = |list: &[(usize, Expr)]| {
+            let shortest = list
+                .iter()
+                .min_by_key(|(_, e)| simplify::length(self.g, *e));
+            shortest.map(|(l, _)| *l)
+        };
+        let certain: Vec<(usize, Expr)> = nonzero
+            .iter()
+            .copied()
+            .filter(|&(_, e)| {
+                self.vanishing_factors(case, e)
+                    .is_some_and(|f| f.is_empty())
+            })
+            .collect();
+        match (shortest(&certain), shortest(&nonzero)) {
+            (Some(column), _) => Pivot::Certain(column),
+            (None, Some(column)) => Pivot::Open(column),
+            (None, None) => Pivot::None,
+        }
+    }
+
+    /// The case where an expression does not vanish, and those where it does.
+    fn split(&self, found: &mut Found, case: &Case, e: Expr) -> Vec<Case> {
+        let mut cases = self.require(found, case, e);
+        let mut off = case.clone();
+        off.nonzero
+            .extend(self.vanishing_factors(case, e).unwrap_or_else(|| vec![e]));
+        cases.push(off);
+        cases
+    }
+
+    fn leaf(&self, case: Case, echelon: &[(usize, Row)]) -> Leaf {
+        let g = self.g;
+        let r = self.motion.multipliers.len();
+        let columns: Vec<usize> = echelon.iter().map(|(column, _)| *column).collect();
+        let mut kappa = vec![None; r];
+        for (column, row) in echelon {
+            let free = (0..r).filter(|l| !columns.contains(l));
+            if free.clone().all(|l| g.is_zero(row.coefficients[l])) {
+                kappa[*column] = Some(row.right);
+            }
+        }
+        let at_rest = self.motion.speeds.iter().all(|&s| {
+            let symbol = g.symbol_expr(s);
+            g.is_zero(g.substitute(symbol, &case.solved))
+        });
+        let mut leaf = Leaf {
+            equations: self.equations(&case),
+            solved: case.solved.clone(),
+            kappa,
+            at_rest,
+            rows: self.with_multipliers.then(|| echelon.to_vec()),
+            nonzero: Vec::new(),
+        };
+        leaf.nonzero = self.needed(&leaf, &case.nonzero);
+        leaf
+    }
+
+    /// Of what does not vanish, that by which κ or the equations are divided: elsewhere they hold in the limit too, as they are
+    /// identities of continuous functions.
+    fn needed(&self, leaf: &Leaf, nonzero: &[Expr]) -> Vec<Expr> {
+        let values = leaf.kappa.iter().flatten().copied();
+        let values = values.chain(leaf.solved.iter().map(|(_, value)| *value));
+        let mut poles = Vec::new();
+        for value in values {
+            match factored(self.g, value) {
+                Some(parts) => poles.extend(
+                    parts
+                        .factors
+                        .iter()
+                        .filter(|(_, n)| *n < 0)
+                        .map(|(f, _)| *f),
+                ),
+                None => return nonzero.to_vec(),
+            }
+        }
+        nonzero
+            .iter()
+            .copied()
+            .filter(|e| poles.contains(e))
+            .collect()
+    }
+
+    /// The equations of a case as they are written, speeds first.
+    fn equations(&self, case: &Case) -> Vec<String> {
+        let g = self.g;
+        let mut solved = case.solved.clone();
+        solved.sort_by_key(|&(symbol, _)| {
+            let is = |s: &Symbol| g.as_symbol(symbol) == Some(*s);
+            let speed = self.motion.speeds.iter().position(is);
+            (
+                speed.is_none(),
+                speed.or_else(|| self.state.iter().position(is)),
+            )
+        });
+        let pairs = solved.iter().map(|&(symbol, value)| {
+            match case.angles.iter().find(|(s, _)| *s == symbol) {
+                Some((_, factor)) => format!("{} = 0", g.text(*factor)),
+                None => format!("{} = {}", g.text(symbol), g.text(value)),
+            }
+        });
+        pairs.collect()
+    }
+
+    /// Sets contained in others are left out, and what must not vanish is added to the equations.
+    fn arranged(&self, mut found: Found) -> Found {
+        let leaves = std::mem::take(&mut found.leaves);
+        for (place, leaf) in leaves.iter().enumerate() {
+            let contained = leaves.iter().enumerate().any(|(earlier, other)| {
+                let equal = || self.contains(leaf, other) && leaf.nonzero.is_empty();
+                earlier != place
+                    && other.nonzero.is_empty()
+                    && self.contains(other, leaf)
+                    && (earlier < place || !equal())
+            });
+            let mut written = leaf.clone();
+            let unequal = leaf
+                .nonzero
+                .iter()
+                .map(|&e| format!("{} ≠ 0", self.g.text(e)));
+            written.equations.extend(unequal);
+            let repeated = found
+                .leaves
+                .iter()
+                .any(|known| known.equations == written.equations);
+            if !contained && !repeated {
+                found.leaves.push(written);
+            }
+        }
+        found.open.extend(self.motion.gaps.iter().cloned());
+        found.open.sort();
+        found.open.dedup();
+        found
+    }
+
+    /// Whether the equations of `large` hold on `small`.
+    fn contains(&self, large: &Leaf, small: &Leaf) -> bool {
+        large.solved.iter().all(|&(symbol, value)| {
+            let residual = self.g.sub(symbol, value);
+            self.g
+                .is_zero(short(self.g, self.g.substitute(residual, &small.solved)))
+        })
+    }
+}
+
+/// What a row offers as a pivot.
+enum Pivot {
+    /// All coefficients vanish.
+    None,
+    /// A coefficient that does not vanish on the subset.
+    Certain(usize),
+    /// A coefficient that may vanish.
+    Open(usize),
+}

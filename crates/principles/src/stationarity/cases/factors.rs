@@ -1,0 +1,199 @@
+//! The cases in which an expression vanishes: by one of its factors, solved for a symbol of the state.
+
+use super::{Case, Found, Search, LONGEST};
+use crate::stationarity::closed_form::short;
+use chetaev_mechanics::prover::assumptions;
+use chetaev_symbolic::factors::factors;
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{simplify, Expr, Function, Node};
+
+impl Search<'_, '_> {
+    /// The factors by which an expression may vanish on the subset; `None` where it is too large to be factored.
+    pub(super) fn vanishing_factors(&self, case: &Case, e: Expr) -> Option<Vec<Expr>> {
+        if simplify::length(self.g, e) > LONGEST {
+            return None;
+        }
+        let list = factors(self.g, e, &self.state)?;
+        let list = list.into_iter().map(|(factor, _)| factor);
+        Some(list.filter(|&f| !self.never_zero(case, f)).collect())
+    }
+
+    fn never_zero(&self, case: &Case, factor: Expr) -> bool {
+        let (g, negative) = (self.g, self.g.neg(factor));
+        let mut known = case.nonzero.iter().chain(&self.motion.poles);
+        // Where a root vanishes is the edge of where the motion is defined.
+        let is_root = matches!(g.node(factor), Node::Power { exponent, .. } if g.as_integer(*exponent).is_none());
+        is_root
+            || known.any(|&e| e == factor || e == negative)
+            || known_sign(g, factor, &assumptions(self.cx.system)).is_nonzero()
+    }
+
+    /// The cases in which all of several expressions vanish.
+    pub(super) fn require_all(&self, found: &mut Found, case: Case, es: &[Expr]) -> Vec<Case> {
+        let mut cases = vec![case];
+        for &e in es {
+            let before = std::mem::take(&mut cases);
+            for case in before {
+                match self.on(&case, e) {
+                    rest if self.g.is_zero(rest) => cases.push(case),
+                    rest => cases.extend(self.require(found, &case, rest)),
+                }
+            }
+        }
+        cases
+    }
+
+    /// The cases in which an expression, which is not zero on the subset, vanishes: none where it has no factor that can.
+    pub(super) fn require(&self, found: &mut Found, case: &Case, e: Expr) -> Vec<Case> {
+        let Some(list) = self.vanishing_factors(case, e) else {
+            found.open.push(format!(
+                "{} (a condition is too long to be factored)",
+                self.place(case)
+            ));
+            return Vec::new();
+        };
+        list.into_iter()
+            .flat_map(|factor| self.solved(found, case, factor))
+            .collect()
+    }
+
+    /// The cases in which a factor vanishes.
+    fn solved(&self, found: &mut Found, case: &Case, factor: Expr) -> Vec<Case> {
+        if let Some(values) = self.as_angle(factor) {
+            return values
+                .into_iter()
+                .filter_map(|(symbol, value)| {
+                    let mut case = self.with(case, symbol, value)?;
+                    case.angles.push((symbol, factor));
+                    Some(case)
+                })
+                .collect();
+        }
+        if let Some(terms) = self.as_sum_of_squares(factor) {
+            return self.require_all(found, case.clone(), &terms);
+        }
+        match self.as_affine(case, factor) {
+            Some((symbol, value, slope)) => {
+                let mut cases = Vec::new();
+                let certain = self
+                    .vanishing_factors(case, slope)
+                    .is_some_and(|f| f.is_empty());
+                if !certain {
+                    cases.extend(self.require_all(found, case.clone(), &[slope, factor]));
+                }
+                if let Some(mut off) = self.with(case, symbol, value) {
+                    if !certain {
+                        off.nonzero
+                            .extend(self.vanishing_factors(case, slope).unwrap_or_default());
+                    }
+                    cases.push(off);
+                }
+                cases
+            }
+            None => {
+                let text = self.g.text(factor);
+                let and = match case.solved.is_empty() {
+                    true => String::new(),
+                    false => format!(" and {}", self.place(case)),
+                };
+                found.open.push(format!("{text} = 0{and}"));
+                Vec::new()
+            }
+        }
+    }
+
+    /// A case with a further equation; `None` where it contradicts what does not vanish.
+    fn with(&self, case: &Case, symbol: Expr, value: Expr) -> Option<Case> {
+        let pair = [(symbol, value)];
+        let mut case = case.clone();
+        for (_, known) in &mut case.solved {
+            *known = short(self.g, self.g.substitute(*known, &pair));
+        }
+        case.solved.push((symbol, value));
+        let nonzero = std::mem::take(&mut case.nonzero);
+        for e in nonzero {
+            let rest = self.on(&case, e);
+            if self.g.is_zero(rest) {
+                return None;
+            }
+            let list = factors(self.g, rest, &self.state).unwrap_or_else(|| vec![(rest, 1)]);
+            case.nonzero
+                .extend(list.into_iter().map(|(factor, _)| factor));
+        }
+        Some(case)
+    }
+
+    /// The values of an angle at which its sine or cosine vanishes.
+    fn as_angle(&self, factor: Expr) -> Option<Vec<(Expr, Expr)>> {
+        let g = self.g;
+        let Node::Apply {
+            function,
+            arguments,
+        } = g.node(factor)
+        else {
+            return None;
+        };
+        let angle = *arguments.first()?;
+        let half = g.div(g.pi(), g.integer(2));
+        let values = match function {
+            Function::Sin => [g.zero(), g.pi()],
+            Function::Cos => [half, g.neg(half)],
+            _ => return None,
+        };
+        let symbol = *g
+            .symbols_in(&[angle])
+            .iter()
+            .find(|s| self.state.contains(s))?;
+        let slope = g.diff(angle, symbol);
+        g.as_number(slope)?;
+        let symbol = g.symbol_expr(symbol);
+        let rest = g.sub(angle, g.mul(&[slope, symbol]));
+        let value = |value: Expr| short(g, g.div(g.sub(value, rest), slope));
+        Some(values.into_iter().map(|v| (symbol, value(v))).collect())
+    }
+
+    /// The terms of a sum none of which can be negative.
+    fn as_sum_of_squares(&self, factor: Expr) -> Option<Vec<Expr>> {
+        let Node::Sum { constant, terms } = self.g.node(factor) else {
+            return None;
+        };
+        let known = assumptions(self.cx.system);
+        let zero = chetaev_symbolic::Rational::from(0);
+        let parts: Vec<Expr> = terms.iter().map(|(e, c)| self.g.scale(c, *e)).collect();
+        let one_sign = constant == &zero
+            && parts
+                .iter()
+                .all(|&e| known_sign(self.g, e, &known).is_nonnegative());
+        one_sign.then_some(parts)
+    }
+
+    /// A symbol of the state in which a factor is affine, its value where the factor vanishes, and its coefficient. Speeds
+    /// come first, and coefficients that cannot vanish before others.
+    fn as_affine(&self, case: &Case, factor: Expr) -> Option<(Expr, Expr, Expr)> {
+        let g = self.g;
+        let occurring = g.symbols_in(&[factor]);
+        let mut best: Option<(u8, u64, (Expr, Expr, Expr))> = None;
+        for &s in self.state.iter().filter(|s| occurring.contains(s)) {
+            let slope = short(g, g.diff(factor, s));
+            if g.contains_any(slope, &[s]) || g.is_zero(slope) {
+                continue;
+            }
+            let symbol = g.symbol_expr(s);
+            let rest = g.substitute(factor, &[(symbol, g.zero())]);
+            let is_speed = self.motion.speeds.contains(&s);
+            let certain = self
+                .vanishing_factors(case, slope)
+                .is_some_and(|f| f.is_empty());
+            let rank = u8::from(!certain) * 2 + u8::from(!is_speed);
+            let value = short(g, g.neg(g.div(rest, slope)));
+            let length = simplify::length(g, value);
+            if best
+                .as_ref()
+                .is_none_or(|(r, l, _)| (rank, length) < (*r, *l))
+            {
+                best = Some((rank, length, (symbol, value, slope)));
+            }
+        }
+        best.map(|(_, _, found)| found)
+    }
+}

@@ -1,0 +1,264 @@
+//! `hamilton.stationary`: whether Hamilton's principle is one of stationary action.
+
+use super::cases::{confirmed, with_multipliers, Found, Leaf};
+use super::kappa::integrated;
+use super::motion::Motion;
+use super::Closure;
+use crate::words::{conditional, formula, listed};
+use chetaev_mechanics::claims::formulation::{basis, manifold};
+use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
+use chetaev_mechanics::formulations::kappa_symbols;
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::{Expr, Verdict};
+
+/// `hamilton.stationary`.
+#[derive(Clone, Copy, Debug)]
+pub struct Stationary;
+
+impl Claim for Stationary {
+    fn id(&self) -> &'static str {
+        "hamilton.stationary"
+    }
+
+    fn group(&self) -> Group {
+        Group::Principles
+    }
+
+    fn title(&self) -> &'static str {
+        "Hamilton's principle is one of stationary action"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "Whether a motion makes the action ∫L dt stationary among the curves that satisfy the constraints. ∫δL dt = 0 for \
+         virtual δq (hamilton.hoelder) does not say so, since the curves varied by it violate the constraints in general. \
+         Curves that make the action stationary solve the equations of the constrained extremum for L + Σ κ f with multipliers \
+         κ(t). A motion with the reactions λ is among them exactly where κ exists with (a) Σ κ E[f]·δq = 0 for every virtual δq and (b) κ' = ρ − λ, \
+         where Σ κ E[f] = Σ ρ ∂f/∂v. These linear conditions are differentiated along the motion until nothing new comes; then \
+         they hold for every motion (`proved`, with κ), for motions on an invariant subset given by equations (`conditional`), or for none \
+         (`refuted`; rest is named apart). Example: a particle z' = y x' has E[f]·δq = y' δx − x' δy, so (a) \
+         demands κ = 0 unless x' = y' = 0, and then (b) demands λ = x' y'/(1 + y²) = 0: only motions with x' = 0 or y' = 0 are stationary. \
+         A rolling disc, which is not integrable either, has κ = (−m x', −m y') for every motion. κ = 0 alone would need all \
+         reactions to vanish. Parameters are taken as general."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        requirements()
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        if cx.selection.rows.is_empty() {
+            let detail = "without constraints Hamilton's principle is one of stationary action";
+            return Verdict::Proved(Proof::structural("for every motion", detail)).into();
+        }
+        match &*Closure::of(cx) {
+            Ok(closure) => decide(cx, closure),
+            Err(problem) => Verdict::from(problem).into(),
+        }
+    }
+}
+
+/// What stationarity requires: an action, and a motion.
+pub(super) fn requirements() -> Vec<String> {
+    [
+        "model.forces-absent",
+        "model.accelerations-unique",
+        "model.masses-of-time",
+    ]
+    .map(String::from)
+    .to_vec()
+}
+
+fn decide(cx: &Context<'_>, closure: &Closure) -> Finding {
+    let mut verdict = closure.verdict.clone();
+    match &verdict {
+        Verdict::Proved(_) => {
+            let (kappa, formulas) = multipliers(cx, closure);
+            verdict.prefix(&format!(
+                "every motion makes the action stationary among admissible curves; {kappa}"
+            ));
+            Finding { verdict, formulas }
+        }
+        Verdict::Refuted(_) => match &*Motion::of(cx) {
+            Ok(motion) => on_subsets(cx, motion, verdict),
+            Err(why) => {
+                verdict.prefix(&format!("not every motion makes the action stationary; for which it does was not found: {why}"),
+                );
+                verdict.into()
+            }
+        },
+        _ => {
+            verdict.prefix("conditions on κ along the motion");
+            verdict.into()
+        }
+    }
+}
+
+/// κ in words and formulas where every motion is an extremal.
+fn multipliers(cx: &Context<'_>, closure: &Closure) -> (String, Vec<Formula>) {
+    let g = &cx.system.graph;
+    let basis = basis(cx);
+    let symbols = kappa_symbols(&basis);
+    let solved: Vec<(Expr, Expr)> = manifold(cx)
+        .solved
+        .iter()
+        .map(|&(symbol, value)| (g.symbol_expr(symbol), value))
+        .collect();
+    let motion = (closure.free > 0).then(|| Motion::of(cx));
+    let motion = motion
+        .as_ref()
+        .and_then(|motion| motion.as_ref().as_ref().ok());
+    let mut formulas = Vec::new();
+    let mut known = Vec::new();
+    for (l, name) in basis.constraint_names().into_iter().enumerate() {
+        let value = match closure.kappa[l] {
+            Some(value) => Some(g.substitute(value, &solved)),
+            None => motion
+                .as_ref()
+                .and_then(|m| Some(integrated(cx, m, l)?.value)),
+        };
+        let caption = format!("multiplier κ of `{name}`, along every motion");
+        let shown = value.and_then(|value| formula(cx, caption, Some(symbols[l]), value));
+        if let Some(shown) = &shown {
+            known.push(format!("{} = {}", g.text(symbols[l]), g.text(shown.right)));
+        }
+        formulas.extend(shown);
+    }
+    let free = match closure.free {
+        0 => "κ is unique".to_string(),
+        1 if closure.kappa.len() == 1 => "every κ(0) serves".into(),
+        1 => "1 constant of κ(0) is free".into(),
+        free => format!("{free} constants of κ(0) are free"),
+    };
+    let values = match known.is_empty() {
+        true => String::new(),
+        false => format!("{}; ", known.join(", ")),
+    };
+    (format!("{values}{free}"), formulas)
+}
+
+/// The motions for which κ exists although it does not for all.
+fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Finding {
+    let mut found = with_multipliers(cx, motion);
+    set_aside_unconfirmed(cx, motion, &mut found);
+    let (rest, moving): (Vec<&Leaf>, Vec<&Leaf>) =
+        found.leaves.iter().partition(|leaf| leaf.at_rest);
+    let open = not_followed(&found);
+    if moving.is_empty() {
+        let sentence = match (rest.is_empty(), open.is_empty()) {
+            (true, true) => "no motion makes the action stationary among admissible curves".to_string(),
+            (false, true) => format!(
+                "no motion makes the action stationary among admissible curves, except rest where {}",
+                alternatives(&rest)
+            ),
+            _ => "not every motion makes the action stationary".into(),
+        };
+        refuted.prefix(&format!("{sentence}{open}"));
+        return refuted.into();
+    }
+    let all: Vec<&Leaf> = moving.into_iter().chain(rest).collect();
+    let legend = legend(cx, motion);
+    let stated = format!("{}{legend}", alternatives(&all));
+    let condition = format!("{stated}{open}");
+    let how = "the conditions on κ were differentiated along the motion in every case, exactly";
+    let proof = Proof::exact(place(cx, motion), how);
+    let formulas = all.iter().flat_map(|leaf| of_leaf(cx, leaf)).collect();
+    let mut verdict = conditional(condition, proof, refuted);
+    verdict.prefix(&format!(
+        "motions make the action stationary {}where {stated}{open}",
+        only(&found)
+    ));
+    Finding { verdict, formulas }
+}
+
+/// Sets that the zero test does not confirm are no longer among those found.
+pub(super) fn set_aside_unconfirmed(cx: &Context<'_>, motion: &Motion, found: &mut Found) {
+    let (confirmed, others): (Vec<Leaf>, Vec<Leaf>) = found
+        .leaves
+        .drain(..)
+        .partition(|leaf| matches!(confirmed(cx, motion, leaf), Verdict::Proved(_)));
+    found.leaves = confirmed;
+    let others = others.iter().map(|leaf| listed(&leaf.equations));
+    found.open.extend(others);
+}
+
+/// κ on a subset.
+fn of_leaf(cx: &Context<'_>, leaf: &Leaf) -> Vec<Formula> {
+    let basis = basis(cx);
+    let symbols = kappa_symbols(&basis);
+    let names = basis.constraint_names().into_iter().zip(symbols);
+    names
+        .zip(&leaf.kappa)
+        .filter_map(|((name, symbol), value)| {
+            let caption = format!("multiplier κ of `{name}` where {}", listed(&leaf.equations));
+            formula(cx, caption, Some(symbol), (*value)?)
+        })
+        .collect()
+}
+
+/// "x' = 0, or y' = 0 and z = 1".
+pub(super) fn alternatives(leaves: &[&Leaf]) -> String {
+    let texts: Vec<String> = leaves.iter().map(|leaf| listed(&leaf.equations)).collect();
+    match leaves.iter().any(|leaf| leaf.equations.len() > 1) {
+        true => texts.join(", or "),
+        false => texts.join(" or "),
+    }
+}
+
+/// Longer conditions of cases that were not followed are not printed.
+const FOLLOWED: usize = 120;
+
+/// "only " where every case was followed.
+pub(super) fn only(found: &Found) -> &'static str {
+    match found.open.is_empty() {
+        true => "only ",
+        false => "",
+    }
+}
+
+/// Where the cases were distinguished.
+pub(super) fn place(cx: &Context<'_>, motion: &Motion) -> String {
+    let g = &cx.system.graph;
+    let poles: Vec<String> = motion
+        .poles
+        .iter()
+        .map(|&e| format!("{} ≠ 0", g.text(e)))
+        .collect();
+    match poles.is_empty() {
+        true => "for general values of the parameters".into(),
+        false => format!(
+            "for general values of the parameters, where {}",
+            listed(&poles)
+        ),
+    }
+}
+
+/// What was not followed, as the end of a sentence.
+pub(super) fn not_followed(found: &Found) -> String {
+    let perhaps = match found.leaves.iter().any(|leaf| !leaf.at_rest) {
+        true => "perhaps also",
+        false => "whether it is so elsewhere is open,",
+    };
+    let is_short = |text: &String| text.chars().count() < FOLLOWED;
+    match found.open.as_slice() {
+        [] => String::new(),
+        [_] | [_, _] if found.open.iter().all(is_short) => format!(
+            "; {perhaps} in cases that were not followed: {}",
+            found.open.join("; ")
+        ),
+        [_] => format!("; {perhaps} in one case, too long to be followed"),
+        many => format!("; {perhaps} in {} cases that were not followed", many.len()),
+    }
+}
+
+/// What the speeds are that the model does not name.
+pub(super) fn legend(cx: &Context<'_>, motion: &Motion) -> String {
+    let g = &cx.system.graph;
+    let pairs = motion.legend.iter();
+    let pairs: Vec<String> = pairs
+        .map(|&(v, e)| format!("{} = {}", g.text(v), g.text(e)))
+        .collect();
+    match pairs.is_empty() {
+        true => String::new(),
+        false => format!(" (with {})", pairs.join(", ")),
+    }
+}

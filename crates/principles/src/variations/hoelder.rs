@@ -1,0 +1,217 @@
+//! `variation.hoelder`: what varied curves do to the constraints.
+
+use super::Displacements;
+use crate::words::{conditional, formula, listed, readable};
+use chetaev_mechanics::claims::formulation::basis;
+use chetaev_mechanics::claims::{once_where, Claim, Context, Finding, Formula, Group};
+use chetaev_mechanics::formulations::DeriveError;
+use chetaev_mechanics::linear::dot;
+use chetaev_symbolic::factors::factors;
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::{Expr, Verdict};
+
+/// `variation.hoelder`.
+#[derive(Clone, Copy, Debug)]
+pub struct Hoelder;
+
+impl Claim for Hoelder {
+    fn id(&self) -> &'static str {
+        "variation.hoelder"
+    }
+
+    fn group(&self) -> Group {
+        Group::Principles
+    }
+
+    fn title(&self) -> &'static str {
+        "Varied curves satisfy the constraints to first order (Hölder's rule)"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "Chetaev's condition Σ ∂f/∂v δq = 0 says what a virtual displacement δq is; what δv is has to be agreed upon. Hölder's rule \
+         δv = D(δq) varies curves: then δf = Σ E[f] δq with Euler's operator E[f] = ∂f/∂q − D(∂f/∂v), and varied curves in general \
+         violate the constraints, although δq obeys them. In solved form f = v_d − φ this is δf = Σ A δq, with the curvature \
+         coefficients A = D(∂φ/∂v) − ∂φ/∂q − (∂φ/∂q_d)(∂φ/∂v). `proved`: δf = 0 for all virtual displacements at all \
+         states and accelerations; so it is where the constraints are integrable. `conditional`: on the motions only, which \
+         happens for constraints nonlinear in the velocities, or for some virtual displacements only, whose equations are \
+         stated. `refuted`: for no displacement but zero. Example: a skate, f = x' sin φ − y' cos φ. Turn it by δφ while it moves with the speed \
+         u along its blade, and let the blade's displacement δs grow with time along its direction: δf = u δφ − φ' δs. Unless these are in the \
+         ratio of the actual velocities, the varied path is none a skate can take."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        vec!["model.accelerations-unique".into()]
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        once_where(!cx.selection.rows.is_empty() && cx.terms.order <= 1)
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        decide(cx).unwrap_or_else(Finding::from)
+    }
+}
+
+fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
+    if cx.selection.rows.is_empty() {
+        let detail = "there are no constraints that a variation could violate";
+        return Ok(Verdict::Proved(Proof::structural("everywhere", detail)).into());
+    }
+    let d = Displacements::new(cx)?;
+    let varied = d.of_constraints(cx);
+    let formulas = formulas(cx, &d, &varied);
+    let identically = by_curvature(cx, &d, &varied).and(cx.prover.identity(
+        cx.system,
+        &varied.concat(),
+        d.manifold(),
+        "at all admissible states, for all accelerations and virtual displacements",
+    ));
+    let mut finding = match identically {
+        Verdict::Refuted(_) => not_identically(cx, &d, &varied, identically)?,
+        mut other => {
+            let sentence = match &other {
+                Verdict::Proved(_) => "δf = 0 for every virtual displacement: varied curves satisfy the constraints to first order",
+                _ => "δf = Σ E[f] δq for virtual displacements",
+            };
+            other.prefix(sentence);
+            other.into()
+        }
+    };
+    finding.formulas.splice(0..0, formulas);
+    Ok(finding)
+}
+
+/// `Σ_m ∂f^l/∂v_m A^m_s = Σ_i E_i[f^l] B_is`: both ways to δf agree (T1 §9.6).
+fn by_curvature(cx: &Context<'_>, d: &Displacements<'_>, varied: &[Vec<Expr>]) -> Verdict {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let curvature = d.curvature();
+    let mut residuals = Vec::new();
+    for (row, varied) in basis(cx).jacobian().into_iter().zip(varied) {
+        let dependent: Vec<Expr> = d.chart.dependent.iter().map(|&i| row[i]).collect();
+        let dependent = d.chart.restrict(system, &dependent);
+        for (s, &varied) in varied.iter().enumerate() {
+            let column = curvature.iter().map(|a| &a[s]);
+            residuals.push(g.sub(dot(g, &dependent, column), varied));
+        }
+    }
+    let on = "at all admissible states, for all accelerations and virtual displacements";
+    match cx.prover.identity(system, &residuals, d.manifold(), on) {
+        Verdict::Refuted(_) => Verdict::undecided(
+            "δf by Euler's operator and by the curvature coefficients were found to differ",
+        ),
+        other => other,
+    }
+}
+
+/// On the motions, or for some displacements.
+fn not_identically(
+    cx: &Context<'_>,
+    d: &Displacements<'_>,
+    varied: &[Vec<Expr>],
+    identically: Verdict,
+) -> Result<Finding, DeriveError> {
+    let k = d.chart.k();
+    let flat = varied.concat();
+    if !d.has_accelerations(&flat) {
+        return Ok(for_some_displacements(cx, d, varied, identically));
+    }
+    let flat = d.on_motion(cx, &flat)?;
+    let rows: Vec<Vec<Expr>> = flat.chunks(k).map(<[Expr]>::to_vec).collect();
+    let on = "on the motions, for all virtual displacements";
+    match cx.prover.identity(cx.system, &flat, d.manifold(), on) {
+        Verdict::Proved(proof) => {
+            let mut verdict = conditional("on the motions".into(), proof, identically);
+            verdict.prefix("δf = 0 on every motion for every virtual displacement, although not for all accelerations: the reason is \
+                 the equations of motion, not integrability",
+            );
+            Ok(verdict.into())
+        }
+        refuted @ Verdict::Refuted(_) => Ok(for_some_displacements(cx, d, &rows, refuted)),
+        mut other => {
+            other.prefix("δf on the motions");
+            Ok(other.into())
+        }
+    }
+}
+
+/// The displacements for which δf vanishes, by the rank of its coefficients.
+fn for_some_displacements(
+    cx: &Context<'_>,
+    d: &Displacements<'_>,
+    rows: &[Vec<Expr>],
+    mut refuted: Verdict,
+) -> Finding {
+    let k = d.chart.k();
+    let rank = match cx.prover.rank(cx.system, rows, d.manifold()) {
+        Ok(rank) if rank.minimum == rank.maximum => rank,
+        _ => {
+            refuted.prefix("δf does not vanish for all virtual displacements; for which it does was not decided");
+            return refuted.into();
+        }
+    };
+    if rank.maximum == k {
+        let sentence = match k {
+            1 => "the only virtual displacements, along one direction, violate the constraints: δf = 0 for none but zero",
+            _ => "δf = 0 for no virtual displacement but zero, at almost every state",
+        };
+        refuted.prefix(sentence);
+        return refuted.into();
+    }
+    let equations: Option<Vec<String>> = rank
+        .pivots
+        .rows
+        .iter()
+        .map(|&row| equation(cx, d, &rows[row]))
+        .collect();
+    let (condition, sentence) = match equations {
+        Some(equations) => (
+            listed(&equations),
+            format!("varied curves violate the constraints, except for displacements with {}", listed(&equations)),
+        ),
+        None => (
+            format!("on {} of {k} dimensions of virtual displacements, those with Σ E[f] δq = 0", k - rank.maximum),
+            format!("varied curves violate the constraints, except for {} of {k} dimensions of virtual displacements", k - rank.maximum),
+        ),
+    };
+    let proof = match rank.at_least.and(rank.at_most) {
+        Verdict::Proved(proof) => Proof {
+            on: "at almost every admissible state".into(),
+            ..proof
+        },
+        _ => Proof::exact("at almost every admissible state", "the rank of E[f] B"),
+    };
+    let mut verdict = conditional(condition, proof, refuted);
+    verdict.prefix(&sentence);
+    verdict.into()
+}
+
+/// `Σ_s c_s δ_s = 0` without common factors; `None` where it is too long to be read.
+fn equation(cx: &Context<'_>, d: &Displacements<'_>, row: &[Expr]) -> Option<String> {
+    let g = &cx.system.graph;
+    let form = readable(cx, dot(g, row, &d.free))?;
+    let without = match factors(g, form, &d.symbols())?.as_slice() {
+        [(factor, 1)] => readable(cx, *factor)?,
+        _ => form,
+    };
+    Some(format!("{} = 0", g.text(without)))
+}
+
+/// δf, and the A^l_s that do not vanish.
+fn formulas(cx: &Context<'_>, d: &Displacements<'_>, varied: &[Vec<Expr>]) -> Vec<Formula> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let basis = basis(cx);
+    let mut found = Vec::new();
+    for (name, row) in basis.constraint_names().into_iter().zip(varied) {
+        let caption = format!("δf of `{name}` by Hölder's rule");
+        found.extend(formula(cx, caption, None, dot(g, row, &d.free)));
+    }
+    for (&l, row) in d.chart.dependent.iter().zip(d.curvature()) {
+        for (&s, value) in d.chart.independent.iter().zip(row) {
+            let (l, s) = (&system.coordinates[l].name, &system.coordinates[s].name);
+            let caption = format!("curvature coefficient of {l}' by δ{s}");
+            let left = g.symbol(&format!("A_{l}_{s}"), 0);
+            found.extend(formula(cx, caption, Some(left), value).filter(|f| !g.is_zero(f.right)));
+        }
+    }
+    found
+}
