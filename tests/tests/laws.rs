@@ -10,7 +10,7 @@
 use chetaev::mechanics::System;
 use chetaev::model::{load, NoFiles, Style};
 use chetaev_laws::arguments::USUAL_COUNT;
-use chetaev_laws::{check_all, failures, generate, table, Expected, Family, Outcome};
+use chetaev_laws::{check_all, failures, generate, table, Expected, Family, Outcome, CONTAINED};
 
 fn obeys_the_laws(family: Family) {
     let outcomes = check_all(&[family], USUAL_COUNT, &|_, _| ());
@@ -74,6 +74,11 @@ fn moving_frames() {
 }
 
 #[test]
+fn integrable_constraints() {
+    obeys_the_laws(Family::Integrable);
+}
+
+#[test]
 fn singular_lagrangians() {
     obeys_the_laws(Family::Singular);
 }
@@ -96,6 +101,25 @@ fn particles_with_masses_that_contain_velocities() {
 #[test]
 fn systems_of_the_type_of_chaplygin() {
     obeys_the_laws(Family::Chaplygin);
+}
+
+/// A known integral is found wherever it lies in a family that was searched; all that is reported keeps its value along
+/// motions computed without the formulas of the search; another function is refuted.
+#[test]
+fn known_integrals() {
+    let outcomes = check_all(&[Family::Symmetric], USUAL_COUNT, &|_, _| ());
+    let report = format!("{}{}", table(&outcomes), failures(&outcomes));
+    assert!(outcomes.iter().all(Outcome::holds), "{report}");
+    let with = |expected: Expected, count: usize| {
+        let tried = outcomes.iter().filter(|o| o.tally(expected).0 == count);
+        tried.count() as u64
+    };
+    assert_eq!(with(Expected::Proved, 2), USUAL_COUNT);
+    assert_eq!(with(Expected::Refuted, 1), USUAL_COUNT);
+    let contained = outcomes
+        .iter()
+        .filter(|o| o.trials.iter().any(|t| t.about.contains(CONTAINED)));
+    assert!(contained.count() as u64 * 2 > USUAL_COUNT, "{report}");
 }
 
 /// The text that comes with a failure is the system that failed.
@@ -133,6 +157,7 @@ fn meaning(system: &System) -> Vec<u128> {
     }
     all.extend(system.masses.iter().map(|m| m.rate));
     all.extend(&system.reactive_forces);
+    all.extend(system.integrals.iter().map(|(_, value)| *value));
     all.into_iter().map(|e| g.digest(e)).collect()
 }
 

@@ -7,7 +7,7 @@
 
 use chetaev::model::{load, NoFiles};
 use chetaev::study::{Hooks, StudyOptions};
-use chetaev_tests::runs::{along, ended_text, Ask, Ended};
+use chetaev_tests::runs::{ended_text, Ask, Ended};
 
 fn study(text: &str, claims: &[&'static str]) -> Ended {
     let ask = Ask {
@@ -339,76 +339,3 @@ fn drifts_are_measured_between_the_rows() {
     assert!(sparse.value > dense.value / 30.0, "{sparse:?} {dense:?}");
     assert!(sparse.t > 0.0);
 }
-
-/// The constraint itself, its rate and its second rate prescribe the same motion from data that satisfy all three; for the
-/// last the reaction at the start is one of the data.
-#[test]
-fn the_knife_edge_moves_the_same_whatever_the_order_of_its_constraint() {
-    for order in 1..=3 {
-        for formulation in ["routh", "maggi", "volterra-first", "volterra-second"] {
-            let reaction = match order {
-                3 => "lambda_blade = \"-m W u0\"",
-                _ => "",
-            };
-            let ended = ended_text(&knife_edge(order, reaction), &integrated_by(formulation));
-            let found = ended.study.as_ref();
-            let found = found.unwrap_or_else(|| panic!("{order}: {}", ended.text));
-            let run = &found.motion.as_ref().unwrap().evidence.run;
-            for (what, value) in SKATE_ON_INCLINE {
-                let distance = along(found, run, &format!("{what} - ({value})")).unwrap();
-                assert!(distance.len() > 20, "{}", ended.text);
-                let largest = distance.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
-                assert!(
-                    largest < 1e-8,
-                    "{order}, {formulation}, {what}: {largest:e}"
-                );
-            }
-        }
-    }
-}
-
-/// With another reaction at the start the second rate stays zero, but not the lateral velocity.
-#[test]
-fn a_knife_edge_of_order_three_slips_by_the_reaction_it_starts_with() {
-    let text = knife_edge(3, "lambda_blade = \"m (1/10 - W u0)\"");
-    let ended = ended_text(&text, &integrated_by("maggi"));
-    let found = ended.study.as_ref().unwrap();
-    let run = &found.motion.as_ref().unwrap().evidence.run;
-    let slip = along(found, run, "x' sin(phi) - y' cos(phi) - t/10").unwrap();
-    assert!(slip.iter().all(|s| s.abs() < 1e-8), "{slip:?}");
-}
-
-fn integrated_by(formulation: &'static str) -> Ask {
-    Ask {
-        claims: vec!["motion.constraint-drift"],
-        formulation: Some(formulation),
-        ..Ask::default()
-    }
-}
-
-fn knife_edge(order: usize, reaction: &str) -> String {
-    format!(
-        r#"
-coordinates = ["x", "y", "phi"]
-parameters = {{ m = 1.2, J = 0.3, gs = 4, W = 1.3, u0 = 0.7 }}
-lagrangian = {{ T = "1/2 m (x'^2 + y'^2) + 1/2 J phi'^2", V = "-m gs x" }}
-[constraints]
-blade = {{ equation = "x' sin(phi) = y' cos(phi)", lifted = {order} }}
-[initial]
-"x'" = "u0"
-"phi'" = "W"
-{reaction}
-[simulation]
-t_end = 4
-tolerance = 1e-11
-output = 40
-"#
-    )
-}
-
-/// The skate on an incline that starts along the slope (Neimark and Fufaev 1972, ch. II): u' = gs cos(W t).
-const SKATE_ON_INCLINE: [(&str, &str); 3] = [
-    ("x", "u0/W sin(W t) + gs/(2 W^2) sin(W t)^2"),
-    ("y", "u0/W (1 - cos(W t)) + gs/W^2 (W t/2 - sin(2 W t)/4)"),
-    ("phi", "W t"),
-];

@@ -97,6 +97,9 @@ pub(crate) struct MotionArguments {
     /// Move inadmissible initial data to the nearest admissible state
     #[arg(long)]
     pub(crate) project: bool,
+    /// Keep the first integrals that are found, by projection after each step of Routh's equations
+    #[arg(long)]
+    pub(crate) keep_integrals: bool,
     /// Which branch of the motion to follow where constraints of order two and more admit several, as they are listed
     #[arg(long, value_name = "N")]
     pub(crate) branch: Option<usize>,

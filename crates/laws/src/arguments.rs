@@ -3,7 +3,7 @@
 //! Plain standard library: the task runner reads the same file, so that it refuses a slip before anything is built.
 
 /// The names of the families, in the order they are run.
-pub const FAMILY_NAMES: [&str; 17] = [
+pub const FAMILY_NAMES: [&str; 19] = [
     "polynomial-linear",
     "trigonometric-linear",
     "polynomial-nonlinear",
@@ -21,6 +21,8 @@ pub const FAMILY_NAMES: [&str; 17] = [
     "second-order-nonlinear",
     "third-order-linear",
     "third-order-nonlinear",
+    "integrable",
+    "symmetric",
 ];
 
 /// Systems of each family without `--full`.
@@ -43,7 +45,8 @@ Usage: cargo xtask laws [--full | --count N] [--family NAME] [--seed N]
 
 Families: polynomial-linear, trigonometric-linear, polynomial-nonlinear, trigonometric-nonlinear, nonquadratic,
 rheonomic-affine, radicals, moving-frame, singular, particles, chaplygin, variable-mass, velocity-mass,
-second-order-linear, second-order-nonlinear, third-order-linear, third-order-nonlinear.
+second-order-linear, second-order-nonlinear, third-order-linear, third-order-nonlinear, integrable,
+symmetric.
 
 Exit status: 0 all laws hold, 1 a law fails, 2 the arguments are wrong.
 
@@ -156,7 +159,8 @@ mod tests {
     #[test]
     fn a_run_is_asked_for_in_words() {
         let all = read("").unwrap();
-        assert_eq!((all.families.len(), all.count, all.seed), (17, 50, None));
+        let every = FAMILY_NAMES.len();
+        assert_eq!((all.families.len(), all.count, all.seed), (every, 50, None));
         assert_eq!(read("--full").unwrap().count, 1000);
         let one = read("--family nonquadratic --seed=17").unwrap();
         assert_eq!(

@@ -80,6 +80,10 @@ fn fill(outcome: &mut Outcome) -> Result<(), String> {
         return Ok(());
     }
     let sampled = Sampled::new(&cx, outcome.seed).map_err(|p| p.to_string())?;
+    if !random.system.integrals.is_empty() {
+        outcome.trials = laws::all_of_integrals(sampled).map_err(|p| p.to_string())?;
+        return Ok(());
+    }
     (outcome.trials, outcome.nodes) = laws::all(sampled).map_err(|p| p.to_string())?;
     Ok(())
 }

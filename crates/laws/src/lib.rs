@@ -12,5 +12,5 @@ mod summary;
 
 pub use check::{check, check_all, Outcome};
 pub use generate::{generate, Family, RandomSystem};
-pub use laws::{Expected, Kind, Trial};
+pub use laws::{Expected, Kind, Trial, CONTAINED};
 pub use summary::{failures, table, times};

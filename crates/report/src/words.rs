@@ -279,6 +279,7 @@ static ENGLISH: Words = Words {
         ("chaplygin", "Chaplygin’s multiplier"),
         ("second-kind", "Principles of the second kind"),
         ("noether", "First integrals and symmetries"),
+        ("distribution", "What can be reached"),
         ("liouville", "Integrability by quadratures"),
         ("measure", "Invariant measure"),
         ("functional", "Functionals"),

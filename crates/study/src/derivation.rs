@@ -187,5 +187,6 @@ fn readable_objects(system: &System, objects: &[NamedExpr], known: &Readings) ->
             value: read(object.value),
             ..object.clone()
         })
+        .filter(|object| !(object.is_component && g.is_zero(object.value)))
         .collect()
 }

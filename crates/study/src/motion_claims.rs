@@ -4,7 +4,8 @@
 //! time at which the bound was exceeded.
 
 use crate::method_order::Orders;
-use crate::motion_evidence::{Followed, MotionEvidence};
+use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
+use chetaev_geometry::noether::found::if_searched;
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::claims::formulation::{derive, REFERENCE};
 use chetaev_mechanics::claims::order::dimension;
@@ -361,8 +362,9 @@ impl Claim for IntegralDrift {
     describe!(
         "motion.integral-drift",
         Group::Motion,
-        "The computed motion keeps a stated integral",
-        "The largest deviation of an integral that the model states from its initial value, along the computed motion. \
+        "The computed motion keeps an integral",
+        "The largest deviation of an integral from its initial value, along the computed motion: of those that the model \
+         states, by their names, and of those that the search found, by their numbers (`noether.integral`). \
          That the quantity is an integral is not proved here: a drift within the tolerance is evidence, a larger one \
          refutes the statement or the accuracy."
     );
@@ -372,9 +374,13 @@ impl Claim for IntegralDrift {
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        evidence(cx)
-            .map(|e| e.integrals.iter().map(|i| Some(i.name.clone())).collect())
-            .unwrap_or_default()
+        let Some(evidence) = evidence(cx) else {
+            return Vec::new();
+        };
+        let found = found_along(cx);
+        let found = found.iter().flat_map(|found| &found.0);
+        let all = evidence.integrals.iter().chain(found);
+        all.map(|i| Some(i.name.clone())).collect()
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
@@ -384,11 +390,14 @@ impl Claim for IntegralDrift {
         if let Some(other) = of_another_system(&evidence) {
             return other;
         }
-        match evidence
-            .integrals
-            .iter()
-            .find(|i| Some(i.name.as_str()) == subject)
-        {
+        let named = |i: &&Followed| Some(i.name.as_str()) == subject;
+        if let Some(found) = found_along(cx) {
+            if let Some(followed) = found.0.iter().find(named) {
+                let what = words_of_found(cx, followed);
+                return followed_verdict(&evidence, followed, &what).into();
+            }
+        }
+        match evidence.integrals.iter().find(named) {
             Some(followed) => {
                 followed_verdict(&evidence, followed, &format!("`{}`", followed.name)).into()
             }
@@ -396,6 +405,31 @@ impl Claim for IntegralDrift {
         }
     }
 }
+
+/// What a search has found, along the run: nothing where no claim has searched yet.
+fn found_along(cx: &Context<'_>) -> Option<Arc<FoundIntegrals>> {
+    let found = if_searched(cx)?;
+    let found = found.as_ref().as_ref().ok()?;
+    let evidence = evidence(cx)?;
+    Some(cx.shared(|cx| FoundIntegrals::new(cx.system, cx.terms, &evidence, found)))
+}
+
+/// The integral with its value at the start.
+fn words_of_found(cx: &Context<'_>, followed: &Followed) -> String {
+    let text = cx.system.graph.text(followed.expression);
+    let formula = match text.chars().count() <= LONGEST {
+        true => format!(", {text}"),
+        false => String::new(),
+    };
+    let start = followed.values.first().copied().unwrap_or(0.0);
+    format!(
+        "first integral {}{formula} ({start:.6} at the start)",
+        followed.name
+    )
+}
+
+/// Longer formulas are not repeated.
+const LONGEST: usize = 120;
 
 /// `motion.formulations-agree`.
 #[derive(Clone, Copy, Debug)]

@@ -1,12 +1,14 @@
 //! What a computed motion tells: energy, integrals and constraints along it, and how two runs differ.
 
 use crate::method_order::Orders;
+use chetaev_geometry::noether::found::Found;
+use chetaev_mechanics::{MotionTerms, System};
 use chetaev_model::model::Model;
 use chetaev_motion::drift::Extreme;
 use chetaev_motion::follow::magnitude;
 use chetaev_motion::functions::FunctionsError;
 use chetaev_motion::observe::Observer;
-use chetaev_motion::{Run, RunError, RunSettings, Subject};
+use chetaev_motion::{Binding, Run, RunError, RunSettings, Subject};
 use chetaev_symbolic::Expr;
 
 /// A quantity followed along the run.
@@ -39,6 +41,8 @@ pub struct MotionEvidence {
     pub energy_rate: Option<Followed>,
     /// Integrals stated by the model.
     pub integrals: Vec<Followed>,
+    /// Values of the parameters.
+    pub binding: Binding,
     /// Constraint residuals at the rows, by row of the terms.
     pub residuals: Vec<Followed>,
     /// Residuals of the holonomic constraints as stated.
@@ -81,7 +85,8 @@ impl MotionEvidence {
             _ => subject.vanishing().len(),
         };
         let constant = 1 + model.integrals.len();
-        let mut followed = follow(subject, &run, kept, constant)?;
+        let parts = (system, subject.terms, subject.binding);
+        let mut followed = follow(parts, &run, kept, constant)?;
         for (quantity, all) in followed.iter_mut().zip(&run.followed) {
             quantity.drift.record(all.drift.value, all.drift.t);
             quantity.scale = quantity.scale.max(all.scale);
@@ -99,7 +104,7 @@ impl MotionEvidence {
         let energy_rate = match system.n() <= RATE_COORDINATES {
             true => {
                 let rate = system.total_derivative(system.energy());
-                follow(subject, &run, vec![("dH/dt".into(), rate)], 0)?.pop()
+                follow(parts, &run, vec![("dH/dt".into(), rate)], 0)?.pop()
             }
             false => None,
         };
@@ -117,12 +122,36 @@ impl MotionEvidence {
             energy,
             energy_rate,
             integrals,
+            binding: subject.binding.clone(),
             residuals,
             positions,
             orders,
             comparison,
             run,
         })
+    }
+}
+
+/// First integrals that a search found, along a run.
+#[derive(Clone, Debug)]
+pub struct FoundIntegrals(pub Vec<Followed>);
+
+impl FoundIntegrals {
+    /// Follows what was found along the rows; the energy, which is followed anyway, is left out.
+    pub fn new(
+        system: &System,
+        terms: &MotionTerms,
+        evidence: &MotionEvidence,
+        found: &Found,
+    ) -> FoundIntegrals {
+        let numbered = found.integrals.iter().enumerate();
+        let quantities: Vec<(String, Expr)> = numbered
+            .filter(|(_, integral)| integral.name.is_none())
+            .map(|(j, integral)| ((j + 1).to_string(), integral.value))
+            .collect();
+        let count = quantities.len();
+        let parts = (system, terms, &evidence.binding);
+        FoundIntegrals(follow(parts, &evidence.run, quantities, count).unwrap_or_default())
     }
 }
 
@@ -139,22 +168,16 @@ fn kept_names(model: &Model, subject: &Subject<'_>) -> Vec<String> {
 
 /// Values along the rows; of the first `constant` quantities the deviation from the start counts, of the others the value.
 fn follow(
-    subject: &Subject<'_>,
+    (system, terms, binding): (&System, &MotionTerms, &Binding),
     run: &Run,
     quantities: Vec<(String, Expr)>,
     constant: usize,
 ) -> Result<Vec<Followed>, FunctionsError> {
-    let g = &subject.system.graph;
+    let g = &system.graph;
     let mut expressions: Vec<Expr> = quantities.iter().map(|(_, e)| *e).collect();
     let sizes: Vec<Expr> = expressions.iter().map(|&e| magnitude(g, e)).collect();
     expressions.extend(sizes);
-    let mut observer = Observer::with_own(
-        subject.system,
-        subject.terms,
-        subject.binding,
-        &run.own,
-        &expressions,
-    )?;
+    let mut observer = Observer::with_own(system, terms, binding, &run.own, &expressions)?;
     let mut series = observer.along(run);
     // The state at which the equations became singular is recorded, but a residual may have no value there.
     let regular = match run.ending.finished || run.ending.interrupted {

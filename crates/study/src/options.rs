@@ -83,6 +83,8 @@ pub struct StudyOptions {
     pub formulation: Option<String>,
     /// Whether inadmissible initial data are projected.
     pub project: bool,
+    /// Whether the first integrals found are kept by projection, beside what the model says.
+    pub keep_integrals: bool,
     /// Branch of the motion that is followed, counted from 1.
     pub branch: Option<usize>,
     /// Seed of the random choices in proofs.
@@ -106,6 +108,7 @@ impl Default for StudyOptions {
             method: None,
             formulation: None,
             project: false,
+            keep_integrals: false,
             branch: None,
             seed: None,
             replay: false,

@@ -82,6 +82,9 @@ pub struct OptionsRecord {
     /// Whether inadmissible initial data were projected.
     #[serde(default)]
     pub project: bool,
+    /// Whether the integrals found were kept by projection, where it was asked for on the command line.
+    #[serde(default)]
+    pub keep_integrals: bool,
     /// Branch of the motion, where it was given on the command line.
     #[serde(default)]
     pub branch: Option<usize>,
@@ -257,6 +260,7 @@ pub fn record(study: &Study, files: &[String]) -> Record {
             method: study.options.method.clone(),
             formulation: study.options.formulation.clone(),
             project: study.options.project,
+            keep_integrals: study.options.keep_integrals,
             branch: study.options.branch,
         },
     }

@@ -1,13 +1,14 @@
 //! One model through its claims and its motion.
 
 use crate::derivation::{check_applies, NotDerived};
-use crate::motion_evidence::MotionEvidence;
+use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
 use crate::notices::{left_assumptions, negative_masses, notices};
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
 use crate::start::{
     add_jets, asks_for_motion, check_rank, number, settings, start_of_motion, Start,
 };
+use chetaev_geometry::noether::found::found;
 use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::{CharacteristicsError, Selection};
 use chetaev_mechanics::claims::formulation::REFERENCE;
@@ -78,6 +79,8 @@ pub struct Motion {
     pub binding: Binding,
     /// The trajectory and its evidence.
     pub evidence: Arc<MotionEvidence>,
+    /// First integrals that were found, along the trajectory.
+    pub found: Vec<Followed>,
 }
 
 /// The result of a study.
@@ -391,7 +394,11 @@ pub fn study(
         notices.extend(left_assumptions(&system, &prepared, motion));
         notices.extend(negative_masses(&system, &prepared, motion));
     }
-    let verdicts = decide(&model, &system, &prepared, motion.as_ref(), &options, hooks);
+    let (verdicts, found) = decide(&model, &system, &prepared, motion.as_ref(), &options, hooks);
+    let mut motion = motion;
+    if let (Some(motion), Some(found)) = (&mut motion, found) {
+        motion.found.clone_from(&found.0);
+    }
     let unmatched = unmatched(&model, &verdicts, &options);
     let outcome = match outcome(&model, &verdicts, motion.as_ref()) {
         Outcome::Done if !unmatched.is_empty() => Outcome::Unmet,
@@ -444,6 +451,8 @@ fn compute(
     let (terms, selection) = (&prepared.terms, &prepared.selection);
     let cx = Context::new(system, terms, selection, &known, Prover::default());
     check_applies(&cx, formulation.card())?;
+    let keep = kept(model, &cx, options, hooks);
+    let settings = RunSettings { keep, ..settings };
     let run = integrate(&subject, formulation, &settings, "integrating", hooks)?;
     let other: &'static dyn Formulation = if name == REFERENCE { &Maggi } else { &Routh };
     let reached = RunSettings {
@@ -487,8 +496,26 @@ fn compute(
         start: numeric.start,
         binding: numeric.binding,
         evidence: Arc::new(evidence),
+        found: Vec::new(),
         settings,
     })
+}
+
+/// The first integrals to keep, where that is asked for: those that are found.
+fn kept(
+    model: &Model,
+    cx: &Context<'_>,
+    options: &StudyOptions,
+    hooks: &mut Hooks<'_>,
+) -> Vec<Expr> {
+    if !options.keep_integrals && model.simulation.keep_integrals != Some(true) {
+        return Vec::new();
+    }
+    (hooks.progress)("searching first integrals", None);
+    match found(cx).as_ref() {
+        Ok(found) => found.integrals.iter().map(|i| i.value).collect(),
+        Err(_) => Vec::new(),
+    }
 }
 
 /// Comparisons are made up to the last row when a run ended early.
@@ -571,7 +598,7 @@ fn decide(
     motion: Option<&Motion>,
     options: &StudyOptions,
     hooks: &mut Hooks<'_>,
-) -> Vec<Decided> {
+) -> (Vec<Decided>, Option<Arc<FoundIntegrals>>) {
     let known = registry();
     let mut prover = Prover {
         replay: options.replay,
@@ -586,52 +613,58 @@ fn decide(
     }
     let began = (hooks.clock)();
     let mut verdicts = Vec::new();
-    for group in Group::ALL {
-        for claim in known.claims().iter().filter(|c| c.group() == group) {
-            if (hooks.clock)() - began > options.budget {
-                cx.spend_time();
-            }
-            if !options.claims.wants_claim(*claim) {
+    let of = |group: Group| known.claims().iter().filter(move |c| c.group() == group);
+    // Claims about the motion are asked once more: which integrals a search finds is known after it only.
+    let groups = Group::ALL.into_iter().chain([Group::Motion]);
+    for claim in groups.flat_map(of) {
+        if (hooks.clock)() - began > options.budget {
+            cx.spend_time();
+        }
+        if !options.claims.wants_claim(*claim) {
+            continue;
+        }
+        for subject in claim.subjects(&cx) {
+            let full = full_id(claim.id(), subject.as_deref());
+            let is_decided = verdicts.iter().any(|d: &Decided| d.full_id() == full);
+            if is_decided || !options.claims.wants(*claim, &full) {
                 continue;
             }
-            for subject in claim.subjects(&cx) {
-                let full = full_id(claim.id(), subject.as_deref());
-                if !options.claims.wants(*claim, &full) {
-                    continue;
-                }
-                (hooks.progress)(&full, None);
-                let start = (hooks.clock)();
-                let interrupted = hooks.interrupt.is_some_and(|i| i.load(Ordering::Relaxed));
-                if interrupted || start - began > options.budget {
-                    cx.spend_time();
-                }
-                let finding = if interrupted {
-                    Arc::new(Finding::from(Verdict::undecided(
-                        "interrupted before this claim",
-                    )))
-                } else if start - began > options.budget {
-                    let tried = format!(
-                        "the time budget of {} s was spent before this claim",
-                        options.budget
-                    );
-                    Arc::new(Finding::from(Verdict::undecided(tried)))
-                } else {
-                    cx.finding(&full)
-                };
-                verdicts.push(Decided {
-                    claim: claim.id(),
-                    title: claim.title(),
-                    group,
-                    requires: claim.requires(subject.as_deref()),
-                    finding,
-                    seconds: (hooks.clock)() - start,
-                    expected: expected(model, claim.id(), subject.as_deref()),
-                    subject,
-                });
+            (hooks.progress)(&full, None);
+            let start = (hooks.clock)();
+            let interrupted = hooks.interrupt.is_some_and(|i| i.load(Ordering::Relaxed));
+            if interrupted || start - began > options.budget {
+                cx.spend_time();
             }
+            let finding = if interrupted {
+                Arc::new(Finding::from(Verdict::undecided(
+                    "interrupted before this claim",
+                )))
+            } else if start - began > options.budget {
+                let tried = format!(
+                    "the time budget of {} s was spent before this claim",
+                    options.budget
+                );
+                Arc::new(Finding::from(Verdict::undecided(tried)))
+            } else {
+                cx.finding(&full)
+            };
+            verdicts.push(Decided {
+                claim: claim.id(),
+                title: claim.title(),
+                group: claim.group(),
+                requires: claim.requires(subject.as_deref()),
+                finding,
+                seconds: (hooks.clock)() - start,
+                expected: expected(model, claim.id(), subject.as_deref()),
+                subject,
+            });
         }
     }
-    verdicts
+    // Where they follow each other is the order of the groups.
+    let place = |d: &Decided| Group::ALL.iter().position(|&g| g == d.group);
+    verdicts.sort_by_key(place);
+    let found = cx.known::<FoundIntegrals>();
+    (verdicts, found)
 }
 
 fn expected(model: &Model, claim: &str, subject: Option<&str>) -> Vec<String> {

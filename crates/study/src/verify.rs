@@ -148,6 +148,7 @@ fn options(record: &Record, seed: Option<u64>, replay: bool) -> StudyOptions {
         method: asked.method.clone(),
         formulation: asked.formulation.clone(),
         project: asked.project,
+        keep_integrals: asked.keep_integrals,
         branch: asked.branch,
         seed,
         replay,

@@ -66,6 +66,7 @@ fn options(motion: &MotionArguments, model: &Model) -> Option<StudyOptions> {
             method: motion.method.clone(),
             formulation: motion.formulation.clone(),
             project: motion.project,
+            keep_integrals: motion.keep_integrals,
             branch: motion.branch,
             ..StudyOptions::default()
         }),

@@ -52,6 +52,40 @@ fn row(draw: &mut Draw<'_>, order: &[usize], l: usize, r: usize, form: Form) -> 
     g.add(&parts)
 }
 
+/// Derivatives of functions `g^l = q_l + h^l(others, t)`, each with a factor that is nowhere zero, then mixed: rank r
+/// everywhere, and completely integrable.
+pub(super) fn integrable(draw: &mut Draw<'_>) -> Vec<Expr> {
+    let g = draw.g;
+    let order = draw.shuffled();
+    let r = 1 + draw.index((draw.n() - 1).min(2));
+    let visible = std::mem::replace(&mut draw.visible, order[r..].to_vec());
+    let functions: Vec<(Expr, bool)> = (0..r).map(|_| (draw.function(2), draw.one_in(4))).collect();
+    draw.visible = visible;
+    let mut rows = Vec::new();
+    for (l, (function, moves)) in functions.into_iter().enumerate() {
+        let function = match moves {
+            true => g.mul(&[function, draw.t()]),
+            false => function,
+        };
+        let mut parts = vec![draw.v(order[l])];
+        for &i in &order[r..] {
+            let slope = g.diff(function, g.intern_symbol(&draw.names[i], 0));
+            parts.push(g.mul(&[slope, draw.v(i)]));
+        }
+        parts.push(g.diff(function, g.intern_symbol("t", 0)));
+        let factor = match draw.one_in(2) {
+            true => g.one(),
+            false => draw.nowhere_zero(),
+        };
+        rows.push(g.mul(&[factor, g.add(&parts)]));
+    }
+    for l in 1..r {
+        let factor = draw.function(1);
+        rows[l - 1] = g.add(&[rows[l - 1], g.mul(&[factor, rows[l]])]);
+    }
+    rows
+}
+
 /// b(q, t).
 fn drift(draw: &mut Draw<'_>) -> Expr {
     let (g, t) = (draw.g, draw.t());

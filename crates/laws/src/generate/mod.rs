@@ -1,5 +1,6 @@
 //! Random systems: a family and a seed make one system, always the same.
 
+mod change;
 mod constraints;
 mod draw;
 mod frames;
@@ -7,8 +8,10 @@ mod lagrangian;
 mod masses;
 mod particles;
 mod singular;
+mod symmetric;
 mod text;
 
+pub(crate) use change::change;
 use chetaev_mechanics::system::{Assumption, Relation};
 use chetaev_mechanics::{System, SystemError, SystemParts};
 use chetaev_symbolic::number::random::Random;
@@ -57,6 +60,11 @@ pub enum Family {
     ThirdOrderLinear,
     /// A constraint of third order, nonlinear in the highest derivatives.
     ThirdOrderNonlinear,
+    /// Constraints that are derivatives of functions of q and t, mixed and multiplied by functions; no forces.
+    Integrable,
+    /// A first integral is known, and stated: a momentum, a moment of momentum or a part of the energy, after a change of
+    /// coordinates.
+    Symmetric,
 }
 
 /// Seeds below it make larger systems too.
@@ -64,7 +72,7 @@ const LARGER: u64 = 50;
 
 impl Family {
     /// All families, in the order of [`FAMILY_NAMES`].
-    pub const ALL: [Family; 17] = [
+    pub const ALL: [Family; 19] = [
         Family::PolynomialLinear,
         Family::TrigonometricLinear,
         Family::PolynomialNonlinear,
@@ -82,6 +90,8 @@ impl Family {
         Family::SecondOrderNonlinear,
         Family::ThirdOrderLinear,
         Family::ThirdOrderNonlinear,
+        Family::Integrable,
+        Family::Symmetric,
     ];
 
     /// The name on the command line.
@@ -120,11 +130,12 @@ impl Family {
     /// slip, and faster; after the first systems only few are larger, so that a thousand take minutes.
     fn sizes(self, seed: u64) -> &'static [usize] {
         match self {
+            Family::Symmetric => &[3, 3, 3, 4],
             _ if seed >= LARGER => &[2, 2, 2, 2, 2, 3, 3, 4],
             Family::Radicals | Family::MovingFrame | Family::Singular => &[2, 2, 3, 3, 3, 4],
             Family::VariableMass | Family::VelocityMass => &[2, 2, 2, 3],
             _ if self.higher_order().is_some() => &[2, 2, 2, 3],
-            Family::Particles | Family::Chaplygin => &[2, 3, 3, 4],
+            Family::Particles | Family::Chaplygin | Family::Integrable => &[2, 3, 3, 4],
             _ => &[2, 2, 3, 3, 3, 4, 4, 5, 6],
         }
     }
@@ -185,7 +196,12 @@ fn parts(g: &Graph, family: Family, seed: u64) -> SystemParts {
         Family::Particles => particle_system(&mut draw, &values),
         Family::VariableMass => variable_mass_system(&mut draw, &values, false),
         Family::VelocityMass => variable_mass_system(&mut draw, &values, true),
+        Family::Symmetric => symmetric::system(&mut draw, &values),
         Family::Chaplygin => chaplygin_system(&mut draw, &values),
+        Family::Integrable => SystemParts {
+            forces: Vec::new(),
+            ..usual_system(&mut draw, family, &values)
+        },
         _ if family.higher_order().is_some() => higher_order_system(&mut draw, family, &values),
         _ => usual_system(&mut draw, family, &values),
     };
@@ -328,6 +344,7 @@ fn whole_lagrangian(draw: &mut Draw<'_>, family: Family, masses: &[Expr]) -> Exp
 fn all_constraints(draw: &mut Draw<'_>, family: Family) -> Vec<Expr> {
     let nonlinear = match family {
         Family::Radicals => return constraints::radicals(draw),
+        Family::Integrable => return constraints::integrable(draw),
         Family::PolynomialNonlinear | Family::TrigonometricNonlinear => true,
         Family::Nonquadratic => draw.one_in(3),
         Family::MovingFrame => draw.one_in(4),

@@ -50,6 +50,12 @@ pub(super) fn model(g: &Graph, parts: &SystemParts) -> String {
         None => forms(&mut text, g, parts),
     }
     masses(&mut text, g, parts);
+    if !parts.integrals.is_empty() {
+        line(&mut text, "\n[integrals]");
+    }
+    for (name, value) in &parts.integrals {
+        line(&mut text, &format!("{name} = \"{}\"", whole(g, *value)));
+    }
     for particle in &parts.particles {
         particle_table(&mut text, g, particle);
     }

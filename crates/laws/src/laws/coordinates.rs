@@ -1,6 +1,7 @@
 //! The motion does not depend on the coordinates that describe it.
 
 use super::{Expected, Kind, Subject, Trial};
+use crate::generate::change;
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::formulations::{Basis, Formulation, Routh};
 use chetaev_mechanics::particles;
@@ -10,7 +11,7 @@ use chetaev_mechanics::{
 };
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::{Expr, Graph, Verdict};
+use chetaev_symbolic::{Expr, Verdict};
 
 /// Accelerations and multipliers of the system in new coordinates s, `q = Φ(s, t)`, are those of the system itself:
 /// `D²Φ = a(Φ, DΦ, t)` and equal λ, as f is only rewritten, not multiplied.
@@ -83,8 +84,7 @@ fn compared(n: usize) -> Vec<String> {
         .collect()
 }
 
-/// A change of coordinates that is invertible everywhere: a linear mixing `uᵢ = sᵢ + c sⱼ` with earlier s, then
-/// `qᵢ = uᵢ + a polynomial in later u and t`, the q in another order.
+/// A change of coordinates that is invertible everywhere.
 struct Change {
     names: Vec<String>,
     /// Φ(s, t).
@@ -103,15 +103,7 @@ impl Change {
         let names: Vec<String> = (1..=n).map(|i| format!("s_{i}")).collect();
         let s: Vec<Expr> = names.iter().map(|name| g.symbol(name, 0)).collect();
         let t = moving.then(|| g.symbol("t", 0));
-        let u: Vec<Expr> = (0..n)
-            .map(|i| g.add(&[s[i], mixing(g, &mut random, &s[..i])]))
-            .collect();
-        let mut q: Vec<Expr> = (0..n)
-            .map(|i| g.add(&[u[i], shift(g, &mut random, &u[i + 1..], t)]))
-            .collect();
-        for last in (1..n).rev() {
-            q.swap(last, random.below(last as u64 + 1) as usize);
-        }
+        let q = change(g, &mut random, &s, t, false);
         let moves = |name: &str| names.iter().any(|s| s == name);
         let v = q.iter().map(|&e| g.total_derivative(e, &moves)).collect();
         Change { names, q, v }
@@ -292,38 +284,4 @@ fn own_forces(system: &System) -> Vec<Expr> {
     let both = system.forces.iter().zip(own);
     both.map(|(&force, own)| system.graph.sub(force, own))
         .collect()
-}
-
-/// A multiple of an earlier coordinate, or nothing.
-fn mixing(g: &Graph, random: &mut Random, earlier: &[Expr]) -> Expr {
-    if earlier.is_empty() || random.below(2) == 0 {
-        return g.zero();
-    }
-    let one = earlier[random.below(earlier.len() as u64) as usize];
-    let factor = match random.below(3) {
-        0 => -1,
-        1 => 1,
-        _ => 2,
-    };
-    g.mul(&[g.integer(factor), one])
-}
-
-/// A polynomial of degree at most two in the later coordinates.
-fn shift(g: &Graph, random: &mut Random, later: &[Expr], t: Option<Expr>) -> Expr {
-    let mut parts = Vec::new();
-    if let Some(t) = t.filter(|_| random.below(3) == 0) {
-        parts.push(g.powi(t, random.between(1, 2)));
-    }
-    if !later.is_empty() {
-        let mut pick = || later[random.below(later.len() as u64) as usize];
-        let (a, b) = (pick(), pick());
-        let scale = g.integer(random.between(1, 3));
-        let term = if random.below(2) == 0 {
-            a
-        } else {
-            g.mul(&[a, b])
-        };
-        parts.push(g.mul(&[scale, term]));
-    }
-    g.add(&parts)
 }

@@ -71,7 +71,7 @@ fn vanish(subject: &Sampled<'_>, es: &[Expr], states: &[Point]) -> Seen {
 }
 
 /// A matrix that is singular at every state is singular; one state where it is not is enough for the contrary.
-fn regular(subject: &Sampled<'_>, matrix: &[Vec<Expr>], states: &[Point]) -> Seen {
+pub(super) fn regular(subject: &Sampled<'_>, matrix: &[Vec<Expr>], states: &[Point]) -> Seen {
     let n = matrix.len();
     regular_values(&values(subject, &matrix.concat(), states), n)
 }

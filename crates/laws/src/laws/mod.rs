@@ -4,13 +4,16 @@ mod coordinates;
 mod counterexample;
 mod digits;
 mod equal;
+mod exterior;
 mod frames;
 mod hypotheses;
+mod integrals;
 mod masses;
 mod mutants;
 mod numbers;
 mod order;
 mod power;
+mod principles;
 mod reduced;
 mod rewrite;
 mod wrong;
@@ -181,14 +184,17 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// The claims in question: those of mechanics, and integrability.
-pub(crate) const CLAIMS: &[&[&dyn Claim]] =
-    &[chetaev_mechanics::claims::CLAIMS, chetaev_geometry::CLAIMS];
+/// The claims in question: those of mechanics, integrability, and the variational principles.
+pub(crate) const CLAIMS: &[&[&dyn Claim]] = &[
+    chetaev_mechanics::claims::CLAIMS,
+    chetaev_geometry::CLAIMS,
+    chetaev_principles::CLAIMS,
+];
 
 /// A law: a trial on the subject, or `None` where there is nothing to try.
 type Law = fn(&Subject<'_>) -> Option<Trial>;
 
-const LAWS: [Law; 10] = [
+const LAWS: [Law; 11] = [
     power::balance,
     masses::balance,
     masses::thrust_alone,
@@ -199,7 +205,13 @@ const LAWS: [Law; 10] = [
     reduced::lagrange_of_restricted,
     reduced::momenta_of_full,
     frames::without_brackets,
+    exterior::identities,
 ];
+
+/// Tries the laws of systems that state an integral.
+pub(crate) use integrals::all as all_of_integrals;
+
+pub use integrals::CONTAINED;
 
 /// Tries the laws of constraints of order two and more.
 pub(crate) use order::all as all_of_order;
@@ -216,6 +228,7 @@ pub(crate) fn all(sampled: Sampled<'_>) -> Result<(Vec<Trial>, usize), DeriveErr
     let subject = Subject::new(sampled)?;
     trials.extend(equal::pairs(&subject));
     trials.extend(mutants::slips(&subject));
+    trials.extend(principles::all(&subject));
     for law in LAWS {
         let start = Instant::now();
         let trial = law(&subject);

@@ -6,7 +6,7 @@
 //! it are right and must be proved; elsewhere they must be refuted. So must the equations with `p_s = ∂L/∂v_s` in the place of
 //! `∂L*/∂v_s`: momenta from L instead of L*, which differ by `Σ_d p_d B_ds`.
 
-use super::hypotheses::{restricted_hessian, Seen};
+use super::hypotheses::{regular, restricted_hessian, Seen};
 use super::numbers::{differ, Size};
 use super::{Expected, Kind, Subject, Trial};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
@@ -55,6 +55,11 @@ pub(super) fn momenta_of_full(subject: &Subject<'_>) -> Option<Trial> {
         .collect();
     let wrong = subject.on_jet(&wrong);
     // Where the momenta of L alone do not determine the motion, there is nothing to compare.
+    let parameters = subject.natural.parameters.iter();
+    let rates: Vec<Symbol> = parameters.filter_map(|p| g.as_symbol(p.rate)).collect();
+    if regular(subject, &g.jacobian(&wrong, &rates), &subject.states) == Seen::Fails {
+        return None;
+    }
     let motion = subject.motion_of(&subject.natural, &wrong)?;
     let seen = differ(
         subject,
@@ -66,6 +71,27 @@ pub(super) fn momenta_of_full(subject: &Subject<'_>) -> Option<Trial> {
         _ => "∂L/∂v for ∂L*/∂v",
     };
     Some(trial(subject, FULL, about, seen, &wrong))
+}
+
+/// Whether the curvature of the constraints vanishes, and whether `Σ θ A` does along the motion.
+pub(super) fn curvature_and_terms(subject: &Subject<'_>) -> Option<(Size, Size)> {
+    let reduction = Reduction::new(subject)?;
+    let size = |es: &[Expr]| {
+        let zeros = vec![subject.cx.system.graph.zero(); es.len()];
+        differ(subject, es, &zeros)
+    };
+    let curvature = subject.on_jet(&reduction.curvature());
+    let accelerations = subject.cx.system.coordinates.iter().map(|c| c.a);
+    let motion: Vec<(Expr, Expr)> = accelerations
+        .zip(subject.routh.accelerations.iter().copied())
+        .collect();
+    let terms = subject
+        .cx
+        .system
+        .graph
+        .substitute_all(&reduction.voronets(), &motion);
+    let terms = subject.natural.restrict(subject.cx.system, &terms);
+    Some((size(&curvature), size(&terms)))
 }
 
 /// Wrong equations, refuted unless what they miss is zero.
@@ -172,6 +198,24 @@ impl<'a> Reduction<'a> {
             parts.push(g.mul(&[self.momentum[d], slope[j]]));
         }
         g.add(&parts)
+    }
+
+    /// `D B_ds - ∂φ_d/∂q_s - Σ_e B_es ∂φ_d/∂q_e`, d by d.
+    fn curvature(&self) -> Vec<Expr> {
+        let system = self.subject.cx.system;
+        let g = &system.graph;
+        let chart = &self.subject.natural;
+        let mut all = Vec::new();
+        for (&d, slope) in chart.dependent.iter().zip(&self.slope) {
+            for sigma in 0..self.independent.len() {
+                let mut curvature = vec![system.total_derivative(chart.basis[d][sigma])];
+                for (row, &slope) in chart.basis.iter().zip(slope) {
+                    curvature.push(g.neg(g.mul(&[row[sigma], slope])));
+                }
+                all.push(g.add(&curvature));
+            }
+        }
+        all
     }
 
     /// `Σ_d p_d ( D B_ds - ∂φ_d/∂q_s - Σ_e B_es ∂φ_d/∂q_e )`.

@@ -128,6 +128,13 @@ fn drifts(study: &Study, motion: &Motion) -> Vec<Series> {
             format!("motion.integral-drift#{}", f.name),
         );
     }
+    for f in &motion.found {
+        push(
+            format!("first integral {}", f.name),
+            from_start(&f.values),
+            format!("motion.integral-drift#{}", f.name),
+        );
+    }
     for f in &evidence.residuals {
         push(
             format!("constraint {}", f.name),

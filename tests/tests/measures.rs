@@ -1,0 +1,276 @@
+//! Invariant measures, growth vectors and integrability by quadratures of the gallery and of models made up, as the literature has
+//! them.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    reason = "test code fails where it stands"
+)]
+
+use chetaev::geometry::measure::measure;
+use chetaev::mechanics::{Context, Prepared, Prover, System};
+use chetaev::model::{load, NoFiles, Style};
+use chetaev::study::registry;
+use chetaev_tests::studied::{gallery_path, loaded};
+use chetaev_tests::words::{in_parallel, none};
+
+fn with<T>(system: &System, ask: impl FnOnce(&Context<'_>) -> T) -> T {
+    let prepared = Prepared::new(system).expect("independent velocities");
+    let known = registry();
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let cx = Context::new(system, terms, selection, &known, Prover::default());
+    ask(&cx)
+}
+
+fn gallery(name: &str) -> System {
+    let model = loaded(&gallery_path(&format!("{name}/model.toml")), &[]).model;
+    System::from_model(&model.expect("the model is right")).expect("a system")
+}
+
+fn stated(text: &str) -> System {
+    let loaded = load("model.toml", text, &NoFiles, &[]);
+    match loaded.into_result() {
+        Ok((model, _)) => System::from_model(&model).expect("a system"),
+        Err(problems) => panic!("{text}{}", problems.render(Style::Plain)),
+    }
+}
+
+/// System, claim, verdict, and what its sentence says.
+type Expected = (&'static str, &'static str, &'static str, &'static str);
+
+const GALLERY: &[Expected] = &[
+    // A knife edge in the plane; Brockett's and Nelson's examples, and every text on nonholonomic path planning.
+    ("skate-level", "distribution.growth", "proved", "(2, 3)"),
+    (
+        "vertical-rolling-disc",
+        "distribution.growth",
+        "proved",
+        "(2, 3, 4)",
+    ),
+    // A ball that may spin: Montgomery 2002, section 6.
+    (
+        "chaplygin-sphere",
+        "distribution.growth",
+        "proved",
+        "(3, 5)",
+    ),
+    // Through its mass centre the sleigh keeps the volume, beside it motions run into a line of steady ones: Bloch 2003, section 1.7.
+    ("skate-level", "measure.invariant", "proved", "N = 1"),
+    (
+        "chaplygin-sleigh",
+        "measure.invariant",
+        "refuted",
+        "no other smooth positive density",
+    ),
+    // The divergence is -y y'/(1 + y^2).
+    (
+        "particle-y-dx",
+        "measure.invariant",
+        "proved",
+        "N = sqrt(1 + y^2)",
+    ),
+    (
+        "vertical-rolling-disc",
+        "measure.invariant",
+        "proved",
+        "N = 1",
+    ),
+    // Chaplygin 1903.
+    (
+        "chaplygin-sphere",
+        "measure.invariant",
+        "proved",
+        "root of the determinant",
+    ),
+    // Kozlov 1988: the axis of the constraint is no eigenvector of the inertia.
+    (
+        "suslov",
+        "measure.invariant",
+        "refuted",
+        "no other smooth positive density",
+    ),
+    // Liouville's theorem in velocities, N = det W.
+    (
+        "heavy-top",
+        "measure.invariant",
+        "proved",
+        "N = sin(theta)^2",
+    ),
+    (
+        "rattleback",
+        "measure.invariant",
+        "refuted",
+        "contradicts their brackets",
+    ),
+    // Chaplygin 1903: integrable by Euler's and Jacobi's theorem.
+    (
+        "chaplygin-sphere",
+        "liouville.integrable",
+        "proved",
+        "the measure",
+    ),
+    (
+        "chaplygin-sleigh",
+        "liouville.integrable",
+        "proved",
+        "without a measure",
+    ),
+    // Lagrange's top: the nutation with energy and two momenta.
+    (
+        "heavy-top",
+        "liouville.integrable",
+        "proved",
+        "after phi, psi are left out",
+    ),
+    ("suslov", "liouville.integrable", "undecided", "missing"),
+];
+
+#[test]
+fn the_gallery_as_the_literature_has_it() {
+    let failures = in_parallel(GALLERY, |&(name, claim, verdict, part)| {
+        with(&gallery(name), |cx| {
+            let found = cx.finding(claim);
+            let (word, detail) = (found.verdict.word(), found.verdict.detail());
+            let right = word == verdict && detail.contains(part);
+            match right {
+                true => Vec::new(),
+                false => vec![format!("{name}: {claim} is {word}: {detail}")],
+            }
+        })
+    });
+    none(failures.into_iter().flatten().collect());
+}
+
+/// Kozlov 1988: Suslov's problem has an invariant measure where the axis is an eigenvector of the inertia.
+#[test]
+fn suslov_with_an_axis_of_inertia() {
+    let text = r#"
+name = "suslov with a principal axis"
+coordinates = ["phi", "theta", "psi"]
+assumptions = ["0 < theta < pi"]
+[lagrangian]
+L = "(2 w1^2 + 3 w2^2 + 4 w3^2)/2"
+[quasi_velocities]
+w1 = "phi' sin(theta) sin(psi) + theta' cos(psi)"
+w2 = "phi' sin(theta) cos(psi) - theta' sin(psi)"
+w3 = "phi' cos(theta) + psi'"
+[constraints]
+axis = "w3 = 0"
+"#;
+    with(&stated(text), |cx| {
+        let finding = cx.finding("measure.invariant");
+        let detail = finding.verdict.detail();
+        assert_eq!(finding.verdict.word(), "proved", "{detail}");
+        assert!(detail.contains("N = sin(theta)"), "{detail}");
+    });
+}
+
+/// A constraint that can be integrated: the circle on which the point stays is not left.
+#[test]
+fn integrable_constraints_do_not_reach_everything() {
+    let text = r#"
+name = "circle"
+coordinates = ["xi", "y", "z"]
+[lagrangian]
+L = "(xi'^2 + y'^2 + z'^2)/2"
+[constraints]
+f = "xi xi' + y y' = 0"
+"#;
+    with(&stated(text), |cx| {
+        let finding = cx.finding("distribution.growth");
+        assert_eq!(finding.verdict.word(), "refuted");
+        assert!(finding.verdict.detail().contains("growth vector is (2)"));
+        let kept = chetaev::geometry::noether::found::found(cx);
+        let kept = kept.as_ref().as_ref().expect("a search");
+        let g = &cx.system.graph;
+        let shown: Vec<String> = kept.integrals.iter().map(|i| g.text(i.shown)).collect();
+        assert!(
+            shown.iter().any(|s| s == "y^2 + xi^2" || s == "xi^2 + y^2"),
+            "{shown:?}"
+        );
+    });
+}
+
+/// A damped point: the volume shrinks, and no density in the position makes up for it.
+#[test]
+fn damping_leaves_no_measure() {
+    let text = r#"
+name = "damped"
+coordinates = ["x", "y"]
+[lagrangian]
+L = "(x'^2 + y'^2)/2 - x^4"
+[forces]
+x = "-x'"
+"#;
+    with(&stated(text), |cx| {
+        let finding = cx.finding("measure.invariant");
+        assert_eq!(
+            finding.verdict.word(),
+            "refuted",
+            "{}",
+            finding.verdict.detail()
+        );
+    });
+}
+
+/// Densities contain the time where the motion does: for y' = t x' with unit masses x'' = -t x'/(1 + t^2).
+#[test]
+fn densities_in_the_time() {
+    let text = r#"
+name = "rheonomic"
+coordinates = ["x", "y"]
+[lagrangian]
+L = "(x'^2 + y'^2)/2"
+[constraints]
+f = "y' = t x'"
+"#;
+    with(&stated(text), |cx| {
+        let found = measure(cx);
+        let found = found.as_ref().as_ref().expect("a measure");
+        let density = found.density.expect("a formula");
+        assert_eq!(cx.system.graph.text(density), "sqrt(t^2 + 1)");
+    });
+}
+
+/// A user's function of the position in the family.
+#[test]
+fn functions_of_the_user_join_the_family() {
+    let text = |more: &str| {
+        format!(
+            "name = \"own\"\ncoordinates = [\"x\", \"y\"]\n[lagrangian]\nL = \"(x'^2 + y'^2)/2\"\n[forces]\nx = \"x' y'/(1 + y^2)\"\n{more}"
+        )
+    };
+    // ln x' - atan y is kept, and so is x' exp(-atan y).
+    let count = |more: &str| {
+        with(&stated(&text(more)), |cx| {
+            let found = chetaev::geometry::noether::found::found(cx);
+            let found = found.as_ref().as_ref().expect("a search");
+            found.integrals.len()
+        })
+    };
+    let without = count("");
+    assert_eq!(
+        count("[search]\nfunctions = [\"exp(-atan(y))\"]\n"),
+        without + 1
+    );
+}
+
+/// The only density of coordinates is exp(2 x), up to a factor: it contains the ignorable x, so that the motion reduced by x has
+/// no measure of that kind, although the whole motion has one.
+#[test]
+fn a_density_that_contains_what_is_left_out_is_none_of_the_reduced_motion() {
+    let text = "name = \"drag\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
+        lagrangian = \"1/2 (x'^2 + y'^2 + z'^2) - 1/2 (y^2 + z^2)\"\n[forces]\nx = \"-x'^2\"\n";
+    with(&stated(text), |cx| {
+        let measure = cx.finding("measure.invariant");
+        assert_eq!(
+            measure.verdict.word(),
+            "proved",
+            "{}",
+            measure.verdict.detail()
+        );
+        let integrable = cx.finding("liouville.integrable");
+        let (word, detail) = (integrable.verdict.word(), integrable.verdict.detail());
+        assert_eq!(word, "undecided", "{detail}");
+        assert!(detail.contains("after x"), "{detail}");
+    });
+}

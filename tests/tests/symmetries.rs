@@ -1,0 +1,241 @@
+//! Symmetries of the reduced system, moving directions and axes, integrals that hold on a part of the states, and what becomes of
+//! the integrals that are found.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    reason = "test code fails where it stands"
+)]
+
+use chetaev::mechanics::{Context, Prepared, Prover, System};
+use chetaev::model::{load, Model, NoFiles, Style};
+use chetaev::study::{registry, study, ClaimSelection, Hooks, Study, StudyOptions};
+use chetaev::symbolic::Verdict;
+use chetaev_tests::studied::{gallery_path, loaded};
+
+fn model(text: &str) -> Model {
+    match load("model.toml", text, &NoFiles, &[]).into_result() {
+        Ok((model, _)) => model,
+        Err(problems) => panic!("{text}{}", problems.render(Style::Plain)),
+    }
+}
+
+fn gallery(path: &str) -> Model {
+    loaded(&gallery_path(path), &[])
+        .model
+        .expect("the model is right")
+}
+
+fn verdict(model: &Model, claim: &str) -> Verdict {
+    let system = System::from_model(model).expect("a system");
+    let prepared = Prepared::new(&system).expect("independent velocities");
+    let known = registry();
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let cx = Context::new(&system, terms, selection, &known, Prover::default());
+    cx.finding(claim).verdict.clone()
+}
+
+fn says(model: &Model, claim: &str, word: &str, part: &str) {
+    let found = verdict(model, claim);
+    assert_eq!(found.word(), word, "{claim}: {}", found.detail());
+    assert!(found.detail().contains(part), "{claim}: {}", found.detail());
+}
+
+/// How many subjects a claim has.
+fn count(model: &Model, claim: &str) -> usize {
+    let system = System::from_model(model).expect("a system");
+    let prepared = Prepared::new(&system).expect("independent velocities");
+    let known = registry();
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let cx = Context::new(&system, terms, selection, &known, Prover::default());
+    let claim = known.find(claim).expect("a claim");
+    claim.subjects(&cx).into_iter().flatten().count()
+}
+
+/// T3 §8.4: ∂/∂φ is a symmetry with the gyroscopic extension of the reaction, and x' cos φ + y' sin φ is kept.
+#[test]
+fn the_sled_by_its_reduced_system() {
+    let sled = gallery("skate-level/model.toml");
+    says(
+        &sled,
+        "noether.reduced-symmetry#1",
+        "proved",
+        "x' cos(phi) + y' sin(phi)",
+    );
+    let incline = gallery("skate-incline/model.toml");
+    says(
+        &incline,
+        "noether.reduced-symmetry#1",
+        "refuted",
+        "no extension",
+    );
+    // The rates of rolling are kept, their components are not.
+    let disc = gallery("vertical-rolling-disc/model.toml");
+    says(
+        &disc,
+        "noether.reduced-symmetry#1",
+        "refuted",
+        "no extension",
+    );
+}
+
+const SKATE: &str = r#"
+name = "skate of one particle"
+coordinates = ["x", "y", "w"]
+[particles.blade]
+mass = 3
+position = ["x", "y"]
+FORCE
+[lagrangian]
+L = "3 (x'^2 + y'^2)/2 + 2 w'^2"
+[constraints]
+edge = "x' sin(w) - y' cos(w) = 0"
+"#;
+
+/// T3 §8.3: along the blade the momentum is kept on the level, on a slope it is not.
+#[test]
+fn momentum_along_the_blade() {
+    let level = model(&SKATE.replace("FORCE", ""));
+    assert_eq!(count(&level, "noether.moving-direction"), 1);
+    says(
+        &level,
+        "noether.moving-direction#1",
+        "proved",
+        "(cos(w), sin(w))",
+    );
+    let slope = model(&SKATE.replace("FORCE", "force = [5, 0]"));
+    says(&slope, "noether.moving-direction", "undecided", "none of");
+}
+
+/// Projectiles keep their horizontal momenta, and the moment of momentum about every axis through their centre of mass, as the
+/// relative motion is uniform.
+#[test]
+fn two_projectiles() {
+    let two = model(
+        r#"
+name = "two projectiles"
+coordinates = ["x", "y", "z", "a", "b", "c"]
+[particles.first]
+mass = 1
+position = ["x", "y", "z"]
+force = [0, 0, -10]
+[particles.second]
+mass = 2
+position = ["a", "b", "c"]
+force = [0, 0, -20]
+"#,
+    );
+    says(&two, "noether.moving-direction#1", "proved", "the x axis");
+    says(&two, "noether.moving-direction#2", "proved", "the y axis");
+    assert_eq!(count(&two, "noether.moving-direction"), 2);
+    says(
+        &two,
+        "noether.moving-axis#1",
+        "proved",
+        "the centre of mass",
+    );
+}
+
+/// In a plane there is one axis, and a central force keeps the moment about its centre.
+#[test]
+fn a_central_force() {
+    let kepler = model(
+        r#"
+name = "central"
+coordinates = ["x", "y"]
+[particles.planet]
+mass = 1
+position = ["x", "y"]
+force = ["-x (x^2 + y^2)", "-y (x^2 + y^2)"]
+"#,
+    );
+    says(&kepler, "noether.moving-axis#1", "proved", "the origin");
+    assert_eq!(count(&kepler, "noether.moving-axis"), 1);
+    says(&kepler, "noether.moving-direction", "undecided", "none of");
+}
+
+/// Steady motions: what is constant there only is an integral on an invariant part of the states.
+#[test]
+fn integrals_on_a_part_of_the_states() {
+    let disc = gallery("falling-rolling-disc/steady.toml");
+    says(&disc, "noether.inverse#lean", "conditional", "theta' = 0");
+    let top = gallery("heavy-top/steady.toml");
+    says(
+        &top,
+        "noether.inverse#precession_rate",
+        "conditional",
+        "stay there",
+    );
+    // The part must be invariant: a pendulum at rest at an angle does not stay there.
+    let pendulum = |angle: &str| {
+        model(&format!(
+            "name = \"pendulum\"\ncoordinates = [\"u\"]\n[lagrangian]\nL = \"u'^2/2 + cos(u)\"\n[integrals]\nangle = {{ value = \"u\", on = [\"u = {angle}\", \"u' = 0\"] }}\n"
+        ))
+    };
+    says(
+        &pendulum("0"),
+        "noether.inverse#angle",
+        "conditional",
+        "stay there",
+    );
+    says(
+        &pendulum("pi"),
+        "noether.inverse#angle",
+        "conditional",
+        "stay there",
+    );
+    says(
+        &pendulum("1"),
+        "noether.inverse#angle",
+        "refuted",
+        "stay such",
+    );
+}
+
+fn studied(model: &Model, claims: &[&str], keep: bool) -> Study {
+    let options = StudyOptions {
+        claims: ClaimSelection {
+            words: claims.iter().map(|c| c.to_string()).collect(),
+        },
+        tolerance: Some(1e-5),
+        keep_integrals: keep,
+        ..StudyOptions::default()
+    };
+    let mut hooks = Hooks {
+        clock: &|| 0.0,
+        interrupt: None,
+        progress: &mut |_, _| (),
+    };
+    study(model.clone(), options, &mut hooks).expect("a study")
+}
+
+/// Integrals that are found are followed along the motion, and kept to rounding where that is asked for.
+#[test]
+fn found_integrals_are_followed_and_kept() {
+    let claims = ["motion", "noether.family", "noether.integral"];
+    let top = gallery("heavy-top/model.toml");
+    let largest = |keep: bool| {
+        let study = studied(&top, &claims, keep);
+        let motion = study.motion.as_ref().expect("a motion");
+        let names: Vec<&str> = motion.found.iter().map(|f| f.name.as_str()).collect();
+        // The energy among the three is followed anyway.
+        assert_eq!(names.len(), 2, "{names:?}");
+        for name in names {
+            let full = format!("motion.integral-drift#{name}");
+            assert!(study.verdicts.iter().any(|d| d.full_id() == full), "{full}");
+        }
+        // At the ends of steps: rows between them are interpolated. The energy, then what the model states.
+        let at_steps = &motion.evidence.run.followed[..4];
+        let drifts = at_steps.iter().map(|d| d.drift.value / d.scale);
+        drifts.fold(0.0, f64::max)
+    };
+    let (free, kept) = (largest(false), largest(true));
+    assert!(free > 1e-9, "{free}");
+    assert!(kept < 1e-13, "{kept}");
+}
+
+/// Nothing is searched where no claim asks for it.
+#[test]
+fn a_motion_alone_searches_nothing() {
+    let study = studied(&gallery("heavy-top/model.toml"), &["motion"], false);
+    assert!(study.motion.expect("a motion").found.is_empty());
+}
