@@ -335,7 +335,7 @@ fn descriptions_of_the_gallery_have_no_dead_links() {
 fn every_long_command_shows_its_progress_on_a_terminal() {
     let out = scratch("terminal");
     // Large enough to take seconds on any machine; which stage is shown depends on its speed.
-    let links = ["--set", "n=20"];
+    let links = ["--set", "n=8"];
     let trailer = "gallery/trailer/model.toml";
     let study = ["study", trailer, "--t-end", "1", "--out", text(&out)];
     let cases = [

@@ -108,6 +108,9 @@ fn row(field: &Directed, with_time: bool, with_value: bool) -> Vec<Expr> {
 /// How many brackets are formed at most.
 const BRACKETS: usize = 60;
 
+/// The nodes that a field may have which is differentiated once more: brackets of long fields grow by a factor at each step.
+const NODES: usize = 20_000;
+
 impl Flag {
     /// The flag of fields; `with_time` where they live on (t, q) and not on q alone, `valued` where σ is looked for.
     ///
@@ -145,7 +148,17 @@ impl Flag {
                         let tried = format!("{BRACKETS} brackets or the time were spent");
                         return Err(Obstacle::Undecided(tried));
                     }
-                    let next = bracket(cx.system, generator, &growing.fields[place]);
+                    let field = &growing.fields[place];
+                    let size = cx.system.graph.reachable(&row(field, true, valued)).len();
+                    if size > NODES {
+                        let ranks: Vec<String> = growth.iter().map(usize::to_string).collect();
+                        let tried = format!(
+                            "after the ranks {} a bracket has {size} nodes, more than {NODES}",
+                            ranks.join(", ")
+                        );
+                        return Err(Obstacle::Undecided(tried));
+                    }
+                    let next = bracket(cx.system, generator, field);
                     growing.take(next)?;
                 }
             }

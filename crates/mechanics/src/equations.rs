@@ -3,6 +3,7 @@
 use crate::characteristics::{derive_along, Characteristics};
 use crate::frame::Speed;
 use crate::system::{Coordinate, System};
+use chetaev_symbolic::print::with_indices;
 use chetaev_symbolic::{Expr, Symbol};
 
 /// One equation, `left = right`.
@@ -44,6 +45,8 @@ pub struct NamedExpr {
     pub value: Expr,
     /// What it is, in a few words.
     pub meaning: String,
+    /// The name with upper and lower indices, where its source has both: as [`with_indices`] writes it.
+    pub typeset: Option<String>,
     /// Whether it is one of many components of which only those that do not vanish are of interest.
     pub is_component: bool,
 }
@@ -55,7 +58,16 @@ impl NamedExpr {
             name: name.into(),
             value,
             meaning: meaning.into(),
+            typeset: None,
             is_component: false,
+        }
+    }
+
+    /// The same with the indices of its source: a letter, upper and lower indices.
+    pub fn with_indices(self, letter: &str, upper: &[&str], lower: &[&str]) -> NamedExpr {
+        NamedExpr {
+            typeset: Some(with_indices(letter, upper, lower)),
+            ..self
         }
     }
 

@@ -56,6 +56,7 @@ impl Claim for Multiplier {
             "model.constraints-scleronomic",
             "model.lagrangian-autonomous",
             "model.lagrangian-quadratic",
+            "model.lagrangian-even",
         ]
         .map(String::from)
         .to_vec()
@@ -80,8 +81,6 @@ struct Pair {
     form: [Expr; 2],
     /// det G.
     determinant: Expr,
-    /// The part of ∂L*/∂v without velocities.
-    gyroscopic: Vec<Expr>,
 }
 
 impl Pair {
@@ -123,14 +122,9 @@ impl Pair {
             form[0].push(g.mul(&[second, c]));
             form[1].push(g.neg(g.mul(&[first, c])));
         }
-        let at_rest: Vec<(Expr, Expr)> =
-            system.coordinates.iter().map(|c| (c.v, g.zero())).collect();
-        let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
-        let still = g.substitute_all(&momenta, &at_rest);
         let simple =
             |parts: &Vec<Expr>| simplify::simplify(g, g.add(parts), &simplify::Options::default());
         Ok(Pair {
-            gyroscopic: still,
             coordinates,
             form: [simple(&form[0]), simple(&form[1])],
             determinant: simplify::simplify(g, determinant, &simplify::Options::default()),
@@ -140,10 +134,6 @@ impl Pair {
 
     fn decide(&self, cx: &Context<'_>) -> Finding {
         let g = &cx.system.graph;
-        if self.gyroscopic.iter().any(|&p| !g.is_zero(p)) {
-            let detail = "L contains terms linear in the velocities, and Chaplygin's multiplier is made for L = T + U";
-            return Verdict::not_applicable("model.lagrangian-quadratic", detail).into();
-        }
         let mixed = g.sub(
             g.diff(self.form[0], self.coordinates[1]),
             g.diff(self.form[1], self.coordinates[0]),

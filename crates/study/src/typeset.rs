@@ -1,6 +1,6 @@
 //! Formulas for people: simplified, collected and printed in the notations of the outputs.
 
-use chetaev_mechanics::equations::{Equation, Equations};
+use chetaev_mechanics::equations::{Equation, Equations, NamedExpr};
 use chetaev_mechanics::{Manifold, Prover, System};
 use chetaev_report::data::{Definition, Equation as Printed, Formula};
 use chetaev_symbolic::print::{Document, Format, Options, Parts};
@@ -10,12 +10,26 @@ use chetaev_symbolic::{Expr, Graph, Verdict};
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 
-/// Printing options of a system: its coordinates and parameters in the order of the model.
+/// Printing options of a system: its coordinates, quasi-velocities and parameters in the order of the model. Where a
+/// quasi-velocity stands in a product does not depend on whether its rate occurs beside it.
 pub fn print_options(system: &System) -> Options {
+    let coordinates = system.coordinates.iter().map(|c| c.name.clone());
+    let quasi_velocities = system.quasi_velocities.iter().map(|u| u.name.clone());
     Options {
-        coordinates: system.coordinates.iter().map(|c| c.name.clone()).collect(),
+        coordinates: coordinates.chain(quasi_velocities).collect(),
         parameters: system.parameters.iter().map(|p| p.name.clone()).collect(),
         ..Options::default()
+    }
+}
+
+/// The same for objects of a formulation, with upper and lower indices where their source has both.
+pub fn print_options_with(system: &System, objects: &[NamedExpr]) -> Options {
+    let typeset = objects
+        .iter()
+        .filter_map(|o| Some((o.name.clone(), o.typeset.clone()?)));
+    Options {
+        display: typeset.collect(),
+        ..print_options(system)
     }
 }
 
@@ -217,6 +231,19 @@ impl<'a> Typesetter<'a> {
         let g = self.graph();
         self.set(&[left, right], || {
             Document::equations(g, &[(left, right)], &self.options)
+        })
+    }
+
+    /// An intermediate object and its value, with the indices of its source.
+    pub fn object(&self, object: &NamedExpr, value: Expr) -> Printed {
+        let g = self.graph();
+        let options = Options {
+            display: print_options_with(self.system, std::slice::from_ref(object)).display,
+            ..self.options.clone()
+        };
+        let name = g.symbol(&object.name, 0);
+        self.set(&[name, value], || {
+            Document::equations(g, &[(name, value)], &options)
         })
     }
 

@@ -262,7 +262,7 @@ const CANDIDATES: usize = 120;
 /// # Errors
 /// A sentence that says why the search could not be made.
 pub fn directions(cx: &Context<'_>) -> Result<Searched, String> {
-    let motion = of_particles(cx)?;
+    let motion = Motion::of(cx)?;
     let swarm = Swarm::of(&motion);
     let all = swarm.directions(&motion).into_iter().take(CANDIDATES);
     let candidates = all.map(|e| swarm.along(&motion, e)).collect();
@@ -274,7 +274,7 @@ pub fn directions(cx: &Context<'_>) -> Result<Searched, String> {
 /// # Errors
 /// A sentence that says why the search could not be made.
 pub fn axes(cx: &Context<'_>) -> Result<Searched, String> {
-    let motion = of_particles(cx)?;
+    let motion = Motion::of(cx)?;
     let swarm = Swarm::of(&motion);
     let (axes, points) = (swarm.axes(&motion), swarm.points());
     let pairs = axes.iter().flat_map(|e| points.iter().map(move |a| (e, a)));
@@ -285,19 +285,16 @@ pub fn axes(cx: &Context<'_>) -> Result<Searched, String> {
     kept(cx, &motion, candidates)
 }
 
-fn of_particles<'a>(cx: &Context<'a>) -> Result<Motion<'a>, String> {
+/// Whether the masses are constant, as the theorems on momenta suppose.
+pub(crate) fn masses_are_constant(cx: &Context<'_>) -> bool {
     let g = &cx.system.graph;
     let is_constant = |e: Expr| {
         g.is_free_of(e, &|s| {
             g.symbol_name(s) == "t" || cx.system.moves(g.symbol_name(s))
         })
     };
-    if mass::with_velocity(cx.system).is_some()
-        || cx.system.particles.iter().any(|p| !is_constant(p.mass))
-    {
-        return Err("the masses vary".into());
-    }
-    Motion::of(cx)
+    mass::with_velocity(cx.system).is_none()
+        && cx.system.particles.iter().all(|p| is_constant(p.mass))
 }
 
 /// The candidates whose rate vanishes at points of the manifold and whose value is not the same at all of them.

@@ -36,6 +36,7 @@ pub(super) fn seen(subject: &Sampled<'_>, id: &str) -> Seen {
         ),
         "model.lagrangian-autonomous" => without_time(subject, &[subject.cx.system.lagrangian]),
         "model.lagrangian-quadratic" => quadratic(subject),
+        "model.lagrangian-even" => even(subject),
         "model.constraints-homogeneous" => homogeneous(subject),
         "model.constraints-scleronomic" => {
             let constraints = subject.cx.system.constraints.iter();
@@ -264,6 +265,28 @@ fn without_time(subject: &Sampled<'_>, es: &[Expr]) -> Seen {
             .zip(after.iter().flatten())
             .map(|(a, b)| ((a - b) / STEP, 1.0 + a.abs())),
     ))
+}
+
+/// L at opposite velocities.
+fn even(subject: &Sampled<'_>) -> Seen {
+    let system = subject.cx.system;
+    let opposite: Vec<Point> = subject
+        .free_states
+        .iter()
+        .map(|state| {
+            let mut state = state.clone();
+            for c in &system.coordinates {
+                state.entry(c.v_symbol).and_modify(|v| *v = -*v);
+            }
+            state
+        })
+        .collect();
+    let (there, back) = (
+        values(subject, &[system.lagrangian], &subject.free_states),
+        values(subject, &[system.lagrangian], &opposite),
+    );
+    let pairs = there.iter().flatten().zip(back.iter().flatten());
+    zero(Size::of(pairs.map(|(a, b)| (a - b, a.abs() + b.abs()))))
 }
 
 /// Third differences of L along straight lines in the velocities.

@@ -194,6 +194,49 @@ impl Claim for LagrangianQuadratic {
     }
 }
 
+/// `model.lagrangian-even`.
+#[derive(Clone, Copy, Debug)]
+pub struct LagrangianEven;
+
+impl Claim for LagrangianEven {
+    fn id(&self) -> &'static str {
+        "model.lagrangian-even"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The Lagrangian has the same value for opposite velocities"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "L(q, −v, t) = L(q, v, t): no gyroscopic terms, which are linear in the velocities, as a magnetic field, a rotating \
+         frame or ignored coordinates bring them."
+    }
+
+    fn highest_order(&self, _: Option<&str>) -> u32 {
+        u32::MAX
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let (g, system) = (&cx.system.graph, cx.system);
+        let opposite: Vec<(Expr, Expr)> = system
+            .coordinates
+            .iter()
+            .map(|c| (c.v, g.neg(c.v)))
+            .collect();
+        let difference = g.sub(
+            system.lagrangian,
+            g.substitute(system.lagrangian, &opposite),
+        );
+        let difference = vec![("L(q, v, t) − L(q, −v, t)".to_owned(), difference)];
+        let by_form = "the velocities stand in even powers only";
+        vanish(cx, difference, "identically in q, v, t", by_form).into()
+    }
+}
+
 /// Whether L has no corner: no absolute value or sign of velocities, which second derivatives do not see.
 fn smooth(system: &System) -> bool {
     let g = &system.graph;

@@ -191,6 +191,7 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &hypotheses::ForcesAbsent,
     &hypotheses::LagrangianAutonomous,
     &hypotheses::LagrangianQuadratic,
+    &hypotheses::LagrangianEven,
     &hypotheses::RestrictedHessianRegular,
     &hypotheses::ConstrainedExtremumRegular,
     &particles::Particles,

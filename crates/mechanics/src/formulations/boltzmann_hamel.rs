@@ -334,23 +334,22 @@ impl<'a> Embedding<'a> {
                 format!("∂L̄/∂{own}"),
             ));
             for (l, other) in independent.iter().enumerate() {
-                objects.push(NamedExpr::component(
-                    format!("K_{other}_{own}"),
-                    terms.k[i][l],
-                    format!("component of the bracket of the motion and Y_{own} along Y_{other}"),
-                ));
+                let meaning =
+                    format!("component of the bracket of the motion and Y_{own} along Y_{other}");
+                let object =
+                    NamedExpr::component(format!("K_{other}_{own}"), terms.k[i][l], meaning);
+                objects.push(object.with_indices("K", &[other], &[own]));
             }
             for (a, alpha) in dependent.iter().enumerate() {
-                objects.push(NamedExpr::component(
-                    format!("C_{alpha}_{own}"),
-                    self.slopes[a][i],
-                    format!("∂F_{alpha}/∂{own}"),
-                ));
-                objects.push(NamedExpr::component(
-                    format!("G_{alpha}_{own}"),
-                    terms.g[i][a],
-                    format!("component of the bracket of the motion and Y_{own} along X_{alpha}"),
-                ));
+                let meaning = format!("∂F_{alpha}/∂{own}");
+                let slope =
+                    NamedExpr::component(format!("C_{alpha}_{own}"), self.slopes[a][i], meaning);
+                let meaning =
+                    format!("component of the bracket of the motion and Y_{own} along X_{alpha}");
+                let across =
+                    NamedExpr::component(format!("G_{alpha}_{own}"), terms.g[i][a], meaning);
+                objects.push(slope.with_indices("C", &[alpha], &[own]));
+                objects.push(across.with_indices("G", &[alpha], &[own]));
             }
             objects.push(NamedExpr::new(
                 format!("Dp_{own}"),

@@ -144,11 +144,10 @@ impl Reduced {
             for (&s, value) in self.characteristics.independent.iter().zip(row) {
                 if !g.is_zero(value) {
                     let independent = coordinate(s);
-                    objects.push(NamedExpr::new(
-                        unused_name(system, &format!("A_{dependent}_{independent}")),
-                        value,
-                        "curvature coefficient of the constraints",
-                    ));
+                    let name = unused_name(system, &format!("A_{dependent}_{independent}"));
+                    let meaning = "curvature coefficient of the constraints";
+                    let object = NamedExpr::new(name, value, meaning);
+                    objects.push(object.with_indices("A", &[dependent], &[independent]));
                 }
             }
         }
@@ -516,16 +515,10 @@ fn curvature_objects(
         for (s, row) in table.iter().enumerate() {
             for (u, &value) in row.iter().enumerate().skip(s + 1) {
                 if !system.graph.is_zero(value) {
-                    objects.push(NamedExpr::new(
-                        format!(
-                            "R_{}_{}_{}",
-                            name(d),
-                            name(independent[s]),
-                            name(independent[u])
-                        ),
-                        value,
-                        "curvature of the linear constraints",
-                    ));
+                    let (d, s, u) = (name(d), name(independent[s]), name(independent[u]));
+                    let meaning = "curvature of the linear constraints";
+                    let object = NamedExpr::new(format!("R_{d}_{s}_{u}"), value, meaning);
+                    objects.push(object.with_indices("R", &[d], &[s, u]));
                 }
             }
         }

@@ -86,11 +86,11 @@ pub(crate) fn virtual_basis(system: &System, characteristics: &Characteristics) 
     for (c, row) in characteristics.jets.iter().zip(&characteristics.basis) {
         for (p, &value) in characteristics.parameters.iter().zip(row) {
             if !system.graph.is_zero(value) {
-                objects.push(NamedExpr::new(
-                    format!("B_{}_{}", c.name, super::bare(&p.name)),
-                    value,
-                    format!("∂{}/∂({})", system.graph.symbol_text(c.v_symbol), p.name),
-                ));
+                let (s, sigma) = (&c.name, super::bare(&p.name));
+                let highest = system.graph.symbol_text(c.v_symbol);
+                let meaning = format!("∂{highest}/∂({})", p.name);
+                let object = NamedExpr::new(format!("B_{s}_{sigma}"), value, meaning);
+                objects.push(object.with_indices("B", &[s], &[sigma]));
             }
         }
     }

@@ -243,7 +243,8 @@ impl Reduced {
                 if !g.is_zero(value) {
                     let sigma = bare(&p.name);
                     let meaning = format!("curvature: D(∂{name}'/∂({})) − ∂{name}'/∂π", p.name);
-                    objects.push(NamedExpr::new(format!("A_{name}_{sigma}"), value, meaning));
+                    let object = NamedExpr::new(format!("A_{name}_{sigma}"), value, meaning);
+                    objects.push(object.with_indices("A", &[name], &[sigma]));
                 }
             }
         }

@@ -81,27 +81,20 @@ pub(super) fn frame_objects(system: &System, frame: &Frame) -> Vec<NamedExpr> {
     {
         for (c, &component) in system.coordinates.iter().zip(field) {
             if !g.is_zero(component) {
-                objects.push(NamedExpr::component(
-                    format!("X_{}_{}", label(s), c.name),
-                    component,
-                    format!("component of the field X_{} along {}", label(s), c.name),
-                ));
+                let (s, i) = (label(s), &c.name);
+                let meaning = format!("component of the field X_{s} along {i}");
+                let object = NamedExpr::component(format!("X_{s}_{i}"), component, meaning);
+                objects.push(object.with_indices("X", &[i], &[&s]));
             }
         }
     }
     if system.n() <= MOST_BRACKETS {
         for (w, s, u, c) in frame.structure_coefficients(system) {
-            objects.push(NamedExpr::component(
-                // The lower indices first: a number after a name would be read as the name's own index.
-                format!("C_{}_{}_{}", label(s), label(u), label(w)),
-                c,
-                format!(
-                    "component of the bracket [X_{}, X_{}] along X_{}",
-                    label(s),
-                    label(u),
-                    label(w)
-                ),
-            ));
+            let (s, u, w) = (label(s), label(u), label(w));
+            let meaning = format!("component of the bracket [X_{s}, X_{u}] along X_{w}");
+            // The lower indices first: a number after a name would be read as the name's own index.
+            let object = NamedExpr::component(format!("C_{s}_{u}_{w}"), c, meaning);
+            objects.push(object.with_indices("C", &[&w], &[&s, &u]));
         }
     }
     objects
@@ -226,12 +219,11 @@ impl<'a> InFrame<'a> {
             for (w, value) in self.bracket_with_motion(field).into_iter().enumerate() {
                 if !g.is_zero(value) {
                     let (s, w) = (label(s), label(w));
-                    objects.push(NamedExpr::component(
-                        // The lower index first, as in the structure coefficients.
-                        format!("Gamma_{s}_{w}"),
-                        value,
-                        format!("component of the bracket of the motion and X_{s} along X_{w}"),
-                    ));
+                    let meaning =
+                        format!("component of the bracket of the motion and X_{s} along X_{w}");
+                    // The lower index first, as in the structure coefficients.
+                    let object = NamedExpr::component(format!("Gamma_{s}_{w}"), value, meaning);
+                    objects.push(object.with_indices("Gamma", &[&w], &[&s]));
                 }
             }
         }

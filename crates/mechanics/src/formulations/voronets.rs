@@ -163,7 +163,8 @@ impl Restricted {
                 if !system.graph.is_zero(value) {
                     let (l, s) = (name(d), bare(&p.name));
                     let meaning = format!("curvature coefficient of {l}' by δ{s}");
-                    objects.push(NamedExpr::new(format!("A_{l}_{s}"), value, meaning));
+                    let object = NamedExpr::new(format!("A_{l}_{s}"), value, meaning);
+                    objects.push(object.with_indices("A", &[l], &[s]));
                 }
             }
         }

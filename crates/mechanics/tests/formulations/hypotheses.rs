@@ -28,6 +28,22 @@ fn explicit_time() {
     );
 }
 
+/// A magnetic field is odd in the velocities; how the same function is written makes no difference.
+#[test]
+fn even_lagrangians() {
+    for lagrangian in [
+        "1/2 m x'^2 - x^4",
+        "(x' + x)^2 - 2 x x'",
+        "abs(x')",
+        "x'^3/x'",
+    ] {
+        expect(&line(lagrangian), "model.lagrangian-even", "proved");
+    }
+    for lagrangian in ["1/2 m x'^2 + x x'", "x'^3", "x' abs(x')"] {
+        expect(&line(lagrangian), "model.lagrangian-even", "refuted");
+    }
+}
+
 /// Degree two in the velocities, however it is written; a corner is not quadratic although its second derivative vanishes.
 #[test]
 fn quadratic_lagrangians() {

@@ -30,7 +30,11 @@ impl Claim for DifferentialNewton {
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
         let mut hypotheses = requirements();
-        hypotheses.extend(["model.particles".into(), "model.hessian-regular".into()]);
+        hypotheses.extend([
+            "model.particles".into(),
+            "model.masses-of-time".into(),
+            "model.hessian-regular".into(),
+        ]);
         hypotheses
     }
 
@@ -44,7 +48,7 @@ impl Claim for DifferentialNewton {
                 let mut verdict = decided(cx, &list).unwrap_or_else(|| {
                     Verdict::not_applicable(
                         "model.particles",
-                        "Newton's statement is made for particles that carry the whole inertia, with masses that contain neither coordinates nor velocities",
+                        "Newton's statement is made for particles that carry the whole inertia",
                     )
                 });
                 if matches!(verdict, Verdict::Proved(_)) {

@@ -68,7 +68,6 @@ fn other_formulation(card: &Card, derived: &Equations, set: &Typesetter<'_>) -> 
         return section;
     }
     section.collapsed = true;
-    let g = set.graph();
     let values: Vec<Expr> = derived.objects.iter().map(|o| o.value).collect();
     let stated: Vec<(&NamedExpr, Expr)> = derived
         .objects
@@ -79,7 +78,7 @@ fn other_formulation(card: &Card, derived: &Equations, set: &Typesetter<'_>) -> 
     for (object, value) in stated {
         section.equations.push(Equation {
             caption: Some(object.meaning.clone()),
-            ..set.equation(g.symbol(&object.name, 0), value)
+            ..set.object(object, value)
         });
     }
     section

@@ -2,7 +2,7 @@
 
 use super::document::{Definition, Document, LinearSystem, Statement};
 use super::formula::{Formula, Strength, Term};
-use super::names::{typeset, Accent, Piece, Subscript};
+use super::names::{typeset, Accent, Piece, Subscript, TypesetName};
 use super::Parts;
 use crate::node::Function;
 
@@ -155,18 +155,28 @@ impl Latex<'_> {
         out.push_str(&format!("{close})"));
     }
 
+    /// A name as it is displayed.
+    fn name(&self, name: &str) -> TypesetName {
+        typeset(self.document.display.get(name).map_or(name, String::as_str))
+    }
+
     fn symbol(&self, name: &str, order: u32, out: &mut String) {
-        let name = self.document.display.get(name).map_or(name, String::as_str);
-        let name = typeset(name);
+        let name = self.name(name);
         let head = piece(&name.head);
+        let row = |indices: &[Subscript]| {
+            let own: Vec<String> = indices.iter().map(subscript).collect();
+            braced(&own.join(","))
+        };
         match order {
             0 => out.push_str(&head),
             1..=3 => out.push_str(&format!("\\{}ot{{{head}}}", "d".repeat(order as usize))),
             _ => out.push_str(&format!("{head}^{{({order})}}")),
         }
+        if !name.superscripts.is_empty() {
+            out.push_str(&format!("^{}", row(&name.superscripts)));
+        }
         if !name.subscripts.is_empty() {
-            let subscripts: Vec<String> = name.subscripts.iter().map(subscript).collect();
-            out.push_str(&format!("_{}", braced(&subscripts.join(","))));
+            out.push_str(&format!("_{}", row(&name.subscripts)));
         }
     }
 
@@ -217,6 +227,9 @@ impl Latex<'_> {
         match base {
             // A bracketed order of differentiation stands where the exponent would.
             Formula::Symbol { order: 4.., .. } => self.parentheses(base, out),
+            Formula::Symbol { name, .. } if self.name(name).is_raised() => {
+                self.parentheses(base, out);
+            }
             _ => self.group(base, Strength::Atom, out),
         }
         let mut inner = String::new();

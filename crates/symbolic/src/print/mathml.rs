@@ -3,7 +3,7 @@
 use super::document::{Definition, Document, LinearSystem, Statement};
 use super::formula::{Formula, Strength, Term};
 use super::latex::{function_of, strength, takes_power, LARGEST_MATRIX};
-use super::names::{typeset, Accent, Piece, Subscript};
+use super::names::{typeset, Accent, Piece, Subscript, TypesetName};
 use super::Parts;
 use crate::node::Function;
 
@@ -165,10 +165,14 @@ impl Mathml<'_> {
         }
     }
 
+    /// A name as it is displayed.
+    fn name(&self, name: &str) -> TypesetName {
+        typeset(self.document.display.get(name).map_or(name, String::as_str))
+    }
+
     /// A symbol, raised to a power if one is given: sub- and superscripts share their base.
     fn symbol(&self, name: &str, order: u32, exponent: Option<&str>) -> String {
-        let name = self.document.display.get(name).map_or(name, String::as_str);
-        let name = typeset(name);
+        let name = self.name(name);
         let letter = piece(&name.head);
         let head = match accent(order) {
             // Without `accent`: as an accent the dot touches the letter in fonts that have no MATH table.
@@ -176,14 +180,9 @@ impl Mathml<'_> {
             None => letter,
         };
         let order = (order > 3).then(|| row(&format!("<mo>(</mo><mn>{order}</mn><mo>)</mo>")));
-        let above = order.as_deref().or(exponent);
-        let subscripts: Vec<String> = name.subscripts.iter().map(subscript).collect();
-        let below = match &subscripts[..] {
-            [] => None,
-            [only] => Some(only.clone()),
-            many => Some(row(&many.join("<mo separator=\"true\">,</mo>"))),
-        };
-        match (below, above) {
+        let upper = indices(&name.superscripts);
+        let above = order.as_deref().or(upper.as_deref()).or(exponent);
+        match (indices(&name.subscripts), above) {
             (None, None) => head,
             (Some(below), None) => format!("<msub>{head}{below}</msub>"),
             (None, Some(above)) => format!("<msup>{head}{above}</msup>"),
@@ -242,7 +241,7 @@ impl Mathml<'_> {
             Formula::Symbol {
                 name,
                 order: order @ 0..=3,
-            } => self.symbol(name, *order, Some(&above)),
+            } if !self.name(name).is_raised() => self.symbol(name, *order, Some(&above)),
             Formula::Symbol { .. } => {
                 format!("<msup>{}{above}</msup>", parentheses(&self.formula(base)))
             }
@@ -367,6 +366,16 @@ fn piece(piece: &Piece) -> String {
                 Accent::Star => format!("<msup>{letter}<mo>*</mo></msup>"),
             }
         }
+    }
+}
+
+/// Indices side by side; `None` where there are none.
+fn indices(indices: &[Subscript]) -> Option<String> {
+    let own: Vec<String> = indices.iter().map(subscript).collect();
+    match &own[..] {
+        [] => None,
+        [only] => Some(only.clone()),
+        many => Some(row(&many.join("<mo separator=\"true\">,</mo>"))),
     }
 }
 

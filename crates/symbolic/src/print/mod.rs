@@ -24,6 +24,7 @@ mod tests;
 
 pub use code::{source_code, CodeError, CodeFunction, Language};
 pub use document::Document;
+pub use names::with_indices;
 pub use sympy::{sympy_module, PythonSection};
 
 use crate::graph::Graph;
@@ -58,7 +59,8 @@ pub struct Options {
     /// The parameters in the order in which factors are to be written; others follow in alphabetic order, masses
     /// first.
     pub parameters: Vec<String>,
-    /// Other names to typeset: `u_1` as `omega_1`. Used by LaTeX and MathML, not by the languages that are read again.
+    /// Other names to typeset: `u_1` as `omega_1`, `A_z_x` as [`with_indices`] writes it. Used by LaTeX and MathML, not by
+    /// the languages that are read again.
     pub display: BTreeMap<String, String>,
     /// Number of nodes per expression from which repeated parts are given names.
     pub max_nodes: u64,

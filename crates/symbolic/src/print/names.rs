@@ -1,4 +1,5 @@
-//! Names as they are typeset: `theta_1` is θ with the subscript 1, `lambda_blade` λ with the subscript "blade".
+//! Names as they are typeset: `theta_1` is θ with the subscript 1, `lambda_blade` λ with the subscript "blade". A name made
+//! by [`with_indices`] has upper indices too.
 
 use crate::syntax::names::greek_letter;
 
@@ -41,11 +42,58 @@ fn accented(text: &str) -> Option<Piece> {
     }
 }
 
-/// A name split into its letter and subscripts.
+/// A name split into its letter and indices.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct TypesetName {
     pub(crate) head: Piece,
+    pub(crate) superscripts: Vec<Subscript>,
     pub(crate) subscripts: Vec<Subscript>,
+}
+
+impl TypesetName {
+    /// Whether something stands where an exponent would: an upper index or a star.
+    pub(crate) fn is_raised(&self) -> bool {
+        !self.superscripts.is_empty() || matches!(self.head, Piece::Accented(_, Accent::Star))
+    }
+}
+
+/// The typeset name of a component with upper and lower indices, each of which is a name: `A^{z}_{x}`. To be given as what
+/// a name is displayed as ([`Options::display`](super::Options::display)).
+pub fn with_indices(letter: &str, upper: &[&str], lower: &[&str]) -> String {
+    let group = |sign: char, names: &[&str]| -> String {
+        names
+            .iter()
+            .map(|name| format!("{sign}{{{name}}}"))
+            .collect()
+    };
+    format!("{letter}{}{}", group('^', upper), group('_', lower))
+}
+
+/// The groups `{…}` behind a sign.
+fn group<'a>(indices: &'a str, sign: &'a str) -> impl Iterator<Item = &'a str> + 'a {
+    let groups = indices.split('}');
+    groups.filter_map(move |group| group.strip_prefix(sign)?.strip_prefix('{'))
+}
+
+/// A name of [`with_indices`], split.
+fn with_groups(letter: &str, indices: &str) -> TypesetName {
+    let split = |sign: &'static str| {
+        let names = group(indices, sign).map(typeset);
+        let own = |name: TypesetName| {
+            let mut pieces = vec![Subscript {
+                piece: name.head,
+                digits: None,
+            }];
+            pieces.extend(name.subscripts);
+            merged(pieces)
+        };
+        names.flat_map(own).collect()
+    };
+    TypesetName {
+        head: piece(letter),
+        superscripts: split("^"),
+        subscripts: split("_"),
+    }
 }
 
 /// A subscript, which may have a number as its own: Q with the subscript θ₁.
@@ -74,10 +122,17 @@ fn piece(text: &str) -> Piece {
 
 /// Splits a name at underscores and before final digits: `q_1`, `q1` and `q_{1}` of a person's hand are the same.
 pub(crate) fn typeset(name: &str) -> TypesetName {
+    if let Some(start) = name
+        .find(['^', '_'])
+        .filter(|&at| name[at + 1..].starts_with('{'))
+    {
+        return with_groups(&name[..start], &name[start..]);
+    }
     let mut parts = name.split('_').filter(|part| !part.is_empty());
     let Some(first) = parts.next() else {
         return TypesetName {
             head: Piece::Word(name.to_string()),
+            superscripts: Vec::new(),
             subscripts: Vec::new(),
         };
     };
@@ -94,30 +149,39 @@ pub(crate) fn typeset(name: &str) -> TypesetName {
     pieces.extend(parts.map(piece));
     TypesetName {
         head: piece(head),
+        superscripts: Vec::new(),
         subscripts: subscripts(pieces),
     }
 }
 
 /// A number after letters is their subscript; numbers stand side by side.
 fn subscripts(pieces: Vec<Piece>) -> Vec<Subscript> {
-    let mut subscripts: Vec<Subscript> = Vec::new();
-    for piece in pieces {
-        match (&piece, subscripts.last_mut()) {
+    let bare = |piece| Subscript {
+        piece,
+        digits: None,
+    };
+    merged(pieces.into_iter().map(bare).collect())
+}
+
+fn merged(pieces: Vec<Subscript>) -> Vec<Subscript> {
+    let mut merged: Vec<Subscript> = Vec::new();
+    for next in pieces {
+        match (&next, merged.last_mut()) {
             (
-                Piece::Digits(own),
+                Subscript {
+                    piece: Piece::Digits(own),
+                    digits: None,
+                },
                 Some(Subscript {
                     piece:
                         Piece::Letter(_) | Piece::Greek(..) | Piece::Word(_) | Piece::Accented(..),
                     digits: digits @ None,
                 }),
             ) => *digits = Some(own.clone()),
-            _ => subscripts.push(Subscript {
-                piece,
-                digits: None,
-            }),
+            _ => merged.push(next),
         }
     }
-    subscripts
+    merged
 }
 
 #[cfg(test)]
@@ -142,15 +206,28 @@ mod tests {
         assert_eq!(
             typeset("Q_theta_1").subscripts,
             [Subscript {
-                piece: theta,
+                piece: theta.clone(),
                 digits: Some("1".into())
             }]
         );
+        let theta_sign = theta;
         let tilde = Piece::Accented(Box::new(Piece::Letter('T')), Accent::Tilde);
         assert_eq!(typeset("Ttilde_x").head, tilde);
         for word in ["star", "tilde", "bar", "mustard", "crossbar"] {
             assert_eq!(typeset(word).head, Piece::Word(word.into()));
         }
+        let component = typeset(&with_indices("Gamma", &["w_1"], &["x", "theta2"]));
+        assert_eq!(component.head, Piece::Greek("Gamma".into(), 'Γ'));
+        let w = Subscript {
+            piece: Piece::Letter('w'),
+            digits: Some("1".into()),
+        };
+        assert_eq!(component.superscripts, [w]);
+        let theta = Subscript {
+            piece: theta_sign,
+            digits: Some("2".into()),
+        };
+        assert_eq!(component.subscripts, [bare(Piece::Letter('x')), theta]);
         assert_eq!(typeset("mass").head, Piece::Word("mass".into()));
         assert_eq!(typeset("_").head, Piece::Word("_".into()));
     }

@@ -205,6 +205,10 @@ impl<'a, 'g> Arranger<'a, 'g> {
     fn candidates(&self, p: &Polynomial) -> Vec<Expr> {
         self.factorizations.set(0);
         let depth = TRIALS.len();
+        if p.len() > MOST_FACTORED {
+            // Nothing but generators and numbers comes out of it: other ways of writing squares only change the terms.
+            return vec![self.factored(&shortened(self.field, p), depth)];
+        }
         let mut candidates = vec![self.factored(p, depth)];
         if p.len() > 1 {
             let short = shortened(self.field, p);

@@ -88,7 +88,7 @@ fn sections(system: &System, derivation: &Derivation) -> Vec<Section> {
 }
 
 fn printed(system: &System, derivation: &Derivation, notation: Notation) -> String {
-    let options = typeset::print_options(system);
+    let options = typeset::print_options_with(system, &derivation.objects);
     let format = match notation {
         Notation::Latex => Format::Latex,
         Notation::Mathml => Format::Mathml,
@@ -203,10 +203,15 @@ fn derivation_json(system: &System, derivation: &Derivation) -> serde_json::Valu
             serde_json::json!({"title": group.title, "general_form": group.schema.map(|s| s.text), "equations": equations})
         })
         .collect();
+    let options = typeset::print_options_with(system, &derivation.objects);
     let objects: Vec<serde_json::Value> = derivation
         .objects
         .iter()
-        .map(|o| serde_json::json!({"name": o.name, "value": g.text(o.value), "latex": g.latex(o.value), "meaning": o.meaning}))
+        .map(|o| {
+            let symbol = g.symbol(&o.name, 0);
+            let name = Document::expressions(g, &[symbol], &options).render(Format::Latex);
+            serde_json::json!({"name": o.name, "name_latex": name.trim(), "value": g.text(o.value), "latex": g.latex(o.value), "meaning": o.meaning})
+        })
         .collect();
     let sources: Vec<serde_json::Value> = card
         .sources

@@ -3,7 +3,7 @@
 use super::requirements;
 use crate::noether::found::readable;
 use crate::noether::motion::Motion;
-use crate::noether::moving::{axes, directions, Kept, Searched};
+use crate::noether::moving::{axes, directions, masses_are_constant, Kept, Searched};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_symbolic::Verdict;
 use std::sync::Arc;
@@ -22,7 +22,8 @@ struct Axes(Result<Searched, String>);
 fn subjects(cx: &Context<'_>, id: &str, count: impl FnOnce() -> usize) -> Vec<Option<String>> {
     let claim = cx.registry().find(id);
     let obstacle = claim.is_none_or(|claim| cx.obstacle(claim, None).is_some());
-    if cx.system.particles.is_empty() || obstacle || cx.is_out_of_time() {
+    let applies = !cx.system.particles.is_empty() && masses_are_constant(cx);
+    if !applies || obstacle || cx.is_out_of_time() {
         return Vec::new();
     }
     match count() {
