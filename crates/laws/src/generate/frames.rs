@@ -2,6 +2,7 @@
 
 use super::draw::Draw;
 use chetaev_mechanics::system::FrameFields;
+use chetaev_symbolic::matrix::inverse;
 use chetaev_symbolic::Expr;
 
 /// Quasi-velocities as (name, definition), and the fields where they are stated by these.
@@ -106,12 +107,20 @@ fn fields(draw: &mut Draw<'_>) -> Stated {
             false => g.zero(),
         })
         .collect();
-    let transposed: Vec<Expr> = (0..n * n)
-        .map(|place| fields[place % n][place / n])
+    let matrix: Vec<Vec<Expr>> = (0..n)
+        .map(|i| fields.iter().map(|field| field[i]).collect())
         .collect();
     let relative: Vec<Expr> = (0..n).map(|i| g.sub(draw.v(i), drift[i])).collect();
-    // Triangular with a diagonal that is nowhere zero: it can be solved.
-    let speeds = g.solve(&transposed, &relative).unwrap_or(relative);
+    let along = |row: &Vec<Expr>| {
+        let pairs = row.iter().zip(&relative);
+        let parts: Vec<Expr> = pairs.map(|(&e, &v)| g.mul(&[e, v])).collect();
+        g.add(&parts)
+    };
+    // Triangular with a diagonal that is nowhere zero: it has an inverse.
+    let speeds: Vec<Expr> = match inverse(g, &matrix) {
+        Ok(rows) => rows.iter().map(along).collect(),
+        Err(_) => relative.clone(),
+    };
     Stated {
         quasi_velocities: speeds
             .into_iter()

@@ -148,9 +148,14 @@ impl Resolver {
             self.push(
                 Diagnostic::error("unknown-key", key.place, message)
                     .label("not known")
-                    .hint("fields stand under [frame.fields]"),
+                    .hint(match key.content.as_str() {
+                        "forms" => "forms are written as quasi-velocities: put them under [quasi_velocities]",
+                        _ => "fields stand under [frame.fields]",
+                    }),
             );
         }
+        // What stands under `forms` is no field, whatever is in it.
+        misplaced.entries.retain(|(key, _)| key.content != "forms");
         misplaced
     }
 

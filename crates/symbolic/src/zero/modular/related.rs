@@ -14,10 +14,13 @@ use super::{decide, Outcome, Plan, Session};
 use crate::number::prime_field::{PrimeField, Residue};
 use crate::number::random::Random;
 use crate::number::reconstruct;
-use crate::rational::Rational;
+use crate::rational::{self, Rational};
 
 /// Points looked for before proportional radicands are given up.
 const DRAWS: usize = 200;
+
+/// Bits of numerator or denominator of a guessed factor; those of a fraction modulo a prime have up to 31.
+const MOST_BITS: usize = 22;
 
 /// Where the root of a radical stands, and its radicand.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +36,7 @@ struct Relation {
     root: Root,
     of: Root,
     factor: Rational,
-    /// At most two positive values, which stand before the root.
+    /// At most three positive values, which stand before the root.
     by: Vec<Value>,
 }
 
@@ -170,19 +173,43 @@ impl Guess {
                 before(&value).then(|| vec![value, other])
             })?
         };
-        let at = |value: Value| self.first.get(value as usize).copied().flatten();
-        let mut ratio = field.mul(at(root.radicand)?, field.inv(at(of.radicand)?)?);
-        for &value in &by {
-            let inverse = field.inv(at(value)?)?;
-            ratio = field.mul(ratio, field.mul(inverse, inverse));
-        }
-        let factor = reconstruct::rational(field, field.sqrt(ratio)?)?.abs();
+        let (factor, constant) = self.factor(root, of, &by)?;
+        let by = by.into_iter().chain(constant).collect();
         Some(Relation {
             root,
             of,
             factor,
             by,
         })
+    }
+
+    /// k of `√R_i = k w √R_j` with w the product of `by`; the root of a number may belong to it.
+    fn factor(&self, root: Root, of: Root, by: &[Value]) -> Option<(Rational, Option<Value>)> {
+        let field = &self.field;
+        let at = |value: Value| self.first.get(value as usize).copied().flatten();
+        let divided = |ratio: Residue, value: Value| {
+            let inverse = field.inv(at(value)?)?;
+            Some(field.mul(ratio, field.mul(inverse, inverse)))
+        };
+        let whole = field.mul(at(root.radicand)?, field.inv(at(of.radicand)?)?);
+        let ratio = by
+            .iter()
+            .try_fold(whole, |ratio, &value| divided(ratio, value))?;
+        let short = |ratio: Residue| {
+            let factor = reconstruct::rational(field, field.sqrt(ratio)?)?.abs();
+            // Most residues are some fraction of long numbers: only a short one is no accident.
+            (rational::bit_length(&factor) <= MOST_BITS).then_some(factor)
+        };
+        if let Some(factor) = short(ratio) {
+            return Some((factor, None));
+        }
+        let constants = self
+            .changes
+            .iter()
+            .filter(|(_, square)| *square == field.one());
+        constants
+            .filter(|(value, _)| *value < root.place)
+            .find_map(|&(value, _)| Some((short(divided(ratio, value)?)?, Some(value))))
     }
 }
 

@@ -42,6 +42,12 @@ pub(super) fn prepare(graph: &Graph, question: &Question<'_>) -> Program {
     let mut builder = Builder::new(graph, question);
     builder.relate(&roots);
     builder.discover(&roots);
+    // Roots of numbers first: what is related to them can then be written as a multiple of them.
+    for e in graph.reachable(&roots) {
+        if is_root_of_number(graph, e) {
+            builder.build(e);
+        }
+    }
     for root in &roots {
         builder.build(*root);
     }
@@ -50,6 +56,16 @@ pub(super) fn prepare(graph: &Graph, question: &Question<'_>) -> Program {
     builder.program.constraints = question.constraints.iter().map(|(f, _)| value(f)).collect();
     builder.program.positive = builder.positive();
     builder.program.arranged()
+}
+
+fn is_root_of_number(graph: &Graph, e: Expr) -> bool {
+    match graph.node(e) {
+        Node::Power { base, exponent } => {
+            let is_fraction = graph.as_number(*exponent).is_some_and(|r| !r.is_int());
+            is_fraction && graph.as_number(*base).is_some()
+        }
+        _ => false,
+    }
 }
 
 /// Expressions that must be built before the one asked for.
