@@ -5,7 +5,7 @@
 //! that falls on the end of a step is found once and only once whatever the rounding.
 
 use crate::compensated::Time;
-use crate::dense::DenseStep;
+use crate::dense::{Basis, DenseStep};
 use crate::event::{Direction, Event, EventKind, EventRecord};
 use crate::integrate::{Options, StepSize};
 use crate::method::{Method, State, Stepper, StepperSettings};
@@ -241,7 +241,9 @@ impl Locator {
         step.dense.at_theta(theta, &mut self.state.y);
         self.state.carry.fill(0.0);
         self.state.t = step.now.t.plus(theta * step.dense.h);
-        if candidate.kind == EventKind::Grazing || theta <= 0.0 {
+        // A polynomial that is the solution itself needs no step to the zero.
+        let is_solution = step.dense.basis == Basis::Monomial;
+        if candidate.kind == EventKind::Grazing || theta <= 0.0 || is_solution {
             return;
         }
         let (n, method, settings) = (self.y.len(), self.method, &self.settings);

@@ -19,6 +19,11 @@ pub enum FunctionsError {
     /// The program is not well formed.
     #[error("the compiled program is not well formed: {0}")]
     Verify(#[from] VerifyError),
+    /// The mass matrix bordered by the constraints is singular identically.
+    #[error(
+        "the equations do not determine the accelerations: their matrix is singular identically"
+    )]
+    Singular,
     /// The parameters make a linear system singular.
     #[error("the parameter values make a linear system singular: {0}")]
     Prepare(#[from] EvaluateFailure),
@@ -116,7 +121,7 @@ impl Functions {
     }
 }
 
-fn failure(failure: EvaluateFailure) -> EvaluationFailure {
+pub(crate) fn failure(failure: EvaluateFailure) -> EvaluationFailure {
     match failure {
         EvaluateFailure::Singular {
             pivot,
@@ -127,6 +132,13 @@ fn failure(failure: EvaluateFailure) -> EvaluationFailure {
             index: pivot,
             pivot: value,
             threshold,
+        },
+        EvaluateFailure::NotAnalytic {
+            operation,
+            argument,
+        } => EvaluationFailure::NotAnalytic {
+            operation,
+            argument,
         },
         _ => EvaluationFailure::NotFinite { component: 0 },
     }

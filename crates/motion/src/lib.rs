@@ -21,6 +21,7 @@ pub mod numeric;
 pub mod observe;
 pub mod row;
 pub mod run;
+mod series;
 pub mod stop;
 pub mod watch;
 

@@ -17,7 +17,8 @@ use chetaev_integrate::{
 };
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::{Constraint, ConstraintKind, Formulation, MotionTerms, Selection, System};
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
+use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
 
@@ -522,7 +523,7 @@ impl Subject<'_> {
             rtol: settings.tolerance,
             atol: settings.absolute_tolerance,
             atol_of: Vec::new(),
-            absolute: self.cyclic(dimension),
+            absolute: self.cyclic(dimension, options.method.card().needs_series),
         };
         options.output = Output::Times(times);
         options.record_last = true;
@@ -535,14 +536,18 @@ impl Subject<'_> {
         Ok(options)
     }
 
-    /// Coordinates that occur nowhere in the equations: a relative tolerance on them would grow blind.
-    fn cyclic(&self, dimension: usize) -> Vec<bool> {
+    /// Coordinates that occur nowhere in the equations, or where `angles` is asked for only inside trigonometric functions:
+    /// a relative tolerance on them would grow blind.
+    fn cyclic(&self, dimension: usize, angles: bool) -> Vec<bool> {
         let g = &self.system.graph;
         let mut roots = self.terms.mass_matrix.concat();
         roots.extend(self.terms.jacobian.concat());
         roots.extend(&self.terms.force);
         roots.extend(&self.terms.constraint_rate);
-        let present = g.symbols_in(&roots);
+        let present = match angles {
+            true => outside_angles(g, &roots),
+            false => g.symbols_in(&roots),
+        };
         let mut absolute: Vec<bool> = self
             .system
             .coordinates
@@ -590,6 +595,27 @@ impl Subject<'_> {
         run.ends_between = last.is_some_and(|t| !settings.times.contains(t));
         run
     }
+}
+
+/// The symbols of which expressions depend otherwise than through trigonometric functions.
+fn outside_angles(g: &Graph, roots: &[Expr]) -> Vec<Symbol> {
+    use Function::{Cos, Cot, Csc, Sec, Sin, Tan};
+    let (mut open, mut seen) = (roots.to_vec(), BTreeSet::new());
+    let mut found = Vec::new();
+    while let Some(e) = open.pop() {
+        if !seen.insert(e) {
+            continue;
+        }
+        match g.node(e) {
+            Node::Symbol(symbol) => found.push(*symbol),
+            Node::Apply {
+                function: Sin | Cos | Tan | Cot | Sec | Csc,
+                ..
+            } => {}
+            node => node.for_each_child(|child| open.push(child)),
+        }
+    }
+    found
 }
 
 /// Drops the rows after time t.
