@@ -182,7 +182,7 @@ impl<'a> Options<'a> {
                 if !card.adaptive {
                     return Err(IntegrateError::FixedStepRequired { method: card.name });
                 }
-                self.error.check(card.name, card.least_tolerance, y0)?;
+                self.error.check(card, y0)?;
                 ("a limit of the step size", [first, most])
             }
         };

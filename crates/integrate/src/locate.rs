@@ -441,11 +441,14 @@ fn dips(v: &[f64], x: &[f64], side: f64) -> bool {
     if b < 0.0 || b > a || b >= c || a == 0.0 {
         return false;
     }
+    if b == 0.0 {
+        return true;
+    }
     let left = (b - a) / (x[1] - x[0]);
     let right = (c - b) / (x[2] - x[1]);
     let curvature = (right - left) / (x[2] - x[0]);
     if curvature <= 0.0 {
-        return b == 0.0;
+        return false;
     }
     let slope = left + curvature * (x[1] - x[0]);
     b - slope * slope / (4.0 * curvature) < 0.5 * b
