@@ -658,6 +658,8 @@ impl Subject<'_> {
         );
         let y0 = flow.pack(&self.start.q, &self.start.v);
         let mut options = Options::fixed_step(method(&settings.method).ok()?, h);
+        // The order of a series follows from the tolerance.
+        options.error = ErrorControl::uniform(settings.tolerance);
         options.output = Output::End;
         options.step_limit = 10_000;
         let span = (self.start.t, settings.t_end);

@@ -304,9 +304,13 @@ pub(crate) fn settings(
     if let Some(method) = options.method.as_ref().or(simulation.method.as_ref()) {
         settings.method = method_name(method);
     }
+    let sharpest = sharpest(&settings.method);
     for tolerance in [settings.tolerance, settings.absolute_tolerance] {
-        if !(SHARPEST..=LOOSEST).contains(&tolerance) {
-            return Err(StudyError::Tolerance { tolerance });
+        if !(sharpest..=LOOSEST).contains(&tolerance) {
+            return Err(StudyError::Tolerance {
+                tolerance,
+                sharpest,
+            });
         }
     }
     let step = simulation.step.and_then(|h| number(g, h, &values));
@@ -329,9 +333,20 @@ pub(crate) fn settings(
     Ok(settings)
 }
 
-/// Tolerances that double precision and the error bounds of the verdicts make sense of.
+/// Tolerances that double precision and the error bounds of the verdicts make sense of: the error estimate of a
+/// Runge–Kutta method is a difference of nearly equal numbers, the terms of a series are not.
 const SHARPEST: f64 = 2.3e-14;
+const SHARPEST_OF_SERIES: f64 = 2.3e-16;
 const LOOSEST: f64 = 0.1;
+
+/// The sharpest tolerance of a method.
+pub(crate) fn sharpest(method: &str) -> f64 {
+    let needs_series = |m: &dyn chetaev_integrate::Method| m.card().needs_series;
+    match chetaev_integrate::method(method).is_ok_and(needs_series) {
+        true => SHARPEST_OF_SERIES,
+        false => SHARPEST,
+    }
+}
 /// More rows than these no longer fit what is done with them.
 const MOST_ROWS: f64 = 1e6;
 
