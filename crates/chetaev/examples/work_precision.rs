@@ -55,8 +55,7 @@ fn studied(path: &str, overrides: &[(&str, &str)]) -> Study {
         .map_err(|d| d.render(Style::Plain))
         .expect("a model without mistakes");
     let options = StudyOptions {
-        claims: ClaimSelection::parse("motion.energy-drift", registry().claims())
-            .expect("a claim"),
+        claims: ClaimSelection::parse("motion.energy-drift", registry().claims()).expect("a claim"),
         t_end: Some(0.01),
         global_error: false,
         ..StudyOptions::default()

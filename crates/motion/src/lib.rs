@@ -10,6 +10,7 @@ pub mod drift;
 pub mod follow;
 pub mod formulation_flow;
 pub mod functions;
+pub mod happening;
 pub mod initial;
 pub mod jet_flow;
 pub mod keep;
@@ -25,6 +26,7 @@ mod series;
 pub mod stop;
 pub mod watch;
 
+pub use happening::{EventWatched, Happened};
 pub use initial::{consistent_state, ConsistentState, InitialData, InitialError};
 pub use multiplier_flow::StateKind;
 pub use numeric::{Binding, NumericError, NumericSystem};

@@ -2,13 +2,15 @@
 
 use crate::options::StudyOptions;
 use crate::study::StudyError;
+use chetaev_integrate::Direction;
 use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{Basis, MotionTerms, Prepared, System};
-use chetaev_model::model::{Model, Output, StateKind as ModelState};
+use chetaev_model::model::{EventStated, Model, Output, StateKind as ModelState, Zero};
 use chetaev_motion::initial::jets::{jet_start, JetData};
 use chetaev_motion::run::equal_times;
 use chetaev_motion::{
-    consistent_state, Binding, ConsistentState, InitialData, NumericSystem, RunSettings, StateKind,
+    consistent_state, Binding, ConsistentState, EventWatched, InitialData, NumericSystem,
+    RunSettings, StateKind,
 };
 use chetaev_symbolic::{rational, Expr, Graph};
 
@@ -326,11 +328,25 @@ pub(crate) fn settings(
     };
     settings.project = simulation.project.unwrap_or(true);
     settings.own = own_values(model, system)?;
+    settings.events = model.events.iter().map(event).collect();
     settings.follow = vec![system.energy()];
     settings
         .follow
         .extend(model.integrals.iter().map(|i| i.value));
     Ok(settings)
+}
+
+fn event(stated: &EventStated) -> EventWatched {
+    EventWatched {
+        name: stated.name.clone(),
+        value: stated.value,
+        direction: match stated.zero {
+            Zero::Rising => Direction::Up,
+            Zero::Falling => Direction::Down,
+            Zero::Both => Direction::Both,
+        },
+        stops: stated.stops,
+    }
 }
 
 /// Tolerances that double precision and the error bounds of the verdicts make sense of: the error estimate of a

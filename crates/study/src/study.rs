@@ -460,6 +460,7 @@ fn compute(
     let reached = RunSettings {
         t_end: last_time(&run, settings.t_end),
         times: run.times.clone(),
+        events: Vec::new(),
         ..settings.clone()
     };
     let comparison = match check_applies(&cx, other.card()) {
@@ -522,7 +523,7 @@ fn kept(
 
 /// Comparisons are made up to the last row when a run ended early.
 fn last_time(run: &Run, t_end: f64) -> f64 {
-    if run.ending.finished {
+    if run.ending.finished && run.t == t_end {
         t_end
     } else {
         run.times.last().copied().unwrap_or(t_end)
