@@ -57,6 +57,9 @@ pub struct MultiplierFlow {
     series: Option<(Vec<usize>, RateSeries)>,
     /// Coefficients of (q, v).
     full: Vec<f64>,
+    /// Time and state at which the accelerations were computed last, where nothing has changed since.
+    solved: Option<f64>,
+    solved_state: Vec<f64>,
 }
 
 /// A stage whose pivot fell below this fraction of its value where the step began rejects the step.
@@ -98,6 +101,8 @@ impl MultiplierFlow {
             zero_between: false,
             series: None,
             full: Vec::new(),
+            solved: None,
+            solved_state: Vec::new(),
             system,
         };
         flow.settle(start.t);
@@ -172,6 +177,7 @@ impl MultiplierFlow {
     }
 
     fn unpack(&mut self, t: f64, y: &[f64]) -> Result<(), EvaluationFailure> {
+        self.solved = None;
         let (positions, rest) = y.split_at(self.system.positions());
         self.q.copy_from_slice(positions);
         match self.kind {
@@ -193,9 +199,16 @@ impl MultiplierFlow {
     }
 
     fn evaluate(&mut self, t: f64, y: &[f64]) -> Result<(), EvaluationFailure> {
+        // What is watched is asked for several times at one state.
+        if self.solved == Some(t) && self.solved_state == y {
+            return Ok(());
+        }
         self.unpack(t, y)?;
         self.system.evaluate(t, &self.q, &self.v)?;
         self.accelerations.solve(&self.system, &self.chart)?;
+        self.solved = Some(t);
+        self.solved_state.clear();
+        self.solved_state.extend_from_slice(y);
         Ok(())
     }
 
