@@ -132,19 +132,22 @@ pub trait System {
         false
     }
 
-    /// Writes the normalized Taylor coefficients of the solution through (t, y): `coefficients[j * n + i]` is
-    /// y_i⁽ʲ⁾/j! for j = 0 … order, n the dimension. Used by the Taylor method; order 1 is y and F(t, y).
+    /// Writes the normalized Taylor coefficients of the solution through (t, y + carry): `coefficients[j * n + i]` is
+    /// y_i⁽ʲ⁾/j! for j = 0 … order, n the dimension; those of order 0 are y. Used by the Taylor method; order 1 is F.
+    ///
+    /// The carry, what the rounding of y leaves out, matters where y is an angle of many turns: sines see its absolute
+    /// error. It may be passed over.
     ///
     /// # Errors
     /// The reason why there is no such series, by default [`EvaluationFailure::NoSeries`].
     fn expand(
         &mut self,
         t: f64,
-        y: &[f64],
+        (y, carry): (&[f64], &[f64]),
         order: usize,
         coefficients: &mut [f64],
     ) -> Result<(), EvaluationFailure> {
-        let _ = (t, y, order, coefficients);
+        let _ = (t, y, carry, order, coefficients);
         Err(EvaluationFailure::NoSeries)
     }
 

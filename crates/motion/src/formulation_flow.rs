@@ -15,6 +15,7 @@ use crate::numeric::{Binding, NumericSystem};
 use crate::row::RowLayout;
 use crate::run::WatchedFlow;
 use crate::series::RateSeries;
+use crate::turns::Turns;
 use crate::watch::Watch;
 use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System as Flow};
 use chetaev_mechanics::card::Relation;
@@ -88,6 +89,8 @@ struct ChartFunctions {
     /// t and the state, and the rates of the state.
     state: Vec<Symbol>,
     rates: Vec<Expr>,
+    /// Angles of which whole turns may be left out of the rates.
+    turns: Turns,
     /// Taylor recurrences of the rates; made when first asked for.
     series: Option<RateSeries>,
 }
@@ -549,6 +552,7 @@ fn compile(
             .transpose()?,
         selection,
         pivot,
+        turns: Turns::of(g, &system.coordinate_symbols(), &rates_of_state(&equations)),
         rates: rates_of_state(&equations),
         state: variables,
         series: None,
@@ -599,13 +603,17 @@ impl Flow for FormulationFlow<'_> {
     fn expand(
         &mut self,
         t: f64,
-        y: &[f64],
+        (y, carry): (&[f64], &[f64]),
         order: usize,
         coefficients: &mut [f64],
     ) -> Result<(), EvaluationFailure> {
         let n = y.len();
         coefficients[..n].copy_from_slice(y);
-        self.derivative(t, y, &mut coefficients[n..2 * n])?;
+        let reduced = match self.numeric.jumps {
+            true => y.to_vec(),
+            false => self.current.turns.reduced(y, carry),
+        };
+        self.derivative(t, &reduced, &mut coefficients[n..2 * n])?;
         if order < 2 {
             return Ok(());
         }
@@ -615,7 +623,11 @@ impl Flow for FormulationFlow<'_> {
             current.series = series.ok();
         }
         match &mut current.series {
-            Some(series) => series.expand(t, y, order, coefficients),
+            Some(series) => {
+                series.expand(t, &reduced, order, coefficients)?;
+                coefficients[..n].copy_from_slice(y);
+                Ok(())
+            }
             None => Err(EvaluationFailure::NoSeries),
         }
     }

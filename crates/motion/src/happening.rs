@@ -85,11 +85,11 @@ impl<F: WatchedFlow> System for WithEvents<'_, F> {
     fn expand(
         &mut self,
         t: f64,
-        y: &[f64],
+        state: (&[f64], &[f64]),
         order: usize,
         coefficients: &mut [f64],
     ) -> Result<(), EvaluationFailure> {
-        self.flow.expand(t, y, order, coefficients)
+        self.flow.expand(t, state, order, coefficients)
     }
 
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Control {

@@ -431,7 +431,7 @@ impl Flow for JetFlow<'_> {
     fn expand(
         &mut self,
         t: f64,
-        y: &[f64],
+        (y, _): (&[f64], &[f64]),
         order: usize,
         coefficients: &mut [f64],
     ) -> Result<(), EvaluationFailure> {

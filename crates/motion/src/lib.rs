@@ -24,6 +24,7 @@ pub mod row;
 pub mod run;
 mod series;
 pub mod stop;
+mod turns;
 pub mod watch;
 
 pub use happening::{EventWatched, Happened};

@@ -466,14 +466,19 @@ impl System for MultiplierFlow {
     fn expand(
         &mut self,
         t: f64,
-        y: &[f64],
+        (y, carry): (&[f64], &[f64]),
         order: usize,
         coefficients: &mut [f64],
     ) -> Result<(), EvaluationFailure> {
         let n = y.len();
         coefficients[..n].copy_from_slice(y);
-        // Whether the chart can be used here and no constraint was left is seen on the way.
-        self.derivative(t, y, &mut coefficients[n..2 * n])?;
+        // Whether the chart can be used here and no constraint was left is seen on the way. Constraints with jumps are
+        // followed in the coordinates as they are.
+        let reduced = match self.system.jumps {
+            true => y.to_vec(),
+            false => self.system.turns.reduced(y, carry),
+        };
+        self.derivative(t, &reduced, &mut coefficients[n..2 * n])?;
         if order < 2 {
             return Ok(());
         }

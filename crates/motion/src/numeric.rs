@@ -4,6 +4,7 @@ use crate::chart::Chart;
 use crate::dense::Lu;
 use crate::functions::{Functions, FunctionsError};
 use crate::series::RateSeries;
+use crate::turns::Turns;
 use chetaev_integrate::EvaluationFailure;
 use chetaev_mechanics::{ConstraintKind, MotionTerms, System};
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
@@ -60,6 +61,8 @@ pub struct NumericSystem {
     kinematics: Functions,
     positions: Functions,
     rates: Functions,
+    /// Angles of which whole turns may be left out.
+    pub(crate) turns: Turns,
     source: Arc<Source>,
 }
 
@@ -207,6 +210,11 @@ impl NumericSystem {
                 &binding.variables,
                 &[("rate", system.masses.iter().map(|m| m.rate).collect())],
             )?,
+            turns: Turns::of(
+                g,
+                &system.coordinate_symbols(),
+                &moving_parts(system, &terms),
+            ),
             source: Arc::new(Source {
                 graph: system.graph.clone(),
                 binding: binding.clone(),
@@ -386,6 +394,17 @@ impl NumericSystem {
     pub fn is_affine(&self) -> bool {
         self.affine.iter().all(|&a| a)
     }
+}
+
+/// Everything on which the motion depends.
+fn moving_parts(system: &System, terms: &MotionTerms) -> Vec<Expr> {
+    let mut parts = terms.mass_matrix.concat();
+    parts.extend(terms.jacobian.concat());
+    parts.extend(&terms.force);
+    parts.extend(&terms.constraint_rate);
+    parts.extend(&terms.constraints);
+    parts.extend(system.masses.iter().map(|m| m.rate));
+    parts
 }
 
 /// The columns of a matrix with rows of length n that do not vanish identically.

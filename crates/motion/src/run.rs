@@ -12,6 +12,7 @@ use crate::numeric::{Binding, NumericSystem};
 use crate::observe::Observer;
 use crate::row::RowLayout;
 use crate::stop::{self, Ending};
+use crate::turns::outside_angles;
 use crate::watch::{Watch, Watched};
 use chetaev_integrate::{
     integrate, method, ChartChange, ErrorControl, HaltReason, IntegrateError, Note, Options,
@@ -19,8 +20,7 @@ use chetaev_integrate::{
 };
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::{Constraint, ConstraintKind, Formulation, MotionTerms, Selection, System};
-use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
-use std::collections::BTreeSet;
+use chetaev_symbolic::Expr;
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
 
@@ -602,7 +602,7 @@ impl Subject<'_> {
         roots.extend(&self.terms.force);
         roots.extend(&self.terms.constraint_rate);
         let present = match angles {
-            true => outside_angles(g, &roots),
+            true => outside_angles(g, &roots).0,
             false => g.symbols_in(&roots),
         };
         let mut absolute: Vec<bool> = self
@@ -655,27 +655,6 @@ impl Subject<'_> {
         run.ends_between = last.is_some_and(|t| !settings.times.contains(t));
         run
     }
-}
-
-/// The symbols of which expressions depend otherwise than through trigonometric functions.
-fn outside_angles(g: &Graph, roots: &[Expr]) -> Vec<Symbol> {
-    use Function::{Cos, Cot, Csc, Sec, Sin, Tan};
-    let (mut open, mut seen) = (roots.to_vec(), BTreeSet::new());
-    let mut found = Vec::new();
-    while let Some(e) = open.pop() {
-        if !seen.insert(e) {
-            continue;
-        }
-        match g.node(e) {
-            Node::Symbol(symbol) => found.push(*symbol),
-            Node::Apply {
-                function: Sin | Cos | Tan | Cot | Sec | Csc,
-                ..
-            } => {}
-            node => node.for_each_child(|child| open.push(child)),
-        }
-    }
-    found
 }
 
 /// Drops the rows after time t.

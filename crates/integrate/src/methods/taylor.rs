@@ -130,7 +130,8 @@ impl Expansion {
         let filled = (self.order + 1) * self.n;
         let coefficients = &mut self.coefficients[..filled];
         self.evaluations += 1;
-        system.expand(from.t.high, &from.y, self.order, coefficients)?;
+        let state = (&from.y[..], &from.carry[..]);
+        system.expand(from.t.high, state, self.order, coefficients)?;
         if let Some(place) = coefficients.iter().position(|c| !c.is_finite()) {
             // Close to a pole the high coefficients overflow while the step is still well determined by the others.
             let known = (place / self.n).saturating_sub(1);
@@ -212,7 +213,7 @@ impl Expansion {
     ) -> Result<(f64, usize), EvaluationFailure> {
         let n = self.n;
         self.evaluations += 1;
-        system.expand(to.t.high, &to.y, 1, &mut self.end)?;
+        system.expand(to.t.high, (&to.y, &to.carry), 1, &mut self.end)?;
         let rates = &self.end[n..];
         if let Some(component) = rates.iter().position(|rate| !rate.is_finite()) {
             return Err(EvaluationFailure::NotFinite { component });
