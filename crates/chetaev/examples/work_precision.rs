@@ -20,8 +20,10 @@ impl Files for Disk {
     }
 }
 
-/// Models, overrides, and how long they run.
-const USUAL: [(&str, &[(&str, &str)], f64); 5] = [
+/// A model, overrides, and how long it runs.
+type Case = (&'static str, &'static [(&'static str, &'static str)], f64);
+
+const USUAL: [Case; 5] = [
     ("gallery/falling-rolling-disc/model.toml", &[], 100.0),
     ("gallery/rattleback/model.toml", &[], 20.0),
     ("gallery/chaplygin-sleigh/model.toml", &[], 100.0),

@@ -176,7 +176,7 @@ fn kept_polynomials_of_different_orders() {
 }
 
 /// x' = x² from x0: a pole at 1/x0.
-fn pole() -> Recurrence<impl FnMut(f64, &[Vec<f64>], &mut [f64]) -> Result<(), EvaluationFailure>> {
+fn pole() -> impl System {
     recurrence(1, |_t, state, next| {
         let (j, x) = (state.len() - 1, component(state, 0));
         next[0] = product(&x, &x, j) / (j + 1) as f64;

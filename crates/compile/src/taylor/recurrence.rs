@@ -139,7 +139,7 @@ fn half(series: &Series, (forward, reverse): (u32, u32), j: usize, from: usize) 
         let b = series.reverse(reverse, j - from, j + 1 - end);
         sum = 2.0 * dot(a, b);
     }
-    if j % 2 == 0 && j / 2 >= from {
+    if j.is_multiple_of(2) && j / 2 >= from {
         let middle = series.forward(forward, j / 2, j / 2 + 1)[0];
         sum += middle * middle;
     }
