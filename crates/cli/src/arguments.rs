@@ -88,7 +88,7 @@ pub(crate) struct MotionArguments {
     /// Fixed step, an exact expression, required by runge-kutta-4: --step 0.01 --step "pi/400"
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
     pub(crate) step: Option<String>,
-    /// dormand-prince-853 (dop853), tsitouras-5 (tsit5) or runge-kutta-4 (rk4, with --step)
+    /// dormand-prince-853 (dop853), taylor, tsitouras-5 (tsit5) or runge-kutta-4 (rk4, with --step)
     #[arg(long)]
     pub(crate) method: Option<String>,
     /// The formulation whose equations are integrated, in its own state; routh when left out

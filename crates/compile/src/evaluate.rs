@@ -42,6 +42,14 @@ pub enum EvaluateFailure {
         /// Length given.
         found: usize,
     },
+    /// An operation has no Taylor series at its argument; only of [`Taylor`](crate::Taylor).
+    #[error("`{operation}` has no Taylor series at {argument:e}")]
+    NotAnalytic {
+        /// The operation.
+        operation: &'static str,
+        /// Its argument, or what must not vanish.
+        argument: f64,
+    },
     /// The workspace was not prepared with parameters, or belongs to another program.
     #[error("the workspace is not prepared for this program")]
     NotPrepared,

@@ -226,6 +226,20 @@ impl<W: Word> State<W> {
         }
     }
 
+    /// Whether an evaluation at these variables can begin.
+    pub(crate) fn check_variables(
+        &self,
+        program: &Program,
+        variables: &[W],
+    ) -> Result<(), EvaluateFailure> {
+        check_length("variables", program.layout.variables, variables.len())?;
+        self.check_shape(program)?;
+        match self.is_prepared {
+            true => Ok(()),
+            false => Err(EvaluateFailure::NotPrepared),
+        }
+    }
+
     /// Whether an evaluation with these arguments can begin.
     pub(crate) fn check(
         &self,
@@ -236,12 +250,7 @@ impl<W: Word> State<W> {
     ) -> Result<(), EvaluateFailure> {
         check_length("variables", program.layout.variables, variables.len())?;
         check_length("outputs", program.output_count_of(groups), outputs.len())?;
-        self.check_shape(program)?;
-        if self.is_prepared {
-            Ok(())
-        } else {
-            Err(EvaluateFailure::NotPrepared)
-        }
+        self.check_variables(program, variables)
     }
 
     pub(crate) fn evaluate(

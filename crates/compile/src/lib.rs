@@ -10,7 +10,8 @@
 //! parameters, and linear systems stay structured: one factorization per matrix, shared by all right-hand sides.
 //! [`Interpreter`] runs a program through the traits [`Evaluator`] and [`BlockEvaluator`], without allocating;
 //! [`Native`](crate::backend()) does so as machine code where the processor has the instructions. [`backend()`] chooses.
-//! Nothing here knows mechanics.
+//! [`Taylor`] computes Taylor coefficients along a motion by the recurrences of the same instructions. Nothing here
+//! knows mechanics.
 //!
 //! ```
 //! use chetaev_compile::{Evaluator, Interpreter, Lowering};
@@ -50,6 +51,7 @@ pub mod lower;
 pub mod native;
 pub mod program;
 mod schedule;
+pub mod taylor;
 pub mod verify;
 
 pub use backend::{backend, Backend, VARIABLE};
@@ -60,4 +62,5 @@ pub use lower::{LowerError, Lowering};
 #[cfg(all(unix, target_arch = "x86_64"))]
 pub use native::Native;
 pub use program::Program;
+pub use taylor::{Taylor, TaylorWorkspace};
 pub use verify::VerifyError;

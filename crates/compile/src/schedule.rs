@@ -26,14 +26,14 @@ pub(crate) fn in_runs(program: &Program) -> Program {
 }
 
 /// A program whose registers are written once each.
-struct Single {
-    program: Program,
-    origins: Vec<Origin>,
-    groups: Vec<Group>,
+pub(crate) struct Single {
+    pub(crate) program: Program,
+    pub(crate) origins: Vec<Origin>,
+    pub(crate) groups: Vec<Group>,
 }
 
 impl Single {
-    fn of(original: &Program) -> Single {
+    pub(crate) fn of(original: &Program) -> Single {
         let mut single = Single {
             program: original.clone(),
             origins: Vec::new(),

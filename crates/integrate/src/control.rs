@@ -1,6 +1,7 @@
 //! Error norms and the choice of the step size.
 
 use crate::compensated::Time;
+use crate::method::MethodCard;
 use crate::problem::{EvaluationFailure, System};
 use crate::IntegrateError;
 
@@ -51,13 +52,9 @@ impl ErrorControl {
         (if absolute { 0.0 } else { self.rtol }, atol)
     }
 
-    /// Checks lengths and signs, and that no tolerance is below `least` relative to the initial values.
-    pub(crate) fn check(
-        &self,
-        method: &'static str,
-        least: f64,
-        y0: &[f64],
-    ) -> Result<(), IntegrateError> {
+    /// Checks lengths and signs, and that no tolerance is below the least of the method relative to the initial values.
+    pub(crate) fn check(&self, card: &MethodCard, y0: &[f64]) -> Result<(), IntegrateError> {
+        let (method, least) = (card.name, card.least_tolerance);
         let expected = y0.len();
         for (what, found) in [
             ("the list of absolute tolerances", self.atol_of.len()),
@@ -82,12 +79,17 @@ impl ErrorControl {
                 });
             }
             // A purely absolute tolerance has to be resolved at the size of the initial value. Slopes do not
-            // depend on a cyclic component: only the rounding of its own value counts.
+            // depend on a cyclic component: only the rounding of its own value counts, and the terms of a series are
+            // known whatever it is.
             let cyclic = self.absolute.get(component).copied().unwrap_or(false);
             let (requested, attainable) = if rtol > 0.0 {
                 (rtol, least)
             } else if cyclic {
-                (atol, y.abs() * least.min(2.0 * f64::EPSILON))
+                let rounding = match card.needs_series {
+                    true => 0.0,
+                    false => y.abs() * least.min(2.0 * f64::EPSILON),
+                };
+                (atol, rounding)
             } else {
                 (atol, y.abs() * least)
             };

@@ -107,7 +107,8 @@ pub struct Trajectory {
     /// Time where the run stands; a terminal event cuts the last step.
     end: f64,
     epochs: Vec<u32>,
-    per_step: usize,
+    /// Where the coefficients of each step end.
+    ends: Vec<usize>,
     coefficients: Vec<f64>,
 }
 
@@ -120,7 +121,7 @@ impl Trajectory {
             lengths: Vec::new(),
             end: 0.0,
             epochs: Vec::new(),
-            per_step: 0,
+            ends: Vec::new(),
             coefficients: Vec::new(),
         }
     }
@@ -128,14 +129,11 @@ impl Trajectory {
     pub(crate) fn push(&mut self, step: &DenseStep, end: f64, epoch: u32) {
         self.end = end;
         self.basis = step.basis;
-        // Steps of lower degree (none at present) would be padded with zeros at the high end.
-        self.per_step = self.per_step.max(step.coefficients.len());
         self.starts.push(step.start);
         self.lengths.push(step.h);
         self.epochs.push(epoch);
         self.coefficients.extend_from_slice(&step.coefficients);
-        self.coefficients
-            .resize(self.starts.len() * self.per_step, 0.0);
+        self.ends.push(self.coefficients.len());
     }
 
     /// Whether time s lies within the run.
@@ -179,10 +177,11 @@ impl Trajectory {
     /// Writes the state at time s into `y` and says which step it came from; `None` outside of the run.
     pub fn at(&self, s: f64, y: &mut [f64]) -> Option<usize> {
         let step = self.step_at(s)?;
+        let start = step.checked_sub(1).map_or(0, |before| self.ends[before]);
         let view = DenseView {
             basis: self.basis,
             dimension: self.dimension,
-            coefficients: &self.coefficients[step * self.per_step..(step + 1) * self.per_step],
+            coefficients: &self.coefficients[start..self.ends[step]],
         };
         view.at_theta(self.starts[step].until(s) / self.lengths[step], y);
         Some(step)

@@ -76,6 +76,12 @@ pub enum IntegrateError {
         /// Name of the method.
         method: &'static str,
     },
+    /// The method needs Taylor coefficients, which the system does not give.
+    #[error("method {method} needs Taylor coefficients, which the system does not give; choose another method")]
+    NoSeries {
+        /// Name of the method.
+        method: &'static str,
+    },
     /// There is no method of this name.
     #[error("there is no method `{name}`; known are {known}")]
     UnknownMethod {

@@ -182,7 +182,7 @@ impl<'a> Options<'a> {
                 if !card.adaptive {
                     return Err(IntegrateError::FixedStepRequired { method: card.name });
                 }
-                self.error.check(card.name, card.least_tolerance, y0)?;
+                self.error.check(card, y0)?;
                 ("a limit of the step size", [first, most])
             }
         };
@@ -202,7 +202,8 @@ impl<'a> Options<'a> {
 /// # Errors
 /// [`IntegrateError`] if the question makes no sense or asks for what the method cannot give: wrong lengths, values
 /// that are not finite, tolerances that are negative or below 100 units of relative rounding for Runge–Kutta
-/// methods (theory: the error estimate is a difference of nearly equal numbers). Everything that happens later is a
+/// methods (theory: the error estimate is a difference of nearly equal numbers; the Taylor method goes down to the
+/// rounding of one operation), a method that needs Taylor coefficients of a system without. Everything that happens later is a
 /// [`Stop`](crate::Stop) in the solution.
 pub fn integrate(
     system: &mut dyn System,
@@ -220,6 +221,10 @@ pub fn integrate(
         });
     }
     options.check(span, y0)?;
+    let card = options.method.card();
+    if card.needs_series && !system.has_series() {
+        return Err(IntegrateError::NoSeries { method: card.name });
+    }
     let schedule = Schedule::new(&options.output, span)?;
     Ok(Run::new(system, span, y0, events, options, schedule).run_to_end())
 }

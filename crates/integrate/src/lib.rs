@@ -6,7 +6,8 @@
 //! run has; an [`IntegrateError`] means that the run could not begin.
 //!
 //! - [`problem`]: what is integrated, and the hooks of a mechanical system (projection, change of chart, halt);
-//! - [`mod@method`] and [`methods`]: what a method is, and the methods;
+//! - [`mod@method`] and [`methods`]: what a method is, and the methods (Runge–Kutta ones, and Taylor series for systems
+//!   that give their coefficients);
 //! - [`control`]: error norms, tolerances, step-size control;
 //! - [`dense`]: the polynomial of each step; [`event`]: zero crossings located on it;
 //! - [`solution`]: results; [`mod@integrate`]: options and the loop;

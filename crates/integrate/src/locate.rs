@@ -5,7 +5,7 @@
 //! that falls on the end of a step is found once and only once whatever the rounding.
 
 use crate::compensated::Time;
-use crate::dense::DenseStep;
+use crate::dense::{Basis, DenseStep};
 use crate::event::{Direction, Event, EventKind, EventRecord};
 use crate::integrate::{Options, StepSize};
 use crate::method::{Method, State, Stepper, StepperSettings};
@@ -63,6 +63,8 @@ pub(crate) struct Locator {
     /// Relative accuracy of the trajectory, below which a touch and a crossing cannot be told apart.
     resolution: f64,
     memories: Vec<Memory>,
+    /// Values at the nodes of each switching function, or why there are none.
+    samples: Vec<Result<[f64; NODES.len()], EvaluationFailure>>,
     candidates: Vec<Candidate>,
     y: Vec<f64>,
     /// State at the event being refined.
@@ -115,6 +117,7 @@ impl Locator {
             stepper: None,
             resolution,
             memories: vec![memory; events],
+            samples: vec![Ok([0.0; NODES.len()]); events],
             candidates: Vec::new(),
             y: vec![0.0; n],
             state: State::exact(0.0, &vec![0.0; n]),
@@ -143,6 +146,7 @@ impl Locator {
             last: next.t.high == t_end,
         };
         self.candidates.clear();
+        self.sample(system, events, step);
         for (index, event) in events.iter_mut().enumerate() {
             match self.search(system, event, index, step) {
                 Ok(()) => self.memories[index].unknown = false,
@@ -178,6 +182,24 @@ impl Locator {
         Ok(None)
     }
 
+    /// Values at the nodes, all functions at one node after the other: a system that computes several of them from the
+    /// same state may remember it.
+    fn sample(&mut self, system: &mut dyn System, events: &mut [Event<'_>], step: Step<'_>) {
+        self.samples.fill(Ok([0.0; NODES.len()]));
+        for (i, theta) in NODES.into_iter().enumerate() {
+            step.dense.at_theta(theta, &mut self.y);
+            let t = step.time(theta);
+            for (event, samples) in events.iter_mut().zip(&mut self.samples) {
+                if let Ok(values) = samples {
+                    match event.value(system, t, &self.y) {
+                        Ok(value) => values[i] = value,
+                        Err(failure) => *samples = Err(failure),
+                    }
+                }
+            }
+        }
+    }
+
     /// A switching function has no value in this step: what was known of its side is worthless.
     fn forget(
         &mut self,
@@ -207,6 +229,7 @@ impl Locator {
         index: usize,
         step: Step<'_>,
     ) -> Result<(), EvaluationFailure> {
+        let values = self.samples[index]?;
         let y = &mut self.y;
         let mut scan = Scan {
             value: |theta: f64| {
@@ -218,7 +241,7 @@ impl Locator {
             memory: self.memories[index],
             candidates: &mut self.candidates,
         };
-        scan.run(self.resolution)?;
+        scan.run(values, self.resolution)?;
         self.memories[index] = scan.memory;
         Ok(())
     }
@@ -241,7 +264,9 @@ impl Locator {
         step.dense.at_theta(theta, &mut self.state.y);
         self.state.carry.fill(0.0);
         self.state.t = step.now.t.plus(theta * step.dense.h);
-        if candidate.kind == EventKind::Grazing || theta <= 0.0 {
+        // A polynomial that is the solution itself needs no step to the zero.
+        let is_solution = step.dense.basis == Basis::Monomial;
+        if candidate.kind == EventKind::Grazing || theta <= 0.0 || is_solution {
             return;
         }
         let (n, method, settings) = (self.y.len(), self.method, &self.settings);
@@ -323,8 +348,12 @@ where
     F: FnMut(f64) -> Result<f64, EvaluationFailure>,
 {
     /// Goes through the step sample by sample; dips of less than `resolution` times the largest value are touches.
-    fn run(&mut self, resolution: f64) -> Result<(), EvaluationFailure> {
-        let values = self.sample()?;
+    fn run(
+        &mut self,
+        mut values: [f64; NODES.len()],
+        resolution: f64,
+    ) -> Result<(), EvaluationFailure> {
+        self.find_side(&mut values);
         if self.memory.side == 0.0 {
             return Ok(());
         }
@@ -349,13 +378,10 @@ where
         Ok(())
     }
 
-    /// Values at the nodes; finds out the side if it is unknown.
-    fn sample(&mut self) -> Result<[f64; NODES.len()], EvaluationFailure> {
-        let mut values = [0.0; NODES.len()];
-        for (v, theta) in values.iter_mut().zip(NODES) {
-            *v = (self.value)(theta)?;
-            self.memory.scale = self.memory.scale.max(v.abs());
-        }
+    /// Finds out the side if it is unknown.
+    fn find_side(&mut self, values: &mut [f64; NODES.len()]) {
+        let largest = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        self.memory.scale = self.memory.scale.max(largest);
         if self.memory.side == 0.0 {
             // A value that is zero up to rounding at the start says nothing about the side.
             let noise = 100.0 * f64::EPSILON * self.memory.scale;
@@ -366,7 +392,6 @@ where
                 *v = 0.0;
             }
         }
-        Ok(values)
     }
 
     /// Refines a zero between a sample on the present side and one on the other.
@@ -439,11 +464,14 @@ fn dips(v: &[f64], x: &[f64], side: f64) -> bool {
     if b < 0.0 || b > a || b >= c || a == 0.0 {
         return false;
     }
+    if b == 0.0 {
+        return true;
+    }
     let left = (b - a) / (x[1] - x[0]);
     let right = (c - b) / (x[2] - x[1]);
     let curvature = (right - left) / (x[2] - x[0]);
     if curvature <= 0.0 {
-        return b == 0.0;
+        return false;
     }
     let slope = left + curvature * (x[1] - x[0]);
     b - slope * slope / (4.0 * curvature) < 0.5 * b

@@ -17,14 +17,17 @@ pub struct MethodCard {
     pub name: &'static str,
     /// Full name for people.
     pub title: &'static str,
-    /// Order of the solution at step ends.
+    /// Order of the solution at step ends; 0 where it follows from the tolerance ([`Method::order`]).
     pub order: u32,
-    /// Order of the dense output: its error at interior points of a step is O(h^(dense_order + 1)).
+    /// Order of the dense output: its error at interior points of a step is O(h^(dense_order + 1)); 0 where it is that
+    /// of the step.
     pub dense_order: u32,
     /// Whether the method estimates its error, and so can choose its step size.
     pub adaptive: bool,
     /// Least relative tolerance that the error estimate resolves in double precision; 0 where there is no limit.
     pub least_tolerance: f64,
+    /// Whether the method needs Taylor coefficients ([`System::expand`]).
+    pub needs_series: bool,
     /// Where the method and its coefficients come from.
     pub source: &'static str,
 }
@@ -33,6 +36,12 @@ pub struct MethodCard {
 pub trait Method: Sync {
     /// The public face.
     fn card(&self) -> &MethodCard;
+
+    /// Order of the solution at step ends under these tolerances.
+    fn order(&self, error: &ErrorControl) -> u32 {
+        let _ = error;
+        self.card().order
+    }
 
     /// Working storage for one run of a system of dimension n.
     fn stepper(&self, n: usize, settings: &StepperSettings) -> Box<dyn Stepper>;

@@ -39,6 +39,17 @@ pub enum EvaluationFailure {
         /// Number of the constraint.
         constraint: usize,
     },
+    /// An operation has no Taylor series where a step begins (a root, a logarithm or a quotient at 0, a sign, …).
+    #[error("`{operation}` has no Taylor series at {argument:e}")]
+    NotAnalytic {
+        /// The operation.
+        operation: &'static str,
+        /// Its argument, or what must not vanish.
+        argument: f64,
+    },
+    /// The system cannot give Taylor coefficients at all.
+    #[error("the system gives no Taylor coefficients")]
+    NoSeries,
     /// An elementary function was evaluated outside of its domain (log or sqrt of a negative number, x/0, …).
     #[error("operation {operation} is evaluated outside of its domain")]
     Domain {
@@ -115,6 +126,30 @@ pub trait System {
     /// # Errors
     /// The reason why F has no value at (t, y), or should not be used there. The step is then rejected.
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure>;
+
+    /// Whether [`System::expand`] gives Taylor coefficients.
+    fn has_series(&self) -> bool {
+        false
+    }
+
+    /// Writes the normalized Taylor coefficients of the solution through (t, y + carry): `coefficients[j * n + i]` is
+    /// y_i⁽ʲ⁾/j! for j = 0 … order, n the dimension; those of order 0 are y. Used by the Taylor method; order 1 is F.
+    ///
+    /// The carry, what the rounding of y leaves out, matters where y is an angle of many turns: sines see its absolute
+    /// error. It may be passed over.
+    ///
+    /// # Errors
+    /// The reason why there is no such series, by default [`EvaluationFailure::NoSeries`].
+    fn expand(
+        &mut self,
+        t: f64,
+        (y, carry): (&[f64], &[f64]),
+        order: usize,
+        coefficients: &mut [f64],
+    ) -> Result<(), EvaluationFailure> {
+        let _ = (t, y, carry, order, coefficients);
+        Err(EvaluationFailure::NoSeries)
+    }
 
     /// Called once after each accepted step, at its end. May project y or choose another chart.
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Control {

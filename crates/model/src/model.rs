@@ -75,6 +75,8 @@ pub struct Model {
     pub initial: Initial,
     /// How to compute the motion.
     pub simulation: Simulation,
+    /// What is looked for along the motion.
+    pub events: Vec<EventStated>,
     /// Candidate first integrals.
     pub integrals: Vec<Definition>,
     /// Operators for the variations of velocities.
@@ -368,6 +370,36 @@ pub struct ExtraInitialValue {
     pub value: Expr,
     /// Where it is stated.
     pub place: Place,
+}
+
+/// Zeros of a function along the motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EventStated {
+    /// Its name.
+    pub name: String,
+    /// The function, of t, q, q', q'', multipliers and parameters.
+    pub value: Expr,
+    /// As it is written.
+    pub text: String,
+    /// Which zeros count.
+    pub zero: Zero,
+    /// Whether the run ends at the first.
+    pub stops: bool,
+    /// A word about it; may be empty.
+    pub description: String,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// In which direction a function passes zero, along the run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Zero {
+    /// From negative to positive.
+    Rising,
+    /// From positive to negative.
+    Falling,
+    /// Either way.
+    Both,
 }
 
 /// How to compute the motion. What the model leaves open is `None`, and the program decides.

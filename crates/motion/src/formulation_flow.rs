@@ -14,6 +14,8 @@ use crate::leaving::Anchor;
 use crate::numeric::{Binding, NumericSystem};
 use crate::row::RowLayout;
 use crate::run::WatchedFlow;
+use crate::series::RateSeries;
+use crate::turns::Turns;
 use crate::watch::Watch;
 use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System as Flow};
 use chetaev_mechanics::card::Relation;
@@ -84,6 +86,13 @@ struct ChartFunctions {
     /// (t, q, variables) → a matrix that must be nonsingular.
     regular: Option<Functions>,
     pivot: f64,
+    /// t and the state, and the rates of the state.
+    state: Vec<Symbol>,
+    rates: Vec<Expr>,
+    /// Angles of which whole turns may be left out of the rates.
+    turns: Turns,
+    /// Taylor recurrences of the rates; made when first asked for.
+    series: Option<RateSeries>,
 }
 
 /// A formulation as a first-order system.
@@ -543,8 +552,20 @@ fn compile(
             .transpose()?,
         selection,
         pivot,
+        turns: Turns::of(g, &system.coordinate_symbols(), &rates_of_state(&equations)),
+        rates: rates_of_state(&equations),
+        state: variables,
+        series: None,
     };
     Ok((equations, compiled))
+}
+
+/// The rates of coordinates, masses with a law of their own, and variables.
+pub(crate) fn rates_of_state(equations: &Equations) -> Vec<Expr> {
+    let mut rates = equations.velocities.clone();
+    rates.extend(equations.masses.iter().map(|(_, rate)| *rate));
+    rates.extend(equations.rates());
+    rates
 }
 
 /// Multipliers by row of the terms; zero where the formulation has none.
@@ -573,6 +594,42 @@ impl Flow for FormulationFlow<'_> {
         positions[n..].copy_from_slice(self.current.motion.group(4));
         rest.copy_from_slice(self.current.motion.group(2));
         Ok(())
+    }
+
+    fn has_series(&self) -> bool {
+        true
+    }
+
+    fn expand(
+        &mut self,
+        t: f64,
+        (y, carry): (&[f64], &[f64]),
+        order: usize,
+        coefficients: &mut [f64],
+    ) -> Result<(), EvaluationFailure> {
+        let n = y.len();
+        coefficients[..n].copy_from_slice(y);
+        let reduced = match self.numeric.jumps {
+            true => y.to_vec(),
+            false => self.current.turns.reduced(y, carry),
+        };
+        self.derivative(t, &reduced, &mut coefficients[n..2 * n])?;
+        if order < 2 {
+            return Ok(());
+        }
+        let (g, binding, current) = (&self.system.graph, self.binding, &mut self.current);
+        if current.series.is_none() {
+            let series = RateSeries::new(g, binding, &current.state, &current.rates);
+            current.series = series.ok();
+        }
+        match &mut current.series {
+            Some(series) => {
+                series.expand(t, &reduced, order, coefficients)?;
+                coefficients[..n].copy_from_slice(y);
+                Ok(())
+            }
+            None => Err(EvaluationFailure::NoSeries),
+        }
     }
 
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Control {

@@ -19,6 +19,11 @@ pub enum FunctionsError {
     /// The program is not well formed.
     #[error("the compiled program is not well formed: {0}")]
     Verify(#[from] VerifyError),
+    /// The mass matrix bordered by the constraints is singular identically.
+    #[error(
+        "the equations do not determine the accelerations: their matrix is singular identically"
+    )]
+    Singular,
     /// The parameters make a linear system singular.
     #[error("the parameter values make a linear system singular: {0}")]
     Prepare(#[from] EvaluateFailure),
@@ -37,6 +42,8 @@ pub struct Functions {
     computed: Vec<f64>,
     places: Vec<usize>,
     groups: Vec<Range<usize>>,
+    /// What became of the evaluation at `inputs`: several callers ask at one state.
+    known: Option<Result<(), EvaluationFailure>>,
 }
 
 impl Functions {
@@ -79,6 +86,7 @@ impl Functions {
             computed: vec![0.0; places.len()],
             places,
             groups: ranges,
+            known: None,
         })
     }
 
@@ -87,13 +95,24 @@ impl Functions {
     /// # Errors
     /// When a value is not finite or a linear system is singular.
     pub fn evaluate(&mut self, t: f64, pieces: &[&[f64]]) -> Result<(), EvaluationFailure> {
-        if let Some(first) = self.inputs.first_mut() {
-            *first = t;
-        }
+        let mut is_same = true;
         let state = pieces.iter().flat_map(|piece| piece.iter());
-        for (input, &value) in self.inputs.iter_mut().skip(1).zip(state) {
+        for (input, &value) in self.inputs.iter_mut().zip(std::iter::once(&t).chain(state)) {
+            is_same &= input.to_bits() == value.to_bits();
             *input = value;
         }
+        match self.known {
+            Some(known) if is_same => known,
+            _ => {
+                let found = self.compute();
+                self.known = Some(found);
+                found
+            }
+        }
+    }
+
+    /// Evaluates at `inputs`.
+    fn compute(&mut self) -> Result<(), EvaluationFailure> {
         self.backend
             .evaluate(&self.inputs, &mut self.workspace, &mut self.computed)
             .map_err(failure)?;
@@ -116,7 +135,7 @@ impl Functions {
     }
 }
 
-fn failure(failure: EvaluateFailure) -> EvaluationFailure {
+pub(crate) fn failure(failure: EvaluateFailure) -> EvaluationFailure {
     match failure {
         EvaluateFailure::Singular {
             pivot,
@@ -127,6 +146,13 @@ fn failure(failure: EvaluateFailure) -> EvaluationFailure {
             index: pivot,
             pivot: value,
             threshold,
+        },
+        EvaluateFailure::NotAnalytic {
+            operation,
+            argument,
+        } => EvaluationFailure::NotAnalytic {
+            operation,
+            argument,
         },
         _ => EvaluationFailure::NotFinite { component: 0 },
     }

@@ -14,6 +14,7 @@ use crate::initial::ConsistentState;
 use crate::least_norm::{identity, least_squares, least_step};
 use crate::row::RowLayout;
 use crate::run::WatchedFlow;
+use crate::series::RateSeries;
 use crate::watch::Watch;
 use chetaev_integrate::{Control, EvaluationFailure, HaltReason, System as Flow};
 use chetaev_mechanics::{Equations, Selection};
@@ -421,6 +422,36 @@ impl Flow for JetFlow<'_> {
         masses.copy_from_slice(motion.group(MASSES));
         variables.copy_from_slice(motion.group(RATES));
         Ok(())
+    }
+
+    fn has_series(&self) -> bool {
+        true
+    }
+
+    fn expand(
+        &mut self,
+        t: f64,
+        (y, _): (&[f64], &[f64]),
+        order: usize,
+        coefficients: &mut [f64],
+    ) -> Result<(), EvaluationFailure> {
+        let n = y.len();
+        coefficients[..n].copy_from_slice(y);
+        self.derivative(t, y, &mut coefficients[n..2 * n])?;
+        if order < 2 {
+            return Ok(());
+        }
+        let (parts, current) = (self.parts, &mut self.current);
+        if current.series.is_none() {
+            let g = &parts.system.graph;
+            let variables = with_time(g, &current.symbols);
+            let series = RateSeries::new(g, parts.binding, &variables, &current.rates);
+            current.series = series.ok();
+        }
+        match &mut current.series {
+            Some(series) => series.expand(t, y, order, coefficients),
+            None => Err(EvaluationFailure::NoSeries),
+        }
     }
 
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Control {

@@ -14,6 +14,7 @@ use crate::leaving::Anchor;
 use crate::numeric::{Completion, NumericSystem};
 use crate::row::RowLayout;
 use crate::run::WatchedFlow;
+use crate::series::RateSeries;
 use crate::watch::Watch;
 use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System};
 
@@ -52,6 +53,13 @@ pub struct MultiplierFlow {
     pub watch: Watch,
     /// Whether the watched quantity asked for last vanishes at the state interpolated there.
     zero_between: bool,
+    /// Taylor recurrences of the rates of (q, v), with the constraint rows that they use; made when first asked for.
+    series: Option<(Vec<usize>, RateSeries)>,
+    /// Coefficients of (q, v).
+    full: Vec<f64>,
+    /// Time and state at which the accelerations were computed last, where nothing has changed since.
+    solved: Option<f64>,
+    solved_state: Vec<f64>,
 }
 
 /// A stage whose pivot fell below this fraction of its value where the step began rejects the step.
@@ -91,6 +99,10 @@ impl MultiplierFlow {
             kind,
             watch,
             zero_between: false,
+            series: None,
+            full: Vec::new(),
+            solved: None,
+            solved_state: Vec::new(),
             system,
         };
         flow.settle(start.t);
@@ -165,6 +177,7 @@ impl MultiplierFlow {
     }
 
     fn unpack(&mut self, t: f64, y: &[f64]) -> Result<(), EvaluationFailure> {
+        self.solved = None;
         let (positions, rest) = y.split_at(self.system.positions());
         self.q.copy_from_slice(positions);
         match self.kind {
@@ -186,9 +199,16 @@ impl MultiplierFlow {
     }
 
     fn evaluate(&mut self, t: f64, y: &[f64]) -> Result<(), EvaluationFailure> {
+        // What is watched is asked for several times at one state.
+        if self.solved == Some(t) && self.solved_state == y {
+            return Ok(());
+        }
         self.unpack(t, y)?;
         self.system.evaluate(t, &self.q, &self.v)?;
         self.accelerations.solve(&self.system, &self.chart)?;
+        self.solved = Some(t);
+        self.solved_state.clear();
+        self.solved_state.extend_from_slice(y);
         Ok(())
     }
 
@@ -383,6 +403,28 @@ impl MultiplierFlow {
     }
 }
 
+impl MultiplierFlow {
+    /// The coefficients of (q, v) at the state last evaluated, whatever the chart.
+    fn expand_full(&mut self, t: f64, order: usize) -> Result<(), EvaluationFailure> {
+        if self
+            .series
+            .as_ref()
+            .is_none_or(|(rows, _)| *rows != self.chart.rows)
+        {
+            let rows = self.chart.rows.clone();
+            let series = self.system.series(&rows);
+            let series = series.map_err(|_| EvaluationFailure::NoSeries)?;
+            self.series = Some((rows, series));
+        }
+        let Some((_, series)) = &mut self.series else {
+            return Err(EvaluationFailure::NoSeries);
+        };
+        let state = [&self.q[..], &self.v].concat();
+        self.full.resize((order + 1) * state.len(), 0.0);
+        series.expand(t, &state, order, &mut self.full)
+    }
+}
+
 impl System for MultiplierFlow {
     fn dimension(&self) -> usize {
         match self.kind {
@@ -411,6 +453,50 @@ impl System for MultiplierFlow {
             StateKind::Reduced => {
                 for (rate, &i) in rest.iter_mut().zip(&self.chart.independent) {
                     *rate = self.accelerations.a[i];
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn has_series(&self) -> bool {
+        true
+    }
+
+    fn expand(
+        &mut self,
+        t: f64,
+        (y, carry): (&[f64], &[f64]),
+        order: usize,
+        coefficients: &mut [f64],
+    ) -> Result<(), EvaluationFailure> {
+        let n = y.len();
+        coefficients[..n].copy_from_slice(y);
+        // Whether the chart can be used here and no constraint was left is seen on the way. Constraints with jumps are
+        // followed in the coordinates as they are.
+        let reduced = match self.system.jumps {
+            true => y.to_vec(),
+            false => self.system.turns.reduced(y, carry),
+        };
+        self.derivative(t, &reduced, &mut coefficients[n..2 * n])?;
+        if order < 2 {
+            return Ok(());
+        }
+        self.expand_full(t, order)?;
+        let positions = self.system.positions();
+        let all = positions + self.system.n;
+        let rows = coefficients
+            .chunks_exact_mut(n)
+            .zip(self.full.chunks_exact(all));
+        for (own, full) in rows.skip(1) {
+            let (q, v) = own.split_at_mut(positions);
+            q.copy_from_slice(&full[..positions]);
+            match self.kind {
+                StateKind::Full => v.copy_from_slice(&full[positions..]),
+                StateKind::Reduced => {
+                    for (own, &i) in v.iter_mut().zip(&self.chart.independent) {
+                        *own = full[positions + i];
+                    }
                 }
             }
         }

@@ -3,9 +3,12 @@
 use crate::chart::Chart;
 use crate::dense::Lu;
 use crate::functions::{Functions, FunctionsError};
+use crate::series::RateSeries;
+use crate::turns::Turns;
 use chetaev_integrate::EvaluationFailure;
 use chetaev_mechanics::{ConstraintKind, MotionTerms, System};
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
+use std::sync::Arc;
 
 /// Why a system has no numeric form.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -58,6 +61,19 @@ pub struct NumericSystem {
     kinematics: Functions,
     positions: Functions,
     rates: Functions,
+    /// Angles of which whole turns may be left out.
+    pub(crate) turns: Turns,
+    source: Arc<Source>,
+}
+
+/// The expressions behind the functions, for the Taylor series of the motion.
+#[derive(Debug)]
+struct Source {
+    graph: Arc<Graph>,
+    binding: Binding,
+    terms: MotionTerms,
+    velocities: Vec<Symbol>,
+    mass_rates: Vec<Expr>,
 }
 
 /// Groups of the dynamics program, in order.
@@ -144,7 +160,8 @@ impl NumericSystem {
         binding: &Binding,
     ) -> Result<NumericSystem, NumericError> {
         let lower = (terms.order > 1).then(|| MotionTerms::of_order(system, 1));
-        let terms = lower.as_ref().unwrap_or(terms);
+        let is_part = lower.is_some();
+        let terms = lower.unwrap_or_else(|| terms.clone());
         let g = &system.graph;
         let constraint = |row: usize| &system.constraints[terms.constraint_index[row]];
         let r = terms.constraints.len();
@@ -177,7 +194,7 @@ impl NumericSystem {
             constrained_velocities: occurring(g, &terms.jacobian.concat(), system.n()),
             constrained_positions: occurring(g, &gradient, system.n()),
             jumps: has_jumps(g, &[terms.constraints.clone(), stated.clone()].concat()),
-            is_part: lower.is_some(),
+            is_part,
             mass_envelope: envelope(g, &terms.mass_matrix),
             dynamics: Functions::new(g, binding, &binding.variables, &groups)?,
             kinematics: Functions::new(g, binding, &binding.variables, &groups[2..5])?,
@@ -193,7 +210,59 @@ impl NumericSystem {
                 &binding.variables,
                 &[("rate", system.masses.iter().map(|m| m.rate).collect())],
             )?,
+            turns: Turns::of(
+                g,
+                &system.coordinate_symbols(),
+                &moving_parts(system, &terms),
+            ),
+            source: Arc::new(Source {
+                graph: system.graph.clone(),
+                binding: binding.clone(),
+                velocities: system.velocity_symbols(),
+                mass_rates: system.masses.iter().map(|m| m.rate).collect(),
+                terms,
+            }),
         })
+    }
+
+    /// The rates of (q, masses with a law of their own, v) by their Taylor recurrences; a and λ solve
+    ///
+    /// ```text
+    /// M a − Jᵀ λ = b,   J a = g        on independent rows of J
+    /// ```
+    ///
+    /// as one linear system, which is factorized once for each expansion (theory 5.4 (3)).
+    ///
+    /// # Errors
+    /// [`FunctionsError`].
+    pub(crate) fn series(&self, rows: &[usize]) -> Result<RateSeries, FunctionsError> {
+        let Source {
+            graph: g,
+            binding,
+            terms,
+            velocities,
+            mass_rates,
+        } = &*self.source;
+        let (n, size) = (self.n, self.n + rows.len());
+        let mut matrix = vec![g.zero(); size * size];
+        for (i, row) in terms.mass_matrix.iter().enumerate() {
+            matrix[i * size..i * size + n].copy_from_slice(row);
+        }
+        for (l, &row) in rows.iter().enumerate() {
+            for (i, &entry) in terms.jacobian[row].iter().enumerate() {
+                matrix[(n + l) * size + i] = entry;
+                matrix[i * size + n + l] = g.neg(entry);
+            }
+        }
+        let mut right = terms.force.clone();
+        right.extend(rows.iter().map(|&row| terms.constraint_rate[row]));
+        let unknowns = g
+            .solve(&matrix, &right)
+            .map_err(|_| FunctionsError::Singular)?;
+        let mut rates: Vec<Expr> = velocities.iter().map(|&v| g.symbol_expr(v)).collect();
+        rates.extend(mass_rates);
+        rates.extend(&unknowns[..n]);
+        RateSeries::new(g, binding, &binding.variables, &rates)
     }
 
     /// Evaluates everything at (t, q, v); read the results with the accessors.
@@ -325,6 +394,17 @@ impl NumericSystem {
     pub fn is_affine(&self) -> bool {
         self.affine.iter().all(|&a| a)
     }
+}
+
+/// Everything on which the motion depends.
+fn moving_parts(system: &System, terms: &MotionTerms) -> Vec<Expr> {
+    let mut parts = terms.mass_matrix.concat();
+    parts.extend(terms.jacobian.concat());
+    parts.extend(&terms.force);
+    parts.extend(&terms.constraint_rate);
+    parts.extend(&terms.constraints);
+    parts.extend(system.masses.iter().map(|m| m.rate));
+    parts
 }
 
 /// The columns of a matrix with rows of length n that do not vanish identically.

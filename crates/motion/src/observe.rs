@@ -67,6 +67,12 @@ impl Observer {
         self.functions.group(0).to_vec()
     }
 
+    /// The value of the first expression at one row.
+    pub(crate) fn value(&mut self, t: f64, row: &[f64]) -> f64 {
+        let _ = self.functions.evaluate(t, &[row]);
+        self.functions.group(0).first().copied().unwrap_or(f64::NAN)
+    }
+
     /// One series per expression along a run.
     pub fn along(&mut self, run: &Run) -> Vec<Vec<f64>> {
         let mut series = vec![Vec::with_capacity(run.len()); self.count];

@@ -2,18 +2,21 @@
 
 use crate::follow::{Deviation, Follow};
 use crate::formulation_flow::{FlowError, FormulationFlow};
+use crate::happening::{self, EventWatched, Happened, WithEvents};
 use crate::initial::jets::JetStart;
 use crate::initial::ConsistentState;
 use crate::jet_flow::{self, JetFlow};
 use crate::keep::Keep;
 use crate::multiplier_flow::{MultiplierFlow, StateKind};
 use crate::numeric::{Binding, NumericSystem};
+use crate::observe::Observer;
 use crate::row::RowLayout;
 use crate::stop::{self, Ending};
+use crate::turns::outside_angles;
 use crate::watch::{Watch, Watched};
 use chetaev_integrate::{
-    integrate, method, ChartChange, Direction, ErrorControl, Event, HaltReason, IntegrateError,
-    Note, Options, Output, Progress, Solution, Statistics, StiffnessPolicy, Stop,
+    integrate, method, ChartChange, ErrorControl, HaltReason, IntegrateError, Note, Options,
+    Output, Progress, Solution, Statistics, StiffnessPolicy, Stop,
 };
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::{Constraint, ConstraintKind, Formulation, MotionTerms, Selection, System};
@@ -49,6 +52,8 @@ pub struct RunSettings {
     pub keep: Vec<Expr>,
     /// Initial values of variables that coordinates and velocities do not determine, by name (`kappa_NAME`).
     pub own: Vec<(String, f64)>,
+    /// Zeros to be found along the motion.
+    pub events: Vec<EventWatched>,
 }
 
 impl RunSettings {
@@ -67,6 +72,7 @@ impl RunSettings {
             follow: Vec::new(),
             keep: Vec::new(),
             own: Vec::new(),
+            events: Vec::new(),
         }
     }
 }
@@ -131,6 +137,8 @@ pub struct Run {
     pub followed: Vec<Deviation>,
     /// Whether the last row is the state where an early end was met, at a time that was not asked for.
     pub ends_between: bool,
+    /// Events met, in the order of time along the run.
+    pub events: Vec<Happened>,
 }
 
 impl Run {
@@ -190,6 +198,8 @@ enum End {
     Vanished(Ending),
     /// The integrator stopped, at a time and state.
     Stopped(Stop, f64, Vec<f64>),
+    /// An event of the model ends the run.
+    Happened(Ending),
 }
 
 /// What a run needs to know of the system.
@@ -231,9 +241,9 @@ impl Subject<'_> {
         flow.follow = self.follow(settings)?;
         flow.keep = self.keep(settings)?;
         let y0 = flow.pack(&self.start.q, &self.start.v);
-        let (pieces, end) = self.watched(&mut flow, &watched, y0, settings, watcher)?;
+        let (pieces, end) = self.watched(&mut flow, (&watched, &[]), y0, settings, watcher)?;
         let ending = match end {
-            End::Vanished(ending) => ending,
+            End::Vanished(ending) | End::Happened(ending) => ending,
             End::Stopped(stop, t, y) => {
                 let pivot = flow.pivot_ratio(t, &y);
                 let (kind, chart) = (flow.kind(), flow.chart());
@@ -253,26 +263,40 @@ impl Subject<'_> {
         .then(|| flow.drift.clone());
         let followed = flow.follow.take();
         let layout = (flow.layout(), Vec::new());
-        Ok(self.collect("routh", layout, settings, pieces, ending, (drift, followed)))
+        Ok(self.collect(
+            "routh",
+            layout,
+            settings,
+            (pieces, watched.len()),
+            ending,
+            (drift, followed),
+        ))
     }
 
     /// Integrates piece by piece: a watched quantity that comes near zero ends a piece, and the run where it is zero.
     fn watched<F: WatchedFlow>(
         &self,
         flow: &mut F,
-        watched: &[Watched],
+        (watched, own_names): (&[Watched], &[String]),
         y0: Vec<f64>,
         settings: &RunSettings,
         watcher: &mut Watcher<'_>,
     ) -> Result<(Vec<Solution>, End), RunError> {
         let mut pieces: Vec<Solution> = Vec::new();
         let (mut t, mut y) = (self.start.t, y0);
+        let own = watched.len();
+        let mut observers = self.observers(settings, own_names)?;
         loop {
-            let mut events: Vec<Event<'_>> = (0..watched.len())
-                .map(|index| Event::of_system(index).direction(Direction::Up).terminal())
-                .collect();
+            let mut events = happening::events(own, &settings.events);
             let options = self.options(settings, t, y.len(), watcher)?;
-            let mut solution = integrate(flow, (t, settings.t_end), &y, &mut events, options)?;
+            let mut with_events = WithEvents {
+                flow: &mut *flow,
+                own,
+                observers: &mut observers,
+                row: Vec::new(),
+            };
+            let span = (t, settings.t_end);
+            let mut solution = integrate(&mut with_events, span, &y, &mut events, options)?;
             (t, y) = (solution.t, solution.state.clone());
             let stop = solution.stop;
             if let Stop::Halted {
@@ -284,6 +308,10 @@ impl Subject<'_> {
             }
             pieces.push(solution);
             if let Stop::Event { index, t } = stop {
+                if let Some(number) = index.checked_sub(own) {
+                    let ending = stop::happened(&settings.events[number].name, t);
+                    return Ok((pieces, End::Happened(ending)));
+                }
                 if flow.vanishes(index, t, &y) {
                     let ending = stop::vanished(&watched[index], t, &self.constraint_names());
                     return Ok((pieces, End::Vanished(ending)));
@@ -360,11 +388,12 @@ impl Subject<'_> {
                 at,
             )?);
         }
-        let watched = flow.watch.quantities.clone();
-        let (pieces, end) = self.watched(&mut flow, &watched, y0, settings, watcher)?;
+        let (watched, flow_names) = (flow.watch.quantities.clone(), flow.own_names());
+        let (pieces, end) =
+            self.watched(&mut flow, (&watched, &flow_names), y0, settings, watcher)?;
         let constraints: Vec<String> = self.constraint_names();
         let ending = match end {
-            End::Vanished(ending) => ending,
+            End::Vanished(ending) | End::Happened(ending) => ending,
             End::Stopped(stop, ..) => {
                 let names = stop::Names {
                     coordinates: &self.numeric.coordinates,
@@ -379,7 +408,14 @@ impl Subject<'_> {
         let followed = flow.follow.take();
         let layout = (flow.layout(), flow.own_names());
         let name = formulation.card().name;
-        Ok(self.collect(name, layout, settings, pieces, ending, (None, followed)))
+        Ok(self.collect(
+            name,
+            layout,
+            settings,
+            (pieces, watched.len()),
+            ending,
+            (None, followed),
+        ))
     }
 
     /// Whether the formulation is stated in parameters of the user that no formula gives from the velocities.
@@ -418,10 +454,11 @@ impl Subject<'_> {
         let mut flow = FormulationFlow::new(formulation, of, numeric, self.start, &settings.own)?;
         flow.follow = self.follow(settings)?;
         let y0 = flow.start(self.start)?;
-        let watched = flow.watch.quantities.clone();
-        let (pieces, end) = self.watched(&mut flow, &watched, y0, settings, watcher)?;
+        let (watched, flow_names) = (flow.watch.quantities.clone(), flow.own_names());
+        let (pieces, end) =
+            self.watched(&mut flow, (&watched, &flow_names), y0, settings, watcher)?;
         let ending = match end {
-            End::Vanished(ending) => ending,
+            End::Vanished(ending) | End::Happened(ending) => ending,
             End::Stopped(stop, ..) => {
                 let mut state = self.numeric.coordinates.clone();
                 state.extend_from_slice(&self.numeric.masses);
@@ -438,7 +475,14 @@ impl Subject<'_> {
         };
         let followed = flow.follow.take();
         let layout = (flow.layout(), flow.own_names());
-        Ok(self.collect(name, layout, settings, pieces, ending, (None, followed)))
+        Ok(self.collect(
+            name,
+            layout,
+            settings,
+            (pieces, watched.len()),
+            ending,
+            (None, followed),
+        ))
     }
 
     /// What must vanish along the motion, with names: the constraints by row, then the holonomic ones as stated; with
@@ -471,6 +515,20 @@ impl Subject<'_> {
             .into_iter()
             .map(|(_, value)| value)
             .collect()
+    }
+
+    /// The functions of the events, over output rows.
+    fn observers(
+        &self,
+        settings: &RunSettings,
+        own_names: &[String],
+    ) -> Result<Vec<Observer>, RunError> {
+        let of = |event: &EventWatched| {
+            let (terms, value) = (self.terms, [event.value]);
+            Observer::with_own(self.system, terms, self.binding, own_names, &value)
+        };
+        let observers: Result<Vec<Observer>, _> = settings.events.iter().map(of).collect();
+        Ok(observers?)
     }
 
     fn follow(&self, settings: &RunSettings) -> Result<Option<Follow>, RunError> {
@@ -522,7 +580,7 @@ impl Subject<'_> {
             rtol: settings.tolerance,
             atol: settings.absolute_tolerance,
             atol_of: Vec::new(),
-            absolute: self.cyclic(dimension),
+            absolute: self.cyclic(dimension, options.method.card().needs_series),
         };
         options.output = Output::Times(times);
         options.record_last = true;
@@ -535,14 +593,18 @@ impl Subject<'_> {
         Ok(options)
     }
 
-    /// Coordinates that occur nowhere in the equations: a relative tolerance on them would grow blind.
-    fn cyclic(&self, dimension: usize) -> Vec<bool> {
+    /// Coordinates that occur nowhere in the equations, or where `angles` is asked for only inside trigonometric functions:
+    /// a relative tolerance on them would grow blind.
+    fn cyclic(&self, dimension: usize, angles: bool) -> Vec<bool> {
         let g = &self.system.graph;
         let mut roots = self.terms.mass_matrix.concat();
         roots.extend(self.terms.jacobian.concat());
         roots.extend(&self.terms.force);
         roots.extend(&self.terms.constraint_rate);
-        let present = g.symbols_in(&roots);
+        let present = match angles {
+            true => outside_angles(g, &roots).0,
+            false => g.symbols_in(&roots),
+        };
         let mut absolute: Vec<bool> = self
             .system
             .coordinates
@@ -558,7 +620,7 @@ impl Subject<'_> {
         formulation: &'static str,
         (layout, own): (RowLayout, Vec<String>),
         settings: &RunSettings,
-        pieces: Vec<Solution>,
+        (pieces, watched): (Vec<Solution>, usize),
         ending: Ending,
         (drift, followed): (Option<crate::drift::Drift>, Option<Follow>),
     ) -> Run {
@@ -578,12 +640,15 @@ impl Subject<'_> {
             drift,
             followed: followed.map_or(Vec::new(), |f| f.finish(ended_early)),
             ends_between: false,
+            events: Vec::new(),
         };
         for piece in pieces {
             run.times.extend(&piece.times);
             run.rows.extend(&piece.rows);
             run.chart_changes.extend(&piece.chart_changes);
             run.notes.extend(&piece.notes);
+            run.events
+                .extend(happening::happened(&piece.events, watched));
             add(&mut run.statistics, &piece.statistics);
         }
         let last = run.times.last();
@@ -632,6 +697,8 @@ impl Subject<'_> {
         );
         let y0 = flow.pack(&self.start.q, &self.start.v);
         let mut options = Options::fixed_step(method(&settings.method).ok()?, h);
+        // The order of a series follows from the tolerance.
+        options.error = ErrorControl::uniform(settings.tolerance);
         options.output = Output::End;
         options.step_limit = 10_000;
         let span = (self.start.t, settings.t_end);

@@ -83,6 +83,16 @@ pub fn vanished(what: &Watched, t: f64, constraints: &[String]) -> Ending {
     early(reason, t)
 }
 
+/// The run was to end at an event, and did.
+pub fn happened(name: &str, t: f64) -> Ending {
+    Ending {
+        finished: true,
+        interrupted: false,
+        reason: format!("the event `{name}` ended the run at t = {t:.9}"),
+        t,
+    }
+}
+
 fn of_constraints(constraints: &[String]) -> String {
     if constraints.is_empty() {
         return String::new();

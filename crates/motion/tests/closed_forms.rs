@@ -267,3 +267,101 @@ fn a_start_that_the_variables_do_not_give_back_is_refused() {
         assert!((a - b).abs() < 1e-8, "{routh:?} {voronets:?}");
     }
 }
+
+fn by_series(t_end: f64) -> RunSettings {
+    RunSettings {
+        method: "taylor".into(),
+        tolerance: 1e-15,
+        absolute_tolerance: 1e-15,
+        ..RunSettings::new(0.0, t_end)
+    }
+}
+
+/// The skate of the first test at every row, by several formulations, in charts that change on the way.
+#[test]
+fn series_follow_the_cycloid_to_rounding() {
+    let (g, w) = (4.0, 1.3);
+    let names = ["routh", "maggi", "voronets", "gibbs-appell", "canonical"];
+    for name in names {
+        for state in [StateKind::Full, StateKind::Reduced] {
+            let settings = RunSettings {
+                state,
+                project: true,
+                ..by_series(10.0)
+            };
+            let motion = with_subject(skate, &[0.0; 3], &[0.0, 0.0, w], |subject| {
+                let own = formulation(name).unwrap();
+                subject.by(own, &settings, &mut Watcher::default()).unwrap()
+            });
+            assert!(motion.ending.finished, "{name}: {:?}", motion.ending);
+            assert!(
+                motion.statistics.steps < 60,
+                "{name}: {:?}",
+                motion.statistics
+            );
+            for j in 0..motion.len() {
+                let (t, row) = (motion.times[j], motion.row(j));
+                let x = g / (2.0 * w * w) * (w * t).sin().powi(2);
+                let y = g / (2.0 * w * w) * (w * t - (2.0 * w * t).sin() / 2.0);
+                for (found, exact) in row.iter().zip([x, y, w * t]) {
+                    let error = (found - exact).abs() / (1.0 + exact.abs());
+                    assert!(error < 1e-12, "{name} at {t}: {error:e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn series_through_nonlinear_and_moving_constraints() {
+    let (s0, al, rho, grav) = (6.0f64, 0.5f64, 0.7f64, 9.81f64);
+    let v = [s0 * al.cos(), s0 * al.sin(), rho * s0];
+    let (routh, maggi) = run(appell_hamel, &[0.0; 3], &v, by_series(1.0));
+    let path = s0 - grav * rho / (1.0 + rho * rho) / 2.0;
+    for motion in [&routh, &maggi] {
+        let last = motion.row(motion.len() - 1);
+        assert!((last[0] - al.cos() * path).abs() < 1e-12, "{last:?}");
+        assert!((last[2] - rho * path).abs() < 1e-12, "{last:?}");
+    }
+    let stop = s0 * (1.0 + rho * rho) / (grav * rho);
+    let (routh, maggi) = run(appell_hamel, &[0.0; 3], &v, by_series(1.5));
+    for motion in [&routh, &maggi] {
+        assert!(!motion.ending.finished);
+        assert!((motion.ending.t - stop).abs() < 1e-4, "{:?}", motion.ending);
+    }
+    // The digits of the reference case.
+    let (routh, maggi) = run(pursuit, &[10.0, 0.0], &[-2.0, 0.0], by_series(6.0));
+    for motion in [&routh, &maggi] {
+        let last = motion.row(motion.len() - 1);
+        assert!((last[0] - 0.175713403123657).abs() < 1e-13, "{last:?}");
+    }
+}
+
+/// The heading of the skate grows without bound; the energy drifts by rounding only.
+#[test]
+fn series_keep_the_energy_of_a_long_run() {
+    let start = [0.0, 0.0, 1.3];
+    let followed = |settings: &RunSettings| {
+        with_subject(skate, &[0.0; 3], &start, |subject| {
+            let energy = subject.system.energy();
+            let settings = RunSettings {
+                follow: vec![energy],
+                ..settings.clone()
+            };
+            subject.routh(&settings, &mut Watcher::default()).unwrap()
+        })
+    };
+    // In all velocities: a change of chart divides by a pivot, and the rounding of the heading with it.
+    let run = followed(&RunSettings {
+        state: StateKind::Full,
+        ..by_series(400.0)
+    });
+    assert!(run.ending.finished, "{:?}", run.ending);
+    let drift = run.followed[0].drift.value;
+    // The heading is rounded at 400·1.3 to 6e-14, and the energy, about 1 in size, is evaluated there.
+    assert!(
+        drift < 2e-13,
+        "{drift:e} after {} steps",
+        run.statistics.steps
+    );
+}

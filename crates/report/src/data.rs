@@ -317,10 +317,22 @@ pub struct Trajectory {
     pub statistics: Vec<Fact>,
     /// Where the independent velocities were chosen anew.
     pub chart_switches: Vec<ChartSwitch>,
+    /// Events met, in the order of time along the run.
+    pub events: Vec<EventMet>,
     /// Pairs of series drawn against each other.
     pub portraits: Vec<Portrait>,
     /// Names of the files with the full data ("trajectory.csv").
     pub files: Vec<String>,
+}
+
+/// An event along the motion.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct EventMet {
+    /// Its time.
+    pub time: f64,
+    /// What happened, a sentence.
+    pub detail: String,
 }
 
 /// One recorded quantity.

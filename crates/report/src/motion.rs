@@ -32,6 +32,7 @@ pub(crate) fn section(html: &mut Html, report: &Report, payload: &Payload<'_>, w
         facts(html, &trajectory.statistics, report, words);
         html.raw("</div>\n");
     }
+    events(html, trajectory, words);
     switches(html, trajectory, words);
     if !trajectory.files.is_empty() {
         html.wrap("<p>", words.full_data, ":");
@@ -191,30 +192,43 @@ fn drift(html: &mut Html, series: &Series, report: &Report, words: &Words) {
     }
 }
 
+fn events(html: &mut Html, trajectory: &Trajectory, words: &Words) {
+    let met = trajectory.events.iter();
+    let listed = met.map(|event| (event.time, &event.detail));
+    dated(html, trajectory, (words.events, listed.collect()), words);
+}
+
 fn switches(html: &mut Html, trajectory: &Trajectory, words: &Words) {
-    if trajectory.chart_switches.is_empty() {
+    let switches = trajectory.chart_switches.iter();
+    let listed = switches.map(|switch| (switch.time, &switch.detail));
+    dated(
+        html,
+        trajectory,
+        (words.chart_switches, listed.collect()),
+        words,
+    );
+}
+
+/// Sentences with their times, under a heading.
+fn dated(
+    html: &mut Html,
+    trajectory: &Trajectory,
+    (heading, listed): (&'static str, Vec<(f64, &String)>),
+    words: &Words,
+) {
+    if listed.is_empty() {
         return;
     }
-    html.wrap(
-        "<h3>",
-        words.chart_switches,
-        "</h3>\n<ol class=\"switches\">\n",
-    );
-    for switch in trajectory.chart_switches.iter().take(ROWS) {
-        html.wrap("<li><span class=\"when\">t = ", readable(switch.time), "");
+    html.wrap("<h3>", heading, "</h3>\n<ol class=\"switches\">\n");
+    for (time, detail) in listed.iter().take(ROWS) {
+        html.wrap("<li><span class=\"when\">t = ", readable(*time), "");
         if let Some(unit) = &trajectory.time_unit {
             html.wrap(" ", unit, "");
         }
         html.raw("</span> ");
-        sentence(html, &switch.detail);
+        sentence(html, detail);
         html.raw("</li>\n");
     }
-    more(
-        html,
-        trajectory.chart_switches.len(),
-        "<li class=\"quiet\">",
-        "</li>\n",
-        words,
-    );
+    more(html, listed.len(), "<li class=\"quiet\">", "</li>\n", words);
     html.raw("</ol>\n");
 }

@@ -7,6 +7,7 @@
 mod corners;
 
 use crate::options::Hooks;
+use chetaev_integrate::ErrorControl;
 use chetaev_motion::{chart, ConsistentState, Run, RunSettings, StateKind, Subject};
 pub use corners::Corner;
 
@@ -89,8 +90,9 @@ pub(crate) fn observed_order(
     if span == 0.0 || !span.is_finite() || subject.terms.order > 1 {
         return None;
     }
+    let error = ErrorControl::uniform(settings.tolerance);
     let nominal =
-        chetaev_integrate::method(&settings.method).map_or(8.0, |m| f64::from(m.card().order));
+        chetaev_integrate::method(&settings.method).map_or(8.0, |m| f64::from(m.order(&error)));
     let laboratory = Laboratory {
         subject,
         settings,

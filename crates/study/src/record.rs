@@ -1,6 +1,7 @@
 //! `study.json`: the record of a study, which `verify` replays.
 
 use crate::study::{Decided, Motion, Study};
+use chetaev_integrate::EventKind;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, Proof};
 use chetaev_symbolic::Verdict;
 use serde::{Deserialize, Serialize};
@@ -149,6 +150,19 @@ pub struct PointRecord {
     pub enclosure: Option<[String; 2]>,
 }
 
+/// A zero of the function of an event.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EventRecord {
+    /// Name of the event.
+    pub event: String,
+    /// Time.
+    pub t: f64,
+    /// `rising`, `falling`, or `grazing` where the function touches zero without a change of sign.
+    pub zero: String,
+    /// Coordinates and velocities there.
+    pub state: Vec<NamedValue>,
+}
+
 /// The motion in numbers; rows are in the CSV and NPZ files.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TrajectoryRecord {
@@ -189,6 +203,9 @@ pub struct TrajectoryRecord {
     pub global_error: Option<f64>,
     /// Largest drifts: constraints, energy, integrals.
     pub drifts: Vec<NamedValue>,
+    /// Events met, in the order of time along the run.
+    #[serde(default)]
+    pub events: Vec<EventRecord>,
     /// Files written beside the record.
     pub files: Vec<String>,
 }
@@ -404,6 +421,32 @@ fn trajectory_record(motion: &Motion, files: &[String]) -> TrajectoryRecord {
         last,
         global_error: evidence.global_error.filter(|e| e.is_finite()),
         drifts,
+        events: events(motion, &names),
         files: files.to_vec(),
+    }
+}
+
+/// The events met, with coordinates and velocities by name.
+fn events(motion: &Motion, names: &[String]) -> Vec<EventRecord> {
+    let run = &motion.evidence.run;
+    let met = run.events.iter().map(|met| EventRecord {
+        event: motion.settings.events[met.event].name.clone(),
+        t: met.t,
+        zero: zero_word(met.kind).into(),
+        state: names
+            .iter()
+            .zip(&met.row[..run.layout.v().end])
+            .map(|(name, &x)| NamedValue::new(name.clone(), x))
+            .collect(),
+    });
+    met.collect()
+}
+
+/// How a function passes zero, in a word.
+pub(crate) fn zero_word(kind: EventKind) -> &'static str {
+    match kind {
+        EventKind::Up => "rising",
+        EventKind::Down => "falling",
+        EventKind::Grazing => "grazing",
     }
 }

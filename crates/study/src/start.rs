@@ -2,13 +2,15 @@
 
 use crate::options::StudyOptions;
 use crate::study::StudyError;
+use chetaev_integrate::Direction;
 use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{Basis, MotionTerms, Prepared, System};
-use chetaev_model::model::{Model, Output, StateKind as ModelState};
+use chetaev_model::model::{EventStated, Model, Output, StateKind as ModelState, Zero};
 use chetaev_motion::initial::jets::{jet_start, JetData};
 use chetaev_motion::run::equal_times;
 use chetaev_motion::{
-    consistent_state, Binding, ConsistentState, InitialData, NumericSystem, RunSettings, StateKind,
+    consistent_state, Binding, ConsistentState, EventWatched, InitialData, NumericSystem,
+    RunSettings, StateKind,
 };
 use chetaev_symbolic::{rational, Expr, Graph};
 
@@ -304,9 +306,13 @@ pub(crate) fn settings(
     if let Some(method) = options.method.as_ref().or(simulation.method.as_ref()) {
         settings.method = method_name(method);
     }
+    let sharpest = sharpest(&settings.method);
     for tolerance in [settings.tolerance, settings.absolute_tolerance] {
-        if !(SHARPEST..=LOOSEST).contains(&tolerance) {
-            return Err(StudyError::Tolerance { tolerance });
+        if !(sharpest..=LOOSEST).contains(&tolerance) {
+            return Err(StudyError::Tolerance {
+                tolerance,
+                sharpest,
+            });
         }
     }
     let step = simulation.step.and_then(|h| number(g, h, &values));
@@ -322,6 +328,7 @@ pub(crate) fn settings(
     };
     settings.project = simulation.project.unwrap_or(true);
     settings.own = own_values(model, system)?;
+    settings.events = model.events.iter().map(event).collect();
     settings.follow = vec![system.energy()];
     settings
         .follow
@@ -329,9 +336,33 @@ pub(crate) fn settings(
     Ok(settings)
 }
 
-/// Tolerances that double precision and the error bounds of the verdicts make sense of.
+fn event(stated: &EventStated) -> EventWatched {
+    EventWatched {
+        name: stated.name.clone(),
+        value: stated.value,
+        direction: match stated.zero {
+            Zero::Rising => Direction::Up,
+            Zero::Falling => Direction::Down,
+            Zero::Both => Direction::Both,
+        },
+        stops: stated.stops,
+    }
+}
+
+/// Tolerances that double precision and the error bounds of the verdicts make sense of: the error estimate of a
+/// Runge–Kutta method is a difference of nearly equal numbers, the terms of a series are not.
 const SHARPEST: f64 = 2.3e-14;
+const SHARPEST_OF_SERIES: f64 = 2.3e-16;
 const LOOSEST: f64 = 0.1;
+
+/// The sharpest tolerance of a method.
+pub(crate) fn sharpest(method: &str) -> f64 {
+    let needs_series = |m: &dyn chetaev_integrate::Method| m.card().needs_series;
+    match chetaev_integrate::method(method).is_ok_and(needs_series) {
+        true => SHARPEST_OF_SERIES,
+        false => SHARPEST,
+    }
+}
 /// More rows than these no longer fit what is done with them.
 const MOST_ROWS: f64 = 1e6;
 

@@ -6,7 +6,7 @@ use crate::notices::{left_assumptions, negative_masses, notices};
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
 use crate::start::{
-    add_jets, asks_for_motion, check_rank, number, settings, start_of_motion, Start,
+    add_jets, asks_for_motion, check_rank, number, settings, sharpest, start_of_motion, Start,
 };
 use chetaev_geometry::noether::found::found;
 use chetaev_integrate::Progress;
@@ -201,10 +201,12 @@ pub enum StudyError {
         detail: String,
     },
     /// A tolerance out of range.
-    #[error("the tolerance {tolerance:e} is out of range: it must lie between 2.3e-14 (double precision) and 0.1")]
+    #[error("the tolerance {tolerance:e} is out of range: it must lie between {sharpest:e} (double precision) and 0.1; method `taylor` goes down to 2.3e-16")]
     Tolerance {
         /// As given.
         tolerance: f64,
+        /// The sharpest one of the method.
+        sharpest: f64,
     },
     /// A fixed step that is not positive.
     #[error("the fixed step must be a positive number")]
@@ -458,6 +460,7 @@ fn compute(
     let reached = RunSettings {
         t_end: last_time(&run, settings.t_end),
         times: run.times.clone(),
+        events: Vec::new(),
         ..settings.clone()
     };
     let comparison = match check_applies(&cx, other.card()) {
@@ -472,7 +475,7 @@ fn compute(
         Err(_) => None,
     };
     let finer = if options.global_error && !run.ending.interrupted {
-        let tolerance = (settings.tolerance / 10.0).max(3e-14);
+        let tolerance = (settings.tolerance / 10.0).max(1.3 * sharpest(&settings.method));
         let finer = RunSettings {
             tolerance,
             absolute_tolerance: tolerance,
@@ -520,7 +523,7 @@ fn kept(
 
 /// Comparisons are made up to the last row when a run ended early.
 fn last_time(run: &Run, t_end: f64) -> f64 {
-    if run.ending.finished {
+    if run.ending.finished && run.t == t_end {
         t_end
     } else {
         run.times.last().copied().unwrap_or(t_end)

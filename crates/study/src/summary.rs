@@ -1,7 +1,8 @@
 //! The summary for a terminal.
 
 use crate::page::independent;
-use crate::study::{Decided, Study};
+use crate::record::zero_word;
+use crate::study::{Decided, Motion, Study};
 use chetaev_mechanics::Group;
 use std::fmt::Write as _;
 
@@ -151,6 +152,28 @@ fn detail(decided: &Decided) -> String {
     decided.finding.verdict.detail().replace('\n', " ")
 }
 
+/// Events that are shown of each kind; all are in the record.
+const SHOWN: usize = 3;
+
+fn events(text: &mut String, motion: &Motion) {
+    let run = &motion.evidence.run;
+    for (number, stated) in motion.settings.events.iter().enumerate() {
+        let met: Vec<_> = run.events.iter().filter(|e| e.event == number).collect();
+        let shown = met.iter().take(SHOWN);
+        let mut places: Vec<String> = shown
+            .map(|met| format!("{} at t = {:.9}", zero_word(met.kind), met.t))
+            .collect();
+        if met.len() > SHOWN {
+            places.push(format!("… {} in all", met.len()));
+        }
+        let said = match places.is_empty() {
+            true => "not met".into(),
+            false => places.join(", "),
+        };
+        let _ = writeln!(text, "  event `{}`: {said}", stated.name);
+    }
+}
+
 fn trajectory(text: &mut String, study: &Study) {
     let Some(motion) = &study.motion else { return };
     let evidence = &motion.evidence;
@@ -174,6 +197,7 @@ fn trajectory(text: &mut String, study: &Study) {
     if !run.ending.finished {
         let _ = writeln!(text, "  stopped early: {}", run.ending.reason);
     }
+    events(text, motion);
     let constraint = evidence
         .residuals
         .iter()

@@ -1,8 +1,10 @@
 //! The trajectory as CSV and NPZ.
 
+use crate::record::zero_word;
 use crate::study::{Motion, Study};
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::formulation;
+use chetaev_motion::Run;
 use std::fmt::Write as _;
 use std::io::{Cursor, Write};
 use zip::write::SimpleFileOptions;
@@ -21,7 +23,19 @@ pub struct Table {
 impl Table {
     /// The table of a motion.
     pub fn new(study: &Study, motion: &Motion) -> Table {
-        let run = &motion.evidence.run;
+        let mut table = Table::of_rows(study, &motion.evidence.run);
+        table.push("energy".into(), motion.evidence.energy.values.clone());
+        for followed in &motion.evidence.integrals {
+            table.push(
+                format!("integral_{}", followed.name),
+                followed.values.clone(),
+            );
+        }
+        table
+    }
+
+    /// What the rows of a run hold.
+    fn of_rows(study: &Study, run: &Run) -> Table {
         let mut table = Table {
             names: vec!["t".into()],
             columns: vec![run.times.clone()],
@@ -58,14 +72,32 @@ impl Table {
         for (name, i) in run.own.iter().zip(run.layout.own()) {
             table.push(name.clone(), column(i));
         }
-        table.push("energy".into(), motion.evidence.energy.values.clone());
-        for followed in &motion.evidence.integrals {
-            table.push(
-                format!("integral_{}", followed.name),
-                followed.values.clone(),
-            );
-        }
         table
+    }
+
+    /// The table of the events met, as CSV: the name of the event and how its function passes zero, then the columns of a
+    /// trajectory but for energy and integrals. `None` where the model states no events.
+    pub fn events(study: &Study, motion: &Motion) -> Option<String> {
+        let stated = &motion.settings.events;
+        if stated.is_empty() {
+            return None;
+        }
+        let run = &motion.evidence.run;
+        let happened = Run {
+            times: run.events.iter().map(|met| met.t).collect(),
+            rows: run.events.iter().flat_map(|met| met.row.clone()).collect(),
+            ..run.clone()
+        };
+        let table = Table::of_rows(study, &happened);
+        let mut text = format!("event,zero,{}\n", table.names.join(","));
+        for (j, met) in run.events.iter().enumerate() {
+            let _ = write!(text, "{},{}", stated[met.event].name, zero_word(met.kind));
+            for column in &table.columns {
+                let _ = write!(text, ",{}", column[j]);
+            }
+            text.push('\n');
+        }
+        Some(text)
     }
 
     fn push(&mut self, name: String, column: Vec<f64>) {

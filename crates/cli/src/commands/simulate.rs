@@ -37,17 +37,23 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         .clone()
         .unwrap_or_else(|| files::default_folder(&arguments.model.model));
     let table = Table::new(&study, motion);
+    let events = Table::events(&study, motion);
     let written = table
         .to_npz()
         .map_err(|e| e.to_string())
         .and_then(|archive| files::write(&folder.join("trajectory.npz"), &archive))
-        .and_then(|()| files::write(&folder.join("trajectory.csv"), table.to_csv().as_bytes()));
+        .and_then(|()| files::write(&folder.join("trajectory.csv"), table.to_csv().as_bytes()))
+        .and_then(|()| match &events {
+            Some(events) => files::write(&folder.join("events.csv"), events.as_bytes()),
+            None => Ok(()),
+        });
     if let Err(problem) = written {
         error(problem);
         return INPUT;
     }
     if arguments.json {
-        let names = ["trajectory.csv".to_string(), "trajectory.npz".to_string()];
+        let mut names = vec!["trajectory.csv".to_string(), "trajectory.npz".to_string()];
+        names.extend(events.map(|_| "events.csv".to_string()));
         let trajectory = record::record(&study, &names).trajectory;
         terminal::out(&serde_json::to_string_pretty(&trajectory).unwrap_or_default());
         terminal::out("\n");

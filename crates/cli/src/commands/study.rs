@@ -98,6 +98,10 @@ fn write_all(study: &Study, folder: &Path, model: &Path) -> Result<Vec<String>, 
         let archive = table.to_npz().map_err(|e| e.to_string())?;
         files::write(&folder.join("trajectory.npz"), &archive)?;
         names.extend(["trajectory.csv".to_string(), "trajectory.npz".to_string()]);
+        if let Some(events) = Table::events(study, motion) {
+            files::write(&folder.join("events.csv"), events.as_bytes())?;
+            names.push("events.csv".to_string());
+        }
     }
     files::write(&folder.join("study.json"), json(study, &names).as_bytes())?;
     let command = format!("chetaev study {}", model.display());

@@ -19,6 +19,7 @@ pub static DORMAND_PRINCE_853: ExplicitRungeKutta = ExplicitRungeKutta {
         dense_order: 7,
         adaptive: true,
         least_tolerance: 100.0 * f64::EPSILON,
+        needs_series: false,
         source: "Hairer, Nørsett, Wanner 1993, II.5–II.6",
     },
     tableau: Tableau {

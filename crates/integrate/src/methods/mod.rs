@@ -3,6 +3,7 @@
 mod dormand_prince_853;
 mod explicit_runge_kutta;
 mod runge_kutta_4;
+mod taylor;
 mod tsitouras_5;
 
 use crate::method::Method;
@@ -10,10 +11,11 @@ use crate::method::Method;
 pub use dormand_prince_853::DORMAND_PRINCE_853;
 pub use explicit_runge_kutta::{ErrorEstimate, ExplicitRungeKutta, Row, Tableau};
 pub use runge_kutta_4::RUNGE_KUTTA_4;
+pub use taylor::TAYLOR;
 pub use tsitouras_5::TSITOURAS_5;
 
 /// Every method, by preference.
-pub static METHODS: &[&dyn Method] = &[&DORMAND_PRINCE_853, &TSITOURAS_5, &RUNGE_KUTTA_4];
+pub static METHODS: &[&dyn Method] = &[&DORMAND_PRINCE_853, &TAYLOR, &TSITOURAS_5, &RUNGE_KUTTA_4];
 
 /// The method to take for a tolerance where nothing else is known: order 5 above 10⁻⁶, order 8 from there on.
 pub fn recommended(tolerance: f64) -> &'static dyn Method {

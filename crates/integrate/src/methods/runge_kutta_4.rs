@@ -14,6 +14,7 @@ pub static RUNGE_KUTTA_4: ExplicitRungeKutta = ExplicitRungeKutta {
         dense_order: 3,
         adaptive: false,
         least_tolerance: 0.0,
+        needs_series: false,
         source: "Kutta 1901; Hairer, Nørsett, Wanner 1993, II.1",
     },
     tableau: Tableau {

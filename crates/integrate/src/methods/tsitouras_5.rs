@@ -19,6 +19,7 @@ pub static TSITOURAS_5: ExplicitRungeKutta = ExplicitRungeKutta {
         dense_order: 4,
         adaptive: true,
         least_tolerance: 100.0 * f64::EPSILON,
+        needs_series: false,
         source: "Tsitouras 2011",
     },
     tableau: Tableau {

@@ -7,6 +7,7 @@ mod characteristics;
 mod declare;
 mod define;
 mod drawing;
+mod events;
 pub(crate) mod formula;
 pub(crate) mod frame;
 mod integrals;
@@ -107,6 +108,7 @@ const SECTIONS: &[&str] = &[
     "controls",
     "initial",
     "simulation",
+    "events",
     "integrals",
     "variation",
     "search",
@@ -170,6 +172,7 @@ impl Resolver {
         let independent = self.independent_velocities(root);
         let initial = self.initial(root, &constraints);
         let simulation = self.simulation(root);
+        let events = self.events(root, &constraints);
         let (integrals, integral_conditions) = self.integrals(root);
         let search = self.search_functions(root);
         let variations = self.variations(root);
@@ -213,6 +216,7 @@ impl Resolver {
             characteristics,
             initial,
             simulation,
+            events,
             integrals,
             variations,
             integral_conditions,
@@ -259,7 +263,7 @@ impl Resolver {
     }
 
     /// A text for people; empty where there is none.
-    fn prose(&mut self, table: &Table, key: &str) -> String {
+    pub(crate) fn prose(&mut self, table: &Table, key: &str) -> String {
         self.optional_text(table, key)
             .map_or_else(String::new, |text| text.content.trim().to_owned())
     }
@@ -382,6 +386,9 @@ fn near_key<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {
         ("initial_conditions", "initial"),
         ("solver", "simulation"),
         ("first_integrals", "integrals"),
+        ("event", "events"),
+        ("expression", "when"),
+        ("crossing", "direction"),
         ("variations", "variation"),
         ("animation", "drawing"),
         ("title", "name"),

@@ -201,11 +201,19 @@ impl Resolver {
             return None;
         }
         let number = chetaev_symbolic::rational::to_f64(&value);
-        if !(2.3e-14..=0.1).contains(&number) {
+        let of_series = table.get("method").is_some_and(|raw| {
+            matches!(&raw.kind, Kind::Text(text) if text.content.eq_ignore_ascii_case("taylor"))
+        });
+        let sharpest = if of_series { 2.3e-16 } else { 2.3e-14 };
+        if !(sharpest..=0.1).contains(&number) {
             let message = format!(
-                "{what} is out of range: it must lie between 2.3e-14 (double precision) and 0.1"
+                "{what} is out of range: it must lie between {sharpest:e} (double precision) and 0.1"
             );
-            self.push(Diagnostic::error("out-of-range", raw.place, message));
+            let mut problem = Diagnostic::error("out-of-range", raw.place, message);
+            if !of_series {
+                problem = problem.hint("`method = \"taylor\"` goes down to 2.3e-16");
+            }
+            self.push(problem);
             return None;
         }
         Some(value)

@@ -40,6 +40,9 @@ impl NamedKind {
     }
 }
 
+/// What stands before the name of a constraint where its multiplier is meant.
+pub(crate) const MULTIPLIER: &str = "lambda_";
+
 /// A declared name with the place of its declaration.
 #[derive(Copy, Clone, Debug)]
 pub(crate) struct Named {
@@ -62,6 +65,8 @@ pub(crate) struct Context {
     pub(crate) characteristics: bool,
     /// Whether virtual displacements may occur.
     pub(crate) displacements: bool,
+    /// Whether `lambda_NAME` may occur; that there is such a constraint is looked at afterwards.
+    pub(crate) multipliers: bool,
     /// Whether masses with a law of their own may occur.
     pub(crate) masses: bool,
     /// Whether masses that are definitions stand as symbols too.
@@ -80,9 +85,20 @@ impl Context {
             parameters: true,
             characteristics: false,
             displacements: false,
+            multipliers: false,
             masses: true,
             masses_as_symbols: false,
             hint: "",
+        }
+    }
+
+    /// A function of t, q, q', q'' and the multipliers along a motion.
+    pub(crate) const fn motion(what: &'static str) -> Self {
+        Context {
+            coordinates: Some(2),
+            multipliers: true,
+            hint: "only the time, coordinates with two derivatives, multipliers and parameters may occur there",
+            ..Context::state(what)
         }
     }
 
@@ -95,6 +111,7 @@ impl Context {
             parameters: true,
             characteristics: false,
             displacements: false,
+            multipliers: false,
             masses: false,
             masses_as_symbols: false,
             hint: "only coordinates, controls, parameters and the time may occur there",
@@ -127,6 +144,7 @@ impl Context {
             parameters: true,
             characteristics: false,
             displacements: false,
+            multipliers: false,
             masses: true,
             masses_as_symbols: false,
             hint: "",
@@ -160,6 +178,7 @@ impl Context {
             parameters: true,
             characteristics: false,
             displacements: false,
+            multipliers: false,
             masses: false,
             masses_as_symbols: false,
             hint: "",
@@ -175,6 +194,7 @@ impl Context {
             parameters: true,
             characteristics: false,
             displacements: false,
+            multipliers: false,
             masses: false,
             masses_as_symbols: false,
             hint: "",
@@ -190,6 +210,7 @@ impl Context {
             parameters: false,
             characteristics: false,
             displacements: false,
+            multipliers: false,
             masses: false,
             masses_as_symbols: false,
             hint: "",
@@ -451,6 +472,9 @@ impl ModelScope<'_> {
 impl Scope for ModelScope<'_> {
     fn resolve(&self, name: &str, order: u32) -> Resolution {
         let resolver = self.resolver;
+        if self.context.multipliers && order == 0 && name.starts_with(MULTIPLIER) {
+            return Resolution::Known(resolver.graph.symbol(name, 0));
+        }
         if name == "t" {
             return match (self.context.time, order) {
                 (true, 0) => Resolution::Known(resolver.graph.symbol("t", 0)),

@@ -2,11 +2,12 @@
 //! singular.
 
 use crate::chart::{self, Chart, DEGRADED};
-use crate::formulation_flow::FlowError;
+use crate::formulation_flow::{rates_of_state, FlowError};
 use crate::functions::Functions;
 use crate::initial::jets::JetStart;
 use crate::initial::ConsistentState;
 use crate::numeric::Binding;
+use crate::series::RateSeries;
 use crate::watch::{masses_and_speeds, vanishing_parts, Watch, Watched};
 use chetaev_mechanics::words::quoted;
 use chetaev_mechanics::{Basis, Equations, Formulation, MotionTerms, Selection, System};
@@ -28,6 +29,9 @@ pub(super) struct Compiled {
     /// (t, state) → what vanishes, and its gradient by the state.
     pub(super) invariants: Functions,
     pub(super) pivot: f64,
+    /// The rates of the state, and their Taylor recurrences, made when first asked for.
+    pub(super) rates: Vec<Expr>,
+    pub(super) series: Option<RateSeries>,
 }
 
 /// What a flow is made of.
@@ -94,6 +98,8 @@ impl Parts<'_> {
             symbols,
             names,
             pivot,
+            rates: rates_of_state(&equations),
+            series: None,
         };
         Ok((equations, compiled))
     }

@@ -118,6 +118,10 @@ fn trajectory(rows: &[[f64; 6]]) -> Trajectory {
             time: 1.62,
             detail: "From (x′, φ′) to (y′, φ′): the pivot cos φ fell to 0.12.".into(),
         }],
+        events: vec![EventMet {
+            time: 0.4,
+            detail: "event `across`: its function falls through zero".into(),
+        }],
         portraits: vec![
             Portrait {
                 horizontal: "x".into(),

@@ -2,12 +2,14 @@
 
 use super::claims::word;
 use super::{fact, unit};
+use crate::record::zero_word;
 use crate::study::{stop_is_expected, Motion, Study};
 use crate::table::Table;
 use crate::typeset::letters;
 use chetaev_integrate::Note;
 use chetaev_report::data::{
-    ChartSwitch, Fact, Figure, Portrait, Series, SeriesGroup, Stop, Trajectory, Verdict as Word,
+    ChartSwitch, EventMet, Fact, Figure, Portrait, Series, SeriesGroup, Stop, Trajectory,
+    Verdict as Word,
 };
 
 /// The motion.
@@ -37,9 +39,27 @@ pub(super) fn trajectory(study: &Study, motion: &Motion, files: &[String]) -> Tr
                 ),
             })
             .collect(),
+        events: events_met(motion),
         portraits: portraits(study),
         files: files.to_vec(),
     }
+}
+
+fn events_met(motion: &Motion) -> Vec<EventMet> {
+    let met = motion.evidence.run.events.iter();
+    met.map(|met| EventMet {
+        time: met.t,
+        detail: format!(
+            "event `{}`: {}",
+            motion.settings.events[met.event].name,
+            match zero_word(met.kind) {
+                "grazing" => "its function touches zero",
+                "rising" => "its function rises through zero",
+                _ => "its function falls through zero",
+            }
+        ),
+    })
+    .collect()
 }
 
 fn pivot(value: f64) -> String {

@@ -100,11 +100,32 @@ fn difference(a: &TrajectoryRecord, b: &TrajectoryRecord) -> Option<String> {
     let accuracy = (1e4 * a.tolerance).max(1e-9);
     states("initial", &a.initial, &b.initial, 1e-12)
         .or_else(|| states("final", &a.last, &b.last, accuracy))
+        .or_else(|| events(a, b, accuracy).filter(|_| whole))
         .or_else(|| sizes(&a.drifts, &b.drifts))
         .or_else(|| {
             let error = numbers(a.global_error, b.global_error)?;
             whole.then(|| format!("global_error {error}"))
         })
+}
+
+/// The first event that the replay does not find.
+fn events(a: &TrajectoryRecord, b: &TrajectoryRecord, tolerance: f64) -> Option<String> {
+    if a.events.len() != b.events.len() {
+        let (x, y) = (a.events.len(), b.events.len());
+        return Some(format!("`events` has {x} entries, the replay finds {y}"));
+    }
+    a.events.iter().zip(&b.events).find_map(|(x, y)| {
+        let near = (x.t - y.t).abs() <= tolerance * (1.0 + x.t.abs());
+        // A function that only touches zero does so at a place known to the root of the rounding.
+        let touches = x.zero == "grazing";
+        if x.event != y.event || x.zero != y.zero || !(near || touches) {
+            return Some(format!(
+                "`events`: {} at t = {}, the replay finds {} at t = {}",
+                x.event, x.t, y.event, y.t
+            ));
+        }
+        states("events", &x.state, &y.state, tolerance).filter(|_| !touches)
+    })
 }
 
 fn states(what: &str, a: &[NamedValue], b: &[NamedValue], tolerance: f64) -> Option<String> {

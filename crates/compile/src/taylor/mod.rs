@@ -1,0 +1,246 @@
+//! Taylor coefficients of a program along a motion: the recurrences of its instructions.
+//!
+//! The coefficients are normalized: x(s) = Σ_j x_[j] s^j, x_[j] = x⁽ʲ⁾/j!. Given the coefficients of the variables
+//! up to order j, [`Taylor`] computes those of all values up to order j, one order per call, so that a caller who
+//! knows x' as an output finds the series of a solution of x' = F(x) from x_[j+1] = F_[j]/(j + 1).
+//!
+//! Order 0 is computed by the interpreter, orders above by the recurrences of Moore 1966 and Griewank & Walther 2008,
+//! ch. 13 (see `recurrence`): a product or a function costs O(j), a sum or a product with what is constant O(1). A
+//! linear system is factorized once, at order 0; every further order costs one solution of it, with the right-hand
+//! side less the convolutions of those entries of the matrix that vary:
+//!
+//! ```text
+//! A_[0] x_[j] = b_[j] − Σ_{i=1..j} A_[i] x_[j−i]
+//! ```
+//!
+//! Series are stored contiguously by order, those that are convolved also in reverse, so that each convolution is a
+//! dot product of two contiguous slices. Nothing is allocated after the workspace is made.
+
+mod build;
+mod functions;
+mod recurrence;
+mod solve;
+
+use crate::decode::Code;
+use crate::evaluate::EvaluateFailure;
+use crate::interpret::State;
+use crate::program::{Layout, Program};
+use crate::schedule;
+use crate::verify::VerifyError;
+use build::Recurrences;
+
+/// The Taylor recurrences of a program.
+///
+/// ```
+/// use chetaev_compile::{Lowering, Taylor};
+/// use chetaev_symbolic::Graph;
+///
+/// // x' = x², x(0) = 1/2: x_[j] = 2^(−j−1).
+/// let g = Graph::new();
+/// let x = g.intern_symbol("x", 0);
+/// let rate = g.powi(g.symbol_expr(x), 2);
+/// let taylor = Taylor::new(&Lowering::new(&g).variables(&[x]).output("rate", &[rate]).lower()?)?;
+/// let mut workspace = taylor.workspace(10);
+/// taylor.prepare(&[], &mut workspace)?;
+/// taylor.start(&[0.5], &mut workspace)?;
+/// for j in 1..=10 {
+///     let coefficient = taylor.output(0, &workspace) / f64::from(j);
+///     assert_eq!(coefficient, 0.5f64.powi(j + 1));
+///     taylor.advance(&[coefficient], &mut workspace)?;
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Taylor {
+    code: Code,
+    recurrences: Recurrences,
+    outputs: Vec<u32>,
+}
+
+/// Storage for series, one for each thread.
+#[derive(Clone, Debug)]
+pub struct TaylorWorkspace {
+    /// Values of order 0, and the factorized matrices.
+    state: State<f64>,
+    /// By register: the coefficient of the order last computed.
+    now: Vec<f64>,
+    series: Series,
+    /// The order last computed.
+    order: usize,
+    started: bool,
+    solution: Vec<f64>,
+}
+
+/// Series of those values that are convolved: `stride` numbers each.
+#[derive(Clone, Debug)]
+struct Series {
+    values: Vec<f64>,
+    stride: usize,
+}
+
+impl Series {
+    /// Coefficients `from..to` of a series stored forward.
+    #[inline(always)]
+    fn forward(&self, slot: u32, from: usize, to: usize) -> &[f64] {
+        let start = slot as usize * self.stride;
+        &self.values[start + from..start + to]
+    }
+
+    /// Coefficients from `high` down to `low` of a series stored in reverse.
+    #[inline(always)]
+    fn reverse(&self, slot: u32, high: usize, low: usize) -> &[f64] {
+        let end = (slot as usize + 1) * self.stride;
+        &self.values[end - 1 - high..end - low]
+    }
+}
+
+impl Taylor {
+    /// The recurrences of `program`.
+    ///
+    /// # Errors
+    /// [`VerifyError`] if the program is not well formed; one made by [`Lowering`](crate::Lowering) is.
+    pub fn new(program: &Program) -> Result<Taylor, VerifyError> {
+        program.verify()?;
+        let single = schedule::Single::of(&schedule::in_runs(program));
+        let (recurrences, registers) = Recurrences::of(&single);
+        let schedule::Single {
+            mut program,
+            groups,
+            ..
+        } = single;
+        // Every value has a register of its own, also those of the prologue.
+        let mut layout = Layout {
+            hoisted: 0,
+            temporaries: 0,
+            ..program.layout
+        };
+        layout.temporaries = registers - layout.len();
+        program.layout = layout;
+        let groups = groups.into_iter().map(|group| crate::program::OutputGroup {
+            name: group.name,
+            registers: group.registers,
+            end: group.end,
+        });
+        program.outputs = groups.collect();
+        let outputs = program.outputs.iter().flat_map(|group| &group.registers);
+        Ok(Taylor {
+            outputs: outputs.map(|register| register.0).collect(),
+            code: Code::of(program),
+            recurrences,
+        })
+    }
+
+    /// Storage for series up to the given order.
+    pub fn workspace(&self, order: usize) -> TaylorWorkspace {
+        let stride = order + 1;
+        let program = &self.code.program;
+        let sizes = program.matrices.iter().map(|matrix| matrix.size);
+        TaylorWorkspace {
+            state: State::new(program),
+            now: vec![0.0; program.layout.len()],
+            series: Series {
+                values: vec![0.0; self.recurrences.slots * stride],
+                stride,
+            },
+            order: 0,
+            started: false,
+            solution: vec![0.0; 2 * sizes.max().unwrap_or(0)],
+        }
+    }
+
+    /// Sets the parameters; needed before the first series, also without parameters.
+    ///
+    /// # Errors
+    /// [`EvaluateFailure`] for a wrong length, and for a singular matrix that depends on parameters only.
+    pub fn prepare(
+        &self,
+        parameters: &[f64],
+        workspace: &mut TaylorWorkspace,
+    ) -> Result<(), EvaluateFailure> {
+        workspace.started = false;
+        workspace.state.prepare(&self.code, parameters)?;
+        workspace.state.is_prepared = workspace.state.failures.is_empty();
+        workspace.state.first_failure()
+    }
+
+    /// Order 0: all values at the state `variables`, and the factorizations.
+    ///
+    /// # Errors
+    /// [`EvaluateFailure`]: a singular matrix, a wrong length, or [`NotAnalytic`](EvaluateFailure::NotAnalytic) where
+    /// a function has no Taylor series.
+    pub fn start(
+        &self,
+        variables: &[f64],
+        workspace: &mut TaylorWorkspace,
+    ) -> Result<(), EvaluateFailure> {
+        workspace.started = false;
+        let groups = self.code.program.outputs.len();
+        // Outputs are read from the registers afterwards: every value has one of its own.
+        let state = &mut workspace.state;
+        state.check_variables(&self.code.program, variables)?;
+        state.compute(&self.code, groups, variables, &mut [], |_, _| {});
+        state.first_failure()?;
+        self.recurrences.seed(&mut state.file)?;
+        workspace.now.copy_from_slice(&state.file);
+        self.recurrences
+            .keep_all(&state.file, &mut workspace.series);
+        workspace.order = 0;
+        workspace.started = true;
+        Ok(())
+    }
+
+    /// The next order of all values, from the coefficients of that order of the variables.
+    ///
+    /// # Errors
+    /// [`EvaluateFailure::NotPrepared`] before a successful [`start`](Taylor::start) or beyond the order of the
+    /// workspace, and [`EvaluateFailure::Length`].
+    pub fn advance(
+        &self,
+        variables: &[f64],
+        workspace: &mut TaylorWorkspace,
+    ) -> Result<(), EvaluateFailure> {
+        let layout = &self.code.program.layout;
+        if variables.len() != layout.variables {
+            return Err(EvaluateFailure::Length {
+                what: "variables",
+                expected: layout.variables,
+                found: variables.len(),
+            });
+        }
+        if !workspace.started || workspace.order + 1 >= workspace.series.stride {
+            return Err(EvaluateFailure::NotPrepared);
+        }
+        workspace.order += 1;
+        workspace.now[layout.variable_range()].copy_from_slice(variables);
+        self.recurrences.advance(workspace);
+        Ok(())
+    }
+
+    /// The coefficient of output number `index`, counted over all groups, of the order last computed.
+    #[inline]
+    pub fn output(&self, index: usize, workspace: &TaylorWorkspace) -> f64 {
+        let register = self.outputs[index] as usize;
+        if workspace.order > 0 && self.recurrences.is_constant[register] {
+            0.0
+        } else {
+            workspace.now[register]
+        }
+    }
+
+    /// Number of outputs of all groups together.
+    pub fn output_count(&self) -> usize {
+        self.outputs.len()
+    }
+
+    /// Number of instructions that cost a dot product per order, and of all others above order 0.
+    pub fn counts(&self) -> (usize, usize) {
+        self.recurrences.counts()
+    }
+}
+
+impl TaylorWorkspace {
+    /// The highest order that has room.
+    pub fn capacity(&self) -> usize {
+        self.series.stride - 1
+    }
+}

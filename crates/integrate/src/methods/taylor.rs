@@ -1,0 +1,352 @@
+//! The Taylor method of variable order and step.
+//!
+//! The coefficients come from the system ([`System::expand`]). With w_i the tolerated error of component i and
+//! |x_[j]| = max_i |x_[j],i|/w_i, the step h of order p is the one at which the last two terms of the series are
+//! negligible, |x_[p]| h^p ≤ e^(−2) and |x_[p−1]| h^(p−1) ≤ 1, with the safety factor exp(−0.7/(p − 1)). For w = ε max
+//! |x| this is the rule of Jorba & Zou 2005, Exp. Math. 14, 3.2; weighing each component by itself keeps one that grows
+//! without bound, such as an angle, from loosening the control of the others.
+//!
+//! The order is the one of least cost per time: h behaves as ε^(1/p), and a step costs p (p + c), dot products of mean
+//! length p/2 and what is done once per order, whence p (2p + c) = L (p + c), L = −ln ε. Jorba & Zou's p = L/2 is c = 0.
+//!
+//! Coefficients may deceive: a series knows nothing of a corner ahead. So the derivative at the end of the step is
+//! compared with that of the polynomial, and the step halved where they differ.
+
+use crate::control::{ErrorControl, Scale};
+use crate::dense::{Basis, DenseStep};
+use crate::method::{Attempt, Method, MethodCard, State, Stepper, StepperSettings};
+use crate::problem::{EvaluationFailure, System};
+
+/// Taylor series of variable order and step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TaylorMethod {
+    card: MethodCard,
+}
+
+/// Taylor series of variable order and step, for systems that give their coefficients.
+pub static TAYLOR: TaylorMethod = TaylorMethod {
+    card: MethodCard {
+        name: "taylor",
+        title: "Taylor series of variable order and step",
+        order: 0,
+        dense_order: 0,
+        adaptive: true,
+        least_tolerance: f64::EPSILON,
+        needs_series: true,
+        source: "Jorba, Zou 2005, Exp. Math. 14",
+    },
+};
+
+/// Orders taken, whatever the tolerance.
+const LEAST: usize = 4;
+const MOST: usize = 40;
+/// Difference of the derivatives at the end of a step, times its length, in units of the tolerance.
+const DEFECT: f64 = 10.0;
+/// Rounding of the derivatives, which no step size reduces, in units of their size.
+const ROUNDING: f64 = 1e4 * f64::EPSILON;
+/// The next step may be longer than the last one's radius allowed by this factor.
+const GROW: f64 = 10.0;
+
+/// What is done once per order, in units of half a multiplication per instruction; measured on models of the gallery.
+const PER_ORDER: f64 = 20.0;
+
+/// The order for a relative tolerance.
+fn order_for(tolerance: f64) -> usize {
+    let (logarithm, c) = (-tolerance.ln(), PER_ORDER);
+    let surplus = logarithm - c;
+    let order = (1.0 + (surplus + (surplus * surplus + 8.0 * logarithm * c).sqrt()) / 4.0).ceil();
+    // A tolerance that is not a number gives the lowest order.
+    (order.max(0.0) as usize).clamp(LEAST, MOST)
+}
+
+impl Method for TaylorMethod {
+    fn card(&self) -> &MethodCard {
+        &self.card
+    }
+
+    fn order(&self, error: &ErrorControl) -> u32 {
+        let tolerance = if error.rtol > 0.0 {
+            error.rtol
+        } else {
+            error.atol
+        };
+        order_for(tolerance) as u32
+    }
+
+    fn stepper(&self, n: usize, settings: &StepperSettings) -> Box<dyn Stepper> {
+        Box::new(Expansion {
+            n,
+            fixed: settings.fixed,
+            compensated: settings.compensated,
+            scale: Scale::new(&settings.error, n),
+            relative: (0..n).map(|i| settings.error.of(i).0 > 0.0).collect(),
+            weights: vec![0.0; n],
+            coefficients: vec![0.0; n * (MOST + 1)],
+            order: LEAST,
+            radius: 0.0,
+            worst: 0,
+            is_fresh: false,
+            end: vec![0.0; 2 * n],
+            increment: vec![0.0; n],
+            h: 0.0,
+            evaluations: 0,
+        })
+    }
+}
+
+/// Working storage of one run.
+struct Expansion {
+    n: usize,
+    fixed: bool,
+    compensated: bool,
+    scale: Scale,
+    /// Whether a component has a relative tolerance.
+    relative: Vec<bool>,
+    /// Tolerated errors at the start of the step.
+    weights: Vec<f64>,
+    /// x_[0], x_[1], … one after the other.
+    coefficients: Vec<f64>,
+    order: usize,
+    /// The step that the coefficients allow; infinite where the solution is a polynomial of low degree.
+    radius: f64,
+    worst: usize,
+    /// Whether the coefficients are those of the present start.
+    is_fresh: bool,
+    /// State and derivative at the end of the step.
+    end: Vec<f64>,
+    increment: Vec<f64>,
+    h: f64,
+    evaluations: u64,
+}
+
+impl Expansion {
+    fn coefficient(&self, j: usize) -> &[f64] {
+        &self.coefficients[j * self.n..(j + 1) * self.n]
+    }
+
+    fn expand(&mut self, system: &mut dyn System, from: &State) -> Result<(), EvaluationFailure> {
+        self.is_fresh = false;
+        self.weigh(&from.y);
+        let filled = (self.order + 1) * self.n;
+        let coefficients = &mut self.coefficients[..filled];
+        self.evaluations += 1;
+        let state = (&from.y[..], &from.carry[..]);
+        system.expand(from.t.high, state, self.order, coefficients)?;
+        if let Some(place) = coefficients.iter().position(|c| !c.is_finite()) {
+            // Close to a pole the high coefficients overflow while the step is still well determined by the others.
+            let known = (place / self.n).saturating_sub(1);
+            if known < LEAST {
+                let component = place % self.n;
+                return Err(EvaluationFailure::NotFinite { component });
+            }
+            self.order = known;
+        }
+        self.choose_radius();
+        self.is_fresh = true;
+        Ok(())
+    }
+
+    /// Tolerated errors, and the order that the strictest of them asks for.
+    fn weigh(&mut self, y: &[f64]) {
+        let mut strictest: f64 = 1.0;
+        for (i, &y) in y.iter().enumerate() {
+            self.weights[i] = self.scale.of(i, y.abs());
+            let size = if self.relative[i] {
+                y.abs().max(1.0)
+            } else {
+                1.0
+            };
+            strictest = strictest.min(self.weights[i] / size);
+        }
+        self.order = order_for(strictest);
+    }
+
+    /// The step at which the last two terms that do not vanish are negligible. Parity may null every second one; a
+    /// solution all of whose upper half vanishes is a polynomial.
+    fn choose_radius(&mut self) {
+        let p = self.order;
+        self.radius = f64::INFINITY;
+        let mut seen = 0;
+        for j in (p / 2 + 1..=p).rev() {
+            let (mut norm, mut worst): (f64, usize) = (0.0, 0);
+            for (i, (c, w)) in self.coefficient(j).iter().zip(&self.weights).enumerate() {
+                if c.abs() > norm * w {
+                    (norm, worst) = (c.abs() / w, i);
+                }
+            }
+            if norm == 0.0 {
+                continue;
+            }
+            let allowed: f64 = if seen == 0 { (-2.0f64).exp() } else { 1.0 };
+            let step = (allowed / norm).powf(1.0 / j as f64);
+            if step < self.radius {
+                (self.radius, self.worst) = (step, worst);
+            }
+            seen += 1;
+            if seen == 2 {
+                break;
+            }
+        }
+        self.radius *= (-0.7 / (p as f64 - 1.0)).exp();
+    }
+
+    /// Σ_{j≥1} x_[j] h^j
+    fn sum(&mut self, h: f64) {
+        let n = self.n;
+        let increment = &mut self.increment;
+        increment.copy_from_slice(&self.coefficients[self.order * n..(self.order + 1) * n]);
+        for j in (1..self.order).rev() {
+            let lower = &self.coefficients[j * n..(j + 1) * n];
+            for (sum, c) in increment.iter_mut().zip(lower) {
+                *sum = c + h * *sum;
+            }
+        }
+        increment.iter_mut().for_each(|sum| *sum *= h);
+    }
+
+    /// The largest difference of the derivatives at the end, in units of what is tolerated, and its component.
+    fn defect(
+        &mut self,
+        system: &mut dyn System,
+        h: f64,
+        to: &State,
+    ) -> Result<(f64, usize), EvaluationFailure> {
+        let n = self.n;
+        self.evaluations += 1;
+        system.expand(to.t.high, (&to.y, &to.carry), 1, &mut self.end)?;
+        let rates = &self.end[n..];
+        if let Some(component) = rates.iter().position(|rate| !rate.is_finite()) {
+            return Err(EvaluationFailure::NotFinite { component });
+        }
+        let fastest = rates.iter().fold(0.0, |m: f64, rate| m.max(rate.abs()));
+        let (mut largest, mut worst) = (0.0, 0);
+        for (i, rate) in rates.iter().enumerate() {
+            let mut slope = 0.0;
+            for j in (1..=self.order).rev() {
+                slope = j as f64 * self.coefficients[j * n + i] + h * slope;
+            }
+            let tolerated = self.scale.of(i, to.y[i].abs()).max(self.weights[i]);
+            let gap = h.abs() * (rate - slope).abs();
+            let defect = gap / (DEFECT * tolerated + h.abs() * ROUNDING * fastest);
+            if defect > largest {
+                (largest, worst) = (defect, i);
+            }
+        }
+        Ok((largest, worst))
+    }
+}
+
+impl Stepper for Expansion {
+    fn start(
+        &mut self,
+        system: &mut dyn System,
+        from: &State,
+        _direction: f64,
+        span: f64,
+    ) -> Result<f64, EvaluationFailure> {
+        self.expand(system, from)?;
+        Ok(if self.fixed {
+            0.0
+        } else {
+            self.radius.min(span)
+        })
+    }
+
+    fn restart(&mut self, system: &mut dyn System, from: &State) -> Result<(), EvaluationFailure> {
+        self.expand(system, from)
+    }
+
+    fn attempt(
+        &mut self,
+        system: &mut dyn System,
+        from: &State,
+        h: f64,
+        to: &mut State,
+    ) -> Result<Attempt, EvaluationFailure> {
+        if !self.is_fresh {
+            self.expand(system, from)?;
+        }
+        let size = match self.fixed {
+            true => h.abs(),
+            false => h.abs().min(self.radius),
+        };
+        let h = size.copysign(h);
+        self.h = h;
+        self.sum(h);
+        to.advance(self.compensated, from, h, &self.increment);
+        if let Some(component) = to.y.iter().position(|y| !y.is_finite()) {
+            return Err(EvaluationFailure::NotFinite { component });
+        }
+        let mut attempt = Attempt {
+            accepted: true,
+            h,
+            next: h,
+            error: 0.0,
+            worst: self.worst,
+            stiffness: None,
+        };
+        if self.fixed {
+            return Ok(attempt);
+        }
+        let (defect, worst) = self.defect(system, h, to)?;
+        attempt.error = defect;
+        if defect > 1.0 {
+            attempt.accepted = false;
+            attempt.worst = worst;
+            attempt.next = 0.5 * h;
+        } else {
+            attempt.next = (GROW * self.radius).copysign(h);
+        }
+        Ok(attempt)
+    }
+
+    fn failed(&mut self) {}
+
+    fn dense(
+        &mut self,
+        _system: &mut dyn System,
+        from: &State,
+        _to: &State,
+        dense: &mut DenseStep,
+    ) -> Result<(), EvaluationFailure> {
+        let filled = (self.order + 1) * self.n;
+        dense.start = from.t;
+        dense.h = self.h;
+        dense.basis = Basis::Monomial;
+        dense.coefficients.clear();
+        dense
+            .coefficients
+            .extend_from_slice(&self.coefficients[..filled]);
+        let mut power = 1.0;
+        for (j, row) in dense.coefficients.chunks_mut(self.n.max(1)).enumerate() {
+            if j > 0 {
+                power *= self.h;
+                row.iter_mut().for_each(|c| *c *= power);
+            }
+        }
+        Ok(())
+    }
+
+    fn commit(&mut self) {
+        self.is_fresh = false;
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_order_follows_the_tolerance() {
+        // p (2p + 20) = L (p + 20) for L = 36.84 and 20.72: p = 23.86 and 14.58, one more, rounded up.
+        assert_eq!(order_for(1e-16), 25);
+        assert_eq!(order_for(1e-9), 16);
+        assert_eq!(order_for(0.5), LEAST);
+        assert_eq!(order_for(0.0), MOST);
+        assert_eq!(order_for(f64::NAN), LEAST);
+    }
+}

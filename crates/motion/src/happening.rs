@@ -1,0 +1,131 @@
+//! Events along a motion: zeros of expressions in (t, q, v, a, λ), found on the dense output of whatever flow runs.
+
+use crate::observe::Observer;
+use crate::run::WatchedFlow;
+use chetaev_integrate::{
+    Control, Direction, EvaluationFailure, Event, EventKind, EventRecord, System,
+};
+use chetaev_symbolic::Expr;
+
+/// A function whose zeros are events.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EventWatched {
+    /// Its name.
+    pub name: String,
+    /// The function, of t, q, v, a, `lambda_NAME`, variables of the formulation and parameters.
+    pub value: Expr,
+    /// Which zeros count.
+    pub direction: Direction,
+    /// Whether the run ends at the first.
+    pub stops: bool,
+}
+
+/// A zero that was met.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Happened {
+    /// Number of the event.
+    pub event: usize,
+    /// Time.
+    pub t: f64,
+    /// How the function passed zero, or that it touched it.
+    pub kind: EventKind,
+    /// The output row there.
+    pub row: Vec<f64>,
+}
+
+/// A flow with the events of a model behind its own switching functions.
+pub(crate) struct WithEvents<'f, F> {
+    pub(crate) flow: &'f mut F,
+    /// Number of the flow's own switching functions.
+    pub(crate) own: usize,
+    /// One for each event, since a value that does not exist belongs to one only.
+    pub(crate) observers: &'f mut [Observer],
+    pub(crate) row: Vec<f64>,
+}
+
+/// The events as the integrator takes them: those of the flow first.
+pub(crate) fn events<'e>(own: usize, stated: &[EventWatched]) -> Vec<Event<'e>> {
+    let watched = (0..own).map(|index| Event::of_system(index).direction(Direction::Up).terminal());
+    let further = stated.iter().enumerate().map(|(k, event)| {
+        let found = Event::of_system(own + k).direction(event.direction);
+        match event.stops {
+            true => found.terminal(),
+            false => found,
+        }
+    });
+    watched.chain(further).collect()
+}
+
+/// What the integrator recorded of the events behind the flow's own.
+pub(crate) fn happened(records: &[EventRecord], own: usize) -> Vec<Happened> {
+    let of_model = records.iter().filter(|record| record.index >= own);
+    of_model
+        .map(|record| Happened {
+            event: record.index - own,
+            t: record.t,
+            kind: record.kind,
+            row: record.row.clone(),
+        })
+        .collect()
+}
+
+impl<F: WatchedFlow> System for WithEvents<'_, F> {
+    fn dimension(&self) -> usize {
+        self.flow.dimension()
+    }
+
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure> {
+        self.flow.derivative(t, y, dy)
+    }
+
+    fn has_series(&self) -> bool {
+        self.flow.has_series()
+    }
+
+    fn expand(
+        &mut self,
+        t: f64,
+        state: (&[f64], &[f64]),
+        order: usize,
+        coefficients: &mut [f64],
+    ) -> Result<(), EvaluationFailure> {
+        self.flow.expand(t, state, order, coefficients)
+    }
+
+    fn accepted(&mut self, t: f64, y: &mut [f64]) -> Control {
+        self.flow.accepted(t, y)
+    }
+
+    fn repivot(&mut self, t: f64, y: &mut [f64]) -> Control {
+        self.flow.repivot(t, y)
+    }
+
+    fn output_dimension(&self) -> usize {
+        self.flow.output_dimension()
+    }
+
+    fn output(&mut self, t: f64, y: &[f64], row: &mut [f64]) -> Result<(), EvaluationFailure> {
+        self.flow.output(t, y, row)
+    }
+
+    fn switching(&mut self, index: usize, t: f64, y: &[f64]) -> Result<f64, EvaluationFailure> {
+        let Some(number) = index.checked_sub(self.own) else {
+            return self.flow.switching(index, t, y);
+        };
+        self.row.resize(self.flow.output_dimension(), 0.0);
+        self.flow.output(t, y, &mut self.row)?;
+        let value = self.observers[number].value(t, &self.row);
+        match value.is_finite() {
+            true => Ok(value),
+            false => Err(EvaluationFailure::NotFinite { component: 0 }),
+        }
+    }
+
+    fn is_event(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
+        index >= self.own || self.flow.is_event(index, t, y)
+    }
+
+    fn factorizations(&self) -> u64 {
+        self.flow.factorizations()
+    }
+}

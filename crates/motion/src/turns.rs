@@ -1,0 +1,113 @@
+//! Angles of many turns: a sine sees the absolute error of its angle, which grows with the angle. Where the equations
+//! depend on a coordinate only through trigonometric functions of whole multiples of it, whole turns may be left out.
+
+use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
+use std::collections::BTreeSet;
+use std::f64::consts::TAU;
+
+/// What 2π is beyond its double.
+const TAU_LOW: f64 = 2.449_293_598_294_706_4e-16;
+
+/// Which coordinates are angles of this kind.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Turns(Vec<bool>);
+
+impl Turns {
+    /// Of the coordinates in the expressions.
+    pub(crate) fn of(g: &Graph, coordinates: &[Symbol], expressions: &[Expr]) -> Turns {
+        let (free, angles) = outside_angles(g, expressions);
+        let whole = |argument: &Expr, symbol: Symbol| {
+            let slope = g.diff(*argument, symbol);
+            g.as_integer(slope).is_some()
+        };
+        let turns = |&symbol: &Symbol| {
+            let mut own = angles
+                .iter()
+                .filter(|&&argument| g.symbols_in(&[argument]).contains(&symbol))
+                .peekable();
+            own.peek().is_some()
+                && !free.contains(&symbol)
+                && own.all(|argument| whole(argument, symbol))
+        };
+        Turns(coordinates.iter().map(turns).collect())
+    }
+
+    /// The state y + carry without whole turns of its angles, to the rounding of an angle of one turn.
+    pub(crate) fn reduced(&self, y: &[f64], carry: &[f64]) -> Vec<f64> {
+        let mut reduced = y.to_vec();
+        for ((y, carry), _) in reduced
+            .iter_mut()
+            .zip(carry)
+            .zip(&self.0)
+            .filter(|(_, &is)| is)
+        {
+            let turns = (*y / TAU).round();
+            if turns != 0.0 {
+                let high = turns * TAU;
+                let low = turns.mul_add(TAU, -high);
+                *y = (*y - high) - (low + turns * TAU_LOW - carry);
+            }
+        }
+        reduced
+    }
+}
+
+/// The symbols of which expressions depend otherwise than through trigonometric functions, and the arguments of these.
+pub(crate) fn outside_angles(g: &Graph, roots: &[Expr]) -> (Vec<Symbol>, Vec<Expr>) {
+    use Function::{Cos, Cot, Csc, Sec, Sin, Tan};
+    let (mut open, mut seen) = (roots.to_vec(), BTreeSet::new());
+    let (mut found, mut angles) = (Vec::new(), Vec::new());
+    while let Some(e) = open.pop() {
+        if !seen.insert(e) {
+            continue;
+        }
+        match g.node(e) {
+            Node::Symbol(symbol) => found.push(*symbol),
+            Node::Apply {
+                function: Sin | Cos | Tan | Cot | Sec | Csc,
+                arguments,
+            } => angles.extend(arguments.iter()),
+            node => node.for_each_child(|child| open.push(child)),
+        }
+    }
+    (found, angles)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_turns_are_left_out() {
+        let turns = Turns(vec![true, false]);
+        // 10⁶ turns and a quarter: the double nearest to them, and what it leaves out.
+        let exact = (1_000_000.25f64, TAU, TAU_LOW);
+        let y = exact.0 * exact.1;
+        let carry = exact.0.mul_add(exact.1, -y) + exact.0 * exact.2;
+        let reduced = turns.reduced(&[y, y], &[carry, carry]);
+        assert!(
+            (reduced[0] - std::f64::consts::FRAC_PI_2).abs() < 4e-16,
+            "{reduced:?}"
+        );
+        assert_eq!(reduced[1], y);
+        assert_eq!(turns.reduced(&[1.0, 2.0], &[1e-17, 0.0]), [1.0, 2.0]);
+    }
+
+    #[test]
+    fn angles_are_recognized() {
+        let g = Graph::new();
+        let names = ["a", "b", "c", "d"].map(|name| g.intern_symbol(name, 0));
+        let [a, b, c, d] = names.map(|s| g.symbol_expr(s));
+        let half = chetaev_symbolic::rational::ratio(1, 2).unwrap();
+        let expressions = [
+            g.sin(g.add(&[a, g.neg(b)])),
+            g.mul(&[b, g.cos(a)]),
+            g.cos(g.scale(&half, c)),
+        ];
+        let _ = d;
+        assert_eq!(
+            Turns::of(&g, &names, &expressions).0,
+            [true, false, false, false]
+        );
+    }
+}
