@@ -1,5 +1,6 @@
 //! One model through its claims and its motion.
 
+use crate::beside::{self, Beside};
 use crate::derivation::{check_applies, NotDerived};
 use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
 use crate::notices::{left_assumptions, negative_masses, notices};
@@ -8,6 +9,7 @@ use crate::registry::registry;
 use crate::start::{
     add_jets, asks_for_motion, check_rank, number, settings, start_of_motion, Start,
 };
+use crate::witness::{self, Witness};
 use chetaev_geometry::noether::found::found;
 use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::{CharacteristicsError, Selection};
@@ -81,6 +83,17 @@ pub struct Motion {
     pub evidence: Arc<MotionEvidence>,
     /// First integrals that were found, along the trajectory.
     pub found: Vec<Followed>,
+    /// What integrals over the motion say of the variational principles.
+    pub witness: Witness,
+    /// The constrained extremum from the same state, or why there is none; `None` where it was not asked for.
+    pub beside: Option<Result<Beside, String>>,
+}
+
+impl Motion {
+    /// The constrained extremum from the same state, where it was computed.
+    pub fn extremum(&self) -> Option<&Beside> {
+        self.beside.as_ref()?.as_ref().ok()
+    }
 }
 
 /// The result of a study.
@@ -394,10 +407,12 @@ pub fn study(
         notices.extend(left_assumptions(&system, &prepared, motion));
         notices.extend(negative_masses(&system, &prepared, motion));
     }
-    let (verdicts, found) = decide(&model, &system, &prepared, motion.as_ref(), &options, hooks);
+    let (verdicts, found, witness) =
+        decide(&model, &system, &prepared, motion.as_ref(), &options, hooks);
     let mut motion = motion;
-    if let (Some(motion), Some(found)) = (&mut motion, found) {
-        motion.found.clone_from(&found.0);
+    if let Some(motion) = &mut motion {
+        motion.found = found.map_or_else(Vec::new, |found| found.0.clone());
+        motion.witness = witness;
     }
     let unmatched = unmatched(&model, &verdicts, &options);
     let outcome = match outcome(&model, &verdicts, motion.as_ref()) {
@@ -492,11 +507,17 @@ fn compute(
     };
     let orders = crate::method_order::observed_order(&subject, &settings, &run, hooks);
     let evidence = MotionEvidence::new(model, &subject, run, comparison, finer, orders, &settings)?;
+    let beside = options
+        .extremum
+        .as_ref()
+        .map(|given| beside::of(&cx, &subject, &evidence.run, &reached, given, hooks));
     Ok(Motion {
+        beside,
         start: numeric.start,
         binding: numeric.binding,
         evidence: Arc::new(evidence),
         found: Vec::new(),
+        witness: Witness::default(),
         settings,
     })
 }
@@ -598,7 +619,7 @@ fn decide(
     motion: Option<&Motion>,
     options: &StudyOptions,
     hooks: &mut Hooks<'_>,
-) -> (Vec<Decided>, Option<Arc<FoundIntegrals>>) {
+) -> (Vec<Decided>, Option<Arc<FoundIntegrals>>, Witness) {
     let known = registry();
     let mut prover = Prover {
         replay: options.replay,
@@ -664,7 +685,7 @@ fn decide(
     let place = |d: &Decided| Group::ALL.iter().position(|&g| g == d.group);
     verdicts.sort_by_key(place);
     let found = cx.known::<FoundIntegrals>();
-    (verdicts, found)
+    (verdicts, found, witness::computed(&cx))
 }
 
 fn expected(model: &Model, claim: &str, subject: Option<&str>) -> Vec<String> {

@@ -4,6 +4,7 @@
 //! that could not be understood is known as such, and what uses it gives no second diagnostic.
 
 mod characteristics;
+mod complete_integral;
 mod declare;
 mod define;
 mod drawing;
@@ -109,6 +110,7 @@ const SECTIONS: &[&str] = &[
     "simulation",
     "integrals",
     "variation",
+    "complete_integral",
     "search",
     "drawing",
     "expect",
@@ -173,6 +175,7 @@ impl Resolver {
         let (integrals, integral_conditions) = self.integrals(root);
         let search = self.search_functions(root);
         let variations = self.variations(root);
+        let complete_integral = self.complete_integral(root);
         let drawing = self.drawing(root);
         let expect = self.expect(root);
         let has_units = dimension::check(self);
@@ -215,6 +218,7 @@ impl Resolver {
             simulation,
             integrals,
             variations,
+            complete_integral,
             integral_conditions,
             search,
             drawing,

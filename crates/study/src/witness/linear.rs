@@ -1,0 +1,308 @@
+//! Variational equations along the computed motion: the positions that motions from one point reach, and the conjugate times of
+//! the constrained extremum.
+
+use super::algebra::{determinant, gram, null_space, solved};
+use super::samples::{Samples, LEAST};
+use chetaev_mechanics::claims::formulation::{basis, derive, REFERENCE};
+use chetaev_mechanics::formulations::kappa_symbols;
+use chetaev_mechanics::Context;
+use chetaev_principles::stationarity::Closure;
+use chetaev_symbolic::{Expr, Symbol};
+
+/// More coordinates are too many.
+const COORDINATES: usize = 8;
+/// Larger expressions, in nodes, are not compiled.
+const LARGEST: usize = 30_000;
+/// A volume below this part is rounding.
+const ROUNDING: f64 = 1e-11;
+/// A volume below this part of that of the lengths counts as zero.
+const FLAT: f64 = 1e-6;
+
+/// The positions that motions from the start reach at later times, to first order.
+#[derive(Clone, Debug)]
+pub struct Reach {
+    /// n − r, the dimension for small times.
+    pub dimension: usize,
+    /// The least volume, over the product of the lengths, of the derivatives of q(t) by the k admissible initial velocities, and when.
+    pub least: (f64, f64),
+    /// That at the end.
+    pub at_end: f64,
+    /// The interval.
+    pub interval: (f64, f64),
+}
+
+/// Conjugate times of the extremum that the motion is.
+#[derive(Clone, Debug)]
+pub struct Conjugate {
+    /// Whether `B^T F_vv B` is positive definite along the motion; if not, where it fails.
+    pub legendre: Result<(), f64>,
+    /// Conjugate times after the start, in order.
+    pub times: Vec<f64>,
+    /// The interval.
+    pub interval: (f64, f64),
+}
+
+/// The result, computed once.
+pub(super) struct FoundConjugate(pub(super) Result<Conjugate, String>);
+
+fn small(cx: &Context<'_>, es: &[Expr]) -> Result<(), String> {
+    let n = cx.system.n();
+    if n > COORDINATES {
+        return Err(format!("{n} coordinates are more than {COORDINATES}"));
+    }
+    match cx.system.graph.reachable(es).len() > LARGEST {
+        true => Err("the variational equations are too large".into()),
+        false => Ok(()),
+    }
+}
+
+/// One step of the rule of Runge and Kutta for `y' = rate(row, y)` over two rows.
+fn step(
+    rate: &dyn Fn(usize, &[f64]) -> Option<Vec<f64>>,
+    row: usize,
+    h: f64,
+    y: &[f64],
+) -> Option<Vec<f64>> {
+    let moved =
+        |k: &[f64], by: f64| -> Vec<f64> { y.iter().zip(k).map(|(x, k)| x + by * k).collect() };
+    let k1 = rate(row, y)?;
+    let k2 = rate(row + 1, &moved(&k1, h / 2.0))?;
+    let k3 = rate(row + 1, &moved(&k2, h / 2.0))?;
+    let k4 = rate(row + 2, &moved(&k3, h))?;
+    let next = (0..y.len()).map(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+    let next: Vec<f64> = next.collect();
+    next.iter().all(|x| x.is_finite()).then_some(next)
+}
+
+/// `δv' = a_q δq + a_v δv`, `δq(t₀) = 0`, δv(t₀) in the directions that the constraints admit.
+pub(super) fn reach(cx: &Context<'_>) -> Result<Reach, String> {
+    let (system, g, n) = (cx.system, &cx.system.graph, cx.system.n());
+    let routh = derive(cx, REFERENCE).map_err(|problem| problem.to_string())?;
+    let by = |symbols: &[Symbol]| g.jacobian(&routh.accelerations, symbols).concat();
+    small(cx, &routh.accelerations)?;
+    let by_coordinates = by(&system.coordinate_symbols());
+    let by_velocities = by(&system.velocity_symbols());
+    small(
+        cx,
+        &[by_coordinates.clone(), by_velocities.clone()].concat(),
+    )?;
+    let jacobian = basis(cx).jacobian().concat();
+    let samples = Samples::new(cx, &[&by_coordinates, &by_velocities, &jacobian])?;
+    let r = cx.selection.rows.len();
+    let starts = null_space(samples.at(2, 0), r, n, 1e-12);
+    let rate = |row: usize, y: &[f64]| {
+        let (position, velocity) = y.split_at(n);
+        let moved = super::algebra::times(samples.at(0, row), n, position)
+            .into_iter()
+            .zip(super::algebra::times(samples.at(1, row), n, velocity));
+        Some(
+            velocity
+                .iter()
+                .copied()
+                .chain(moved.map(|(a, b)| a + b))
+                .collect(),
+        )
+    };
+    let mut states: Vec<Vec<f64>> = starts
+        .iter()
+        .map(|v| vec![0.0; n].into_iter().chain(v.iter().copied()).collect())
+        .collect();
+    let count = samples.intervals(2);
+    let (t0, t1) = (samples.times[0], samples.times[count]);
+    let h = 2.0 * (t1 - t0) / count as f64;
+    let mut found = Reach {
+        dimension: states.len(),
+        least: (f64::INFINITY, t1),
+        at_end: 0.0,
+        interval: (t0, t1),
+    };
+    for row in (0..count).step_by(2) {
+        for y in &mut states {
+            *y =
+                step(&rate, row, h, y).ok_or("the variational equations have no value at a row")?;
+        }
+        let volume = volume(&states, n);
+        if volume < found.least.0 {
+            found.least = (volume, samples.times[row + 2]);
+        }
+        found.at_end = volume;
+    }
+    Ok(found)
+}
+
+/// The volume of the first n components of vectors over the product of their lengths.
+fn volume(states: &[Vec<f64>], n: usize) -> f64 {
+    let rows: Vec<f64> = states.iter().flat_map(|y| y[..n].to_vec()).collect();
+    let k = states.len();
+    let gram = gram(&rows, k, n);
+    let lengths: f64 = (0..k).map(|i| gram[i * k + i]).product();
+    match lengths == 0.0 {
+        true => 0.0,
+        false => (determinant(k, &gram) / lengths).max(0.0).sqrt(),
+    }
+}
+
+/// Whether a volume of [`Reach`] is that of dependent directions.
+pub(super) fn is_flat(volume: f64) -> bool {
+    volume < FLAT
+}
+
+/// The conjugate times of the computed motion.
+pub(super) fn conjugate(cx: &Context<'_>) -> Result<Conjugate, String> {
+    cx.shared(|cx| FoundConjugate(compute(cx))).0.clone()
+}
+
+/// κ along every motion as functions of the state.
+fn multipliers(cx: &Context<'_>) -> Result<Vec<Expr>, String> {
+    if cx.selection.rows.is_empty() {
+        return Ok(Vec::new());
+    }
+    let closure = Closure::of(cx);
+    let Ok(closure) = closure.as_ref() else {
+        return Err("κ is not known".into());
+    };
+    let kappa: Option<Vec<Expr>> = closure.kappa.iter().copied().collect();
+    kappa.ok_or_else(|| "κ is not unique; an index belongs to a κ, not to the curve".into())
+}
+
+/// F_vv, F_vq, F_qq of `F = L + Σ κ f` with κ frozen, and f_v, f_q; κ put in last.
+fn second_derivatives(cx: &Context<'_>) -> Result<[Vec<Expr>; 5], String> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let basis = basis(cx);
+    let symbols = kappa_symbols(&basis);
+    let mut parts = vec![system.lagrangian];
+    let constraints = basis.constraints();
+    for (&kappa, &f) in symbols.iter().zip(&constraints) {
+        parts.push(g.mul(&[kappa, f]));
+    }
+    let augmented = g.add(&parts);
+    let (q, v) = (system.coordinate_symbols(), system.velocity_symbols());
+    let (by_q, by_v) = (g.gradient(augmented, &q), g.gradient(augmented, &v));
+    let values: Vec<(Expr, Expr)> = symbols.into_iter().zip(multipliers(cx)?).collect();
+    let along = |rows: Vec<Vec<Expr>>| g.substitute_all(&rows.concat(), &values);
+    Ok([
+        along(g.jacobian(&by_v, &v)),
+        along(g.jacobian(&by_v, &q)),
+        along(g.jacobian(&by_q, &q)),
+        basis.jacobian().concat(),
+        g.jacobian(&constraints, &q).concat(),
+    ])
+}
+
+/// The linearized extremum in (η, ζ): `F_vv η' + fᵥᵀ δκ = ζ − F_vq η`, `fᵥ η' = −f_q η`, `ζ' = F_qv η' + F_qq η + f_qᵀ δκ`. η starts
+/// at zero with every ζ; a conjugate time is one at which the n values of η are dependent.
+fn compute(cx: &Context<'_>) -> Result<Conjugate, String> {
+    let n = cx.system.n();
+    let parts = second_derivatives(cx)?;
+    small(cx, &parts.concat())?;
+    let groups: Vec<&[Expr]> = parts.iter().map(Vec::as_slice).collect();
+    let samples = Samples::new(cx, &groups)?;
+    let r = cx.selection.rows.len();
+    let rate = |row: usize, y: &[f64]| linearized(&samples, (n, r), row, y);
+    let mut states: Vec<Vec<f64>> = (0..n)
+        .map(|j| {
+            (0..2 * n)
+                .map(|i| f64::from(u8::from(i == n + j)))
+                .collect()
+        })
+        .collect();
+    let count = samples.intervals(2);
+    if count < LEAST {
+        return Err("there are too few output times".into());
+    }
+    let (t0, t1) = (samples.times[0], samples.times[count]);
+    let h = 2.0 * (t1 - t0) / count as f64;
+    let mut found = Conjugate {
+        legendre: Ok(()),
+        times: Vec::new(),
+        interval: (t0, t1),
+    };
+    let mut before: Option<(f64, f64)> = None;
+    let mut largest = 0.0_f64;
+    for row in (0..count).step_by(2) {
+        if found.legendre.is_ok() && !is_positive(&samples, (n, r), row) {
+            found.legendre = Err(samples.times[row]);
+        }
+        for y in &mut states {
+            *y = step(&rate, row, h, y).ok_or("the linearized extremum is singular at a row")?;
+        }
+        let t = samples.times[row + 2];
+        let rows: Vec<f64> = states.iter().flat_map(|y| y[..n].to_vec()).collect();
+        let (value, volume) = (determinant(n, &rows), volume(&states, n));
+        largest = largest.max(volume);
+        if volume < ROUNDING {
+            // Near the start all is small, and its sign is rounding.
+            before = None;
+            continue;
+        }
+        if let Some((t_before, known)) = before {
+            if known * value < 0.0 {
+                found
+                    .times
+                    .push(t_before + (t - t_before) * known / (known - value));
+            }
+        }
+        before = Some((t, value));
+    }
+    match is_flat(largest) {
+        true => Err("the extremal is abnormal: some variations of κ move no coordinate".into()),
+        false => Ok(found),
+    }
+}
+
+fn linearized(
+    samples: &Samples,
+    (n, r): (usize, usize),
+    row: usize,
+    y: &[f64],
+) -> Option<Vec<f64>> {
+    use super::algebra::{times, transposed_times};
+    let (eta, zeta) = y.split_at(n);
+    let of = |group: usize| samples.at(group, row);
+    let size = n + r;
+    let mut matrix = vec![0.0; size * size];
+    for i in 0..n {
+        for j in 0..n {
+            matrix[i * size + j] = of(0)[i * n + j];
+        }
+        for l in 0..r {
+            matrix[i * size + n + l] = of(3)[l * n + i];
+            matrix[(n + l) * size + i] = of(3)[l * n + i];
+        }
+    }
+    let mixed = times(of(1), n, eta);
+    let right = zeta.iter().zip(mixed).map(|(a, b)| a - b);
+    let right = right.chain(times(of(4), n, eta).into_iter().map(|x| -x));
+    let solution = solved(size, &matrix, &right.collect::<Vec<f64>>())?;
+    let (rates, kappa) = solution.split_at(n);
+    let moved = transposed_times(of(1), n, rates)
+        .into_iter()
+        .zip(times(of(2), n, eta))
+        .zip(transposed_times(of(4), n, kappa))
+        .map(|((a, b), c)| a + b + c);
+    Some(rates.iter().copied().chain(moved).collect())
+}
+
+/// Whether F_vv is positive on the null space of f_v at a row.
+fn is_positive(samples: &Samples, (n, r): (usize, usize), row: usize) -> bool {
+    let directions = null_space(samples.at(3, row), r, n, 1e-12);
+    let products: Vec<Vec<f64>> = directions
+        .iter()
+        .map(|b| super::algebra::times(samples.at(0, row), n, b))
+        .collect();
+    let k = directions.len();
+    let form: Vec<f64> = directions
+        .iter()
+        .flat_map(|a| {
+            products
+                .iter()
+                .map(move |b| a.iter().zip(b).map(|(x, y)| x * y).sum())
+        })
+        .collect();
+    (1..=k).all(|size| {
+        let minor: Vec<f64> = (0..size)
+            .flat_map(|i| form[i * k..i * k + size].to_vec())
+            .collect();
+        determinant(size, &minor) > 0.0
+    })
+}
