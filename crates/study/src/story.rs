@@ -89,7 +89,12 @@ pub fn story(study: &Study, style: Style) -> String {
         }
         let _ = writeln!(text, "\n{}", bold(style, chapter.title));
         paragraph(&mut text, chapter.opening, 0);
+        let mut title = "";
         for decided in told {
+            if decided.title != title {
+                title = decided.title;
+                let _ = writeln!(text, "\n  {title}");
+            }
             verdict(&mut text, study, decided, style);
         }
     }
@@ -144,20 +149,32 @@ fn verdict(text: &mut String, study: &Study, decided: &Decided, style: Style) {
     let word = decided.finding.verdict.word();
     let _ = writeln!(
         text,
-        "\n  {}\n  {} {}",
-        decided.title,
+        "  {} {}",
         coloured(style, word).trim_end(),
         decided.full_id()
     );
     for formula in &decided.finding.formulas {
         let _ = writeln!(text, "    {}", line(study, formula));
     }
-    let mut detail = decided.finding.verdict.detail().replace('\n', " ");
-    if let Some(first) = detail.chars().next() {
-        let rest = detail.split_off(first.len_utf8());
-        detail = format!("{}{rest}", first.to_uppercase());
+    let detail = decided.finding.verdict.detail().replace('\n', " ");
+    let told: Vec<&str> = detail
+        .split("; ")
+        .filter(|part| !is_technique(part))
+        .collect();
+    if !told.is_empty() {
+        paragraph(text, &format!("{}.", told.join("; ")), 4);
     }
-    paragraph(text, &format!("{detail}."), 4);
+}
+
+/// How a zero test was made, which the record and the report say; the verdict's word is enough in a story.
+fn is_technique(part: &str) -> bool {
+    const BEGINNINGS: [&str; 4] = [
+        "the difference cancels",
+        "the normal form over",
+        "zero at ",
+        "vanishes at ",
+    ];
+    BEGINNINGS.iter().any(|begin| part.starts_with(begin))
 }
 
 /// "caption: left = right".

@@ -17,12 +17,13 @@ use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::claims::{full_id, Registry};
 use chetaev_mechanics::formulations::{Maggi, Routh};
 use chetaev_mechanics::{
-    formulation, Context, Finding, Formulation, Group, Prepared, Prover, System, SystemError,
-    FORMULATIONS,
+    formulation, Claim, Context, Finding, Formulation, Group, Prepared, Prover, System,
+    SystemError, FORMULATIONS,
 };
 use chetaev_model::model::Model;
 use chetaev_model::Place;
 use chetaev_motion::initial::jets::JetError;
+use chetaev_motion::run::equal_times;
 use chetaev_motion::{
     Binding, ConsistentState, InitialError, NumericError, Run, RunError, RunSettings, Subject,
     Watcher,
@@ -506,7 +507,13 @@ fn compute(
         None
     };
     let orders = crate::method_order::observed_order(&subject, &settings, &run, hooks);
-    let evidence = MotionEvidence::new(model, &subject, run, comparison, finer, orders, &settings)?;
+    let mut evidence =
+        MotionEvidence::new(model, &subject, run, comparison, finer, orders, &settings)?;
+    let is_witness = |c: &&dyn Claim| c.id().starts_with("witness");
+    let mut witnesses = known.claims().iter().filter(|c| is_witness(c));
+    if prepared.terms.order == 1 && witnesses.any(|c| options.claims.wants_claim(*c)) {
+        evidence.dense = dense(&subject, formulation, &evidence.run, &settings, hooks);
+    }
     let beside = options
         .extremum
         .as_ref()
@@ -520,6 +527,34 @@ fn compute(
         witness: Witness::default(),
         settings,
     })
+}
+
+/// Rows of the run for quadratures, and how many of them lie within a step of the method on average.
+const DENSE_ROWS: u32 = 768;
+const ROWS_OF_STEP: f64 = 4.0;
+
+/// The beginning of a run again, at rows closer than its steps.
+fn dense(
+    subject: &Subject<'_>,
+    formulation: &'static dyn Formulation,
+    run: &Run,
+    settings: &RunSettings,
+    hooks: &mut Hooks<'_>,
+) -> Option<Run> {
+    let start = subject.start.t;
+    let length = run.t - start;
+    let steps = (run.statistics.steps as f64).max(1.0);
+    let share = f64::from(DENSE_ROWS) / (ROWS_OF_STEP * steps);
+    // A run that ended early ended where its equations are singular.
+    let most = if run.ending.finished { 1.0 } else { 0.9 };
+    let t_end = start + length * share.min(most);
+    let settings = RunSettings {
+        t_end,
+        times: equal_times(start, t_end, DENSE_ROWS),
+        ..settings.clone()
+    };
+    let what = "integrating for quadratures";
+    integrate(subject, formulation, &settings, what, hooks).ok()
 }
 
 /// The first integrals to keep, where that is asked for: those that are found.

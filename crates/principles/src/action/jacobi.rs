@@ -144,18 +144,15 @@ fn degree(cx: &Context<'_>, row: usize) -> Option<i64> {
 /// Degrees that are tried.
 const DEGREES: [i64; 6] = [1, 2, 3, 4, 0, -1];
 
-/// With τ' = σ any function of the time and f of degree d, `σ^d E^τ[f](q, dq/dτ)·B = E[f]·B`, where
-/// `E^τ = ∂/∂q − d/dτ ∂/∂q'`: conditions on κ in τ are those in t.
+/// With `dτ/dt = σ(t)` any positive function and f of degree d, `σ^d E^τ[f](q, dq/dτ)·B = E[f]·B`, where
+/// `E^τ = ∂/∂q − d/dτ ∂/∂q'`: conditions on κ in τ are those in t. By Euler's theorem ∂f/∂q is of degree d and ∂f/∂v of degree
+/// d − 1, so that at `dq/dτ = v/σ` they are `σ^(−d) ∂f/∂q` and `σ^(1−d) ∂f/∂v`.
 fn same_conditions(cx: &Context<'_>) -> Result<Verdict, DeriveError> {
     let (system, g) = (cx.system, &cx.system.graph);
     let chart = basis(cx).independent_velocities()?;
     let name = unused_name(system, "sigma");
     let sigma = g.symbol(&name, 0);
-    let along: Vec<(Expr, Expr)> = system
-        .coordinates
-        .iter()
-        .map(|c| (c.v, g.div(c.v, sigma)))
-        .collect();
+    let moving = std::slice::from_ref(&name);
     let coordinates = system.coordinate_symbols();
     let mut residuals = Vec::new();
     for &row in &cx.selection.rows {
@@ -164,17 +161,15 @@ fn same_conditions(cx: &Context<'_>) -> Result<Verdict, DeriveError> {
             return Ok(Verdict::undecided(tried));
         };
         let slopes = g.gradient(cx.terms.constraints[row], &coordinates);
-        let jacobian = &cx.terms.jacobian[row];
-        let in_parameter = |e: Expr| g.substitute(e, &along);
+        let scaled = |power: i64, e: Expr| g.mul(&[g.powi(sigma, power), e]);
         let difference: Vec<Expr> = slopes
             .iter()
-            .zip(jacobian)
+            .zip(&cx.terms.jacobian[row])
             .map(|(&slope, &momentum)| {
-                let moved = system
-                    .total_derivative_with(in_parameter(momentum), std::slice::from_ref(&name));
-                let in_tau = g.sub(in_parameter(slope), g.div(moved, sigma));
+                let moved = system.total_derivative_with(scaled(1 - degree, momentum), moving);
+                let in_parameter = g.sub(scaled(-degree, slope), g.div(moved, sigma));
                 let in_time = g.sub(slope, system.total_derivative(momentum));
-                g.sub(g.mul(&[g.powi(sigma, degree), in_tau]), in_time)
+                g.sub(scaled(degree, in_parameter), in_time)
             })
             .collect();
         residuals.extend(contracted(cx, &chart, &difference));

@@ -177,15 +177,24 @@ fn stated(cx: &Context<'_>) -> Result<Finding, DeriveError> {
         return Ok(Verdict::undecided("the model states no complete integral").into());
     };
     let Some(extremum) = Extremum::new(cx) else {
-        return Ok(no_closed_form().into());
+        return Ok(no_closed_form(cx).into());
     };
     checked(cx, &extremum, integral, "the S stated is")
 }
 
 /// What keeps H₁ from a closed form.
-pub(super) fn no_closed_form() -> Verdict {
-    Verdict::undecided(
-        "H₁ is given in closed form where L is quadratic in the velocities and the constraints are affine in them; here (v, κ) are implicit functions of (q, π, t)",
+pub(super) fn no_closed_form(cx: &Context<'_>) -> Verdict {
+    let moves = cx.system.graph.any_contains_any(
+        &cx.terms.mass_matrix.concat(),
+        &cx.system.velocity_symbols(),
+    );
+    let hypothesis = match moves {
+        true => "model.lagrangian-quadratic",
+        false => "model.constraints-linear",
+    };
+    Verdict::not_applicable(
+        hypothesis,
+        "H₁ is taken in closed form, where L is quadratic in the velocities and the constraints are affine in them; here (v, κ) are implicit functions of (q, π, t)",
     )
 }
 

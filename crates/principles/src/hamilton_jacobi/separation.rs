@@ -40,7 +40,7 @@ pub fn levi_civita(cx: &Context<'_>, extremum: &Extremum) -> Vec<Expr> {
 pub(super) fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
     let g = &cx.system.graph;
     let Some(extremum) = Extremum::new(cx) else {
-        return Ok(no_closed_form().into());
+        return Ok(no_closed_form(cx).into());
     };
     if g.reachable(&[extremum.hamiltonian]).len() > LARGEST {
         return Ok(Verdict::undecided("H₁ is too large for the conditions of Levi-Civita").into());

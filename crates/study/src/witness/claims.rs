@@ -17,6 +17,8 @@ pub static CLAIMS: &[&dyn Claim] = &[
 
 /// A first variation below this part of its terms is rounding and the error of the motion.
 const ROUNDING: f64 = 1e-8;
+/// A change of the action beyond this part of its terms, and beyond the error of the steps, is one.
+const SMALL: f64 = 1e-6;
 /// Beyond this part, and beyond what the quadrature leaves open, it is not zero.
 const CLEARLY: f64 = 1e-3;
 
@@ -26,8 +28,10 @@ fn subjects_if_motion(cx: &Context<'_>, all: &[&str]) -> Vec<Option<String>> {
     subjects.map(|s| Some((*s).to_string())).collect()
 }
 
-fn once_if_motion(cx: &Context<'_>) -> Vec<Option<String>> {
-    match evidence(cx).is_some() && cx.terms.order == 1 {
+/// Once for a motion of a system with so many coordinates at most.
+fn once_up_to(cx: &Context<'_>, coordinates: usize) -> Vec<Option<String>> {
+    let is_small = cx.system.n() <= coordinates;
+    match evidence(cx).is_some() && cx.terms.order == 1 && is_small {
         true => vec![None],
         false => Vec::new(),
     }
@@ -186,7 +190,7 @@ impl Claim for WitnessOfAction {
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        once_if_motion(cx)
+        once_up_to(cx, neighbours::COORDINATES)
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
@@ -216,7 +220,7 @@ fn of_action(cx: &Context<'_>, found: &neighbours::Neighbours) -> Verdict {
             "{sentence}; the output is too coarse for a quadrature"
         ));
     }
-    let differs = !vanishes && found.change > CLEARLY.max(10.0 * found.error);
+    let differs = !vanishes && found.change > SMALL + 30.0 * found.error;
     let (said, residual) = match (&verdict, vanishes) {
         (Verdict::Proved(_), true) => ("the action is stationary", found.change),
         (Verdict::Proved(_), false) if differs => {
@@ -266,7 +270,7 @@ impl Claim for WitnessOfEnds {
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        once_if_motion(cx)
+        once_up_to(cx, linear::COORDINATES)
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
@@ -324,7 +328,7 @@ impl Claim for WitnessOfIndex {
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        once_if_motion(cx)
+        once_up_to(cx, linear::COORDINATES)
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
@@ -335,8 +339,11 @@ impl Claim for WitnessOfIndex {
             cx.finding("hamilton.stationary").verdict,
             Verdict::Proved(_)
         ) {
-            let tried = "κ is followed where every motion makes the action stationary, and here this depends on the motion";
-            return Verdict::undecided(tried).into();
+            let detail = "whether the action is stationary depends on the motion, and κ is followed where it is for every motion";
+            return Verdict::not_applicable("hamilton.stationary", detail).into();
+        }
+        if let Err(why) = linear::multipliers(cx) {
+            return Verdict::not_applicable("hamilton.stationary", why).into();
         }
         match linear::conjugate(cx) {
             Ok(found) => of_index(&found).into(),

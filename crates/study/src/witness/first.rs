@@ -13,6 +13,7 @@ use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::formulations::legendre::Legendre;
 use chetaev_mechanics::sample::Generator;
 use chetaev_mechanics::Context;
+use chetaev_motion::follow::magnitude;
 use chetaev_principles::hamilton::{suslov, voronets};
 use chetaev_principles::variations::Displacements;
 use chetaev_symbolic::{Expr, Verdict};
@@ -286,17 +287,25 @@ fn in_chart(cx: &Context<'_>, form: Form) -> Result<FirstVariation, String> {
         .flat_map(|row| d.chart.dependent.iter().map(|&i| row[i]))
         .collect();
     let jacobian = jacobian.concat();
-    let samples = Samples::new(cx, &[&value, &integrand.rate, &minor, &jacobian])?;
+    // Coefficients may vanish on a motion by cancellation: their sizes are those of their terms.
+    let coefficients = value.iter().chain(&integrand.rate);
+    let sizes: Vec<Expr> = coefficients.map(|&e| magnitude(g, e)).collect();
+    let groups: [&[Expr]; 5] = [&value, &integrand.rate, &minor, &jacobian, &sizes];
+    let samples = Samples::new(cx, &groups)?;
     let independent = |row: usize| {
         let whole = determinant(r, &gram(samples.at(3, row), r, n)).sqrt();
         determinant(r, samples.at(2, row)).abs() >= INDEPENDENT * whole
     };
     let rows = longest(samples.times.len(), independent);
     quadratures(form, &samples, rows, d.chart.k(), |row, waves| {
-        let value = samples.at(0, row).iter().zip(waves).map(|(a, w)| a * w.0);
-        let rate = samples.at(1, row).iter().zip(waves).map(|(a, w)| a * w.1);
-        let all: Vec<f64> = value.chain(rate).collect();
-        Some((all.iter().sum(), all.iter().map(|x| x.abs()).sum()))
+        let of = |group: usize| samples.at(group, row);
+        let waves = || waves.iter().map(|w| w.0).chain(waves.iter().map(|w| w.1));
+        let all = of(0).iter().chain(of(1)).zip(waves());
+        let sizes = of(4).iter().zip(waves());
+        Some((
+            all.map(|(a, w)| a * w).sum(),
+            sizes.map(|(a, w)| (a * w).abs()).sum(),
+        ))
     })
 }
 

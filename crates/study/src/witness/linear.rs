@@ -10,7 +10,7 @@ use chetaev_principles::stationarity::Closure;
 use chetaev_symbolic::{Expr, Symbol};
 
 /// More coordinates are too many.
-const COORDINATES: usize = 8;
+pub(super) const COORDINATES: usize = 8;
 /// Larger expressions, in nodes, are not compiled.
 const LARGEST: usize = 30_000;
 /// A volume below this part is rounding.
@@ -46,10 +46,6 @@ pub struct Conjugate {
 pub(super) struct FoundConjugate(pub(super) Result<Conjugate, String>);
 
 fn small(cx: &Context<'_>, es: &[Expr]) -> Result<(), String> {
-    let n = cx.system.n();
-    if n > COORDINATES {
-        return Err(format!("{n} coordinates are more than {COORDINATES}"));
-    }
     match cx.system.graph.reachable(es).len() > LARGEST {
         true => Err("the variational equations are too large".into()),
         false => Ok(()),
@@ -153,7 +149,7 @@ pub(super) fn conjugate(cx: &Context<'_>) -> Result<Conjugate, String> {
 }
 
 /// κ along every motion as functions of the state.
-fn multipliers(cx: &Context<'_>) -> Result<Vec<Expr>, String> {
+pub(super) fn multipliers(cx: &Context<'_>) -> Result<Vec<Expr>, String> {
     if cx.selection.rows.is_empty() {
         return Ok(Vec::new());
     }

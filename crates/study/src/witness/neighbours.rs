@@ -34,7 +34,7 @@ const BEYOND: usize = 3;
 /// End values below this part of the largest are dependent.
 const DEPENDENT: f64 = 1e-7;
 /// More coordinates are too many for these integrations.
-const COORDINATES: usize = 12;
+pub(super) const COORDINATES: usize = 12;
 
 /// The neighbours of the computed motion.
 pub(super) fn of(cx: &Context<'_>) -> Result<Neighbours, String> {
@@ -50,9 +50,6 @@ struct Along {
 
 fn compute(cx: &Context<'_>) -> Result<Neighbours, String> {
     let (system, g, n) = (cx.system, &cx.system.graph, cx.system.n());
-    if n > COORDINATES {
-        return Err(format!("{n} coordinates are more than {COORDINATES}"));
-    }
     let slopes = g.gradient(system.lagrangian, &system.coordinate_symbols());
     let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
     let basis = basis(cx);

@@ -20,7 +20,7 @@ impl Samples {
     /// Values of groups of expressions in t, q, q', q'' at the rows of the computed motion.
     pub(super) fn new(cx: &Context<'_>, groups: &[&[Expr]]) -> Result<Samples, String> {
         let evidence = evidence(cx).ok_or("no motion was computed")?;
-        let run = &evidence.run;
+        let run = evidence.dense.as_ref().unwrap_or(&evidence.run);
         let count = run.asked();
         let times = run.times[..count].to_vec();
         if count <= LEAST || !equally_spaced(&times) {
