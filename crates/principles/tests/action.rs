@@ -324,6 +324,30 @@ fn the_square_of_k_is_none() -> Result<(), SolveError> {
     Ok(())
 }
 
+/// T1 §6.3, S4: Λ = (x'² + y'² + z'²)/(2 t'), F = (z' − y x')/t', and y = (p, −H).
+#[test]
+fn extended_functions_of_the_particle() {
+    let system = system(&worked::PARTICLE);
+    let g = &system.graph;
+    let equations = with_context(&system, |cx| derive(cx, "parametric").unwrap());
+    let object = |name: &str| {
+        let found = equations.objects.iter().find(|o| o.name == name);
+        found.unwrap().value
+    };
+    let none = Assumptions::new();
+    let same = |e: Expr, text: &str| {
+        let difference = g.sub(e, expr(g, text));
+        let word = decide_zero(g, &ZeroTest::everywhere(&[difference], &none)).word();
+        assert_eq!(word, "proved", "{text}");
+    };
+    let lagrangian = object("Lambda");
+    same(lagrangian, "(w_x^2 + w_y^2 + w_z^2)/(2 w_t)");
+    same(object("F_c"), "(w_z - y w_x)/w_t");
+    let momenta = ["w_x", "w_t"].map(|w| g.diff(lagrangian, g.intern_symbol(w, 0)));
+    same(momenta[0], "w_x/w_t");
+    same(momenta[1], "-((w_x/w_t)^2 + (w_y/w_t)^2 + (w_z/w_t)^2)/2");
+}
+
 /// μ is t'² λ, not λ, unless τ is the time.
 #[test]
 fn multipliers_of_the_parameter() {

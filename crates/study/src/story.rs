@@ -153,6 +153,13 @@ fn verdict(text: &mut String, study: &Study, decided: &Decided, style: Style) {
         coloured(style, word).trim_end(),
         decided.full_id()
     );
+    if !decided.is_as_expected() {
+        let _ = writeln!(
+            text,
+            "    the model expects: {}",
+            decided.expected.join(" or ")
+        );
+    }
     for formula in &decided.finding.formulas {
         let _ = writeln!(text, "    {}", line(study, formula));
     }

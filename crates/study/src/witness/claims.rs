@@ -105,12 +105,7 @@ impl Claim for WitnessOfForms {
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        let in_chart = [Form::Voronets, Form::Suslov];
-        let has_constraints = !cx.selection.rows.is_empty();
-        let forms = Form::ALL
-            .into_iter()
-            .filter(|form| has_constraints || !in_chart.contains(form));
-        let words: Vec<&str> = forms.map(Form::word).collect();
+        let words: Vec<&str> = Form::of(cx).into_iter().map(Form::word).collect();
         subjects_if_motion(cx, &words)
     }
 

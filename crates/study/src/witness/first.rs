@@ -41,6 +41,15 @@ impl Form {
         Form::HelmholtzPoincare,
     ];
 
+    /// Those that differ for this system: without constraints those of Voronets and Suslov are Hölder's.
+    pub fn of(cx: &Context<'_>) -> Vec<Form> {
+        let has_constraints = !cx.selection.rows.is_empty();
+        let in_chart = [Form::Voronets, Form::Suslov];
+        let all = Form::ALL.into_iter();
+        all.filter(|form| has_constraints || !in_chart.contains(form))
+            .collect()
+    }
+
     /// The subject of its claim.
     pub fn word(self) -> &'static str {
         match self {
@@ -93,7 +102,10 @@ pub(super) struct Found(Vec<(Form, Result<FirstVariation, String>)>);
 
 /// The first variation of a form, or why it was not computed.
 pub(super) fn of(cx: &Context<'_>, form: Form) -> Result<FirstVariation, String> {
-    let found = cx.shared(|cx| Found(Form::ALL.map(|form| (form, compute(cx, form))).into()));
+    let found = cx.shared(|cx| {
+        let forms = Form::of(cx).into_iter();
+        Found(forms.map(|form| (form, compute(cx, form))).collect())
+    });
     let own = found.0.iter().find(|(own, _)| *own == form);
     own.map_or_else(|| Err("no such form".into()), |(_, found)| found.clone())
 }

@@ -13,8 +13,10 @@ use chetaev_symbolic::{Expr, Symbol};
 pub(super) const COORDINATES: usize = 8;
 /// Larger expressions, in nodes, are not compiled.
 const LARGEST: usize = 30_000;
-/// A volume below this part is rounding.
-const ROUNDING: f64 = 1e-11;
+/// Steps at the start that are passed over.
+const EARLY: usize = 16;
+/// A least value below this part of those beside it is zero.
+const TOUCHES: f64 = 0.02;
 /// A volume below this part of that of the lengths counts as zero.
 const FLAT: f64 = 1e-6;
 
@@ -213,7 +215,7 @@ fn compute(cx: &Context<'_>) -> Result<Conjugate, String> {
         times: Vec::new(),
         interval: (t0, t1),
     };
-    let mut before: Option<(f64, f64)> = None;
+    let mut determinants: Vec<(f64, f64)> = Vec::new();
     let mut largest = 0.0_f64;
     for row in (0..count).step_by(2) {
         if found.legendre.is_ok() && !is_positive(&samples, (n, r), row) {
@@ -222,28 +224,55 @@ fn compute(cx: &Context<'_>) -> Result<Conjugate, String> {
         for y in &mut states {
             *y = step(&rate, row, h, y).ok_or("the linearized extremum is singular at a row")?;
         }
-        let t = samples.times[row + 2];
         let rows: Vec<f64> = states.iter().flat_map(|y| y[..n].to_vec()).collect();
-        let (value, volume) = (determinant(n, &rows), volume(&states, n));
-        largest = largest.max(volume);
-        if volume < ROUNDING {
-            // Near the start all is small, and its sign is rounding.
-            before = None;
-            continue;
-        }
-        if let Some((t_before, known)) = before {
-            if known * value < 0.0 {
-                found
-                    .times
-                    .push(t_before + (t - t_before) * known / (known - value));
-            }
-        }
-        before = Some((t, value));
+        determinants.push((samples.times[row + 2], determinant(n, &rows)));
+        largest = largest.max(volume(&states, n));
     }
+    // Near the start all η are small, and the sign of their determinant is rounding.
+    found.times = zeros(&determinants[EARLY.min(determinants.len())..], n);
     match is_flat(largest) {
         true => Err("the extremal is abnormal: some variations of κ move no coordinate".into()),
         false => Ok(found),
     }
+}
+
+/// Zeros of a function given at equal steps, each as often as its multiplicity, which is at most n: where the sign changes, and
+/// where it touches zero.
+fn zeros(values: &[(f64, f64)], n: usize) -> Vec<f64> {
+    let mut found: Vec<f64> = Vec::new();
+    for j in 1..values.len() {
+        let ((t0, a), (t1, b)) = (values[j - 1], values[j]);
+        let crossing = (a * b < 0.0).then(|| t0 + (t1 - t0) * a / (a - b));
+        let touching = values.get(j + 1).and_then(|&(_, c)| {
+            let is_lowest = a * b > 0.0 && b * c > 0.0 && b.abs() <= a.abs() && b.abs() < c.abs();
+            let (slope, curvature) = ((c - a) / 2.0, a - 2.0 * b + c);
+            let least = b - slope * slope / (2.0 * curvature);
+            let touches = is_lowest && least.abs() < TOUCHES * a.abs().max(c.abs());
+            touches.then(|| t1 - slope / curvature * (t1 - t0))
+        });
+        let Some(t) = crossing.or(touching) else {
+            continue;
+        };
+        // |value| grows like the power of the distance that the multiplicity says.
+        let after = |k: usize| {
+            values
+                .get(j + k)
+                .or(values.last())
+                .copied()
+                .unwrap_or((t, 0.0))
+        };
+        let ((x, near), (y, far)) = (after(4), after(8));
+        let power = (far / near).abs().ln() / ((y - t) / (x - t)).abs().ln();
+        let least = if crossing.is_some() { 1.0 } else { 2.0 };
+        let power = if power.is_finite() {
+            power.round()
+        } else {
+            least
+        };
+        let times = power.clamp(least, (n as f64).max(least)) as usize;
+        found.extend(std::iter::repeat_n(t, times));
+    }
+    found
 }
 
 fn linearized(
@@ -301,4 +330,32 @@ fn is_positive(samples: &Samples, (n, r): (usize, usize), row: usize) -> bool {
             .collect();
         determinant(size, &minor) > 0.0
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::zeros;
+
+    #[test]
+    fn zeros_with_their_multiplicity() {
+        let sampled = |f: fn(f64) -> f64| -> Vec<(f64, f64)> {
+            (0..400)
+                .map(|j| f64::from(j) * 0.01 + 0.2)
+                .map(|t| (t, f(t)))
+                .collect()
+        };
+        let near = |found: Vec<f64>, expected: &[f64]| {
+            assert_eq!(found.len(), expected.len(), "{found:?}");
+            let pairs = found.iter().zip(expected);
+            assert!(
+                pairs.clone().all(|(a, b)| (a - b).abs() < 1e-3),
+                "{found:?}"
+            );
+        };
+        let pi = std::f64::consts::PI;
+        near(zeros(&sampled(|t| t.sin()), 3), &[pi]);
+        near(zeros(&sampled(|t| t.sin().powi(2)), 3), &[pi, pi]);
+        near(zeros(&sampled(|t| t.sin().powi(3)), 3), &[pi, pi, pi]);
+        near(zeros(&sampled(|t| t.sin().powi(2) + 0.1), 3), &[]);
+    }
 }
