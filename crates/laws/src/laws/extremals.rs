@@ -90,8 +90,8 @@ impl<'a> Curves<'a> {
     fn new(subject: &'a Subject<'a>) -> Option<Curves<'a>> {
         let cx = subject.cx;
         let regular = ["model.forces-absent", "model.constrained-extremum-regular"];
-        let holds = |id: &&str| matches!(cx.finding(id).verdict, Verdict::Proved(_));
-        if !regular.iter().all(|id| holds(&id)) {
+        let holds = |id: &str| matches!(cx.finding(id).verdict, Verdict::Proved(_));
+        if !regular.iter().all(|id| holds(id)) {
             return None;
         }
         let extremum = derive(cx, "vakonomic").ok()?;

@@ -54,13 +54,11 @@ fn small(cx: &Context<'_>, es: &[Expr]) -> Result<(), String> {
     }
 }
 
+/// y' at a row.
+type Rate<'a> = dyn Fn(usize, &[f64]) -> Option<Vec<f64>> + 'a;
+
 /// One step of the rule of Runge and Kutta for `y' = rate(row, y)` over two rows.
-fn step(
-    rate: &dyn Fn(usize, &[f64]) -> Option<Vec<f64>>,
-    row: usize,
-    h: f64,
-    y: &[f64],
-) -> Option<Vec<f64>> {
+fn step(rate: &Rate<'_>, row: usize, h: f64, y: &[f64]) -> Option<Vec<f64>> {
     let moved =
         |k: &[f64], by: f64| -> Vec<f64> { y.iter().zip(k).map(|(x, k)| x + by * k).collect() };
     let k1 = rate(row, y)?;
