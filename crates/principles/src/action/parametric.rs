@@ -51,44 +51,63 @@ impl Claim for Parametric {
     }
 }
 
-/// "1 thing" after another: what was proved, and what the system has no place for.
+/// One thing after another: what is to vanish, what other claims have proved, and the words for both.
 struct Story {
-    verdict: Verdict,
+    residuals: Vec<Expr>,
+    /// Verdicts of other claims that are no proofs.
+    open: Vec<Verdict>,
     said: Vec<String>,
     formulas: Vec<Option<Formula>>,
 }
 
 impl Story {
-    fn add(&mut self, verdict: Verdict, said: impl Into<String>) {
-        let before = std::mem::replace(&mut self.verdict, Verdict::undecided(""));
-        self.verdict = before.and(verdict);
+    /// A function that vanishes for all curves, and what it says.
+    fn vanishes(&mut self, residual: Expr, said: impl Into<String>) {
+        self.residuals.push(residual);
         self.said.push(said.into());
+    }
+
+    /// What another claim says, which is cited where it is proved.
+    fn cites(&mut self, cx: &Context<'_>, id: &str, said: &str) {
+        let verdict = cx.finding(id).verdict.clone();
+        match verdict {
+            Verdict::Proved(_) => self.said.push(format!("{said} (`{id}`)")),
+            other => self.open.push(other),
+        }
     }
 }
 
 fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
     let extended = Extended::new(cx)?;
-    let known = |id: &str| cx.finding(id).verdict.clone();
     let mut story = Story {
-        verdict: known("formulation.equivalent#parametric"),
-        said: vec!["the n + 1 equations in τ give the motion".into()],
+        residuals: Vec::new(),
+        open: Vec::new(),
+        said: Vec::new(),
         formulas: vec![formula(cx, "Λ(x, x')", None, extended.lagrangian)],
     };
-    story.add(
-        known("formulation.identity#parametric"),
+    story.cites(
+        cx,
+        "formulation.equivalent#parametric",
+        "the n + 1 equations in τ give the motion",
+    );
+    story.cites(
+        cx,
+        "formulation.identity#parametric",
         "one identity holds among them",
     );
-    let on = "for all curves and all μ";
-    let free = Manifold::default();
-    let proved = |residuals: &[Expr]| cx.prover.identity(cx.system, residuals, &free, on);
-    story.add(
-        proved(&[extended.energy_equation(cx)]),
+    story.vanishes(
+        extended.energy_equation(cx),
         "that of t is the energy equation",
     );
+    let without_hamiltonian = matches!(
+        cx.finding("model.hessian-regular").verdict,
+        Verdict::Refuted(_)
+    );
+    let mut multipliers = None;
     if !cx.selection.rows.is_empty() {
-        story.add(extended.multipliers(cx)?, "μ = t'² λ");
+        multipliers = Some(extended.multipliers(cx)?);
+        story.said.push("μ = t'² λ".into());
     }
-    let without_hamiltonian = matches!(known("model.hessian-regular"), Verdict::Refuted(_));
     if without_hamiltonian {
         let text = "the momenta are tied by more than one relation, as ∂²L/∂v∂v is singular";
         story.said.push(text.into());
@@ -96,7 +115,11 @@ fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
         in_phase_space(cx, &extended, &mut story)?;
     }
     passage(cx, &extended, &mut story)?;
-    let mut verdict = story.verdict;
+    let on = "for all curves in τ and all μ";
+    let free = Manifold::default();
+    let identities = cx.prover.identity(cx.system, &story.residuals, &free, on);
+    let further = multipliers.into_iter().chain(story.open);
+    let mut verdict = further.fold(identities, Verdict::and);
     let sentence = match &verdict {
         Verdict::Proved(_) => story.said.join("; "),
         _ => "the equations with a parameter and what follows from them".into(),
@@ -225,21 +248,19 @@ fn in_phase_space(
     // Where H stays implicit in p, its velocities are those of the curve.
     pairs.extend(extended.velocities(cx));
     let eliminated = g.substitute(relation, &pairs);
-    let free = Manifold::default();
-    let on = "for all curves in τ";
-    let verdict = cx.prover.identity(system, &[eliminated], &free, on);
     let form = match legendre.is_explicit {
         true => "the elimination of x' from y = ∂Λ/∂x' gives K = p_t + H(q, p, t) = 0",
         false => "y = ∂Λ/∂x' is tied by K = p_t + H = 0, with the velocities implicit functions of (q, p, t)",
     };
-    story.add(verdict, form);
-    let known = |id: &str| cx.finding(id).verdict.clone();
-    story.add(
-        known("formulation.identity#parametric-canonical"),
+    story.vanishes(eliminated, form);
+    story.cites(
+        cx,
+        "formulation.identity#parametric-canonical",
         "K is an integral for all μ",
     );
-    story.add(
-        known("formulation.equivalent#parametric-canonical"),
+    story.cites(
+        cx,
+        "formulation.equivalent#parametric-canonical",
         "its canonical equations give the motion",
     );
     if legendre.is_explicit {
@@ -276,11 +297,8 @@ fn passage(cx: &Context<'_>, extended: &Extended, story: &mut Story) -> Result<(
     // Σ p q', which is Λ − ∂Λ/∂t' t'.
     let lagrange = dot(g, &momenta[..rates.len()], rates);
     let routhian = g.sub(extended.lagrangian, g.mul(&[momenta[rates.len()], time]));
-    let on = "for all curves in τ";
-    let free = Manifold::default();
-    let identity = |e: Expr| cx.prover.identity(system, &[e], &free, on);
-    story.add(
-        identity(g.sub(routhian, lagrange)),
+    story.vanishes(
+        g.sub(routhian, lagrange),
         "without the cyclic t, Λ − ∂Λ/∂t' t' = (Σ p v) t' is the integrand of Lagrange's principle",
     );
     let at_rest: Vec<(Expr, Expr)> = system.coordinates.iter().map(|c| (c.v, g.zero())).collect();
@@ -288,8 +306,8 @@ fn passage(cx: &Context<'_>, extended: &Extended, story: &mut Story) -> Result<(
     let twice = |e: Expr| g.sqrt(g.mul(&[g.integer(2), e]));
     let rate = g.div(twice(metric), twice(kinetic));
     let at_energy = g.substitute(lagrange, &[(time, rate)]);
-    story.add(
-        identity(g.sub(at_energy, integrand)),
+    story.vanishes(
+        g.sub(at_energy, integrand),
         "with t' by H = h it is that of Jacobi's",
     );
     let legendre = Legendre::new(system);
@@ -303,10 +321,7 @@ fn passage(cx: &Context<'_>, extended: &Extended, story: &mut Story) -> Result<(
             .collect();
         let kept = g.sub(legendre.hamiltonian, energy);
         let relation = g.div(kept, kinetic);
-        story.add(
-            identity(g.substitute(kept, &pairs)),
-            "and K may be (H − h)/(h + L₀)",
-        );
+        story.vanishes(g.substitute(kept, &pairs), "and K may be (H − h)/(h + L₀)");
         let caption = "K of the paths of energy h";
         story.formulas.push(formula(cx, caption, None, relation));
     }
