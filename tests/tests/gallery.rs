@@ -103,6 +103,26 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
         "formulation.vakonomic-coincides#inclusion",
         "grow too large",
     ),
+    (
+        "trailer/model-8.toml",
+        "hamilton-jacobi.applicable",
+        "grow too large",
+    ),
+    // The minor of the velocities chosen is small all the time.
+    (
+        "trailer/model-8.toml",
+        "witness.first-variation#voronets",
+        "the independent velocities",
+    ),
+    (
+        "trailer/model-8.toml",
+        "witness.first-variation#suslov",
+        "the independent velocities",
+    ),
+    // An index belongs to a κ, not to the curve.
+    ("appell-hamel/model.toml", "witness.index", "not unique"),
+    ("appell-hamel/to-rest.toml", "witness.index", "not unique"),
+    ("moving-knife-edge/lift.toml", "witness.index", "not unique"),
     // Logarithms and powers of the mass beside the root of the constraint have no values in prime fields.
     (
         "rocket-on-appells-constraint/model.toml",

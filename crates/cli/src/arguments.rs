@@ -25,6 +25,8 @@ pub(crate) enum Command {
     Study(Study),
     /// Derive the equations of motion and print them
     Derive(Derive),
+    /// Tell what the variational principles say of a system; compare its motion with the constrained extremum
+    Principles(Principles),
     /// Compute the motion only and write the trajectory
     Simulate(Simulate),
     /// Read a model and report everything wrong or doubtful in it
@@ -149,6 +151,34 @@ pub(crate) enum Notation {
     Json,
     Rust,
     C,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev principles gallery/particle-y-dx/model.toml
+  chetaev principles gallery/skate-incline/model.toml --compare
+  chetaev principles gallery/skate-incline/model.toml --compare --kappa kappa_blade=0.5 --t-end 5")]
+pub(crate) struct Principles {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// Compute the motion and the constrained extremum from the same state, and write both into a report
+    #[arg(long)]
+    pub(crate) compare: bool,
+    /// Initial value of a multiplier of the extremum (again for several): --kappa kappa_blade=0.5; else what the model states, what
+    /// makes every motion an extremal, or zero
+    #[arg(long, value_name = "NAME=VALUE", requires = "compare")]
+    pub(crate) kappa: Vec<String>,
+    /// Folder to write the report of --compare into
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
+    /// Seconds for all claims together
+    #[arg(long, default_value_t = 60.0)]
+    pub(crate) budget: f64,
+    #[command(flatten)]
+    pub(crate) motion: MotionArguments,
+    /// Print the record of study.json instead of the story
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Args, Debug)]

@@ -25,6 +25,7 @@ fn main() -> ExitCode {
     let status = match arguments.command {
         Command::Study(a) => commands::study::run(&a),
         Command::Derive(a) => commands::derive::run(&a),
+        Command::Principles(a) => commands::principles::run(&a),
         Command::Simulate(a) => commands::simulate::run(&a),
         Command::Check(a) => commands::check::run(&a),
         Command::Explain(a) => commands::explain::run(&a),

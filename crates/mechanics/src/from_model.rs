@@ -2,8 +2,8 @@
 
 use crate::mass::NamedMasses;
 use crate::system::{
-    Assumption, CharacteristicFormulas, FrameFields, Particle, Relation, System, SystemError,
-    SystemParts, Thrust, VariationOperator,
+    Assumption, CharacteristicFormulas, CompleteIntegral, FrameFields, Particle, Relation, System,
+    SystemError, SystemParts, Thrust, VariationOperator,
 };
 use chetaev_model::model::{MassLaw, Model, Thrust as StatedThrust};
 use chetaev_symbolic::syntax::Relation as Stated;
@@ -123,6 +123,12 @@ impl System {
                     relations: v.relations.clone(),
                 })
                 .collect(),
+            complete_integral: model.complete_integral.as_ref().map(|s| CompleteIntegral {
+                action: s.action,
+                constants: s.constants.clone(),
+                quadratures: s.quadratures.clone(),
+                motion: s.motion.clone(),
+            }),
             assumptions: model.assumptions.iter().filter_map(assumption).collect(),
         };
         System::new(Arc::clone(&model.graph), parts)

@@ -105,6 +105,19 @@ pub struct VariationOperator {
     pub relations: Vec<(usize, Expr)>,
 }
 
+/// A complete integral of the equation of Hamilton and Jacobi, `S = action + Σ ∫ g dq` (T1 §6.1).
+#[derive(Clone, Debug)]
+pub struct CompleteIntegral {
+    /// The part of S in closed form, a function of (t, q) and the constants.
+    pub action: Expr,
+    /// Its constants.
+    pub constants: Vec<Symbol>,
+    /// Pairs of a coordinate and a function g of it and the constants that is integrated over it.
+    pub quadratures: Vec<(usize, Expr)>,
+    /// What constants are on the motions of the system, put in after S was differentiated by them.
+    pub motion: Vec<(Symbol, Expr)>,
+}
+
 /// A mass with a law of its own, M' = Φ(t, q, v, M): a state beside the coordinates.
 #[derive(Clone, Debug)]
 pub struct MassVariable {
@@ -226,6 +239,8 @@ pub struct SystemParts {
     pub integrals: Vec<(String, Expr)>,
     /// Operators for the variations of velocities.
     pub variations: Vec<VariationOperator>,
+    /// A complete integral of the equation of Hamilton and Jacobi that the model states.
+    pub complete_integral: Option<CompleteIntegral>,
     /// Assumptions.
     pub assumptions: Vec<Assumption>,
 }
@@ -343,6 +358,8 @@ pub struct System {
     pub integrals: Vec<(String, Expr)>,
     /// Operators for the variations of velocities that the model states.
     pub variations: Vec<VariationOperator>,
+    /// A complete integral of the equation of Hamilton and Jacobi that the model states.
+    pub complete_integral: Option<CompleteIntegral>,
     /// Assumptions of the model.
     pub assumptions: Vec<Assumption>,
     /// Places of the coordinates by name.
@@ -442,6 +459,7 @@ impl System {
             search_functions: parts.search_functions,
             integrals: parts.integrals,
             variations: parts.variations,
+            complete_integral: parts.complete_integral,
             assumptions: parts.assumptions,
             places: places(&parts.coordinates),
             coordinates,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chetaev_symbolic::syntax::Relation;
-use chetaev_symbolic::{Expr, Graph, Rational};
+use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 
 use crate::drawing::Drawing;
 use crate::source::{Place, Sources};
@@ -81,6 +81,8 @@ pub struct Model {
     pub integrals: Vec<Definition>,
     /// Operators for the variations of velocities.
     pub variations: Vec<Variation>,
+    /// A complete integral of the equation of Hamilton and Jacobi.
+    pub complete_integral: Option<CompleteIntegral>,
     /// Where such an integral holds on a part of the states only: the name of the integral, and an equation of the part.
     pub integral_conditions: Vec<IntegralCondition>,
     /// Functions of (t, q) that may occur in first integrals and invariant measures, beside those that occur in the model.
@@ -203,6 +205,21 @@ pub struct Variation {
     pub name: String,
     /// Pairs of a coordinate and the variation of its velocity, linear in symbols `delta_x` and their derivatives.
     pub relations: Vec<(usize, Expr)>,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// A complete integral of the equation of Hamilton and Jacobi, `S = action + Σ ∫ g dq`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompleteIntegral {
+    /// The part of S in closed form, a function of (t, q) and the constants.
+    pub action: Expr,
+    /// The parameters that are its constants.
+    pub constants: Vec<Symbol>,
+    /// Pairs of a coordinate and a function g of it and the constants that is integrated over it.
+    pub quadratures: Vec<(usize, Expr)>,
+    /// What constants are on the motions of the system, put in after S was differentiated by them.
+    pub motion: Vec<(Symbol, Expr)>,
     /// Where it is stated.
     pub place: Place,
 }

@@ -1,9 +1,11 @@
 //! What the variational principles say of a system.
 
+pub mod action;
 pub mod chaplygin_multiplier;
 pub mod coincidence;
 pub mod energy;
 pub mod hamilton;
+pub mod hamilton_jacobi;
 pub mod second_kind;
 pub mod stationarity;
 pub mod universal_relation;
@@ -29,6 +31,11 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &hamilton::Kerner,
     &hamilton::Endpoints,
     &energy::EnergyIntegral,
+    &action::Identity,
+    &action::Lagrange,
+    &action::Jacobi,
+    &action::Parametric,
+    &hamilton_jacobi::Applicable,
     &chaplygin_multiplier::Multiplier,
     &second_kind::Differential,
     &second_kind::DifferentialNewton,

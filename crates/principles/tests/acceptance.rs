@@ -317,6 +317,50 @@ fn energy_laws_of_affine_and_nonlinear_constraints() {
     assert_eq!(b.on_constraints(speed(&b), "2 c^2"), "proved");
 }
 
+/// T1 §4.4, S3: `B^T F_vv B` with κ = m ρ/a + C is m (1 + a²) along the motion and −C a/ρ across it, so that the sign of C decides
+/// on Legendre's condition; T1 §4.3: the bordered determinant is −m (1 + a²)(m − κ a/ρ), zero at C = 0.
+#[test]
+fn second_variation_of_the_cone() {
+    let cone = Text {
+        coordinates: "x y z",
+        lagrangian: "m/2 (x'^2 + y'^2 + z'^2) - m g z",
+        forces: &[],
+        constraints: &[("cone", "z' - a sqrt(x'^2 + y'^2)")],
+    };
+    let b = beside(&cone, true);
+    let g = &b.system.graph;
+    let augmented = g.add(&[
+        b.system.lagrangian,
+        b.read("kappa_cone (z' - a sqrt(x'^2 + y'^2))"),
+    ]);
+    let velocities = b.system.velocity_symbols();
+    let hessian = g.jacobian(&g.gradient(augmented, &velocities), &velocities);
+    let along = ["x'/sqrt(x'^2 + y'^2)", "y'/sqrt(x'^2 + y'^2)", "a"];
+    let across = ["-y'/sqrt(x'^2 + y'^2)", "x'/sqrt(x'^2 + y'^2)", "0"];
+    let form = |u: [&str; 3], v: [&str; 3]| {
+        let mut parts = Vec::new();
+        for (i, row) in hessian.iter().enumerate() {
+            for (j, &entry) in row.iter().enumerate() {
+                parts.push(g.mul(&[b.read(u[i]), entry, b.read(v[j])]));
+            }
+        }
+        let kappa = [("kappa_cone", "m sqrt(x'^2 + y'^2)/a + C")];
+        b.put(g.add(&parts), &kappa)
+    };
+    b.equal(form(along, along), "m (1 + a^2)");
+    b.equal(form(across, across), "-C a/sqrt(x'^2 + y'^2)");
+    b.equal(form(along, across), "0");
+    let determinant = with(&b.system, |cx| {
+        let basis = chetaev_mechanics::claims::formulation::basis(cx);
+        let matrix = chetaev_mechanics::formulations::extremum_matrix(&basis);
+        chetaev_symbolic::matrix::determinant(g, &matrix)
+    });
+    b.equal(
+        determinant,
+        "-m (1 + a^2) (m - kappa_cone a/sqrt(x'^2 + y'^2))",
+    );
+}
+
 /// The method of Hamilton and Jacobi integrates the motion where every motion is an extremal: S2 with its κ, not S4.
 #[test]
 fn where_hamilton_and_jacobi_apply() {

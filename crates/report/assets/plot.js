@@ -48,11 +48,14 @@ class Plot {
     const { spec } = this;
     const unit = (name, u) => (u ? `${name} / ${u}` : name);
     if (this.isPortrait) {
-      let [h, v] = spec.series.map((i) => curves[i]);
+      const parts = spec.series.map((i) => curves[i]);
       const { path } = spec;
       this.times = path ? numbers(path.times) : times;
-      if (path) [h, v] = [{ ...h, y: numbers(path.x) }, { ...v, y: numbers(path.y) }];
-      this.curves = [{ ...v, x: h.y, raw: v.y, hue: 0, visible: true }];
+      const thinned = path ? [path.x, path.y, path.besideX, path.besideY] : [];
+      const all = parts.map((part, i) => (path ? { ...part, y: numbers(thinned[i]) } : part));
+      const pairs = all.length > 2 ? [all.slice(0, 2), all.slice(2)] : [all];
+      this.curves = pairs.map(([h, v], hue) => ({ ...v, x: h.y, raw: v.y, hue, visible: true, times: undefined }));
+      const [h, v] = all;
       this.names = [unit(h.label, h.unit), unit(v.label, v.unit)];
       this.parts = [h, v];
       return;
@@ -134,7 +137,7 @@ class Plot {
     this.legend = make("div", { class: "legend" }, this.figure);
     if (this.isPortrait) {
       this.readout = make("span", { class: "readout" }, this.legend);
-      return;
+      if (this.curves.length < 2) return;
     }
     for (const curve of this.curves) {
       const button = make("button", {
@@ -155,7 +158,7 @@ class Plot {
         this.paint();
       });
     }
-    this.position = make("span", { class: "position" }, this.legend);
+    if (!this.isPortrait) this.position = make("span", { class: "position" }, this.legend);
   }
 
   reset() {

@@ -422,6 +422,8 @@ pub struct Portrait {
     pub title: Option<String>,
     /// Same scale on both axes, for paths in a plane.
     pub equal: bool,
+    /// Names of two series for a second curve in the same drawing, horizontal then vertical.
+    pub beside: Option<(String, String)>,
 }
 
 /// A figure with its own horizontal axis.

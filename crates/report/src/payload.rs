@@ -78,7 +78,7 @@ pub(crate) struct Plot<'a> {
     log_horizontal: bool,
     marks: bool,
     equal: bool,
-    /// Positions in the list of curves; for a portrait, horizontal then vertical.
+    /// Positions in the list of curves; for a portrait, horizontal then vertical, and the same of a curve beside it.
     series: Vec<usize>,
     /// How many curves the group has; only the first are drawn.
     #[serde(skip)]
@@ -108,6 +108,7 @@ pub(crate) enum PlotKind {
 
 /// Samples of a portrait.
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct Path {
     #[serde(serialize_with = "crate::number::rounded::fine")]
     times: Vec<f64>,
@@ -115,6 +116,11 @@ struct Path {
     x: Vec<f64>,
     #[serde(serialize_with = "crate::number::rounded::fine")]
     y: Vec<f64>,
+    /// Those of the curve beside it; empty where there is none.
+    #[serde(serialize_with = "crate::number::rounded::fine")]
+    beside_x: Vec<f64>,
+    #[serde(serialize_with = "crate::number::rounded::fine")]
+    beside_y: Vec<f64>,
 }
 
 #[derive(Serialize)]
@@ -231,12 +237,18 @@ fn drawn_motion<'a>(trajectory: &'a Trajectory, plots: &mut [Plot<'a>]) -> Motio
     let limit = (NUMBERS / used.len().max(1)).clamp(100, SAMPLES);
     let times = &trajectory.times;
     for plot in plots.iter_mut() {
-        if let (PlotKind::Portrait, &[h, v]) = (plot.kind, &plot.series[..]) {
-            let [x, y] = [h, v].map(|i| trajectory.series[i].values.as_slice());
-            plot.path = rows(&[x, y], limit).map(|kept| Path {
-                times: pick(times, &kept),
-                x: pick(x, &kept),
-                y: pick(y, &kept),
+        if plot.kind == PlotKind::Portrait {
+            let values = |i: usize| trajectory.series[i].values.as_slice();
+            let curves: Vec<&[f64]> = plot.series.iter().map(|&i| values(i)).collect();
+            plot.path = rows(&curves, limit).map(|kept| {
+                let at = |k: usize| curves.get(k).map_or(Vec::new(), |c| pick(c, &kept));
+                Path {
+                    times: pick(times, &kept),
+                    x: at(0),
+                    y: at(1),
+                    beside_x: at(2),
+                    beside_y: at(3),
+                }
             });
         }
         for place in &mut plot.series {
@@ -349,6 +361,8 @@ fn portraits<'a>(trajectory: &'a Trajectory, words: &'a Words) -> Vec<Plot<'a>> 
             let horizontal = find(&portrait.horizontal)?;
             let vertical = find(&portrait.vertical)?;
             let labels = [vertical, horizontal].map(|i| label(&trajectory.series[i]));
+            let beside = portrait.beside.as_ref();
+            let beside = beside.and_then(|(h, v)| Some([find(h)?, find(v)?]));
             Some(Plot {
                 title: match &portrait.title {
                     Some(title) => title.into(),
@@ -360,7 +374,10 @@ fn portraits<'a>(trajectory: &'a Trajectory, words: &'a Words) -> Vec<Plot<'a>> 
                 log_horizontal: false,
                 marks: false,
                 equal: portrait.equal,
-                series: vec![horizontal, vertical],
+                series: [horizontal, vertical]
+                    .into_iter()
+                    .chain(beside.into_iter().flatten())
+                    .collect(),
                 of: 2,
                 path: None,
                 own: None,

@@ -279,6 +279,8 @@ static ENGLISH: Words = Words {
         ("hamilton-jacobi", "Hamilton–Jacobi method"),
         ("chaplygin", "Chaplygin’s multiplier"),
         ("second-kind", "Principles of the second kind"),
+        ("universal-relation", "Relations of the variations"),
+        ("witness", "Numbers as a witness"),
         ("noether", "First integrals and symmetries"),
         ("distribution", "What can be reached"),
         ("liouville", "Integrability by quadratures"),

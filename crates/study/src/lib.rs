@@ -4,6 +4,7 @@
 //! [`page`] the report, [`table`] the trajectory, [`summary`] the text for a terminal; [`verify`] replays a record.
 //! Clocks, files and interruption come from outside.
 
+pub mod beside;
 pub mod derivation;
 pub mod method_order;
 pub mod motion_claims;
@@ -15,11 +16,13 @@ mod placed;
 pub mod record;
 pub mod registry;
 mod start;
+pub mod story;
 pub mod study;
 pub mod summary;
 pub mod table;
 pub mod typeset;
 pub mod verify;
+pub mod witness;
 
 pub use options::{ClaimSelection, Hooks, StudyOptions};
 pub use placed::{diagnostics, placed};

@@ -42,7 +42,7 @@ fn subject_if_motion(cx: &Context<'_>) -> Vec<Option<String>> {
 
 /// A motion of the constrained extremum is one of another system, of which neither the integrals of this one nor its other
 /// formulations say anything.
-fn of_another_system(evidence: &MotionEvidence) -> Option<Finding> {
+pub(crate) fn of_another_system(evidence: &MotionEvidence) -> Option<Finding> {
     let card = formulation(evidence.run.formulation)?.card();
     (card.relation == Relation::Coincidence).then(|| {
         let detail = format!(

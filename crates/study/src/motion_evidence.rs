@@ -31,6 +31,8 @@ pub struct Followed {
 pub struct MotionEvidence {
     /// The trajectory.
     pub run: Run,
+    /// The beginning of it at rows closer than its steps, for quadratures.
+    pub dense: Option<Run>,
     /// The same motion by another formulation.
     pub comparison: Option<Run>,
     /// Estimated global error: largest difference to a run at a tenth of the tolerance, over the scale of each component.
@@ -119,6 +121,7 @@ impl MotionEvidence {
             exact_start: exact_start(model, subject),
             start: start_values(subject),
             start_residual,
+            dense: None,
             energy,
             energy_rate,
             integrals,

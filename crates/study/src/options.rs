@@ -95,6 +95,9 @@ pub struct StudyOptions {
     pub global_error: bool,
     /// Whether to compute the motion at all.
     pub motion: bool,
+    /// Whether the constrained extremum is computed beside the motion, and initial values of its multipliers `kappa_NAME`; those
+    /// that are not given are what the model states, else what `hamilton.stationary` finds for every motion, else zero.
+    pub extremum: Option<Vec<(String, f64)>>,
 }
 
 impl Default for StudyOptions {
@@ -114,6 +117,7 @@ impl Default for StudyOptions {
             replay: false,
             global_error: true,
             motion: true,
+            extremum: None,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! All claims of the product in one registry.
 
-use crate::motion_claims;
+use crate::{motion_claims, witness};
 use chetaev_mechanics::Registry;
 
 /// The claims of all crates, in the order of the catalogue.
@@ -10,5 +10,6 @@ pub fn registry() -> Registry {
         chetaev_geometry::CLAIMS,
         chetaev_principles::CLAIMS,
         motion_claims::CLAIMS,
+        witness::CLAIMS,
     ])
 }

@@ -1,5 +1,6 @@
 //! One model through its claims and its motion.
 
+use crate::beside::{self, Beside};
 use crate::derivation::{check_applies, NotDerived};
 use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
 use crate::notices::{left_assumptions, negative_masses, notices};
@@ -8,6 +9,7 @@ use crate::registry::registry;
 use crate::start::{
     add_jets, asks_for_motion, check_rank, number, settings, sharpest, start_of_motion, Start,
 };
+use crate::witness::{self, Witness};
 use chetaev_geometry::noether::found::found;
 use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::{CharacteristicsError, Selection};
@@ -15,12 +17,13 @@ use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::claims::{full_id, Registry};
 use chetaev_mechanics::formulations::{Maggi, Routh};
 use chetaev_mechanics::{
-    formulation, Context, Finding, Formulation, Group, Prepared, Prover, System, SystemError,
-    FORMULATIONS,
+    formulation, Claim, Context, Finding, Formulation, Group, Prepared, Prover, System,
+    SystemError, FORMULATIONS,
 };
 use chetaev_model::model::Model;
 use chetaev_model::Place;
 use chetaev_motion::initial::jets::JetError;
+use chetaev_motion::run::equal_times;
 use chetaev_motion::{
     Binding, ConsistentState, InitialError, NumericError, Run, RunError, RunSettings, Subject,
     Watcher,
@@ -81,6 +84,17 @@ pub struct Motion {
     pub evidence: Arc<MotionEvidence>,
     /// First integrals that were found, along the trajectory.
     pub found: Vec<Followed>,
+    /// What integrals over the motion say of the variational principles.
+    pub witness: Witness,
+    /// The constrained extremum from the same state, or why there is none; `None` where it was not asked for.
+    pub beside: Option<Result<Beside, String>>,
+}
+
+impl Motion {
+    /// The constrained extremum from the same state, where it was computed.
+    pub fn extremum(&self) -> Option<&Beside> {
+        self.beside.as_ref()?.as_ref().ok()
+    }
 }
 
 /// The result of a study.
@@ -396,10 +410,12 @@ pub fn study(
         notices.extend(left_assumptions(&system, &prepared, motion));
         notices.extend(negative_masses(&system, &prepared, motion));
     }
-    let (verdicts, found) = decide(&model, &system, &prepared, motion.as_ref(), &options, hooks);
+    let (verdicts, found, witness) =
+        decide(&model, &system, &prepared, motion.as_ref(), &options, hooks);
     let mut motion = motion;
-    if let (Some(motion), Some(found)) = (&mut motion, found) {
-        motion.found.clone_from(&found.0);
+    if let Some(motion) = &mut motion {
+        motion.found = found.map_or_else(Vec::new, |found| found.0.clone());
+        motion.witness = witness;
     }
     let unmatched = unmatched(&model, &verdicts, &options);
     let outcome = match outcome(&model, &verdicts, motion.as_ref()) {
@@ -494,14 +510,54 @@ fn compute(
         None
     };
     let orders = crate::method_order::observed_order(&subject, &settings, &run, hooks);
-    let evidence = MotionEvidence::new(model, &subject, run, comparison, finer, orders, &settings)?;
+    let mut evidence =
+        MotionEvidence::new(model, &subject, run, comparison, finer, orders, &settings)?;
+    let is_witness = |c: &&dyn Claim| c.id().starts_with("witness");
+    let mut witnesses = known.claims().iter().filter(|c| is_witness(c));
+    if prepared.terms.order == 1 && witnesses.any(|c| options.claims.wants_claim(*c)) {
+        evidence.dense = dense(&subject, formulation, &evidence.run, &settings, hooks);
+    }
+    let beside = options
+        .extremum
+        .as_ref()
+        .map(|given| beside::of(&cx, &subject, &evidence.run, &reached, given, hooks));
     Ok(Motion {
+        beside,
         start: numeric.start,
         binding: numeric.binding,
         evidence: Arc::new(evidence),
         found: Vec::new(),
+        witness: Witness::default(),
         settings,
     })
+}
+
+/// Rows of the run for quadratures, and how many of them lie within a step of the method on average.
+const DENSE_ROWS: u32 = 768;
+const ROWS_OF_STEP: f64 = 4.0;
+
+/// The beginning of a run again, at rows closer than its steps.
+fn dense(
+    subject: &Subject<'_>,
+    formulation: &'static dyn Formulation,
+    run: &Run,
+    settings: &RunSettings,
+    hooks: &mut Hooks<'_>,
+) -> Option<Run> {
+    let start = subject.start.t;
+    let length = run.t - start;
+    let steps = (run.statistics.steps as f64).max(1.0);
+    let share = f64::from(DENSE_ROWS) / (ROWS_OF_STEP * steps);
+    // A run that ended early ended where its equations are singular.
+    let most = if run.ending.finished { 1.0 } else { 0.9 };
+    let t_end = start + length * share.min(most);
+    let settings = RunSettings {
+        t_end,
+        times: equal_times(start, t_end, DENSE_ROWS),
+        ..settings.clone()
+    };
+    let what = "integrating for quadratures";
+    integrate(subject, formulation, &settings, what, hooks).ok()
 }
 
 /// The first integrals to keep, where that is asked for: those that are found.
@@ -601,7 +657,7 @@ fn decide(
     motion: Option<&Motion>,
     options: &StudyOptions,
     hooks: &mut Hooks<'_>,
-) -> (Vec<Decided>, Option<Arc<FoundIntegrals>>) {
+) -> (Vec<Decided>, Option<Arc<FoundIntegrals>>, Witness) {
     let known = registry();
     let mut prover = Prover {
         replay: options.replay,
@@ -667,7 +723,7 @@ fn decide(
     let place = |d: &Decided| Group::ALL.iter().position(|&g| g == d.group);
     verdicts.sort_by_key(place);
     let found = cx.known::<FoundIntegrals>();
-    (verdicts, found)
+    (verdicts, found, witness::computed(&cx))
 }
 
 fn expected(model: &Model, claim: &str, subject: Option<&str>) -> Vec<String> {

@@ -27,7 +27,7 @@ pub fn summary(study: &Study, style: Style) -> String {
     text
 }
 
-fn bold(style: Style, words: &str) -> String {
+pub(crate) fn bold(style: Style, words: &str) -> String {
     match style {
         Style::Plain => words.into(),
         Style::Ansi => format!("\u{1b}[1m{words}\u{1b}[0m"),
@@ -133,7 +133,7 @@ fn for_width(style: Style, text: &str) -> String {
     }
 }
 
-fn coloured(style: Style, word: &str) -> String {
+pub(crate) fn coloured(style: Style, word: &str) -> String {
     let padded = format!("{word:<14}");
     if style == Style::Plain {
         return padded;

@@ -6,6 +6,7 @@ pub(crate) mod derive;
 pub(crate) mod explain;
 pub(crate) mod gallery;
 pub(crate) mod new;
+pub(crate) mod principles;
 pub(crate) mod simulate;
 pub(crate) mod study;
 pub(crate) mod verify;

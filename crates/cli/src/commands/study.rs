@@ -90,7 +90,7 @@ fn json(study: &Study, files: &[String]) -> String {
 }
 
 /// Writes report.html, study.json and the trajectory; names of the data files.
-fn write_all(study: &Study, folder: &Path, model: &Path) -> Result<Vec<String>, String> {
+pub(super) fn write_all(study: &Study, folder: &Path, model: &Path) -> Result<Vec<String>, String> {
     let mut names = Vec::new();
     if let Some(motion) = &study.motion {
         let table = Table::new(study, motion);

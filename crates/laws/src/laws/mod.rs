@@ -5,6 +5,7 @@ mod counterexample;
 mod digits;
 mod equal;
 mod exterior;
+mod extremals;
 mod frames;
 mod hypotheses;
 mod integrals;

@@ -1,6 +1,7 @@
 //! What the variational principles say of a random system: no verdict contradicts another one, integrable constraints leave every
 //! motion stationary, and wrong principles are refuted.
 
+use super::extremals;
 use super::hypotheses::{seen, Seen};
 use super::numbers::Size;
 use super::reduced::curvature_and_terms;
@@ -16,7 +17,7 @@ use chetaev_symbolic::{Expr, Symbol, Verdict};
 use std::time::Instant;
 
 /// Claims that hold of every system whose hypotheses hold.
-const TRUE: [(&str, Option<&str>); 16] = [
+const TRUE: [(&str, Option<&str>); 18] = [
     ("hamilton.hoelder", None),
     ("hamilton.voronets", None),
     ("hamilton.suslov", None),
@@ -24,6 +25,8 @@ const TRUE: [(&str, Option<&str>); 16] = [
     ("hamilton.central-identity", None),
     ("hamilton.forms-equivalent", None),
     ("hamilton.endpoints", None),
+    ("action.identity", None),
+    ("action.parametric", None),
     ("variation.suslov", None),
     ("second-kind.differential", None),
     ("second-kind.identity", None),
@@ -48,6 +51,9 @@ pub(super) fn all(subject: &Subject<'_>) -> Vec<Trial> {
     trials.extend(timed(|| without_contradiction(subject)));
     trials.extend(timed(|| integrable(subject)));
     trials.extend(timed(|| extremal(subject)));
+    if applies(subject, STATIONARY, None) {
+        trials.extend(timed(|| extremals::integrated(subject)));
+    }
     trials.extend(timed(|| terms_dropped(subject)));
     trials.extend(timed(|| ends_left_open(subject)));
     trials

@@ -4,6 +4,7 @@
 //! that could not be understood is known as such, and what uses it gives no second diagnostic.
 
 mod characteristics;
+mod complete_integral;
 mod declare;
 mod define;
 mod drawing;
@@ -111,6 +112,7 @@ const SECTIONS: &[&str] = &[
     "events",
     "integrals",
     "variation",
+    "complete_integral",
     "search",
     "drawing",
     "expect",
@@ -176,6 +178,7 @@ impl Resolver {
         let (integrals, integral_conditions) = self.integrals(root);
         let search = self.search_functions(root);
         let variations = self.variations(root);
+        let complete_integral = self.complete_integral(root);
         let drawing = self.drawing(root);
         let expect = self.expect(root);
         let has_units = dimension::check(self);
@@ -219,6 +222,7 @@ impl Resolver {
             events,
             integrals,
             variations,
+            complete_integral,
             integral_conditions,
             search,
             drawing,

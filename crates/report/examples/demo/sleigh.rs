@@ -128,6 +128,7 @@ fn trajectory(rows: &[[f64; 6]]) -> Trajectory {
                 vertical: "y".into(),
                 title: Some("Path of the blade".into()),
                 equal: true,
+                ..Portrait::default()
             },
             Portrait {
                 horizontal: "phi".into(),

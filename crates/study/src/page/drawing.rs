@@ -1,8 +1,9 @@
 //! The moving picture: the drawing of the model evaluated along the motion.
 
 use crate::study::{Motion, Study};
-use chetaev_model::drawing::Shape as Drawn;
+use chetaev_model::drawing::{Element as Stated, Shape as Drawn};
 use chetaev_motion::observe::Observer;
+use chetaev_motion::Run;
 use chetaev_report::data::{Animation, Element, Shape, Tint};
 use chetaev_symbolic::{rational, Expr};
 
@@ -15,32 +16,42 @@ pub(super) fn animation(study: &Study, motion: &Motion) -> Option<Animation> {
         .iter()
         .flat_map(|e| e.shape.expressions())
         .collect();
-    let mut observer = Observer::new(
-        &study.system,
-        &study.prepared.terms,
-        &motion.binding,
-        &expressions,
-    )
-    .ok()?;
-    let series = observer.along(run);
-    let mut start = 0;
-    let elements = drawing
-        .elements
-        .iter()
-        .map(|element| {
-            let width = element.shape.expressions().len();
-            let columns = &series[start..start + width];
-            start += width;
-            Element {
-                name: element.name.clone(),
-                shape: shape(&element.shape),
-                tint: tint(&element.color),
-                values: (0..run.len())
-                    .flat_map(|j| columns.iter().map(move |c| c[j]))
-                    .collect(),
-            }
-        })
-        .collect();
+    let along = |run: &Run| -> Option<Vec<Vec<f64>>> {
+        let parts = (&study.system, &study.prepared.terms, &motion.binding);
+        let mut observer = Observer::new(parts.0, parts.1, parts.2, &expressions).ok()?;
+        Some(observer.along(run))
+    };
+    let mut elements = Vec::new();
+    if let Some(found) = motion.extremum().filter(|found| !found.run.is_empty()) {
+        let series = along(&found.run)?;
+        let moving = |shape: &Drawn| {
+            matches!(
+                shape,
+                Drawn::Trail { .. }
+                    | Drawn::Polyline { .. }
+                    | Drawn::Point { .. }
+                    | Drawn::Sphere { .. }
+                    | Drawn::Wheel { .. }
+                    | Drawn::Blade { .. }
+            )
+        };
+        let drawn = drawn(&drawing.elements, &series, run.len());
+        elements.extend(
+            drawn
+                .into_iter()
+                .zip(&drawing.elements)
+                .filter(|(_, stated)| moving(&stated.shape))
+                .map(|(element, stated)| Element {
+                    name: match stated.name.is_empty() {
+                        true => String::new(),
+                        false => format!("{}, constrained extremum", stated.name),
+                    },
+                    tint: Tint::Muted,
+                    ..element
+                }),
+        );
+    }
+    elements.extend(drawn(&drawing.elements, &along(run)?, run.len()));
     Some(Animation {
         spatial: drawing.spatial,
         times: run.times.clone(),
@@ -58,6 +69,27 @@ pub(super) fn animation(study: &Study, motion: &Motion) -> Option<Animation> {
         unit: None,
         description: (!drawing.description.is_empty()).then(|| drawing.description.clone()),
     })
+}
+
+/// Elements with their values at so many rows; a run that ended earlier stays where it ended.
+fn drawn(stated: &[Stated], series: &[Vec<f64>], rows: usize) -> Vec<Element> {
+    let mut start = 0;
+    let mut elements = Vec::new();
+    for element in stated {
+        let width = element.shape.expressions().len();
+        let columns = &series[start..start + width];
+        start += width;
+        let value = |c: &Vec<f64>, j: usize| c.get(j).or(c.last()).copied().unwrap_or(f64::NAN);
+        elements.push(Element {
+            name: element.name.clone(),
+            shape: shape(&element.shape),
+            tint: tint(&element.color),
+            values: (0..rows)
+                .flat_map(|j| columns.iter().map(move |c| value(c, j)))
+                .collect(),
+        });
+    }
+    elements
 }
 
 fn shape(drawn: &Drawn) -> Shape {

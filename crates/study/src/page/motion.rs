@@ -16,6 +16,7 @@ use chetaev_report::data::{
 pub(super) fn trajectory(study: &Study, motion: &Motion, files: &[String]) -> Trajectory {
     let run = &motion.evidence.run;
     let mut series = curves(study, motion);
+    series.extend(beside(study, motion));
     series.extend(drifts(study, motion));
     Trajectory {
         times: run.times.clone(),
@@ -40,7 +41,7 @@ pub(super) fn trajectory(study: &Study, motion: &Motion, files: &[String]) -> Tr
             })
             .collect(),
         events: events_met(motion),
-        portraits: portraits(study),
+        portraits: portraits(study, motion),
         files: files.to_vec(),
     }
 }
@@ -60,6 +61,55 @@ fn events_met(motion: &Motion) -> Vec<EventMet> {
         ),
     })
     .collect()
+}
+
+/// The name of a curve of the constrained extremum.
+fn of_extremum(name: &str) -> String {
+    format!("{name} of the extremum")
+}
+
+/// Coordinates and velocities of the constrained extremum beside the motion, and its multipliers.
+fn beside(study: &Study, motion: &Motion) -> Vec<Series> {
+    let Some(found) = motion.extremum() else {
+        return Vec::new();
+    };
+    let (run, rows) = (&found.run, motion.evidence.run.len());
+    let n = study.system.n();
+    let coordinates = &study.system.coordinates;
+    let column = |i: usize| -> Vec<f64> {
+        let value = |j: usize| match j < run.len() {
+            true => run.row(j)[i],
+            false => f64::NAN,
+        };
+        (0..rows).map(value).collect()
+    };
+    let mut series = Vec::new();
+    for (order, range) in [(0, run.layout.q()), (1, run.layout.v())] {
+        for (c, i) in coordinates.iter().zip(range) {
+            let name = format!("{}{}", c.name, "'".repeat(order));
+            series.push(Series {
+                label: Some(format!("{}, extremum", letters(&name))),
+                name: of_extremum(&name),
+                group: match order {
+                    0 => SeriesGroup::Coordinates,
+                    _ => SeriesGroup::Velocities,
+                },
+                values: column(i),
+                unit: unit(study, (series.len()) % n, order),
+                ..Series::default()
+            });
+        }
+    }
+    for (name, i) in run.own.iter().zip(run.layout.own()) {
+        series.push(Series {
+            name: name.clone(),
+            label: Some(letters(name)),
+            group: SeriesGroup::Multipliers,
+            values: column(i),
+            ..Series::default()
+        });
+    }
+    series
 }
 
 fn pivot(value: f64) -> String {
@@ -230,7 +280,11 @@ fn statistics(motion: &Motion) -> Vec<Fact> {
 }
 
 /// The path in the first two coordinates, and each of the first coordinates against its velocity.
-fn portraits(study: &Study) -> Vec<Portrait> {
+fn portraits(study: &Study, motion: &Motion) -> Vec<Portrait> {
+    let beside = |horizontal: &str, vertical: &str| {
+        motion.extremum()?;
+        Some((of_extremum(horizontal), of_extremum(vertical)))
+    };
     let names: Vec<&str> = study
         .system
         .coordinates
@@ -242,26 +296,70 @@ fn portraits(study: &Study) -> Vec<Portrait> {
         portraits.push(Portrait {
             horizontal: names[0].into(),
             vertical: names[1].into(),
-            title: None,
             equal: true,
+            beside: beside(names[0], names[1]),
+            ..Portrait::default()
         });
     }
     for name in names.iter().rev().take(3).rev() {
         portraits.push(Portrait {
             horizontal: (*name).into(),
             vertical: format!("{name}'"),
-            title: None,
-            equal: false,
+            beside: beside(name, &format!("{name}'")),
+            ..Portrait::default()
         });
     }
     portraits
 }
 
-/// Error against step size.
+/// Error against step size, and first variations against it.
 pub(super) fn figures(motion: &Motion) -> Vec<Figure> {
-    let Some(orders) = &motion.evidence.orders else {
-        return Vec::new();
-    };
+    orders(motion)
+        .into_iter()
+        .chain(first_variations(motion))
+        .collect()
+}
+
+/// The first variation of each form by the step of the quadrature, and that of the action among admissible neighbours.
+fn first_variations(motion: &Motion) -> Option<Figure> {
+    let forms = &motion.witness.first;
+    let steps = forms.first()?.steps.clone();
+    let mut series: Vec<Series> = forms
+        .iter()
+        .map(|found| Series {
+            name: found.form.whose().into(),
+            group: SeriesGroup::Errors,
+            values: found.residuals.clone(),
+            ..Series::default()
+        })
+        .collect();
+    if let Some(found) = &motion.witness.neighbours {
+        series.push(Series {
+            name: "action of admissible neighbours".into(),
+            group: SeriesGroup::Errors,
+            values: vec![found.change; steps.len()],
+            ..Series::default()
+        });
+    }
+    Some(Figure {
+        title: "First variations along the motion".into(),
+        explanation: vec![
+            "|∫ δ dt| over the integral of the sizes of its terms, for random virtual displacements that vanish at the ends, by the step of the trapezoidal rule: it goes to zero for each form of Hamilton’s principle.".into(),
+            "For neighbours that satisfy the constraints, δ∫L dt is zero only where the motion makes the action stationary.".into(),
+        ],
+        horizontal: "step".into(),
+        abscissae: steps,
+        series,
+        logarithmic_horizontal: true,
+        logarithmic_vertical: true,
+        marks: true,
+        claim: Some("witness.first-variation#hoelder".into()),
+        ..Figure::default()
+    })
+}
+
+fn orders(motion: &Motion) -> Option<Figure> {
+    let orders = motion.evidence.orders.as_ref()?;
     let explanation = match orders.observed {
         Some(observed) => format!(
             "A piece of the motion with fixed steps: observed order {observed:.2}, nominal {}.",
@@ -271,7 +369,7 @@ pub(super) fn figures(motion: &Motion) -> Vec<Figure> {
             "A piece of the motion with fixed steps: no order could be read off its errors.".into()
         }
     };
-    vec![Figure {
+    Some(Figure {
         title: "Order of the method on this model".into(),
         explanation: vec![explanation],
         horizontal: "step".into(),
@@ -287,7 +385,7 @@ pub(super) fn figures(motion: &Motion) -> Vec<Figure> {
         marks: true,
         claim: Some("motion.method-order".into()),
         ..Figure::default()
-    }]
+    })
 }
 
 #[cfg(test)]

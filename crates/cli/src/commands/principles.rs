@@ -1,0 +1,96 @@
+//! `chetaev principles`.
+
+use super::study::write_all;
+use super::{error, options, with_hooks};
+use crate::arguments::Principles as Arguments;
+use crate::{files, terminal, INPUT};
+use chetaev::model::Model;
+use chetaev::study::summary::Style;
+use chetaev::study::{diagnostics, record, story, study, ClaimSelection, StudyError, StudyOptions};
+
+/// What is told, beside the claims of the group.
+const TOLD: [&str; 3] = [
+    "principles",
+    "formulation.vakonomic-coincides",
+    "model.hessian-regular",
+];
+
+pub(crate) fn run(arguments: &Arguments) -> u8 {
+    let Some(read) = files::model(&arguments.model) else {
+        return INPUT;
+    };
+    let Some(options) = asked(arguments, &read.model) else {
+        return INPUT;
+    };
+    let folder = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| files::default_folder(&arguments.model.model));
+    let result = with_hooks(|hooks| {
+        let study = study(read.model.clone(), options, hooks)?;
+        let written = match arguments.compare {
+            true => write_all(&study, &folder, &arguments.model.model).map(|_| ()),
+            false => Ok(()),
+        };
+        Ok::<_, StudyError>((study, written))
+    });
+    let (study, written) = match result {
+        Ok(found) => found,
+        Err(problem) => {
+            read.refuse_all(diagnostics(&problem, &read.model));
+            return INPUT;
+        }
+    };
+    if let Err(problem) = written {
+        error(problem);
+        return INPUT;
+    }
+    if arguments.json {
+        let record = record::record(&study, &[]);
+        terminal::out(&serde_json::to_string_pretty(&record).unwrap_or_default());
+        terminal::out("\n");
+        return study.outcome.exit_status();
+    }
+    let style = match terminal::colours() {
+        true => Style::Ansi,
+        false => Style::Plain,
+    };
+    terminal::out(&story::story(&study, style));
+    if arguments.compare {
+        let report = folder.join("report.html");
+        terminal::out(&format!("\nreport: {}\n", report.display()));
+    }
+    study.outcome.exit_status()
+}
+
+/// The options on the command line; prints what is wrong with them.
+fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
+    let options = options(&arguments.motion, model)?;
+    let mut words: Vec<String> = TOLD.map(String::from).to_vec();
+    let mut kappa = Vec::new();
+    if arguments.compare {
+        words.push("motion.constraint-drift".into());
+    }
+    for given in &arguments.kappa {
+        let Some((name, value)) = given.split_once('=') else {
+            error(format!(
+                "--kappa: `{given}` is no NAME=VALUE, as in kappa_blade=0.5"
+            ));
+            return None;
+        };
+        match model.constant_value("--kappa", value) {
+            Ok(value) => kappa.push((name.trim().to_owned(), value)),
+            Err(problems) => {
+                files::report(&problems);
+                return None;
+            }
+        }
+    }
+    Some(StudyOptions {
+        budget: arguments.budget,
+        claims: ClaimSelection { words },
+        motion: arguments.compare,
+        extremum: arguments.compare.then_some(kappa),
+        ..options
+    })
+}

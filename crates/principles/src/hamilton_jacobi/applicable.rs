@@ -1,0 +1,276 @@
+//! `hamilton-jacobi.applicable`: whether the generalized method of Hamilton and Jacobi integrates the motions; a complete integral
+//! that the model states (`#stated`), and separation of variables in the coordinates given (`#separated`).
+
+use super::complete::verified;
+use super::extremum::Extremum;
+use super::separation;
+use crate::stationarity::Closure;
+use crate::words::{formula, readable};
+use chetaev_mechanics::claims::formulation::{basis, derive, manifold, REFERENCE};
+use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
+use chetaev_mechanics::formulations::{kappa_symbols, DeriveError};
+use chetaev_mechanics::system::CompleteIntegral;
+use chetaev_mechanics::Manifold;
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::{Expr, Verdict};
+
+/// `hamilton-jacobi.applicable`.
+#[derive(Clone, Copy, Debug)]
+pub struct Applicable;
+
+/// The complete integral that the model states.
+const STATED: &str = "stated";
+/// Separation of variables.
+const SEPARATED: &str = "separated";
+/// What it rests on.
+const STATIONARY: &str = "hamilton.stationary";
+
+impl Claim for Applicable {
+    fn id(&self) -> &'static str {
+        "hamilton-jacobi.applicable"
+    }
+
+    fn group(&self) -> Group {
+        Group::Principles
+    }
+
+    fn title(&self) -> &'static str {
+        "The generalized method of Hamilton and Jacobi integrates the motions"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "With multipliers κ of the constrained extremum, momenta π = p + Σ κ ∂f/∂v and H₁ = Σ π v − L, (v, κ) by π and f = 0, the extremals are the characteristics of \
+         S_t + H₁(q, S_q, t) = 0. They are motions exactly where Hamilton's principle is one of stationary action (hamilton.stationary), with the κ found there: then δ∫(Σ π q' − H₁) dt = 0, \
+         and along the motions π' = −∂H₁/∂q, which is computed. A complete integral has 2n constants, a motion 2n − r: \
+         r of them are fixed by κ, after S was differentiated by them. `stated`: the S of [complete_integral] satisfies the equation, det ∂²S/∂q∂α does not vanish, ∂S/∂α is constant along q' = ∂H₁/∂π (Jacobi's theorem), and with the constants that the model gives \
+         for motions these curves satisfy the equations of the nonholonomic motion. `separated`: the conditions of Levi-Civita on H₁ for S = −E t + Σ S_i(q_i) in these coordinates, for L and f free of the time; \
+         where all coordinates but one are cyclic, S by a quadrature, verified as if it were stated. Example: a vertical rolling disc has κ = (−m x', −m y'), hence π_x = π_y = 0, and S is differentiated by these two constants before they are put to zero."
+    }
+
+    fn requires(&self, subject: Option<&str>) -> Vec<String> {
+        let mut hypotheses = vec![
+            "model.forces-absent".to_string(),
+            "model.accelerations-unique".into(),
+            "model.masses-of-time".into(),
+            "model.constrained-extremum-regular".into(),
+        ];
+        if subject.is_some() {
+            hypotheses.push("hamilton-jacobi.applicable".into());
+        }
+        if subject == Some(SEPARATED) {
+            hypotheses.push("model.lagrangian-autonomous".into());
+            hypotheses.push("model.constraints-scleronomic".into());
+        }
+        hypotheses
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        if cx.terms.order > 1 {
+            return vec![None];
+        }
+        let stated = cx.system.complete_integral.is_some();
+        let of = [stated.then_some(STATED), Some(SEPARATED)];
+        let subjects = of.into_iter().flatten().map(|s| Some(s.to_string()));
+        std::iter::once(None).chain(subjects).collect()
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        match subject {
+            None => applicable(cx).unwrap_or_else(Finding::from),
+            Some(STATED) => stated(cx).unwrap_or_else(Finding::from),
+            Some(SEPARATED) => separation::decide(cx).unwrap_or_else(Finding::from),
+            Some(other) => {
+                Verdict::undecided(format!("`{other}` is neither `{STATED}` nor `{SEPARATED}`"))
+                    .into()
+            }
+        }
+    }
+}
+
+fn applicable(cx: &Context<'_>) -> Result<Finding, DeriveError> {
+    let stationary = cx.finding(STATIONARY);
+    let mut verdict = stationary.verdict.clone();
+    let mut formulas = stationary.formulas.clone();
+    let sentence = match &verdict {
+        Verdict::Proved(_) => {
+            if let Some(characteristics) = characteristics(cx)? {
+                verdict = verdict.and(characteristics);
+            }
+            "the method integrates every motion: δ∫(Σ π q' − H₁) dt = 0 with π = p + Σ κ ∂f/∂v, and the motions are characteristics of S_t + H₁(q, S_q, t) = 0"
+        }
+        Verdict::Conditional { .. } => {
+            "the method integrates those motions alone that make the action stationary; the other characteristics of S_t + H₁(q, S_q, t) = 0 are no motions"
+        }
+        Verdict::Refuted(_) => {
+            "the method does not apply: the characteristics of S_t + H₁(q, S_q, t) = 0 are no motions"
+        }
+        _ => "whether the characteristics of S_t + H₁(q, S_q, t) = 0 are motions",
+    };
+    verdict.prefix(sentence);
+    let extremum = Extremum::new(cx);
+    formulas.extend(extremum.and_then(|e| formula(cx, "H₁(q, π, t)", None, e.hamiltonian)));
+    Ok(Finding { verdict, formulas })
+}
+
+/// Where κ is known for every motion: `D(p + Σ κ ∂f/∂v) = ∂L/∂q + Σ κ ∂f/∂q`, which is −∂H₁/∂q.
+fn characteristics(cx: &Context<'_>) -> Result<Option<Verdict>, DeriveError> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let Some(kappa) = multipliers(cx) else {
+        return Ok(None);
+    };
+    let routh = derive(cx, REFERENCE)?;
+    let motion: Vec<(Expr, Expr)> = system
+        .coordinates
+        .iter()
+        .map(|c| c.a)
+        .zip(routh.accelerations)
+        .collect();
+    let basis = basis(cx);
+    let constraints = basis.constraints();
+    let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
+    let slopes = g.gradient(system.lagrangian, &system.coordinate_symbols());
+    let by_velocities = basis.jacobian();
+    let by_coordinates = g.jacobian(&constraints, &system.coordinate_symbols());
+    let with = |own: Expr, rows: &[Vec<Expr>], i: usize| {
+        let terms = kappa.iter().zip(rows);
+        let parts = terms.map(|(&k, row)| g.mul(&[k, row[i]]));
+        g.add(&parts.chain([own]).collect::<Vec<Expr>>())
+    };
+    let residuals: Vec<Expr> = (0..system.n())
+        .map(|i| {
+            let moved = system.total_derivative(with(momenta[i], &by_velocities, i));
+            g.sub(
+                g.substitute(moved, &motion),
+                with(slopes[i], &by_coordinates, i),
+            )
+        })
+        .collect();
+    let on = "on the constraint manifold, for almost every motion";
+    Ok(Some(cx.prover.identity(
+        system,
+        &residuals,
+        &manifold(cx),
+        on,
+    )))
+}
+
+/// κ of the selected constraints as functions of the state and constants, where `hamilton.stationary` knows all of them.
+pub(super) fn multipliers(cx: &Context<'_>) -> Option<Vec<Expr>> {
+    if cx.selection.rows.is_empty() {
+        return Some(Vec::new());
+    }
+    let closure = Closure::of(cx);
+    let closure = closure.as_ref().as_ref().ok()?;
+    let stationary = cx.finding(STATIONARY);
+    let symbols = kappa_symbols(&basis(cx)).into_iter();
+    symbols
+        .enumerate()
+        .map(|(l, symbol)| {
+            let shown = stationary.formulas.iter().find(|f| f.left == Some(symbol));
+            closure.kappa[l].or(shown.map(|f| f.right))
+        })
+        .collect()
+}
+
+fn stated(cx: &Context<'_>) -> Result<Finding, DeriveError> {
+    let Some(integral) = &cx.system.complete_integral else {
+        return Ok(Verdict::undecided("the model states no complete integral").into());
+    };
+    let Some(extremum) = Extremum::new(cx) else {
+        return Ok(no_closed_form(cx).into());
+    };
+    checked(cx, &extremum, integral, "the S stated is")
+}
+
+/// What keeps H₁ from a closed form.
+pub(super) fn no_closed_form(cx: &Context<'_>) -> Verdict {
+    let moves = cx.system.graph.any_contains_any(
+        &cx.terms.mass_matrix.concat(),
+        &cx.system.velocity_symbols(),
+    );
+    let hypothesis = match moves {
+        true => "model.lagrangian-quadratic",
+        false => "model.constraints-linear",
+    };
+    Verdict::not_applicable(
+        hypothesis,
+        "H₁ is taken in closed form, where L is quadratic in the velocities and the constraints are affine in them; here (v, κ) are implicit functions of (q, π, t)",
+    )
+}
+
+/// A complete integral through all its checks, in words.
+pub(super) fn checked(
+    cx: &Context<'_>,
+    extremum: &Extremum,
+    integral: &CompleteIntegral,
+    what: &str,
+) -> Result<Finding, DeriveError> {
+    let found = verified(cx, extremum, integral)?;
+    let parts = [
+        ("the equation S_t + H₁ = 0", &found.equation),
+        ("det ∂²S/∂q∂α", &found.nondegenerate),
+        ("Jacobi's theorem, ∂S/∂α along q' = ∂H₁/∂π", &found.theorem),
+        ("the curves it gives and the motions", &found.motion),
+    ];
+    for (part, verdict) in parts {
+        if !matches!(verdict, Verdict::Proved(_)) {
+            let verdict = verdict.clone().prefixed(part);
+            return Ok(Finding {
+                verdict,
+                formulas: shown(cx, integral),
+            });
+        }
+    }
+    let mut verdict = found
+        .equation
+        .and(found.nondegenerate)
+        .and(found.theorem)
+        .and(found.motion);
+    let fixed = fixed(cx, integral);
+    verdict.prefix(&format!(
+        "{what} a complete integral of S_t + H₁ = 0, β = ∂S/∂α are constant along its curves, and{fixed} these are motions"
+    ));
+    if let Verdict::Proved(Proof { on, .. }) = &mut verdict {
+        *on = "where S is defined and det ∂²S/∂q∂α does not vanish".into();
+    }
+    Ok(Finding {
+        verdict,
+        formulas: shown(cx, integral),
+    })
+}
+
+/// " with a = 0 after differentiation".
+fn fixed(cx: &Context<'_>, integral: &CompleteIntegral) -> String {
+    let g = &cx.system.graph;
+    let values: Vec<String> = integral
+        .motion
+        .iter()
+        .map(|&(symbol, value)| format!("{} = {}", g.symbol_text(symbol), g.text(value)))
+        .collect();
+    match values.is_empty() {
+        true => String::new(),
+        false => format!(" with {} put in after differentiation", values.join(", ")),
+    }
+}
+
+fn shown(cx: &Context<'_>, integral: &CompleteIntegral) -> Vec<Formula> {
+    let mut formulas: Vec<Formula> = formula(cx, "S in closed form", None, integral.action)
+        .into_iter()
+        .collect();
+    for &(i, value) in &integral.quadratures {
+        let name = &cx.system.coordinates[i].name;
+        let caption = format!("the part of ∂S/∂{name} that is integrated over {name}");
+        let right = readable(cx, value).unwrap_or(value);
+        formulas.push(Formula {
+            caption,
+            left: None,
+            right,
+        });
+    }
+    formulas
+}
+
+/// Nothing ties the symbols.
+pub(super) fn free() -> Manifold {
+    Manifold::default()
+}

@@ -1,0 +1,219 @@
+//! The generalized method of Hamilton and Jacobi on the systems of theory 1 §6.1 (capability C11).
+
+#![allow(clippy::unwrap_used)] // a panic is how a test fails
+
+mod common;
+
+use chetaev_mechanics::system::CompleteIntegral;
+use chetaev_mechanics::System;
+use chetaev_principles::hamilton_jacobi::{levi_civita, separated, verified, Extremum};
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::{decide_zero, ZeroTest};
+use chetaev_symbolic::{Expr, Symbol};
+use common::worked::{self, text};
+use common::{expr, finding, system, with_context, Text};
+
+const APPLICABLE: &str = "hamilton-jacobi.applicable";
+
+fn word(system: &System, e: Expr) -> &'static str {
+    let none = Assumptions::new();
+    decide_zero(&system.graph, &ZeroTest::everywhere(&[e], &none)).word()
+}
+
+#[track_caller]
+fn assert_hamiltonian(stated: &Text, expected: &str) {
+    let system = system(stated);
+    let g = &system.graph;
+    let extremum = with_context(&system, |cx| Extremum::new(cx).unwrap());
+    let difference = g.sub(extremum.hamiltonian, expr(g, expected));
+    assert_eq!(word(&system, difference), "proved");
+    // v = ∂H₁/∂π.
+    for (&v, &pi) in extremum.velocities.iter().zip(&extremum.symbols) {
+        let slope = g.diff(extremum.hamiltonian, pi);
+        assert_eq!(word(&system, g.sub(v, slope)), "proved");
+    }
+}
+
+#[test]
+fn hamiltonians_of_the_extremum() {
+    assert_hamiltonian(
+        &worked::DISC,
+        "(pi_theta + R (pi_x cos(phi) + pi_y sin(phi)))^2/(2 (I + m R^2)) + pi_phi^2/(2 J)",
+    );
+    assert_hamiltonian(
+        &worked::PARTICLE,
+        "1/2 ((pi_x + y pi_z)^2/(1 + y^2) + pi_y^2)",
+    );
+    // Affine: the part of the constraint free of velocities stays.
+    let affine = text("x y", "1/2 (x'^2 + y'^2)", &[("c", "y' - b")]);
+    assert_hamiltonian(&affine, "pi_x^2/2 + b pi_y - b^2/2");
+}
+
+/// The flow of H₁ of S4 is not its motion: y'' = −∂H₁/∂y − … does not vanish, where y'' = 0 on motions.
+#[test]
+fn the_particle_is_refused() {
+    let particle = system(&worked::PARTICLE);
+    let g = &particle.graph;
+    let extremum = with_context(&particle, |cx| Extremum::new(cx).unwrap());
+    let slope = g.diff(extremum.hamiltonian, g.intern_symbol("y", 0));
+    let rate = g.neg(slope);
+    let expected = expr(g, "(pi_x + y pi_z) (y pi_x - pi_z)/(1 + y^2)^2");
+    assert_eq!(word(&particle, g.sub(rate, expected)), "proved");
+    assert_eq!(word(&particle, rate), "refuted");
+    let found = finding(&particle, APPLICABLE);
+    assert_eq!(
+        found.verdict.word(),
+        "conditional",
+        "{}",
+        found.verdict.detail()
+    );
+    assert!(found.verdict.detail().contains("x' = 0 or y' = 0"));
+}
+
+#[test]
+fn where_it_applies() {
+    for (stated, expected) in [
+        (&worked::DISC, "proved"),
+        (&worked::CONE, "proved"),
+        (&worked::INTEGRABLE, "proved"),
+        (&worked::SKATE, "conditional"),
+        (&worked::LEVEL_SKATE, "conditional"),
+    ] {
+        let system = system(stated);
+        let found = finding(&system, APPLICABLE);
+        let (word, detail) = (found.verdict.word(), found.verdict.detail());
+        assert_eq!(word, expected, "{detail}");
+    }
+    let damped = Text {
+        coordinates: "q",
+        lagrangian: "1/2 q'^2",
+        forces: &[("q", "-q'")],
+        constraints: &[],
+    };
+    let found = finding(&system(&damped), APPLICABLE);
+    assert_eq!(found.verdict.word(), "not-applicable");
+}
+
+fn integral(
+    system: &System,
+    action: &str,
+    constants: &[&str],
+    quadratures: &[(&str, &str)],
+    motion: &[(&str, &str)],
+) -> CompleteIntegral {
+    let g = &system.graph;
+    let symbol = |name: &str| -> Symbol { g.intern_symbol(name, 0) };
+    CompleteIntegral {
+        action: expr(g, action),
+        constants: constants.iter().map(|name| symbol(name)).collect(),
+        quadratures: quadratures
+            .iter()
+            .map(|(q, e)| (system.coordinate_index(q).unwrap(), expr(g, e)))
+            .collect(),
+        motion: motion
+            .iter()
+            .map(|(a, e)| (symbol(a), expr(g, e)))
+            .collect(),
+    }
+}
+
+/// Verdicts on the equation, det ∂²S/∂q∂α, Jacobi's theorem, and the motion.
+fn words(system: &System, integral: &CompleteIntegral) -> [&'static str; 4] {
+    with_context(system, |cx| {
+        let extremum = Extremum::new(cx).unwrap();
+        let found = verified(cx, &extremum, integral).unwrap();
+        [
+            found.equation.word(),
+            found.nondegenerate.word(),
+            found.theorem.word(),
+            found.motion.word(),
+        ]
+    })
+}
+
+const DISC_ACTION: &str = "-E t + ax x + ay y + at theta";
+const DISC_INTEGRAND: &str =
+    "sqrt(2 J (E - (at + R (ax cos(phi) + ay sin(phi)))^2/(2 (I + m R^2))))";
+
+/// S2: the complete integral of T1 §6.1 gives motions with ax = ay = 0 put in after differentiation, and only then.
+#[test]
+fn the_disc_is_integrated() {
+    let disc = system(&worked::DISC);
+    let constants = ["E", "ax", "ay", "at"];
+    let quadratures = [("phi", DISC_INTEGRAND)];
+    let zero = [("ax", "0"), ("ay", "0")];
+    let s = integral(&disc, DISC_ACTION, &constants, &quadratures, &zero);
+    assert_eq!(words(&disc, &s), ["proved"; 4]);
+    let general = integral(&disc, DISC_ACTION, &constants, &quadratures, &[]);
+    assert_eq!(
+        words(&disc, &general),
+        ["proved", "proved", "proved", "refuted"]
+    );
+    // Zero before differentiation: two constants, and two of the four integrals are lost.
+    let early = [("phi", "sqrt(2 J (E - at^2/(2 (I + m R^2))))")];
+    let lost = integral(&disc, "-E t + at theta", &["E", "at"], &early, &[]);
+    let found = words(&disc, &lost);
+    assert_eq!((found[0], found[1]), ("proved", "undecided"));
+    // A wrong S.
+    let wrong = [("phi", "sqrt(2 J (E - at^2/(2 (I + m R^2))))")];
+    let wrong = integral(&disc, DISC_ACTION, &constants, &wrong, &zero);
+    assert_eq!(words(&disc, &wrong)[0], "refuted");
+}
+
+/// x = βx + R (θ'/φ') sin φ along S_α = β with ax = ay = 0.
+#[test]
+fn the_path_of_the_disc() {
+    let disc = system(&worked::DISC);
+    let g = &disc.graph;
+    // ∂S/∂ax = x + ∫ ∂(integrand)/∂ax dφ, at ax = ay = 0.
+    let slope = g.diff(expr(g, DISC_INTEGRAND), g.intern_symbol("ax", 0));
+    let zero = [(expr(g, "ax"), g.zero()), (expr(g, "ay"), g.zero())];
+    let slope = g.substitute(slope, &zero);
+    // With at = (I + m R²) θ' and √(2 J (E − …)) = J φ' it is −R θ'/φ' cos φ.
+    let rates = [
+        (expr(g, "at"), expr(g, "(I + m R^2) a")),
+        (expr(g, "E"), expr(g, "(I + m R^2) a^2/2 + J b^2/2")),
+    ];
+    let slope = g.substitute(slope, &rates);
+    let squared = g.sub(g.mul(&[slope, slope]), expr(g, "(R a/b cos(phi))^2"));
+    assert_eq!(word(&disc, squared), "proved");
+}
+
+#[test]
+fn separation() {
+    // S2 separates by itself, with ax = ay = 0 found from κ.
+    let disc = system(&worked::DISC);
+    with_context(&disc, |cx| {
+        let extremum = Extremum::new(cx).unwrap();
+        let integral = separated(cx, &extremum).unwrap();
+        let names: Vec<String> = integral
+            .motion
+            .iter()
+            .map(|&(s, _)| disc.graph.symbol_text(s))
+            .collect();
+        assert_eq!(names, ["alpha_x", "alpha_y"]);
+        let found = verified(cx, &extremum, &integral).unwrap();
+        assert_eq!(found.motion.word(), "proved", "{}", found.motion.detail());
+    });
+    let found = finding(&disc, "hamilton-jacobi.applicable#separated");
+    assert_eq!(found.verdict.word(), "proved", "{}", found.verdict.detail());
+    // Levi-Civita: polar coordinates separate Kepler's problem; a coupling x y does not separate in x, y.
+    for (lagrangian, coordinates, expected) in [
+        ("1/2 (r'^2 + r^2 phi'^2) + 1/r", "r phi", "proved"),
+        (
+            "1/2 (r'^2 + r^2 phi'^2) + (1 + cos(phi)/r)/r",
+            "r phi",
+            "proved",
+        ),
+        ("1/2 (r'^2 + r^2 phi'^2) + cos(phi)/r", "r phi", "refuted"),
+        ("1/2 (x'^2 + y'^2) - x y", "x y", "refuted"),
+        ("1/2 (x'^2 + y'^2) - x^2 - y^4", "x y", "proved"),
+    ] {
+        let system = system(&text(coordinates, lagrangian, &[]));
+        let conditions = with_context(&system, |cx| levi_civita(cx, &Extremum::new(cx).unwrap()));
+        assert_eq!(conditions.len(), 1);
+        assert_eq!(word(&system, conditions[0]), expected, "{lagrangian}");
+        let found = finding(&system, "hamilton-jacobi.applicable#separated");
+        assert_eq!(found.verdict.word(), expected, "{}", found.verdict.detail());
+    }
+}

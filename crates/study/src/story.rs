@@ -1,0 +1,290 @@
+//! What the variational principles say of a system, as a story for a terminal: `chetaev principles MODEL`.
+
+use crate::beside::Beside;
+use crate::study::{Decided, Study};
+use crate::summary::{bold, coloured, Style};
+use chetaev_mechanics::Formula;
+use std::fmt::Write as _;
+
+/// A chapter: its title, what it is about, and the claims it tells of, by id or by what ids begin with.
+struct Chapter {
+    title: &'static str,
+    opening: &'static str,
+    claims: &'static [&'static str],
+}
+
+/// The chapters in the order in which one follows from another.
+const CHAPTERS: &[Chapter] = &[
+    Chapter {
+        title: "What is δv?",
+        opening: "Virtual displacements satisfy Σ ∂f/∂v δq = 0. What the variation of a velocity is has to be agreed upon: δv = D(δq) for all velocities \
+                  (Hölder), so that curves are varied into curves; or for the independent ones with δf = 0 (Suslov), so that varied states are admissible.",
+        claims: &["variation."],
+    },
+    Chapter {
+        title: "Hamilton's principle in four forms",
+        opening: "All have virtual δq that vanish at the ends. Each form is built by its own rule, integrated by parts, and compared with the equations it must give.",
+        claims: &[
+            "hamilton.hoelder",
+            "hamilton.voronets",
+            "hamilton.suslov",
+            "hamilton.helmholtz-poincare",
+            "hamilton.forms-equivalent",
+            "hamilton.central-identity",
+        ],
+    },
+    Chapter {
+        title: "Is the action stationary?",
+        opening: "∫δL dt = 0 for virtual δq is not δ∫L dt = 0 among admissible curves. Curves that make the action stationary solve \
+                  D(∂L/∂v) − ∂L/∂q = Σ κ E[f] − Σ κ' ∂f/∂v with multipliers κ(t); a motion with the reactions λ is among them where Σ κ E[f]·δq = 0 and κ' = ρ − λ.",
+        claims: &[
+            "hamilton.stationary",
+            "hamilton.stationary-suslov",
+            "formulation.vakonomic-coincides",
+            "hamilton.kerner",
+            "hamilton.constants",
+            "hamilton.endpoints",
+        ],
+    },
+    Chapter {
+        title: "Energy and least action",
+        opening: "Now the times vary too: Δq = δq + v Δt, Δv = D(Δq) − v D(Δt). At fixed energy this gives least action in the forms of Lagrange and Jacobi.",
+        claims: &["energy.integral", "action."],
+    },
+    Chapter {
+        title: "Hamilton and Jacobi, Chaplygin",
+        opening: "The extremum for L + Σ κ f has the momenta π = p + Σ κ ∂f/∂v and the Hamiltonian H₁ = Σ π v − L; S_t + H₁(q, S_q, t) = 0 integrates the motions \
+                  where the action is stationary. Another way to Hamilton's equations is another time, dτ = N dt.",
+        claims: &["hamilton-jacobi.", "chaplygin."],
+    },
+    Chapter {
+        title: "q and v on the same footing",
+        opening: "On a curve (q(t), v(t)) Dq need not be v: with Z = L + Σ (Dq − v) ∂L/∂v, ∫(δZ + Σ Q δq) dt = 0 gives Dq = v and the equations of motion. \
+                  With Dq = v on the true path δv cancels, and any linear relation δv = A(δq) may be imposed.",
+        claims: &["second-kind.", "universal-relation"],
+    },
+    Chapter {
+        title: "Numbers as a witness",
+        opening: "Integrals over the computed motion, independent of all proofs above.",
+        claims: &["witness."],
+    },
+];
+
+/// Characters of a line.
+const WIDTH: usize = 100;
+
+/// The story: the system, chapter after chapter each principle with its formulas for this system and the verdict, and the
+/// constrained extremum beside the motion where it was computed.
+pub fn story(study: &Study, style: Style) -> String {
+    let mut text = String::new();
+    system(&mut text, study, style);
+    for chapter in CHAPTERS {
+        let told: Vec<&Decided> = chapter
+            .claims
+            .iter()
+            .flat_map(|id| study.verdicts.iter().filter(move |d| is_of(d, id)))
+            .collect();
+        if told.is_empty() {
+            continue;
+        }
+        let _ = writeln!(text, "\n{}", bold(style, chapter.title));
+        paragraph(&mut text, chapter.opening, 0);
+        let mut title = "";
+        for decided in told {
+            if decided.title != title {
+                title = decided.title;
+                let _ = writeln!(text, "\n  {title}");
+            }
+            verdict(&mut text, study, decided, style);
+        }
+    }
+    if let Some(beside) = study.motion.as_ref().and_then(|m| m.beside.as_ref()) {
+        let _ = writeln!(
+            text,
+            "\n{}",
+            bold(style, "The motion and the constrained extremum")
+        );
+        match beside {
+            Ok(found) => extremum(&mut text, study, found),
+            Err(why) => paragraph(
+                &mut text,
+                &format!("There is no extremum to compare: {why}."),
+                0,
+            ),
+        }
+    }
+    for notice in &study.notices {
+        let _ = writeln!(text, "note: {notice}");
+    }
+    text
+}
+
+/// Whether a verdict is of a claim, by its id or the beginning of it.
+fn is_of(decided: &Decided, id: &str) -> bool {
+    match id.ends_with('.') {
+        true => decided.claim.starts_with(id),
+        false => decided.claim == id,
+    }
+}
+
+fn system(text: &mut String, study: &Study, style: Style) {
+    let (system, g) = (&study.system, &study.system.graph);
+    let _ = writeln!(text, "{}", bold(style, &study.model.name));
+    let _ = writeln!(text, "  L = {}", g.text(system.lagrangian));
+    for constraint in &system.constraints {
+        let _ = writeln!(
+            text,
+            "  {}: {} = 0",
+            constraint.name,
+            g.text(constraint.stated)
+        );
+    }
+    let forced = system.coordinates.iter().zip(&system.forces);
+    for (c, &force) in forced.filter(|(_, force)| !g.is_zero(**force)) {
+        let _ = writeln!(text, "  Q_{} = {}", c.name, g.text(force));
+    }
+}
+
+fn verdict(text: &mut String, study: &Study, decided: &Decided, style: Style) {
+    let word = decided.finding.verdict.word();
+    let _ = writeln!(
+        text,
+        "  {} {}",
+        coloured(style, word).trim_end(),
+        decided.full_id()
+    );
+    if !decided.is_as_expected() {
+        let _ = writeln!(
+            text,
+            "    the model expects: {}",
+            decided.expected.join(" or ")
+        );
+    }
+    for formula in &decided.finding.formulas {
+        let _ = writeln!(text, "    {}", line(study, formula));
+    }
+    let detail = decided.finding.verdict.detail().replace('\n', " ");
+    let told: Vec<&str> = detail
+        .split("; ")
+        .filter(|part| !is_technique(part))
+        .collect();
+    if !told.is_empty() {
+        paragraph(text, &format!("{}.", told.join("; ")), 4);
+    }
+}
+
+/// How a zero test was made, which the record and the report say; the verdict's word is enough in a story.
+fn is_technique(part: &str) -> bool {
+    const BEGINNINGS: [&str; 4] = [
+        "the difference cancels",
+        "the normal form over",
+        "zero at ",
+        "vanishes at ",
+    ];
+    BEGINNINGS.iter().any(|begin| part.starts_with(begin))
+}
+
+/// "caption: left = right".
+fn line(study: &Study, formula: &Formula) -> String {
+    let g = &study.system.graph;
+    match formula.left {
+        Some(left) => format!(
+            "{}: {} = {}",
+            formula.caption,
+            g.text(left),
+            g.text(formula.right)
+        ),
+        None => format!("{}: {}", formula.caption, g.text(formula.right)),
+    }
+}
+
+/// Words in lines of at most [`WIDTH`] characters.
+fn paragraph(text: &mut String, words: &str, indent: usize) {
+    let margin = " ".repeat(indent + 2);
+    let mut line = margin.clone();
+    for word in words.split_whitespace() {
+        let is_full = line.chars().count() + word.chars().count() >= WIDTH;
+        if is_full && line != margin {
+            let _ = writeln!(text, "{}", line.trim_end());
+            line.clone_from(&margin);
+        }
+        line.push_str(word);
+        line.push(' ');
+    }
+    let _ = writeln!(text, "{}", line.trim_end());
+}
+
+/// Rows of the table of both curves.
+const ROWS: usize = 8;
+
+fn extremum(text: &mut String, study: &Study, found: &Beside) {
+    let Some(motion) = &study.motion else {
+        return;
+    };
+    let kappa: Vec<String> = found
+        .kappa
+        .iter()
+        .map(|(name, value)| format!("{name}(0) = {value}"))
+        .collect();
+    let whence = match found.is_of_motion {
+        true => ", the multipliers with which every motion is an extremal",
+        false => "",
+    };
+    let (distance, coordinate, t) = &found.distance;
+    let sentence = format!(
+        "Both from the same state, the extremum with {}{whence}. They are farthest apart in {coordinate}, by {distance:.6} at t = {t:.6}.",
+        kappa.join(", ")
+    );
+    match coordinate.is_empty() {
+        true => paragraph(
+            text,
+            &format!(
+                "Both from the same state, the extremum with {}{whence}: they do not differ.",
+                kappa.join(", ")
+            ),
+            0,
+        ),
+        false => paragraph(text, &sentence, 0),
+    }
+    table(text, study, &motion.evidence.run, &found.run);
+    for (name, run) in [("motion", &motion.evidence.run), ("extremum", &found.run)] {
+        if !run.ending.finished {
+            let _ = writeln!(text, "  the {name} ended early: {}", run.ending.reason);
+        }
+    }
+}
+
+/// Coordinates of the motion and of the extremum at some times.
+fn table(
+    text: &mut String,
+    study: &Study,
+    motion: &chetaev_motion::Run,
+    extremum: &chetaev_motion::Run,
+) {
+    let shared = motion.asked().min(extremum.asked());
+    if shared < 2 {
+        return;
+    }
+    let names: Vec<&str> = study
+        .system
+        .coordinates
+        .iter()
+        .map(|c| c.name.as_str())
+        .collect();
+    let head: Vec<String> = names
+        .iter()
+        .flat_map(|name| [format!("{name:>12}"), format!("{:>12}", "extremum")])
+        .collect();
+    let _ = writeln!(text, "\n  {:>10}{}", "t", head.concat());
+    for k in 0..=ROWS {
+        let j = k * (shared - 1) / ROWS;
+        let (a, b) = (motion.row(j), extremum.row(j));
+        let values: Vec<String> = motion
+            .layout
+            .q()
+            .take(names.len())
+            .flat_map(|i| [format!("{:>12.5}", a[i]), format!("{:>12.5}", b[i])])
+            .collect();
+        let _ = writeln!(text, "  {:>10.4}{}", motion.times[j], values.concat());
+    }
+}

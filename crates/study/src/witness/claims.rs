@@ -1,0 +1,374 @@
+//! The claims: each compares integrals over the motion with what the proofs say.
+
+use super::first::Form;
+use super::{evidence, first, linear, neighbours};
+use crate::motion_claims::of_another_system;
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue};
+use chetaev_symbolic::Verdict;
+
+/// The claims of this module.
+pub static CLAIMS: &[&dyn Claim] = &[
+    &WitnessOfForms,
+    &WitnessOfAction,
+    &WitnessOfEnds,
+    &WitnessOfIndex,
+];
+
+/// A first variation below this part of its terms is rounding and the error of the motion.
+const ROUNDING: f64 = 1e-8;
+/// Where doubled steps change the action by more, the quadrature says nothing.
+const COARSE: f64 = 1e-2;
+/// A change of the action beyond this part of its terms, and beyond the error of the steps, is one.
+const SMALL: f64 = 1e-6;
+/// Beyond this part, and beyond what the quadrature leaves open, it is not zero.
+const CLEARLY: f64 = 1e-3;
+
+fn subjects_if_motion(cx: &Context<'_>, all: &[&str]) -> Vec<Option<String>> {
+    let applies = evidence(cx).is_some() && cx.terms.order == 1;
+    let subjects = all.iter().filter(|_| applies);
+    subjects.map(|s| Some((*s).to_string())).collect()
+}
+
+/// Once for a motion of a system with so many coordinates at most.
+fn once_up_to(cx: &Context<'_>, coordinates: usize) -> Vec<Option<String>> {
+    let is_small = cx.system.n() <= coordinates;
+    match evidence(cx).is_some() && cx.terms.order == 1 && is_small {
+        true => vec![None],
+        false => Vec::new(),
+    }
+}
+
+/// The verdict that a motion of another system gives.
+fn elsewhere(cx: &Context<'_>) -> Option<Finding> {
+    match evidence(cx) {
+        Some(evidence) => of_another_system(&evidence),
+        None => Some(Verdict::undecided("no motion was computed").into()),
+    }
+}
+
+fn numerical(samples: u32, interval: (f64, f64), residual: f64, sentence: String) -> Verdict {
+    Verdict::Numerical(Evidence {
+        samples,
+        region: format!(
+            "along the computed motion from t = {:.6} to {:.6}",
+            interval.0, interval.1
+        ),
+        digits: 16,
+        residual,
+        seed: Some(first::SEED),
+        why_no_proof: sentence,
+    })
+}
+
+fn refuted(quantity: &str, t: f64, value: f64, detail: String) -> Verdict {
+    let text = |x: f64| (format!("{x:e}"), format!("{x:e}"));
+    Verdict::Refuted(Counterexample {
+        point: vec![PointValue {
+            name: "t".into(),
+            exact: None,
+            enclosure: Some((format!("{t}"), format!("{t}"))),
+        }],
+        quantity: quantity.into(),
+        residual: text(value),
+        detail,
+    })
+}
+
+/// `witness.first-variation#FORM`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WitnessOfForms;
+
+impl Claim for WitnessOfForms {
+    fn id(&self) -> &'static str {
+        "witness.first-variation"
+    }
+
+    fn group(&self) -> Group {
+        Group::Principles
+    }
+
+    fn title(&self) -> &'static str {
+        "The first variation of a form vanishes along the computed motion"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "Along the computed motion each form of Hamilton's principle is integrated for random virtual displacements that vanish at the ends: the integrand of Hölder and that of \
+         Helmholtz and Poincaré (with random δp) for displacements projected on the constraints, those of Voronets and Suslov by their own rules in the independent velocities, where these stay independent. \
+         The trapezoidal rule is repeated with doubled steps. The integral, over that of the sizes of its terms, must vanish as the step is refined, down to the error of the motion; \
+         `refuted` means that it does not, so motion or form is wrong. It is a witness, not a proof: numbers of one motion."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        vec![
+            "model.accelerations-unique".into(),
+            "model.masses-free-of-velocity".into(),
+        ]
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        let words: Vec<&str> = Form::of(cx).into_iter().map(Form::word).collect();
+        subjects_if_motion(cx, &words)
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        if let Some(other) = elsewhere(cx) {
+            return other;
+        }
+        let form = Form::ALL.into_iter().find(|f| Some(f.word()) == subject);
+        let Some(form) = form else {
+            return Verdict::undecided("there is no such form").into();
+        };
+        match first::of(cx, form) {
+            Ok(found) => of_form(&found).into(),
+            Err(why) => Verdict::undecided(why).into(),
+        }
+    }
+}
+
+fn of_form(found: &first::FirstVariation) -> Verdict {
+    let shown: Vec<String> = found
+        .residuals
+        .iter()
+        .rev()
+        .map(|r| format!("{r:.1e}"))
+        .collect();
+    let sentence = format!(
+        "{} over {} random variations: |∫ δ dt| over the sizes of its terms is {} with steps {:.2e} to {:.2e}",
+        found.form.whose(),
+        found.variations,
+        shown.join(", "),
+        found.steps[found.steps.len() - 1],
+        found.steps[0],
+    );
+    let value = found.residuals[0];
+    let open = 3.0 * found.change + ROUNDING;
+    if value <= open && found.change <= CLEARLY {
+        return numerical(found.variations, found.interval, value, sentence);
+    }
+    if value > 3.0 * open + CLEARLY {
+        return refuted("first variation", found.interval.1, value, sentence);
+    }
+    Verdict::undecided(format!(
+        "{sentence}; the output is too coarse for a quadrature"
+    ))
+}
+
+/// `witness.stationary`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WitnessOfAction;
+
+impl Claim for WitnessOfAction {
+    fn id(&self) -> &'static str {
+        "witness.stationary"
+    }
+
+    fn group(&self) -> Group {
+        Group::Principles
+    }
+
+    fn title(&self) -> &'static str {
+        "The action of admissible neighbours changes as hamilton.stationary says"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "Neighbours of the computed motion that satisfy the constraints to first order and have the same ends, f_q η + ∂f/∂v·η' = 0, are integrated along it, and δ∫L dt = ∫(∂L/∂q η + p η') dt \
+         is taken for several of them. It vanishes exactly where the motion makes the action stationary. The number, over the integral of the sizes of its terms, is stated with its change when the steps are doubled, and \
+         compared with the verdict of hamilton.stationary: where every motion is stationary it must be zero; where no motion is, or those on a subset, the number says whether this one is. \
+         Example: a rolling disc has zero although δf ≠ 0 for virtual δq; the cycloid of a skate on an incline has not."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        vec![
+            "model.forces-absent".into(),
+            "model.accelerations-unique".into(),
+            "model.masses-of-time".into(),
+        ]
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        once_up_to(cx, neighbours::COORDINATES)
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        if let Some(other) = elsewhere(cx) {
+            return other;
+        }
+        match neighbours::of(cx) {
+            Ok(found) => of_action(cx, &found).into(),
+            Err(why) => Verdict::undecided(why).into(),
+        }
+    }
+}
+
+fn of_action(cx: &Context<'_>, found: &neighbours::Neighbours) -> Verdict {
+    let stationary = "hamilton.stationary";
+    let verdict = cx.finding(stationary).verdict.clone();
+    let vanishes = found.change <= 3.0 * found.error + ROUNDING;
+    let sentence = format!(
+        "largest |δ∫L dt| over the sizes of its terms, for {} admissible neighbours with the same ends: {:.2e}, and {:.1e} of it by the steps; `{stationary}` is {}",
+        found.variations,
+        found.change,
+        found.error,
+        verdict.word()
+    );
+    if found.error > COARSE {
+        return Verdict::undecided(format!(
+            "{sentence}; the output is too coarse for a quadrature"
+        ));
+    }
+    // Doubled steps have sixteen times the error.
+    let differs = !vanishes && found.change > SMALL + 5.0 * found.error;
+    let contradicts = found.change > SMALL + 30.0 * found.error;
+    let (said, residual) = match (&verdict, vanishes) {
+        (Verdict::Proved(_), true) => ("the action is stationary", found.change),
+        (Verdict::Proved(_), false) if contradicts => {
+            return refuted("δ∫L dt", found.interval.1, found.change, sentence)
+        }
+        (_, true) => (
+            "of this motion the action is stationary to the accuracy of the quadrature",
+            found.change,
+        ),
+        (Verdict::Conditional { .. } | Verdict::Refuted(_), false) if differs => {
+            ("of this motion the action is not stationary", found.error)
+        }
+        _ => {
+            let tried = format!("{sentence}; too small to be told from zero");
+            return Verdict::undecided(tried);
+        }
+    };
+    let sentence = format!("{said}: {sentence}");
+    numerical(found.variations, found.interval, residual, sentence)
+}
+
+/// `witness.endpoints`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WitnessOfEnds;
+
+impl Claim for WitnessOfEnds {
+    fn id(&self) -> &'static str {
+        "witness.endpoints"
+    }
+
+    fn group(&self) -> Group {
+        Group::Principles
+    }
+
+    fn title(&self) -> &'static str {
+        "Motions from the start reach a set of dimension n − r at later times too"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "What hamilton.endpoints says for small times is followed along the computed motion: the derivatives of q(t) by the n − r admissible initial velocities, from the variational equations. \
+         Their volume over the product of their lengths is 1 at right angles and 0 where they become dependent: at such focal times the rank drops, and neighbouring motions meet to first order."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        vec![
+            "model.accelerations-unique".into(),
+            "model.masses-of-time".into(),
+        ]
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        once_up_to(cx, linear::COORDINATES)
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        if let Some(other) = elsewhere(cx) {
+            return other;
+        }
+        match linear::reach(cx) {
+            Ok(found) => of_ends(&found).into(),
+            Err(why) => Verdict::undecided(why).into(),
+        }
+    }
+}
+
+fn of_ends(found: &linear::Reach) -> Verdict {
+    let (least, t) = found.least;
+    let rank = match linear::is_flat(found.at_end) {
+        true => format!("less than {}", found.dimension),
+        false => found.dimension.to_string(),
+    };
+    let sentence = format!(
+        "the derivative of q(t) by the {} admissible initial velocities has the rank {rank} at the end; the least volume of its directions is {least:.1e}, at t = {t:.6}",
+        found.dimension
+    );
+    numerical(1, found.interval, least, sentence)
+}
+
+/// `witness.index`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WitnessOfIndex;
+
+impl Claim for WitnessOfIndex {
+    fn id(&self) -> &'static str {
+        "witness.index"
+    }
+
+    fn group(&self) -> Group {
+        Group::Principles
+    }
+
+    fn title(&self) -> &'static str {
+        "Conjugate times of the computed motion, and the index of its action"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "Where every motion makes the action stationary with a unique κ, the second variation ∫(η' F_vv η' + 2 η F_qv η' + η F_qq η) dt, F = L + Σ κ f, for admissible η that vanish at the ends, says of which kind the stationary value is: \
+         with F_vv positive on the null space of ∂f/∂v it has as many negative directions as there are conjugate times, and the action is a (weak) minimum up to the first. Conjugate times are found from the linearized equations of the extremum with η = 0 at the start. \
+         It is a property of the motion, of κ and of the interval, never of the system alone. Where κ is not unique an index belongs to κ, not to the curve, and none is stated. Example: an oscillator q'' = −w² q has them every π/w."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        vec![
+            "hamilton.stationary".into(),
+            "model.constrained-extremum-regular".into(),
+        ]
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        once_up_to(cx, linear::COORDINATES)
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        if let Some(other) = elsewhere(cx) {
+            return other;
+        }
+        if !matches!(
+            cx.finding("hamilton.stationary").verdict,
+            Verdict::Proved(_)
+        ) {
+            let detail = "whether the action is stationary depends on the motion, and κ is followed where it is for every motion";
+            return Verdict::not_applicable("hamilton.stationary", detail).into();
+        }
+        if let Err(why) = linear::multipliers(cx) {
+            return Verdict::undecided(why).into();
+        }
+        match linear::conjugate(cx) {
+            Ok(found) => of_index(&found).into(),
+            Err(why) => Verdict::undecided(why).into(),
+        }
+    }
+}
+
+fn of_index(found: &linear::Conjugate) -> Verdict {
+    let (from, to) = found.interval;
+    let sentence = match (&found.legendre, found.times.as_slice()) {
+        (Err(t), _) => format!(
+            "F_vv is not positive on the null space of ∂f/∂v at t = {t:.6}: the action is no minimum, however short the interval"
+        ),
+        (Ok(()), []) => format!("no conjugate time from {from:.6} to {to:.6}: the action is a weak minimum, its index 0"),
+        (Ok(()), times) => {
+            let shown: Vec<String> = times.iter().take(5).map(|t| format!("{t:.6}")).collect();
+            let more = if times.len() > 5 { ", …" } else { "" };
+            format!(
+                "conjugate times {}{more}: the action is a weak minimum up to the first, and has the index {} at the end",
+                shown.join(", "),
+                times.len()
+            )
+        }
+    };
+    numerical(1, found.interval, 0.0, sentence)
+}

@@ -1,0 +1,369 @@
+//! The first variation of each form of Hamilton's principle along the computed motion, for random virtual displacements that
+//! vanish at the ends.
+//!
+//! Virtual displacements are projections of free ones, `δq = η − fᵥᵀ (fᵥ fᵥᵀ)⁻¹ fᵥ η`, for the forms of Hölder and of
+//! Helmholtz and Poincaré; those of Voronets and Suslov are taken by their own rules in the independent velocities, on the longest
+//! stretch on which these are independent. The trapezoidal rule shows its order in halved steps, as the variations vanish at the
+//! ends with their derivatives.
+
+use super::algebra::{determinant, gram, solved, times, transposed_times};
+use super::samples::{Samples, LEAST};
+use super::wave::Wave;
+use chetaev_mechanics::claims::formulation::basis;
+use chetaev_mechanics::formulations::legendre::Legendre;
+use chetaev_mechanics::sample::Generator;
+use chetaev_mechanics::Context;
+use chetaev_motion::follow::magnitude;
+use chetaev_principles::hamilton::{suslov, voronets};
+use chetaev_principles::variations::Displacements;
+use chetaev_symbolic::{Expr, Verdict};
+use std::ops::Range;
+
+/// A form of Hamilton's principle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// `∫(δL + Σ Q δq) dt`, δv = D(δq).
+    Hoelder,
+    /// `∫(δL* + Σ θ (δv − δφ) + Σ Q δq) dt`.
+    Voronets,
+    /// `∫(δL + Σ θ A δq + Σ Q δq) dt`, δf = 0.
+    Suslov,
+    /// `∫(δ(Σ p q' − H) + Σ Q δq) dt`, δp free.
+    HelmholtzPoincare,
+}
+
+impl Form {
+    /// All forms.
+    pub const ALL: [Form; 4] = [
+        Form::Hoelder,
+        Form::Voronets,
+        Form::Suslov,
+        Form::HelmholtzPoincare,
+    ];
+
+    /// Those that differ for this system: without constraints those of Voronets and Suslov are Hölder's.
+    pub fn of(cx: &Context<'_>) -> Vec<Form> {
+        let has_constraints = !cx.selection.rows.is_empty();
+        let in_chart = [Form::Voronets, Form::Suslov];
+        let all = Form::ALL.into_iter();
+        all.filter(|form| has_constraints || !in_chart.contains(form))
+            .collect()
+    }
+
+    /// The subject of its claim.
+    pub fn word(self) -> &'static str {
+        match self {
+            Form::Hoelder => "hoelder",
+            Form::Voronets => "voronets",
+            Form::Suslov => "suslov",
+            Form::HelmholtzPoincare => "helmholtz-poincare",
+        }
+    }
+
+    /// "Hölder's form".
+    pub fn whose(self) -> &'static str {
+        match self {
+            Form::Hoelder => "Hölder's form",
+            Form::Voronets => "Voronets' form",
+            Form::Suslov => "Suslov's form",
+            Form::HelmholtzPoincare => "the form of Helmholtz and Poincaré",
+        }
+    }
+}
+
+/// The first variation of a form for the random variation at which it is largest.
+#[derive(Clone, Debug)]
+pub struct FirstVariation {
+    /// The form.
+    pub form: Form,
+    /// Steps of the quadrature, the smallest first.
+    pub steps: Vec<f64>,
+    /// `|∫ integrand dt|/∫ Σ|terms| dt` for each.
+    pub residuals: Vec<f64>,
+    /// The difference of the two finest, on the same scale: what the quadrature leaves open.
+    pub change: f64,
+    /// The interval.
+    pub interval: (f64, f64),
+    /// How many variations were taken.
+    pub variations: u32,
+}
+
+/// Variations of each form.
+const VARIATIONS: usize = 4;
+/// Steps: so many times the distance of rows.
+const STRIDES: [usize; 5] = [1, 2, 4, 8, 16];
+/// Their seed.
+pub(super) const SEED: u64 = 0x5eed_0d9a;
+/// Where a minor of the constraints is less than this part of its largest possible value the velocities count as dependent.
+const INDEPENDENT: f64 = 0.25;
+
+/// All forms, computed once.
+pub(super) struct Found(Vec<(Form, Result<FirstVariation, String>)>);
+
+/// The first variation of a form, or why it was not computed.
+pub(super) fn of(cx: &Context<'_>, form: Form) -> Result<FirstVariation, String> {
+    let found = cx.shared(|cx| {
+        let forms = Form::of(cx).into_iter();
+        Found(forms.map(|form| (form, compute(cx, form))).collect())
+    });
+    let own = found.0.iter().find(|(own, _)| *own == form);
+    own.map_or_else(|| Err("no such form".into()), |(_, found)| found.clone())
+}
+
+/// Those that claims have computed.
+pub(super) fn known(cx: &Context<'_>) -> Vec<FirstVariation> {
+    let found = cx.known::<Found>();
+    let all = found.iter().flat_map(|found| &found.0);
+    all.filter_map(|(_, found)| found.clone().ok()).collect()
+}
+
+fn compute(cx: &Context<'_>, form: Form) -> Result<FirstVariation, String> {
+    match form {
+        Form::Hoelder => projected(cx, form, None),
+        Form::HelmholtzPoincare => {
+            if matches!(
+                cx.finding("model.hessian-regular").verdict,
+                Verdict::Refuted(_)
+            ) {
+                return Err("there is no H, as ∂²L/∂v∂v is singular".into());
+            }
+            let legendre = Legendre::new(cx.system).map_err(|problem| problem.to_string())?;
+            projected(cx, form, Some(&legendre))
+        }
+        Form::Voronets | Form::Suslov => in_chart(cx, form),
+    }
+}
+
+/// The value of an integrand at a row for variations η at a share of the interval, and the sum of the sizes of its terms.
+type Term = (f64, f64);
+
+/// Quadratures over rows for several variations; the one with the largest result.
+fn quadratures(
+    form: Form,
+    samples: &Samples,
+    rows: Range<usize>,
+    width: usize,
+    integrand: impl Fn(usize, &[(f64, f64)]) -> Option<Term>,
+) -> Result<FirstVariation, String> {
+    let largest = STRIDES[STRIDES.len() - 1];
+    let count = (rows.len() - 1) / largest * largest;
+    if count < LEAST {
+        return Err(format!(
+            "the independent velocities are independent over {count} steps of the output at most; {LEAST} are needed"
+        ));
+    }
+    let (start, end) = (samples.times[rows.start], samples.times[rows.start + count]);
+    let length = end - start;
+    let mut generator = Generator::new(SEED);
+    let mut worst: Option<FirstVariation> = None;
+    for _ in 0..VARIATIONS {
+        let waves: Vec<Wave> = (0..width)
+            .map(|_| Wave::vanishing(&mut generator))
+            .collect();
+        let terms: Option<Vec<Term>> = (0..=count)
+            .map(|j| {
+                let share = j as f64 / count as f64;
+                let eta: Vec<(f64, f64)> = waves.iter().map(|w| w.at(share, length)).collect();
+                integrand(rows.start + j, &eta)
+            })
+            .collect();
+        let terms = terms.ok_or("the gradients of the constraints are dependent at a row")?;
+        // Both ends vanish: the trapezoidal rule is the plain sum.
+        let sum = |stride: usize| -> f64 {
+            let values = terms.iter().step_by(stride).map(|t| t.0);
+            values.sum::<f64>() * stride as f64
+        };
+        let scale: f64 = terms.iter().map(|t| t.1).sum();
+        if scale.is_nan() {
+            return Err("the integrand has no value at a row".into());
+        }
+        let over = |x: f64| if scale == 0.0 { 0.0 } else { x.abs() / scale };
+        let found = FirstVariation {
+            form,
+            steps: STRIDES
+                .iter()
+                .map(|&s| length.abs() * s as f64 / count as f64)
+                .collect(),
+            residuals: STRIDES.iter().map(|&s| over(sum(s))).collect(),
+            change: over(sum(1) - sum(2)),
+            interval: (start, end),
+            variations: VARIATIONS as u32,
+        };
+        let is_worse = |known: &FirstVariation| found.residuals[0] > known.residuals[0];
+        if worst.as_ref().is_none_or(is_worse) {
+            worst = Some(found);
+        }
+    }
+    worst.ok_or_else(|| "no variation was taken".into())
+}
+
+/// `Σ (L_q + Q) δq + p D(δq)` with projected δq; with H, `Σ (Q − H_q) δq + p D(δq) + δp (v − ∂H/∂p)`.
+fn projected(
+    cx: &Context<'_>,
+    form: Form,
+    legendre: Option<&Legendre>,
+) -> Result<FirstVariation, String> {
+    let (system, g, n) = (cx.system, &cx.system.graph, cx.system.n());
+    let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
+    let basis = basis(cx);
+    let r = cx.selection.rows.len();
+    let jacobian = basis.jacobian().concat();
+    let moved: Vec<Expr> = jacobian
+        .iter()
+        .map(|&e| system.total_derivative(e))
+        .collect();
+    let mut slopes = g.gradient(system.lagrangian, &system.coordinate_symbols());
+    let mut lag = Vec::new();
+    if let Some(legendre) = legendre {
+        let definitions: Vec<(Expr, Expr)> = legendre
+            .momenta
+            .iter()
+            .map(|p| (p.value, p.definition))
+            .collect();
+        let at_momenta = |es: &[Expr]| g.substitute_all(es, &definitions);
+        let by_momenta = at_momenta(&legendre.by_momenta);
+        let pairs = system.coordinates.iter().zip(by_momenta);
+        lag = pairs.map(|(c, v)| g.sub(c.v, v)).collect();
+        let by_coordinates = at_momenta(&legendre.by_coordinates);
+        slopes = by_coordinates.into_iter().map(|e| g.neg(e)).collect();
+    }
+    let forces = slopes.iter().zip(&system.forces);
+    let forces: Vec<Expr> = forces.map(|(&a, &b)| g.add(&[a, b])).collect();
+    let samples = Samples::new(cx, &[&forces, &momenta, &jacobian, &moved, &lag])?;
+    let rows = 0..samples.times.len();
+    let width = n + lag.len();
+    quadratures(form, &samples, rows, width, |row, waves| {
+        let (eta, free) = waves.split_at(n);
+        let eta: (Vec<f64>, Vec<f64>) = eta.iter().copied().unzip();
+        let of = |group: usize| samples.at(group, row);
+        let (value, rate) = projection(r, n, of(2), of(3), &eta.0, &eta.1)?;
+        let parts = of(0).iter().zip(&value).chain(of(1).iter().zip(&rate));
+        let parts = parts.map(|(a, b)| a * b);
+        let lag = of(4).iter().zip(free).map(|(a, b)| a * b.0);
+        let all: Vec<f64> = parts.chain(lag).collect();
+        Some((all.iter().sum(), all.iter().map(|x| x.abs()).sum()))
+    })
+}
+
+/// `δq = η − fᵥᵀ G⁻¹ fᵥ η`, `G = fᵥ fᵥᵀ`, and D(δq), from fᵥ and its rate.
+pub(super) fn projection(
+    r: usize,
+    n: usize,
+    jacobian: &[f64],
+    moved: &[f64],
+    eta: &[f64],
+    rate: &[f64],
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    if r == 0 {
+        return Some((eta.to_vec(), rate.to_vec()));
+    }
+    let matrix = gram(jacobian, r, n);
+    let multipliers = solved(r, &matrix, &times(jacobian, n, eta))?;
+    // G' z + G z' = fᵥ' η + fᵥ η'.
+    let back = transposed_times(jacobian, n, &multipliers);
+    let moved_back = transposed_times(moved, n, &multipliers);
+    let right: Vec<f64> = times(moved, n, eta)
+        .into_iter()
+        .zip(times(jacobian, n, rate))
+        .zip(times(moved, n, &back))
+        .zip(times(jacobian, n, &moved_back))
+        .map(|(((a, b), c), d)| a + b - c - d)
+        .collect();
+    let rates = solved(r, &matrix, &right)?;
+    let forth = transposed_times(jacobian, n, &rates);
+    let value = eta.iter().zip(&back).map(|(a, b)| a - b).collect();
+    let parts = rate.iter().zip(&moved_back).zip(&forth);
+    Some((value, parts.map(|((a, b), c)| a - b - c).collect()))
+}
+
+/// The forms in independent velocities, each by its own rule.
+fn in_chart(cx: &Context<'_>, form: Form) -> Result<FirstVariation, String> {
+    let (system, g, n) = (cx.system, &cx.system.graph, cx.system.n());
+    let r = cx.selection.rows.len();
+    let d = Displacements::new(cx).map_err(|problem| problem.to_string())?;
+    let integrand = match form {
+        Form::Suslov => suslov::integrand(&d),
+        _ => voronets::integrand(&d),
+    };
+    let forces = d.chart.restrict(system, &system.forces);
+    let work = d.chart.contract(system, &forces);
+    let value: Vec<Expr> = integrand
+        .value
+        .iter()
+        .zip(&work)
+        .map(|(&a, &b)| g.add(&[a, b]))
+        .collect();
+    let jacobian = basis(cx).jacobian();
+    let minor: Vec<Expr> = jacobian
+        .iter()
+        .flat_map(|row| d.chart.dependent.iter().map(|&i| row[i]))
+        .collect();
+    let jacobian = jacobian.concat();
+    // Coefficients may vanish on a motion by cancellation: their sizes are those of their terms.
+    let coefficients = value.iter().chain(&integrand.rate);
+    let sizes: Vec<Expr> = coefficients.map(|&e| magnitude(g, e)).collect();
+    let groups: [&[Expr]; 5] = [&value, &integrand.rate, &minor, &jacobian, &sizes];
+    let samples = Samples::new(cx, &groups)?;
+    let independent = |row: usize| {
+        let whole = determinant(r, &gram(samples.at(3, row), r, n)).sqrt();
+        determinant(r, samples.at(2, row)).abs() >= INDEPENDENT * whole
+    };
+    let rows = longest(samples.times.len(), independent);
+    quadratures(form, &samples, rows, d.chart.k(), |row, waves| {
+        let of = |group: usize| samples.at(group, row);
+        let waves = || waves.iter().map(|w| w.0).chain(waves.iter().map(|w| w.1));
+        let all = of(0).iter().chain(of(1)).zip(waves());
+        let sizes = of(4).iter().zip(waves());
+        Some((
+            all.map(|(a, w)| a * w).sum(),
+            sizes.map(|(a, w)| (a * w).abs()).sum(),
+        ))
+    })
+}
+
+/// The longest range of rows with a property.
+fn longest(count: usize, holds: impl Fn(usize) -> bool) -> Range<usize> {
+    let (mut best, mut start) = (0..1, 0);
+    for row in 0..=count {
+        if row == count || !holds(row) {
+            if row - start > best.len() {
+                best = start..row;
+            }
+            start = row + 1;
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_longest_stretch() {
+        let holds = |row: usize| ![0, 4, 5].contains(&row);
+        assert_eq!(longest(12, holds), 6..12);
+        assert_eq!(longest(3, |_| true), 0..3);
+        assert_eq!(longest(3, |_| false).len(), 1);
+    }
+
+    /// z' = y x' at y(t) = sin t: the projection is virtual, and its rate is the difference quotient.
+    #[test]
+    fn projections_are_virtual() {
+        let row = |t: f64| [-t.sin(), 0.0, 1.0];
+        let rate = |t: f64| [-t.cos(), 0.0, 0.0];
+        let eta = |t: f64| [t.cos(), t * t, 1.0 + t];
+        let slope = |t: f64| [-t.sin(), 2.0 * t, 1.0];
+        let at = |t: f64| projection(1, 3, &row(t), &rate(t), &eta(t), &slope(t));
+        let (h, t) = (1e-5, 0.7);
+        let (Some(low), Some(here), Some(high)) = (at(t - h), at(t), at(t + h)) else {
+            unreachable!()
+        };
+        let virtual_part: f64 = row(t).iter().zip(&here.0).map(|(a, b)| a * b).sum();
+        assert!(virtual_part.abs() < 1e-14);
+        for i in 0..3 {
+            let quotient = (high.0[i] - low.0[i]) / (2.0 * h);
+            assert!((quotient - here.1[i]).abs() < 1e-8);
+        }
+    }
+}

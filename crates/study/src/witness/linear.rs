@@ -1,0 +1,359 @@
+//! Variational equations along the computed motion: the positions that motions from one point reach, and the conjugate times of
+//! the constrained extremum.
+
+use super::algebra::{determinant, gram, null_space, solved};
+use super::samples::{Samples, LEAST};
+use chetaev_mechanics::claims::formulation::{basis, derive, REFERENCE};
+use chetaev_mechanics::formulations::kappa_symbols;
+use chetaev_mechanics::Context;
+use chetaev_principles::stationarity::Closure;
+use chetaev_symbolic::{Expr, Symbol};
+
+/// More coordinates are too many.
+pub(super) const COORDINATES: usize = 8;
+/// Larger expressions, in nodes, are not compiled.
+const LARGEST: usize = 30_000;
+/// Steps at the start that are passed over.
+const EARLY: usize = 16;
+/// A least value below this part of those beside it is zero.
+const TOUCHES: f64 = 0.02;
+/// A volume below this part of that of the lengths counts as zero.
+const FLAT: f64 = 1e-6;
+
+/// The positions that motions from the start reach at later times, to first order.
+#[derive(Clone, Debug)]
+pub struct Reach {
+    /// n − r, the dimension for small times.
+    pub dimension: usize,
+    /// The least volume, over the product of the lengths, of the derivatives of q(t) by the k admissible initial velocities, and when.
+    pub least: (f64, f64),
+    /// That at the end.
+    pub at_end: f64,
+    /// The interval.
+    pub interval: (f64, f64),
+}
+
+/// Conjugate times of the extremum that the motion is.
+#[derive(Clone, Debug)]
+pub struct Conjugate {
+    /// Whether `B^T F_vv B` is positive definite along the motion; if not, where it fails.
+    pub legendre: Result<(), f64>,
+    /// Conjugate times after the start, in order.
+    pub times: Vec<f64>,
+    /// The interval.
+    pub interval: (f64, f64),
+}
+
+/// The result, computed once.
+pub(super) struct FoundConjugate(pub(super) Result<Conjugate, String>);
+
+fn small(cx: &Context<'_>, es: &[Expr]) -> Result<(), String> {
+    match cx.system.graph.reachable(es).len() > LARGEST {
+        true => Err("the variational equations are too large".into()),
+        false => Ok(()),
+    }
+}
+
+/// y' at a row.
+type Rate<'a> = dyn Fn(usize, &[f64]) -> Option<Vec<f64>> + 'a;
+
+/// One step of the rule of Runge and Kutta for `y' = rate(row, y)` over two rows.
+fn step(rate: &Rate<'_>, row: usize, h: f64, y: &[f64]) -> Option<Vec<f64>> {
+    let moved =
+        |k: &[f64], by: f64| -> Vec<f64> { y.iter().zip(k).map(|(x, k)| x + by * k).collect() };
+    let k1 = rate(row, y)?;
+    let k2 = rate(row + 1, &moved(&k1, h / 2.0))?;
+    let k3 = rate(row + 1, &moved(&k2, h / 2.0))?;
+    let k4 = rate(row + 2, &moved(&k3, h))?;
+    let next = (0..y.len()).map(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+    let next: Vec<f64> = next.collect();
+    next.iter().all(|x| x.is_finite()).then_some(next)
+}
+
+/// `δv' = a_q δq + a_v δv`, `δq(t₀) = 0`, δv(t₀) in the directions that the constraints admit.
+pub(super) fn reach(cx: &Context<'_>) -> Result<Reach, String> {
+    let (system, g, n) = (cx.system, &cx.system.graph, cx.system.n());
+    let routh = derive(cx, REFERENCE).map_err(|problem| problem.to_string())?;
+    let by = |symbols: &[Symbol]| g.jacobian(&routh.accelerations, symbols).concat();
+    small(cx, &routh.accelerations)?;
+    let by_coordinates = by(&system.coordinate_symbols());
+    let by_velocities = by(&system.velocity_symbols());
+    small(
+        cx,
+        &[by_coordinates.clone(), by_velocities.clone()].concat(),
+    )?;
+    let jacobian = basis(cx).jacobian().concat();
+    let samples = Samples::new(cx, &[&by_coordinates, &by_velocities, &jacobian])?;
+    let r = cx.selection.rows.len();
+    let starts = null_space(samples.at(2, 0), r, n, 1e-12);
+    let rate = |row: usize, y: &[f64]| {
+        let (position, velocity) = y.split_at(n);
+        let moved = super::algebra::times(samples.at(0, row), n, position)
+            .into_iter()
+            .zip(super::algebra::times(samples.at(1, row), n, velocity));
+        Some(
+            velocity
+                .iter()
+                .copied()
+                .chain(moved.map(|(a, b)| a + b))
+                .collect(),
+        )
+    };
+    let mut states: Vec<Vec<f64>> = starts
+        .iter()
+        .map(|v| vec![0.0; n].into_iter().chain(v.iter().copied()).collect())
+        .collect();
+    let count = samples.intervals(2);
+    let (t0, t1) = (samples.times[0], samples.times[count]);
+    let h = 2.0 * (t1 - t0) / count as f64;
+    let mut found = Reach {
+        dimension: states.len(),
+        least: (f64::INFINITY, t1),
+        at_end: 0.0,
+        interval: (t0, t1),
+    };
+    for row in (0..count).step_by(2) {
+        for y in &mut states {
+            *y =
+                step(&rate, row, h, y).ok_or("the variational equations have no value at a row")?;
+        }
+        let volume = volume(&states, n);
+        if volume < found.least.0 {
+            found.least = (volume, samples.times[row + 2]);
+        }
+        found.at_end = volume;
+    }
+    Ok(found)
+}
+
+/// The volume of the first n components of vectors over the product of their lengths.
+fn volume(states: &[Vec<f64>], n: usize) -> f64 {
+    let rows: Vec<f64> = states.iter().flat_map(|y| y[..n].to_vec()).collect();
+    let k = states.len();
+    let gram = gram(&rows, k, n);
+    let lengths: f64 = (0..k).map(|i| gram[i * k + i]).product();
+    match lengths == 0.0 {
+        true => 0.0,
+        false => (determinant(k, &gram) / lengths).max(0.0).sqrt(),
+    }
+}
+
+/// Whether a volume of [`Reach`] is that of dependent directions.
+pub(super) fn is_flat(volume: f64) -> bool {
+    volume < FLAT
+}
+
+/// The conjugate times of the computed motion.
+pub(super) fn conjugate(cx: &Context<'_>) -> Result<Conjugate, String> {
+    cx.shared(|cx| FoundConjugate(compute(cx))).0.clone()
+}
+
+/// κ along every motion as functions of the state.
+pub(super) fn multipliers(cx: &Context<'_>) -> Result<Vec<Expr>, String> {
+    if cx.selection.rows.is_empty() {
+        return Ok(Vec::new());
+    }
+    let closure = Closure::of(cx);
+    let Ok(closure) = closure.as_ref() else {
+        return Err("κ is not known".into());
+    };
+    let kappa: Option<Vec<Expr>> = closure.kappa.iter().copied().collect();
+    kappa.ok_or_else(|| "κ is not unique; an index belongs to a κ, not to the curve".into())
+}
+
+/// F_vv, F_vq, F_qq of `F = L + Σ κ f` with κ frozen, and f_v, f_q; κ put in last.
+fn second_derivatives(cx: &Context<'_>) -> Result<[Vec<Expr>; 5], String> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let basis = basis(cx);
+    let symbols = kappa_symbols(&basis);
+    let mut parts = vec![system.lagrangian];
+    let constraints = basis.constraints();
+    for (&kappa, &f) in symbols.iter().zip(&constraints) {
+        parts.push(g.mul(&[kappa, f]));
+    }
+    let augmented = g.add(&parts);
+    let (q, v) = (system.coordinate_symbols(), system.velocity_symbols());
+    let (by_q, by_v) = (g.gradient(augmented, &q), g.gradient(augmented, &v));
+    let values: Vec<(Expr, Expr)> = symbols.into_iter().zip(multipliers(cx)?).collect();
+    let along = |rows: Vec<Vec<Expr>>| g.substitute_all(&rows.concat(), &values);
+    Ok([
+        along(g.jacobian(&by_v, &v)),
+        along(g.jacobian(&by_v, &q)),
+        along(g.jacobian(&by_q, &q)),
+        basis.jacobian().concat(),
+        g.jacobian(&constraints, &q).concat(),
+    ])
+}
+
+/// The linearized extremum in (η, ζ): `F_vv η' + fᵥᵀ δκ = ζ − F_vq η`, `fᵥ η' = −f_q η`, `ζ' = F_qv η' + F_qq η + f_qᵀ δκ`. η starts
+/// at zero with every ζ; a conjugate time is one at which the n values of η are dependent.
+fn compute(cx: &Context<'_>) -> Result<Conjugate, String> {
+    let n = cx.system.n();
+    let parts = second_derivatives(cx)?;
+    small(cx, &parts.concat())?;
+    let groups: Vec<&[Expr]> = parts.iter().map(Vec::as_slice).collect();
+    let samples = Samples::new(cx, &groups)?;
+    let r = cx.selection.rows.len();
+    let rate = |row: usize, y: &[f64]| linearized(&samples, (n, r), row, y);
+    let mut states: Vec<Vec<f64>> = (0..n)
+        .map(|j| {
+            (0..2 * n)
+                .map(|i| f64::from(u8::from(i == n + j)))
+                .collect()
+        })
+        .collect();
+    let count = samples.intervals(2);
+    if count < LEAST {
+        return Err("there are too few output times".into());
+    }
+    let (t0, t1) = (samples.times[0], samples.times[count]);
+    let h = 2.0 * (t1 - t0) / count as f64;
+    let mut found = Conjugate {
+        legendre: Ok(()),
+        times: Vec::new(),
+        interval: (t0, t1),
+    };
+    let mut determinants: Vec<(f64, f64)> = Vec::new();
+    let mut largest = 0.0_f64;
+    for row in (0..count).step_by(2) {
+        if found.legendre.is_ok() && !is_positive(&samples, (n, r), row) {
+            found.legendre = Err(samples.times[row]);
+        }
+        for y in &mut states {
+            *y = step(&rate, row, h, y).ok_or("the linearized extremum is singular at a row")?;
+        }
+        let rows: Vec<f64> = states.iter().flat_map(|y| y[..n].to_vec()).collect();
+        determinants.push((samples.times[row + 2], determinant(n, &rows)));
+        largest = largest.max(volume(&states, n));
+    }
+    // Near the start all η are small, and the sign of their determinant is rounding.
+    found.times = zeros(&determinants[EARLY.min(determinants.len())..], n);
+    match is_flat(largest) {
+        true => Err("the extremal is abnormal: some variations of κ move no coordinate".into()),
+        false => Ok(found),
+    }
+}
+
+/// Zeros of a function given at equal steps, each as often as its multiplicity, which is at most n: where the sign changes, and
+/// where it touches zero.
+fn zeros(values: &[(f64, f64)], n: usize) -> Vec<f64> {
+    let mut found: Vec<f64> = Vec::new();
+    for j in 1..values.len() {
+        let ((t0, a), (t1, b)) = (values[j - 1], values[j]);
+        let crossing = (a * b < 0.0).then(|| t0 + (t1 - t0) * a / (a - b));
+        let touching = values.get(j + 1).and_then(|&(_, c)| {
+            let is_lowest = a * b > 0.0 && b * c > 0.0 && b.abs() <= a.abs() && b.abs() < c.abs();
+            let (slope, curvature) = ((c - a) / 2.0, a - 2.0 * b + c);
+            let least = b - slope * slope / (2.0 * curvature);
+            let touches = is_lowest && least.abs() < TOUCHES * a.abs().max(c.abs());
+            touches.then(|| t1 - slope / curvature * (t1 - t0))
+        });
+        let Some(t) = crossing.or(touching) else {
+            continue;
+        };
+        // |value| grows like the power of the distance that the multiplicity says.
+        let after = |k: usize| {
+            values
+                .get(j + k)
+                .or(values.last())
+                .copied()
+                .unwrap_or((t, 0.0))
+        };
+        let ((x, near), (y, far)) = (after(4), after(8));
+        let power = (far / near).abs().ln() / ((y - t) / (x - t)).abs().ln();
+        let least = if crossing.is_some() { 1.0 } else { 2.0 };
+        let power = if power.is_finite() {
+            power.round()
+        } else {
+            least
+        };
+        let times = power.clamp(least, (n as f64).max(least)) as usize;
+        found.extend(std::iter::repeat_n(t, times));
+    }
+    found
+}
+
+fn linearized(
+    samples: &Samples,
+    (n, r): (usize, usize),
+    row: usize,
+    y: &[f64],
+) -> Option<Vec<f64>> {
+    use super::algebra::{times, transposed_times};
+    let (eta, zeta) = y.split_at(n);
+    let of = |group: usize| samples.at(group, row);
+    let size = n + r;
+    let mut matrix = vec![0.0; size * size];
+    for i in 0..n {
+        for j in 0..n {
+            matrix[i * size + j] = of(0)[i * n + j];
+        }
+        for l in 0..r {
+            matrix[i * size + n + l] = of(3)[l * n + i];
+            matrix[(n + l) * size + i] = of(3)[l * n + i];
+        }
+    }
+    let mixed = times(of(1), n, eta);
+    let right = zeta.iter().zip(mixed).map(|(a, b)| a - b);
+    let right = right.chain(times(of(4), n, eta).into_iter().map(|x| -x));
+    let solution = solved(size, &matrix, &right.collect::<Vec<f64>>())?;
+    let (rates, kappa) = solution.split_at(n);
+    let moved = transposed_times(of(1), n, rates)
+        .into_iter()
+        .zip(times(of(2), n, eta))
+        .zip(transposed_times(of(4), n, kappa))
+        .map(|((a, b), c)| a + b + c);
+    Some(rates.iter().copied().chain(moved).collect())
+}
+
+/// Whether F_vv is positive on the null space of f_v at a row.
+fn is_positive(samples: &Samples, (n, r): (usize, usize), row: usize) -> bool {
+    let directions = null_space(samples.at(3, row), r, n, 1e-12);
+    let products: Vec<Vec<f64>> = directions
+        .iter()
+        .map(|b| super::algebra::times(samples.at(0, row), n, b))
+        .collect();
+    let k = directions.len();
+    let form: Vec<f64> = directions
+        .iter()
+        .flat_map(|a| {
+            products
+                .iter()
+                .map(move |b| a.iter().zip(b).map(|(x, y)| x * y).sum())
+        })
+        .collect();
+    (1..=k).all(|size| {
+        let minor: Vec<f64> = (0..size)
+            .flat_map(|i| form[i * k..i * k + size].to_vec())
+            .collect();
+        determinant(size, &minor) > 0.0
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::zeros;
+
+    #[test]
+    fn zeros_with_their_multiplicity() {
+        let sampled = |f: fn(f64) -> f64| -> Vec<(f64, f64)> {
+            (0..400)
+                .map(|j| f64::from(j) * 0.01 + 0.2)
+                .map(|t| (t, f(t)))
+                .collect()
+        };
+        let near = |found: Vec<f64>, expected: &[f64]| {
+            assert_eq!(found.len(), expected.len(), "{found:?}");
+            let pairs = found.iter().zip(expected);
+            assert!(
+                pairs.clone().all(|(a, b)| (a - b).abs() < 1e-3),
+                "{found:?}"
+            );
+        };
+        let pi = std::f64::consts::PI;
+        near(zeros(&sampled(|t| t.sin()), 3), &[pi]);
+        near(zeros(&sampled(|t| t.sin().powi(2)), 3), &[pi, pi]);
+        near(zeros(&sampled(|t| t.sin().powi(3)), 3), &[pi, pi, pi]);
+        near(zeros(&sampled(|t| t.sin().powi(2) + 0.1), 3), &[]);
+    }
+}

@@ -1,0 +1,71 @@
+//! Functions of the state at equally spaced rows of the run.
+
+use super::evidence;
+use chetaev_mechanics::Context;
+use chetaev_motion::observe::Observer;
+use chetaev_symbolic::Expr;
+
+/// Fewer intervals show nothing.
+pub(super) const LEAST: usize = 48;
+
+/// Groups of functions at equally spaced times.
+#[derive(Clone, Debug)]
+pub(super) struct Samples {
+    pub(super) times: Vec<f64>,
+    /// By group, then by row.
+    groups: Vec<Vec<Vec<f64>>>,
+}
+
+impl Samples {
+    /// Values of groups of expressions in t, q, q', q'' at the rows of the computed motion.
+    pub(super) fn new(cx: &Context<'_>, groups: &[&[Expr]]) -> Result<Samples, String> {
+        let evidence = evidence(cx).ok_or("no motion was computed")?;
+        let run = evidence.dense.as_ref().unwrap_or(&evidence.run);
+        let count = run.asked();
+        let times = run.times[..count].to_vec();
+        if count <= LEAST || !equally_spaced(&times) {
+            return Err(format!(
+                "the motion has {} equally spaced output times; more than {LEAST} are needed",
+                if equally_spaced(&times) { count } else { 0 }
+            ));
+        }
+        let all = groups.concat();
+        let mut observer = Observer::new(cx.system, cx.terms, &evidence.binding, &all)
+            .map_err(|problem| problem.to_string())?;
+        let rows: Vec<Vec<f64>> = (0..count)
+            .map(|j| observer.at(times[j], run.row(j)))
+            .collect();
+        let mut start = 0;
+        let groups = groups
+            .iter()
+            .map(|group| {
+                let range = start..start + group.len();
+                start = range.end;
+                rows.iter().map(|row| row[range.clone()].to_vec()).collect()
+            })
+            .collect();
+        Ok(Samples { times, groups })
+    }
+
+    /// A group at a row.
+    pub(super) fn at(&self, group: usize, row: usize) -> &[f64] {
+        &self.groups[group][row]
+    }
+
+    /// How many intervals of `multiple` rows there are, as rows.
+    pub(super) fn intervals(&self, multiple: usize) -> usize {
+        (self.times.len() - 1) / multiple * multiple
+    }
+}
+
+/// Whether the steps differ by rounding alone.
+fn equally_spaced(times: &[f64]) -> bool {
+    let (Some(first), Some(last)) = (times.first(), times.last()) else {
+        return false;
+    };
+    let step = (last - first) / (times.len().max(2) - 1) as f64;
+    step != 0.0
+        && times
+            .windows(2)
+            .all(|pair| ((pair[1] - pair[0]) - step).abs() <= 1e-6 * step.abs())
+}

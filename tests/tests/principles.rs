@@ -1,0 +1,289 @@
+//! The variational principles of gallery models as `chetaev principles` tells them, and integrals over computed motions as a
+//! witness.
+#![allow(clippy::expect_used, reason = "test code fails where it stands")]
+
+use chetaev::model::{load, Model, NoFiles};
+use chetaev::study::witness::Form;
+use chetaev::study::{study, ClaimSelection, Hooks, Study, StudyOptions};
+use chetaev_tests::places::scratch;
+use chetaev_tests::program::{run, text};
+use chetaev_tests::studied::{gallery_path, loaded};
+use chetaev_tests::words::in_parallel;
+
+fn model(name: &str, set: &[(&str, &str)]) -> Model {
+    let loaded = loaded(&gallery_path(&format!("{name}/model.toml")), set);
+    loaded.model.expect("the model is right")
+}
+
+fn studied(model: Model, words: &[&str], change: impl FnOnce(&mut StudyOptions)) -> Study {
+    let words = words.iter().map(|w| (*w).to_string()).collect();
+    let mut options = StudyOptions {
+        claims: ClaimSelection { words },
+        global_error: false,
+        ..StudyOptions::default()
+    };
+    change(&mut options);
+    let clock = || 0.0;
+    let mut progress = |_: &str, _: Option<f64>| {};
+    let mut hooks = Hooks {
+        clock: &clock,
+        interrupt: None,
+        progress: &mut progress,
+    };
+    study(model, options, &mut hooks).expect("a study")
+}
+
+const WITNESS: [&str; 5] = [
+    "witness.first-variation",
+    "witness.stationary",
+    "witness.endpoints",
+    "witness.index",
+    "motion.constraint-drift",
+];
+
+fn detail<'s>(study: &'s Study, full: &str) -> (&'static str, &'s str) {
+    let decided = study.verdicts.iter().find(|d| d.full_id() == full);
+    let verdict = &decided
+        .unwrap_or_else(|| panic!("no {full}"))
+        .finding
+        .verdict;
+    (verdict.word(), verdict.detail())
+}
+
+/// Each form vanishes along motions, with at least the fourth order of the step until rounding; the action of admissible
+/// neighbours as `hamilton.stationary` says.
+#[test]
+fn integrals_over_motions() {
+    let systems = [
+        ("skate-incline", "not stationary"),
+        ("skate-level", "not stationary"),
+        ("particle-y-dx", "not stationary"),
+        ("vertical-rolling-disc", "the action is stationary"),
+        ("appell-hamel", "the action is stationary"),
+        ("chaplygin-sleigh", "not stationary"),
+        ("charged-particle", "the action is stationary"),
+    ];
+    in_parallel(&systems, |&(name, says)| {
+        let study = studied(model(name, &[]), &WITNESS, |_| ());
+        let motion = study.motion.as_ref().expect("a motion");
+        assert!(!motion.witness.first.is_empty(), "{name}");
+        for found in &motion.witness.first {
+            let (word, told) = detail(
+                &study,
+                &format!("witness.first-variation#{}", found.form.word()),
+            );
+            assert_eq!(word, "numerical", "{name}: {told}");
+            assert!(found.residuals[0] < 1e-8, "{name}: {found:?}");
+            let clear = found.residuals.windows(2).filter(|r| r[0] > 1e-9);
+            for pair in clear {
+                assert!(pair[1] > 16.0 * pair[0], "{name}: {found:?}");
+            }
+        }
+        let (word, told) = detail(&study, "witness.stationary");
+        assert_eq!(word, "numerical", "{name}: {told}");
+        assert!(
+            told.starts_with(says) || told.contains(says),
+            "{name}: {told}"
+        );
+    });
+}
+
+/// Of the extremum, which is no motion, nothing is said.
+#[test]
+fn a_curve_that_is_no_motion() {
+    let file = gallery_path("skate-incline/model.toml");
+    let text = std::fs::read_to_string(file).expect("the model");
+    let text = text.replace("[simulation]", "kappa_blade = 0\n\n[simulation]");
+    let skate = load("skate.toml", &text, &NoFiles, &[]).model;
+    let study = studied(skate.expect("a model"), &WITNESS, |options| {
+        options.formulation = Some("vakonomic".into());
+    });
+    // The claims do not speak of another system.
+    let (word, _) = detail(&study, "witness.first-variation#hoelder");
+    assert_eq!(word, "not-applicable");
+}
+
+const OSCILLATOR: &str = r#"
+name = "oscillator"
+coordinates = ["q"]
+parameters = { w = 2 }
+lagrangian = { T = "1/2 q'^2", V = "1/2 w^2 q^2" }
+initial = { q = 1, "q'" = 0 }
+simulation = { t_end = 5, output = 600, tolerance = 1e-11 }
+"#;
+
+/// T1 §4.4: L = (v² − w² q²)/2 has conjugate times π/w, 2π/w, …; the free particle has none.
+#[test]
+fn conjugate_times_of_an_oscillator() {
+    let of = |text: &str| {
+        let model = load("oscillator.toml", text, &NoFiles, &[]).model;
+        studied(model.expect("a model"), &WITNESS, |_| ())
+    };
+    let study = of(OSCILLATOR);
+    let motion = study.motion.as_ref().expect("a motion");
+    let found = motion.witness.conjugate.as_ref().expect("conjugate times");
+    let expected: Vec<f64> = (1..=3)
+        .map(|k| f64::from(k) * std::f64::consts::PI / 2.0)
+        .collect();
+    assert_eq!(found.times.len(), 3, "{found:?}");
+    for (a, b) in found.times.iter().zip(expected) {
+        assert!((a - b).abs() < 1e-3, "{found:?}");
+    }
+    let (_, told) = detail(&study, "witness.index");
+    assert!(told.contains("index 3"), "{told}");
+    let free = of(&OSCILLATOR.replace("w = 2", "w = 0"));
+    let (_, told) = detail(&free, "witness.index");
+    assert!(told.contains("no conjugate time"), "{told}");
+    // Focal times of the motions from one point are the same.
+    let (_, told) = detail(&study, "witness.endpoints");
+    assert!(told.contains("rank 1"), "{told}");
+}
+
+/// The rolling disc is a minimum on a short interval, and its index is stated with its unique κ.
+#[test]
+fn the_index_of_the_disc() {
+    let study = studied(model("vertical-rolling-disc", &[]), &WITNESS, |_| ());
+    let (word, told) = detail(&study, "witness.index");
+    assert_eq!(word, "numerical", "{told}");
+    // Of Appell and Hamel's system κ is not unique.
+    let study = studied(model("appell-hamel", &[]), &WITNESS, |_| ());
+    let (word, told) = detail(&study, "witness.index");
+    assert_eq!(word, "undecided", "{told}");
+    assert!(told.contains("not unique"), "{told}");
+}
+
+/// The skate on an incline stays between two contour lines; the extremum slides down by about g t²/2 at first and on.
+#[test]
+fn the_skate_and_the_extremum() {
+    let words = ["hamilton.stationary", "motion.constraint-drift"];
+    let compared = |kappa: Vec<(String, f64)>| {
+        studied(model("skate-incline", &[]), &words, |options| {
+            options.extremum = Some(kappa);
+        })
+    };
+    let study = compared(Vec::new());
+    let motion = study.motion.as_ref().expect("a motion");
+    let beside = motion.extremum().expect("an extremum");
+    assert!(!beside.is_of_motion);
+    let end = beside.run.row(beside.run.len() - 1)[0];
+    let own = &motion.evidence.run;
+    let farthest = (0..own.len()).map(|j| own.row(j)[0]).fold(0.0, f64::max);
+    // gs/(2 W²) with gs = 4, W = 1.3.
+    assert!(farthest < 4.0 / (2.0 * 1.69) + 1e-9, "{farthest}");
+    assert!(end > 5.0 * farthest, "{end}");
+    // Another κ(0), another extremal.
+    let other = compared(vec![("kappa_blade".into(), 0.5)]);
+    let other = other.motion.as_ref().and_then(|m| m.extremum().cloned());
+    let other = other.expect("an extremum");
+    assert!((other.run.row(other.run.len() - 1)[0] - end).abs() > 1e-3);
+    // A name that is none.
+    let wrong = compared(vec![("kappa_blad".into(), 0.5)]);
+    let problem = wrong.motion.as_ref().and_then(|m| m.beside.clone());
+    let problem = problem.expect("asked for").expect_err("a wrong name");
+    assert!(problem.contains("kappa_blade"), "{problem}");
+}
+
+/// Every motion of the disc is an extremal with the κ found: the curves are one.
+#[test]
+fn the_disc_is_an_extremal() {
+    let words = ["motion.constraint-drift"];
+    let study = studied(model("vertical-rolling-disc", &[]), &words, |options| {
+        options.extremum = Some(Vec::new());
+    });
+    let motion = study.motion.as_ref().expect("a motion");
+    let beside = motion.extremum().expect("an extremum");
+    assert!(beside.is_of_motion, "{:?}", beside.kappa);
+    assert!(beside.distance.0 < 1e-7, "{:?}", beside.distance);
+}
+
+#[test]
+fn the_command_tells_a_story() {
+    let told = run(&["principles", "gallery/particle-y-dx/model.toml"]);
+    assert_eq!(told.status, Some(0), "{}", told.both());
+    for words in [
+        "Is the action stationary?",
+        "conditional hamilton.stationary",
+        "x' = 0 or y' = 0",
+        "proved action.lagrange",
+        "proved action.jacobi",
+        "proved action.parametric",
+        "conditional hamilton-jacobi.applicable",
+    ] {
+        assert!(told.out.contains(words), "{words}\n{}", told.out);
+    }
+    assert!(!told.out.contains("witness"), "{}", told.out);
+    let folder = scratch("principles-compare");
+    let arguments = [
+        "principles",
+        "gallery/skate-incline/model.toml",
+        "--compare",
+        "--out",
+        text(&folder),
+    ];
+    let told = run(&arguments);
+    assert_eq!(told.status, Some(0), "{}", told.both());
+    for words in [
+        "kappa_blade(0) = 0",
+        "numerical witness.stationary",
+        "farthest apart",
+    ] {
+        assert!(told.out.contains(words), "{words}\n{}", told.out);
+    }
+    let page = std::fs::read_to_string(folder.join("report.html")).expect("a report");
+    for words in [
+        "constrained extremum",
+        "x, extremum",
+        "First variations along the motion",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    let wrong = [&arguments[..], &["--kappa", "kappa_blade"]].concat();
+    let refused = run(&wrong);
+    assert_eq!(refused.status, Some(2), "{}", refused.both());
+    assert!(refused.err.contains("NAME=VALUE"), "{}", refused.err);
+}
+
+/// The disc with a complete integral in its file.
+#[test]
+fn a_complete_integral_in_a_model() {
+    let file = gallery_path("vertical-rolling-disc/model.toml");
+    let text = std::fs::read_to_string(file).expect("the model");
+    let constants = "E = 1\nax = 0\nay = 0\nat = 1\n\n[lagrangian]";
+    let text = text.replace("\n[lagrangian]", &format!("\n{constants}"));
+    let stated = r#"
+[complete_integral]
+S = "-E t + ax x + ay y + at theta"
+constants = ["E", "ax", "ay", "at"]
+quadratures = { phi = "sqrt(2 J (E - (at + R (ax cos(phi) + ay sin(phi)))^2/(2 (I + m R^2))))" }
+motion = { ax = 0, ay = 0 }
+"#;
+    let of = |stated: &str| {
+        let text = format!("{text}{stated}");
+        let loaded = load("disc.toml", &text, &NoFiles, &[]);
+        let words = ["hamilton-jacobi.applicable"];
+        let model = loaded
+            .model
+            .unwrap_or_else(|| panic!("{}", loaded.diagnostics));
+        studied(model, &words, |_| ())
+    };
+    let study = of(stated);
+    let (word, told) = detail(&study, "hamilton-jacobi.applicable#stated");
+    assert_eq!(word, "proved", "{told}");
+    assert!(told.contains("ax = 0, ay = 0"), "{told}");
+    let without = of(&stated.replace("motion = { ax = 0, ay = 0 }", ""));
+    let (word, told) = detail(&without, "hamilton-jacobi.applicable#stated");
+    assert_eq!(word, "refuted", "{told}");
+    let wrong = of(&stated.replace("(I + m R^2)", "(I - m R^2)"));
+    let (word, told) = detail(&wrong, "hamilton-jacobi.applicable#stated");
+    assert_eq!(word, "refuted", "{told}");
+    assert!(told.contains("the equation"), "{told}");
+}
+
+/// All forms have a witness, and words of their own.
+#[test]
+fn forms_have_words() {
+    let mut words: Vec<&str> = Form::ALL.iter().map(|f| f.word()).collect();
+    words.sort_unstable();
+    words.dedup();
+    assert_eq!(words.len(), 4);
+}
