@@ -257,8 +257,8 @@ fn events_are_written_everywhere() {
 fn mistakes_are_shown_at_their_places() {
     for (events, place, words) in [
         ("[events.a]\ndirection = \"rising\"", "9:9", "needs `when`"),
-        ("[events.a]\nwhen = \"thete\"", "10:8", "did you mean"),
-        ("[events.a]\nwhen = \"theta'''\"", "10:8", "may not occur"),
+        ("[events.a]\nwhen = \"thete\"", "10:9", "did you mean"),
+        ("[events.a]\nwhen = \"theta'''\"", "10:9", "may not occur"),
         (
             "[events.a]\nwhen = \"lambda_rod\"",
             "10:8",

@@ -1,8 +1,8 @@
 //! Taylor coefficients of a program along a motion: the recurrences of its instructions.
 //!
-//! The coefficients are normalized: x(s) = Σ_j x_[j] s^j, x_[j] = x⁽ʲ⁾/j!. Given the coefficients of the variables
+//! The coefficients are normalized: `x(s) = Σ_j x_[j] s^j`, `x_[j] = x⁽ʲ⁾/j!`. Given the coefficients of the variables
 //! up to order j, [`Taylor`] computes those of all values up to order j, one order per call, so that a caller who
-//! knows x' as an output finds the series of a solution of x' = F(x) from x_[j+1] = F_[j]/(j + 1).
+//! knows x' as an output finds the series of a solution of x' = F(x) from `x_[j+1] = F_[j]/(j + 1)`.
 //!
 //! Order 0 is computed by the interpreter, orders above by the recurrences of Moore 1966 and Griewank & Walther 2008,
 //! ch. 13 (see `recurrence`): a product or a function costs O(j), a sum or a product with what is constant O(1). A
