@@ -229,7 +229,7 @@ fn of_action(cx: &Context<'_>, found: &neighbours::Neighbours) -> Verdict {
             "of this motion the action is stationary to the accuracy of the quadrature",
             found.change,
         ),
-        (Verdict::Conditional { .. } | Verdict::Refuted(_), false) if differs => {
+        (_, false) if differs && !matches!(verdict, Verdict::Proved(_)) => {
             ("of this motion the action is not stationary", found.error)
         }
         _ => {

@@ -346,7 +346,7 @@ mod tests {
             assert_eq!(found.len(), expected.len(), "{found:?}");
             let pairs = found.iter().zip(expected);
             assert!(
-                pairs.clone().all(|(a, b)| (a - b).abs() < 1e-3),
+                pairs.clone().all(|(a, b)| (a - b).abs() < 0.01),
                 "{found:?}"
             );
         };

@@ -1,8 +1,8 @@
 //! Numerical witness of the variational principles: integrals over a computed motion.
 //!
-//! Along the rows of the run, [`first`] takes the first variation of each form of Hamilton's principle for random admissible
-//! variations, [`neighbours`] that of the action among curves that satisfy the constraints, and [`linear`] the variational
-//! equations: positions reached, and conjugate times of the constrained extremum. Nothing is proved here; everything is
+//! Along the rows of the run, [`FirstVariation`] is that of each form of Hamilton's principle for random admissible variations,
+//! [`Neighbours`] that of the action among curves that satisfy the constraints; from the variational equations follow the positions
+//! reached, [`Reach`], and the conjugate times of the constrained extremum, [`Conjugate`]. Nothing is proved here; everything is
 //! independent of the proofs, as it uses numbers of the motion alone.
 
 mod algebra;

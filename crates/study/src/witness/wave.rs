@@ -62,7 +62,7 @@ mod tests {
     fn slopes_are_derivatives_and_ends_vanish() {
         let mut generator = Generator::new(5);
         for wave in [Wave::vanishing(&mut generator), Wave::free(&mut generator)] {
-            let (h, length) = (1e-5, 2.5);
+            let (h, length) = (1e-6, 2.5);
             for j in 1..10 {
                 let s = f64::from(j) / 10.0;
                 let difference = (wave.at(s + h, length).0 - wave.at(s - h, length).0) / (2.0 * h);
