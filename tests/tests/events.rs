@@ -274,6 +274,7 @@ fn mistakes_are_shown_at_their_places() {
             "11:10",
             "did you mean \"stop\"",
         ),
+        ("[events.a]\nwhen = \"2 - 2\"", "10:8", "never or always"),
         ("[events]\na = \"theta\"", "10:5", "a table with `when"),
         (
             "[events.a]\nif = \"theta\"\nwhen = \"theta\"",

@@ -237,10 +237,15 @@ fn the_command_tells_a_story() {
     ] {
         assert!(page.contains(words), "{words}");
     }
-    let wrong = [&arguments[..], &["--kappa", "kappa_blade"]].concat();
-    let refused = run(&wrong);
-    assert_eq!(refused.status, Some(2), "{}", refused.both());
-    assert!(refused.err.contains("NAME=VALUE"), "{}", refused.err);
+    for (given, words) in [
+        ("kappa_blade", "NAME=VALUE"),
+        ("kappa_wheel=1", "these are kappa_blade"),
+    ] {
+        let wrong = [&arguments[..], &["--kappa", given]].concat();
+        let refused = run(&wrong);
+        assert_eq!(refused.status, Some(2), "{}", refused.both());
+        assert!(refused.err.contains(words), "{}", refused.err);
+    }
 }
 
 /// The disc with a complete integral in its file.

@@ -71,6 +71,10 @@ fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
     if arguments.compare {
         words.push("motion.constraint-drift".into());
     }
+    if !arguments.compare && !arguments.kappa.is_empty() {
+        error("--kappa is a start of the constrained extremum, which is computed with --compare");
+        return None;
+    }
     for given in &arguments.kappa {
         let Some((name, value)) = given.split_once('=') else {
             error(format!(
@@ -78,8 +82,18 @@ fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
             ));
             return None;
         };
+        let name = name.trim();
+        if !is_multiplier(model, name) {
+            let names = model.constraints.iter();
+            let names: Vec<String> = names.map(|c| format!("kappa_{}", c.name)).collect();
+            error(format!(
+                "--kappa: `{name}` is no multiplier of the extremum; these are {}",
+                names.join(", ")
+            ));
+            return None;
+        }
         match model.constant_value("--kappa", value) {
-            Ok(value) => kappa.push((name.trim().to_owned(), value)),
+            Ok(value) => kappa.push((name.to_owned(), value)),
             Err(problems) => {
                 files::report(&problems);
                 return None;
@@ -93,4 +107,10 @@ fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
         extremum: arguments.compare.then_some(kappa),
         ..options
     })
+}
+
+/// Whether a name is `kappa_` and the name of a constraint; where the model uses that name for something else, more follows.
+fn is_multiplier(model: &Model, name: &str) -> bool {
+    let own = name.strip_prefix("kappa_");
+    own.is_some_and(|own| model.constraints.iter().any(|c| own.starts_with(&c.name)))
 }

@@ -52,6 +52,12 @@ impl Resolver {
                 else {
                     continue;
                 };
+                if self.graph.symbols_in(&[value]).is_empty() {
+                    let message =
+                        "the function of an event is a number, which is zero never or always";
+                    self.push(Diagnostic::error("constant-event", text.place, message));
+                    continue;
+                }
                 if self.multipliers_exist(value, &text, constraints) {
                     events.push(EventStated {
                         name: instance.name,
