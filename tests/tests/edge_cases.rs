@@ -186,3 +186,28 @@ fn a_fixed_step_is_asked_for_and_used() {
     assert!((observed - 4.0).abs() < 0.5, "{observed}");
     assert_eq!(evidence.run.statistics.steps, 500);
 }
+
+/// The coordinates x and y occur nowhere, z does in V; so Chaplygin's equations are solved for x' although z' would be the
+/// better choice. Where y' = 0 the constraint cannot be solved for x': the run ends there and does not step across.
+#[test]
+fn chaplygins_equations_end_where_their_velocities_are_not_determined() {
+    let text = "coordinates = [\"x\", \"y\", \"z\"]\n\
+        lagrangian = { T = \"x'^2 + y'^2 + z'^2\", V = \"6 z\" }\n\
+        constraints = { a = \"z'^3 + z' = x' y'\" }\n\
+        [initial]\n\"x'\" = 2\n\"y'\" = 1\n\"z'\" = 1\n[simulation]\nt_end = 1\n";
+    let by = |formulation: &'static str| {
+        let ask = Ask {
+            formulation: Some(formulation),
+            ..Ask::default()
+        };
+        ended_text(text, &ask)
+    };
+    assert_eq!(by("maggi").exit, 0);
+    let ended = by("chaplygin");
+    assert_eq!(ended.exit, 3, "{}", ended.text);
+    assert!(
+        ended.text.contains("dependent velocities"),
+        "{}",
+        ended.text
+    );
+}

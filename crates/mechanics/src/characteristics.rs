@@ -18,7 +18,7 @@ use crate::selection::{eliminate, pivot_cost};
 use crate::system::{Coordinate, System};
 use crate::terms::MotionTerms;
 use chetaev_symbolic::linear::SolveError;
-use chetaev_symbolic::{Expr, Symbol};
+use chetaev_symbolic::{Expr, Graph, Symbol};
 use rustc_hash::FxHashMap;
 
 pub use crate::selection::{select, Selection};
@@ -33,6 +33,22 @@ pub struct Manifold {
     pub solved: Vec<(Symbol, Expr)>,
     /// Pairs (f, dependent velocity) of constraints that stay implicit.
     pub implicit: Vec<(Expr, Symbol)>,
+}
+
+impl Manifold {
+    /// The manifold for these values of parameters.
+    pub(crate) fn substituted(&self, g: &Graph, values: &[(Expr, Expr)]) -> Manifold {
+        let solved = self.solved.iter();
+        let implicit = self.implicit.iter();
+        Manifold {
+            solved: solved
+                .map(|&(symbol, e)| (symbol, g.substitute(e, values)))
+                .collect(),
+            implicit: implicit
+                .map(|&(f, symbol)| (g.substitute(f, values), symbol))
+                .collect(),
+        }
+    }
 }
 
 /// A direction on the constraint manifold with coordinates (t, q, …, q^(m-1), P).

@@ -15,6 +15,7 @@ pub mod mass;
 pub mod order;
 pub mod particles;
 pub mod prover;
+mod quadratic_forms;
 mod radicals;
 pub mod redundancy;
 mod restricted;

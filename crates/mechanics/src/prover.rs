@@ -148,6 +148,7 @@ impl Prover {
     }
 
     /// Decides whether a square matrix is nonsingular at almost every point of `manifold`; `what` names its determinant.
+    /// Parameters are arbitrary but where the model gives them the value zero: a matrix that is singular for it is.
     pub fn nonsingular(
         &self,
         system: &System,
@@ -164,6 +165,9 @@ impl Prover {
             }
         };
         if rank.minimum == size {
+            if let Some(refuted) = self.singular_as_stated(system, matrix, manifold, what) {
+                return refuted;
+            }
             return match rank.at_least {
                 Verdict::Proved(mut proof) => {
                     proof.on = located("outside its zeros", "almost everywhere", system);
@@ -180,6 +184,45 @@ impl Prover {
             Verdict::Proved(proof) => rank_counterexample(what, size, rank.maximum, &proof.detail),
             other => other,
         }
+    }
+
+    /// A matrix that is singular for the parameters whose stated value is zero, as a mass may be.
+    fn singular_as_stated(
+        &self,
+        system: &System,
+        matrix: &[Vec<Expr>],
+        manifold: &Manifold,
+        what: &str,
+    ) -> Option<Verdict> {
+        let g = &system.graph;
+        let occurring = g.reachable(&matrix.concat());
+        let mut zeros = system.parameter_values();
+        zeros.retain(|(parameter, value)| g.is_zero(*value) && occurring.contains(parameter));
+        if zeros.is_empty() {
+            return None;
+        }
+        let rows: Vec<Vec<Expr>> = matrix
+            .iter()
+            .map(|row| g.substitute_all(row, &zeros))
+            .collect();
+        let rank = self
+            .rank(system, &rows, &manifold.substituted(g, &zeros))
+            .ok()?;
+        let proof = match rank.at_most {
+            Verdict::Proved(proof) if rank.maximum < matrix.len() => proof,
+            _ => return None,
+        };
+        let names: Vec<String> = zeros
+            .iter()
+            .map(|&(p, _)| format!("{} = 0", g.text(p)))
+            .collect();
+        let what = format!("{what} with {}, as the model states it,", names.join(", "));
+        Some(rank_counterexample(
+            &what,
+            matrix.len(),
+            rank.maximum,
+            &proof.detail,
+        ))
     }
 
     /// Where points in a prime field say nothing, as the constraints have none (they are transcendental) or the generators
@@ -283,7 +326,7 @@ fn not_zero(found: &Counterexample, is_relevant: impl Fn(&str) -> bool) -> Strin
 const LARGEST_DETERMINANT: usize = 8;
 
 /// Where a proof holds: the product's words first, then what the zero test adds, then the model's assumptions.
-fn located(found: &str, on: &str, system: &System) -> String {
+pub(crate) fn located(found: &str, on: &str, system: &System) -> String {
     let mut place = on.to_string();
     if let Some((_, conditions)) = found.split_once("that is ") {
         place.push_str(", where ");

@@ -232,3 +232,79 @@ fn euler_equations_of_the_rigid_body() {
     }
     .check();
 }
+
+/// With the moment I ω + I₁₃ (ω₃, 0, ω₁) and ω₃ = 0: I₁ ω₁' = -I₁₃ ω₁ ω₂, I₂ ω₂' = I₁₃ ω₁², whatever the form; the third of Euler's
+/// equations gives the reaction. suslov1946, sec. 53; bloch2003, sec. 8.6; fedorov-kozlov1995.
+#[test]
+fn suslovs_equations() {
+    for formulation in ["boltzmann-hamel", "gibbs-appell", "maggi"] {
+        Page {
+            model: "suslov",
+            formulation,
+            group: MOTION,
+            names: &["w1", "w2"],
+            equations: &[
+                ("I1 w1' + I13 w1 w2 = 0", Value("I1 w1' + I13 w1 w2")),
+                ("I2 w2' - I13 w1^2 = 0", Value("I2 w2' - I13 w1^2")),
+            ],
+        }
+        .check();
+    }
+    Page {
+        model: "suslov",
+        formulation: "gibbs-appell",
+        group: OBJECTS,
+        names: &["w1", "w2", "S"],
+        equations: &[(
+            "S = 1/2 I1 w1'^2 + 1/2 I2 w2'^2 + I13 w1 (w2 w1' - w1 w2')",
+            Value("S - (I1 w1'^2 + I2 w2'^2)/2 - I13 w1 (w2 w1' - w1 w2')"),
+        )],
+    }
+    .check();
+}
+
+/// M' = M × ω with M = I ω + m r² (ω - (ω·γ) γ), γ the vertical in the body with γ' = γ × ω: since ω·γ' = 0, the terms with γ'
+/// drop out and (I₁ + m r²) ω₁' - m r² (ω'·γ) γ₁ = (I₂ - I₃) ω₂ ω₃, and so on. chaplygin1903; borisov-mamaev2001.
+#[test]
+fn the_sphere_of_chaplygin() {
+    Page {
+        model: "chaplygin-sphere",
+        formulation: "maggi",
+        group: MOTION,
+        names: &["w1", "w2", "w3"],
+        equations: &[
+            (
+                "(I1 + m r^2 - m r^2 sin(theta)^2 sin(psi)^2) w1' - m r^2 w2' sin(theta)^2 sin(psi) cos(psi) - m r^2 w3' sin(theta) cos(theta) sin(psi) - (I2 - I3) w2 w3 = 0",
+                Value("(I1 + m r^2) w1' - m r^2 (w1' sin(theta) sin(psi) + w2' sin(theta) cos(psi) + w3' cos(theta)) sin(theta) sin(psi) - (I2 - I3) w2 w3"),
+            ),
+            (
+                "(I2 + m r^2 - m r^2 sin(theta)^2 cos(psi)^2) w2' - m r^2 w1' sin(theta)^2 sin(psi) cos(psi) - m r^2 w3' sin(theta) cos(theta) cos(psi) + (I1 - I3) w1 w3 = 0",
+                Value("(I2 + m r^2) w2' - m r^2 (w1' sin(theta) sin(psi) + w2' sin(theta) cos(psi) + w3' cos(theta)) sin(theta) cos(psi) - (I3 - I1) w3 w1"),
+            ),
+            (
+                "(I3 + m r^2 sin(theta)^2) w3' - m r^2 w1' sin(theta) cos(theta) sin(psi) - m r^2 w2' sin(theta) cos(theta) cos(psi) - (I1 - I2) w1 w2 = 0",
+                Value("(I3 + m r^2) w3' - m r^2 (w1' sin(theta) sin(psi) + w2' sin(theta) cos(psi) + w3' cos(theta)) cos(theta) - (I1 - I2) w1 w2"),
+            ),
+        ],
+    }
+    .check();
+}
+
+/// The skate on an incline with T and V stated: F = (m G cos φ, 0) with G = g s, F* = (-m u', -J w'). kane-levinson1985, ch. 6;
+/// theory 1 §9.3.
+#[test]
+fn kanes_forces_of_a_potential() {
+    Page {
+        model: "skate-incline",
+        formulation: "kane",
+        group: OBJECTS,
+        names: &["u", "w", "F_u", "F_w", "Fstar_u", "Fstar_w"],
+        equations: &[
+            ("F_u = m gs cos(phi)", Value("F_u - m gs cos(phi)")),
+            ("Fstar_u = -m u'", Value("Fstar_u + m u'")),
+            ("F_w = 0", Value("F_w")),
+            ("Fstar_w = -J w'", Value("Fstar_w + J w'")),
+        ],
+    }
+    .check();
+}

@@ -8,6 +8,7 @@ pub mod formulation;
 pub mod gauss;
 pub mod hypotheses;
 pub mod mass;
+pub mod metric;
 pub mod model;
 pub mod order;
 pub mod particles;
@@ -192,6 +193,7 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &hypotheses::LagrangianAutonomous,
     &hypotheses::LagrangianQuadratic,
     &hypotheses::LagrangianEven,
+    &metric::MetricPositive,
     &hypotheses::RestrictedHessianRegular,
     &hypotheses::ConstrainedExtremumRegular,
     &particles::Particles,

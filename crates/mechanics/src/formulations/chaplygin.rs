@@ -8,7 +8,7 @@ use super::{Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::{Characteristics, Selection};
 use crate::claims::model::{chaplygin_choice, is_absent};
-use crate::equations::{Equations, Schema};
+use crate::equations::{Equations, RegularMatrix, Schema};
 use chetaev_symbolic::Expr;
 
 /// Chaplygin's equations.
@@ -54,8 +54,36 @@ impl Formulation for Chaplygin {
                 characteristics.by_coordinates(system, &[restricted.lagrangian], &unit)[0]
             })
             .collect();
-        restricted.equations((CARD.name, SCHEMA), basis, &characteristics, &slopes)
+        let mut equations =
+            restricted.equations((CARD.name, SCHEMA), basis, &characteristics, &slopes)?;
+        equations.regular = solved_for(basis, &characteristics);
+        Ok(equations)
     }
+}
+
+/// `∂f/∂v` of the dependent velocities, where these are not the ones that are chosen anew along a motion and it may vanish.
+fn solved_for(basis: &Basis<'_>, c: &Characteristics) -> Option<RegularMatrix> {
+    let (system, rows) = (basis.system, &basis.selection.rows);
+    if c.dependent == basis.selection.dependent {
+        return None;
+    }
+    let slopes = |&row: &usize| -> Vec<Expr> {
+        let gradient = &basis.terms.jacobian[row];
+        c.restrict(
+            system,
+            &c.dependent.iter().map(|&d| gradient[d]).collect::<Vec<_>>(),
+        )
+    };
+    let rows: Vec<Vec<Expr>> = rows.iter().map(slopes).collect();
+    let g = &system.graph;
+    let moves = |e: Expr| !g.is_free_of(e, &|s| system.moves(g.symbol_name(s)));
+    rows.concat()
+        .into_iter()
+        .any(moves)
+        .then_some(RegularMatrix {
+            name: "∂f/∂v of the dependent velocities, those of the coordinates that occur nowhere",
+            rows,
+        })
 }
 
 /// Independent velocities whose dependent coordinates occur nowhere: those of the selection where they are of this kind,

@@ -1,14 +1,16 @@
 //! The equations of Gibbs and Appell.
 //!
 //! `∂S/∂P'_σ = Π_σ` with the acceleration energy `S = ½ Σ_a m_a r_a''·r_a''` on the jet (t, q, P, P') and
-//! `Π_σ = Σ_a (F_a + R_a) · ∂r_a''/∂P'_σ`, R_a the thrust where masses vary (T1 (48)). Where the model states no particles that carry the whole inertia,
-//! `S = ½ aᵀ W a + aᵀ c`, `c_i = -E_i[L]` at a = 0, which is the same combination as Maggi's.
+//! `Π_σ = Σ_a (F_a + R_a) · ∂r_a''/∂P'_σ`, R_a the thrust where masses vary (T1 (48)). Where the model states no particles
+//! that carry the whole inertia, `S = ½ aᵀ W a + aᵀ c`, `c_i = E_i[T]` at a = 0, and `Π_σ` contains `-∂V/∂q`; where it states
+//! no T and V apart, L stands for T. This is the same combination as Maggi's.
 
-use super::{bare, Basis, DeriveError, Formulation};
+use super::{bare, potential_forces, stated_apart, Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::Characteristics;
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
 use crate::mass;
+use crate::order::determined::in_characteristics;
 use crate::particles;
 use crate::system::System;
 use chetaev_symbolic::{Expr, Symbol};
@@ -38,7 +40,13 @@ const SCHEMA: Schema = Schema {
     latex: r"\frac{\partial S}{\partial \dot P_\sigma} = \Pi_\sigma, \quad S = \tfrac12 \sum_a m_a \ddot r_a \cdot \ddot r_a, \quad \Pi_\sigma = \sum_a (F_a + R_a) \cdot \frac{\partial \ddot r_a}{\partial \dot P_\sigma}",
 };
 
-/// Without particles, from L alone.
+/// Without particles, from T and V.
+const SCHEMA_OF_T: Schema = Schema {
+    text: "∂S/∂P'_σ = Π_σ,  S = ½ Σ_ij T_{v^i v^j} a^i a^j + Σ_i c_i a^i,  c_i = D(∂T/∂v^i)|_{a=0} − ∂T/∂q^i,  Π_σ = Σ_i ( Q_i − ∂V/∂q^i ) ∂v^i/∂P_σ",
+    latex: r"\frac{\partial S}{\partial \dot P_\sigma} = \Pi_\sigma, \quad S = \tfrac12 \sum_{ij} \frac{\partial^2 T}{\partial \dot q^i \partial \dot q^j} \ddot q^i \ddot q^j + \sum_i c_i \ddot q^i, \quad \Pi_\sigma = \sum_i \Bigl(Q_i - \frac{\partial V}{\partial q^i}\Bigr) \frac{\partial \dot q^i}{\partial P_\sigma}",
+};
+
+/// Without particles and without T and V, from L alone.
 const SCHEMA_OF_L: Schema = Schema {
     text: "∂S/∂P'_σ = Π_σ,  S = ½ Σ_ij L_{v^i v^j} a^i a^j + Σ_i c_i a^i,  c_i = D(∂L/∂v^i)|_{a=0} − ∂L/∂q^i,  Π_σ = Σ_i Q_i ∂v^i/∂P_σ",
     latex: r"\frac{\partial S}{\partial \dot P_\sigma} = \Pi_\sigma, \quad S = \tfrac12 \sum_{ij} \frac{\partial^2 L}{\partial \dot q^i \partial \dot q^j} \ddot q^i \ddot q^j + \sum_i c_i \ddot q^i, \quad \Pi_\sigma = \sum_i Q_i \frac{\partial \dot q^i}{\partial P_\sigma}",
@@ -50,11 +58,17 @@ impl Formulation for GibbsAppell {
     }
 
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
-        let (system, characteristics) = (basis.system, basis.characteristics()?);
+        let (system, characteristics) = (basis.system, basis.kinematic_characteristics()?);
         let g = &system.graph;
         let (energy, schema) = match particles::suffice(system) {
             true => (from_particles(system, &characteristics), SCHEMA),
-            false => (from_lagrangian(basis, &characteristics), SCHEMA_OF_L),
+            false => (
+                from_lagrangian(basis, &characteristics),
+                match stated_apart(system) {
+                    Some(_) => SCHEMA_OF_T,
+                    None => SCHEMA_OF_L,
+                },
+            ),
         };
         let symbols: Vec<Symbol> = characteristics
             .parameters
@@ -72,9 +86,8 @@ impl Formulation for GibbsAppell {
                 right,
             })
             .collect();
-        let rates = characteristics.rates_of(system, &motion)?;
         Ok(
-            Equations::in_characteristics(CARD.name, system, &characteristics, &rates)
+            in_characteristics(CARD.name, basis, &characteristics, &motion)?
                 .with_group("equations of motion", Some(schema), motion)
                 .with_group("kinematics", None, basis.kinematics(&characteristics))
                 .with_objects(energy.objects(system, &characteristics)),
@@ -162,7 +175,9 @@ fn from_lagrangian(basis: &Basis<'_>, characteristics: &Characteristics) -> Acce
     let (system, terms, c) = (basis.system, basis.terms, characteristics);
     let (g, n) = (&system.graph, system.n());
     let mut functions = terms.mass_matrix.concat();
-    functions.extend(&system.forces);
+    let potential = potential_forces(system);
+    let active = system.forces.iter().zip(potential);
+    functions.extend(active.map(|(&force, slope)| g.add(&[force, slope])));
     functions.extend(&terms.force);
     let restricted = c.restrict(system, &functions);
     let (matrix, rest) = restricted.split_at(n * n);
@@ -188,7 +203,6 @@ fn from_lagrangian(basis: &Basis<'_>, characteristics: &Characteristics) -> Acce
     AccelerationEnergy {
         value: g.add(&energy),
         forces: c.contract(system, forces),
-        meaning:
-            "½ aᵀ W a + aᵀ c from the Lagrangian, without terms free of the rates of the parameters",
+        meaning: "½ aᵀ W a + aᵀ c, without terms free of the rates of the parameters",
     }
 }

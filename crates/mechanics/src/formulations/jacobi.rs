@@ -35,6 +35,7 @@ static CARD: Card = Card {
         "model.constraints-homogeneous",
         "model.constraints-scleronomic",
         "model.masses-free-of-velocity",
+        "model.metric-positive",
     ],
     identity: None,
     unknowns: "second derivatives of the coordinates by the arc length and one multiplier for each independent constraint",

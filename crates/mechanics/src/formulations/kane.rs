@@ -1,14 +1,16 @@
 //! Kane's equations.
 //!
 //! `F_σ + F*_σ = 0` with generalized speeds P, partial velocities `∂r_a'/∂P_σ`, active forces
-//! `F_σ = Σ_a (F_a + R_a) · ∂r_a'/∂P_σ` (R_a: thrust where masses vary) and inertia forces `F*_σ = -Σ_a m_a r_a'' · ∂r_a'/∂P_σ` (T1 (49)). Where the model states
-//! no particles that carry the whole inertia, `F_σ = Σ_i Q_i ∂v^i/∂P_σ`, `F*_σ = Σ_i E_i[L] ∂v^i/∂P_σ`.
+//! `F_σ = Σ_a (F_a + R_a) · ∂r_a'/∂P_σ` (R_a: thrust where masses vary) and inertia forces
+//! `F*_σ = -Σ_a m_a r_a'' · ∂r_a'/∂P_σ` (T1 (49)). Where the model states no particles that carry the whole inertia,
+//! `F_σ = Σ_i (Q_i - ∂V/∂q^i) ∂v^i/∂P_σ`, `F*_σ = -Σ_i E_i[T] ∂v^i/∂P_σ`; where it states no T and V apart, L stands for T.
 
-use super::{bare, Basis, DeriveError, Formulation};
+use super::{bare, potential_forces, stated_apart, Basis, DeriveError, Formulation};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::Characteristics;
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
 use crate::mass;
+use crate::order::determined::in_characteristics;
 use crate::particles;
 use crate::system::System;
 use chetaev_symbolic::Expr;
@@ -35,7 +37,13 @@ const SCHEMA: Schema = Schema {
     latex: r"F_\sigma + F^*_\sigma = 0, \quad F_\sigma = \sum_a (F_a + R_a) \cdot \frac{\partial \dot r_a}{\partial P_\sigma}, \quad F^*_\sigma = -\sum_a m_a \ddot r_a \cdot \frac{\partial \dot r_a}{\partial P_\sigma}",
 };
 
-/// Without particles, from L alone.
+/// Without particles, from T and V.
+const SCHEMA_OF_T: Schema = Schema {
+    text: "F_σ + F*_σ = 0,  F_σ = Σ_i ( Q_i − ∂V/∂q^i ) ∂v^i/∂P_σ,  F*_σ = −Σ_i ( D(∂T/∂v^i) − ∂T/∂q^i ) ∂v^i/∂P_σ",
+    latex: r"F_\sigma + F^*_\sigma = 0, \quad F_\sigma = \sum_i \Bigl(Q_i - \frac{\partial V}{\partial q^i}\Bigr) \frac{\partial \dot q^i}{\partial P_\sigma}, \quad F^*_\sigma = -\sum_i \Bigl(\frac{d}{dt}\frac{\partial T}{\partial \dot q^i} - \frac{\partial T}{\partial q^i}\Bigr) \frac{\partial \dot q^i}{\partial P_\sigma}",
+};
+
+/// Without particles and without T and V, from L alone.
 const SCHEMA_OF_L: Schema = Schema {
     text:
         "F_σ + F*_σ = 0,  F_σ = Σ_i Q_i ∂v^i/∂P_σ,  F*_σ = −Σ_i ( D(∂L/∂v^i) − ∂L/∂q^i ) ∂v^i/∂P_σ",
@@ -48,11 +56,17 @@ impl Formulation for Kane {
     }
 
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
-        let (system, characteristics) = (basis.system, basis.characteristics()?);
+        let (system, characteristics) = (basis.system, basis.kinematic_characteristics()?);
         let g = &system.graph;
         let (balance, schema) = match particles::suffice(system) {
             true => (from_particles(system, &characteristics), SCHEMA),
-            false => (from_lagrangian(system, &characteristics), SCHEMA_OF_L),
+            false => (
+                from_lagrangian(system, &characteristics),
+                match stated_apart(system) {
+                    Some(_) => SCHEMA_OF_T,
+                    None => SCHEMA_OF_L,
+                },
+            ),
         };
         let motion: Vec<Equation> = characteristics
             .parameters
@@ -64,9 +78,8 @@ impl Formulation for Kane {
                 right: g.zero(),
             })
             .collect();
-        let rates = characteristics.rates_of(system, &motion)?;
         Ok(
-            Equations::in_characteristics(CARD.name, system, &characteristics, &rates)
+            in_characteristics(CARD.name, basis, &characteristics, &swapped(&motion))?
                 .with_group("equations of motion", Some(schema), motion)
                 .with_group("kinematics", None, basis.kinematics(&characteristics))
                 .with_objects(balance.objects(&characteristics)),
@@ -78,6 +91,16 @@ impl Formulation for Kane {
             "active and inertia forces are built from the Lagrangian, as no particles that carry the whole inertia are stated: their sum is Lagrange's left sides contracted with the basis of virtual displacements, as in Maggi's equations",
         )
     }
+}
+
+/// The same equations with their sides exchanged: what is moved then has the sign of Maggi's left sides.
+fn swapped(motion: &[Equation]) -> Vec<Equation> {
+    let exchanged = |e: &Equation| Equation {
+        label: e.label.clone(),
+        left: e.right,
+        right: e.left,
+    };
+    motion.iter().map(exchanged).collect()
 }
 
 /// Active and inertia forces along the generalized speeds, and the partial velocities.
@@ -158,8 +181,13 @@ fn from_particles(system: &System, c: &Characteristics) -> Balance {
 
 fn from_lagrangian(system: &System, c: &Characteristics) -> Balance {
     let g = &system.graph;
-    let left = c.on_jet(system, &system.lagrange_left_sides());
-    let forces = c.restrict(system, &system.forces);
+    let potential = potential_forces(system);
+    let with_potential = |es: &[Expr]| -> Vec<Expr> {
+        let pairs = es.iter().zip(&potential);
+        pairs.map(|(&e, &force)| g.add(&[e, force])).collect()
+    };
+    let left = c.on_jet(system, &with_potential(&system.lagrange_left_sides()));
+    let forces = c.restrict(system, &with_potential(&system.forces));
     let inertia = c
         .contract(system, &left)
         .into_iter()

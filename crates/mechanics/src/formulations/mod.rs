@@ -46,6 +46,7 @@ pub use routh::Routh;
 pub use state_space::StateSpace;
 pub use state_space_canonical::{reactions as reactions_by_momenta, StateSpaceCanonical};
 pub use vakonomic::{extremum_matrix, kappa_symbols, Vakonomic};
+pub(crate) use volterra::{potential_forces, stated_apart};
 pub use volterra_cartesian::{VolterraFirstCartesian, VolterraSecondCartesian};
 pub use volterra_first::VolterraFirst;
 pub use volterra_second::VolterraSecond;

@@ -484,6 +484,18 @@ pub(crate) fn quasi_slopes(
         .collect()
 }
 
+/// `-∂V/∂qⁱ` where T and V are stated apart, else zeros: what gravity and springs do, as forces.
+pub(crate) fn potential_forces(system: &System) -> Vec<Expr> {
+    let g = &system.graph;
+    match stated_apart(system) {
+        Some((_, potential)) => {
+            let slopes = g.gradient(potential, &system.coordinate_symbols());
+            slopes.into_iter().map(|slope| g.neg(slope)).collect()
+        }
+        None => vec![g.zero(); system.n()],
+    }
+}
+
 /// T and V where `L = T - V` with V free of velocities.
 pub(crate) fn stated_apart(system: &System) -> Option<(Expr, Expr)> {
     let g = &system.graph;

@@ -118,3 +118,46 @@ fn an_indefinite_mass_matrix_makes_it_stationary_only() {
     let varying = "coordinates = [\"x\", \"y\"]\nlagrangian = { L = \"1/2 x x'^2 + 1/2 y'^2\" }\n";
     expect(&Case::new(varying), LEAST, "refuted");
 }
+
+/// A body about two turning axes with a product of inertia: in the angular velocities the matrix is [[A, D], [D, B]], so
+/// that A B > D² decides, whatever the angles. In the velocities of the angles its entries are trigonometric.
+const BODY: &str = r#"
+coordinates = ["al", "be"]
+parameters = { A = 3, B = 2, D = 1 }
+define = { w1 = "al' cos(be) - be' sin(al)", w2 = "al' sin(be) + be' cos(al)" }
+lagrangian = { T = "1/2 (A w1^2 + B w2^2) + D w1 w2" }
+"#;
+
+#[test]
+fn moments_of_inertia_decide_for_angular_velocities() {
+    let stated = format!("assumptions = [\"A > 0\", \"A B > D^2\"]\n{BODY}");
+    let (word, detail) = Case::new(&stated).verdict(LEAST);
+    assert_eq!(word, "proved", "{detail}");
+    assert!(!detail.contains("values of the parameters"), "{detail}");
+    let (word, detail) = Case::new(BODY).verdict(LEAST);
+    assert_eq!(word, "proved", "{detail}");
+    assert!(detail.contains("values of the parameters"), "{detail}");
+    // D² = 9 > 6: negative along w1 = -w2, say.
+    let impossible = BODY.replace("D = 1", "D = 3");
+    expect(&Case::new(&impossible), LEAST, "refuted");
+    // The order of the assumptions' sides is no matter; the sign of a moment is.
+    let negative = BODY.replace("A = 3, B = 2", "A = -3, B = -2");
+    expect(&Case::new(&negative), LEAST, "refuted");
+}
+
+/// -m c² √(1 - v²/c²) is convex for m > 0: W = γ m (1 + γ² v vᵀ/c²). With m < 0 it is concave.
+#[test]
+fn a_fast_particle_has_a_positive_mass_matrix() {
+    let fast = "coordinates = [\"x\", \"y\", \"z\"]\nparameters = { m = {}, c = {}, F = {} }\n\
+        lagrangian = { L = \"-m c^2 sqrt(1 - (x'^2 + y'^2 + z'^2)/c^2) + F y\" }\n\
+        constraints = { rolling = \"z' = y x'\" }\n";
+    let heavy = format!("assumptions = [\"m > 0\", \"c > 0\"]\n{fast}");
+    expect(&Case::new(&heavy), LEAST, "proved");
+    let negative = format!("assumptions = [\"m < 0\", \"c > 0\"]\n{fast}");
+    let (word, detail) = Case::new(&negative).verdict(LEAST);
+    assert_ne!(word, "proved", "{detail}");
+    // φ'' < 0: √(1 + v²) is convex all the same, which this rule does not see; v⁴ - 2 v² is not.
+    let dented = "coordinates = [\"x\", \"y\"]\nlagrangian = { L = \"(x'^2 + y'^2)^2 - 2 (x'^2 + y'^2)\" }\n";
+    let (word, detail) = Case::new(dented).verdict(LEAST);
+    assert_ne!(word, "proved", "{detail}");
+}

@@ -126,3 +126,56 @@ fn constrained_extrema() {
     let flat = Case::new(&text("y' = x x'"));
     expect(&flat, "model.constrained-extremum-regular", "refuted");
 }
+
+/// A mass whose stated value is zero: W = diag(m, m, M) is singular for this system, whatever it is for others. Bordered by
+/// the constraint it is regular all the same.
+#[test]
+fn a_mass_that_is_zero_as_stated() {
+    let text = |mass: &str| {
+        format!(
+            "coordinates = [\"x\", \"y\", \"z\"]\nparameters = {{ m = 2, M = {mass} }}\n\
+             lagrangian = {{ T = \"m/2 (x'^2 + y'^2) + M/2 z'^2\", V = \"x + z\" }}\n\
+             constraints = {{ a = \"z' = y x'\" }}\n"
+        )
+    };
+    for mass in ["0", "1", "{}"] {
+        let case = Case::new(&text(mass));
+        let regular = if mass == "0" { "refuted" } else { "proved" };
+        expect(&case, "model.hessian-regular", regular);
+        expect(&case, "model.accelerations-unique", "proved");
+        let applies = if mass == "0" {
+            "not-applicable"
+        } else {
+            "proved"
+        };
+        expect(&case, "formulation.equivalent#canonical", applies);
+        // Gauss's function then has no α; it is stationary without it.
+        expect(&case, "formulation.equivalent#gauss", "proved");
+        let gauss = case.equations("gauss");
+        let has_free = gauss.objects.iter().any(|o| o.name.starts_with("alpha"));
+        assert_eq!(has_free, mass != "0");
+    }
+}
+
+/// F = ½ vᵀ W v on the admissible velocities: positive, nowhere positive, of both signs.
+#[test]
+fn jacobis_metric_has_a_sign() {
+    let plane = |lagrangian: &str, constraint: &str| {
+        Case::new(&format!(
+            "coordinates = [\"x\", \"y\"]\nlagrangian = {{ L = \"{lagrangian}\" }}\nconstraints = {{ c = \"{constraint}\" }}\n"
+        ))
+    };
+    let claim = "model.metric-positive";
+    let jacobi = "formulation.equivalent#jacobi";
+    // ½ (1 - 4) x'², ½ (1 - ¼) x'²: the constraint decides.
+    let below = plane("(x'^2 - y'^2)/2 - x^2", "y' = 2 x'");
+    expect(&below, claim, "refuted");
+    expect(&below, jacobi, "not-applicable");
+    let above = plane("(x'^2 - y'^2)/2 - x^2", "y' = x'/2");
+    expect(&above, claim, "proved");
+    expect(&above, jacobi, "proved");
+    // ½ (1 - x²) x'².
+    let both = plane("(x'^2 - y'^2)/2", "y' = x x'");
+    expect(&both, claim, "conditional");
+    expect(&both, jacobi, "proved");
+}

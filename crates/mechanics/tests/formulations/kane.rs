@@ -48,6 +48,71 @@ fn the_skate_of_the_notes() {
     }
 }
 
+/// The same skate with T and V stated in place of particles: gravity is an active force all the same, and S of Gibbs and
+/// Appell does not contain it.
+#[test]
+fn a_potential_is_an_active_force() {
+    let stated = "coordinates = [\"x\", \"y\", \"phi\"]\nparameters = { m = {}, J = {}, G = {} }\n\
+        lagrangian = { T = \"m/2 (x'^2 + y'^2) + J/2 phi'^2\", V = \"-m G x\" }\n\
+        constraints = { blade = \"x' sin(phi) - y' cos(phi) = 0\" }\n\
+        [quasi_velocities]\nu = \"x' cos(phi) + y' sin(phi)\"\nw = \"phi'\"\n";
+    let case = Case::new(stated);
+    let kane = case.equations("kane");
+    let expected = [
+        ("F_u", "m G cos(phi)"),
+        ("F_w", "0"),
+        ("Fstar_u", "-m u'"),
+        ("Fstar_w", "-J w'"),
+    ];
+    for (name, text) in expected {
+        assert!(
+            case.equal(case.object(&kane, name), case.read(text)),
+            "{name}"
+        );
+    }
+    let appell = case.equations("gibbs-appell");
+    for (name, text) in [("S", "m/2 u'^2 + J/2 w'^2"), ("Pi_u", "m G cos(phi)")] {
+        assert!(
+            case.equal(case.object(&appell, name), case.read(text)),
+            "{name}"
+        );
+    }
+    for claim in [CLAIM, "formulation.equivalent#gibbs-appell"] {
+        expect(&case, claim, "proved");
+    }
+}
+
+/// S3 in the parameters ρ, ψ of the cone: m (1 + a²) ρ' = -m g a, m ρ² ψ' = 0 (theory 1 §9.3).
+#[test]
+fn appells_cone_in_stated_characteristics() {
+    let cone = "coordinates = [\"x\", \"y\", \"z\"]\nparameters = { m = {}, g = {}, a = {} }\n\
+        assumptions = [\"a > 0\", \"rho > 0\"]\n\
+        lagrangian = { T = \"m/2 (x'^2 + y'^2 + z'^2)\", V = \"m g z\" }\n\
+        constraints = { cone = \"z' = a sqrt(x'^2 + y'^2)\" }\n\
+        [characteristics]\nparameters = [\"rho\", \"psi\"]\n\
+        \"x'\" = \"rho cos(psi)\"\n\"y'\" = \"rho sin(psi)\"\n\"z'\" = \"a rho\"\n";
+    let case = Case::new(cone);
+    let kane = case.equations("kane");
+    let expected = [
+        ("F_rho", "-m g a"),
+        ("F_psi", "0"),
+        ("Fstar_rho", "-m (1 + a^2) rho'"),
+        ("Fstar_psi", "-m rho^2 psi'"),
+    ];
+    for (name, text) in expected {
+        assert!(
+            case.equal(case.object(&kane, name), case.read(text)),
+            "{name}"
+        );
+    }
+    let appell = case.equations("gibbs-appell");
+    let energy = case.read("m/2 ((1 + a^2) rho'^2 + rho^2 psi'^2)");
+    assert!(case.equal(case.object(&appell, "S"), energy));
+    for claim in [CLAIM, "formulation.equivalent#gibbs-appell"] {
+        expect(&case, claim, "proved");
+    }
+}
+
 /// S2 with u1 = θ', u2 = φ': F* = (-(I + m R²) u1', -J u2').
 #[test]
 fn the_disc_of_the_notes() {

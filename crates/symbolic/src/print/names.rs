@@ -120,6 +120,17 @@ fn piece(text: &str) -> Piece {
     }
 }
 
+/// An index: `w1` is the letter w with its number; a word keeps its digits.
+fn numbered(part: &str) -> Vec<Piece> {
+    let letters = part.trim_end_matches(|c: char| c.is_ascii_digit());
+    match piece(letters) {
+        own @ (Piece::Letter(_) | Piece::Greek(..)) if letters.len() < part.len() => {
+            vec![own, piece(&part[letters.len()..])]
+        }
+        _ => vec![piece(part)],
+    }
+}
+
 /// Splits a name at underscores and before final digits: `q_1`, `q1` and `q_{1}` of a person's hand are the same.
 pub(crate) fn typeset(name: &str) -> TypesetName {
     if let Some(start) = name
@@ -146,7 +157,7 @@ pub(crate) fn typeset(name: &str) -> TypesetName {
         }
         letters
     };
-    pieces.extend(parts.map(piece));
+    pieces.extend(parts.flat_map(numbered));
     TypesetName {
         head: piece(head),
         superscripts: Vec::new(),
@@ -198,6 +209,12 @@ mod tests {
         let digits = |text: &str| bare(Piece::Digits(text.into()));
         assert_eq!(typeset("theta_1").head, theta.clone());
         assert_eq!(typeset("theta1"), typeset("theta_1"));
+        // The index of `F_w1` is w₁; in `I_xx2` it is a word.
+        assert_eq!(typeset("F_w1"), typeset("F_w_1"));
+        assert_eq!(
+            typeset("I_xx2").subscripts,
+            [bare(Piece::Word("xx2".into()))]
+        );
         assert_eq!(typeset("q_1_2").subscripts, [digits("1"), digits("2")]);
         assert_eq!(
             typeset("lambda_blade").subscripts,

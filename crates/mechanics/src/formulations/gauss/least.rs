@@ -1,14 +1,16 @@
 //! Whether the motion makes Gauss's function least or only stationary: the sign of `Bᵀ W B`.
 
 use super::super::lagrange_dalembert::VirtualDisplacements;
-use super::super::volterra::stated_apart;
+use super::super::stated_apart;
 use super::super::voronets::natural;
 use super::super::Basis;
 use crate::characteristics::Manifold;
 use crate::linear::dot;
-use crate::prover::Prover;
+use crate::prover::{located, Prover};
+use crate::quadratic_forms::{is_convex_in_one_form, nonnegative, positive_in_linear_forms};
 use crate::sample;
 use crate::system::System;
+use crate::words::counted;
 use chetaev_symbolic::matrix::ldlt;
 use chetaev_symbolic::rational::ratio;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, Proof};
@@ -53,6 +55,13 @@ pub fn kind(basis: &Basis<'_>, prover: &Prover) -> Kind {
     if let Some(proof) = positive_energy(system, prover, &[]) {
         return Kind::Least(proof);
     }
+    if is_convex_in_one_form(system) {
+        return Kind::Least(Proof::structural(
+            located("wherever both sides are defined", "at every state", system),
+            "the Lagrangian is a function of one quadratic form in the velocities, and the signs of its two derivatives and \
+             of the form make the mass matrix nowhere negative; it is regular on the virtual displacements",
+        ));
+    }
     let Ok(displacements) = VirtualDisplacements::new(basis) else {
         return unknown("the virtual displacements cannot be solved for");
     };
@@ -83,12 +92,6 @@ fn unknown(tried: impl Into<String>) -> Kind {
     }
 }
 
-/// Whether `e ≥ 0` on the manifold, as the identity `|e| = e`.
-fn is_nonnegative(system: &System, prover: &Prover, manifold: &Manifold, e: Expr) -> Verdict {
-    let g = &system.graph;
-    prover.identity(system, &[g.sub(g.abs(e), e)], manifold, ON)
-}
-
 /// The stated kinetic energy, with these values of parameters, where it is a quadratic form in the velocities that is
 /// nowhere negative: `δqᵀ W δq = 2T(δq)`.
 fn positive_energy(system: &System, prover: &Prover, values: &[(Expr, Expr)]) -> Option<Proof> {
@@ -104,7 +107,17 @@ fn positive_energy(system: &System, prover: &Prover, values: &[(Expr, Expr)]) ->
     if g.any_contains_any(&hessian, &velocities) || linear.iter().any(|&e| !g.is_zero(e)) {
         return None;
     }
-    match is_nonnegative(system, prover, &Manifold::default(), kinetic) {
+    if let Some(count) = positive_in_linear_forms(system, kinetic) {
+        return Some(Proof::structural(
+            located("wherever both sides are defined", "at every state", system),
+            format!(
+                "the kinetic energy is a quadratic form in {} that is nowhere negative by its leading minors, and regular on \
+                 the virtual displacements",
+                counted(count, "linear form of the velocities", "linear forms of the velocities")
+            ),
+        ));
+    }
+    match nonnegative(system, prover, &Manifold::default(), kinetic, ON) {
         Verdict::Proved(mut proof) => {
             proof.detail = format!(
                 "the kinetic energy is a quadratic form that is nowhere negative, and regular on the virtual displacements: {}",
@@ -210,7 +223,7 @@ impl Form {
         let rows = self.matrix.iter();
         let image: Vec<Expr> = rows.map(|row| dot(g, row, &coefficients)).collect();
         let value = dot(g, &coefficients, &image);
-        match is_nonnegative(system, prover, &self.manifold, value) {
+        match nonnegative(system, prover, &self.manifold, value, ON) {
             Verdict::Refuted(counterexample)
             | Verdict::Conditional {
                 counterexample: Some(counterexample),
@@ -303,7 +316,7 @@ fn pivots_are_positive(
                 "a pivot of {name} is too long for its sign to be seen"
             ));
         }
-        let verdict = is_nonnegative(system, prover, manifold, pivot);
+        let verdict = nonnegative(system, prover, manifold, pivot, ON);
         if !matches!(verdict, Verdict::Proved(_)) {
             let why = verdict.detail();
             return Err(format!(

@@ -1,0 +1,119 @@
+//! `model.metric-positive`: whether the kinetic metric of Jacobi's principle is positive on the admissible velocities.
+
+use super::{Claim, Context, Finding, Group};
+use crate::claims::formulation::manifold;
+use crate::formulations::stated_apart;
+use crate::linear::dot;
+use crate::prover::{located, Prover};
+use crate::quadratic_forms::{nonnegative, positive_in_linear_forms};
+use chetaev_symbolic::verdict::{Counterexample, Proof};
+use chetaev_symbolic::{Expr, Verdict};
+
+/// The claim.
+#[derive(Clone, Copy, Debug)]
+pub struct MetricPositive;
+
+/// Field operations for the sign.
+const BUDGET: u64 = 20_000_000;
+
+const ON: &str = "at every admissible state";
+
+impl Claim for MetricPositive {
+    fn id(&self) -> &'static str {
+        "model.metric-positive"
+    }
+
+    fn group(&self) -> Group {
+        Group::Model
+    }
+
+    fn title(&self) -> &'static str {
+        "The part of the Lagrangian quadratic in the velocities is positive on the admissible velocities"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "Jacobi's principle measures paths by √(2F), F = L₂ = ½ vᵀ W v, and needs F > 0 along them; by the energy integral \
+         that is h + L₀ > 0. Refuted: F is positive at no admissible velocity, so that no path has a length. Conditional: at \
+         some velocities it is, at others not."
+    }
+
+    fn requires(&self, _: Option<&str>) -> Vec<String> {
+        vec![
+            "model.accelerations-unique".into(),
+            "model.lagrangian-quadratic".into(),
+        ]
+    }
+
+    fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let stated = stated_apart(system).map(|(kinetic, _)| kinetic);
+        if stated.is_some_and(|e| positive_in_linear_forms(system, e).is_some()) {
+            let detail = "the kinetic energy is a quadratic form that is nowhere negative by its leading minors";
+            let on = located("wherever both sides are defined", ON, system);
+            return Verdict::Proved(Proof::structural(on, detail)).into();
+        }
+        let metric = metric(cx);
+        let prover = Prover {
+            budget: cx.prover.budget.min(BUDGET),
+            ..cx.prover.clone()
+        };
+        let manifold = manifold(cx);
+        let sign = |e: Expr| nonnegative(system, &prover, &manifold, e, ON);
+        let positive = sign(metric);
+        let Some(below) = point(&positive) else {
+            return positive.into();
+        };
+        match sign(g.neg(metric)) {
+            Verdict::Proved(proof) => Verdict::Refuted(Counterexample {
+                quantity: "|F| − F".into(),
+                detail: format!(
+                    "F = ½ vᵀ W v is positive at no admissible velocity ({})",
+                    proof.detail
+                ),
+                ..below
+            }),
+            other => match point(&other) {
+                Some(above) => Verdict::Conditional {
+                    condition: "F = ½ vᵀ W v > 0".into(),
+                    proof: Proof::exact(
+                        ON,
+                        format!(
+                            "F takes both signs; it is positive at a state: {}",
+                            above.detail
+                        ),
+                    ),
+                    counterexample: Some(Counterexample {
+                        quantity: "|F| − F".into(),
+                        ..below
+                    }),
+                },
+                None => other,
+            },
+        }
+        .into()
+    }
+}
+
+/// ½ vᵀ W v.
+fn metric(cx: &Context<'_>) -> Expr {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
+    let at_rest: Vec<(Expr, Expr)> = velocities.iter().map(|&v| (v, g.zero())).collect();
+    let rows = cx.terms.mass_matrix.iter();
+    let momenta: Vec<Expr> = rows
+        .map(|row| dot(g, &g.substitute_all(row, &at_rest), &velocities))
+        .collect();
+    g.div(dot(g, &velocities, &momenta), g.integer(2))
+}
+
+/// The state at which something is not so.
+fn point(verdict: &Verdict) -> Option<Counterexample> {
+    match verdict {
+        Verdict::Refuted(found)
+        | Verdict::Conditional {
+            counterexample: Some(found),
+            ..
+        } => Some(found.clone()),
+        _ => None,
+    }
+}
