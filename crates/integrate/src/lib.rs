@@ -30,6 +30,7 @@ mod output;
 pub mod problem;
 mod roots;
 mod run;
+mod sampling;
 pub mod solution;
 pub mod stiffness;
 

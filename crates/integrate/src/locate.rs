@@ -1,5 +1,5 @@
-//! Search for the zeros of switching functions inside one step (theory: sample the dense output, bracket, refine,
-//! repeat the step exactly to the zero).
+//! Search for the zeros of switching functions inside one step (theory: sample the dense output as closely as the function
+//! asks for, bracket, refine, repeat the step exactly to the zero).
 //!
 //! The side of zero on which a switching function was last seen is remembered from step to step, so that a zero
 //! that falls on the end of a step is found once and only once whatever the rounding.
@@ -11,25 +11,8 @@ use crate::integrate::{Options, StepSize};
 use crate::method::{Method, State, Stepper, StepperSettings};
 use crate::problem::{EvaluationFailure, System};
 use crate::roots::{bracketed_zero, minimum};
+use crate::sampling::{refine, Samples, NEAR, NODES};
 use crate::solution::{Note, Solution, Stop};
-
-/// Distance from the ends of a step (in units of its length) at which the slope of a switching function is sampled.
-const NEAR: f64 = 1e-5;
-
-/// Scaled times at which switching functions are sampled.
-const NODES: [f64; 11] = [
-    0.0,
-    NEAR,
-    0.125,
-    0.25,
-    0.375,
-    0.5,
-    0.625,
-    0.75,
-    0.875,
-    1.0 - NEAR,
-    1.0,
-];
 
 /// Zeros closer than this many units in the last place of t are one.
 const SAME: f64 = 10.0;
@@ -44,6 +27,8 @@ struct Memory {
     last_zero: f64,
     /// Its values are unknown at present; the note was written.
     unknown: bool,
+    /// It runs faster than it can be followed; the note was written.
+    unresolved: bool,
 }
 
 /// A zero found in the present step.
@@ -64,7 +49,9 @@ pub(crate) struct Locator {
     resolution: f64,
     memories: Vec<Memory>,
     /// Values at the nodes of each switching function, or why there are none.
-    samples: Vec<Result<[f64; NODES.len()], EvaluationFailure>>,
+    samples: Vec<Result<Samples, EvaluationFailure>>,
+    /// Places and values of the function searched.
+    points: Vec<(f64, f64)>,
     candidates: Vec<Candidate>,
     y: Vec<f64>,
     /// State at the event being refined.
@@ -110,6 +97,7 @@ impl Locator {
             scale: 0.0,
             last_zero: f64::NAN,
             unknown: false,
+            unresolved: false,
         };
         Locator {
             method: options.method,
@@ -118,6 +106,7 @@ impl Locator {
             resolution,
             memories: vec![memory; events],
             samples: vec![Ok([0.0; NODES.len()]); events],
+            points: Vec::new(),
             candidates: Vec::new(),
             y: vec![0.0; n],
             state: State::exact(0.0, &vec![0.0; n]),
@@ -149,7 +138,7 @@ impl Locator {
         self.sample(system, events, step);
         for (index, event) in events.iter_mut().enumerate() {
             match self.search(system, event, index, step) {
-                Ok(()) => self.memories[index].unknown = false,
+                Ok(shown) => self.note_resolution(index, shown, step, solution),
                 Err(failure) => self.forget(index, step, failure, solution),
             }
         }
@@ -221,29 +210,52 @@ impl Locator {
         self.candidates.retain(|c| c.index != index);
     }
 
-    /// Finds the zeros of one switching function and updates what is remembered of it.
+    /// Says once that a function runs faster than it can be followed.
+    fn note_resolution(
+        &mut self,
+        index: usize,
+        shown: bool,
+        step: Step<'_>,
+        solution: &mut Solution,
+    ) {
+        let memory = &mut self.memories[index];
+        memory.unknown = false;
+        if !shown && !memory.unresolved {
+            memory.unresolved = true;
+            let t = step.now.t.high;
+            solution
+                .notes
+                .push(Note::EventUnresolved { t, event: index });
+        }
+    }
+
+    /// Finds the zeros of one switching function and updates what is remembered of it; says whether none can be missed
+    /// between the places at which it was looked at.
     fn search(
         &mut self,
         system: &mut dyn System,
         event: &mut Event<'_>,
         index: usize,
         step: Step<'_>,
-    ) -> Result<(), EvaluationFailure> {
-        let values = self.samples[index]?;
+    ) -> Result<bool, EvaluationFailure> {
+        let samples = self.samples[index]?;
         let y = &mut self.y;
+        let mut value = |theta: f64| {
+            step.dense.at_theta(theta, y);
+            event.value(system, step.time(theta), y)
+        };
+        let largest = self.memories[index].scale;
+        let shown = refine(&mut self.points, &samples, largest, &mut value)?;
         let mut scan = Scan {
-            value: |theta: f64| {
-                step.dense.at_theta(theta, y);
-                event.value(system, step.time(theta), y)
-            },
+            value,
             step,
             index,
             memory: self.memories[index],
             candidates: &mut self.candidates,
         };
-        scan.run(values, self.resolution)?;
+        scan.run(&mut self.points, self.resolution)?;
         self.memories[index] = scan.memory;
-        Ok(())
+        Ok(shown)
     }
 
     /// Writes the state at the candidate into `self.state`: by a step exactly to it and one Newton correction, since
@@ -348,30 +360,27 @@ where
     F: FnMut(f64) -> Result<f64, EvaluationFailure>,
 {
     /// Goes through the step sample by sample; dips of less than `resolution` times the largest value are touches.
-    fn run(
-        &mut self,
-        mut values: [f64; NODES.len()],
-        resolution: f64,
-    ) -> Result<(), EvaluationFailure> {
-        self.find_side(&mut values);
+    fn run(&mut self, points: &mut [(f64, f64)], resolution: f64) -> Result<(), EvaluationFailure> {
+        self.find_side(points);
         if self.memory.side == 0.0 {
             return Ok(());
         }
         let touch = resolution * self.memory.scale;
-        // Last node at which the function was on the present side.
+        // Last place at which the function was on the present side.
         let mut from = 0;
-        for i in 1..NODES.len() {
-            if values[i] * self.memory.side < 0.0 {
-                self.cross((NODES[from], values[from]), (NODES[i], values[i]))?;
-            } else if i >= 2 && dips(&values[i - 2..=i], &NODES[i - 2..=i], self.memory.side) {
-                let edges = [(NODES[i - 2], values[i - 2]), (NODES[i], values[i])];
-                self.dip(edges, touch)?;
+        for i in 1..points.len() {
+            if points[i].1 * self.memory.side < 0.0 {
+                self.cross(points[from], points[i])?;
+            } else if i >= 2 && dips(&points[i - 2..=i], self.memory.side) {
+                self.dip([points[i - 2], points[i]], touch)?;
             }
-            if values[i] != 0.0 {
+            if points[i].1 != 0.0 {
                 from = i;
             }
         }
-        let [.., before, end] = values;
+        let [.., (_, before), (_, end)] = *points else {
+            return Ok(());
+        };
         if self.step.last && ends_on_zero(end, before, SAME * self.step.ulp()) {
             self.add_crossing(1.0);
         }
@@ -379,16 +388,16 @@ where
     }
 
     /// Finds out the side if it is unknown.
-    fn find_side(&mut self, values: &mut [f64; NODES.len()]) {
-        let largest = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    fn find_side(&mut self, points: &mut [(f64, f64)]) {
+        let largest = points.iter().fold(0.0, |m: f64, (_, v)| m.max(v.abs()));
         self.memory.scale = self.memory.scale.max(largest);
         if self.memory.side == 0.0 {
             // A value that is zero up to rounding at the start says nothing about the side.
             let noise = 100.0 * f64::EPSILON * self.memory.scale;
-            if let Some(v) = values.iter().find(|v| v.abs() > noise) {
+            if let Some((_, v)) = points.iter().find(|(_, v)| v.abs() > noise) {
                 self.memory.side = v.signum();
             }
-            for v in values.iter_mut().take_while(|v| v.abs() <= noise) {
+            for (_, v) in points.iter_mut().take_while(|(_, v)| v.abs() <= noise) {
                 *v = 0.0;
             }
         }
@@ -458,8 +467,9 @@ fn counts(direction: Direction, kind: EventKind) -> bool {
 
 /// Whether three samples on one side have their least magnitude in the middle, and a parabola through them comes
 /// near zero.
-fn dips(v: &[f64], x: &[f64], side: f64) -> bool {
-    let [a, b, c] = [v[0] * side, v[1] * side, v[2] * side];
+fn dips(points: &[(f64, f64)], side: f64) -> bool {
+    let [a, b, c] = [points[0].1 * side, points[1].1 * side, points[2].1 * side];
+    let x = [points[0].0, points[1].0, points[2].0];
     // One comparison is strict, so that two equal samples make one dip and not two.
     if b < 0.0 || b > a || b >= c || a == 0.0 {
         return false;

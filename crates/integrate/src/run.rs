@@ -45,12 +45,18 @@ pub(crate) struct Run<'r, 'e, 'o> {
     /// Whether the system was already asked for another chart at this starting point.
     repivoted: bool,
     collapse: Collapse,
+    /// Time when the steps were last seen to get on.
+    got_on: Time,
     detector: Detector,
     point: Vec<f64>,
     before_hook: Vec<f64>,
     factorizations_before: u64,
     solution: Solution,
 }
+
+/// So many accepted steps must get on by more than this part of the span: at that rate the rest would take 10¹¹.
+const CREEPING_STEPS: u64 = 100_000;
+const CREEPING: f64 = 1e-6;
 
 impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
     pub(crate) fn new(
@@ -79,6 +85,7 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
             changed: false,
             repivoted: false,
             collapse: Collapse::new(span.0, n),
+            got_on: Time::exact(span.0),
             detector: Detector::new(),
             point: vec![0.0; n],
             before_hook: vec![0.0; n],
@@ -194,7 +201,24 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
                 limit: self.options.step_limit,
             });
         }
-        Ok(())
+        self.check_progress(steps)
+    }
+
+    /// Steps that stay just above what the time resolves do not end by themselves, as those that rounding cuts short before
+    /// a singularity.
+    fn check_progress(&mut self, steps: u64) -> Result<(), Stop> {
+        if steps == 0
+            || steps % CREEPING_STEPS != 0
+            || matches!(self.options.step, StepSize::Fixed(_))
+        {
+            return Ok(());
+        }
+        let way = self.got_on.until(self.now.t.high).abs();
+        self.got_on = self.now.t;
+        match way < CREEPING * (self.span.1 - self.span.0).abs() {
+            true => Err(self.collapse.stop(&self.now, self.h)),
+            false => Ok(()),
+        }
     }
 
     /// Signed length of the next attempt, and whether it ends the span.

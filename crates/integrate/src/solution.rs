@@ -103,6 +103,14 @@ pub enum Note {
         /// Number of the event.
         event: usize,
     },
+    /// An event function runs faster than thousands of samples in one step show, or consists of rounding; crossings may
+    /// have been missed from here on.
+    EventUnresolved {
+        /// Time.
+        t: f64,
+        /// Number of the event.
+        event: usize,
+    },
     /// An event function could not be evaluated inside a step; crossings there are unknown.
     EventUnknown {
         /// Time.

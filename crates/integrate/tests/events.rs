@@ -315,3 +315,25 @@ fn switching_functions_of_the_system() {
     };
     assert_eq!(run.notes.iter().filter(|n| unknown(n)).count(), 1);
 }
+
+/// Three hundred oscillations in one step: as many crossings as the sine has zeros, each in its place. A function that
+/// cannot be followed is said to be one.
+#[test]
+fn oscillations_faster_than_the_steps_are_followed() {
+    let run = clock(
+        (0.0, 1.0),
+        1.0,
+        &mut [Event::new(|t, _| (2000.0 * t).sin())],
+    );
+    assert_eq!(run.statistics.steps, 1);
+    let expected: Vec<f64> = (1..=636)
+        .map(|k| f64::from(k) * std::f64::consts::PI / 2000.0)
+        .collect();
+    assert_times(&run, &expected);
+    assert!(run.notes.is_empty(), "{:?}", run.notes);
+    let run = clock((0.0, 1.0), 0.5, &mut [Event::new(|t, _| (2e5 * t).sin())]);
+    assert!(matches!(
+        run.notes[..],
+        [Note::EventUnresolved { event: 0, .. }]
+    ));
+}

@@ -521,3 +521,20 @@ fn the_global_error_is_estimated() {
         "{estimated:e} for {actual:e}"
     );
 }
+
+/// y' = -sign(y) ends at y = 0 at t = 1 and cannot leave it: the steps become as short as the tolerance and stay so. The run
+/// says that it does not get on.
+#[test]
+fn a_run_that_only_creeps_ends() {
+    let mut system = from_fn(1, |_t, y: &[f64], dy: &mut [f64]| {
+        dy[0] = if y[0] > 0.0 { -1.0 } else { 1.0 }
+    });
+    let options = Options::tolerance(1e-13).output(Output::End);
+    let run = integrate(&mut system, (0.0, 2.0), &[1.0], &mut [], options).unwrap();
+    assert!(
+        matches!(run.stop, Stop::StepTooSmall { .. }),
+        "{:?}",
+        run.stop
+    );
+    assert!((run.t - 1.0).abs() < 1e-5, "{}", run.t);
+}

@@ -3,7 +3,7 @@
 use crate::observe::Observer;
 use crate::run::WatchedFlow;
 use chetaev_integrate::{
-    Control, Direction, EvaluationFailure, Event, EventKind, EventRecord, System,
+    Control, Direction, EvaluationFailure, Event, EventKind, EventRecord, Note, System,
 };
 use chetaev_symbolic::Expr;
 
@@ -67,6 +67,21 @@ pub(crate) fn happened(records: &[EventRecord], own: usize) -> Vec<Happened> {
             row: record.row.clone(),
         })
         .collect()
+}
+
+/// What the integrator noted, with the numbers of the model's events; of the flow's own there is nothing to say.
+pub(crate) fn notes(noted: &[Note], own: usize) -> Vec<Note> {
+    let of_model = |note: &Note| {
+        let mut note = *note;
+        match &mut note {
+            Note::Grazing { event, .. }
+            | Note::EventUnresolved { event, .. }
+            | Note::EventUnknown { event, .. } => *event = event.checked_sub(own)?,
+            _ => {}
+        }
+        Some(note)
+    };
+    noted.iter().filter_map(of_model).collect()
 }
 
 impl<F: WatchedFlow> System for WithEvents<'_, F> {

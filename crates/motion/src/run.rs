@@ -646,7 +646,7 @@ impl Subject<'_> {
             run.times.extend(&piece.times);
             run.rows.extend(&piece.rows);
             run.chart_changes.extend(&piece.chart_changes);
-            run.notes.extend(&piece.notes);
+            run.notes.extend(happening::notes(&piece.notes, watched));
             run.events
                 .extend(happening::happened(&piece.events, watched));
             add(&mut run.statistics, &piece.statistics);

@@ -167,7 +167,7 @@ pub fn ending(stop: &Stop, names: &Names<'_>, pivot: f64) -> Ending {
         ),
         Stop::StepTooSmall { t, component: i, .. } => early(
             format!(
-                "the tolerance cannot be met at t = {t:.9}: the step became too small, the largest error is that of {}; the state is close to a singular one{rank}",
+                "the tolerance cannot be met at t = {t:.9}: the step became too small, the largest error is that of {}; the state is close to a singular one{rank}, or a force jumps there (sign, abs): then smooth the jump, for example by tanh(v/eps)",
                 component(*i)
             ),
             *t,

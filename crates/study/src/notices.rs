@@ -3,6 +3,7 @@
 use crate::options::StudyOptions;
 use crate::start::{holds, Start};
 use crate::study::Motion;
+use chetaev_integrate::Note;
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::words::quoted;
 use chetaev_mechanics::{choice, Prepared, System};
@@ -39,6 +40,33 @@ pub(crate) fn notices(
         notices.extend(unused_branch(model, start, options));
     }
     notices
+}
+
+/// Events whose function was not followed everywhere.
+pub(crate) fn events_not_followed(model: &Model, motion: &Motion) -> Vec<String> {
+    let mut said = Vec::new();
+    for note in &motion.evidence.run.notes {
+        let (event, t, what) = match *note {
+            Note::EventUnknown { t, event, .. } => (event, t, "has no value in a step"),
+            Note::EventUnresolved { t, event } => (
+                event,
+                t,
+                "runs faster than thousands of samples of one step show, or consists of rounding, in a step",
+            ),
+            _ => continue,
+        };
+        let Some(event) = model.events.get(event) else {
+            continue;
+        };
+        let sentence = format!(
+            "the function of event `{}` {what} that begins at t = {t:.6}; zeros may have been missed there",
+            event.name
+        );
+        if !said.contains(&sentence) {
+            said.push(sentence);
+        }
+    }
+    said
 }
 
 /// Longer formulas do not belong into a sentence.

@@ -1,5 +1,6 @@
 //! What is asked of a study, and what it may use from outside.
 
+use crate::study::Decided;
 use chetaev_mechanics::{Claim, Group};
 use std::sync::atomic::AtomicBool;
 
@@ -43,6 +44,15 @@ impl ClaimSelection {
                 .words
                 .iter()
                 .any(|word| word == claim.group().word() || word == claim.id() || word == full)
+    }
+
+    /// What was asked of subjects that the claims do not have for this system.
+    pub(crate) fn without_subject(&self, verdicts: &[Decided]) -> Vec<String> {
+        let asked = self.words.iter().filter(|word| word.contains('#'));
+        asked
+            .filter(|word| !verdicts.iter().any(|d| d.full_id() == **word))
+            .map(|word| format!("`{word}` was asked for, and this system has no such claim"))
+            .collect()
     }
 
     /// Whether any subject of a claim may be wanted.

@@ -3,7 +3,7 @@
 use crate::beside::{self, Beside};
 use crate::derivation::{check_applies, NotDerived};
 use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
-use crate::notices::{left_assumptions, negative_masses, notices};
+use crate::notices::{events_not_followed, left_assumptions, negative_masses, notices};
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
 use crate::start::{
@@ -408,6 +408,7 @@ pub fn study(
     };
     if let Some(motion) = &motion {
         notices.extend(left_assumptions(&system, &prepared, motion));
+        notices.extend(events_not_followed(&model, motion));
         notices.extend(negative_masses(&system, &prepared, motion));
     }
     let (verdicts, found, witness) =
@@ -417,7 +418,8 @@ pub fn study(
         motion.found = found.map_or_else(Vec::new, |found| found.0.clone());
         motion.witness = witness;
     }
-    let unmatched = unmatched(&model, &verdicts, &options);
+    let mut unmatched = unmatched(&model, &verdicts, &options);
+    unmatched.extend(options.claims.without_subject(&verdicts));
     let outcome = match outcome(&model, &verdicts, motion.as_ref()) {
         Outcome::Done if !unmatched.is_empty() => Outcome::Unmet,
         outcome => outcome,
