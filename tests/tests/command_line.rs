@@ -811,3 +811,31 @@ fn the_card_of_a_formulation_is_found_by_its_name() {
         assert!(finished.out.contains(words), "{}", finished.out);
     }
 }
+
+/// A full disk under the standard output: nothing that was asked for is there whole, and the command says so.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_under_the_output_is_an_error() {
+    let asked: [&[&str]; 4] = [
+        &["derive", SKATE, "--as", "c"],
+        &["check", SKATE, "--json"],
+        &["explain", "energy.integral"],
+        &["completions", "bash"],
+    ];
+    for arguments in asked {
+        let full = std::fs::OpenOptions::new()
+            .write(true)
+            .open("/dev/full")
+            .expect("the device that is always full");
+        let output = command(root(), arguments)
+            .stdout(full)
+            .output()
+            .expect("the program runs");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(
+            said.contains("standard output could not be written"),
+            "{said}"
+        );
+    }
+}

@@ -34,5 +34,13 @@ fn main() -> ExitCode {
         Command::Gallery(a) => commands::gallery::run(&a),
         Command::Completions(a) => commands::completions::run(&a),
     };
-    ExitCode::from(status)
+    match terminal::failure() {
+        None => ExitCode::from(status),
+        Some(why) => {
+            terminal::err(&format!(
+                "error: standard output could not be written whole: {why}"
+            ));
+            ExitCode::from(status.max(INPUT))
+        }
+    }
 }

@@ -1,12 +1,27 @@
 //! Writing to the terminal without panicking on a closed pipe.
 
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::sync::OnceLock;
 
-/// Writes to standard output; a reader that went away is no error.
+/// Why standard output could not be written.
+static FAILURE: OnceLock<String> = OnceLock::new();
+
+/// Writes to standard output. A reader that went away is no error; any other failure is kept for [`failure`].
 pub(crate) fn out(text: &str) {
     let mut stdout = std::io::stdout().lock();
-    let _ = stdout.write_all(text.as_bytes());
-    let _ = stdout.flush();
+    let written = stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush());
+    if let Err(problem) = written {
+        if problem.kind() != ErrorKind::BrokenPipe {
+            let _ = FAILURE.set(problem.to_string());
+        }
+    }
+}
+
+/// Why something was not written to standard output, as on a full disk.
+pub(crate) fn failure() -> Option<&'static str> {
+    FAILURE.get().map(String::as_str)
 }
 
 /// Writes a line to standard error.

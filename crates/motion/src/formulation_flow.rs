@@ -608,11 +608,8 @@ impl Flow for FormulationFlow<'_> {
         coefficients: &mut [f64],
     ) -> Result<(), EvaluationFailure> {
         let n = y.len();
-        coefficients[..n].copy_from_slice(y);
-        let reduced = match self.numeric.jumps {
-            true => y.to_vec(),
-            false => self.current.turns.reduced(y, carry),
-        };
+        let turns = &self.current.turns;
+        let reduced = turns.center(self.numeric.jumps, (y, carry), coefficients);
         self.derivative(t, &reduced, &mut coefficients[n..2 * n])?;
         if order < 2 {
             return Ok(());

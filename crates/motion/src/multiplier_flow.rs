@@ -471,13 +471,9 @@ impl System for MultiplierFlow {
         coefficients: &mut [f64],
     ) -> Result<(), EvaluationFailure> {
         let n = y.len();
-        coefficients[..n].copy_from_slice(y);
-        // Whether the chart can be used here and no constraint was left is seen on the way. Constraints with jumps are
-        // followed in the coordinates as they are.
-        let reduced = match self.system.jumps {
-            true => y.to_vec(),
-            false => self.system.turns.reduced(y, carry),
-        };
+        let turns = &self.system.turns;
+        let reduced = turns.center(self.system.jumps, (y, carry), coefficients);
+        // Whether the chart can be used here and no constraint was left is seen on the way.
         self.derivative(t, &reduced, &mut coefficients[n..2 * n])?;
         if order < 2 {
             return Ok(());

@@ -33,7 +33,7 @@ impl Turns {
     }
 
     /// The state y + carry without whole turns of its angles, to the rounding of an angle of one turn.
-    pub(crate) fn reduced(&self, y: &[f64], carry: &[f64]) -> Vec<f64> {
+    fn reduced(&self, y: &[f64], carry: &[f64]) -> Vec<f64> {
         let mut reduced = y.to_vec();
         for ((y, carry), _) in reduced
             .iter_mut()
@@ -49,6 +49,21 @@ impl Turns {
             }
         }
         reduced
+    }
+
+    /// Writes the state as coefficients of order 0, and gives the state in which a series is expanded: without whole turns,
+    /// except where constraints jump; these are followed in the coordinates as they are.
+    pub(crate) fn center(
+        &self,
+        jumps: bool,
+        (y, carry): (&[f64], &[f64]),
+        coefficients: &mut [f64],
+    ) -> Vec<f64> {
+        coefficients[..y.len()].copy_from_slice(y);
+        match jumps {
+            true => y.to_vec(),
+            false => self.reduced(y, carry),
+        }
     }
 }
 

@@ -71,10 +71,6 @@ fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
     if arguments.compare {
         words.push("motion.constraint-drift".into());
     }
-    if !arguments.compare && !arguments.kappa.is_empty() {
-        error("--kappa is a start of the constrained extremum, which is computed with --compare");
-        return None;
-    }
     for given in &arguments.kappa {
         let Some((name, value)) = given.split_once('=') else {
             error(format!(
