@@ -5,6 +5,7 @@
 
 mod members;
 mod recipe;
+pub mod together;
 pub mod vary;
 mod whole;
 
@@ -27,7 +28,8 @@ use chetaev_motion::{
 use chetaev_symbolic::{Expr, Symbol};
 use members::ModelMembers;
 use recipe::Recipe;
-use vary::{decimal, Target, Variations};
+use together::Variations;
+use vary::{decimal, Target};
 use whole::Whole;
 
 /// What is asked of a sweep beside what varies; as for one motion.

@@ -4,7 +4,8 @@
 //! what the model makes of it by formulas is exact before it is rounded, and a trajectory has the bits of a single run. The
 //! formulas are worked out on a graph that lives as long as one trajectory, so that memory does not grow with the sweep.
 
-use super::vary::{decimal, Target, Variations};
+use super::together::Variations;
+use super::vary::{decimal, Target};
 use chetaev_model::model::Model;
 use chetaev_symbolic::{Expr, Graph, Node, Symbol};
 use std::collections::BTreeMap;
