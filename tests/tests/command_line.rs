@@ -12,6 +12,7 @@ const COMMANDS: &[&str] = &[
     "study",
     "derive",
     "simulate",
+    "sweep",
     "check",
     "explain",
     "verify",

@@ -29,6 +29,8 @@ pub(crate) enum Command {
     Principles(Principles),
     /// Compute the motion only and write the trajectory
     Simulate(Simulate),
+    /// Compute thousands of motions: parameters and initial values over ranges, from rows of a file, or at random
+    Sweep(Sweep),
     /// Read a model and report everything wrong or doubtful in it
     Check(Check),
     /// Say what a claim states and how it is decided
@@ -196,6 +198,71 @@ pub(crate) struct Simulate {
     /// Print a record of the run as JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev sweep gallery/chaplygin-sleigh/model.toml --vary a=0.1:0.5:50 --vary W=1:4:log:10
+  chetaev sweep model.toml --initial \"theta=0:pi/2:100\" --initial \"theta'=-1,0,1\" --t-end 20
+  chetaev sweep model.toml --vary a=0:1:11 --vary b=0:2:11 --zip
+  chetaev sweep model.toml --vary a=0.1:0.5:uniform --vary b=1:2:uniform --count 10000 --seed 7
+  chetaev sweep model.toml --rows cases.csv --samples 200 --out out/cases
+
+Ranges make a product: the first varies slowest. --zip walks them together. A name in --rows is that of a parameter, a coordinate
+or a velocity; a line of numbers follows for each trajectory. Values are in the unit of the parameter.
+
+Results, one row for each trajectory, in sweep.npz; in Python:
+  import numpy; r = numpy.load(\"out/NAME-sweep/sweep.npz\"); r[\"vary_a\"], r[\"end_x\"], r[\"stop\"]
+Columns: vary_NAME; stop (0 the end was reached, 1 ended early, 2 did not begin, 10 + k event k); t_start, t, t_stop; steps, rejected;
+start_NAME, end_NAME (x' is x_d); drift_energy, drift_integral_NAME, drift_constraints; count_EVENT, first_EVENT; with --samples N
+sample_t and sample_NAME, N for each trajectory. Reasons of early ends are in failures.csv.
+
+A sweep that was interrupted, or killed, goes on where it was when the same command is given again.")]
+pub(crate) struct Sweep {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// Values of a parameter: NAME=FROM:TO:COUNT, NAME=FROM:TO:log:COUNT, NAME=FROM:TO:uniform, NAME=V1,V2,V3 (again for several)
+    #[arg(long, value_name = "NAME=RANGE")]
+    pub(crate) vary: Vec<String>,
+    /// Initial values of a coordinate or a velocity, in the same way: --initial \"x'=0:1:20\"
+    #[arg(long, value_name = "NAME=RANGE")]
+    pub(crate) initial: Vec<String>,
+    /// A file of values: a line of names, then a line of numbers for each trajectory, separated by commas
+    #[arg(long, value_name = "FILE")]
+    pub(crate) rows: Option<PathBuf>,
+    /// Walk the ranges together instead of making their product
+    #[arg(long)]
+    pub(crate) zip: bool,
+    /// How many random values are drawn for ranges that are `uniform`
+    #[arg(long, value_name = "N")]
+    pub(crate) count: Option<u64>,
+    /// What the random values follow from: the same seed, the same values
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Keep so many states of each trajectory, at equal intervals with both ends
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    pub(crate) samples: u32,
+    /// Threads [default: as many as the machine runs at once]; the results do not depend on them
+    #[arg(long, value_name = "N", value_parser = at_least_one)]
+    pub(crate) threads: Option<usize>,
+    /// End at the first trajectory that ends early or does not begin
+    #[arg(long)]
+    pub(crate) stop_on_failure: bool,
+    /// Folder to write into [default: out/NAME-sweep]
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) motion: MotionArguments,
+    /// Print counts as JSON instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+fn at_least_one(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(threads) if (1..=4096).contains(&threads) => Ok(threads),
+        _ => Err("a whole number from 1 to 4096 is needed".into()),
+    }
 }
 
 #[derive(Args, Debug)]

@@ -4,6 +4,7 @@ mod arguments;
 mod commands;
 mod files;
 mod progress;
+mod store;
 mod terminal;
 
 use arguments::{Arguments, Command};
@@ -17,7 +18,6 @@ const UNMET: u8 = 1;
 /// The input is wrong.
 const INPUT: u8 = 2;
 /// The run stopped early or was interrupted.
-#[allow(dead_code)]
 const STOPPED: u8 = 3;
 
 fn main() -> ExitCode {
@@ -27,6 +27,7 @@ fn main() -> ExitCode {
         Command::Derive(a) => commands::derive::run(&a),
         Command::Principles(a) => commands::principles::run(&a),
         Command::Simulate(a) => commands::simulate::run(&a),
+        Command::Sweep(a) => commands::sweep::run(&a),
         Command::Check(a) => commands::check::run(&a),
         Command::Explain(a) => commands::explain::run(&a),
         Command::Verify(a) => commands::verify::run(&a),

@@ -41,6 +41,11 @@ impl ProgressLine {
         self.began.elapsed().as_secs_f64()
     }
 
+    /// Whether the line is painted again and again, on a terminal.
+    pub(crate) fn is_painted(&self) -> bool {
+        self.painter.is_some()
+    }
+
     /// Says what is being done, and which part of it is done.
     pub(crate) fn show(&self, what: &str, fraction: Option<f64>) {
         let part = fraction.map_or(String::new(), |f| format!(" {:3.0} %", 100.0 * f));

@@ -52,7 +52,22 @@ impl Follow {
         binding: &Binding,
         variables: &[Symbol],
         quantities: &[Expr],
-        (t, q, v): (f64, &[f64], &[f64]),
+        at: (f64, &[f64], &[f64]),
+    ) -> Result<Follow, FunctionsError> {
+        let mut follow = Follow::compile(system, binding, variables, quantities)?;
+        follow.begin(at);
+        Ok(follow)
+    }
+
+    /// The same without a start.
+    ///
+    /// # Errors
+    /// [`FunctionsError`].
+    pub(crate) fn compile(
+        system: &System,
+        binding: &Binding,
+        variables: &[Symbol],
+        quantities: &[Expr],
     ) -> Result<Follow, FunctionsError> {
         let g = &system.graph;
         let known = |e: &Expr| {
@@ -67,29 +82,43 @@ impl Follow {
             .collect();
         let sizes = values.iter().map(|&e| magnitude(g, e)).collect();
         let groups = [("values", values), ("sizes", sizes)];
-        let mut follow = Follow {
+        Ok(Follow {
             functions: Functions::new(g, binding, variables, &groups)?,
             initial: Vec::new(),
             last: None,
             deviations: vec![Deviation::default(); quantities.len()],
-        };
+        })
+    }
+
+    /// Takes the values at (t, q, v) for those to keep, and forgets everything recorded.
+    pub(crate) fn begin(&mut self, (t, q, v): (f64, &[f64], &[f64])) {
         // A value that is not finite belongs to one quantity; the others are still wanted.
-        let _ = follow.functions.evaluate(t, &[q, v]);
-        follow.initial = follow.functions.group(0).to_vec();
-        Ok(follow)
+        let _ = self.functions.evaluate(t, &[q, v]);
+        self.initial.clear();
+        self.initial.extend_from_slice(self.functions.group(0));
+        self.last = None;
+        self.deviations.fill(Deviation::default());
+    }
+
+    /// Sets other values of the parameters, in the order of the binding.
+    ///
+    /// # Errors
+    /// [`FunctionsError::Prepare`].
+    pub(crate) fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
+        self.functions.set_parameters(values)
     }
 
     /// What became of the quantities; `until_singular` leaves out the last state, at which the equations became singular
     /// and a quantity may have no value.
-    pub(crate) fn finish(self, until_singular: bool) -> Vec<Deviation> {
-        let regular = |deviation: Deviation| match until_singular {
+    pub(crate) fn finish(&self, until_singular: bool) -> Vec<Deviation> {
+        let regular = |deviation: &Deviation| match until_singular {
             true => Deviation {
                 drift: deviation.earlier,
-                ..deviation
+                ..*deviation
             },
-            false => deviation,
+            false => *deviation,
         };
-        self.deviations.into_iter().map(regular).collect()
+        self.deviations.iter().map(regular).collect()
     }
 
     /// Takes the values at (t, q, v) into account.

@@ -90,6 +90,15 @@ impl Functions {
         })
     }
 
+    /// Sets other values of the parameters, in the order of the binding.
+    ///
+    /// # Errors
+    /// [`FunctionsError::Prepare`]; the functions then have no values until other parameters are set.
+    pub fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
+        self.known = None;
+        Ok(self.backend.prepare(values, &mut self.workspace)?)
+    }
+
     /// Evaluates all groups at time t and the state given in pieces, which together fill the variables after t.
     ///
     /// # Errors
@@ -127,6 +136,11 @@ impl Functions {
             Some(component) => Err(EvaluationFailure::NotFinite { component }),
             None => Ok(()),
         }
+    }
+
+    /// Whether machine code runs.
+    pub(crate) fn is_native(&self) -> bool {
+        self.backend.is_native()
     }
 
     /// The values of group number `index` of the last evaluation.

@@ -23,12 +23,14 @@ const FAR: f64 = 1e-3;
 pub struct Keep {
     functions: Functions,
     n: usize,
+    /// How many of the quantities vanish.
+    vanishing: usize,
     /// Values to keep: zero for what vanishes.
     targets: Vec<f64>,
 }
 
 impl Keep {
-    /// Compiles `vanishing` and `integrals`, functions of (t, q, v), and takes the values of the latter at (t, q, v).
+    /// Compiles `vanishing` and `integrals`, functions of (t, q, v).
     ///
     /// # Errors
     /// [`FunctionsError`].
@@ -36,7 +38,6 @@ impl Keep {
         system: &System,
         binding: &Binding,
         (vanishing, integrals): (&[Expr], &[Expr]),
-        (t, q, v): (f64, &[f64], &[f64]),
     ) -> Result<Keep, FunctionsError> {
         let g = &system.graph;
         let all = [vanishing, integrals].concat();
@@ -48,16 +49,30 @@ impl Keep {
             .collect();
         let slopes = g.jacobian(&all, &symbols).concat();
         let groups = [("values", all), ("slopes", slopes)];
-        let mut functions = Functions::new(g, binding, &binding.variables, &groups)?;
-        let mut targets = vec![0.0; vanishing.len()];
-        let known = functions.evaluate(t, &[q, v]).is_ok();
-        let values = functions.group(0)[vanishing.len()..].iter();
-        targets.extend(values.map(|&x| if known { x } else { f64::NAN }));
         Ok(Keep {
-            functions,
+            functions: Functions::new(g, binding, &binding.variables, &groups)?,
             n: system.n(),
-            targets,
+            vanishing: vanishing.len(),
+            targets: Vec::new(),
         })
+    }
+
+    /// Takes the values of the integrals at (t, q, v) for those to keep.
+    pub fn begin(&mut self, (t, q, v): (f64, &[f64], &[f64])) {
+        let known = self.functions.evaluate(t, &[q, v]).is_ok();
+        let values = self.functions.group(0)[self.vanishing..].iter();
+        self.targets.clear();
+        self.targets.resize(self.vanishing, 0.0);
+        let target = |&x: &f64| if known { x } else { f64::NAN };
+        self.targets.extend(values.map(target));
+    }
+
+    /// Sets other values of the parameters, in the order of the binding.
+    ///
+    /// # Errors
+    /// [`FunctionsError::Prepare`].
+    pub(crate) fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
+        self.functions.set_parameters(values)
     }
 
     /// Moves the state; says whether it changed. Without a value, or far from the level set, it stays.

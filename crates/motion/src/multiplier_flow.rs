@@ -7,6 +7,7 @@ use crate::accelerations::Accelerations;
 use crate::chart::{self, Chart, DEGRADED, HYSTERESIS};
 use crate::drift::Drift;
 use crate::follow::Follow;
+use crate::functions::FunctionsError;
 use crate::initial::ConsistentState;
 use crate::keep::Keep;
 use crate::least_norm::least_step;
@@ -74,29 +75,36 @@ impl MultiplierFlow {
         start: &ConsistentState,
         kind: StateKind,
         project: bool,
-        mut watch: Watch,
+        watch: Watch,
     ) -> MultiplierFlow {
-        watch.record(start.t, &start.q, &start.v);
-        let kind = if system.is_affine() {
-            kind
-        } else {
-            StateKind::Full
-        };
-        let mut flow = MultiplierFlow {
+        let mut flow = MultiplierFlow::idle(system, watch);
+        flow.begin(start, kind, project);
+        flow
+    }
+
+    /// What is compiled, without a state.
+    pub(crate) fn idle(system: NumericSystem, watch: Watch) -> MultiplierFlow {
+        MultiplierFlow {
             follow: None,
             keep: None,
             anchor: Anchor::default(),
-            q: start.q.clone(),
-            v: start.v.clone(),
-            chart: start.chart.clone(),
+            q: Vec::new(),
+            v: Vec::new(),
+            chart: Chart {
+                rows: Vec::new(),
+                dependent: Vec::new(),
+                independent: Vec::new(),
+                pivot: 1.0,
+                gap: f64::INFINITY,
+            },
             chart_number: 0,
             drift: Drift::new(&system),
-            reference_gradient: vec![0.0; system.r],
-            accepted_pivot: start.chart.pivot,
+            reference_gradient: Vec::new(),
+            accepted_pivot: 1.0,
             accelerations: Accelerations::default(),
             completion: Completion::default(),
-            project: project && kind == StateKind::Full,
-            kind,
+            project: false,
+            kind: StateKind::Full,
             watch,
             zero_between: false,
             series: None,
@@ -104,10 +112,65 @@ impl MultiplierFlow {
             solved: None,
             solved_state: Vec::new(),
             system,
-        };
-        flow.settle(start.t);
-        flow
+        }
     }
+
+    /// Begins at a consistent state. Nothing is left of the runs before but what was compiled: a run has the same bits
+    /// whichever went before it.
+    pub(crate) fn begin(&mut self, start: &ConsistentState, kind: StateKind, project: bool) {
+        self.watch.begin(start.t, &start.q, &start.v);
+        self.kind = match self.system.is_affine() {
+            true => kind,
+            false => StateKind::Full,
+        };
+        self.project = project && self.kind == StateKind::Full;
+        self.q.clone_from(&start.q);
+        self.v.clone_from(&start.v);
+        self.chart.clone_from(&start.chart);
+        self.chart_number = 0;
+        self.accepted_pivot = start.chart.pivot;
+        self.drift = Drift::new(&self.system);
+        self.reference_gradient.clear();
+        self.reference_gradient.resize(self.system.r, 0.0);
+        self.accelerations = Accelerations::default();
+        self.completion = Completion::default();
+        self.anchor = Anchor::default();
+        self.zero_between = false;
+        self.solved = None;
+        let at = (start.t, &start.q[..], &start.v[..]);
+        if let Some(follow) = &mut self.follow {
+            follow.begin(at);
+        }
+        if let Some(keep) = &mut self.keep {
+            keep.begin(at);
+        }
+        self.settle(start.t);
+    }
+
+    /// Sets other values of the parameters, in the order of the binding.
+    ///
+    /// # Errors
+    /// [`FunctionsError::Prepare`].
+    pub(crate) fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
+        self.system.set_parameters(values)?;
+        self.watch.set_parameters(values)?;
+        if let Some(follow) = &mut self.follow {
+            follow.set_parameters(values)?;
+        }
+        if let Some(keep) = &mut self.keep {
+            keep.set_parameters(values)?;
+        }
+        if let Some((_, series)) = &mut self.series {
+            series.set_parameters(values)?;
+        }
+        Ok(())
+    }
+
+    /// The numeric system, to look for consistent states with.
+    pub(crate) fn system_mut(&mut self) -> &mut NumericSystem {
+        &mut self.system
+    }
+
     /// Takes the present (q, v) for a state of the motion, from which the constraints do not jump.
     fn settle(&mut self, t: f64) {
         if self.system.r == 0 || self.system.evaluate(t, &self.q, &self.v).is_err() {

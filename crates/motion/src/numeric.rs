@@ -64,6 +64,8 @@ pub struct NumericSystem {
     /// Angles of which whole turns may be left out.
     pub(crate) turns: Turns,
     source: Arc<Source>,
+    /// Values of the parameters, where they are others than those of the binding.
+    values: Option<Vec<f64>>,
 }
 
 /// The expressions behind the functions, for the Taylor series of the motion.
@@ -222,6 +224,7 @@ impl NumericSystem {
                 mass_rates: system.masses.iter().map(|m| m.rate).collect(),
                 terms,
             }),
+            values: None,
         })
     }
 
@@ -262,7 +265,33 @@ impl NumericSystem {
         let mut rates: Vec<Expr> = velocities.iter().map(|&v| g.symbol_expr(v)).collect();
         rates.extend(mass_rates);
         rates.extend(&unknowns[..n]);
-        RateSeries::new(g, binding, &binding.variables, &rates)
+        let mut series = RateSeries::new(g, binding, &binding.variables, &rates)?;
+        if let Some(values) = &self.values {
+            series.set_parameters(values)?;
+        }
+        Ok(series)
+    }
+
+    /// Sets other values of the parameters, in the order of the binding. What was derived and compiled stays.
+    ///
+    /// # Errors
+    /// [`FunctionsError::Prepare`].
+    pub fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
+        for functions in [
+            &mut self.dynamics,
+            &mut self.kinematics,
+            &mut self.positions,
+            &mut self.rates,
+        ] {
+            functions.set_parameters(values)?;
+        }
+        self.values = Some(values.to_vec());
+        Ok(())
+    }
+
+    /// Whether the equations run as machine code.
+    pub fn is_native(&self) -> bool {
+        self.dynamics.is_native()
     }
 
     /// Evaluates everything at (t, q, v); read the results with the accessors.

@@ -60,6 +60,14 @@ impl Observer {
         })
     }
 
+    /// Sets other values of the parameters, in the order of the binding.
+    ///
+    /// # Errors
+    /// [`FunctionsError::Prepare`].
+    pub fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
+        self.functions.set_parameters(values)
+    }
+
     /// Values at one row; NaN where a value is not finite.
     pub fn at(&mut self, t: f64, row: &[f64]) -> Vec<f64> {
         // A value that is not finite belongs to one expression; the others are still wanted.

@@ -6,7 +6,6 @@ use crate::happening::{self, EventWatched, Happened, WithEvents};
 use crate::initial::jets::JetStart;
 use crate::initial::ConsistentState;
 use crate::jet_flow::{self, JetFlow};
-use crate::keep::Keep;
 use crate::multiplier_flow::{MultiplierFlow, StateKind};
 use crate::numeric::{Binding, NumericSystem};
 use crate::observe::Observer;
@@ -192,8 +191,26 @@ pub(crate) trait WatchedFlow: chetaev_integrate::System {
     fn settled(&self) -> f64;
 }
 
+/// What a run needs beside its flow, made once.
+#[derive(Clone, Debug)]
+pub(crate) struct Looking {
+    /// Functions of the events, over output rows.
+    pub(crate) observers: Vec<Observer>,
+    /// Coordinates whose errors are measured absolutely.
+    cyclic: Vec<bool>,
+}
+
+impl Looking {
+    /// The same for all components of a state.
+    fn absolute(&self, dimension: usize) -> Vec<bool> {
+        let mut absolute = self.cyclic.clone();
+        absolute.resize(dimension, false);
+        absolute
+    }
+}
+
 /// How the last piece ended.
-enum End {
+pub(crate) enum End {
     /// A watched quantity is zero.
     Vanished(Ending),
     /// The integrator stopped, at a time and state.
@@ -220,79 +237,25 @@ pub struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    /// Integrates Routh's equations.
-    ///
-    /// # Errors
-    /// [`RunError`] when the run cannot begin; what happens later is in [`Run::ending`].
-    pub fn routh(
-        &self,
-        settings: &RunSettings,
-        watcher: &mut Watcher<'_>,
-    ) -> Result<Run, RunError> {
-        let watch = Watch::new(self.system, self.terms, self.binding)?;
-        let watched = watch.quantities.clone();
-        let mut flow = MultiplierFlow::new(
-            self.numeric.clone(),
-            self.start,
-            settings.state,
-            settings.project,
-            watch,
-        );
-        flow.follow = self.follow(settings)?;
-        flow.keep = self.keep(settings)?;
-        let y0 = flow.pack(&self.start.q, &self.start.v);
-        let (pieces, end) = self.watched(&mut flow, (&watched, &[]), y0, settings, watcher)?;
-        let ending = match end {
-            End::Vanished(ending) | End::Happened(ending) => ending,
-            End::Stopped(stop, t, y) => {
-                let pivot = flow.pivot_ratio(t, &y);
-                let (kind, chart) = (flow.kind(), flow.chart());
-                let names = stop::Names {
-                    coordinates: &self.numeric.coordinates,
-                    constraints: &self.numeric.constraints,
-                    state: stop::component_names(self.numeric, kind, chart),
-                    unknowns: None,
-                    matrix: None,
-                };
-                stop::ending(&stop, &names, pivot)
-            }
-        };
-        let kind = flow.kind();
-        let drift = (self.numeric.r > 0
-            && (kind == StateKind::Full || !self.numeric.holonomic.is_empty()))
-        .then(|| flow.drift.clone());
-        let followed = flow.follow.take();
-        let layout = (flow.layout(), Vec::new());
-        Ok(self.collect(
-            "routh",
-            layout,
-            settings,
-            (pieces, watched.len()),
-            ending,
-            (drift, followed),
-        ))
-    }
-
     /// Integrates piece by piece: a watched quantity that comes near zero ends a piece, and the run where it is zero.
-    fn watched<F: WatchedFlow>(
+    pub(crate) fn watched<F: WatchedFlow>(
         &self,
         flow: &mut F,
-        (watched, own_names): (&[Watched], &[String]),
+        watched: &[Watched],
         y0: Vec<f64>,
         settings: &RunSettings,
-        watcher: &mut Watcher<'_>,
+        (looking, watcher): (&mut Looking, &mut Watcher<'_>),
     ) -> Result<(Vec<Solution>, End), RunError> {
         let mut pieces: Vec<Solution> = Vec::new();
         let (mut t, mut y) = (self.start.t, y0);
         let own = watched.len();
-        let mut observers = self.observers(settings, own_names)?;
         loop {
             let mut events = happening::events(own, &settings.events);
-            let options = self.options(settings, t, y.len(), watcher)?;
+            let options = self.options(settings, t, looking.absolute(y.len()), watcher)?;
             let mut with_events = WithEvents {
                 flow: &mut *flow,
                 own,
-                observers: &mut observers,
+                observers: &mut looking.observers,
                 row: Vec::new(),
             };
             let span = (t, settings.t_end);
@@ -389,8 +352,9 @@ impl Subject<'_> {
             )?);
         }
         let (watched, flow_names) = (flow.watch.quantities.clone(), flow.own_names());
+        let mut looking = self.looking(settings, &flow_names)?;
         let (pieces, end) =
-            self.watched(&mut flow, (&watched, &flow_names), y0, settings, watcher)?;
+            self.watched(&mut flow, &watched, y0, settings, (&mut looking, watcher))?;
         let constraints: Vec<String> = self.constraint_names();
         let ending = match end {
             End::Vanished(ending) | End::Happened(ending) => ending,
@@ -414,7 +378,7 @@ impl Subject<'_> {
             settings,
             (pieces, watched.len()),
             ending,
-            (None, followed),
+            (None, followed.as_ref()),
         ))
     }
 
@@ -455,8 +419,9 @@ impl Subject<'_> {
         flow.follow = self.follow(settings)?;
         let y0 = flow.start(self.start)?;
         let (watched, flow_names) = (flow.watch.quantities.clone(), flow.own_names());
+        let mut looking = self.looking(settings, &flow_names)?;
         let (pieces, end) =
-            self.watched(&mut flow, (&watched, &flow_names), y0, settings, watcher)?;
+            self.watched(&mut flow, &watched, y0, settings, (&mut looking, watcher))?;
         let ending = match end {
             End::Vanished(ending) | End::Happened(ending) => ending,
             End::Stopped(stop, ..) => {
@@ -481,7 +446,7 @@ impl Subject<'_> {
             settings,
             (pieces, watched.len()),
             ending,
-            (None, followed),
+            (None, followed.as_ref()),
         ))
     }
 
@@ -517,18 +482,22 @@ impl Subject<'_> {
             .collect()
     }
 
-    /// The functions of the events, over output rows.
-    fn observers(
+    /// The functions of the events, over output rows, and what the control of the steps must know.
+    pub(crate) fn looking(
         &self,
         settings: &RunSettings,
         own_names: &[String],
-    ) -> Result<Vec<Observer>, RunError> {
+    ) -> Result<Looking, RunError> {
         let of = |event: &EventWatched| {
             let (terms, value) = (self.terms, [event.value]);
             Observer::with_own(self.system, terms, self.binding, own_names, &value)
         };
         let observers: Result<Vec<Observer>, _> = settings.events.iter().map(of).collect();
-        Ok(observers?)
+        let series = method(&settings.method)?.card().needs_series;
+        Ok(Looking {
+            observers: observers?,
+            cyclic: self.cyclic(series),
+        })
     }
 
     fn follow(&self, settings: &RunSettings) -> Result<Option<Follow>, RunError> {
@@ -541,21 +510,11 @@ impl Subject<'_> {
         Ok(Some(follow))
     }
 
-    fn keep(&self, settings: &RunSettings) -> Result<Option<Keep>, RunError> {
-        if settings.keep.is_empty() {
-            return Ok(None);
-        }
-        let start = (self.start.t, &self.start.q[..], &self.start.v[..]);
-        let (vanishing, kept) = (self.residuals(), &settings.keep[..]);
-        let keep = Keep::new(self.system, self.binding, (&vanishing, kept), start)?;
-        Ok(Some(keep))
-    }
-
     fn options<'o>(
         &self,
         settings: &RunSettings,
         t: f64,
-        dimension: usize,
+        absolute: Vec<bool>,
         watcher: &'o mut Watcher<'_>,
     ) -> Result<Options<'o>, RunError> {
         let forward = settings.t_end >= self.start.t;
@@ -580,7 +539,7 @@ impl Subject<'_> {
             rtol: settings.tolerance,
             atol: settings.absolute_tolerance,
             atol_of: Vec::new(),
-            absolute: self.cyclic(dimension, options.method.card().needs_series),
+            absolute,
         };
         options.output = Output::Times(times);
         options.record_last = true;
@@ -595,7 +554,7 @@ impl Subject<'_> {
 
     /// Coordinates that occur nowhere in the equations, or where `angles` is asked for only inside trigonometric functions:
     /// a relative tolerance on them would grow blind.
-    fn cyclic(&self, dimension: usize, angles: bool) -> Vec<bool> {
+    fn cyclic(&self, angles: bool) -> Vec<bool> {
         let g = &self.system.graph;
         let mut roots = self.terms.mass_matrix.concat();
         roots.extend(self.terms.jacobian.concat());
@@ -605,24 +564,20 @@ impl Subject<'_> {
             true => outside_angles(g, &roots).0,
             false => g.symbols_in(&roots),
         };
-        let mut absolute: Vec<bool> = self
-            .system
-            .coordinates
-            .iter()
+        let coordinates = self.system.coordinates.iter();
+        coordinates
             .map(|c| !present.contains(&c.q_symbol))
-            .collect();
-        absolute.resize(dimension, false);
-        absolute
+            .collect()
     }
 
-    fn collect(
+    pub(crate) fn collect(
         &self,
         formulation: &'static str,
         (layout, own): (RowLayout, Vec<String>),
         settings: &RunSettings,
         (pieces, watched): (Vec<Solution>, usize),
         ending: Ending,
-        (drift, followed): (Option<crate::drift::Drift>, Option<Follow>),
+        (drift, followed): (Option<crate::drift::Drift>, Option<&Follow>),
     ) -> Run {
         let ended_early = !ending.finished && !ending.interrupted;
         let mut run = Run {

@@ -45,6 +45,16 @@ impl RateSeries {
         Ok(series)
     }
 
+    /// Sets other values of the parameters, in the order of the binding.
+    ///
+    /// # Errors
+    /// [`FunctionsError::Prepare`].
+    pub(crate) fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
+        self.parameters.clear();
+        self.parameters.extend_from_slice(values);
+        Ok(self.taylor.prepare(values, &mut self.workspace)?)
+    }
+
     fn make_room(&mut self, order: usize) -> Result<(), FunctionsError> {
         self.workspace = self.taylor.workspace(order);
         Ok(self.taylor.prepare(&self.parameters, &mut self.workspace)?)

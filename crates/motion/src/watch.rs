@@ -154,6 +154,20 @@ impl Watch {
         })
     }
 
+    /// Sets other values of the parameters, in the order of the binding.
+    ///
+    /// # Errors
+    /// [`FunctionsError::Prepare`].
+    pub(crate) fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
+        self.functions.set_parameters(values)
+    }
+
+    /// Forgets the values seen, for a run from (t, q, v).
+    pub(crate) fn begin(&mut self, t: f64, q: &[f64], v: &[f64]) {
+        self.reference.fill(0.0);
+        self.record(t, q, v);
+    }
+
     /// Takes the values at (t, q, v) into account as ordinary ones.
     pub fn record(&mut self, t: f64, q: &[f64], v: &[f64]) {
         if self.functions.evaluate(t, &[q, v]).is_ok() {

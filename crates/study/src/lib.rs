@@ -19,6 +19,7 @@ mod start;
 pub mod story;
 pub mod study;
 pub mod summary;
+pub mod sweep;
 pub mod table;
 pub mod typeset;
 pub mod verify;

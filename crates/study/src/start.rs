@@ -169,7 +169,7 @@ pub(crate) fn number(g: &Graph, e: Expr, values: &[(Expr, Expr)]) -> Option<f64>
     value.is_finite().then_some(value)
 }
 
-fn initial_data(
+pub(crate) fn initial_data(
     model: &Model,
     system: &System,
     options: &StudyOptions,

@@ -263,6 +263,12 @@ pub enum StudyError {
         /// In the order of the file.
         claims: Vec<UnknownClaim>,
     },
+    /// There is nothing to integrate.
+    #[error("{why}")]
+    NoMotion {
+        /// Why, in a sentence.
+        why: String,
+    },
     /// Initial data beyond coordinates and velocities.
     #[error(transparent)]
     Jets(#[from] JetError),
@@ -312,7 +318,7 @@ pub fn check(model: &Model, hooks: &mut Hooks<'_>) -> Result<(), StudyError> {
 }
 
 /// The system, its terms with independent constraints, and the start of the motion or why there is none.
-fn prepare(
+pub(crate) fn prepare(
     model: &Model,
     options: &StudyOptions,
     hooks: &mut Hooks<'_>,
@@ -563,7 +569,7 @@ fn dense(
 }
 
 /// The first integrals to keep, where that is asked for: those that are found.
-fn kept(
+pub(crate) fn kept(
     model: &Model,
     cx: &Context<'_>,
     options: &StudyOptions,
@@ -647,7 +653,7 @@ pub(crate) fn integrate(
     subject.by(formulation, settings, &mut watcher)
 }
 
-fn known_formulations() -> String {
+pub(crate) fn known_formulations() -> String {
     let names: Vec<&str> = FORMULATIONS.iter().map(|f| f.card().name).collect();
     names.join(", ")
 }

@@ -9,6 +9,7 @@ pub(crate) mod new;
 pub(crate) mod principles;
 pub(crate) mod simulate;
 pub(crate) mod study;
+pub(crate) mod sweep;
 pub(crate) mod verify;
 
 use crate::arguments::MotionArguments;

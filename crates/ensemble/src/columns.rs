@@ -1,0 +1,205 @@
+//! Columns of a block as bytes: every number has eight, little-endian; behind them the reasons of failures.
+
+use crate::outcome::{Outcome, Shape};
+
+/// What the numbers of a column are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Double precision.
+    Float,
+    /// Signed integers of 64 bits.
+    Integer,
+}
+
+/// A column: one number for each trajectory, or one for each sample of each trajectory.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Its name: letters, digits and underscores.
+    pub name: String,
+    /// What the numbers are.
+    pub kind: Kind,
+    /// Samples for each trajectory; `None` for one number.
+    pub samples: Option<usize>,
+}
+
+impl Column {
+    fn float(name: String) -> Column {
+        Column {
+            name,
+            kind: Kind::Float,
+            samples: None,
+        }
+    }
+
+    fn integer(name: &str) -> Column {
+        Column {
+            name: name.to_owned(),
+            kind: Kind::Integer,
+            samples: None,
+        }
+    }
+
+    /// Numbers for each trajectory.
+    pub fn width(&self) -> usize {
+        self.samples.unwrap_or(1)
+    }
+}
+
+/// The columns of an ensemble.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Columns {
+    /// In order.
+    pub list: Vec<Column>,
+    shape: Shape,
+}
+
+/// Names of what an ensemble consists of.
+#[derive(Clone, Copy, Debug)]
+pub struct Names<'a> {
+    /// What varies.
+    pub varied: &'a [String],
+    /// The components of a state: q, masses with a law of their own, v.
+    pub state: &'a [String],
+    /// Energy and the stated integrals.
+    pub kept: &'a [String],
+    /// Events of the model.
+    pub events: &'a [String],
+    /// Samples along each trajectory.
+    pub samples: usize,
+}
+
+impl Columns {
+    /// `vary_…`; `stop`; `t_start`, `t`, `t_stop`; `steps`, `rejected`; `start_…`; `end_…`; `drift_…`, `drift_constraints`; `count_…`
+    /// and `first_…` of events; with samples `sample_t` and `sample_…`. The velocity `x'` is written `x_d`.
+    pub fn new(names: Names<'_>) -> Columns {
+        let float =
+            |prefix: &str, name: &String| Column::float(format!("{prefix}_{}", plain(name)));
+        let mut list: Vec<Column> = names.varied.iter().map(|n| float("vary", n)).collect();
+        list.push(Column::integer("stop"));
+        list.extend(["t_start", "t", "t_stop"].map(|name| Column::float(name.into())));
+        list.extend(["steps", "rejected"].map(Column::integer));
+        for prefix in ["start", "end"] {
+            list.extend(names.state.iter().map(|n| float(prefix, n)));
+        }
+        list.extend(names.kept.iter().map(|n| float("drift", n)));
+        list.push(Column::float("drift_constraints".into()));
+        for name in names.events {
+            list.push(Column::integer(&format!("count_{}", plain(name))));
+            list.push(float("first", name));
+        }
+        if names.samples > 0 {
+            let sampled = |name: &str| Column {
+                samples: Some(names.samples),
+                ..Column::float(format!("sample_{}", plain(name)))
+            };
+            list.push(sampled("t"));
+            list.extend(names.state.iter().map(|n| sampled(n)));
+        }
+        Columns {
+            list,
+            shape: Shape {
+                state: names.state.len(),
+                kept: names.kept.len(),
+                events: names.events.len(),
+                samples: names.samples,
+            },
+        }
+    }
+
+    /// How many numbers of each kind an outcome has.
+    pub fn shape(&self) -> Shape {
+        self.shape
+    }
+
+    /// Numbers for each trajectory.
+    pub fn width(&self) -> usize {
+        self.list.iter().map(Column::width).sum()
+    }
+
+    /// A block as bytes: column after column, each of all trajectories; then the failures.
+    pub fn encode(&self, first: u64, rows: &[(Vec<f64>, Outcome)]) -> Vec<u8> {
+        let width = self.width();
+        let words: Vec<Vec<u64>> = rows.iter().map(|(v, o)| self.words(v, o)).collect();
+        let mut bytes = Vec::with_capacity(8 * width * rows.len());
+        let mut start = 0;
+        for column in &self.list {
+            let range = start..start + column.width();
+            start = range.end;
+            for row in &words {
+                bytes.extend(row[range.clone()].iter().flat_map(|w| w.to_le_bytes()));
+            }
+        }
+        for (j, (_, outcome)) in rows.iter().enumerate() {
+            if let Some(reason) = &outcome.reason {
+                bytes.extend((first + j as u64).to_le_bytes());
+                bytes.extend((reason.len() as u64).to_le_bytes());
+                bytes.extend(reason.as_bytes());
+            }
+        }
+        bytes
+    }
+
+    /// The numbers of one trajectory, in the order of the columns.
+    fn words(&self, varied: &[f64], outcome: &Outcome) -> Vec<u64> {
+        let mut words: Vec<u64> = varied.iter().map(|x| x.to_bits()).collect();
+        words.push(outcome.stop.number() as u64);
+        words.extend([outcome.t_start, outcome.t, outcome.t_stop].map(f64::to_bits));
+        words.extend([outcome.steps, outcome.rejected]);
+        let floats = outcome.start.iter().chain(&outcome.end);
+        words.extend(floats.chain(&outcome.drift).map(|x| x.to_bits()));
+        words.push(outcome.constraint_drift.to_bits());
+        for seen in &outcome.events {
+            words.extend([seen.count, seen.first.to_bits()]);
+        }
+        // Samples are kept time by time, and written component by component.
+        let step = 1 + self.shape.state;
+        for i in 0..if outcome.samples.is_empty() { 0 } else { step } {
+            words.extend(
+                outcome
+                    .samples
+                    .iter()
+                    .skip(i)
+                    .step_by(step)
+                    .map(|x| x.to_bits()),
+            );
+        }
+        debug_assert_eq!(words.len(), self.width());
+        words
+    }
+
+    /// Where the numbers of column `index` lie in a block of `count` trajectories.
+    pub fn range(&self, index: usize, count: usize) -> std::ops::Range<usize> {
+        let before: usize = self.list[..index].iter().map(Column::width).sum();
+        8 * before * count..8 * (before + self.list[index].width()) * count
+    }
+
+    /// The failures in a block of `count` trajectories: number and reason.
+    pub fn failures(&self, count: usize, bytes: &[u8]) -> Vec<(u64, String)> {
+        let mut rest = bytes.get(8 * self.width() * count..).unwrap_or_default();
+        let mut found = Vec::new();
+        while let Some((index, after)) = word(rest) {
+            let Some((length, after)) = word(after) else {
+                break;
+            };
+            let length = (length as usize).min(after.len());
+            let (text, after) = after.split_at(length);
+            found.push((index, String::from_utf8_lossy(text).into_owned()));
+            rest = after;
+        }
+        found
+    }
+}
+
+fn word(bytes: &[u8]) -> Option<(u64, &[u8])> {
+    let (first, rest) = bytes.split_first_chunk::<8>()?;
+    Some((u64::from_le_bytes(*first), rest))
+}
+
+/// A name as NumPy, and any file system, takes it: `x'` is `x_d`, `x''` is `x_dd`.
+pub fn plain(name: &str) -> String {
+    let base = name.trim_end_matches('\'');
+    match name.len() - base.len() {
+        0 => base.to_string(),
+        order => format!("{base}_{}", "d".repeat(order)),
+    }
+}

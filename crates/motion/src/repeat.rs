@@ -1,0 +1,118 @@
+//! Routh's equations for many starts and many values of the parameters: derived and compiled once.
+
+use crate::follow::Follow;
+use crate::functions::FunctionsError;
+use crate::keep::Keep;
+use crate::multiplier_flow::{MultiplierFlow, StateKind};
+use crate::numeric::NumericSystem;
+use crate::run::{End, Looking, Run, RunError, RunSettings, Subject, Watcher};
+use crate::stop;
+use crate::watch::Watch;
+
+/// Routh's equations with all that a run of them needs, compiled; a copy for each thread.
+///
+/// A run from it has the bits of [`Subject::routh`], whichever runs went before.
+#[derive(Clone, Debug)]
+pub struct CompiledRouth {
+    pub(crate) flow: MultiplierFlow,
+    pub(crate) looking: Looking,
+}
+
+impl CompiledRouth {
+    /// Sets other values of the parameters, in the order of the binding.
+    ///
+    /// # Errors
+    /// [`FunctionsError::Prepare`] where they make a linear system singular.
+    pub fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
+        self.flow.set_parameters(values)?;
+        let mut observers = self.looking.observers.iter_mut();
+        observers.try_for_each(|observer| observer.set_parameters(values))
+    }
+
+    /// The numeric system with the present parameters, to look for consistent states with.
+    pub fn numeric(&mut self) -> &mut NumericSystem {
+        self.flow.system_mut()
+    }
+}
+
+impl Subject<'_> {
+    /// Compiles Routh's equations, the watch on their singular set, events, and what is followed and kept; the start of the
+    /// subject does not matter.
+    ///
+    /// # Errors
+    /// [`RunError`].
+    pub fn compile_routh(&self, settings: &RunSettings) -> Result<CompiledRouth, RunError> {
+        let watch = Watch::new(self.system, self.terms, self.binding)?;
+        let mut flow = MultiplierFlow::idle(self.numeric.clone(), watch);
+        let residuals = self.residuals();
+        if !settings.follow.is_empty() {
+            let followed = [settings.follow.clone(), residuals.clone()].concat();
+            let variables = &self.binding.variables;
+            let follow = Follow::compile(self.system, self.binding, variables, &followed)?;
+            flow.follow = Some(follow);
+        }
+        if !settings.keep.is_empty() {
+            let quantities = (&residuals[..], &settings.keep[..]);
+            flow.keep = Some(Keep::new(self.system, self.binding, quantities)?);
+        }
+        Ok(CompiledRouth {
+            flow,
+            looking: self.looking(settings, &[])?,
+        })
+    }
+
+    /// Integrates Routh's equations.
+    ///
+    /// # Errors
+    /// [`RunError`] when the run cannot begin; what happens later is in [`Run::ending`].
+    pub fn routh(
+        &self,
+        settings: &RunSettings,
+        watcher: &mut Watcher<'_>,
+    ) -> Result<Run, RunError> {
+        let mut compiled = self.compile_routh(settings)?;
+        self.routh_by(&mut compiled, settings, watcher)
+    }
+
+    /// Integrates Routh's equations, compiled before with the same settings but for times, span, tolerances and steps.
+    ///
+    /// # Errors
+    /// As [`routh`](Subject::routh).
+    pub fn routh_by(
+        &self,
+        compiled: &mut CompiledRouth,
+        settings: &RunSettings,
+        watcher: &mut Watcher<'_>,
+    ) -> Result<Run, RunError> {
+        let CompiledRouth { flow, looking } = compiled;
+        flow.begin(self.start, settings.state, settings.project);
+        let watched = flow.watch.quantities.clone();
+        let y0 = flow.pack(&self.start.q, &self.start.v);
+        let (pieces, end) = self.watched(flow, &watched, y0, settings, (looking, watcher))?;
+        let ending = match end {
+            End::Vanished(ending) | End::Happened(ending) => ending,
+            End::Stopped(stop, t, y) => {
+                let pivot = flow.pivot_ratio(t, &y);
+                let (kind, chart) = (flow.kind(), flow.chart());
+                let names = stop::Names {
+                    coordinates: &self.numeric.coordinates,
+                    constraints: &self.numeric.constraints,
+                    state: stop::component_names(self.numeric, kind, chart),
+                    unknowns: None,
+                    matrix: None,
+                };
+                stop::ending(&stop, &names, pivot)
+            }
+        };
+        let measured = flow.kind() == StateKind::Full || !self.numeric.holonomic.is_empty();
+        let drift = (self.numeric.r > 0 && measured).then(|| flow.drift.clone());
+        Ok(self.collect(
+            "routh",
+            (flow.layout(), Vec::new()),
+            settings,
+            (pieces, watched.len()),
+            ending,
+            (drift, flow.follow.as_ref()),
+        ))
+    }
+}

@@ -1,0 +1,767 @@
+//! Sweeps: every trajectory is that of a single run, bit for bit, whatever the threads; nothing is lost when the process is
+//! killed; closed forms over ranges of parameters.
+#![allow(clippy::expect_used, reason = "test code fails where it stands")]
+
+use chetaev::ensemble::{pool, Outcome, StopCode};
+use chetaev::model::{load, Model, NoFiles};
+use chetaev::study::sweep::together::{Together, Variations};
+use chetaev::study::sweep::vary::{rows, Variation};
+use chetaev::study::sweep::{Sweep, SweepOptions};
+use chetaev::study::{study, ClaimSelection, Hooks, StudyOptions};
+use chetaev_tests::places::{root, scratch};
+use chetaev_tests::program::{command, run, text, Finished};
+use std::collections::BTreeMap;
+use std::io::Read;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
+
+const SLEIGH: &str = "gallery/chaplygin-sleigh/model.toml";
+
+fn with_hooks<T>(work: impl FnOnce(&mut Hooks<'_>) -> T) -> T {
+    work(&mut Hooks {
+        clock: &|| 0.0,
+        interrupt: None,
+        progress: &mut |_, _| {},
+    })
+}
+
+fn read(path: &str, set: &[(&str, &str)]) -> Model {
+    let content = std::fs::read_to_string(root().join(path)).expect("a gallery model");
+    of_text(&content, set)
+}
+
+fn of_text(content: &str, set: &[(&str, &str)]) -> Model {
+    let set: Vec<(String, String)> = set
+        .iter()
+        .map(|(n, v)| (n.to_string(), v.to_string()))
+        .collect();
+    let loaded = load("model.toml", content, &NoFiles, &set);
+    loaded
+        .model
+        .unwrap_or_else(|| panic!("{}", loaded.diagnostics))
+}
+
+/// Variations of parameters and of initial values.
+fn varied(model: &Model, vary: &[&str], initial: &[&str], together: Together) -> Variations {
+    let parse = |label: &'static str, is_initial: bool| {
+        move |text: &&str| {
+            Variation::parse(model, (label, text), is_initial).unwrap_or_else(|d| panic!("{d}"))
+        }
+    };
+    let ranges = vary.iter().map(parse("--vary", false));
+    let ranges = ranges
+        .chain(initial.iter().map(parse("--initial", true)))
+        .collect();
+    Variations::new(Vec::new(), ranges, together).expect("variations that go together")
+}
+
+fn sweep(model: &Model, variations: Variations, options: SweepOptions) -> Sweep {
+    with_hooks(|hooks| Sweep::new(model, variations, options, hooks)).expect("a sweep")
+}
+
+/// All outcomes, in order.
+fn outcomes(sweep: &Sweep, size: u64, threads: usize) -> Vec<Outcome> {
+    let wanted: Vec<u64> = (0..pool::blocks(sweep.count(), size)).collect();
+    let mut found: BTreeMap<u64, Outcome> = BTreeMap::new();
+    let interrupt = AtomicBool::new(false);
+    pool::run(
+        &*sweep.work(),
+        (size, &wanted, threads),
+        &interrupt,
+        |block| {
+            found.extend(block.range.zip(block.outcomes));
+            ControlFlow::Continue(())
+        },
+    );
+    assert_eq!(found.len() as u64, sweep.count());
+    found.into_values().collect()
+}
+
+/// Start and end by a study of the model alone, with steps.
+fn single(model: Model, options: &StudyOptions) -> (Vec<f64>, Vec<f64>, u64) {
+    let options = StudyOptions {
+        claims: ClaimSelection {
+            words: vec!["motion.constraint-drift".into()],
+        },
+        global_error: false,
+        ..options.clone()
+    };
+    let study = with_hooks(|hooks| study(model, options, hooks)).expect("a study");
+    let motion = study.motion.as_ref().expect("a motion");
+    let run = &motion.evidence.run;
+    let start = [&motion.start.q[..], &motion.start.v[..]].concat();
+    let end = run.row(run.len() - 1)[..run.layout.v().end].to_vec();
+    (start, end, run.statistics.steps)
+}
+
+fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|x| x.to_bits()).collect()
+}
+
+fn bits_of(outcome: &Outcome) -> Vec<u64> {
+    let mut all = bits(
+        &[
+            &outcome.start[..],
+            &outcome.end,
+            &outcome.drift,
+            &outcome.samples,
+        ]
+        .concat(),
+    );
+    all.extend(bits(&[outcome.t, outcome.t_stop, outcome.constraint_drift]));
+    all.extend([
+        outcome.steps,
+        outcome.rejected,
+        outcome.stop.number() as u64,
+    ]);
+    all.extend(
+        outcome
+            .events
+            .iter()
+            .flat_map(|e| [e.count, e.first.to_bits()]),
+    );
+    all
+}
+
+#[test]
+fn a_trajectory_of_a_sweep_has_the_bits_of_a_run_by_itself() {
+    // Parameters of which others and initial values are made, with roots and functions of angles.
+    let cases: [(&str, [&str; 2], &str, &str); 3] = [
+        (
+            SLEIGH,
+            ["a=0.1:0.45:3", "W=1:4:log:2"],
+            "6",
+            "dormand-prince-853",
+        ),
+        (
+            "gallery/falling-rolling-disc/model.toml",
+            ["lean=0.1:0.3:2", "r=0.2,1/3"],
+            "0.7",
+            "dop853",
+        ),
+        (SLEIGH, ["a=0.1,0.3", "J=0.2:0.7:2"], "3", "taylor"),
+    ];
+    for (path, vary, t_end, method) in cases {
+        let study = StudyOptions {
+            t_end: t_end.parse().ok(),
+            method: Some(method.into()),
+            ..StudyOptions::default()
+        };
+        let model = read(path, &[]);
+        let variations = varied(&model, &vary, &[], Together::default());
+        let names: Vec<String> = variations.list().iter().map(|v| v.name.clone()).collect();
+        let options = SweepOptions {
+            study: study.clone(),
+            samples: 0,
+        };
+        let sweep = sweep(&model, variations, options);
+        assert!(sweep.is_compiled_once());
+        for (index, outcome) in outcomes(&sweep, 8, 2).iter().enumerate() {
+            let values: Vec<String> = sweep
+                .values(index as u64)
+                .iter()
+                .map(f64::to_string)
+                .collect();
+            let set: Vec<(&str, &str)> = names
+                .iter()
+                .map(String::as_str)
+                .zip(values.iter().map(String::as_str))
+                .collect();
+            let (start, end, steps) = single(read(path, &set), &study);
+            assert_eq!(bits(&outcome.start), bits(&start), "{path} {set:?}");
+            assert_eq!(bits(&outcome.end), bits(&end), "{path} {set:?}");
+            assert_eq!(outcome.steps, steps, "{path} {set:?}");
+            assert_eq!(outcome.stop, StopCode::End);
+        }
+    }
+}
+
+#[test]
+fn other_formulations_and_orders_have_those_bits_too() {
+    let study = StudyOptions {
+        t_end: Some(1.0),
+        ..StudyOptions::default()
+    };
+    let maggi = StudyOptions {
+        formulation: Some("maggi".into()),
+        ..study.clone()
+    };
+    for (path, name, study) in [
+        (SLEIGH, "a", maggi),
+        ("gallery/fixed-acceleration/model.toml", "", study),
+    ] {
+        let model = read(path, &[]);
+        let name = match name {
+            "" => model.parameters.first().expect("a parameter").name.clone(),
+            name => name.to_owned(),
+        };
+        let base = model
+            .parameters
+            .iter()
+            .find(|p| p.name == name)
+            .and_then(|p| p.value);
+        let base = base
+            .and_then(|v| model.graph.evaluate_f64(&[v], &|_| None).ok())
+            .expect("a value")[0];
+        let range = format!("{name}={base}:{}:2", base * 1.125);
+        let variations = varied(&model, &[&range], &[], Together::default());
+        let sweep = sweep(
+            &model,
+            variations,
+            SweepOptions {
+                study: study.clone(),
+                samples: 0,
+            },
+        );
+        assert!(!sweep.is_compiled_once());
+        for (index, outcome) in outcomes(&sweep, 1, 2).iter().enumerate() {
+            let value = sweep.values(index as u64)[0].to_string();
+            let (start, end, _) = single(read(path, &[(&name, &value)]), &study);
+            assert_eq!(bits(&outcome.start), bits(&start), "{path} {value}");
+            assert_eq!(bits(&outcome.end), bits(&end), "{path} {value}");
+        }
+    }
+}
+
+/// A pendulum that begins at rest, with an event at the bottom.
+const PENDULUM: &str = "name = \"pendulum\"\ncoordinates = [\"theta\"]\nlagrangian = \"l^2 theta'^2/2 + G l cos(theta)\"\n[parameters]\nl = 2\nG = 9.81\n[initial]\ntheta = 0.5\n[simulation]\nt_end = 6\ntolerance = 1e-12\n[events.bottom]\nwhen = \"theta\"\n";
+
+#[test]
+fn threads_and_blocks_do_not_change_a_bit() {
+    let model = of_text(PENDULUM, &[]);
+    let variations = varied(
+        &model,
+        &["l=1:3:5"],
+        &["theta=0.1:3:7"],
+        Together::default(),
+    );
+    let options = SweepOptions {
+        study: StudyOptions::default(),
+        samples: 4,
+    };
+    let sweep = sweep(&model, variations, options);
+    let reference: Vec<Vec<u64>> = outcomes(&sweep, 1, 1).iter().map(bits_of).collect();
+    assert_eq!(reference.len(), 35);
+    for (size, threads) in [(35, 1), (4, 2), (3, 3), (2, 5)] {
+        let found: Vec<Vec<u64>> = outcomes(&sweep, size, threads)
+            .iter()
+            .map(bits_of)
+            .collect();
+        assert_eq!(found, reference, "{size} {threads}");
+    }
+}
+
+/// The complete elliptic integral K by the arithmetic-geometric mean of Gauss: K(k) = π/(2 agm(1, √(1 − k²))).
+fn complete_elliptic(k: f64) -> f64 {
+    let (mut a, mut b) = (1.0, (1.0 - k * k).sqrt());
+    for _ in 0..12 {
+        (a, b) = ((a + b) / 2.0, (a * b).sqrt());
+    }
+    std::f64::consts::FRAC_PI_2 / a
+}
+
+#[test]
+fn pendulums_pass_the_bottom_after_a_quarter_of_their_periods() {
+    let model = of_text(PENDULUM, &[]);
+    let variations = varied(
+        &model,
+        &["l=0.5:4:log:4"],
+        &["theta=0.05:3:6"],
+        Together::default(),
+    );
+    let sweep = sweep(&model, variations, SweepOptions::default());
+    for (index, outcome) in outcomes(&sweep, 5, 2).iter().enumerate() {
+        let values = sweep.values(index as u64);
+        let (l, theta) = (values[0], values[1]);
+        let quarter = (l / 9.81).sqrt() * complete_elliptic((theta / 2.0).sin());
+        let seen = outcome.events[0];
+        assert!(
+            (seen.first - quarter).abs() < 1e-9,
+            "{l} {theta}: {} {quarter}",
+            seen.first
+        );
+        // Every half period once more, until t = 6.
+        assert_eq!(
+            seen.count as f64,
+            ((6.0 / quarter + 1.0) / 2.0).floor(),
+            "{l} {theta}"
+        );
+        assert!(outcome.drift[0] < 1e-9 * (1.0 + l * l), "{outcome:?}");
+        assert_eq!(outcome.start, [theta, 0.0]);
+    }
+}
+
+#[test]
+fn sleighs_turn_as_their_closed_form_says() {
+    // phi' = W/cosh(k t), forward speed V tanh(k t) (Chaplygin 1911; Neimark, Fufaev, ch. II); m = 1.5, J = 0.4.
+    let model = read(SLEIGH, &[]);
+    let variations = varied(
+        &model,
+        &["a=-0.4:0.5:4", "W=0.5:3:3"],
+        &[],
+        Together::default(),
+    );
+    let options = SweepOptions {
+        study: StudyOptions {
+            t_end: Some(7.0),
+            ..StudyOptions::default()
+        },
+        samples: 8,
+    };
+    let sweep = sweep(&model, variations, options);
+    for (index, outcome) in outcomes(&sweep, 3, 2).iter().enumerate() {
+        let values = sweep.values(index as u64);
+        let (a, w) = (values[0], values[1]);
+        let inertia: f64 = 0.4 + 1.5 * a * a;
+        let speed = w * (inertia / 1.5).sqrt();
+        let k = 1.5 * a * speed / inertia;
+        assert_eq!(outcome.samples.len(), 8 * 7);
+        for (j, row) in outcome.samples.chunks_exact(7).enumerate() {
+            let t = row[0];
+            assert!((t - j as f64).abs() < 1e-12);
+            let forward = row[4] * row[3].cos() + row[5] * row[3].sin();
+            assert!(
+                (row[6] - w / (k * t).cosh()).abs() < 1e-8,
+                "{a} {w} {t}: {row:?}"
+            );
+            assert!(
+                (forward - speed * (k * t).tanh()).abs() < 1e-8,
+                "{a} {w} {t}: {row:?}"
+            );
+        }
+        assert_eq!(bits(&outcome.samples[50..]), bits(&outcome.end));
+    }
+}
+
+#[test]
+fn ranges_make_products_and_are_walked_together() {
+    let model = read(SLEIGH, &[]);
+    let all = |v: &Variations| -> Vec<Vec<f64>> { (0..v.count()).map(|i| v.values(i)).collect() };
+    let product = varied(
+        &model,
+        &["a=0.1:0.5:5", "W=1,2"],
+        &["x=3"],
+        Together::default(),
+    );
+    let expected: Vec<Vec<f64>> = [0.1, 0.2, 0.3, 0.4, 0.5]
+        .iter()
+        .flat_map(|&a| [vec![a, 1.0, 3.0], vec![a, 2.0, 3.0]])
+        .collect();
+    assert_eq!(all(&product), expected);
+    let zip = Together {
+        zip: true,
+        ..Together::default()
+    };
+    let zipped = varied(&model, &["a=0.1:0.5:5", "W=1:16:log:5"], &[], zip);
+    let values = all(&zipped);
+    assert_eq!(values.len(), 5);
+    for (j, row) in values.iter().enumerate() {
+        assert!((row[1] - 2f64.powi(j as i32)).abs() < 1e-12, "{row:?}");
+    }
+    let random = |seed: u64| {
+        let together = Together {
+            count: Some(500),
+            seed,
+            ..Together::default()
+        };
+        all(&varied(
+            &model,
+            &["a=2:4:uniform", "W=2:4:uniform"],
+            &["phi=0,1"],
+            together,
+        ))
+    };
+    let drawn = random(7);
+    assert_eq!(drawn.len(), 1000);
+    assert_eq!(drawn, random(7));
+    assert_ne!(drawn, random(8));
+    for place in 0..2 {
+        let own: Vec<f64> = drawn[..500].iter().map(|row| row[place]).collect();
+        let mean = own.iter().sum::<f64>() / 500.0;
+        // The mean of 500 has the deviation 2/√(12·500) = 0.026.
+        assert!(
+            (mean - 3.0).abs() < 0.11 && own.iter().all(|x| (2.0..4.0).contains(x)),
+            "{mean}"
+        );
+    }
+    assert!(drawn.iter().all(|row| row[0] != row[1]));
+    let table = "# cases\na, x'\n0.1, 1\n\n 0.2,-2.5e-3\n";
+    let list = rows(&model, "cases.csv", table).expect("rows");
+    let of_rows = Variations::new(list, Vec::new(), Together::default()).expect("a sweep");
+    assert_eq!(all(&of_rows), [[0.1, 1.0], [0.2, -2.5e-3]]);
+}
+
+#[test]
+fn mistakes_are_shown_at_their_place() {
+    let cases: &[(&[&str], &[&str])] = &[
+        (
+            &["--vary", "aa=1:2:3"],
+            &["no parameter `aa`", "--vary:1:1"],
+        ),
+        (&["--vary", "Wx=1:2:3"], &["no parameter `Wx`", "W=1:2:3"]),
+        (
+            &["--vary", "x=1:2:3"],
+            &["`x` is a coordinate", "--initial"],
+        ),
+        (&["--initial", "a=1:2:3"], &["`a` is a parameter", "--vary"]),
+        (&["--initial", "phj'=1:2:3"], &["phj", "phi'"]),
+        (
+            &["--vary", "a=1:2:zz:3"],
+            &["no kind of range `zz`", "--vary:1:7"],
+        ),
+        (&["--vary", "a=1:2:0"], &["whole number", "--vary:1:7"]),
+        (&["--vary", "a=1:q:4"], &["`q`", "--vary:1:5"]),
+        (&["--vary", "a=0:2:log:4"], &["logarithmic"]),
+        (&["--vary", "a=1:2"], &["this is no range"]),
+        (&["--vary", "a"], &["no `=`"]),
+        (&["--vary", "a=1:2:3", "--vary", "a=1"], &["varied twice"]),
+        (
+            &["--vary", "a=1:2:3", "--vary", "W=1,2", "--zip"],
+            &["same number", "`a` has 3", "`W` has 2"],
+        ),
+        (&["--vary", "a=1:2:uniform"], &["--count"]),
+        (&["--vary", "a=1:2:5", "--count", "4"], &["--count"]),
+        (&[], &["nothing varies"]),
+        (
+            &["--rows", "no-such-file.csv"],
+            &["no-such-file.csv cannot be read"],
+        ),
+        // A dependent velocity that no trajectory admits.
+        (&["--initial", "y'=1:2:3"], &["violates", "blade"]),
+    ];
+    let folder = scratch("sweep-mistakes");
+    for (arguments, words) in cases {
+        let out = folder.join("out");
+        let all = [&["sweep", SLEIGH, "--out", text(&out)], *arguments].concat();
+        let finished = run(&all);
+        assert_eq!(
+            finished.status,
+            Some(2),
+            "{arguments:?}: {}",
+            finished.both()
+        );
+        for word in *words {
+            assert!(
+                finished.err.contains(word),
+                "{arguments:?}: {word}: {}",
+                finished.both()
+            );
+        }
+        assert!(!out.exists(), "{arguments:?}");
+    }
+    let rows = folder.join("rows.csv");
+    for (content, word) in [
+        ("a,W\n1,2,3\n", "rows.csv:2:1"),
+        ("a,W\n1,two\n", "rows.csv:2:3"),
+        ("a,zz\n1,2\n", "`zz`"),
+        ("", "no rows"),
+    ] {
+        std::fs::write(&rows, content).expect("a scratch file");
+        let finished = run(&["sweep", SLEIGH, "--rows", text(&rows)]);
+        assert_eq!(finished.status, Some(2), "{}", finished.both());
+        assert!(finished.err.contains(word), "{word}: {}", finished.err);
+    }
+}
+
+/// The columns of an archive, as numbers with their shapes.
+fn archive(path: &Path) -> BTreeMap<String, (Vec<u64>, Vec<f64>)> {
+    let file = std::fs::File::open(path).expect("an archive");
+    let mut archive = zip::ZipArchive::new(file).expect("a ZIP archive");
+    let mut columns = BTreeMap::new();
+    for index in 0..archive.len() {
+        let mut stored = archive.by_index(index).expect("a member");
+        let name = stored
+            .name()
+            .expect("a name")
+            .trim_end_matches(".npy")
+            .to_owned();
+        let mut bytes = Vec::new();
+        stored.read_to_end(&mut bytes).expect("its bytes");
+        let array = npyz::NpyFile::new(&bytes[..]).expect("an array");
+        let shape = array.shape().to_vec();
+        let is_float = array.dtype().descr().contains("f8");
+        let values = match is_float {
+            true => array.into_vec::<f64>().expect("doubles"),
+            false => array
+                .into_vec::<i64>()
+                .expect("integers")
+                .iter()
+                .map(|&x| x as f64)
+                .collect(),
+        };
+        columns.insert(name, (shape, values));
+    }
+    columns
+}
+
+fn ok(arguments: &[&str]) -> Finished {
+    let finished = run(arguments);
+    assert_eq!(
+        finished.status,
+        Some(0),
+        "{arguments:?}: {}",
+        finished.both()
+    );
+    finished
+}
+
+#[test]
+fn an_archive_holds_all_columns_and_the_reasons_of_failures() {
+    let folder = scratch("sweep-archive");
+    let model = folder.join("model.toml");
+    // A root that becomes singular at x = 1, unless the motion is slow; an event that ends the run.
+    let content = "name = \"falling\"\ncoordinates = [\"x\"]\nassumptions = [\"m > 0\"]\n[parameters]\nm = 1\n[lagrangian]\nT = \"1/2 m x'^2\"\nV = \"-sqrt(1 - x)\"\n[initial]\nx = 0\n\"x'\" = 2\n[simulation]\nt_end = 2\n[events.left]\nwhen = \"x + 1\"\naction = \"stop\"\n";
+    std::fs::write(&model, content).expect("a scratch file");
+    let out = folder.join("out");
+    let rows = folder.join("rows.csv");
+    std::fs::write(&rows, "m,x'\n1,0\n1,2\n-1,0\n1,-2\n4,0.5\n").expect("a scratch file");
+    let arguments = [
+        "sweep",
+        text(&model),
+        "--rows",
+        text(&rows),
+        "--samples",
+        "3",
+        "--out",
+        text(&out),
+        "--json",
+    ];
+    let said = ok(&arguments).json();
+    let count = |key: &str| said[key].as_u64();
+    assert_eq!(count("trajectories"), Some(5));
+    assert_eq!(
+        (count("ended_early"), count("not_started")),
+        (Some(1), Some(1))
+    );
+    assert_eq!(said["events"]["left"].as_u64(), Some(1));
+    let columns = archive(&out.join("sweep.npz"));
+    let names: Vec<&str> = said["columns"]
+        .as_array()
+        .expect("names")
+        .iter()
+        .filter_map(|n| n.as_str())
+        .collect();
+    assert_eq!(names.len(), columns.len());
+    let column = |name: &str| &columns[name].1;
+    assert_eq!(*column("vary_x_d"), [0.0, 2.0, 0.0, -2.0, 0.5]);
+    assert_eq!(*column("stop"), [0.0, 1.0, 2.0, 10.0, 0.0]);
+    assert_eq!(columns["sample_x"].0, [5, 3]);
+    assert_eq!(column("sample_t")[..3], [0.0, 1.0, 2.0]);
+    assert_eq!(
+        column("sample_x")[2].to_bits(),
+        column("end_x")[0].to_bits()
+    );
+    assert!(
+        (column("end_x")[3] + 1.0).abs() < 1e-12 && column("t_stop")[3] == column("first_left")[3]
+    );
+    assert!(column("sample_x")[5].is_nan() && column("end_x")[2].is_nan());
+    assert_eq!(*column("count_left"), [0.0, 0.0, 0.0, 1.0, 0.0]);
+    let failures = std::fs::read_to_string(out.join("failures.csv")).expect("the reasons");
+    let lines: Vec<&str> = failures.lines().collect();
+    assert_eq!(lines.len(), 3, "{failures}");
+    assert!(
+        lines[1].starts_with("1,") && lines[1].contains("singular"),
+        "{failures}"
+    );
+    assert!(
+        lines[2].starts_with("2,") && lines[2].contains("m > 0"),
+        "{failures}"
+    );
+    // Nothing is left of the blocks, and the same command computes nothing.
+    assert!(!out.join("sweep.data").exists() && !out.join("sweep.journal").exists());
+    assert!(ok(&arguments).err.contains("is complete"));
+    let other = run(&[
+        "sweep",
+        text(&model),
+        "--rows",
+        text(&rows),
+        "--tolerance",
+        "1e-7",
+        "--out",
+        text(&out),
+    ]);
+    assert_eq!(other.status, Some(2), "{}", other.both());
+    assert!(
+        other.err.contains("another sweep") && other.err.contains("tolerance (1e-10"),
+        "{}",
+        other.err
+    );
+    let stopped = run(&[
+        "sweep",
+        text(&model),
+        "--rows",
+        text(&rows),
+        "--stop-on-failure",
+        "--out",
+        text(&folder.join("early")),
+    ]);
+    assert_eq!(stopped.status, Some(3), "{}", stopped.both());
+    assert!(
+        stopped.err.contains("trajectory 1 (m = 1, x' = 2)"),
+        "{}",
+        stopped.err
+    );
+}
+
+/// A sweep of some seconds in many blocks.
+fn long(out: &Path, threads: &str) -> Vec<String> {
+    let arguments = [
+        "sweep",
+        SLEIGH,
+        "--vary",
+        "a=0.1:0.5:40",
+        "--vary",
+        "W=1:4:20",
+        "--t-end",
+        "60",
+        "--samples",
+        "3",
+        "--threads",
+        threads,
+    ];
+    let mut all: Vec<String> = arguments.map(String::from).to_vec();
+    all.extend(["--out".into(), text(out).into()]);
+    all
+}
+
+/// The whole lines of a journal.
+fn journal(out: &Path) -> Vec<u8> {
+    let mut bytes = std::fs::read(out.join("sweep.journal")).unwrap_or_default();
+    let whole = bytes
+        .iter()
+        .rposition(|&b| b == b'\n')
+        .map_or(0, |at| at + 1);
+    bytes.truncate(whole);
+    bytes
+}
+
+#[test]
+fn a_sweep_that_is_killed_goes_on_and_ends_with_the_same_bits() {
+    let folder = scratch("sweep-killed");
+    let whole: PathBuf = folder.join("whole");
+    let list = long(&whole, "1");
+    let began = Instant::now();
+    ok(&list.iter().map(String::as_str).collect::<Vec<_>>());
+    let took = began.elapsed();
+    let out = folder.join("killed");
+    let list = long(&out, "2");
+    let arguments: Vec<&str> = list.iter().map(String::as_str).collect();
+    let mut random = 0x9e37_79b9_7f4a_7c15_u64;
+    let (mut kills, mut kept) = (0, Vec::new());
+    while kills < 5 {
+        let mut child = command(&root(), &arguments)
+            .spawn()
+            .expect("the program starts");
+        let lines = kept.iter().filter(|&&b| b == b'\n').count();
+        // Some blocks more, and then a random moment.
+        let waiting = Instant::now();
+        while journal(&out).iter().filter(|&&b| b == b'\n').count() <= lines {
+            let is_over =
+                out.join("sweep.npz").exists() || waiting.elapsed() > Duration::from_secs(60);
+            if is_over || child.try_wait().expect("a process").is_some() {
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        random = random
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        let moment = took.as_micros() as u64 / 100;
+        std::thread::sleep(Duration::from_micros((random >> 33) % moment.max(1)));
+        child.kill().expect("a process");
+        child.wait().expect("a process");
+        kills += 1;
+        if out.join("sweep.npz").exists() {
+            break;
+        }
+        // Blocks are on the disk as they end, what was there before still is, and none was computed twice.
+        let now = journal(&out);
+        assert!(now.starts_with(&kept), "kill {kills}");
+        assert!(now.len() > kept.len() || kills > 1, "kill {kills}");
+        assert!(!out.join("sweep.npz").exists());
+        kept = now;
+    }
+    assert!(kills >= 2, "{kills}");
+    let last = ok(&arguments).both();
+    assert!(
+        last.contains("were computed before") || last.contains("is complete"),
+        "{last}"
+    );
+    for name in ["sweep.npz", "failures.csv"] {
+        let of = |folder: &Path| std::fs::read(folder.join(name)).expect("a result");
+        assert!(of(&whole) == of(&out), "{name} differs");
+    }
+}
+
+#[test]
+fn a_torn_journal_and_a_changed_block_are_computed_again() {
+    let folder = scratch("sweep-torn");
+    let list = |out: &Path| {
+        let arguments = [
+            "sweep",
+            SLEIGH,
+            "--vary",
+            "a=0.1:0.5:40",
+            "--t-end",
+            "2",
+            "--out",
+        ];
+        let mut all: Vec<String> = arguments.map(String::from).to_vec();
+        all.push(text(out).into());
+        all
+    };
+    let run_list = |list: &[String], more: &[&str]| {
+        let arguments: Vec<&str> = list
+            .iter()
+            .map(String::as_str)
+            .chain(more.iter().copied())
+            .collect();
+        run(&arguments)
+    };
+    let whole = folder.join("whole");
+    assert_eq!(run_list(&list(&whole), &[]).status, Some(0));
+    let bytes = std::fs::read(whole.join("sweep.npz")).expect("a result");
+    let record = std::fs::read(whole.join("sweep.json")).expect("a record");
+    for spoil in 0..3 {
+        let out = folder.join(format!("torn-{spoil}"));
+        std::fs::create_dir_all(&out).expect("a scratch folder");
+        std::fs::write(out.join("sweep.json"), &record).expect("a scratch file");
+        let (data, journal) = match spoil {
+            0 => (b"no block".to_vec(), b"0 0 8 00".to_vec()),
+            1 => (
+                Vec::new(),
+                chetaev::ensemble::Record::new(2, 0, b"lost bytes")
+                    .line()
+                    .into_bytes(),
+            ),
+            _ => (
+                b"other bytes".to_vec(),
+                chetaev::ensemble::Record::new(0, 0, b"those bytes")
+                    .line()
+                    .into_bytes(),
+            ),
+        };
+        std::fs::write(out.join("sweep.data"), data).expect("a scratch file");
+        std::fs::write(out.join("sweep.journal"), journal).expect("a scratch file");
+        let finished = run_list(&list(&out), &[]);
+        assert_eq!(finished.status, Some(0), "{}", finished.both());
+        assert!(
+            !finished.err.contains("computed before"),
+            "{}",
+            finished.err
+        );
+        assert!(
+            std::fs::read(out.join("sweep.npz")).expect("a result") == bytes,
+            "{spoil}"
+        );
+    }
+    // Results without a record of what they are.
+    let unknown = folder.join("unknown");
+    std::fs::create_dir_all(&unknown).expect("a scratch folder");
+    std::fs::write(unknown.join("sweep.npz"), b"").expect("a scratch file");
+    let refused = run_list(&list(&unknown), &[]);
+    assert_eq!(refused.status, Some(2), "{}", refused.both());
+    assert!(refused.err.contains("sweep.json"), "{}", refused.err);
+}
