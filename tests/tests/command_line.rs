@@ -828,7 +828,7 @@ fn a_full_disk_under_the_output_is_an_error() {
             .write(true)
             .open("/dev/full")
             .expect("the device that is always full");
-        let output = command(root(), arguments)
+        let output = command(&root(), arguments)
             .stdout(full)
             .output()
             .expect("the program runs");

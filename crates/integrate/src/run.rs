@@ -208,7 +208,7 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
     /// a singularity.
     fn check_progress(&mut self, steps: u64) -> Result<(), Stop> {
         if steps == 0
-            || steps % CREEPING_STEPS != 0
+            || !steps.is_multiple_of(CREEPING_STEPS)
             || matches!(self.options.step, StepSize::Fixed(_))
         {
             return Ok(());

@@ -1,23 +1,27 @@
-//! `chaplygin.multiplier`: Chaplygin's reducing multiplier for two independent velocities (T1 §6.2; Chaplygin 1911).
+//! `chaplygin.multiplier`: Chaplygin's reducing multiplier (T1 §6.2; Chaplygin 1911), for any number k ≥ 2 of independent velocities.
 //!
-//! With `w^l' = a^l_1 q₁' + a^l_2 q₂'`, L free of the w, `c_l = ∂a^l_1/∂q₂ − ∂a^l_2/∂q₁` and the momenta θ_l of the dependent
-//! velocities, linear in `P = ∂L*/∂v`, `θ_l = B^l_1 P_1 + B^l_2 P_2`, the time `dτ = N dt` makes the equations of motion
-//! Hamilton's in (q, p, τ), p = N P, exactly where
+//! With `w^l' = Σ a^l_s q_s'`, L = ½ G v v + U free of the w on the constraints, `c^l_us = ∂a^l_s/∂q_u − ∂a^l_u/∂q_s` and the momenta
+//! `θ_l = Σ Θ_lw v_w`, the equations of motion are `D P_s − ∂L*/∂q_s = Σ S_s,uw v_u v_w`, `S_s,uw = Σ_l c^l_us Θ_lw`. In the time
+//! `dτ = N dt`, N = e^φ(q), Lagrange's equations for L* in (q, dq/dτ) differ from them by what vanishes for all v exactly where
 //!
-//! `∂ln N/∂q₁ = Σ B^l_2 c_l`, `∂ln N/∂q₂ = −Σ B^l_1 c_l` (T1 (27)).
+//! `½ (S_s,uw + S_s,wu) = φ_s G_uw − ½ (φ_u G_sw + φ_w G_su)`, φ_s = ∂φ/∂q_s.
 //!
-//! The mixed derivatives decide whether N exists; N is then searched as a product of powers of the factors that occur in the
-//! denominators of (27) and in det G, G the matrix of L*.
+//! Contracted with `G⁻¹_uw` this gives `(k − 1) φ_s = Σ_l Σ_u c^l_us B^l_u`, `B^l = G⁻¹ Θ_l`, which is T1 (27) for k = 2, where the
+//! condition is an identity. For k > 2 it is one more condition: up to a part of S that is skew in all three places and does no
+//! work in the equations it says that the gyroscopic tensor is `T(Y, Z) = Z[φ] Y − Y[φ] Z`, the sufficient condition of
+//! García-Naranjo 2019 (φ-simple systems). Then the form φ_s dq_s must be closed.
+//!
+//! N is then searched as a product of powers of the factors that occur in the denominators of φ_s and in det G.
 
-use crate::words::{formula, readable};
+use crate::words::{formula, listed, readable};
 use chetaev_mechanics::claims::formulation::{basis, derive, REFERENCE};
 use chetaev_mechanics::claims::{once_where, Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::formulations::{ignorable, DeriveError};
 use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::{Characteristics, Manifold};
 use chetaev_symbolic::factors::factored;
-use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::{simplify, Expr, Symbol, Verdict};
+use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::{simplify, Expr, Graph, Symbol, Verdict};
 
 /// `chaplygin.multiplier`.
 #[derive(Clone, Copy, Debug)]
@@ -37,12 +41,13 @@ impl Claim for Multiplier {
     }
 
     fn explanation(&self) -> &'static str {
-        "For two independent velocities q₁', q₂', constraints w' = a₁ q₁' + a₂ q₂' and a Lagrangian free of the w: the time τ with dτ = N dt \
-         makes the equations of motion Lagrange's and Hamilton's for L* in (q, dq/dτ) exactly where ∂ln N/∂q₁ = Σ B₂ c, ∂ln N/∂q₂ = −Σ B₁ c, with the curvature c = ∂a₁/∂q₂ − ∂a₂/∂q₁ \
-         and the momenta θ = B₁ P₁ + B₂ P₂ of the dependent velocities. `refuted`: the mixed derivatives disagree, at a state, so there is no multiplier. \
-         `proved`: they agree; N is stated where it is a product of powers of the factors that occur, else it is a quadrature. Then N det G is the density of an \
+        "For constraints w' = Σ a q' and a Lagrangian free of the w: the time τ with dτ = N dt, N a function of the independent coordinates, makes the equations of motion Lagrange's and Hamilton's \
+         for L* in (q, dq/dτ). Two independent velocities: exactly where ∂ln N/∂q₁ = Σ B₂ c, ∂ln N/∂q₂ = −Σ B₁ c, with the curvature c = ∂a₁/∂q₂ − ∂a₂/∂q₁ \
+         and the momenta θ = B₁ P₁ + B₂ P₂ of the dependent velocities. k > 2 of them: the gyroscopic terms Σ S v v must be φ_s Σ v P − P_s Σ v φ, φ = ln N, as in the φ-simple systems of García-Naranjo; the trace of that gives φ_s, \
+         the rest is a condition more. `refuted`: that condition fails, or the mixed derivatives disagree, at a position, so there is no multiplier in this form; other momenta or other times are not refuted by it. \
+         `proved`: they hold; N is stated where it is a product of powers of the factors that occur, else it is a quadrature. Then N^(k−1) det G is the density of an \
          invariant measure in (q, v), and δ∫(T + U) N dt = 0 with ∫N dt fixed. It is another property than stationary action: a skate has the multiplier cos φ \
-         in x and φ, a particle z' = y x' has 1/√(1 + y²)."
+         in x and φ, a particle z' = y x' has 1/√(1 + y²), and loses it when a further coordinate moves freely beside it."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -64,106 +69,135 @@ impl Claim for Multiplier {
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
         let r = cx.selection.rows.len();
-        once_where(cx.terms.order == 1 && r > 0 && cx.system.n() == r + 2)
+        once_where(cx.terms.order == 1 && r > 0 && cx.system.n() >= r + 2)
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
-        Pair::new(cx).map_or_else(Finding::from, |pair| pair.decide(cx))
+        Reduced::new(cx).map_or_else(Finding::from, |reduced| reduced.decide(cx))
     }
 }
 
-/// A Chaplygin system of two independent velocities.
-struct Pair {
+/// More independent velocities are too many for determinants in closed form.
+const VELOCITIES: usize = 5;
+
+/// A Chaplygin system.
+struct Reduced {
     chart: Characteristics,
-    /// q₁, q₂.
-    coordinates: [Symbol; 2],
-    /// `∂ln N/∂q₁`, `∂ln N/∂q₂`.
-    form: [Expr; 2],
+    /// The independent coordinates, length k.
+    coordinates: Vec<Symbol>,
+    /// φ_s = `∂ln N/∂q_s`.
+    form: Vec<Expr>,
+    /// What vanishes, besides the mixed derivatives, where N exists; nothing for k = 2.
+    condition: Vec<Expr>,
     /// det G.
     determinant: Expr,
 }
 
-impl Pair {
-    fn new(cx: &Context<'_>) -> Result<Pair, DeriveError> {
+impl Reduced {
+    fn new(cx: &Context<'_>) -> Result<Reduced, DeriveError> {
         let (system, g) = (cx.system, &cx.system.graph);
         let chart = ignorable(&basis(cx))?;
-        let coordinates = [0, 1].map(|s| system.coordinates[chart.independent[s]].q_symbol);
-        let slopes: Vec<&Vec<Expr>> = chart.dependent.iter().map(|&d| &chart.basis[d]).collect();
-        let curvature: Vec<Expr> = slopes
+        let k = chart.k();
+        let coordinates: Vec<Symbol> = chart
+            .independent
             .iter()
-            .map(|a| g.sub(g.diff(a[0], coordinates[1]), g.diff(a[1], coordinates[0])))
+            .map(|&i| system.coordinates[i].q_symbol)
             .collect();
-        // W B: the rows of the dependent velocities are θ, and Bᵀ W B = G.
-        let product = |i: usize, s: usize| {
-            dot(
-                g,
-                &cx.terms.mass_matrix[i],
-                chart.basis.iter().map(|row| &row[s]),
-            )
-        };
-        let inertia: Vec<[Expr; 2]> = (0..system.n())
-            .map(|i| [product(i, 0), product(i, 1)])
+        let columns: Vec<Vec<Expr>> = (0..k).map(|s| chart.column(s)).collect();
+        // W B: the rows of the dependent velocities are Θ, and Bᵀ W B = G.
+        let inertia: Vec<Vec<Expr>> = cx
+            .terms
+            .mass_matrix
+            .iter()
+            .map(|row| columns.iter().map(|column| dot(g, row, column)).collect())
             .collect();
-        let reduced = |u: usize, s: usize| {
-            dot(
-                g,
-                chart.basis.iter().map(|row| &row[u]),
-                inertia.iter().map(|row| &row[s]),
-            )
+        let metric: Vec<Vec<Expr>> = columns
+            .iter()
+            .map(|column| {
+                let along = |s: usize| dot(g, column, inertia.iter().map(|row| &row[s]));
+                (0..k).map(along).collect()
+            })
+            .collect();
+        let simple = |e: Expr| simplify::simplify(g, e, &simplify::Options::default());
+        let determinant = determinant(g, &metric);
+        let gyroscopic = Gyroscopic::new(g, &chart, &coordinates, &inertia);
+        let form: Vec<Expr> = match k <= VELOCITIES {
+            true => gyroscopic.traces(g, &metric, determinant),
+            false => Vec::new(),
         };
-        let [a, b, d] = [reduced(0, 0), reduced(0, 1), reduced(1, 1)];
-        let determinant = g.sub(g.mul(&[a, d]), g.mul(&[b, b]));
-        let mut form = [Vec::new(), Vec::new()];
-        for (&l, &c) in chart.dependent.iter().zip(&curvature) {
-            let [x, y] = inertia[l];
-            // (x, y) G⁻¹ = (B₁, B₂).
-            let first = g.div(g.sub(g.mul(&[x, d]), g.mul(&[y, b])), determinant);
-            let second = g.div(g.sub(g.mul(&[y, a]), g.mul(&[x, b])), determinant);
-            form[0].push(g.mul(&[second, c]));
-            form[1].push(g.neg(g.mul(&[first, c])));
-        }
-        let simple =
-            |parts: &Vec<Expr>| simplify::simplify(g, g.add(parts), &simplify::Options::default());
-        Ok(Pair {
+        let form: Vec<Expr> = form.into_iter().map(simple).collect();
+        Ok(Reduced {
+            condition: match k {
+                3..=VELOCITIES => gyroscopic.rest(g, &metric, &form),
+                _ => Vec::new(),
+            },
             coordinates,
-            form: [simple(&form[0]), simple(&form[1])],
-            determinant: simplify::simplify(g, determinant, &simplify::Options::default()),
+            form,
+            determinant: simple(determinant),
             chart,
         })
     }
 
+    fn k(&self) -> usize {
+        self.coordinates.len()
+    }
+
     fn decide(&self, cx: &Context<'_>) -> Finding {
-        let g = &cx.system.graph;
-        let mixed = g.sub(
-            g.diff(self.form[0], self.coordinates[1]),
-            g.diff(self.form[1], self.coordinates[0]),
-        );
+        let (system, g, k) = (cx.system, &cx.system.graph, self.k());
+        if k > VELOCITIES {
+            return Verdict::undecided(format!(
+                "{k} independent velocities; the multiplier is looked for up to {VELOCITIES}"
+            ))
+            .into();
+        }
         let on = "for all positions";
-        let mut verdict = cx
-            .prover
-            .identity(cx.system, &[mixed], &Manifold::default(), on);
-        match &verdict {
-            Verdict::Proved(_) => self.multiplier(cx, verdict),
-            Verdict::Refuted(_) => {
-                verdict.prefix("there is no multiplier: the mixed derivatives of ln N disagree");
-                Finding {
-                    verdict,
-                    formulas: self.stated(cx),
-                }
-            }
-            _ => {
-                verdict.prefix("the mixed derivatives of ln N");
-                verdict.into()
-            }
+        let free = Manifold::default();
+        let identity = |residuals: &[Expr]| cx.prover.identity(system, residuals, &free, on);
+        let mut verdict = identity(&self.condition);
+        if k > 2 && !matches!(verdict, Verdict::Proved(_)) {
+            let sentence = match &verdict {
+                Verdict::Refuted(_) => "no time dτ = N(q) dt makes the equations Lagrange's for L* in (q, dq/dτ): the gyroscopic terms are not φ_s Σ v P − P_s Σ v φ with φ = ln N (other forms of Hamilton's equations are not refuted by that)",
+                _ => "the gyroscopic terms as φ_s Σ v P − P_s Σ v φ",
+            };
+            verdict.prefix(sentence);
+            return Finding {
+                verdict,
+                formulas: self.stated(cx),
+            };
+        }
+        let mixed: Vec<Expr> = (0..k)
+            .flat_map(|s| (s + 1..k).map(move |u| (s, u)))
+            .map(|(s, u)| {
+                g.sub(
+                    g.diff(self.form[s], self.coordinates[u]),
+                    g.diff(self.form[u], self.coordinates[s]),
+                )
+            })
+            .collect();
+        let closed = identity(&mixed);
+        match &closed {
+            Verdict::Proved(_) => self.multiplier(
+                cx,
+                match k {
+                    2 => closed,
+                    _ => verdict.and(closed),
+                },
+            ),
+            Verdict::Refuted(_) => Finding {
+                verdict: closed
+                    .prefixed("there is no multiplier: the mixed derivatives of ln N disagree"),
+                formulas: self.stated(cx),
+            },
+            _ => closed.prefixed("the mixed derivatives of ln N").into(),
         }
     }
 
     /// `∂ln N/∂q`.
     fn stated(&self, cx: &Context<'_>) -> Vec<Formula> {
         let g = &cx.system.graph;
-        let pairs = self.coordinates.iter().zip(self.form);
+        let pairs = self.coordinates.iter().zip(&self.form);
         pairs
-            .filter_map(|(&q, e)| formula(cx, format!("∂ln N/∂{}", g.symbol_text(q)), None, e))
+            .filter_map(|(&q, &e)| formula(cx, format!("∂ln N/∂{}", g.symbol_text(q)), None, e))
             .collect()
     }
 
@@ -178,15 +212,19 @@ impl Pair {
         };
         let mut verdict = closed.and(self.confirmed(cx, reducer));
         let shown = readable(cx, reducer).unwrap_or(reducer);
+        let names: Vec<String> = self.coordinates.iter().map(|&q| g.symbol_text(q)).collect();
+        let power = match self.k() {
+            2 => String::new(),
+            k => format!("^{}", k - 1),
+        };
         verdict.prefix(&format!(
-                "dτ = N dt with N = {} makes the equations of motion in {} and {} Hamilton's, and N det G is the density of an invariant measure",
+                "dτ = N dt with N = {} makes the equations of motion in {} Hamilton's, and N{power} det G is the density of an invariant measure",
                 g.text(shown),
-                g.symbol_text(self.coordinates[0]),
-                g.symbol_text(self.coordinates[1])
+                listed(&names)
             ),
         );
         formulas.extend(formula(cx, "the reducing multiplier N", None, shown));
-        let measure = g.mul(&[shown, self.determinant]);
+        let measure = self.density(g, shown);
         formulas.extend(formula(
             cx,
             "density of the invariant measure in (q, v)",
@@ -200,7 +238,7 @@ impl Pair {
     fn integrated(&self, cx: &Context<'_>) -> Option<Expr> {
         let g = &cx.system.graph;
         let mut candidates: Vec<Expr> = Vec::new();
-        for e in [self.form[0], self.form[1], self.determinant] {
+        for &e in self.form.iter().chain([&self.determinant]) {
             let e = crate::stationarity::by_sines(g, e);
             let parts = factored(g, e).map(|f| f.factors).unwrap_or_default();
             for (factor, _) in parts {
@@ -209,7 +247,7 @@ impl Pair {
                 }
             }
         }
-        let mut rest = self.form;
+        let mut rest = self.form.clone();
         let mut powers = Vec::new();
         for &factor in &candidates {
             if rest.iter().all(|&e| g.is_zero(e)) {
@@ -224,7 +262,7 @@ impl Pair {
                 let left = g.sub(rest[s], g.mul(&[exponent, slope]));
                 crate::stationarity::by_sines(g, left)
             };
-            rest = [less(0), less(1)];
+            rest = (0..self.k()).map(less).collect();
             powers.push(g.pow(factor, exponent));
         }
         rest.iter().all(|&e| g.is_zero(e)).then(|| g.mul(&powers))
@@ -232,10 +270,10 @@ impl Pair {
 
     /// The exponent of a factor in N: the residue of what is left where the factor vanishes, or the ratio of what is left to
     /// d ln(factor) where that is constant.
-    fn exponent(&self, cx: &Context<'_>, rest: &[Expr; 2], factor: Expr) -> Option<Expr> {
+    fn exponent(&self, cx: &Context<'_>, rest: &[Expr], factor: Expr) -> Option<Expr> {
         let g = &cx.system.graph;
         let is_constant = |e: Expr| !g.contains_any(e, &self.coordinates) && !g.is_zero(e);
-        (0..2).find_map(|s| {
+        (0..self.k()).find_map(|s| {
             let slope = g.diff(factor, self.coordinates[s]);
             if g.is_zero(slope) {
                 return None;
@@ -256,26 +294,28 @@ impl Pair {
         })
     }
 
-    /// (27) for N, and `div(N det G · motion) = 0` in (q₁, q₂, v₁, v₂).
+    /// `N^(k−1) det G`: dq dp of the tau-momenta p = N G v, over N.
+    fn density(&self, g: &Graph, reducer: Expr) -> Expr {
+        g.mul(&[g.powi(reducer, self.k() as i64 - 1), self.determinant])
+    }
+
+    /// (27) for N; Lagrange's equations in τ along the motion; and `div(density · motion) = 0` in (q, v).
     fn confirmed(&self, cx: &Context<'_>, reducer: Expr) -> Verdict {
         let (system, g) = (cx.system, &cx.system.graph);
         let Ok(routh) = derive(cx, REFERENCE) else {
             return Verdict::undecided("the accelerations could not be derived");
         };
-        let mut residuals: Vec<Expr> = (0..2)
-            .map(|s| {
-                let slope = g.diff(reducer, self.coordinates[s]);
-                g.sub(slope, g.mul(&[reducer, self.form[s]]))
-            })
-            .collect();
-        let density = g.mul(&[reducer, self.determinant]);
-        let accelerations: Vec<Expr> = self
-            .chart
-            .independent
-            .iter()
-            .map(|&i| routh.accelerations[i])
-            .collect();
+        let independent = self.chart.independent.iter();
+        let accelerations: Vec<Expr> = independent.map(|&i| routh.accelerations[i]).collect();
         let accelerations = self.chart.restrict(system, &accelerations);
+        let slopes = g.gradient(reducer, &self.coordinates);
+        let mut residuals: Vec<Expr> = slopes
+            .iter()
+            .zip(&self.form)
+            .map(|(&slope, &own)| g.sub(slope, g.mul(&[reducer, own])))
+            .collect();
+        residuals.extend(self.in_tau(cx, reducer, &accelerations));
+        let density = self.density(g, reducer);
         let mut divergence = Vec::new();
         for (s, p) in self.chart.parameters.iter().enumerate() {
             divergence.push(g.mul(&[p.value, g.diff(density, self.coordinates[s])]));
@@ -290,8 +330,119 @@ impl Pair {
                 "a multiplier was found that is none: {}",
                 found.detail
             )),
-            Verdict::Proved(proof) => Verdict::Proved(Proof { ..proof }),
             other => other,
         }
+    }
+
+    /// `d p_s/dτ − ∂L^/∂q_s` along the motion, times N: L^(q, u) = L*(q, N u), `p_s = ∂L^/∂u_s = N P_s`, and `∂L^/∂q_s` at fixed u
+    /// is `∂L*/∂q_s + ∂N/∂q_s Σ u P`, u = v/N.
+    fn in_tau(&self, cx: &Context<'_>, reducer: Expr, accelerations: &[Expr]) -> Vec<Expr> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let restricted = self.chart.restrict(system, &[system.lagrangian])[0];
+        let speeds: Vec<Symbol> = self.chart.parameters.iter().map(|p| p.symbol).collect();
+        let values: Vec<Expr> = self.chart.parameters.iter().map(|p| p.value).collect();
+        let momenta = g.gradient(restricted, &speeds);
+        let moved: Vec<Expr> = momenta.iter().map(|&p| g.mul(&[reducer, p])).collect();
+        let rate = |s: Symbol| {
+            let place = |list: &[Symbol]| list.iter().position(|&own| own == s);
+            let of_position = place(&self.coordinates).map(|i| values[i]);
+            of_position.or_else(|| place(&speeds).map(|i| accelerations[i]))
+        };
+        let moved = g.derive(&moved, &rate);
+        let work = dot(g, &values, &momenta);
+        self.coordinates
+            .iter()
+            .zip(moved)
+            .map(|(&q, rate)| {
+                let slope = g.mul(&[reducer, g.diff(restricted, q)]);
+                g.sub(rate, g.add(&[slope, g.mul(&[g.diff(reducer, q), work])]))
+            })
+            .collect()
+    }
+}
+
+/// `S_s,uw = Σ_l c^l_us Θ_lw`.
+struct Gyroscopic {
+    /// c^l_us by l, then k × k.
+    curvature: Vec<Vec<Vec<Expr>>>,
+    /// Θ_l.
+    momenta: Vec<Vec<Expr>>,
+}
+
+impl Gyroscopic {
+    fn new(
+        g: &Graph,
+        chart: &Characteristics,
+        coordinates: &[Symbol],
+        inertia: &[Vec<Expr>],
+    ) -> Gyroscopic {
+        let of = |&d: &usize| -> Vec<Vec<Expr>> {
+            let slopes = g.jacobian(&chart.basis[d], coordinates);
+            let entry = |u: usize, s: usize| g.sub(slopes[s][u], slopes[u][s]);
+            let k = coordinates.len();
+            (0..k)
+                .map(|u| (0..k).map(|s| entry(u, s)).collect())
+                .collect()
+        };
+        Gyroscopic {
+            curvature: chart.dependent.iter().map(of).collect(),
+            momenta: chart
+                .dependent
+                .iter()
+                .map(|&d| inertia[d].clone())
+                .collect(),
+        }
+    }
+
+    fn entry(&self, g: &Graph, (s, u, w): (usize, usize, usize)) -> Expr {
+        let pairs = self.curvature.iter().zip(&self.momenta);
+        let terms: Vec<Expr> = pairs
+            .map(|(c, momentum)| g.mul(&[c[u][s], momentum[w]]))
+            .collect();
+        g.add(&terms)
+    }
+
+    /// `φ_s = Σ_l Σ_u c^l_us B^l_u/(k − 1)`, B^l by Cramer's rule.
+    fn traces(&self, g: &Graph, metric: &[Vec<Expr>], whole: Expr) -> Vec<Expr> {
+        let k = metric.len();
+        let solved = |right: &Vec<Expr>| -> Vec<Expr> {
+            let with = |column: usize| {
+                let mut matrix = metric.to_vec();
+                matrix
+                    .iter_mut()
+                    .zip(right)
+                    .for_each(|(row, &e)| row[column] = e);
+                g.div(determinant(g, &matrix), whole)
+            };
+            (0..k).map(with).collect()
+        };
+        let raised: Vec<Vec<Expr>> = self.momenta.iter().map(solved).collect();
+        let share = g.integer(k as i64 - 1);
+        (0..k)
+            .map(|s| {
+                let pairs = self.curvature.iter().zip(&raised);
+                let terms: Vec<Expr> = pairs
+                    .map(|(c, b)| dot(g, c.iter().map(|row| &row[s]), b))
+                    .collect();
+                g.div(g.add(&terms), share)
+            })
+            .collect()
+    }
+
+    /// `S_s,uw + S_s,wu − 2 φ_s G_uw + φ_u G_sw + φ_w G_su`, u ≤ w.
+    fn rest(&self, g: &Graph, metric: &[Vec<Expr>], form: &[Expr]) -> Vec<Expr> {
+        let k = metric.len();
+        let places = (0..k).flat_map(|s| (0..k).flat_map(move |u| (u..k).map(move |w| (s, u, w))));
+        places
+            .map(|(s, u, w)| {
+                g.add(&[
+                    self.entry(g, (s, u, w)),
+                    self.entry(g, (s, w, u)),
+                    g.mul(&[g.integer(-2), form[s], metric[u][w]]),
+                    g.mul(&[form[u], metric[s][w]]),
+                    g.mul(&[form[w], metric[s][u]]),
+                ])
+            })
+            .collect()
     }
 }

@@ -120,3 +120,67 @@ fn hypotheses() {
         );
     }
 }
+
+/// Three areas swept by a point of unit mass move three masses m. With `S_s,uw = −2 m (q_s δ_uw − q_u δ_sw)` and
+/// `G = (1 + m q²) δ − m q qᵀ` the condition `S_s,uw = φ_s G_uw − φ_u G_sw` holds with `φ_s = −2 m q_s/(1 + m q²)`, whatever the force
+/// function is: N = 1/(1 + m q²). With one mass it is the case of two velocities, with the same N.
+#[test]
+fn three_velocities() {
+    let areas = text(
+        "x y z a b c",
+        "1/2 (x'^2 + y'^2 + z'^2) + m/2 (a'^2 + b'^2 + c'^2) - V x^2 y - z",
+        &[
+            ("area_a", "a' - y z' + z y'"),
+            ("area_b", "b' - z x' + x z'"),
+            ("area_c", "c' - x y' + y x'"),
+        ],
+    );
+    assert_multiplier(&areas, "1/(1 + m (x^2 + y^2 + z^2))");
+    let area = text(
+        "x y c",
+        "1/2 (x'^2 + y'^2) + m/2 c'^2",
+        &[("area_c", "c' - x y' + y x'")],
+    );
+    assert_multiplier(&area, "1/(1 + m (x^2 + y^2))");
+}
+
+/// θ A = 0 of the rolling disc, whatever moves beside it: N = 1.
+#[test]
+fn disc_with_a_neighbour() {
+    let disc = text(
+        "theta phi s x y",
+        "I/2 theta'^2 + J/2 phi'^2 + s'^2/2 - k/2 (s - phi)^2 + m/2 (x'^2 + y'^2)",
+        &[
+            ("rolling_x", "x' - R cos(phi) theta'"),
+            ("rolling_y", "y' - R sin(phi) theta'"),
+        ],
+    );
+    assert_multiplier(&disc, "1");
+}
+
+/// Unequal masses, or a coordinate w that moves freely beside z' = y x': the condition on the gyroscopic terms fails. By hand, of the
+/// second: `S_y,xx = −y` and `S_x,yx = y` alone are not zero, so (s, u, w) = (w, x, x) demands φ_w = 0, (y, w, w) demands φ_y = 0,
+/// and (y, x, x) then −y = 0.
+#[test]
+fn three_velocities_without_a_multiplier() {
+    let unequal = text(
+        "x y z a b c",
+        "1/2 (x'^2 + y'^2 + z'^2) + m/2 (a'^2 + b'^2) + M/2 c'^2",
+        &[
+            ("area_a", "a' - y z' + z y'"),
+            ("area_b", "b' - z x' + x z'"),
+            ("area_c", "c' - x y' + y x'"),
+        ],
+    );
+    let beside = text(
+        "x y w z",
+        "1/2 (x'^2 + y'^2 + w'^2 + z'^2)",
+        &[("c", "z' - y x'")],
+    );
+    for stated in [unequal, beside] {
+        let found = finding(&system(&stated), ID);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "refuted", "{detail}");
+        assert!(detail.contains("gyroscopic"), "{detail}");
+    }
+}

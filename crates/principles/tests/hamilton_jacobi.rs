@@ -6,7 +6,7 @@ mod common;
 
 use chetaev_mechanics::system::CompleteIntegral;
 use chetaev_mechanics::System;
-use chetaev_principles::hamilton_jacobi::{levi_civita, separated, verified, Extremum};
+use chetaev_principles::hamilton_jacobi::{elementary, levi_civita, separated, verified, Extremum};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::{decide_zero, ZeroTest};
 use chetaev_symbolic::{Expr, Symbol};
@@ -216,4 +216,137 @@ fn separation() {
         let found = finding(&system, "hamilton-jacobi.applicable#separated");
         assert_eq!(found.verdict.word(), expected, "{}", found.verdict.detail());
     }
+}
+
+/// The complete integral of systems that contain two coordinates in H₁ and more, with the squares of the momenta by quadrature.
+#[track_caller]
+fn assert_separated(stated: &Text, expected: &[(&str, &str)]) {
+    let system = system(stated);
+    let g = &system.graph;
+    with_context(&system, |cx| {
+        let extremum = Extremum::new(cx).unwrap();
+        let integral = separated(cx, &extremum).unwrap();
+        assert_eq!(integral.quadratures.len(), expected.len());
+        for (name, square) in expected {
+            let own = system.coordinate_index(name).unwrap();
+            let (_, found) = integral
+                .quadratures
+                .iter()
+                .find(|(i, _)| *i == own)
+                .unwrap();
+            let difference = g.sub(g.mul(&[*found, *found]), expr(g, square));
+            assert_eq!(
+                word(&system, difference),
+                "proved",
+                "{name}: {}",
+                g.text(*found)
+            );
+        }
+        let found = verified(cx, &extremum, &integral).unwrap();
+        let words = [
+            &found.equation,
+            &found.nondegenerate,
+            &found.theorem,
+            &found.motion,
+        ];
+        assert_eq!(words.map(|v| v.word()), ["proved"; 4]);
+    });
+    let found = finding(&system, "hamilton-jacobi.applicable#separated");
+    assert_eq!(found.verdict.word(), "proved", "{}", found.verdict.detail());
+}
+
+/// Stäckel systems in their coordinates; alpha of a coordinate is the square of its momentum where the others' terms were taken.
+#[test]
+fn separation_with_several_coordinates() {
+    // Two oscillators, one of them of the fourth degree: E − α/2 is the energy of the first.
+    assert_separated(
+        &text("x y", "1/2 (x'^2 + y'^2) - x^2 - y^4", &[]),
+        &[("x", "2 E - alpha_y - 2 x^2"), ("y", "alpha_y - 2 y^4")],
+    );
+    // Kepler in space, r² π_r² + 2 V r² … = 2 E r²: at θ = π/2 the moment of momentum is α_θ + α_φ².
+    assert_separated(
+        &text(
+            "r theta phi",
+            "1/2 (r'^2 + r^2 theta'^2 + r^2 sin(theta)^2 phi'^2) + k/r",
+            &[],
+        ),
+        &[
+            ("r", "2 E + 2 k/r - (alpha_theta + alpha_phi^2)/r^2"),
+            (
+                "theta",
+                "alpha_theta + alpha_phi^2 - alpha_phi^2/sin(theta)^2",
+            ),
+        ],
+    );
+    // Kepler in a uniform field, by parabolic coordinates x = u v, y = (u² − v²)/2, r = (u² + v²)/2:
+    // π_u² − 2 k + b u⁴ − 2 E u² and π_v² − 2 k − b v⁴ − 2 E v² are opposite constants.
+    assert_separated(
+        &text(
+            "u v",
+            "1/2 (u^2 + v^2) (u'^2 + v'^2) + 2 k/(u^2 + v^2) - b/2 (u^2 - v^2)",
+            &[],
+        ),
+        &[
+            ("u", "4 k - alpha_v + 2 E u^2 - b u^4"),
+            ("v", "alpha_v + 2 E v^2 + b v^4"),
+        ],
+    );
+}
+
+/// The rolling disc with a mass on a spring beside it, and a spring that turns it: φ and s are contained in H₁, and the motions have
+/// α_x = α_y = 0 as without them.
+#[test]
+fn separation_of_a_nonholonomic_motion() {
+    let disc = text(
+        "theta phi s x y",
+        "I/2 theta'^2 + J/2 phi'^2 + s'^2/2 - k/2 s^2 - c/2 phi^2 + m/2 (x'^2 + y'^2)",
+        &[
+            ("rolling_x", "x' - R cos(phi) theta'"),
+            ("rolling_y", "y' - R sin(phi) theta'"),
+        ],
+    );
+    let theta = "(alpha_theta + R (alpha_x cos(phi) + alpha_y sin(phi)))^2/(I + m R^2)";
+    let phi = format!("J (2 E - alpha_s - {theta} - c phi^2)");
+    let s = "alpha_s - k s^2";
+    assert_separated(&disc, &[("phi", &phi), ("s", s)]);
+}
+
+/// Integrals of roots of polynomials of degree two are written out: their derivatives are the integrands, by differences.
+#[test]
+fn elementary_quadratures() {
+    let oscillator = system(&text("x y", "1/2 (x'^2 + y'^2) - x^2 + x - 2 y^2", &[]));
+    let unstable = system(&text("x", "1/2 x'^2 + x^2 - x", &[]));
+    let falling = system(&text("x y", "1/2 (x'^2 + y'^2) - g y", &[]));
+    for system in [oscillator, unstable, falling] {
+        let g = &system.graph;
+        with_context(&system, |cx| {
+            let integral = separated(cx, &Extremum::new(cx).unwrap()).unwrap();
+            for (i, integrand) in integral.quadratures {
+                let q = system.coordinates[i].q_symbol;
+                let closed = elementary(cx, integrand, q).unwrap();
+                let at = |x: f64| {
+                    let value = |s: Symbol| match g.symbol_text(s).as_str() {
+                        "E" => Some(5.0),
+                        "g" => Some(9.81),
+                        _ if s == q => Some(x),
+                        _ => Some(1.5),
+                    };
+                    g.evaluate_f64(&[closed, integrand], &value).unwrap()
+                };
+                let (low, high) = (at(0.1 - 1e-4), at(0.1 + 1e-4));
+                let slope = (high[0] - low[0]) / 2e-4;
+                assert!((slope - at(0.1)[1]).abs() < 1e-7, "{slope} {:?}", at(0.1));
+            }
+        });
+    }
+    let quartic = system_of_degree_four();
+    with_context(&quartic, |cx| {
+        let integral = separated(cx, &Extremum::new(cx).unwrap()).unwrap();
+        let (i, integrand) = integral.quadratures[0];
+        assert!(elementary(cx, integrand, quartic.coordinates[i].q_symbol).is_none());
+    });
+}
+
+fn system_of_degree_four() -> System {
+    system(&text("x", "1/2 x'^2 - x^4", &[]))
 }

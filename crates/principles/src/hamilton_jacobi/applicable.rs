@@ -2,6 +2,7 @@
 //! that the model states (`#stated`), and separation of variables in the coordinates given (`#separated`).
 
 use super::complete::verified;
+use super::elementary::elementary;
 use super::extremum::Extremum;
 use super::separation;
 use crate::stationarity::Closure;
@@ -44,7 +45,8 @@ impl Claim for Applicable {
          and along the motions π' = −∂H₁/∂q, which is computed. A complete integral has 2n constants, a motion 2n − r: \
          r of them are fixed by κ, after S was differentiated by them. `stated`: the S of [complete_integral] satisfies the equation, det ∂²S/∂q∂α does not vanish, ∂S/∂α is constant along q' = ∂H₁/∂π (Jacobi's theorem), and with the constants that the model gives \
          for motions these curves satisfy the equations of the nonholonomic motion. `separated`: the conditions of Levi-Civita on H₁ for S = −E t + Σ S_i(q_i) in these coordinates, for L and f free of the time; \
-         where all coordinates but one are cyclic, S by a quadrature, verified as if it were stated. Example: a vertical rolling disc has κ = (−m x', −m y'), hence π_x = π_y = 0, and S is differentiated by these two constants before they are put to zero."
+         where they hold and H₁ is even in the momenta of the coordinates it contains, or contains one coordinate only, S by one quadrature for each of these, verified as if it were stated; a constant alpha of such a coordinate is the square of its momentum \
+         at a fixed position. Integrals of roots of polynomials up to the second degree are written out; the others are compared with the computed motion as numbers (witness.hamilton-jacobi). Example: a vertical rolling disc has κ = (−m x', −m y'), hence π_x = π_y = 0, and S is differentiated by these two constants before they are put to zero."
     }
 
     fn requires(&self, subject: Option<&str>) -> Vec<String> {
@@ -172,6 +174,20 @@ pub(super) fn multipliers(cx: &Context<'_>) -> Option<Vec<Expr>> {
         .collect()
 }
 
+/// `π = p + Σ κ ∂f/∂v` as functions of the state, with the κ of the motions, length n; `None` where κ is not known for all of them.
+pub fn momenta_on_motions(cx: &Context<'_>) -> Option<Vec<Expr>> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let kappa = multipliers(cx)?;
+    let jacobian = basis(cx).jacobian();
+    let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
+    let with = |(i, p): (usize, Expr)| {
+        let reaction =
+            chetaev_mechanics::linear::dot(g, &kappa, jacobian.iter().map(|row| &row[i]));
+        g.add(&[p, reaction])
+    };
+    Some(momenta.into_iter().enumerate().map(with).collect())
+}
+
 fn stated(cx: &Context<'_>) -> Result<Finding, DeriveError> {
     let Some(integral) = &cx.system.complete_integral else {
         return Ok(Verdict::undecided("the model states no complete integral").into());
@@ -266,6 +282,9 @@ fn shown(cx: &Context<'_>, integral: &CompleteIntegral) -> Vec<Formula> {
             left: None,
             right,
         });
+        let closed = elementary(cx, value, cx.system.coordinates[i].q_symbol);
+        let caption = format!("its integral over {name}");
+        formulas.extend(closed.and_then(|closed| formula(cx, caption, None, closed)));
     }
     formulas
 }

@@ -7,10 +7,12 @@
 
 mod applicable;
 mod complete;
+mod elementary;
 mod extremum;
 mod separation;
 
-pub use applicable::Applicable;
+pub use applicable::{momenta_on_motions, Applicable};
 pub use complete::{verified, Checked};
+pub use elementary::elementary;
 pub use extremum::Extremum;
 pub use separation::{levi_civita, separated};

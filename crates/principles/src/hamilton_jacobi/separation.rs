@@ -1,5 +1,10 @@
-//! Separation of variables in the coordinates given: the conditions of Levi-Civita (1904) on H₁, and a complete integral by one
-//! quadrature where all coordinates but one are cyclic.
+//! Separation of variables in the coordinates given: the conditions of Levi-Civita (1904) on H₁, and a complete integral by
+//! quadratures.
+//!
+//! Where the conditions hold `dπ_i = −(H_i/Hⁱ) dq_i` is integrable, and along a line on which q_i alone changes H₁ is constant. So π_i,
+//! a function of q_i and constants, is the root of `H₁(c, q_i; π°, π_i) = E` with the other coordinates at any values c and their momenta
+//! π° there: no Stäckel matrix is needed. Constants are E, the momenta of cyclic coordinates, and of the others the squares of
+//! their momenta at c; all radicands are then linear in E and these squares.
 
 use super::applicable::{checked, free, multipliers, no_closed_form};
 use super::extremum::Extremum;
@@ -9,10 +14,22 @@ use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::system::CompleteIntegral;
-use chetaev_symbolic::{Expr, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol, Verdict};
 
 /// Larger H₁, in nodes, are not differentiated twice.
 const LARGEST: usize = 2_000;
+/// At most so many points are tried.
+const POINTS: usize = 256;
+/// A smaller value is zero.
+const VANISHING: f64 = 1e-9;
+const TRIGONOMETRIC: [Function; 6] = [
+    Function::Sin,
+    Function::Cos,
+    Function::Tan,
+    Function::Cot,
+    Function::Sec,
+    Function::Csc,
+];
 
 /// For each pair i < j, what vanishes where `H₁(q, S_q) = E` separates additively in the coordinates:
 /// `Hⁱ Hʲ H_ij − Hⁱ H_j H_iʲ − H_i Hʲ Hⁱ_j + H_i H_j Hⁱʲ`, with lower indices for ∂/∂q, upper ones for ∂/∂π.
@@ -45,11 +62,13 @@ pub(super) fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
     if g.reachable(&[extremum.hamiltonian]).len() > LARGEST {
         return Ok(Verdict::undecided("H₁ is too large for the conditions of Levi-Civita").into());
     }
-    if let Some(integral) = separated(cx, &extremum) {
-        let what = "H₁ depends on one coordinate at most; separated by that, S is";
-        let found = checked(cx, &extremum, &integral, what)?;
-        if matches!(found.verdict, Verdict::Proved(_)) {
-            return Ok(found);
+    if essential(cx, &extremum).len() <= 1 {
+        if let Some(integral) = separated(cx, &extremum) {
+            let what = "H₁ depends on one coordinate at most; separated by that, S is";
+            let found = checked(cx, &extremum, &integral, what)?;
+            if matches!(found.verdict, Verdict::Proved(_)) {
+                return Ok(found);
+            }
         }
     }
     let conditions = levi_civita(cx, &extremum);
@@ -65,47 +84,229 @@ pub(super) fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
         _ => "the conditions of Levi-Civita on H₁",
     };
     verdict.prefix(sentence);
-    Ok(verdict.into())
+    if !matches!(verdict, Verdict::Proved(_)) {
+        return Ok(verdict.into());
+    }
+    let Some(integral) = separated(cx, &extremum) else {
+        verdict.prefix("the quadratures are not written: H₁ is not even in the momenta of the coordinates it contains");
+        return Ok(verdict.into());
+    };
+    let what = "the conditions of Levi-Civita hold; separated in these coordinates S is";
+    let found = checked(cx, &extremum, &integral, what)?;
+    if matches!(found.verdict, Verdict::Proved(_)) {
+        return Ok(Finding {
+            verdict: verdict.and(found.verdict),
+            formulas: found.formulas,
+        });
+    }
+    let open = format!(
+        "the quadratures found were not confirmed ({})",
+        found.verdict.detail()
+    );
+    Ok(verdict.prefixed(&open).into())
 }
 
-/// The complete integral `S = −E t + Σ α q + ∫π dq` where all coordinates but one, or all, are cyclic in H₁.
+/// The coordinates that occur in H₁.
+fn essential(cx: &Context<'_>, extremum: &Extremum) -> Vec<usize> {
+    let coordinates = cx.system.coordinate_symbols();
+    let occurs = |i: &usize| {
+        cx.system
+            .graph
+            .contains_any(extremum.hamiltonian, &[coordinates[*i]])
+    };
+    (0..cx.system.n()).filter(occurs).collect()
+}
+
+/// The complete integral `S = −E t + Σ α q + Σ ∫π_i dq_i`: α for the coordinates that are cyclic in H₁, a quadrature for each of the
+/// others. Where these are two or more, H₁ must be even in their momenta, and S is one only under the conditions of Levi-Civita.
 pub fn separated(cx: &Context<'_>, extremum: &Extremum) -> Option<CompleteIntegral> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let coordinates = system.coordinate_symbols();
     let time = g.intern_symbol("t", 0);
-    let occurs = |s: Symbol| g.contains_any(extremum.hamiltonian, &[s]);
-    let essential: Vec<usize> = (0..system.n())
-        .filter(|&i| occurs(coordinates[i]))
-        .collect();
-    if essential.len() > 1 || occurs(time) {
+    if system.is_rheonomic(extremum.hamiltonian) {
         return None;
     }
-    // Where every coordinate is cyclic, the last one gives its constant to E.
-    let own = essential.first().copied().unwrap_or(system.n() - 1);
-    let energy = g.intern_symbol(&unused_name(system, "E"), 0);
+    let mut own = essential(cx, extremum);
+    if own.is_empty() {
+        // Where every coordinate is cyclic, the last one gives its constant to E.
+        own.push(system.n() - 1);
+    }
+    let named = |name: &str| g.intern_symbol(&unused_name(system, name), 0);
+    let energy = named("E");
     let mut constants = vec![energy];
     let mut momenta = extremum.momenta.clone();
     let mut parts = vec![g.neg(g.mul(&[g.symbol_expr(energy), g.symbol_expr(time)]))];
     let mut cyclic = Vec::new();
-    for (i, c) in system
-        .coordinates
-        .iter()
-        .enumerate()
-        .filter(|(i, _)| *i != own)
-    {
-        let alpha = g.intern_symbol(&unused_name(system, &format!("alpha_{}", c.name)), 0);
+    let coordinates = system.coordinates.iter().enumerate();
+    for (i, c) in coordinates.filter(|(i, _)| !own.contains(i)) {
+        let alpha = named(&format!("alpha_{}", c.name));
         constants.push(alpha);
         cyclic.push((i, alpha));
         momenta[i] = g.symbol_expr(alpha);
         parts.push(g.mul(&[momenta[i], c.q]));
     }
-    let momentum = momentum(cx, extremum, own, &momenta, energy)?;
+    let quadratures = match own.as_slice() {
+        [only] => vec![(*only, momentum(cx, extremum, *only, &momenta, energy)?)],
+        several => {
+            let squares = several[1..].iter();
+            let squares: Vec<Symbol> = squares
+                .map(|&i| named(&format!("alpha_{}", system.coordinates[i].name)))
+                .collect();
+            constants.extend(&squares);
+            let of = extremum.at(cx, extremum.hamiltonian, &momenta);
+            Squares::new(cx, extremum, several, of)?.momenta(cx, energy, &squares)?
+        }
+    };
     Some(CompleteIntegral {
         action: g.add(&parts),
         constants,
-        quadratures: vec![(own, momentum)],
+        quadratures,
         motion: on_motions(cx, &cyclic),
     })
+}
+
+/// `H₁ = h₀ + ½ Σ h_e π_e²` over the coordinates e that it contains, and values c of these at which h₀ and h_e have finite values,
+/// h_e ≠ 0.
+struct Squares {
+    own: Vec<usize>,
+    rest: Expr,
+    factors: Vec<Expr>,
+    base: Vec<(Expr, Expr)>,
+}
+
+impl Squares {
+    fn new(cx: &Context<'_>, extremum: &Extremum, own: &[usize], of: Expr) -> Option<Squares> {
+        let g = &cx.system.graph;
+        let zero: Vec<(Expr, Expr)> = own
+            .iter()
+            .map(|&i| (extremum.momenta[i], g.zero()))
+            .collect();
+        let symbols: Vec<Symbol> = own.iter().map(|&i| extremum.symbols[i]).collect();
+        let slopes = g.gradient(of, &symbols);
+        let mut factors = Vec::new();
+        for (place, (&slope, &symbol)) in slopes.iter().zip(&symbols).enumerate() {
+            let factor = short(cx, g.diff(slope, symbol));
+            let momentum = extremum.momenta[own[place]];
+            let odd = short(cx, g.sub(slope, g.mul(&[factor, momentum])));
+            if g.contains_any(factor, &symbols) || g.is_zero(factor) || !g.is_zero(odd) {
+                return None;
+            }
+            factors.push(factor);
+        }
+        let rest = short(cx, g.substitute(of, &zero));
+        let base = regular_point(cx, own, &factors, rest)?;
+        Some(Squares {
+            own: own.to_vec(),
+            rest,
+            factors,
+            base,
+        })
+    }
+
+    /// `π_e = √(2 (E − h₀ − ½ Σ h_f A_f)/h_e)` at c but q_e, with A_f = π_f² at c: constants for all but the first, whose A follows from E.
+    fn momenta(
+        &self,
+        cx: &Context<'_>,
+        energy: Symbol,
+        squares: &[Symbol],
+    ) -> Option<Vec<(usize, Expr)>> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let minus_half = g.div(g.integer(-1), g.integer(2));
+        let mut known: Vec<Option<Expr>> = vec![None];
+        known.extend(squares.iter().map(|&s| Some(g.symbol_expr(s))));
+        let square = |place: usize, known: &[Option<Expr>], at: &[(Expr, Expr)]| {
+            let mut parts = vec![g.symbol_expr(energy), g.neg(self.rest)];
+            for (f, (&factor, value)) in self.factors.iter().zip(known).enumerate() {
+                if let Some(value) = value.filter(|_| f != place) {
+                    parts.push(g.mul(&[minus_half, factor, value]));
+                }
+            }
+            let value = g.div(g.mul(&[g.integer(2), g.add(&parts)]), self.factors[place]);
+            short(cx, g.substitute(value, at))
+        };
+        known[0] = Some(square(0, &known, &self.base));
+        let pairs = self.own.iter().enumerate().map(|(place, &i)| {
+            let own = system.coordinates[i].q;
+            let others: Vec<(Expr, Expr)> = self
+                .base
+                .iter()
+                .copied()
+                .filter(|(q, _)| *q != own)
+                .collect();
+            let radicand = square(place, &known, &others);
+            let alone = self.base.iter().all(|&(q, _)| {
+                q == own
+                    || g.as_symbol(q)
+                        .is_some_and(|q| !g.contains_any(radicand, &[q]))
+            });
+            alone.then(|| (i, g.sqrt(radicand)))
+        });
+        pairs.collect()
+    }
+}
+
+/// Simple values of coordinates at which functions are finite and factors do not vanish, seen in double precision.
+fn regular_point(
+    cx: &Context<'_>,
+    own: &[usize],
+    factors: &[Expr],
+    rest: Expr,
+) -> Option<Vec<(Expr, Expr)>> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let half = g.div(g.one(), g.integer(2));
+    let candidates = [
+        g.zero(),
+        g.mul(&[half, g.pi()]),
+        g.one(),
+        half,
+        g.integer(2),
+    ];
+    let mut all = factors.to_vec();
+    all.push(rest);
+    let angles = angles(g, &all);
+    let allowed = |i: usize| -> Vec<Expr> {
+        let is_angle = angles.contains(&system.coordinates[i].q_symbol);
+        let kept = |e: &&Expr| is_angle || **e != candidates[1];
+        candidates.iter().filter(kept).copied().collect()
+    };
+    let lists: Vec<Vec<Expr>> = own.iter().map(|&i| allowed(i)).collect();
+    let count = lists.iter().map(Vec::len).product::<usize>().min(POINTS);
+    (0..count).find_map(|number| {
+        let mut left = number;
+        let mut point = Vec::new();
+        for (&i, list) in own.iter().zip(&lists) {
+            point.push((system.coordinates[i].q, list[left % list.len()]));
+            left /= list.len();
+        }
+        let values = g.substitute_all(&all, &point);
+        let mut state = 0.37_f64;
+        let symbols = g.symbols_in(&values);
+        let drawn: Vec<f64> = symbols
+            .iter()
+            .map(|_| {
+                state = (state * 7.13 + 0.29).fract();
+                0.4 + state
+            })
+            .collect();
+        let value = |s: Symbol| symbols.iter().position(|&own| own == s).map(|i| drawn[i]);
+        let numbers = g.evaluate_f64(&values, &value).ok()?;
+        let (last, first) = numbers.split_last()?;
+        let regular =
+            last.is_finite() && first.iter().all(|x| x.is_finite() && x.abs() > VANISHING);
+        regular.then_some(point)
+    })
+}
+
+/// Symbols of the arguments of sines, cosines and their quotients.
+fn angles(g: &Graph, es: &[Expr]) -> Vec<Symbol> {
+    let arguments = g.reachable(es).into_iter().filter_map(|e| match g.node(e) {
+        Node::Apply {
+            function,
+            arguments,
+        } if TRIGONOMETRIC.contains(function) => Some(arguments[0]),
+        _ => None,
+    });
+    let arguments: Vec<Expr> = arguments.collect();
+    g.symbols_in(&arguments).into_iter().collect()
 }
 
 /// π of the one coordinate from `H₁ = E`, a quadratic equation, with the positive root.

@@ -81,8 +81,9 @@ fn decide(cx: &Context<'_>, closure: &Closure) -> Finding {
         Verdict::Refuted(_) => match &*Motion::of(cx) {
             Ok(motion) => on_subsets(cx, motion, verdict),
             Err(why) => {
-                verdict.prefix(&format!("not every motion makes the action stationary; for which it does was not found: {why}"),
-                );
+                verdict.prefix(&format!(
+                    "{ALMOST_NONE}; their equations were not found: {why}"
+                ));
                 verdict.into()
             }
         },
@@ -150,7 +151,7 @@ fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Findin
                 "no motion makes the action stationary among admissible curves, except rest where {}",
                 alternatives(&rest)
             ),
-            _ => "not every motion makes the action stationary".into(),
+            _ => ALMOST_NONE.into(),
         };
         refuted.prefix(&format!("{sentence}{open}"));
         return refuted.into();
@@ -180,6 +181,10 @@ pub(super) fn set_aside_unconfirmed(cx: &Context<'_>, motion: &Motion, found: &m
     let others = others.iter().map(|leaf| listed(&leaf.equations));
     found.open.extend(others);
 }
+
+/// The conditions are consistent at no state at which a function, analytic where the motion is and not zero at the counterexample,
+/// differs from zero, and the ranks of the others are the greatest.
+const ALMOST_NONE: &str = "almost no motion makes the action stationary: those that do pass through a set of states of lower dimension, on which a function vanishes that does not at the point stated";
 
 /// κ on a subset.
 fn of_leaf(cx: &Context<'_>, leaf: &Leaf) -> Vec<Formula> {

@@ -13,6 +13,7 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &WitnessOfAction,
     &WitnessOfEnds,
     &WitnessOfIndex,
+    &super::of_quadratures::WitnessOfQuadratures,
 ];
 
 /// A first variation below this part of its terms is rounding and the error of the motion.
@@ -40,14 +41,19 @@ fn once_up_to(cx: &Context<'_>, coordinates: usize) -> Vec<Option<String>> {
 }
 
 /// The verdict that a motion of another system gives.
-fn elsewhere(cx: &Context<'_>) -> Option<Finding> {
+pub(super) fn elsewhere(cx: &Context<'_>) -> Option<Finding> {
     match evidence(cx) {
         Some(evidence) => of_another_system(&evidence),
         None => Some(Verdict::undecided("no motion was computed").into()),
     }
 }
 
-fn numerical(samples: u32, interval: (f64, f64), residual: f64, sentence: String) -> Verdict {
+pub(super) fn numerical(
+    samples: u32,
+    interval: (f64, f64),
+    residual: f64,
+    sentence: String,
+) -> Verdict {
     Verdict::Numerical(Evidence {
         samples,
         region: format!(
@@ -61,7 +67,7 @@ fn numerical(samples: u32, interval: (f64, f64), residual: f64, sentence: String
     })
 }
 
-fn refuted(quantity: &str, t: f64, value: f64, detail: String) -> Verdict {
+pub(super) fn refuted(quantity: &str, t: f64, value: f64, detail: String) -> Verdict {
     let text = |x: f64| (format!("{x:e}"), format!("{x:e}"));
     Verdict::Refuted(Counterexample {
         point: vec![PointValue {

@@ -3,6 +3,7 @@
 
 use super::algebra::{determinant, gram, null_space, solved};
 use super::samples::{Samples, LEAST};
+use super::zeros::zeros;
 use chetaev_mechanics::claims::formulation::{basis, derive, REFERENCE};
 use chetaev_mechanics::formulations::kappa_symbols;
 use chetaev_mechanics::Context;
@@ -13,10 +14,8 @@ use chetaev_symbolic::{Expr, Symbol};
 pub(super) const COORDINATES: usize = 8;
 /// Larger expressions, in nodes, are not compiled.
 const LARGEST: usize = 30_000;
-/// Steps at the start that are passed over.
-const EARLY: usize = 16;
-/// A least value below this part of those beside it is zero.
-const TOUCHES: f64 = 0.02;
+/// Steps of four rows at the start that are passed over.
+const EARLY: usize = 8;
 /// A volume below this part of that of the lengths counts as zero.
 const FLAT: f64 = 1e-6;
 
@@ -57,17 +56,26 @@ fn small(cx: &Context<'_>, es: &[Expr]) -> Result<(), String> {
 /// y' at a row.
 type Rate<'a> = dyn Fn(usize, &[f64]) -> Option<Vec<f64>> + 'a;
 
-/// One step of the rule of Runge and Kutta for `y' = rate(row, y)` over two rows.
-fn step(rate: &Rate<'_>, row: usize, h: f64, y: &[f64]) -> Option<Vec<f64>> {
+/// One step of the rule of Runge and Kutta for `y' = rate(row, y)`, of the length h, over rows twice `stride` apart.
+fn step(rate: &Rate<'_>, (row, stride): (usize, usize), h: f64, y: &[f64]) -> Option<Vec<f64>> {
     let moved =
         |k: &[f64], by: f64| -> Vec<f64> { y.iter().zip(k).map(|(x, k)| x + by * k).collect() };
     let k1 = rate(row, y)?;
-    let k2 = rate(row + 1, &moved(&k1, h / 2.0))?;
-    let k3 = rate(row + 1, &moved(&k2, h / 2.0))?;
-    let k4 = rate(row + 2, &moved(&k3, h))?;
+    let k2 = rate(row + stride, &moved(&k1, h / 2.0))?;
+    let k3 = rate(row + stride, &moved(&k2, h / 2.0))?;
+    let k4 = rate(row + 2 * stride, &moved(&k3, h))?;
     let next = (0..y.len()).map(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
     let next: Vec<f64> = next.collect();
     next.iter().all(|x| x.is_finite()).then_some(next)
+}
+
+/// A step of the length h over four rows: two of half the length and one, extrapolated, so that the error is of the order h⁶.
+fn extrapolated(rate: &Rate<'_>, row: usize, h: f64, y: &[f64]) -> Option<Vec<f64>> {
+    let half = step(rate, (row, 1), h / 2.0, y)?;
+    let fine = step(rate, (row + 2, 1), h / 2.0, &half)?;
+    let coarse = step(rate, (row, 2), h, y)?;
+    let pairs = fine.iter().zip(coarse);
+    Some(pairs.map(|(a, b)| a + (a - b) / 15.0).collect())
 }
 
 /// `δv' = a_q δq + a_v δv`, `δq(t₀) = 0`, δv(t₀) in the directions that the constraints admit.
@@ -114,8 +122,8 @@ pub(super) fn reach(cx: &Context<'_>) -> Result<Reach, String> {
     };
     for row in (0..count).step_by(2) {
         for y in &mut states {
-            *y =
-                step(&rate, row, h, y).ok_or("the variational equations have no value at a row")?;
+            *y = step(&rate, (row, 1), h, y)
+                .ok_or("the variational equations have no value at a row")?;
         }
         let volume = volume(&states, n);
         if volume < found.least.0 {
@@ -202,12 +210,12 @@ fn compute(cx: &Context<'_>) -> Result<Conjugate, String> {
                 .collect()
         })
         .collect();
-    let count = samples.intervals(2);
+    let count = samples.intervals(4);
     if count < LEAST {
         return Err("there are too few output times".into());
     }
     let (t0, t1) = (samples.times[0], samples.times[count]);
-    let h = 2.0 * (t1 - t0) / count as f64;
+    let h = 4.0 * (t1 - t0) / count as f64;
     let mut found = Conjugate {
         legendre: Ok(()),
         times: Vec::new(),
@@ -215,15 +223,19 @@ fn compute(cx: &Context<'_>) -> Result<Conjugate, String> {
     };
     let mut determinants: Vec<(f64, f64)> = Vec::new();
     let mut largest = 0.0_f64;
-    for row in (0..count).step_by(2) {
-        if found.legendre.is_ok() && !is_positive(&samples, (n, r), row) {
-            found.legendre = Err(samples.times[row]);
+    for row in (0..count).step_by(4) {
+        let fails = |row: &usize| !is_positive(&samples, (n, r), *row);
+        if found.legendre.is_ok() {
+            if let Some(failing) = [row, row + 2].into_iter().find(fails) {
+                found.legendre = Err(samples.times[failing]);
+            }
         }
         for y in &mut states {
-            *y = step(&rate, row, h, y).ok_or("the linearized extremum is singular at a row")?;
+            *y = extrapolated(&rate, row, h, y)
+                .ok_or("the linearized extremum is singular at a row")?;
         }
         let rows: Vec<f64> = states.iter().flat_map(|y| y[..n].to_vec()).collect();
-        determinants.push((samples.times[row + 2], determinant(n, &rows)));
+        determinants.push((samples.times[row + 4], determinant(n, &rows)));
         largest = largest.max(volume(&states, n));
     }
     // Near the start all η are small, and the sign of their determinant is rounding.
@@ -232,45 +244,6 @@ fn compute(cx: &Context<'_>) -> Result<Conjugate, String> {
         true => Err("the extremal is abnormal: some variations of κ move no coordinate".into()),
         false => Ok(found),
     }
-}
-
-/// Zeros of a function given at equal steps, each as often as its multiplicity, which is at most n: where the sign changes, and
-/// where it touches zero.
-fn zeros(values: &[(f64, f64)], n: usize) -> Vec<f64> {
-    let mut found: Vec<f64> = Vec::new();
-    for j in 1..values.len() {
-        let ((t0, a), (t1, b)) = (values[j - 1], values[j]);
-        let crossing = (a * b < 0.0).then(|| t0 + (t1 - t0) * a / (a - b));
-        let touching = values.get(j + 1).and_then(|&(_, c)| {
-            let is_lowest = a * b > 0.0 && b * c > 0.0 && b.abs() <= a.abs() && b.abs() < c.abs();
-            let (slope, curvature) = ((c - a) / 2.0, a - 2.0 * b + c);
-            let least = b - slope * slope / (2.0 * curvature);
-            let touches = is_lowest && least.abs() < TOUCHES * a.abs().max(c.abs());
-            touches.then(|| t1 - slope / curvature * (t1 - t0))
-        });
-        let Some(t) = crossing.or(touching) else {
-            continue;
-        };
-        // |value| grows like the power of the distance that the multiplicity says.
-        let after = |k: usize| {
-            values
-                .get(j + k)
-                .or(values.last())
-                .copied()
-                .unwrap_or((t, 0.0))
-        };
-        let ((x, near), (y, far)) = (after(4), after(8));
-        let power = (far / near).abs().ln() / ((y - t) / (x - t)).abs().ln();
-        let least = if crossing.is_some() { 1.0 } else { 2.0 };
-        let power = if power.is_finite() {
-            power.round()
-        } else {
-            least
-        };
-        let times = power.clamp(least, (n as f64).max(least)) as usize;
-        found.extend(std::iter::repeat_n(t, times));
-    }
-    found
 }
 
 fn linearized(
@@ -328,32 +301,4 @@ fn is_positive(samples: &Samples, (n, r): (usize, usize), row: usize) -> bool {
             .collect();
         determinant(size, &minor) > 0.0
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::zeros;
-
-    #[test]
-    fn zeros_with_their_multiplicity() {
-        let sampled = |f: fn(f64) -> f64| -> Vec<(f64, f64)> {
-            (0..400)
-                .map(|j| f64::from(j) * 0.01 + 0.2)
-                .map(|t| (t, f(t)))
-                .collect()
-        };
-        let near = |found: Vec<f64>, expected: &[f64]| {
-            assert_eq!(found.len(), expected.len(), "{found:?}");
-            let pairs = found.iter().zip(expected);
-            assert!(
-                pairs.clone().all(|(a, b)| (a - b).abs() < 0.01),
-                "{found:?}"
-            );
-        };
-        let pi = std::f64::consts::PI;
-        near(zeros(&sampled(|t| t.sin()), 3), &[pi]);
-        near(zeros(&sampled(|t| t.sin().powi(2)), 3), &[pi, pi]);
-        near(zeros(&sampled(|t| t.sin().powi(3)), 3), &[pi, pi, pi]);
-        near(zeros(&sampled(|t| t.sin().powi(2) + 0.1), 3), &[]);
-    }
 }

@@ -10,13 +10,17 @@ mod claims;
 mod first;
 mod linear;
 mod neighbours;
+mod of_quadratures;
+mod quadratures;
 mod samples;
 mod wave;
+mod zeros;
 
 pub use claims::CLAIMS;
 pub use first::{FirstVariation, Form};
 pub use linear::{Conjugate, Reach};
 pub use neighbours::Neighbours;
+pub use quadratures::Quadratures;
 
 use crate::motion_evidence::MotionEvidence;
 use chetaev_mechanics::Context;

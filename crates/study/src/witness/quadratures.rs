@@ -1,0 +1,373 @@
+//! A separated complete integral against the computed motion: `∂S/∂α = β` stays constant.
+//!
+//! The constants α are taken from the state where the stretch begins. Then `∂S/∂α_j = ∂action/∂α_j + Σ_e ∫ ∂g_e/∂α_j dq_e` is formed by
+//! Gauss's quadrature over each coordinate between its values at the rows; nothing but positions and times enters. A momentum
+//! that is the negative root is taken with its sign; a stretch ends before any of them vanishes, since ∂g/∂α has poles there.
+
+use super::algebra::solved;
+use super::evidence;
+use super::samples::Samples;
+use chetaev_mechanics::equations::unused_name;
+use chetaev_mechanics::system::CompleteIntegral;
+use chetaev_mechanics::Context;
+use chetaev_principles::hamilton_jacobi::{momenta_on_motions, separated, verified, Extremum};
+use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
+
+/// More coordinates are too many.
+pub(super) const COORDINATES: usize = 8;
+/// Fewer rows show nothing.
+const FEWEST: usize = 8;
+/// At most so many rows are taken.
+const MOST: usize = 160;
+/// A momentum below this part of its largest value is near a turning point.
+const TURNING: f64 = 0.05;
+/// Steps of Gauss and Newton for the constants.
+const STEPS: usize = 60;
+/// A momentum that the constants give to within this part is met.
+const MET: f64 = 1e-9;
+/// What is added to the normal equations against directions that are free.
+const RIDGE: f64 = 1e-14;
+/// Abscissas and weights of Gauss's rule on (−1, 1), the positive half (Abramowitz and Stegun 1964, table 25.4).
+const GAUSS: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+];
+
+/// β along a stretch of the motion.
+#[derive(Clone, Debug)]
+pub struct Quadratures {
+    /// Constants with their values.
+    pub constants: Vec<(String, f64)>,
+    /// The largest `|β(t) − β(t₀)|` over the sizes of its terms.
+    pub residual: f64,
+    /// How many rows were compared.
+    pub rows: u32,
+    /// The stretch.
+    pub interval: (f64, f64),
+}
+
+/// Why quadratures are not compared with a motion.
+#[derive(Clone, Debug)]
+pub(super) enum Unmet {
+    /// There is nothing to compare: no quadratures, no rows at equal steps, no stretch without a turning point.
+    Absent(String),
+    /// The numbers were not found.
+    Failed(String),
+}
+
+/// The complete integral of a subject of `hamilton-jacobi.applicable`.
+fn integral_of(cx: &Context<'_>, subject: &str) -> Option<CompleteIntegral> {
+    match subject {
+        "stated" => cx.system.complete_integral.clone(),
+        _ => {
+            // Where the action is not stationary the equation may separate, and its curves are no motions.
+            let extremum = Extremum::new(cx)?;
+            let integral = separated(cx, &extremum)?;
+            let found = verified(cx, &extremum, &integral).ok()?;
+            matches!(found.motion, Verdict::Proved(_)).then_some(integral)
+        }
+    }
+}
+
+/// Compares the integral of a subject with the motion.
+///
+/// # Errors
+/// [`Unmet`], in words.
+pub(super) fn of(cx: &Context<'_>, subject: &str) -> Result<Quadratures, Unmet> {
+    let written =
+        integral_of(cx, subject).ok_or("there are no quadratures whose curves are motions");
+    let integral = written.map_err(|why| Unmet::Absent(why.into()))?;
+    let comparison = Comparison::new(cx, &integral).map_err(Unmet::Absent)?;
+    let stretch = comparison.stretch().map_err(Unmet::Absent)?;
+    comparison.compare(&stretch).map_err(Unmet::Failed)
+}
+
+struct Comparison<'b> {
+    g: &'b Graph,
+    integral: &'b CompleteIntegral,
+    samples: Samples,
+    /// The coordinates of the quadratures, their symbols, and the integrands.
+    own: Vec<(usize, Symbol, Expr)>,
+    parameters: Vec<(Symbol, f64)>,
+    coordinates: Vec<Symbol>,
+    time: Symbol,
+    /// Symbols for the momenta.
+    momenta: Vec<Symbol>,
+}
+
+/// A stretch of rows, with the signs of the momenta by quadrature.
+struct Stretch {
+    first: usize,
+    last: usize,
+    signs: Vec<f64>,
+}
+
+impl<'b> Comparison<'b> {
+    fn new(cx: &'b Context<'_>, integral: &'b CompleteIntegral) -> Result<Self, String> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let momenta = momenta_on_motions(cx).ok_or("κ is not known for the motions")?;
+        let positions: Vec<Expr> = system.coordinates.iter().map(|c| c.q).collect();
+        let samples = Samples::new(cx, &[&positions, &momenta])?;
+        let evidence = evidence(cx).ok_or("no motion was computed")?;
+        let own = integral.quadratures.iter();
+        Ok(Comparison {
+            g,
+            integral,
+            samples,
+            own: own
+                .map(|&(i, e)| (i, system.coordinates[i].q_symbol, e))
+                .collect(),
+            parameters: evidence.binding.parameters.clone(),
+            coordinates: system.coordinate_symbols(),
+            time: g.intern_symbol("t", 0),
+            momenta: system
+                .coordinates
+                .iter()
+                .map(|c| g.intern_symbol(&unused_name(system, &format!("momentum_{}", c.name)), 0))
+                .collect(),
+        })
+    }
+
+    fn compare(&self, stretch: &Stretch) -> Result<Quadratures, String> {
+        let constants = self.constants(stretch)?;
+        let stride = (stretch.last - stretch.first).div_ceil(MOST);
+        let rows: Vec<usize> = (stretch.first..=stretch.last).step_by(stride).collect();
+        let outside = self
+            .g
+            .gradient(self.integral.action, &self.integral.constants);
+        let integrands: Vec<Vec<Expr>> = self
+            .own
+            .iter()
+            .map(|&(_, _, e)| self.g.gradient(e, &self.integral.constants))
+            .collect();
+        let start = self.at_row(&outside, rows[0], &constants)?;
+        let count = constants.len();
+        let (mut sums, mut sizes) = (vec![0.0; count], vec![0.0_f64; count]);
+        let mut residual = 0.0_f64;
+        for pair in rows.windows(2) {
+            for (place, integrand) in integrands.iter().enumerate() {
+                let part = self.between(integrand, place, (pair[0], pair[1]), &constants)?;
+                for (j, value) in part.into_iter().enumerate() {
+                    sums[j] += stretch.signs[place] * value;
+                    sizes[j] += value.abs();
+                }
+            }
+            let now = self.at_row(&outside, pair[1], &constants)?;
+            for j in 0..count {
+                let size = sizes[j] + now[j].abs() + start[j].abs();
+                if size > 0.0 {
+                    residual = residual.max((now[j] - start[j] + sums[j]).abs() / size);
+                }
+            }
+        }
+        let names = self.integral.constants.iter();
+        let times = &self.samples.times;
+        Ok(Quadratures {
+            constants: names
+                .map(|&s| self.g.symbol_text(s))
+                .zip(constants)
+                .collect(),
+            residual,
+            rows: rows.len() as u32,
+            interval: (times[rows[0]], times[rows[rows.len() - 1]]),
+        })
+    }
+
+    /// The longest stretch on which no momentum that is found by a quadrature comes near zero.
+    fn stretch(&self) -> Result<Stretch, String> {
+        let rows = self.samples.times.len();
+        let momentum = |place: usize, row: usize| self.samples.at(1, row)[self.own[place].0];
+        let sizes: Vec<f64> = (0..self.own.len())
+            .map(|place| (0..rows).fold(0.0, |m: f64, row| m.max(momentum(place, row).abs())))
+            .collect();
+        let signs = |row: usize| -> Option<Vec<f64>> {
+            let of = |place: usize| {
+                let p = momentum(place, row);
+                (p.abs() > TURNING * sizes[place]).then_some(p.signum())
+            };
+            (0..self.own.len()).map(of).collect()
+        };
+        let mut best: Option<Stretch> = None;
+        let mut open: Option<Stretch> = None;
+        for row in 0..rows {
+            let here = signs(row);
+            open = match (open.take(), here) {
+                (Some(stretch), Some(signs)) if stretch.signs == signs => Some(Stretch {
+                    last: row,
+                    ..stretch
+                }),
+                (_, Some(signs)) => Some(Stretch {
+                    first: row,
+                    last: row,
+                    signs,
+                }),
+                (_, None) => None,
+            };
+            if let Some(found) = &open {
+                let length = |s: &Stretch| s.last - s.first;
+                if best.as_ref().is_none_or(|b| length(found) > length(b)) {
+                    best = Some(Stretch {
+                        signs: found.signs.clone(),
+                        ..*found
+                    });
+                }
+            }
+        }
+        match best {
+            Some(stretch) if stretch.last - stretch.first >= FEWEST => Ok(stretch),
+            _ => Err("some momentum of a quadrature vanishes at most rows of the motion".into()),
+        }
+    }
+
+    fn value<'c>(
+        &'c self,
+        row: usize,
+        constants: &'c [f64],
+        moved: &'c [(Symbol, f64)],
+    ) -> impl Fn(Symbol) -> Option<f64> + 'c {
+        move |s: Symbol| {
+            let place = |list: &[Symbol]| list.iter().position(|&own| own == s);
+            if let Some((_, x)) = moved.iter().find(|(own, _)| *own == s) {
+                return Some(*x);
+            }
+            if s == self.time {
+                return Some(self.samples.times[row]);
+            }
+            let position = place(&self.coordinates).map(|i| self.samples.at(0, row)[i]);
+            let constant = || place(&self.integral.constants).map(|j| constants[j]);
+            let known = self.parameters.iter().find(|(own, _)| *own == s);
+            position.or_else(constant).or(known.map(|(_, x)| *x))
+        }
+    }
+
+    fn at_row(&self, es: &[Expr], row: usize, constants: &[f64]) -> Result<Vec<f64>, String> {
+        self.finite(es, &self.value(row, constants, &[]))
+    }
+
+    fn finite(
+        &self,
+        es: &[Expr],
+        value: &dyn Fn(Symbol) -> Option<f64>,
+    ) -> Result<Vec<f64>, String> {
+        let values = self.g.evaluate_f64(es, value);
+        let values = values.map_err(|problem| problem.to_string())?;
+        match values.iter().all(|x| x.is_finite()) {
+            true => Ok(values),
+            false => Err("a quadrature has no value along the motion".into()),
+        }
+    }
+
+    /// `∫ ∂g/∂α dq` over one coordinate from its value at a row to that at another.
+    fn between(
+        &self,
+        integrand: &[Expr],
+        place: usize,
+        (from, to): (usize, usize),
+        constants: &[f64],
+    ) -> Result<Vec<f64>, String> {
+        let (i, symbol, _) = self.own[place];
+        let (a, b) = (self.samples.at(0, from)[i], self.samples.at(0, to)[i]);
+        let (middle, half) = ((a + b) / 2.0, (b - a) / 2.0);
+        let mut sums = vec![0.0; integrand.len()];
+        for (x, weight) in GAUSS.iter().flat_map(|&(x, w)| [(x, w), (-x, w)]) {
+            let at = [(symbol, middle + half * x)];
+            let values = self.finite(integrand, &self.value(from, constants, &at))?;
+            for (sum, value) in sums.iter_mut().zip(values) {
+                *sum += half * weight * value;
+            }
+        }
+        Ok(sums)
+    }
+
+    /// The constants that give the momenta at the first row: `g_e² = (π_e − ∂action/∂q_e)²`, and `∂action/∂q = π` for the others, by
+    /// steps of Gauss and Newton. Those that motions fix stay at their values.
+    fn constants(&self, stretch: &Stretch) -> Result<Vec<f64>, String> {
+        let (g, row) = (self.g, stretch.first);
+        let slopes = g.gradient(self.integral.action, &self.coordinates);
+        let momenta = self.samples.at(1, row);
+        let residuals: Vec<Expr> = (0..self.coordinates.len())
+            .map(|i| {
+                let left = g.sub(g.symbol_expr(self.momenta[i]), slopes[i]);
+                let own = self.own.iter().find(|(own, _, _)| *own == i);
+                own.map_or(left, |&(_, _, e)| {
+                    g.sub(g.mul(&[e, e]), g.mul(&[left, left]))
+                })
+            })
+            .collect();
+        let fixed: Vec<(Expr, Expr)> = self
+            .integral
+            .motion
+            .iter()
+            .map(|&(s, value)| (g.symbol_expr(s), value))
+            .collect();
+        let residuals = g.substitute_all(&residuals, &fixed);
+        let is_fixed = |s: &Symbol| self.integral.motion.iter().any(|(own, _)| own == s);
+        let all = self.integral.constants.iter().enumerate();
+        let free: Vec<(usize, Symbol)> = all
+            .filter(|(_, s)| !is_fixed(s))
+            .map(|(j, &s)| (j, s))
+            .collect();
+        let symbols: Vec<Symbol> = free.iter().map(|&(_, s)| s).collect();
+        let slopes = g.jacobian(&residuals, &symbols).concat();
+        let known: Vec<(Symbol, f64)> = self
+            .momenta
+            .iter()
+            .copied()
+            .zip(momenta.iter().copied())
+            .collect();
+        let size = momenta.iter().fold(1e-300_f64, |m, p| m.max(p.abs()));
+        let found = [0.0, 1.0, 10.0, 100.0].into_iter().find_map(|guess| {
+            let start = vec![guess; self.integral.constants.len()];
+            self.met((&residuals, &slopes), &free, start, (row, &known), size)
+        });
+        let mut constants = found.ok_or("the constants of the motion were not found")?;
+        for &(s, value) in &self.integral.motion {
+            let at = self.at_row(&[value], row, &constants)?[0];
+            if let Some(j) = self.integral.constants.iter().position(|&own| own == s) {
+                constants[j] = at;
+            }
+        }
+        Ok(constants)
+    }
+
+    /// Steps of Gauss and Newton from a guess.
+    fn met(
+        &self,
+        (residuals, slopes): (&[Expr], &[Expr]),
+        free: &[(usize, Symbol)],
+        mut constants: Vec<f64>,
+        (row, known): (usize, &[(Symbol, f64)]),
+        size: f64,
+    ) -> Option<Vec<f64>> {
+        let k = free.len();
+        for _ in 0..STEPS {
+            let (left, rows) = {
+                let value = self.value(row, &constants, known);
+                let left = self.finite(residuals, &value).ok()?;
+                (left, self.finite(slopes, &value).ok()?)
+            };
+            if left.iter().all(|x| x.abs() <= MET * size.max(size * size)) {
+                return Some(constants);
+            }
+            let mut normal = vec![0.0; k * k];
+            let mut right = vec![0.0; k];
+            for (row, x) in rows.chunks(k).zip(&left) {
+                for i in 0..k {
+                    right[i] -= row[i] * x;
+                    for j in 0..k {
+                        normal[i * k + j] += row[i] * row[j];
+                    }
+                }
+            }
+            let trace: f64 = (0..k).map(|i| normal[i * k + i]).sum();
+            (0..k).for_each(|i| normal[i * k + i] += RIDGE * trace);
+            let step = solved(k, &normal, &right)?;
+            free.iter()
+                .zip(step)
+                .for_each(|(&(j, _), step)| constants[j] += step);
+        }
+        None
+    }
+}
