@@ -39,10 +39,17 @@ pub(super) fn identities(subject: &Subject<'_>) -> Option<Trial> {
         expected: Expected::Proved,
         verdict: match framed {
             Some(_) => on_jets.and(there),
+            // A frame that is none, as its claim says, gives no contact forms.
+            None if is_irregular(subject) => on_jets.and(there),
             None => Verdict::undecided("the contact forms of the frame are dependent"),
         },
         seconds: start.elapsed().as_secs_f64(),
     })
+}
+
+fn is_irregular(subject: &Subject<'_>) -> bool {
+    let finding = subject.cx.finding("model.frame-regular");
+    matches!(finding.verdict, Verdict::Refuted(_))
 }
 
 /// Functions of the state: what the system is made of, and products of its variables.

@@ -46,11 +46,17 @@ impl Claim for MetricPositive {
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         let (system, g) = (cx.system, &cx.system.graph);
-        let stated = stated_apart(system).map(|(kinetic, _)| kinetic);
-        if stated.is_some_and(|e| positive_in_linear_forms(system, e).is_some()) {
+        if let Some(kinetic) = stated_apart(system).map(|(kinetic, _)| kinetic) {
+            let valued = g.substitute(kinetic, &system.parameter_values());
             let detail = "the kinetic energy is a quadratic form that is nowhere negative by its leading minors";
-            let on = located("wherever both sides are defined", ON, system);
-            return Verdict::Proved(Proof::structural(on, detail)).into();
+            let found = [(kinetic, ""), (valued, "for the values of the parameters ")];
+            for (form, values) in found {
+                if positive_in_linear_forms(system, form).is_some() {
+                    let on = located("wherever both sides are defined", ON, system);
+                    let proof = Proof::structural(on, format!("{values}{detail}"));
+                    return Verdict::Proved(proof).into();
+                }
+            }
         }
         let metric = metric(cx);
         let prover = Prover {

@@ -174,6 +174,14 @@ fn jacobis_metric_has_a_sign() {
     let above = plane("(x'^2 - y'^2)/2 - x^2", "y' = x'/2");
     expect(&above, claim, "proved");
     expect(&above, jacobi, "proved");
+    // Without assumptions the values of the parameters decide.
+    let valued = |mass: &str| {
+        Case::new(&format!(
+            "coordinates = [\"x\"]\nparameters = {{ m = {mass} }}\nlagrangian = {{ T = \"m x'^2/2\", V = \"x\" }}\n"
+        ))
+    };
+    expect(&valued("2"), claim, "proved");
+    expect(&valued("{}"), claim, "conditional");
     // ½ (1 - x²) x'².
     let both = plane("(x'^2 - y'^2)/2", "y' = x x'");
     expect(&both, claim, "conditional");
