@@ -62,10 +62,28 @@ impl Claim for WitnessOfQuadratures {
         }
         match quadratures::of(cx, subject) {
             Ok(found) => of(&found).into(),
-            Err(Unmet::Absent(why)) => Verdict::not_applicable(full, why).into(),
+            Err(Unmet::NoIntegral) => {
+                Verdict::undecided("the equation separates, but no quadratures were written").into()
+            }
+            Err(Unmet::NoMotion) => no_motion(cx),
             Err(Unmet::Failed(why)) => Verdict::undecided(why).into(),
         }
     }
+}
+
+/// Curves of quadratures that are not proved to be motions: where the method does not integrate every motion, none of them.
+fn no_motion(cx: &Context<'_>) -> Finding {
+    let method = full_id(APPLICABLE, None);
+    match cx.finding(&method).verdict {
+        Verdict::Proved(_) => {
+            Verdict::undecided("the curves of the quadratures were not proved to be motions")
+        }
+        _ => Verdict::not_applicable(
+            method,
+            "the curves that the quadratures give are no motions",
+        ),
+    }
+    .into()
 }
 
 fn of(found: &quadratures::Quadratures) -> Verdict {

@@ -51,23 +51,27 @@ pub struct Quadratures {
 /// Why quadratures are not compared with a motion.
 #[derive(Clone, Debug)]
 pub(super) enum Unmet {
-    /// There is nothing to compare: no quadratures, no rows at equal steps, no stretch without a turning point.
-    Absent(String),
-    /// The numbers were not found.
+    /// There are no quadratures.
+    NoIntegral,
+    /// The curves of the quadratures are no motions.
+    NoMotion,
+    /// The numbers were not found: no rows at equal steps, no stretch without a turning point, no value.
     Failed(String),
 }
 
 /// The complete integral of a subject of `hamilton-jacobi.applicable`.
-fn integral_of(cx: &Context<'_>, subject: &str) -> Option<CompleteIntegral> {
-    match subject {
-        "stated" => cx.system.complete_integral.clone(),
-        _ => {
-            // Where the action is not stationary the equation may separate, and its curves are no motions.
-            let extremum = Extremum::new(cx)?;
-            let integral = separated(cx, &extremum)?;
-            let found = verified(cx, &extremum, &integral).ok()?;
-            matches!(found.motion, Verdict::Proved(_)).then_some(integral)
-        }
+fn integral_of(cx: &Context<'_>, subject: &str) -> Result<CompleteIntegral, Unmet> {
+    if subject == "stated" {
+        return cx.system.complete_integral.clone().ok_or(Unmet::NoIntegral);
+    }
+    let extremum = Extremum::new(cx).ok_or(Unmet::NoIntegral)?;
+    let integral = separated(cx, &extremum).ok_or(Unmet::NoIntegral)?;
+    // Where the action is not stationary the equation may separate, and its curves are no motions.
+    let found = verified(cx, &extremum, &integral);
+    match found.map(|found| found.motion) {
+        Ok(Verdict::Proved(_)) => Ok(integral),
+        Ok(_) => Err(Unmet::NoMotion),
+        Err(_) => Err(Unmet::NoIntegral),
     }
 }
 
@@ -76,11 +80,9 @@ fn integral_of(cx: &Context<'_>, subject: &str) -> Option<CompleteIntegral> {
 /// # Errors
 /// [`Unmet`], in words.
 pub(super) fn of(cx: &Context<'_>, subject: &str) -> Result<Quadratures, Unmet> {
-    let written =
-        integral_of(cx, subject).ok_or("there are no quadratures whose curves are motions");
-    let integral = written.map_err(|why| Unmet::Absent(why.into()))?;
-    let comparison = Comparison::new(cx, &integral).map_err(Unmet::Absent)?;
-    let stretch = comparison.stretch().map_err(Unmet::Absent)?;
+    let integral = integral_of(cx, subject)?;
+    let comparison = Comparison::new(cx, &integral).map_err(Unmet::Failed)?;
+    let stretch = comparison.stretch().map_err(Unmet::Failed)?;
     comparison.compare(&stretch).map_err(Unmet::Failed)
 }
 
