@@ -104,6 +104,21 @@ pub fn run(arguments: &[&str]) -> Finished {
     run_in(&places::root(), arguments)
 }
 
+/// Runs the program in the root of the repository to success.
+///
+/// # Panics
+/// When its exit status is not zero.
+pub fn ok(arguments: &[&str]) -> Finished {
+    let finished = run(arguments);
+    assert_eq!(
+        finished.status,
+        Some(0),
+        "{arguments:?}: {}",
+        finished.both()
+    );
+    finished
+}
+
 /// Waits for a started process and reads its streams.
 ///
 /// # Panics

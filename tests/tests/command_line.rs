@@ -2,7 +2,7 @@
 #![allow(clippy::expect_used, reason = "test code fails where it stands")]
 
 use chetaev_tests::places::{gallery, root, scratch};
-use chetaev_tests::program::{command, finish, run, run_in, text, Finished};
+use chetaev_tests::program::{command, finish, ok, run, run_in, text};
 use serde_json::Value;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -21,17 +21,6 @@ const COMMANDS: &[&str] = &[
     "completions",
 ];
 const SKATE: &str = "gallery/skate-incline/model.toml";
-
-fn ok(arguments: &[&str]) -> Finished {
-    let finished = run(arguments);
-    assert_eq!(
-        finished.status,
-        Some(0),
-        "{arguments:?}: {}",
-        finished.both()
-    );
-    finished
-}
 
 /// A model below a scratch folder.
 fn model(folder: &Path, name: &str, content: &str) -> PathBuf {

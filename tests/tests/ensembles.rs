@@ -9,7 +9,7 @@ use chetaev::study::sweep::vary::{rows, Variation};
 use chetaev::study::sweep::{Sweep, SweepOptions};
 use chetaev::study::{study, ClaimSelection, Hooks, StudyOptions};
 use chetaev_tests::places::{root, scratch};
-use chetaev_tests::program::{command, run, text, Finished};
+use chetaev_tests::program::{command, ok, run, text};
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::ops::ControlFlow;
@@ -494,17 +494,6 @@ fn archive(path: &Path) -> BTreeMap<String, (Vec<u64>, Vec<f64>)> {
         columns.insert(name, (shape, values));
     }
     columns
-}
-
-fn ok(arguments: &[&str]) -> Finished {
-    let finished = run(arguments);
-    assert_eq!(
-        finished.status,
-        Some(0),
-        "{arguments:?}: {}",
-        finished.both()
-    );
-    finished
 }
 
 #[test]

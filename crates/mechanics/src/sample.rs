@@ -35,8 +35,8 @@ impl Generator {
 pub type Point = BTreeMap<Symbol, f64>;
 
 /// Draws a regular state that satisfies the first-order constraints to rounding, within simple bounds of the assumptions;
-/// `None` when two hundred draws fail, and as many with more patience. Later draws reach further in the velocities, as some
-/// constraints need. A state at which the gradient of a constraint vanishes, as that of x'^2 + y'^2 = 0 does wherever it
+/// `None` when two hundred draws fail, and as many with more patience. Later draws reach further in the velocities and less
+/// far in the positions, as some constraints need. A state at which the gradient of a constraint vanishes, as that of x'^2 + y'^2 = 0 does wherever it
 /// holds, or one of its roots, which then has no slope, is not regular.
 pub fn admissible_point(system: &System, terms: &MotionTerms, seed: u64) -> Option<Point> {
     [STEPS, PATIENT_STEPS]
@@ -52,29 +52,25 @@ const PATIENT_STEPS: usize = 400;
 
 fn drawn(system: &System, terms: &MotionTerms, seed: u64, steps: usize) -> Option<Point> {
     let mut generator = Generator::new(seed);
-    let mut usual = vec![0.0_f64; terms.constraints.len()];
     let roots = radicands(&system.graph, &terms.constraints);
     (0..200).find_map(|attempt| {
-        let mut point = free_point(system, terms, &mut generator)?;
-        if attempt >= 10 {
-            let reach = f64::from(1 << (attempt % 5));
-            for c in &terms.jets {
-                point.entry(c.v_symbol).and_modify(|v| *v *= reach);
-            }
+        let (place, reach) = match attempt {
+            0..10 => (1.0, 1.0),
+            _ => (0.5_f64.powi(attempt / 5 % 4), 2.0_f64.powi(attempt % 5)),
+        };
+        let mut point = free_point(system, terms, place, &mut generator)?;
+        for c in &terms.jets {
+            point.entry(c.v_symbol).and_modify(|v| *v *= reach);
         }
         let before = gradient_norms(system, terms, &point)?;
-        for (usual, norm) in usual.iter_mut().zip(&before) {
-            if norm.is_finite() {
-                *usual = norm.max(*usual);
-            }
-        }
         let sizes = values(system, &roots, &point)?;
         if !project_velocities(system, terms, &mut point, steps) {
             return None;
         }
         let after = gradient_norms(system, terms, &point)?;
         let left = values(system, &roots, &point)?;
-        let is_regular = usual.iter().zip(&after).all(|(u, a)| *a > 1e-4 * u);
+        // The gradient at the same position: from place to place its size may vary by any factor.
+        let is_regular = before.iter().zip(&after).all(|(b, a)| *a > 1e-4 * b);
         let has_slopes = sizes
             .iter()
             .zip(&left)
@@ -89,7 +85,7 @@ fn values(system: &System, es: &[Expr], point: &Point) -> Option<Vec<f64>> {
 }
 
 /// The bases of powers with exponents that are no whole numbers.
-pub(crate) fn radicands(g: &Graph, es: &[Expr]) -> Vec<Expr> {
+pub fn radicands(g: &Graph, es: &[Expr]) -> Vec<Expr> {
     let mut found = Vec::new();
     for e in g.reachable(es) {
         if let Node::Power { base, exponent } = g.node(e) {
@@ -110,7 +106,13 @@ fn gradient_norms(system: &System, terms: &MotionTerms, point: &Point) -> Option
     Some(values.chunks(system.n().max(1)).map(norm).collect())
 }
 
-fn free_point(system: &System, terms: &MotionTerms, generator: &mut Generator) -> Option<Point> {
+/// A state whose positions lie within `place` of the half-width of their bounds.
+fn free_point(
+    system: &System,
+    terms: &MotionTerms,
+    place: f64,
+    generator: &mut Generator,
+) -> Option<Point> {
     let g = &system.graph;
     let mut point = Point::new();
     let known: BTreeMap<Symbol, f64> = system
@@ -158,7 +160,13 @@ fn free_point(system: &System, terms: &MotionTerms, generator: &mut Generator) -
                         (-1.3, 1.3)
                     },
                 );
-                generator.between(low, high)
+                let value = generator.between(low, high);
+                let is_position = system.coordinates.iter().any(|c| c.q_symbol == symbol);
+                let middle = 0.5 * (low + high);
+                match is_position && place < 1.0 {
+                    true => middle + place * (value - middle),
+                    false => value,
+                }
             }
         };
         point.insert(symbol, value);

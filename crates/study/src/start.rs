@@ -3,7 +3,7 @@
 use crate::options::StudyOptions;
 use crate::study::StudyError;
 use chetaev_integrate::Direction;
-use chetaev_mechanics::system::Relation;
+use chetaev_mechanics::system::{Assumption, Relation};
 use chetaev_mechanics::{Basis, MotionTerms, Prepared, System};
 use chetaev_model::model::{EventStated, Model, Output, StateKind as ModelState, Zero};
 use chetaev_motion::initial::jets::{jet_start, JetData};
@@ -12,7 +12,7 @@ use chetaev_motion::{
     consistent_state, Binding, ConsistentState, EventWatched, InitialData, NumericSystem,
     RunSettings, StateKind,
 };
-use chetaev_symbolic::{rational, Expr, Graph};
+use chetaev_symbolic::{rational, Expr, Graph, Symbol};
 
 /// Everything numeric that is known before the run.
 pub(crate) struct Start {
@@ -101,37 +101,51 @@ fn open_names(system: &System) -> String {
 fn check_assumptions(system: &System, start: &ConsistentState) -> Result<(), StudyError> {
     let g = &system.graph;
     let parameters = system.parameter_values();
+    let value = |s| of_start(system, s, start);
     for assumption in &system.assumptions {
         let sides = g.substitute_all(&[assumption.left, assumption.right], &parameters);
-        if g.symbols_in(&sides).is_empty() {
-            continue; // compared by the model
-        }
-        let value = |s| {
-            let (name, order) = (g.symbol_name(s), g.symbol_order(s));
-            match (system.coordinate_index(name), order) {
-                (Some(i), 0) => Some(start.q[i]),
-                (Some(i), 1) => Some(start.v[i]),
-                (None, 0) if name == "t" => Some(start.t),
-                (None, 0) => {
-                    let masses = system.masses.iter().zip(&start.q[system.n()..]);
-                    let mut own = masses.filter(|(m, _)| m.name == name);
-                    own.next().map(|(_, &value)| value)
-                }
-                _ => None,
-            }
-        };
-        let Ok(sides) = g.evaluate_f64(&sides, &value) else {
-            continue;
-        };
-        if !holds(assumption.relation, sides[1] - sides[0]) {
-            return Err(StudyError::Assumption {
-                text: assumption.text.clone(),
-                left: sides[0],
-                right: sides[1],
-            });
+        // What is free of the state has been compared by the model.
+        if !g.symbols_in(&sides).is_empty() {
+            check_assumption(g, assumption, &sides, &value)?;
         }
     }
     Ok(())
+}
+
+/// The assumption with these sides holds at the values given; sides that cannot be evaluated are not compared.
+pub(crate) fn check_assumption(
+    g: &Graph,
+    assumption: &Assumption,
+    sides: &[Expr],
+    value: &dyn Fn(Symbol) -> Option<f64>,
+) -> Result<(), StudyError> {
+    match g.evaluate_f64(sides, value) {
+        Ok(sides) if !holds(assumption.relation, sides[1] - sides[0]) => {
+            Err(StudyError::Assumption {
+                text: assumption.text.clone(),
+                left: sides[0],
+                right: sides[1],
+            })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The value of a symbol of a state.
+pub(crate) fn of_start(system: &System, symbol: Symbol, start: &ConsistentState) -> Option<f64> {
+    let g = &system.graph;
+    let (name, order) = (g.symbol_name(symbol), g.symbol_order(symbol));
+    match (system.coordinate_index(name), order) {
+        (Some(i), 0) => Some(start.q[i]),
+        (Some(i), 1) => Some(start.v[i]),
+        (None, 0) if name == "t" => Some(start.t),
+        (None, 0) => {
+            let masses = system.masses.iter().zip(&start.q[system.n()..]);
+            let mut own = masses.filter(|(m, _)| m.name == name);
+            own.next().map(|(_, &value)| value)
+        }
+        _ => None,
+    }
 }
 
 /// Whether right − left satisfies the relation, up to rounding for relations that are not strict.

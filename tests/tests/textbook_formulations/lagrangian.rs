@@ -149,10 +149,10 @@ fn appell_and_hamel_in_several_forms() {
         model: "appell-hamel",
         formulation: "gauss",
         group: OBJECTS,
-        names: &["Zmotion"],
+        names: &["Z_motion"],
         equations: &[(
-            "Zmotion = m g^2/(2 (1 + rho^2))",
-            Value("Zmotion - m g^2/(2 (1 + rho^2))"),
+            "Z_motion = m g^2/(2 (1 + rho^2))",
+            Value("Z_motion - m g^2/(2 (1 + rho^2))"),
         )],
     }
     .check();
@@ -254,15 +254,15 @@ fn gauss_principle_of_the_particle() {
         model: "particle-y-dx",
         formulation: "gauss",
         group: OBJECTS,
-        names: &["Z", "Zmotion"],
+        names: &["Z", "Z_motion"],
         equations: &[
             (
                 "Z = 1/2 m (x''^2 + y''^2 + z''^2)",
                 Value("Z - m (x''^2 + y''^2 + z''^2)/2"),
             ),
             (
-                "Zmotion = m x'^2 y'^2/(2 (y^2 + 1))",
-                Value("Zmotion - m (x' y')^2/(2 (1 + y^2))"),
+                "Z_motion = m x'^2 y'^2/(2 (y^2 + 1))",
+                Value("Z_motion - m (x' y')^2/(2 (1 + y^2))"),
             ),
         ],
     }

@@ -5,6 +5,7 @@ use crate::generate::change;
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::formulations::{Basis, Formulation, Routh};
 use chetaev_mechanics::particles;
+use chetaev_mechanics::sample::radicands;
 use chetaev_mechanics::system::{Particle, Thrust};
 use chetaev_mechanics::{
     Characteristics, Context, Prepared, Registry, System, SystemParts, FORMULATIONS,
@@ -60,14 +61,15 @@ pub(super) fn same_verdicts(subject: &Subject<'_>) -> Option<Trial> {
 }
 
 /// The claims that are compared.
-fn compared(n: usize) -> Vec<String> {
+fn compared(system: &System) -> Vec<String> {
     let mut claims = vec![
         "model.accelerations-unique",
         "model.hessian-regular",
         "model.constraints-linear",
         "model.constraints-homogeneous",
     ];
-    if n <= INTEGRABLE_UP_TO {
+    let stated: Vec<Expr> = system.constraints.iter().map(|c| c.f).collect();
+    if system.n() <= INTEGRABLE_UP_TO || radicands(&system.graph, &stated).is_empty() {
         claims.push("model.constraints-integrable");
     }
     let of_coordinates = ["model.chaplygin", "model.cartesian-coordinates"];
@@ -208,7 +210,7 @@ impl Change {
         let registry = Registry::new(super::CLAIMS);
         let (terms, selection) = (&prepared.terms, &prepared.selection);
         let cx = Context::new(&new, terms, selection, &registry, subject.cx.prover.clone());
-        for id in compared(new.n()) {
+        for id in compared(&new) {
             let (before, after) = (subject.cx.finding(&id), cx.finding(&id));
             let words = (before.verdict.word(), after.verdict.word());
             if words.0 != words.1 {

@@ -169,7 +169,7 @@ fn explicit(basis: &Basis<'_>) -> Result<Equations, DeriveError> {
         NamedExpr::new(format!("alpha_{}", c.name), value, meaning)
     }));
     objects.push(NamedExpr::new(
-        "Zmotion",
+        "Z_motion",
         response.value,
         "value of Z on the motion",
     ));

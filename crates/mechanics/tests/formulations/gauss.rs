@@ -58,7 +58,7 @@ fn the_particle_of_the_notes() {
     assert!(case.equal(case.object(&equations, "alpha_x"), case.read("0")));
     let z = case.object(&equations, "Z");
     assert!(case.equal(z, case.read("(x''^2 + y''^2 + z''^2)/2")));
-    let least = case.object(&equations, "Zmotion");
+    let least = case.object(&equations, "Z_motion");
     let expected = case.read("(x' y')^2/(2 (1 + y^2))");
     assert!(case.equal_on_constraints(least, expected));
     // It is Z at the accelerations of the motion.

@@ -3,10 +3,9 @@
 use super::recipe::{Numbers, Recipe};
 use super::vary::Target;
 use super::{times, Sweep};
-use crate::start::holds;
+use crate::start::{check_assumption, of_start};
 use crate::study::StudyError;
 use chetaev_ensemble::{Member, Members};
-use chetaev_mechanics::System;
 use chetaev_motion::ConsistentState;
 use chetaev_symbolic::Symbol;
 
@@ -161,35 +160,10 @@ impl ModelMembers<'_> {
                 .or_else(|| of_start(system, symbol, start))
         };
         for assumption in &system.assumptions {
-            let Ok(sides) = g.evaluate_f64(&[assumption.left, assumption.right], &value) else {
-                continue;
-            };
-            if !holds(assumption.relation, sides[1] - sides[0]) {
-                let problem = StudyError::Assumption {
-                    text: assumption.text.clone(),
-                    left: sides[0],
-                    right: sides[1],
-                };
-                return Err(problem.to_string());
-            }
+            let sides = [assumption.left, assumption.right];
+            check_assumption(g, assumption, &sides, &value)
+                .map_err(|problem| problem.to_string())?;
         }
         Ok(())
-    }
-}
-
-/// The value of a symbol of a state.
-pub(crate) fn of_start(system: &System, symbol: Symbol, start: &ConsistentState) -> Option<f64> {
-    let g = &system.graph;
-    let (name, order) = (g.symbol_name(symbol), g.symbol_order(symbol));
-    match (system.coordinate_index(name), order) {
-        (Some(i), 0) => Some(start.q[i]),
-        (Some(i), 1) => Some(start.v[i]),
-        (None, 0) if name == "t" => Some(start.t),
-        (None, 0) => {
-            let masses = system.masses.iter().zip(&start.q[system.n()..]);
-            let mut own = masses.filter(|(m, _)| m.name == name);
-            own.next().map(|(_, &value)| value)
-        }
-        _ => None,
     }
 }

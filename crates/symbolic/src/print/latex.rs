@@ -419,6 +419,7 @@ fn piece(piece: &Piece) -> String {
                 Accent::Star => format!("{{{letter}^{{*}}}}"),
             }
         }
+        Piece::Derivative(letter) => format!("D{}", self::piece(letter)),
         Piece::Greek(name, _) => match name.as_str() {
             "phi" => "\\varphi".to_string(),
             "epsilon" => "\\varepsilon".to_string(),

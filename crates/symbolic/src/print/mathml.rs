@@ -358,6 +358,7 @@ fn piece(piece: &Piece) -> String {
         Piece::Greek(_, sign) => format!("<mi>{sign}</mi>"),
         Piece::Word(word) => format!("<mi>{}</mi>", escaped(word)),
         Piece::Digits(digits) => format!("<mn>{digits}</mn>"),
+        Piece::Derivative(letter) => row(&format!("<mi>D</mi>{}", self::piece(letter))),
         Piece::Accented(letter, accent) => {
             let letter = self::piece(letter);
             match accent {

@@ -16,6 +16,8 @@ pub(crate) enum Piece {
     Digits(String),
     /// A letter with a sign above or beside it: `Ltilde`, `Lbar`, `Lstar`.
     Accented(Box<Piece>, Accent),
+    /// The total derivative of an accented letter: `DLstar`.
+    Derivative(Box<Piece>),
 }
 
 /// A sign that belongs to a letter.
@@ -53,7 +55,11 @@ pub(crate) struct TypesetName {
 impl TypesetName {
     /// Whether something stands where an exponent would: an upper index or a star.
     pub(crate) fn is_raised(&self) -> bool {
-        !self.superscripts.is_empty() || matches!(self.head, Piece::Accented(_, Accent::Star))
+        let letter = match &self.head {
+            Piece::Derivative(letter) => letter,
+            head => head,
+        };
+        !self.superscripts.is_empty() || matches!(letter, Piece::Accented(_, Accent::Star))
     }
 }
 
@@ -112,6 +118,9 @@ fn piece(text: &str) -> Piece {
     }
     if let Some(accented) = accented(text) {
         return accented;
+    }
+    if let Some(accented) = text.strip_prefix('D').and_then(accented) {
+        return Piece::Derivative(Box::new(accented));
     }
     let mut letters = text.chars();
     match (letters.next(), letters.next()) {
@@ -229,8 +238,12 @@ mod tests {
         );
         let theta_sign = theta;
         let tilde = Piece::Accented(Box::new(Piece::Letter('T')), Accent::Tilde);
-        assert_eq!(typeset("Ttilde_x").head, tilde);
-        for word in ["star", "tilde", "bar", "mustard", "crossbar"] {
+        assert_eq!(typeset("Ttilde_x").head, tilde.clone());
+        assert_eq!(
+            typeset("DTtilde_x").head,
+            Piece::Derivative(Box::new(tilde))
+        );
+        for word in ["star", "tilde", "bar", "mustard", "crossbar", "Dstar"] {
             assert_eq!(typeset(word).head, Piece::Word(word.into()));
         }
         let component = typeset(&with_indices("Gamma", &["w_1"], &["x", "theta2"]));

@@ -120,13 +120,6 @@ pub fn decide_zero(graph: &Graph, test: &ZeroTest<'_>) -> Verdict {
         let detail = "the difference cancels in canonical form, by exact rational arithmetic";
         return Verdict::Proved(Proof::exact(place(test, &[]), detail));
     }
-    let straight = straightened(
-        graph,
-        test.residuals,
-        test.implicit,
-        test.solved,
-        test.assumptions,
-    );
     let case = Case {
         graph,
         test,
@@ -134,7 +127,6 @@ pub fn decide_zero(graph: &Graph, test: &ZeroTest<'_>) -> Verdict {
         implicit: &implicit,
         assumptions: &assumptions,
         solved: &solved,
-        straight: straight.as_deref(),
     };
     case.decide()
 }
@@ -148,17 +140,36 @@ struct Case<'a> {
     implicit: &'a [(Expr, Symbol)],
     assumptions: &'a Assumptions,
     solved: &'a [(Symbol, Expr)],
-    /// The residuals as functions of free data on the constraints, where these can be solved jointly.
-    straight: Option<&'a [Expr]>,
 }
 
 impl Case<'_> {
     fn decide(self) -> Verdict {
-        let Some(straight) = self.straight else {
-            return self.decide_as_stated();
-        };
+        // One constraint is easily solved for its symbol; several are, jointly, where they can be.
+        let several = self.test.implicit.len() > 1;
+        if let Some(proved) = several.then(|| self.decide_straight()).flatten() {
+            return proved;
+        }
+        let stated = self.decide_as_stated();
+        match stated {
+            Verdict::Undecided { .. } | Verdict::Numerical(_) if !several => {
+                self.decide_straight().unwrap_or(stated)
+            }
+            _ => stated,
+        }
+    }
+
+    /// Proves the residuals zero as functions of free data on the constraints.
+    fn decide_straight(self) -> Option<Verdict> {
+        let test = self.test;
+        let straight = straightened(
+            self.graph,
+            test.residuals,
+            test.implicit,
+            test.solved,
+            test.assumptions,
+        )?;
         let question = Question {
-            outputs: straight,
+            outputs: &straight,
             constraints: &[],
             assumptions: self.assumptions,
         };
@@ -168,9 +179,10 @@ impl Case<'_> {
         let plan = plan_of(&self.test.options, 1, straight.len());
         match modular::decide(&program, &plan) {
             Outcome::Found(finding) if finding.maximum == 0 => {
-                self.conclude(&program, Outcome::Found(finding))
+                let verdict = self.conclude(&program, Outcome::Found(finding));
+                matches!(verdict, Verdict::Proved(_)).then_some(verdict)
             }
-            _ => self.decide_as_stated(),
+            _ => None,
         }
     }
 

@@ -10,6 +10,7 @@
 //! * [`points`]: values at random points of prime fields, for linear algebra over functions.
 //! * [`enclose`]: evaluation in balls, also for its own sake.
 
+mod approach;
 pub mod assumptions;
 mod branches;
 mod decide;

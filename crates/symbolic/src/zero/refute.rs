@@ -1,10 +1,12 @@
 //! Verified counterexamples (theory 6.4): rational independent data, dependent data enclosed with existence and uniqueness,
 //! and a residual whose enclosure excludes zero.
 
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 
 use rustc_hash::FxHashMap;
 
+use super::approach::Approach;
 use super::assumptions::{as_pi_number, Assumptions};
 use super::enclose::EncloseError;
 use super::newton::System;
@@ -82,6 +84,8 @@ const SMALL: [(i64, i64); 20] = [
     (-1, 3),
     (7, 2),
 ];
+/// Data that were led to constraints are rounded to multiples of 1/this.
+const ROUNDED_TO: f64 = 1024.0;
 /// What one point on constraints may mix: factors of numerators and of denominators of those numbers.
 const MIXED: [(i64, i64); 5] = [(1, 1), (4, 1), (16, 1), (1, 16), (1, 128)];
 
@@ -99,7 +103,12 @@ pub(super) fn search(graph: &Graph, claim: &Claim<'_>, seed: u64) -> Search {
         if vanishing >= points {
             break;
         }
-        match hunt.attempt(attempt) {
+        // Where guesses alone bring nothing, every other point is led to the constraints.
+        let led = !claim.constraints.is_empty()
+            && vanishing == 0
+            && attempt >= points
+            && attempt % 2 == 1;
+        match hunt.attempt(attempt, led) {
             Attempt::Found(counterexample) => return Search::Found(counterexample),
             Attempt::Vanishes(bound) => {
                 vanishing += 1;
@@ -158,6 +167,8 @@ struct Hunt<'a> {
     claim: &'a Claim<'a>,
     independent: Vec<Symbol>,
     system: System<'a>,
+    /// Made where it is needed.
+    approach: OnceCell<Option<Approach<'a>>>,
     random: Random,
     /// Nodes evaluated at each point.
     nodes: usize,
@@ -185,19 +196,23 @@ impl<'a> Hunt<'a> {
             claim,
             independent,
             system: System::new(graph, claim.constraints),
+            approach: OnceCell::new(),
             random: Random::stream(seed, 0xc0de),
             nodes: graph.reachable(claim.residuals).len(),
         }
     }
 
-    fn attempt(&mut self, attempt: u32) -> Attempt {
-        let data = self.data(attempt);
-        let start: Vec<f64> = self
+    fn attempt(&mut self, attempt: u32, led: bool) -> Attempt {
+        let mut data = self.data(attempt);
+        let mut start: Vec<f64> = self
             .claim
             .constraints
             .iter()
             .map(|_| self.random.between(-40, 40) as f64 / 8.0 + 0.1)
             .collect();
+        if led && !self.lead(&mut data, &mut start) {
+            return Attempt::Unusable;
+        }
         let mut bits = FIRST_PRECISION;
         let mut bound = None;
         for _ in 0..MOST_PRECISIONS {
@@ -242,6 +257,35 @@ impl<'a> Hunt<'a> {
             bits = wanted;
         }
         bound.map_or(Attempt::Unusable, Attempt::Vanishes)
+    }
+
+    /// Moves independent data and the start of the dependent ones to the constraints; what is moved is rounded.
+    fn lead(&self, data: &mut [(Symbol, Rational)], start: &mut [f64]) -> bool {
+        let dependent = || self.claim.constraints.iter().map(|(_, symbol)| *symbol);
+        let exact = data.iter().map(|(s, value)| (*s, rational::to_f64(value)));
+        let mut point: FxHashMap<Symbol, f64> = exact
+            .chain(dependent().zip(start.iter().copied()))
+            .collect();
+        let before = point.clone();
+        let approach = (self.approach)
+            .get_or_init(|| Approach::new(self.graph, self.claim.constraints))
+            .as_ref();
+        if !approach.is_some_and(|approach| approach.lead(&mut point)) {
+            return false;
+        }
+        for (symbol, value) in data {
+            if point[symbol] != before[symbol] {
+                let numerator = (point[symbol] * ROUNDED_TO).round();
+                if numerator.abs() > 1e15 {
+                    return false;
+                }
+                *value = ratio(numerator as i64, ROUNDED_TO as i64);
+            }
+        }
+        for (start, symbol) in start.iter_mut().zip(dependent()) {
+            *start = point[&symbol];
+        }
+        true
     }
 
     fn data(&mut self, attempt: u32) -> Vec<(Symbol, Rational)> {

@@ -22,7 +22,7 @@ pub(super) fn straightened(
     solved: &[(Symbol, Expr)],
     assumptions: &Assumptions,
 ) -> Option<Vec<Expr>> {
-    if implicit.len() < 2 {
+    if implicit.is_empty() {
         return None;
     }
     let mut all = residuals.to_vec();
