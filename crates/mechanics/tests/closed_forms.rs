@@ -172,3 +172,30 @@ fn quasi_velocities_give_the_skate_in_blade_form() {
     assert!((values[0] - 3.0 * 0.7f64.cos()).abs() < 1e-12);
     assert!(values[1].abs() < 1e-12);
 }
+
+/// The factor of the root varies by nine orders of magnitude from place to place, and with it the gradient.
+#[test]
+fn states_are_found_where_gradients_are_of_usual_size_nowhere() {
+    let g = Arc::new(Graph::new());
+    let j = Jet(&g);
+    let lagrangian = j.half_squares(g.one(), &["x'", "y'", "z'"]);
+    let steep = g.powi(g.mul(&[g.integer(8), j.s("x")]), 10);
+    let squares = ["x'", "y'"].map(|name| g.powi(j.s(name), 2));
+    let root = g.sqrt(g.add(&[squares[0], squares[1], g.one()]));
+    let factor = g.add(&[g.one(), steep]);
+    let f = g.sub(j.s("z'"), g.mul(&[factor, root]));
+    let system = System::new(
+        g.clone(),
+        parts(&["x", "y", "z"], lagrangian, &[("steep", f)]),
+    )
+    .unwrap();
+    let terms = MotionTerms::new(&system);
+    let size = g.mul(&[factor, root]);
+    for seed in 0..10 {
+        let point = admissible_point(&system, &terms, seed).unwrap();
+        let values = g
+            .evaluate_f64(&[f, size], &|s| point.get(&s).copied())
+            .unwrap();
+        assert!(values[0].abs() <= 1e-10 * values[1], "{values:?}");
+    }
+}

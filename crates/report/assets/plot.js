@@ -280,6 +280,11 @@ class Plot {
         const line = draw("line", { class: "switch", x1: x, x2: x, y1: top, y2: height - bottom }, this.levels);
         draw("title", {}, line, fill(words.switchAt, readable(time)));
       }
+      for (const { time, detail } of data.trajectory.events) {
+        const x = this.toX(time);
+        const line = draw("line", { class: "event", x1: x, x2: x, y1: top, y2: height - bottom }, this.levels);
+        draw("title", {}, line, `${detail} (${readable(time)})`);
+      }
     }
     if (this.isPortrait && this.curves[0].x.length) {
       const { x, y } = this.curves[0];

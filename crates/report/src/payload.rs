@@ -11,6 +11,8 @@ use crate::words::{fill, look_up, Words};
 
 /// A drawing with more curves than these cannot be read.
 const CURVES: usize = 16;
+/// Moments marked in each drawing.
+const MARKS: usize = 256;
 /// Samples of one curve, or frames of the animation.
 const SAMPLES: usize = 1_500;
 /// Numbers in all curves, and as many in the animation: about a megabyte each.
@@ -41,6 +43,14 @@ struct Motion<'a> {
     series: Vec<Curve<'a>>,
     #[serde(serialize_with = "crate::number::rounded::fine")]
     switches: Vec<f64>,
+    events: Vec<Dated<'a>>,
+}
+
+/// A moment with what happened then.
+#[derive(Serialize)]
+struct Dated<'a> {
+    time: f64,
+    detail: &'a str,
 }
 
 /// The moving picture with the frames that are shown.
@@ -266,7 +276,15 @@ fn drawn_motion<'a>(trajectory: &'a Trajectory, plots: &mut [Plot<'a>]) -> Motio
             .chart_switches
             .iter()
             .map(|switch| switch.time)
-            .take(CURVES * 16)
+            .take(MARKS)
+            .collect(),
+        events: (trajectory.events.iter())
+            .filter(|event| event.time.is_finite())
+            .map(|event| Dated {
+                time: event.time,
+                detail: &event.detail,
+            })
+            .take(MARKS)
             .collect(),
     }
 }

@@ -6,6 +6,8 @@
 
 pub mod beside;
 pub mod derivation;
+pub mod error;
+mod expectations;
 pub mod method_order;
 pub mod motion_claims;
 pub mod motion_evidence;
@@ -25,7 +27,8 @@ pub mod typeset;
 pub mod verify;
 pub mod witness;
 
+pub use error::{StudyError, UnknownClaim};
 pub use options::{ClaimSelection, Hooks, StudyOptions};
 pub use placed::{diagnostics, placed};
 pub use registry::registry;
-pub use study::{check, study, Decided, Motion, Outcome, Study, StudyError, UnknownClaim};
+pub use study::{check, study, Decided, Motion, Outcome, Study};

@@ -1,6 +1,6 @@
 //! Problems of the mechanics shown where the model states what they name.
 
-use crate::study::StudyError;
+use crate::error::StudyError;
 use chetaev_model::model::Model;
 use chetaev_model::{Diagnostic, Place};
 

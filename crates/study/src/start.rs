@@ -1,7 +1,7 @@
 //! What is known before a run: numbers, consistent initial data, settings.
 
+use crate::error::StudyError;
 use crate::options::StudyOptions;
-use crate::study::StudyError;
 use chetaev_integrate::Direction;
 use chetaev_mechanics::system::{Assumption, Relation};
 use chetaev_mechanics::{Basis, MotionTerms, Prepared, System};

@@ -1,34 +1,30 @@
 //! One model through its claims and its motion.
 
 use crate::beside::{self, Beside};
-use crate::derivation::{check_applies, NotDerived};
+use crate::derivation::check_applies;
+use crate::error::StudyError;
+use crate::expectations::{check_expectations, expected, outcome, unmatched};
 use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
 use crate::notices::{events_not_followed, left_assumptions, negative_masses, notices};
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
 use crate::start::{
-    add_jets, asks_for_motion, check_rank, number, settings, sharpest, start_of_motion, Start,
+    add_jets, asks_for_motion, check_rank, settings, sharpest, start_of_motion, Start,
 };
 use crate::witness::{self, Witness};
 use chetaev_geometry::noether::found::found;
 use chetaev_integrate::Progress;
-use chetaev_mechanics::characteristics::{CharacteristicsError, Selection};
+use chetaev_mechanics::characteristics::Selection;
 use chetaev_mechanics::claims::formulation::REFERENCE;
-use chetaev_mechanics::claims::{full_id, Registry};
+use chetaev_mechanics::claims::full_id;
 use chetaev_mechanics::formulations::{Maggi, Routh};
 use chetaev_mechanics::{
     formulation, Claim, Context, Finding, Formulation, Group, Prepared, Prover, System,
-    SystemError, FORMULATIONS,
+    FORMULATIONS,
 };
 use chetaev_model::model::Model;
-use chetaev_model::Place;
-use chetaev_motion::initial::jets::JetError;
 use chetaev_motion::run::equal_times;
-use chetaev_motion::{
-    Binding, ConsistentState, InitialError, NumericError, Run, RunError, RunSettings, Subject,
-    Watcher,
-};
-use chetaev_symbolic::syntax::names;
+use chetaev_motion::{Binding, ConsistentState, Run, RunError, RunSettings, Subject, Watcher};
 use chetaev_symbolic::{Expr, Verdict};
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
@@ -138,170 +134,6 @@ impl Outcome {
             Outcome::Stopped => 3,
         }
     }
-}
-
-/// The input is wrong; exit status 2.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StudyError {
-    /// No system.
-    #[error(transparent)]
-    System(#[from] SystemError),
-    /// No characteristics.
-    #[error(transparent)]
-    Characteristics(#[from] CharacteristicsError),
-    /// Numbers are missing.
-    #[error(transparent)]
-    Numeric(#[from] NumericError),
-    /// The initial state cannot be used.
-    #[error(transparent)]
-    Initial(#[from] InitialError),
-    /// The run cannot begin.
-    #[error(transparent)]
-    Run(#[from] RunError),
-    /// An initial value is not a number.
-    #[error("the initial value of `{name}` is not a finite number")]
-    InitialValue {
-        /// Name with primes.
-        name: String,
-    },
-    /// A formulation that cannot be integrated.
-    #[error("there is no formulation `{name}` to integrate; choose one of {known}")]
-    UnknownFormulation {
-        /// As given.
-        name: String,
-        /// Names.
-        known: String,
-    },
-    /// A formulation whose requirements this system does not meet.
-    #[error("the equations cannot be integrated in this form: {0}")]
-    NotDerived(#[from] NotDerived),
-    /// A motion is asked for, but something has no value.
-    #[error("no value for {names}: the model states initial data or a time span, so a motion is wanted; give a value in the model or with --set NAME=VALUE, or leave [initial] and [simulation] out to derive only")]
-    MissingValues {
-        /// Names in quotes.
-        names: String,
-    },
-    /// The constraints have less than their rank at the start.
-    #[error("the constraints {names} are rank-deficient at the initial state: their rank is {rank} there and {generic} at almost all admissible states, so the reactions and the motion are not determined; start elsewhere")]
-    RankDeficient {
-        /// Names in quotes.
-        names: String,
-        /// Rank at the start.
-        rank: usize,
-        /// Rank elsewhere.
-        generic: usize,
-    },
-    /// The start contradicts an assumption.
-    #[error("the initial state contradicts the assumption `{text}`: the left side is {left}, the right side {right}; what is proved under it would say nothing of this motion")]
-    Assumption {
-        /// As written.
-        text: String,
-        /// Left side.
-        left: f64,
-        /// Right side.
-        right: f64,
-    },
-    /// Constraints of order two and more that leave the motion open everywhere.
-    #[error("constraints and equations of motion do not determine the motion at any state: {detail} (claim order.determined)")]
-    Undetermined {
-        /// What is singular, and how that was found.
-        detail: String,
-    },
-    /// Formulas of the model that violate its constraints.
-    #[error("{detail}; correct [characteristics] (claim order.characteristics)")]
-    WrongCharacteristics {
-        /// What is violated.
-        detail: String,
-    },
-    /// A tolerance out of range.
-    #[error("the tolerance {tolerance:e} is out of range: it must lie between {sharpest:e} (double precision) and 0.1; method `taylor` goes down to 2.3e-16")]
-    Tolerance {
-        /// As given.
-        tolerance: f64,
-        /// The sharpest one of the method.
-        sharpest: f64,
-    },
-    /// A fixed step that is not positive.
-    #[error("the fixed step must be a positive number")]
-    Step,
-    /// A method without error estimate and no step.
-    #[error("`{method}` has no error estimate: give it a fixed step, `step = 0.01` in [simulation] or --step 0.01")]
-    StepMissing {
-        /// The method.
-        method: String,
-    },
-    /// Too many rows.
-    #[error(
-        "`output` asks for {rows:.0} rows; at most {most:.0} are written, choose a larger step"
-    )]
-    TooManyRows {
-        /// Asked for.
-        rows: f64,
-        /// Allowed.
-        most: f64,
-    },
-    /// An output time outside the run.
-    #[error("the output time {t} lies outside the run from {t_start} to {t_end}")]
-    OutputTime {
-        /// As given.
-        t: f64,
-        /// Start of the run.
-        t_start: f64,
-        /// End of the run.
-        t_end: f64,
-    },
-    /// Output times that do not follow each other.
-    #[error("the output times must follow each other in the direction of the run")]
-    OutputOrder,
-    /// An output step that is not positive.
-    #[error("the output step must be a positive number")]
-    OutputStep,
-    /// Expectations about claims that do not exist, all of them.
-    #[error("{}; `chetaev explain` lists all claims", sentences(claims))]
-    UnknownClaims {
-        /// In the order of the file.
-        claims: Vec<UnknownClaim>,
-    },
-    /// There is nothing to integrate.
-    #[error("{why}")]
-    NoMotion {
-        /// Why, in a sentence.
-        why: String,
-    },
-    /// Initial data beyond coordinates and velocities.
-    #[error(transparent)]
-    Jets(#[from] JetError),
-    /// Initial data of a kind the first-order theory has no use for.
-    #[error("the initial value of `{name}` is not used: a first-order system is determined by coordinates and velocities")]
-    UnusedInitialValue {
-        /// Name with primes.
-        name: String,
-    },
-}
-
-/// An expectation about a claim that does not exist.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "[expect] names the claim `{claim}`, which does not exist{}",
-    suggestion(near)
-)]
-pub struct UnknownClaim {
-    /// As written.
-    pub claim: String,
-    /// The nearest one.
-    pub near: Option<&'static str>,
-    /// Where it is written.
-    pub place: Place,
-}
-
-fn suggestion(near: &Option<&'static str>) -> String {
-    near.map_or(String::new(), |near| format!("; did you mean `{near}`?"))
-}
-
-fn sentences(claims: &[UnknownClaim]) -> String {
-    let each: Vec<String> = claims.iter().map(UnknownClaim::to_string).collect();
-    each.join("; ")
 }
 
 /// Everything that [`study`] finds wrong before it begins: expectations, constraints that contradict each other, values
@@ -594,26 +426,6 @@ fn last_time(run: &Run, t_end: f64) -> f64 {
     }
 }
 
-/// Every claim of which the model expects something exists.
-fn check_expectations(model: &Model, known: &Registry) -> Result<(), StudyError> {
-    let ids = || known.claims().iter().map(|c| c.id());
-    let claims: Vec<UnknownClaim> = model
-        .expect
-        .verdicts
-        .iter()
-        .filter(|e| ids().all(|id| id != e.claim))
-        .map(|e| UnknownClaim {
-            near: names::closest(&e.claim, ids()),
-            claim: e.claim.clone(),
-            place: e.place,
-        })
-        .collect();
-    match claims.is_empty() {
-        true => Ok(()),
-        false => Err(StudyError::UnknownClaims { claims }),
-    }
-}
-
 /// Coordinates and velocities determine a system of first order; other initial data are refused, not passed over.
 fn check_initial_data(model: &Model, system: &System) -> Result<(), StudyError> {
     if system.constraints.iter().any(|c| c.order > 1) {
@@ -732,82 +544,4 @@ fn decide(
     verdicts.sort_by_key(place);
     let found = cx.known::<FoundIntegrals>();
     (verdicts, found, witness::computed(&cx))
-}
-
-fn expected(model: &Model, claim: &str, subject: Option<&str>) -> Vec<String> {
-    let stated = |of: Option<&str>| -> Vec<String> {
-        let verdicts = model.expect.verdicts.iter();
-        verdicts
-            .filter(|e| e.claim == claim && e.subject.as_deref() == of)
-            .flat_map(|e| e.verdicts.iter().cloned())
-            .collect()
-    };
-    // What is said of one subject goes before what is said of all.
-    let own = subject.map_or(Vec::new(), |s| stated(Some(s)));
-    if own.is_empty() {
-        stated(None)
-    } else {
-        own
-    }
-}
-
-fn outcome(model: &Model, verdicts: &[Decided], motion: Option<&Motion>) -> Outcome {
-    if let Some(motion) = motion {
-        let ending = &motion.evidence.run.ending;
-        if !ending.finished && !stop_is_expected(model, motion) {
-            return Outcome::Stopped;
-        }
-        let awaited = model.expect.stop.is_some() && ending.finished;
-        if awaited {
-            return Outcome::Unmet;
-        }
-    }
-    if verdicts.iter().all(Decided::is_as_expected) {
-        Outcome::Done
-    } else {
-        Outcome::Unmet
-    }
-}
-
-/// Expectations about a subject that the claim does not have for this system: they can never be met.
-fn unmatched(model: &Model, verdicts: &[Decided], options: &StudyOptions) -> Vec<String> {
-    let known = registry();
-    let expected = model.expect.verdicts.iter().filter_map(|expected| {
-        let full = full_id(&expected.claim, Some(expected.subject.as_deref()?));
-        let claim = known.find(&expected.claim)?;
-        let of_claim: Vec<&Decided> = verdicts
-            .iter()
-            .filter(|d| d.claim == expected.claim)
-            .collect();
-        let is_decided = of_claim.iter().any(|d| d.subject == expected.subject);
-        if is_decided || of_claim.is_empty() || !options.claims.wants(claim, &full) {
-            return None;
-        }
-        let subjects: Vec<&str> = of_claim
-            .iter()
-            .filter_map(|d| d.subject.as_deref())
-            .collect();
-        Some(format!(
-            "[expect] names `{full}`, which this system does not have; of this claim it has: {}",
-            subjects.join(", ")
-        ))
-    });
-    expected.collect()
-}
-
-/// Whether the model declares the stop that happened.
-pub fn stop_is_expected(model: &Model, motion: &Motion) -> bool {
-    let ending = &motion.evidence.run.ending;
-    let Some(stop) = &model.expect.stop else {
-        return false;
-    };
-    if ending.finished || ending.interrupted {
-        return false;
-    }
-    let values: Vec<(Expr, Expr)> = model.parameter_values();
-    let near = match stop.at.and_then(|t| number(&model.graph, t, &values)) {
-        Some(at) => (ending.t - at).abs() <= 1e-2 * (1.0 + at.abs()),
-        None => true,
-    };
-    near && ending.reason.contains(&stop.reason)
 }

@@ -4,9 +4,10 @@ mod notices;
 mod texts;
 mod trajectory;
 
+use crate::error::StudyError;
 use crate::options::{ClaimSelection, Hooks, StudyOptions};
 use crate::record::{self, Record, VerdictRecord};
-use crate::study::{study, StudyError};
+use crate::study::study;
 use chetaev_model::model::{Model, ModelText};
 
 /// What the replay says of one verdict.

@@ -132,6 +132,10 @@ fn plots_answer_the_mouse() {
     assert_eq!(page.text(position), "");
     page.mouse("mouseMoved", plot, [0.5, 0.5], 0);
     assert!(page.text(position).starts_with("t = "));
+    // The event of the run stands in every drawing over the time, with its sentence.
+    let event = "document.querySelector('[data-plot=\"0\"] line.event title').textContent";
+    assert!(page.text(event).starts_with("event `across`"));
+
     // Half of a run of 12 s: the middle of the plot, but for the margin of the axis.
     let hovered = page.number("timePlots[0].hovered");
     assert!((5.0..7.0).contains(&hovered), "{hovered}");

@@ -2,8 +2,9 @@
 
 use super::claims::word;
 use super::{fact, unit};
+use crate::expectations::stop_is_expected;
 use crate::record::zero_word;
-use crate::study::{stop_is_expected, Motion, Study};
+use crate::study::{Motion, Study};
 use crate::table::Table;
 use crate::typeset::letters;
 use chetaev_integrate::Note;

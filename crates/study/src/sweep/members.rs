@@ -3,8 +3,8 @@
 use super::recipe::{Numbers, Recipe};
 use super::vary::Target;
 use super::{times, Sweep};
+use crate::error::StudyError;
 use crate::start::{check_assumption, of_start};
-use crate::study::StudyError;
 use chetaev_ensemble::{Member, Members};
 use chetaev_motion::ConsistentState;
 use chetaev_symbolic::Symbol;

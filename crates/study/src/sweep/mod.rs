@@ -10,10 +10,11 @@ pub mod vary;
 mod whole;
 
 use crate::derivation::check_applies;
+use crate::error::StudyError;
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
 use crate::start::{initial_data, settings};
-use crate::study::{kept, prepare, StudyError};
+use crate::study::{kept, prepare};
 use chetaev_ensemble::columns::Names;
 use chetaev_ensemble::outcome::Shape;
 use chetaev_ensemble::{Columns, Routh, Work};

@@ -1,8 +1,8 @@
 //! Trajectories whose equations depend on their start: each is a motion by itself, derived once and compiled each time.
 
 use super::{times, with_values, Sweep};
+use crate::error::StudyError;
 use crate::start::{add_jets, check_rank, settings, start_of_motion};
-use crate::study::StudyError;
 use chetaev_ensemble::{Outcome, Work, Worker};
 use chetaev_mechanics::System;
 use chetaev_motion::{ConsistentState, Run, RunSettings, Subject, Watcher};

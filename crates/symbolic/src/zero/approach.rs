@@ -9,9 +9,9 @@ use crate::graph::Graph;
 use crate::node::{Expr, Symbol};
 
 /// Steps before a start is given up.
-const STEPS: usize = 200;
+const STEPS: usize = 60;
 /// So often a step that does not help is halved.
-const HALVINGS: i32 = 12;
+const HALVINGS: i32 = 8;
 /// What the constraints may be left at; the rest is for Newton's iteration in the dependent data.
 const CLOSE: f64 = 1e-6;
 /// Nodes of constraints for which this is done.
@@ -54,22 +54,43 @@ impl<'g> Approach<'g> {
             if self.distance(&values) < CLOSE {
                 return true;
             }
-            let (f, gradients) = values.split_at(self.count);
-            let step = least_solution(gradients, f, self.symbols.len());
-            let better = (0..HALVINGS).find_map(|halving| {
-                let mut next = point.clone();
-                for (symbol, change) in self.symbols.iter().zip(&step) {
-                    *next.get_mut(symbol)? -= change * 0.5_f64.powi(halving);
-                }
-                let found = self.values(&next)?;
-                (self.distance(&found) < self.distance(&values)).then_some((next, found))
-            });
+            // Across the ridge of a root steps go to and fro; along it they go without the symbol that leads across.
+            let kept = std::iter::once(None).chain((0..self.symbols.len()).map(Some));
+            let better = kept
+                .filter_map(|without| self.step(point, &values, without))
+                .min_by(|(_, a), (_, b)| self.distance(a).total_cmp(&self.distance(b)));
             let Some((next, found)) = better else {
                 return false;
             };
             (*point, values) = (next, found);
         }
         false
+    }
+
+    /// The point after one step, shortened until it helps, and the values there.
+    fn step(
+        &self,
+        point: &FxHashMap<Symbol, f64>,
+        values: &[f64],
+        without: Option<usize>,
+    ) -> Option<(FxHashMap<Symbol, f64>, Vec<f64>)> {
+        let (f, gradients) = values.split_at(self.count);
+        let mut gradients = gradients.to_vec();
+        for row in gradients.chunks_mut(self.symbols.len().max(1)) {
+            row.iter_mut()
+                .enumerate()
+                .filter(|(column, _)| Some(*column) == without)
+                .for_each(|(_, entry)| *entry = 0.0);
+        }
+        let step = least_solution(&gradients, f, self.symbols.len());
+        (0..HALVINGS).find_map(|halving| {
+            let mut next = point.clone();
+            for (symbol, change) in self.symbols.iter().zip(&step) {
+                *next.get_mut(symbol)? -= change * 0.5_f64.powi(halving);
+            }
+            let found = self.values(&next)?;
+            (self.distance(&found) < self.distance(values)).then_some((next, found))
+        })
     }
 
     fn values(&self, point: &FxHashMap<Symbol, f64>) -> Option<Vec<f64>> {

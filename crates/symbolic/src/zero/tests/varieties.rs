@@ -55,6 +55,26 @@ fn roots_that_are_not_triangular() {
     assert_ne!(decide_on(&g, other, &roots).word(), "proved");
 }
 
+/// One root contains all velocities; in x' + y' instead of x' the constraint is solved by hand.
+#[test]
+fn a_root_of_every_velocity() {
+    let g = Graph::new();
+    let root = [("2*x' - 3*sqrt((x' + y')^2 + 1)", "x'")];
+    let square = "4*x'^2/9 - (x' + y')^2 - 1";
+    assert_eq!(decide_on(&g, square, &root).word(), "proved");
+    // The same root with its radicand written out, beside another one that contains it.
+    let nested = "sqrt(x'^2 + 2*x'*y' + y'^2 + 1 + 2*x'/3) - sqrt(4*x'^2/9 + 2*x'/3)";
+    assert_eq!(decide_on(&g, nested, &root).word(), "proved");
+}
+
+/// Real solutions in y' lie above x' > 4000 only.
+#[test]
+fn counterexamples_far_away_are_found() {
+    let g = Graph::new();
+    let root = [("x' - 4000*sqrt(1 + y'^2)", "y'")];
+    assert_eq!(decide_on(&g, "y'^2 - x'", &root).word(), "refuted");
+}
+
 #[test]
 fn a_constraint_without_rational_points() {
     // x'² + y'² = 3 has no rational point; the counterexample has x' rational and y' enclosed.
