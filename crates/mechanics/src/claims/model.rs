@@ -528,12 +528,16 @@ impl Claim for Chaplygin {
             );
             Verdict::Proved(Proof::structural("everywhere", detail))
         } else {
-            cx.prover.named_identity(
-                cx.system,
-                &residuals,
-                &manifold(cx),
-                "on the constraint manifold",
-            )
+            let (system, manifold) = (cx.system, manifold(cx));
+            let on = "on the constraint manifold";
+            let mut verdict = cx.prover.named_identity(system, &residuals, &manifold, on);
+            if matches!(verdict, Verdict::Proved(_)) {
+                verdict.prefix(&format!(
+                    "L and the solved constraints do not depend on the dependent coordinates {}",
+                    names.join(", ")
+                ));
+            }
+            verdict
         };
         verdict.into()
     }
@@ -566,16 +570,53 @@ pub(crate) fn is_absent(system: &System, terms: &MotionTerms, rows: &[usize], d:
     chaplygin_residuals(system, terms, rows, &[d]).is_empty()
 }
 
-/// A choice of r coordinates that occur nowhere and whose velocities can be solved for at a sampled state.
+/// Whether the coordinate `d` does not act on the constraint manifold, as far as samples show: a positive factor of a
+/// constraint may contain it.
+fn seems_absent(
+    system: &System,
+    terms: &MotionTerms,
+    rows: &[usize],
+    d: usize,
+    points: &[sample::Point],
+) -> bool {
+    let residuals = chaplygin_residuals(system, terms, rows, &[d]);
+    let slopes: Vec<Expr> = residuals.into_iter().map(|(_, e)| e).collect();
+    points.iter().all(|point| {
+        let values = system
+            .graph
+            .evaluate_f64(&slopes, &|s| point.get(&s).copied());
+        values.is_ok_and(|values| values.iter().all(|x| x.abs() < 1e-9))
+    })
+}
+
+/// A choice of r coordinates that occur nowhere, or act nowhere on the constraints as far as samples show, and whose velocities
+/// can be solved for at a sampled state.
 pub(crate) fn chaplygin_choice(
     system: &System,
     terms: &MotionTerms,
     selected: &[usize],
 ) -> Option<Vec<usize>> {
-    let absent: Vec<usize> = (0..system.n())
-        .filter(|&d| is_absent(system, terms, selected, d))
-        .collect();
+    let all = 0..system.n();
+    let absent = all
+        .clone()
+        .filter(|&d| is_absent(system, terms, selected, d));
     let point = sample::admissible_point(system, terms, 5)?;
+    solvable(system, terms, selected, absent.collect(), &point).or_else(|| {
+        let more = (6..9).filter_map(|seed| sample::admissible_point(system, terms, seed));
+        let points: Vec<sample::Point> = more.chain([point.clone()]).collect();
+        let absent = all.filter(|&d| seems_absent(system, terms, selected, d, &points));
+        solvable(system, terms, selected, absent.collect(), &point)
+    })
+}
+
+/// As many of the coordinates as there are constraints, whose velocities can be solved for at the state.
+fn solvable(
+    system: &System,
+    terms: &MotionTerms,
+    selected: &[usize],
+    absent: Vec<usize>,
+    point: &sample::Point,
+) -> Option<Vec<usize>> {
     let mut rows: Vec<Vec<f64>> = Vec::new();
     for &row in selected {
         let entries: Vec<Expr> = absent.iter().map(|&d| terms.jacobian[row][d]).collect();

@@ -35,6 +35,24 @@ velocities = { independent = ["z'", "y'"] }
     expect(&case, CLAIM, "proved");
 }
 
+/// A factor that vanishes nowhere may contain the dependent coordinate: solved, z' = y x' is free of it.
+#[test]
+fn a_factor_of_the_constraint_is_no_dependence() {
+    let text = r#"
+coordinates = ["x", "y", "z"]
+lagrangian = { L = "1/2 (x'^2 + y'^2 + z'^2) - x^2" }
+constraints = { c = "(4 + z^2) (z' - y x') = 0" }
+"#;
+    let case = Case::new(text);
+    let (word, detail) = case.verdict("model.chaplygin");
+    assert_eq!(word, "proved", "{detail}");
+    assert!(detail.contains("dependent coordinates z"), "{detail}");
+    expect(&case, CLAIM, "proved");
+    // x acts by the potential, z by no factor: no choice fits where z acts too.
+    let text = text.replace("- x^2", "- x^2 - z");
+    expect(&Case::new(&text), "model.chaplygin", "refuted");
+}
+
 /// z and x occur in L, and y in the constraint.
 #[test]
 fn it_says_why_it_does_not_apply() {
