@@ -16,7 +16,7 @@ pub(crate) const DRAWS: usize = 12;
 
 /// A draw that has points: where a root of parameters alone must be rational, as √(1 + a²) on Appell's cone, half of all draws
 /// have none.
-pub(crate) fn draw_with_points(points: &Points, random: &mut Random) -> Option<Draw> {
+pub fn draw_with_points(points: &Points, random: &mut Random) -> Option<Draw> {
     (0..DRAWS).find_map(|_| {
         let draw = points.draw(random)?;
         let mut probe = random.clone();

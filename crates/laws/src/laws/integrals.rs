@@ -6,7 +6,7 @@
 use super::{precise, Expected, Kind, Sampled, Subject, Trial};
 use chetaev_geometry::noether::family::Member;
 use chetaev_geometry::noether::found::{found, Found};
-use chetaev_geometry::noether::motion::Motion;
+use chetaev_geometry::noether::motion::{draw_with_points, Motion};
 use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::number::modular_matrix::null_space;
@@ -186,7 +186,7 @@ fn is_contained(
         let points = motion.points(&outputs)?;
         let none = "no points over a prime field";
         let mut random = Random::stream(subject.seed, 0x1a6);
-        let draw = points.draw(&mut random).ok_or(none)?;
+        let draw = draw_with_points(&points, &mut random).ok_or(none)?;
         let field = &draw.field;
         let columns = family.members.len() + 1;
         let mut matrix = Vec::new();
