@@ -135,20 +135,14 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
     ("appell-hamel/model.toml", "witness.index", "not unique"),
     ("appell-hamel/to-rest.toml", "witness.index", "not unique"),
     ("moving-knife-edge/lift.toml", "witness.index", "not unique"),
-    // Logarithms and powers of the mass beside the root of the constraint have no values in prime fields.
+    // An integral with √(1 + a²), which is no rational function of the parameters.
     (
         "rocket-on-appells-constraint/model.toml",
         "noether.family",
-        "no points of the constraint manifold",
+        "whose coefficients were not found",
     ),
     (
         "rocket-on-appells-constraint/burnt-out.toml",
-        "noether.family",
-        "no points of the constraint manifold",
-    ),
-    // Integrals whose coefficients are large in the parameters.
-    (
-        "moving-knife-edge/lift.toml",
         "noether.family",
         "whose coefficients were not found",
     ),
@@ -157,38 +151,6 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
         "whipple-bicycle/general.toml",
         "motion.method-order",
         "too short",
-    ),
-    // Nonlinear constraints.
-    (
-        "appell-hamel/model.toml",
-        "measure.invariant",
-        "densities that contain velocities are not searched",
-    ),
-    (
-        "appell-hamel/to-rest.toml",
-        "measure.invariant",
-        "densities that contain velocities are not searched",
-    ),
-    (
-        "rocket-on-appells-constraint/burnt-out.toml",
-        "measure.invariant",
-        "densities that contain velocities are not searched",
-    ),
-    (
-        "rocket-on-appells-constraint/model.toml",
-        "measure.invariant",
-        "densities that contain velocities are not searched",
-    ),
-    // The same logarithms and powers of the mass.
-    (
-        "rocket-on-appells-constraint/burnt-out.toml",
-        "liouville.integrable",
-        "no points of the constraint manifold",
-    ),
-    (
-        "rocket-on-appells-constraint/model.toml",
-        "liouville.integrable",
-        "no points of the constraint manifold",
     ),
     // The sphere v·v = c² has no velocities in closed form that hold on all of it.
     (
@@ -269,11 +231,6 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
         "liouville.integrable",
         "an invariant measure of the reduced motion is missing",
     ),
-    (
-        "sand-cart/model.toml",
-        "liouville.integrable",
-        "an invariant measure of the reduced motion is missing",
-    ),
     // Gravity moves all momenta; the search for axes and directions is over candidates.
     (
         "pendulum-particle/cartesian.toml",
@@ -295,18 +252,6 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
         "pendulum-particle/model.toml",
         "noether.moving-direction",
         "none of",
-    ),
-    // The turntable moves: extensions of the forces are searched among polynomials of the second degree.
-    (
-        "sphere-on-turntable/model.toml",
-        "noether.reduced-symmetry#1",
-        "no extension of the forces was found",
-    ),
-    // The same.
-    (
-        "sphere-on-turntable/model.toml",
-        "noether.reduced-symmetry#2",
-        "no extension of the forces was found",
     ),
     // Brackets and derivatives along eight nested chains.
     (

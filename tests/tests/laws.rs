@@ -131,8 +131,8 @@ fn every_formulation_is_refuted_with_a_slip_in_it() {
     }
 }
 
-/// A known integral is found wherever it lies in a family that was searched; all that is reported keeps its value along
-/// motions computed without the formulas of the search; another function is refuted.
+/// A known integral is found wherever it lies in a family that was searched; all that is reported keeps its value to twenty digits
+/// along motions computed without the formulas of the search; the families are stated; another function is refuted.
 #[test]
 fn known_integrals() {
     let outcomes = check_all(&[Family::Symmetric], USUAL_COUNT, &|_, _| ());
@@ -142,7 +142,7 @@ fn known_integrals() {
         let tried = outcomes.iter().filter(|o| o.tally(expected).0 == count);
         tried.count() as u64
     };
-    assert_eq!(with(Expected::Proved, 2), USUAL_COUNT);
+    assert_eq!(with(Expected::Proved, 3), USUAL_COUNT);
     assert_eq!(with(Expected::Refuted, 1), USUAL_COUNT);
     let contained = outcomes
         .iter()

@@ -101,6 +101,21 @@ const GALLERY: &[Expected] = &[
         "refuted",
         "contradicts their brackets",
     ),
+    // ρ' is constant and the direction is kept, so the divergence of the motion is that of 1/ρ across.
+    (
+        "appell-hamel",
+        "measure.invariant",
+        "proved",
+        "N = 1/sqrt(x'^2 + y'^2)",
+    ),
+    (
+        "rocket-on-appells-constraint",
+        "liouville.integrable",
+        "proved",
+        "the measure",
+    ),
+    // A linear equation for the speed with coefficients that depend on the time: its density is free of the place.
+    ("sand-cart", "liouville.integrable", "proved", "the measure"),
     // Chaplygin 1903: integrable by Euler's and Jacobi's theorem.
     (
         "chaplygin-sphere",

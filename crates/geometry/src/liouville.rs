@@ -5,7 +5,7 @@
 //! left out first (Routh's ignorable coordinates, also where their momenta are no integrals, as for rolling bodies); they
 //! follow by quadratures at the end.
 
-use crate::measure::measure;
+use crate::measure::{free_of, measure};
 use crate::noether::found::found;
 use crate::noether::motion::Motion;
 use chetaev_mechanics::characteristics::Direction;
@@ -168,11 +168,16 @@ fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
     }
     let measure = measure(cx);
     let measure = measure.as_ref().as_ref().map_err(Clone::clone)?;
-    // A density without a formula may contain what is left out.
+    // A density without a formula may contain what is left out: then another one is asked for.
     let exists = matches!(&measure.verdict, Verdict::Proved(_));
-    let usable = measure
-        .density
-        .map_or(exists && excluded.is_empty(), counts);
+    let reduced_exists = || match reduced.ignorable.is_empty() {
+        true => Ok(true),
+        false => free_of(cx, &reduced.ignorable).map(|v| matches!(v, Verdict::Proved(_))),
+    };
+    let usable = match measure.density {
+        Some(density) if counts(density) => true,
+        _ => exists && reduced_exists()?,
+    };
     let missing = m - 2 - many.min(m - 2);
     Ok(match (missing, usable) {
         (0, true) => {

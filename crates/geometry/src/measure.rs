@@ -3,7 +3,8 @@
 //! In the chart (t, q, η) of the constraint manifold the measure `N dq dη` is kept by the motion when `X̄ ln N = -div X̄`. For N(q), or
 //! N(t, q) where the motion contains the time, the left side is `Z σ`, σ = ln N, affine in η for constraints affine in the velocities;
 //! hence `div X̄ = d_0 + d_i η^i` is necessary, and then `Y_i σ = -d_i`, `Y_0 σ = -d_0`. These have a solution near almost every
-//! place exactly when the values forced on brackets agree ([`crate::flag`]). In a frame of left-invariant fields on a group
+//! place exactly when the values forced on brackets agree ([`crate::flag`]). For constraints with roots of velocities, densities that
+//! contain powers of these are searched too. In a frame of left-invariant fields on a group
 //! that is Kozlov's condition for Suslov's problem (1988), generalized by Jovanović (1998); for Chaplygin's systems it is that of
 //! Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002).
 
@@ -198,17 +199,82 @@ impl<'a> Flow<'a> {
         if !g.contains_any(det, &self.symbols()) {
             return None;
         }
+        let defect = self.full_defects(system, &[det]);
+        let (manifold, on) = (&self.chart.manifold, "on the constraint manifold");
+        let verdict = cx.prover.identity(system, &defect, manifold, on);
+        let density = without_constants(&self.motion, readable(g, det));
+        matches!(verdict, Verdict::Proved(_)).then_some((density, verdict))
+    }
+
+    /// A density of products of functions of (t, q) with powers of the roots that contain velocities, as ρ of a cone: these vanish
+    /// only where the constraints are singular. With the proof that it is kept.
+    fn with_roots(&self, cx: &Context<'_>) -> Option<(Expr, Verdict)> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let roots = self.roots(cx);
+        if roots.is_empty() {
+            return None;
+        }
+        let (manifold, own) = (&self.chart.manifold, self.symbols());
+        let seed = cx.prover.points_seed();
+        let candidates = self.candidates(cx, &[&roots[..], &self.letters(cx)].concat());
+        let columns: Vec<Vec<Expr>> = self
+            .full_defects(system, &candidates)
+            .into_iter()
+            .map(|defect| vec![defect])
+            .collect();
+        let ansatz = Ansatz::new(&self.motion, &columns, manifold, &own, seed).ok()?;
+        let found = ansatz.first()?;
+        let pairs = found.iter().zip(&candidates);
+        let parts: Vec<Expr> = pairs.map(|(&c, &n)| g.mul(&[c, n])).collect();
+        let density = without_constants(&self.motion, readable(g, g.add(&parts)));
+        // Members may depend on each other, and a combination may vanish.
+        if g.is_free_of(density, &|s| self.motion.moves(s) || own.contains(&s)) {
+            return None;
+        }
+        let defect = self.full_defects(system, &[density]);
+        let on = "on the constraint manifold";
+        let verdict = cx.prover.identity(system, &defect, manifold, on);
+        let vanishes = cx.prover.identity(system, &[density], manifold, on);
+        let is_one =
+            matches!(verdict, Verdict::Proved(_)) && matches!(vanishes, Verdict::Refuted(_));
+        is_one.then_some((density, verdict))
+    }
+
+    /// Roots with velocities in L and the constraints, as functions on N.
+    fn roots(&self, cx: &Context<'_>) -> Vec<CoefficientLetter> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let mut all = vec![system.lagrangian];
+        all.extend(system.constraints.iter().map(|c| c.f));
+        let velocities = system.velocity_symbols();
+        let is_root = |&e: &Expr| match g.node(e) {
+            Node::Power { base, exponent } => {
+                g.as_integer(*exponent).is_none() && g.contains_any(*base, &velocities)
+            }
+            _ => false,
+        };
+        let roots: Vec<Expr> = g.reachable(&all).into_iter().filter(is_root).collect();
+        let roots = self.chart.restrict(system, &roots);
+        let letters = roots.into_iter().map(|root| CoefficientLetter {
+            letter: Letter::plain(root),
+            exponents: (-3, 2),
+            weight: 1,
+        });
+        letters.collect()
+    }
+
+    /// `X̄ N + N div X̄` for functions on N.
+    fn full_defects(&self, system: &System, densities: &[Expr]) -> Vec<Expr> {
+        let g = &system.graph;
         let direction = Direction {
             time: g.one(),
             coordinates: self.chart.velocities.clone(),
             parameters: self.rates.clone(),
         };
-        let rate = self.chart.along(system, &[det], &direction);
-        let defect = g.add(&[rate[0], g.mul(&[det, self.divergence])]);
-        let (manifold, on) = (&self.chart.manifold, "on the constraint manifold");
-        let verdict = cx.prover.identity(system, &[defect], manifold, on);
-        let density = without_constants(&self.motion, readable(g, det));
-        matches!(verdict, Verdict::Proved(_)).then_some((density, verdict))
+        let rates = self.chart.along(system, densities, &direction);
+        let pairs = rates.into_iter().zip(densities);
+        pairs
+            .map(|(rate, &n)| g.add(&[rate, g.mul(&[n, self.divergence])]))
+            .collect()
     }
 
     /// The root of the determinant of the restricted mass matrix: its square is Liouville's density in these variables where the
@@ -280,7 +346,7 @@ fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
             };
         }
     }
-    if let Some((density, verdict)) = flow.liouville(cx) {
+    if let Some((density, verdict)) = flow.liouville(cx).or_else(|| flow.with_roots(cx)) {
         return Measure {
             density: Some(density),
             verdict,
@@ -289,13 +355,21 @@ fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
     }
     Measure {
         density: None,
-        verdict: by_brackets(cx, flow),
+        verdict: by_brackets(cx, flow, &[]),
         divergence: Some(flow.divergence),
     }
 }
 
-/// Whether a density exists, without its formula.
-fn by_brackets(cx: &Context<'_>, flow: &Flow<'_>) -> Verdict {
+/// Whether a density exists that does not contain some of the coordinates.
+///
+/// # Errors
+/// A sentence that says why the motion is not known.
+pub fn free_of(cx: &Context<'_>, coordinates: &[usize]) -> Result<Verdict, String> {
+    Ok(by_brackets(cx, &Flow::of(cx)?, coordinates))
+}
+
+/// Whether a density exists, without its formula; free of the coordinates with these indices.
+fn by_brackets(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Verdict {
     let (system, g) = (cx.system, &cx.system.graph);
     let (mut fields, mut drift) = match horizontal(system, &flow.chart) {
         Ok(found) => found,
@@ -333,6 +407,14 @@ fn by_brackets(cx: &Context<'_>, flow: &Flow<'_>) -> Verdict {
     if !is_steady {
         fields.push(drift);
     }
+    fields.extend(free.iter().map(|&i| {
+        let unit = (0..system.n()).map(|j| if i == j { g.one() } else { g.zero() });
+        Directed {
+            time: g.zero(),
+            place: unit.collect(),
+            value: g.zero(),
+        }
+    }));
     closed(cx, flow, &fields)
 }
 
@@ -346,7 +428,7 @@ fn not_affine(cx: &Context<'_>, flow: &Flow<'_>, why: &str) -> Verdict {
     match zero {
         Verdict::Proved(_) => zero,
         _ => Verdict::undecided(format!(
-            "{why}; no density was found among the functions of the coordinates that occur, and densities that contain velocities are not searched"
+            "{why}; no density was found among the functions of the coordinates that occur and their products with powers of the roots that contain velocities"
         )),
     }
 }

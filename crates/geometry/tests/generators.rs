@@ -228,3 +228,70 @@ fn cartan_forms() {
         );
     }
 }
+
+/// (15b) and (15c) by their terms, with the indices of `Y_jp_i` and of `S_ji` in their order or exchanged, for δ = 0.
+fn structure(n: &Embedded<'_>, field: &Generator, momenta: bool, brackets: bool) -> Vec<Expr> {
+    let (g, k) = (&n.system.graph, n.k());
+    let sum = |parts: Vec<Expr>| g.add(&parts);
+    let along = |j: usize, i: usize| match momenta {
+        true => n.momenta_along[i][j],
+        false => n.momenta_along[j][i],
+    };
+    let bracket = |j: usize, i: usize| match brackets {
+        true => n.gyro[i][j],
+        false => n.gyro[j][i],
+    };
+    let (p, speeds) = (&n.terms.momenta, n.speeds());
+    let (of_xi, of_gauge) = (n.along_fields(&field.xi), n.along_fields(&[field.gauge]));
+    let mut residuals: Vec<Expr> = (0..k)
+        .map(|i| {
+            let terms = (0..k).flat_map(|j| {
+                [
+                    g.mul(&[p[j], of_xi[i][j]]),
+                    g.mul(&[n.mass[i][j], field.zeta[j]]),
+                    g.mul(&[along(j, i), field.xi[j]]),
+                    g.neg(g.mul(&[bracket(j, i), field.xi[j]])),
+                ]
+            });
+            sum(terms.chain([g.neg(of_gauge[i][0])]).collect())
+        })
+        .collect();
+    let (of_xi, of_gauge) = (n.along_time(&field.xi), n.along_time(&[field.gauge]));
+    let terms = (0..k).flat_map(|i| {
+        let pushed = g.add(&[n.gyro_time[i], n.terms.slopes[i], n.terms.forces[i]]);
+        let changed = (0..k).flat_map(|j| {
+            [
+                g.mul(&[g.sub(n.hessian[i][j], n.turning[i][j]), field.zeta[j]]),
+                g.mul(&[along(j, i), field.xi[j]]),
+            ]
+        });
+        let changed = sum(changed.collect());
+        [
+            g.mul(&[p[i], of_xi[i]]),
+            g.mul(&[pushed, field.xi[i]]),
+            g.neg(g.mul(&[speeds[i], changed])),
+        ]
+    });
+    residuals.push(sum(terms.chain([g.neg(of_gauge[0])]).collect()));
+    residuals
+}
+
+/// T3 (15b), (15c): the placement of the indices that the print confuses. `(Y_jp_i) ξ^j` and `S_ji ξ^j` are summed over their first
+/// index; with the two exchanged the equations fail for the sled in independent velocities.
+#[test]
+fn zhao_15_the_indices_of_the_structure_equations() {
+    let sled = system("x y phi", SLED, &[("blade", "y' - x' tan(phi)")]);
+    with(&sled, |cx| {
+        let g = &sled.graph;
+        let n = natural(cx);
+        for integral in ["x'/cos(phi)", "phi' x - y'"] {
+            let generator = Generator::of(&n, expr(g, integral), g.zero()).unwrap();
+            let holds = |momenta: bool, brackets: bool| {
+                vanish(cx, &n, &structure(&n, &generator, momenta, brackets))
+            };
+            assert!(holds(false, false), "{integral}");
+            assert!(!holds(true, false), "{integral}: Y_ip_j");
+            assert!(!holds(false, true), "{integral}: S_ij");
+        }
+    });
+}

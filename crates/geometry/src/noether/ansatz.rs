@@ -4,7 +4,7 @@
 //! of the parameters. Nothing found here is believed: whoever asks proves what it is for.
 
 use super::lift::{self, Sample};
-use super::motion::{draw_with_points, Motion};
+use super::motion::{draw_with_points, redraw_with_points, Motion};
 use super::search::constants;
 use chetaev_mechanics::prover;
 use chetaev_mechanics::Manifold;
@@ -44,7 +44,7 @@ impl<'a> Ansatz<'a> {
         seed: u64,
     ) -> Result<Ansatz<'a>, String> {
         let mut outputs = columns.concat();
-        let mut parameters = constants(motion, &outputs);
+        let mut parameters = constants(motion, manifold, &outputs);
         let g = &motion.system.graph;
         parameters.retain(|&e| g.as_symbol(e).is_none_or(|s| !further.contains(&s)));
         outputs.extend(&parameters);
@@ -100,6 +100,18 @@ impl<'a> Ansatz<'a> {
         self.lifted(draw, random, leading, &rest)
     }
 
+    /// A basis of all solutions, in each of which the last coefficient that is not zero leads.
+    pub fn all(&self) -> Option<Vec<Vec<Expr>>> {
+        let all: Vec<usize> = (0..self.columns).collect();
+        let mut random = Random::stream(self.seed, 0);
+        let draw = draw_with_points(&self.points, &mut random)?;
+        let space = self.space(&draw, &mut random, &all)?;
+        let lifted = space
+            .iter()
+            .map(|(leading, rest)| self.lifted(draw.clone(), random.clone(), *leading, rest));
+        lifted.collect()
+    }
+
     fn lifted(
         &self,
         draw: Draw,
@@ -127,22 +139,53 @@ impl<'a> Ansatz<'a> {
         Some(coefficients)
     }
 
-    /// Null vectors among some columns: the leading column with the rest of each.
+    /// Null vectors among some columns: the leading column with the rest of each. Equations may say less than their number, so
+    /// points are added until what is found holds at further ones.
     fn space(&self, draw: &Draw, random: &mut Random, used: &[usize]) -> Option<Vec<NullVector>> {
-        let mut matrix = Vec::new();
-        let points = (used.len() + SURPLUS).div_ceil(self.equations.max(1)) + 2;
+        let field = &draw.field;
+        let mut points = (used.len() + SURPLUS).div_ceil(self.equations.max(1)) + 2;
+        let mut matrix = self.rows(draw, random, used, points)?;
+        loop {
+            let space = null_space(field, used.len(), matrix.clone());
+            let more = self.rows(draw, random, used, 2)?;
+            let holds = |row: &[Residue]| {
+                space.vectors.iter().all(|(free, rest)| {
+                    let sum = rest.iter().fold(row[*free], |sum, &(i, c)| {
+                        field.add(sum, field.mul(c, row[i]))
+                    });
+                    sum.is_zero()
+                })
+            };
+            // As many points as unknowns are always enough.
+            if points > used.len() + SURPLUS || more.chunks(used.len().max(1)).all(holds) {
+                let named = space.vectors.into_iter().map(|(free, rest)| {
+                    let rest = rest.into_iter().map(|(i, c)| (used[i], c)).collect();
+                    (used[free], rest)
+                });
+                return Some(named.collect());
+            }
+            matrix.extend(more);
+            matrix.extend(self.rows(draw, random, used, points)?);
+            points = 2 * points + 2;
+        }
+    }
+
+    /// The equations at so many points, restricted to some columns.
+    fn rows(
+        &self,
+        draw: &Draw,
+        random: &mut Random,
+        used: &[usize],
+        points: usize,
+    ) -> Option<Vec<Residue>> {
+        let mut rows = Vec::with_capacity(points * self.equations * used.len());
         for _ in 0..points {
             let at = (0..20).find_map(|_| self.points.at(draw, random))?;
             for equation in 0..self.equations {
-                matrix.extend(used.iter().map(|&c| at[c * self.equations + equation]));
+                rows.extend(used.iter().map(|&c| at[c * self.equations + equation]));
             }
         }
-        let space = null_space(&draw.field, used.len(), matrix);
-        let named = space.vectors.into_iter().map(|(free, rest)| {
-            let rest = rest.into_iter().map(|(i, c)| (used[i], c)).collect();
-            (used[free], rest)
-        });
-        Some(named.collect())
+        Some(rows)
     }
 
     fn parameters_at(&self, draw: &Draw, random: &mut Random) -> Option<Vec<Residue>> {
@@ -191,7 +234,7 @@ impl lift::Source for Restricted<'_> {
     fn sample(&mut self) -> Option<Sample> {
         if !self.ansatz.parameters.is_empty() {
             let (points, random) = (&self.ansatz.points, &mut self.random);
-            self.draw = points.redraw(&self.draw, random)?;
+            self.draw = redraw_with_points(points, &self.draw, random)?;
         }
         let draw = self.draw.clone();
         self.solve(&draw)

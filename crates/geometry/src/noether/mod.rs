@@ -6,6 +6,7 @@ pub mod embedded;
 pub mod family;
 pub mod found;
 pub mod generator;
+pub mod killing;
 mod lift;
 pub mod motion;
 pub mod moving;

@@ -12,15 +12,28 @@ use chetaev_symbolic::zero::points::{Draw, Points, PointsOf};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 
 /// How many draws are tried until one has points.
-const DRAWS: usize = 12;
+pub(crate) const DRAWS: usize = 12;
 
 /// A draw that has points: where a root of parameters alone must be rational, as √(1 + a²) on Appell's cone, half of all draws
 /// have none.
-pub(crate) fn draw_with_points(points: &Points, random: &mut Random) -> Option<Draw> {
+pub fn draw_with_points(points: &Points, random: &mut Random) -> Option<Draw> {
     (0..DRAWS).find_map(|_| {
         let draw = points.draw(random)?;
         let mut probe = random.clone();
         points.at(&draw, &mut probe).map(|_| draw)
+    })
+}
+
+/// Other values of what does not move, for which there are points too.
+pub(crate) fn redraw_with_points(
+    points: &Points,
+    draw: &Draw,
+    random: &mut Random,
+) -> Option<Draw> {
+    (0..DRAWS).find_map(|_| {
+        let next = points.redraw(draw, random)?;
+        let mut probe = random.clone();
+        points.at(&next, &mut probe).map(|_| next)
     })
 }
 

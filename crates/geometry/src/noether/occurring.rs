@@ -2,7 +2,7 @@
 //! coefficients.
 
 use super::family::{coefficients, monomials, product, CoefficientLetter, Family, Letter, Member};
-use super::motion::Motion;
+use super::motion::{draw_with_points, Motion};
 use chetaev_mechanics::{sample, Characteristics, Context, Frame, System};
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::matrix::determinant;
@@ -77,8 +77,7 @@ impl Letters {
         let values: Vec<Expr> = self.velocities.iter().map(|l| l.value).collect();
         let points = motion.points(&values)?;
         let mut random = Random::stream(seed, 1 << 21);
-        let at = points
-            .draw(&mut random)
+        let at = draw_with_points(&points, &mut random)
             .and_then(|draw| points.at(&draw, &mut random))
             .ok_or("no points of the constraint manifold were found over a prime field")?;
         let mut without = self.clone();

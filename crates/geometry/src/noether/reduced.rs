@@ -196,7 +196,7 @@ impl<'c, 'a> Setting<'c, 'a> {
     }
 }
 
-/// Searches the coordinates that L and the forces do not contain, and the constraints do.
+/// Searches the coordinates of [`candidates`].
 ///
 /// # Errors
 /// A sentence that says why the search could not be made.
@@ -233,7 +233,8 @@ pub fn symmetries(cx: &Context<'_>) -> Result<Vec<Symmetry>, String> {
     Ok(found)
 }
 
-/// Coordinates that L and the forces do not contain, and some constraint does.
+/// Coordinates that L and the forces do not contain, and some constraint does, so that its derivative is no constant: that would be
+/// an integral of every motion.
 pub fn candidates(cx: &Context<'_>) -> Vec<usize> {
     let (system, g) = (cx.system, &cx.system.graph);
     let is_absent = |s: Symbol| {
@@ -241,10 +242,12 @@ pub fn candidates(cx: &Context<'_>) -> Vec<usize> {
     };
     let own = cx.selection.rows.iter();
     let constraints: Vec<Expr> = own.map(|&l| cx.terms.constraints[l]).collect();
+    let moves = |s: Symbol| g.symbol_name(s) == "t" || system.moves(g.symbol_name(s));
     (0..system.n())
         .filter(|&i| {
             let s = system.coordinates[i].q_symbol;
-            is_absent(s) && g.any_contains_any(&constraints, &[s])
+            let mut slopes = constraints.iter().map(|&f| g.diff(f, s));
+            is_absent(s) && slopes.any(|slope| !g.is_free_of(slope, &moves))
         })
         .collect()
 }

@@ -11,7 +11,7 @@
 
 use super::family::{Family, Letter, Member};
 use super::lift::{self, Sample};
-use super::motion::Motion;
+use super::motion::{draw_with_points, redraw_with_points, Motion, DRAWS};
 use chetaev_mechanics::{Context, Manifold};
 use chetaev_symbolic::number::modular_matrix::{null_space, NullSpace};
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
@@ -92,7 +92,7 @@ impl<'a> Table<'a> {
         let gradients = motion.gradients(&values);
         let mut outputs = values;
         outputs.extend(rates);
-        let parameters = constants(motion, &outputs);
+        let parameters = constants(motion, &motion.manifold, &outputs);
         outputs.extend(&parameters);
         outputs.extend(gradients.concat());
         Ok(Table {
@@ -144,7 +144,7 @@ impl<'a> Table<'a> {
 
     fn draw(&self, number: usize) -> Option<(Draw, Random)> {
         let mut random = Random::stream(self.seed, number as u64);
-        let draw = self.points.draw(&mut random)?;
+        let draw = draw_with_points(&self.points, &mut random)?;
         Some((draw, random))
     }
 
@@ -158,7 +158,7 @@ impl<'a> Table<'a> {
         let size = supports.iter().map(Vec::len).max().unwrap_or(1);
         let degree = family.members.iter().map(degree).max().unwrap_or(0);
         let once = self.points.miss_log2(self.letters.len(), degree, size)
-            + (supports.len().max(1) as f64).log2();
+            + ((supports.len().max(1) * DRAWS) as f64).log2();
         let draws = (WANTED_LOG2 / once).ceil().clamp(1.0, MOST_DRAWS as f64) as usize;
         for number in 1..=draws {
             if !self
@@ -571,7 +571,7 @@ impl lift::Source for Restricted<'_> {
     fn sample(&mut self) -> Option<Sample> {
         let draw = match self.table.parameters.is_empty() {
             true => self.draw.clone(),
-            false => self.table.points.redraw(&self.draw, &mut self.random)?,
+            false => redraw_with_points(&self.table.points, &self.draw, &mut self.random)?,
         };
         let draw = match self.tie {
             Some(tie) => self.table.tied(&draw, tie)?,
@@ -599,12 +599,16 @@ impl lift::Source for Restricted<'_> {
     }
 }
 
-/// The parameters that occur, and the functions of parameters alone that are no rational functions of them.
-pub(super) fn constants(motion: &Motion<'_>, outputs: &[Expr]) -> Vec<Expr> {
+/// The parameters that occur in functions on a manifold or in what ties these, and the functions of parameters alone that are no
+/// rational functions of them.
+pub(super) fn constants(motion: &Motion<'_>, manifold: &Manifold, outputs: &[Expr]) -> Vec<Expr> {
     let g = &motion.system.graph;
     let is_constant = |e: Expr| g.is_free_of(e, &|s| motion.moves(s));
+    let mut roots = outputs.to_vec();
+    roots.extend(manifold.solved.iter().map(|(_, e)| *e));
+    roots.extend(manifold.implicit.iter().map(|(f, _)| *f));
     let mut found: Vec<Expr> = Vec::new();
-    for e in g.reachable(outputs) {
+    for e in g.reachable(&roots) {
         let is_letter = match g.node(e) {
             Node::Symbol(symbol) => !motion.moves(*symbol),
             Node::Pi => true,

@@ -52,6 +52,33 @@ pub(crate) fn system(coordinates: &str, lagrangian: &str, constraints: &[(&str, 
     System::new(graph, parts).unwrap()
 }
 
+/// The same with quasi-velocities and forces, by name.
+pub(crate) fn framed(
+    coordinates: &str,
+    lagrangian: &str,
+    constraints: &[(&str, &str)],
+    speeds: &[(&str, &str)],
+    forces: &[(&str, &str)],
+) -> System {
+    let graph = Arc::new(Graph::new());
+    let named = |list: &[(&str, &str)]| -> Vec<(String, Expr)> {
+        let pairs = list.iter();
+        pairs
+            .map(|(name, e)| (name.to_string(), expr(&graph, e)))
+            .collect()
+    };
+    let parts = SystemParts {
+        name: "test".into(),
+        coordinates: coordinates.split_whitespace().map(String::from).collect(),
+        lagrangian: Some(expr(&graph, lagrangian)),
+        constraints: named(constraints),
+        quasi_velocities: named(speeds),
+        forces: named(forces),
+        ..SystemParts::default()
+    };
+    System::new(graph, parts).unwrap()
+}
+
 /// The finding of `id#subject` with the claims of mechanics and of this crate.
 pub(crate) fn finding(system: &System, full: &str) -> Arc<Finding> {
     let prepared = Prepared::new(system).unwrap();

@@ -11,14 +11,14 @@ pub(super) struct Stated {
     pub(super) frame: Option<FrameFields>,
 }
 
-/// `n` forms of determinant one whose inverse is polynomial in what occurs.
+/// `n` forms of determinant one whose inverse is polynomial in what occurs; the first is never the rate of a coordinate.
 pub(super) fn unimodular(draw: &mut Draw<'_>) -> Vec<(String, Expr)> {
     let g = draw.g;
     let order = draw.shuffled();
     let mut forms = Vec::new();
     for (s, &i) in order.iter().enumerate() {
         let mut parts = vec![draw.v(i)];
-        if s + 1 < order.len() && draw.one_in(2) {
+        if s == 0 || s + 1 < order.len() && draw.one_in(2) {
             let j = order[s + 1 + draw.index(order.len() - s - 1)];
             let slope = draw.function(1);
             parts.push(g.mul(&[slope, draw.v(j)]));

@@ -1,5 +1,5 @@
 //! Systems with a known first integral: a symmetric system in simple coordinates, pushed through a random change of coordinates
-//! and, mostly, described in a random frame.
+//! and described in a random frame.
 
 use super::constraints::{self, Form};
 use super::draw::{Draw, Kind};
@@ -25,15 +25,11 @@ pub(super) fn system(draw: &mut Draw<'_>, masses: &[Expr]) -> SystemParts {
     };
     let simple = std::mem::replace(&mut draw.names, names);
     let pushed = pushed(draw, &simple, &plain);
-    let quasi_velocities = match draw.one_in(3) {
-        true => Vec::new(),
-        false => frames::unimodular(draw),
-    };
     SystemParts {
         lagrangian: Some(pushed.lagrangian),
         constraints: named(pushed.rows),
         integrals: vec![("known".into(), pushed.integral)],
-        quasi_velocities,
+        quasi_velocities: frames::unimodular(draw),
         ..SystemParts::default()
     }
 }

@@ -1,42 +1,26 @@
 //! What a system is known to keep is found where it lies in a family that was searched, and nothing else is reported.
 //!
-//! Every integral reported is followed along a motion computed in double precision from W, b, J, g as they are, without any of
+//! Every integral reported is followed along a motion computed with forty digits from W, b, J, g as they are, without any of
 //! the formulas that the search starts from.
 
-use super::{Expected, Kind, Sampled, Subject, Trial};
+use super::{precise, Expected, Kind, Sampled, Subject, Trial};
 use chetaev_geometry::noether::family::Member;
 use chetaev_geometry::noether::found::{found, Found};
-use chetaev_geometry::noether::motion::Motion;
-use chetaev_integrate::{integrate, try_from_fn, EvaluationFailure, Options};
+use chetaev_geometry::noether::motion::{draw_with_points, Motion};
 use chetaev_mechanics::formulations::DeriveError;
-use chetaev_mechanics::sample::Point;
+use chetaev_mechanics::Context;
 use chetaev_symbolic::number::modular_matrix::null_space;
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::{Expr, Graph, Node, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Verdict};
 use std::time::Instant;
 
 /// More points than unknowns.
 const SURPLUS: usize = 8;
 
-/// Local error of the motion computed.
-const TOLERANCE: f64 = 1e-12;
-
-/// An integral that changes by more, of its size, is none.
-const DRIFT: f64 = 1e-8;
-
-/// How long motions are followed, unless they become fast: many run away in finite time.
-const DURATION: f64 = 0.6;
-
-/// Where a coordinate or velocity has so many times the size that it may have at first, a motion is not followed further.
-const FAST: f64 = 30.0;
-
 /// How many motions are followed.
 const RUNS: usize = 2;
-
-/// At most so many steps.
-const STEPS: u64 = 400;
 
 /// Tries what concerns the integrals that a system states.
 ///
@@ -46,6 +30,7 @@ pub(crate) fn all(sampled: Sampled<'_>) -> Result<Vec<Trial>, DeriveError> {
     let subject = Subject::new(sampled)?;
     Ok(vec![
         conserved(&subject),
+        exhausted(&subject),
         stated(&subject),
         spoilt(&subject),
     ])
@@ -77,6 +62,47 @@ fn conserved(subject: &Subject<'_>) -> Trial {
         seconds: start.elapsed().as_secs_f64(),
         ..trial(law, Expected::Proved, about, verdict)
     }
+}
+
+/// The claim says in words which families were exhausted, how large each is, and what was found in each.
+fn exhausted(subject: &Subject<'_>) -> Trial {
+    let start = Instant::now();
+    let found = found(subject.cx);
+    let verdict = match found.as_ref() {
+        Ok(found) => match said(found, &sentence(subject.cx)) {
+            Ok(()) => Verdict::Proved(Proof::exact("", "")),
+            Err(missing) => Verdict::undecided(missing),
+        },
+        Err(problem) => Verdict::undecided(problem.clone()),
+    };
+    let law = "the families that were exhausted are stated";
+    Trial {
+        seconds: start.elapsed().as_secs_f64(),
+        ..trial(law, Expected::Proved, String::new(), verdict)
+    }
+}
+
+/// What `noether.family` says, where it is proved.
+fn sentence(cx: &Context<'_>) -> String {
+    let finding = cx.finding("noether.family");
+    match &finding.verdict {
+        Verdict::Proved(proof) => proof.detail.clone(),
+        other => format!("{}: {}", other.word(), other.detail()),
+    }
+}
+
+/// Whether a sentence names each family with its size and the dimension found there.
+fn said(found: &Found, sentence: &str) -> Result<(), String> {
+    for searched in &found.families {
+        let size = format!("({} functions", searched.family.members.len() - 1);
+        let dimension = format!("dimension {}", searched.dimension);
+        for part in ["exhausted", &searched.family.words, &size, &dimension] {
+            if !sentence.contains(part) {
+                return Err(format!("`{part}` is not said by: {sentence}"));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Whether X̄G = 0 for a function.
@@ -160,7 +186,7 @@ fn is_contained(
         let points = motion.points(&outputs)?;
         let none = "no points over a prime field";
         let mut random = Random::stream(subject.seed, 0x1a6);
-        let draw = points.draw(&mut random).ok_or(none)?;
+        let draw = draw_with_points(&points, &mut random).ok_or(none)?;
         let field = &draw.field;
         let columns = family.members.len() + 1;
         let mut matrix = Vec::new();
@@ -207,39 +233,12 @@ fn is_function_of(
         .map_err(|problem| format!("the rank was not found: {}", problem.detail()))
 }
 
-/// The parts of a sum, whose sizes are the scale of rounding.
-fn parts(g: &Graph, e: Expr) -> Vec<Expr> {
-    match g.node(e) {
-        Node::Sum { terms, .. } => terms.iter().map(|(part, c)| g.scale(c, *part)).collect(),
-        _ => vec![e],
-    }
-}
-
 /// Follows functions along the motions from some of the states.
 fn followed(subject: &Subject<'_>, functions: &[Expr]) -> Result<(), String> {
-    let g = &subject.cx.system.graph;
-    let split: Vec<Vec<Expr>> = functions.iter().map(|&e| parts(g, e)).collect();
     let mut runs = 0;
     for state in &subject.states {
-        if runs == RUNS {
-            break;
-        }
-        let rows = along(subject, state, &split.concat())?;
-        runs += usize::from(rows.len() > 2);
-        let mut place = 0;
-        for (&function, parts) in functions.iter().zip(&split) {
-            let own = place..place + parts.len();
-            place = own.end;
-            let values = rows.iter().map(|row| row[own.clone()].iter().sum::<f64>());
-            let (least, most) = values.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
-            let sizes = rows.iter().flat_map(|row| &row[own.clone()]);
-            let scale = sizes.fold(1.0_f64, |scale, x| scale.max(x.abs()));
-            if most - least > DRIFT * scale {
-                let text = g.text(function);
-                return Err(format!(
-                    "{text} lies between {least} and {most} along a motion"
-                ));
-            }
+        if runs < RUNS {
+            runs += usize::from(precise::followed(subject.cx, state, functions)?);
         }
     }
     match runs {
@@ -248,100 +247,48 @@ fn followed(subject: &Subject<'_>, functions: &[Expr]) -> Result<(), String> {
     }
 }
 
-/// The values of functions along the motion from a state.
-fn along(
-    subject: &Subject<'_>,
-    start: &Point,
-    functions: &[Expr],
-) -> Result<Vec<Vec<f64>>, String> {
-    let (system, terms) = (subject.cx.system, subject.cx.terms);
-    let (g, n) = (&system.graph, system.n());
-    let rows = &subject.cx.selection.rows;
-    let mut outputs = terms.mass_matrix.concat();
-    outputs.extend(&terms.force);
-    rows.iter()
-        .for_each(|&l| outputs.extend(&terms.jacobian[l]));
-    outputs.extend(rows.iter().map(|&l| terms.constraint_rate[l]));
-    let time = g.intern_symbol("t", 0);
-    let state: Vec<Symbol> = system
-        .coordinates
-        .iter()
-        .map(|c| c.q_symbol)
-        .chain(system.coordinates.iter().map(|c| c.v_symbol))
-        .collect();
-    let at = |es: &[Expr], t: f64, y: &[f64]| {
-        let value = |s: Symbol| match state.iter().position(|&own| own == s) {
-            Some(place) => Some(y[place]),
-            None if s == time => Some(t),
-            None => start.get(&s).copied(),
-        };
-        g.evaluate_f64(es, &value).ok()
-    };
-    let domain = EvaluationFailure::Domain { operation: 0 };
-    let y0: Option<Vec<f64>> = state.iter().map(|s| start.get(s).copied()).collect();
-    let y0 = y0.ok_or("a state without values")?;
-    let fast = y0.iter().fold(FAST, |fast, x| fast.max(FAST * x.abs()));
-    let mut flow = try_from_fn(2 * n, |t: f64, y: &[f64], rate: &mut [f64]| {
-        if y.iter().any(|x| x.abs() > 10.0 * fast) {
-            return Err(domain);
-        }
-        let values = at(&outputs, t, y).ok_or(domain)?;
-        let a = accelerations(&values, n, rows.len()).ok_or(domain)?;
-        rate[..n].copy_from_slice(&y[n..]);
-        rate[n..].copy_from_slice(&a);
-        Ok(())
-    });
-    let t0 = start.get(&time).copied().unwrap_or(0.0);
-    let mut options = Options::tolerance(TOLERANCE);
-    options.step_limit = STEPS;
-    let solution = integrate(&mut flow, (t0, t0 + DURATION), &y0, &mut [], options)
-        .map_err(|problem| problem.to_string())?;
-    let states = solution.times.iter().zip(solution.rows.chunks(2 * n));
-    Ok(states
-        .take_while(|(_, y)| y.iter().all(|x| x.abs() < fast))
-        .filter_map(|(&t, y)| at(functions, t, y))
-        .filter(|values| values.iter().all(|x| x.is_finite()))
-        .collect())
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::{generate, Family};
+    use chetaev_mechanics::{Prepared, Prover, Registry};
+    use chetaev_symbolic::rational::ratio;
 
-/// q'' of `[[W, -Jᵀ], [J, 0]] (q'', λ) = (b, g)` by elimination with pivots; `None` where it is singular.
-fn accelerations(values: &[f64], n: usize, r: usize) -> Option<Vec<f64>> {
-    let (mass, rest) = values.split_at(n * n);
-    let (force, rest) = rest.split_at(n);
-    let (jacobian, right) = rest.split_at(r * n);
-    let size = n + r;
-    let mut rows: Vec<Vec<f64>> = Vec::with_capacity(size);
-    for i in 0..n {
-        let reaction = (0..r).map(|l| -jacobian[l * n + i]);
-        let row = mass[i * n..(i + 1) * n].iter().copied();
-        rows.push(row.chain(reaction).chain([force[i]]).collect());
+    /// Looks at one of the systems that state an integral.
+    fn look(seed: u64, ask: impl FnOnce(&Subject<'_>)) {
+        let random = generate(Family::Symmetric, seed).unwrap();
+        let prepared = Prepared::new(&random.system).unwrap();
+        let registry = Registry::new(super::super::CLAIMS);
+        let (terms, selection) = (&prepared.terms, &prepared.selection);
+        let prover = Prover::default();
+        let cx = Context::new(&random.system, terms, selection, &registry, prover);
+        ask(&Subject::new(Sampled::new(&cx, seed).unwrap()).unwrap());
     }
-    for l in 0..r {
-        let row = jacobian[l * n..(l + 1) * n].iter().copied();
-        let zeros = std::iter::repeat_n(0.0, r);
-        rows.push(row.chain(zeros).chain([right[l]]).collect());
-    }
-    for step in 0..size {
-        let best = (step..size).max_by(|&a, &b| {
-            let (a, b) = (rows[a][step].abs(), rows[b][step].abs());
-            a.total_cmp(&b)
-        })?;
-        rows.swap(step, best);
-        if rows[step][step].abs() < 1e-10 {
-            return None;
-        }
-        let pivot = rows[step].clone();
-        for row in rows.iter_mut().skip(step + 1) {
-            let factor = row[step] / pivot[step];
-            let pairs = row.iter_mut().zip(&pivot).skip(step);
-            pairs.for_each(|(x, p)| *x -= factor * p);
+
+    /// A function that changes in the fifteenth digit is no integral, although double precision would not tell.
+    #[test]
+    fn small_changes_along_a_motion_are_seen() {
+        for seed in 0..3 {
+            look(seed, |subject| {
+                let g = &subject.cx.system.graph;
+                let stated = known(subject);
+                assert_eq!(followed(subject, &[stated]), Ok(()));
+                let little = ratio(1, 1_000_000_000_000_000).unwrap();
+                let wrong = g.scale(&little, subject.cx.system.coordinates[0].q);
+                let problem = followed(subject, &[g.add(&[stated, wrong])]).unwrap_err();
+                assert!(problem.contains("changes by"), "{problem}");
+            });
         }
     }
-    let mut solution = vec![0.0; size];
-    for i in (0..size).rev() {
-        let known: f64 = (i + 1..size).map(|j| rows[i][j] * solution[j]).sum();
-        solution[i] = (rows[i][size] - known) / rows[i][i];
+
+    /// What no family was asked for is not said to be exhausted.
+    #[test]
+    fn a_sentence_without_its_families_is_found_wanting() {
+        look(0, |subject| {
+            let found = found(subject.cx);
+            let found = found.as_ref().as_ref().unwrap();
+            assert_eq!(said(found, &sentence(subject.cx)), Ok(()));
+            assert!(said(found, "exhausted: nothing").is_err());
+        });
     }
-    solution.truncate(n);
-    Some(solution)
 }

@@ -14,9 +14,11 @@ mod mutants;
 mod numbers;
 mod order;
 mod power;
+mod precise;
 mod principles;
 mod reduced;
 mod rewrite;
+mod series;
 mod wrong;
 
 use chetaev_mechanics::claims::formulation::{self, derive, residuals};

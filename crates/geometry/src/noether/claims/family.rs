@@ -112,6 +112,17 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
             counted(open, "more was", "more were")
         ),
     };
+    let dependent = match found.dependent {
+        0 => String::new(),
+        dependent => format!(
+            "; {} of these",
+            counted(
+                dependent,
+                "more that was found is a function",
+                "more that were found are functions"
+            )
+        ),
+    };
     let families: Vec<String> = found.families.iter().map(exhausted).collect();
     let special: Vec<String> = found.special.iter().map(|s| special(cx, s)).collect();
     let special = match special.is_empty() {
@@ -119,7 +130,7 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
         false => format!("; more {}", special.join("; ")),
     };
     format!(
-        "{many} in the families searched{open}{special}; exhausted: {}",
+        "{many} in the families searched{dependent}{open}{special}; exhausted: {}",
         families.join("; ")
     )
 }
