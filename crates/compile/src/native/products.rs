@@ -85,11 +85,14 @@ impl Products {
     /// # Safety
     /// As in [`Products::sum`].
     #[target_feature(enable = "avx2,fma")]
+    #[allow(clippy::needless_range_loop)]
     unsafe fn run<const C: usize>(&self, j: usize, series: &[f64], sums: &mut [f64]) {
         let (from, mut to) = (series.as_ptr(), sums.as_mut_ptr());
         for quad in &self.list {
             let mut totals = [_mm256_setzero_pd(); 4];
-            for (total, &[a, b]) in totals.iter_mut().zip(quad) {
+            // Over indices: iterators of the standard library are not always inlined here.
+            for k in 0..4 {
+                let [a, b] = quad[k];
                 // SAFETY: within the series, as `sum` says.
                 unsafe {
                     let a = from.add(a as usize + ZERO + 1);
@@ -97,7 +100,8 @@ impl Products {
                     for v in 0..C {
                         let reversed = _mm256_loadu_pd(b.sub(4 * v + 4));
                         let reversed = _mm256_permute4x64_pd::<0b00_01_10_11>(reversed);
-                        *total = _mm256_fmadd_pd(_mm256_loadu_pd(a.add(4 * v)), reversed, *total);
+                        let forward = _mm256_loadu_pd(a.add(4 * v));
+                        totals[k] = _mm256_fmadd_pd(forward, reversed, totals[k]);
                     }
                 }
             }

@@ -4,8 +4,7 @@
 //! up to order j, [`Taylor`] computes those of all values up to order j, one order per call, so that a caller who
 //! knows x' as an output finds the series of a solution of x' = F(x) from `x_[j+1] = F_[j]/(j + 1)`.
 //!
-//! Order 0 is computed by the interpreter, orders above by the recurrences of Moore 1966 and Griewank & Walther 2008,
-//! ch. 13 (see `recurrence`): a product or a function costs O(j), a sum or a product with what is constant O(1). A
+//! Orders above 0 follow from the recurrences of Moore 1966 and Griewank & Walther 2008, ch. 13 (see `recurrence`): a product or a function costs O(j), a sum or a product with what is constant O(1). A
 //! linear system is factorized once, at order 0; every further order costs one solution of it, with the right-hand
 //! side less the convolutions of those entries of the matrix that vary:
 //!
@@ -13,8 +12,11 @@
 //! A_[0] x_[j] = b_[j] − Σ_{i=1..j} A_[i] x_[j−i]
 //! ```
 //!
-//! Series are stored contiguously by order, those that are convolved also in reverse, so that each convolution is a
-//! dot product of two contiguous slices. Nothing is allocated after the workspace is made.
+//! Where the processor allows, order 0 is native code and so are the recurrences (`machine`); elsewhere both are
+//! interpreted, with series stored contiguously by order, those that are convolved also in reverse, so that each
+//! convolution is a dot product of two contiguous slices. The back ends agree to rounding: on the motions of the gallery
+//! within 256 units in the last place of the largest coefficient that a series of the radius found can have, for each order
+//! (`tests/series.rs` of the workspace). Nothing is allocated after the workspace is made.
 
 mod build;
 mod functions;
@@ -25,6 +27,8 @@ mod machine;
 mod machine;
 mod recurrence;
 mod solve;
+#[cfg(all(unix, target_arch = "x86_64"))]
+mod writer;
 #[cfg(all(unix, target_arch = "x86_64"))]
 mod zero;
 

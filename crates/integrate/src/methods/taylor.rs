@@ -12,6 +12,8 @@
 //! Coefficients may deceive: a series knows nothing of a corner ahead. So the derivative at the end of the step is
 //! compared with that of the polynomial, and the step halved where they differ.
 
+#![allow(clippy::needless_range_loop)] // What is done for every order has to be inlined, which iterators are not always.
+
 use crate::control::{ErrorControl, Scale};
 use crate::dense::{Basis, DenseStep};
 use crate::method::{Attempt, Method, MethodCard, State, Stepper, StepperSettings};
@@ -182,9 +184,11 @@ impl Expansion {
         let mut seen = 0;
         for j in (p / 2 + 1..=p).rev() {
             let (mut norm, mut worst): (f64, usize) = (0.0, 0);
-            for (i, (c, w)) in self.coefficient(j).iter().zip(&self.weights).enumerate() {
-                if c.abs() > norm * w {
-                    (norm, worst) = (c.abs() / w, i);
+            let row = self.coefficient(j);
+            for i in 0..self.n {
+                let (c, w) = (row[i].abs(), self.weights[i]);
+                if c > norm * w {
+                    (norm, worst) = (c / w, i);
                 }
             }
             if norm == 0.0 {
@@ -240,7 +244,8 @@ impl Expansion {
         }
         let fastest = rates.iter().fold(0.0, |m: f64, rate| m.max(rate.abs()));
         let (mut largest, mut worst) = (0.0, 0);
-        for (i, (rate, slope)) in rates.iter().zip(&self.slope).enumerate() {
+        for i in 0..n {
+            let (rate, slope) = (rates[i], self.slope[i]);
             let tolerated = self.scale.of(i, to.y[i].abs()).max(self.weights[i]);
             let gap = h.abs() * (rate - slope).abs();
             let defect = gap / (DEFECT * tolerated + h.abs() * ROUNDING * fastest);
