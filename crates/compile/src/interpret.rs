@@ -169,7 +169,11 @@ impl BlockEvaluator for Interpreter {
     }
 }
 
-fn check_length(what: &'static str, expected: usize, found: usize) -> Result<(), EvaluateFailure> {
+pub(crate) fn check_length(
+    what: &'static str,
+    expected: usize,
+    found: usize,
+) -> Result<(), EvaluateFailure> {
     if expected == found {
         return Ok(());
     }

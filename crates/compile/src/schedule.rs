@@ -4,7 +4,8 @@
 //! operation need one jump each. The price is a larger register file, so blocks of states, which share the cost of
 //! a jump, keep the order of the program. Reordering changes no value: every instruction reads what it read before.
 
-use crate::allocate::{self, Group};
+use crate::allocate;
+pub(crate) use crate::allocate::Group;
 use crate::emit::Origin;
 use crate::program::{Binary, Fused, Instruction, Program, Register, Unary};
 use std::collections::VecDeque;

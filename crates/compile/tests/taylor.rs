@@ -91,10 +91,24 @@ impl Path {
     fn series(&self, expressions: &[Expr], orders: usize) -> Vec<Vec<f64>> {
         let lowering = Lowering::new(&self.g).variables(&self.symbols);
         let program = lowering.output("values", expressions).lower().unwrap();
-        let taylor = Taylor::new(&program).unwrap();
+        let found = self.by(&Taylor::new(&program).unwrap(), orders);
+        let interpreted = self.by(&Taylor::interpreter(&program).unwrap(), orders);
+        for (found, interpreted) in found.iter().zip(&interpreted) {
+            // Where terms of size one cancel, their rounding is left.
+            let mut scale: f64 = 1e-2;
+            for (j, (a, b)) in found.iter().zip(interpreted).enumerate() {
+                scale = scale.max(b.abs());
+                assert!((a - b).abs() <= 1e-13 * scale, "order {j}: {a:e} and {b:e}");
+            }
+        }
+        found
+    }
+
+    /// The series that one back end finds.
+    fn by(&self, taylor: &Taylor, orders: usize) -> Vec<Vec<f64>> {
         let mut workspace = taylor.workspace(orders);
         taylor.prepare(&[], &mut workspace).unwrap();
-        let mut found = vec![Vec::new(); expressions.len()];
+        let mut found = vec![Vec::new(); taylor.output_count()];
         for j in 0..=orders {
             let inputs: Vec<f64> = self
                 .coefficients
@@ -413,4 +427,170 @@ fn parameters_cost_no_convolutions() {
     taylor.advance(&[0.25], &mut workspace).unwrap();
     assert_eq!(taylor.output(0, &workspace), 4.5);
     assert_eq!(taylor.output(1, &workspace), 0.0);
+}
+
+/// Normalized coefficients of functions of 1 + t or t whose series are known in closed form, to the highest order.
+#[test]
+fn series_in_closed_form_to_high_orders() {
+    const ORDER: usize = 40;
+    let g = Graph::new();
+    let symbol = g.intern_symbol("x", 0);
+    let x = g.symbol_expr(symbol);
+    let above = g.add(&[x, g.one()]);
+    let half = g.number(ratio(1, 2).unwrap());
+    let factorial = |n: usize| (1..=n).map(|i| i as f64).product::<f64>();
+    // C(c, j) by its product, exact in rationals.
+    let binomial = |a: i64, b: i64, j: usize| {
+        let mut product = integer(1);
+        for i in 0..j as i64 {
+            product = product * (ratio(a, b).unwrap() - integer(i)) / integer(i + 1);
+        }
+        to_f64(&product)
+    };
+    let alternating = |j: usize| if j % 2 == 0 { 1.0 } else { -1.0 };
+    let odd = |j: usize, value: f64| if j % 2 == 1 { value } else { 0.0 };
+    let even = |j: usize, value: f64| if j.is_multiple_of(2) { value } else { 0.0 };
+    type Closed<'c> = (Expr, Box<dyn Fn(usize) -> f64 + 'c>);
+    let cases: Vec<Closed<'_>> = vec![
+        (g.exp(x), Box::new(|j| 1.0 / factorial(j))),
+        (
+            g.sin(x),
+            Box::new(|j| odd(j, alternating(j / 2) / factorial(j))),
+        ),
+        (
+            g.cos(x),
+            Box::new(|j| even(j, alternating(j / 2) / factorial(j))),
+        ),
+        (
+            g.apply(Function::Sinh, &[x]),
+            Box::new(|j| odd(j, 1.0 / factorial(j))),
+        ),
+        (
+            g.apply(Function::Cosh, &[x]),
+            Box::new(|j| even(j, 1.0 / factorial(j))),
+        ),
+        (
+            g.apply(Function::Log, &[above]),
+            Box::new(|j| {
+                if j == 0 {
+                    0.0
+                } else {
+                    -alternating(j) / j as f64
+                }
+            }),
+        ),
+        (
+            g.apply(Function::Atan, &[x]),
+            Box::new(|j| odd(j, alternating(j / 2) / j as f64)),
+        ),
+        (
+            g.apply(Function::Atanh, &[x]),
+            Box::new(|j| odd(j, 1.0 / j as f64)),
+        ),
+        (
+            g.apply(Function::Asin, &[x]),
+            Box::new(|j| odd(j, alternating(j / 2) * binomial(-1, 2, j / 2) / j as f64)),
+        ),
+        (
+            g.apply(Function::Asinh, &[x]),
+            Box::new(|j| odd(j, binomial(-1, 2, j / 2) / j as f64)),
+        ),
+        (g.sqrt(above), Box::new(|j| binomial(1, 2, j))),
+        (
+            g.pow(above, g.number(ratio(-7, 3).unwrap())),
+            Box::new(|j| binomial(-7, 3, j)),
+        ),
+        (g.powi(above, -1), Box::new(alternating)),
+        (g.powi(above, 5), Box::new(|j| binomial(5, 1, j))),
+        (
+            g.div(half, g.sub(g.one(), g.mul(&[half, x]))),
+            Box::new(|j| 0.5f64.powi(j as i32 + 1)),
+        ),
+        (
+            g.apply(Function::Atan2, &[x, g.one()]),
+            Box::new(|j| odd(j, alternating(j / 2) / j as f64)),
+        ),
+    ];
+    let expressions: Vec<Expr> = cases.iter().map(|case| case.0).collect();
+    let lowering = Lowering::new(&g).variables(&[symbol]);
+    let program = lowering.output("all", &expressions).lower().unwrap();
+    for taylor in [Taylor::new(&program), Taylor::interpreter(&program)] {
+        let taylor = taylor.unwrap();
+        let mut workspace = taylor.workspace(ORDER);
+        taylor.prepare(&[], &mut workspace).unwrap();
+        for j in 0..=ORDER {
+            match j {
+                0 => taylor.start(&[0.0], &mut workspace).unwrap(),
+                1 => taylor.advance(&[1.0], &mut workspace).unwrap(),
+                _ => taylor.advance(&[0.0], &mut workspace).unwrap(),
+            }
+            for (k, (e, closed)) in cases.iter().enumerate() {
+                let (found, exact) = (taylor.output(k, &workspace), closed(j));
+                let scale = exact.abs().max(1e-3 * 0.5f64.powi(j as i32));
+                let what = g.text(*e);
+                assert!(
+                    (found - exact).abs() <= 1e-14 * scale * (j + 1) as f64,
+                    "{what}, order {j}: {found:e} instead of {exact:e}"
+                );
+            }
+        }
+    }
+}
+
+/// The series of a motion: orders of the variables follow from the outputs, whichever back end runs.
+#[test]
+fn the_series_of_a_motion() {
+    // A pendulum of equation x'' = −sin x, and z' = 1/(1 + t), from the regular recurrences of any order.
+    let g = Graph::new();
+    let symbols = ["t", "x", "v", "z"].map(|name| g.intern_symbol(name, 0));
+    let [t, x, v, _] = symbols.map(|s| g.symbol_expr(s));
+    let rates = [v, g.neg(g.sin(x)), g.powi(g.add(&[t, g.one()]), -1)];
+    let lowering = Lowering::new(&g).variables(&symbols);
+    let program = lowering.output("rates", &rates).lower().unwrap();
+    for taylor in [Taylor::new(&program), Taylor::interpreter(&program)] {
+        let taylor = taylor.unwrap();
+        let mut workspace = taylor.workspace(20);
+        taylor.prepare(&[], &mut workspace).unwrap();
+        let mut c = vec![0.0; 21 * 3];
+        // Twice, and between them from elsewhere: nothing is left of what was before.
+        for start in [
+            [0.0, 1.0, 0.5, 0.0],
+            [0.0, f64::MAX, 1e300, 0.0],
+            [0.0, 1.0, 0.5, 0.0],
+        ] {
+            taylor.expand(&start, 20, &mut workspace, &mut c).unwrap();
+        }
+        let (sin, cos) = 1f64.sin_cos();
+        // x'' = −sin x, x''' = −cos x x', x'''' = sin x x'² + cos x sin x.
+        let expected = [
+            1.0,
+            0.5,
+            -sin / 2.0,
+            -0.5 * cos / 6.0,
+            (0.25 * sin + cos * sin) / 24.0,
+        ];
+        for (j, expected) in expected.into_iter().enumerate() {
+            assert!(
+                (c[3 * j] - expected).abs() < 1e-15,
+                "order {j}: {}",
+                c[3 * j]
+            );
+        }
+        for j in 1..=20 {
+            let closed = if j % 2 == 1 { 1.0 } else { -1.0 } / j as f64;
+            assert!(
+                (c[3 * j + 2] - closed).abs() < 1e-14,
+                "order {j}: {}",
+                c[3 * j + 2]
+            );
+        }
+        // Energy: (v² /2 − cos x) has no coefficient above order 0, so v v' + sin x x' = 0 at another place too.
+        let at = |k: usize, h: f64| (0..=20).rev().fold(0.0, |sum, j| c[3 * j + k] + h * sum);
+        let energy = |h: f64| at(1, h).powi(2) / 2.0 - at(0, h).cos();
+        assert!((energy(0.3) - energy(0.0)).abs() < 1e-14);
+        let wrong = taylor.expand(&[0.0; 4], 20, &mut workspace, &mut c[1..]);
+        assert!(matches!(wrong, Err(EvaluateFailure::Length { .. })));
+        let beyond = taylor.expand(&[0.0; 4], 21, &mut workspace, &mut [0.0; 66]);
+        assert_eq!(beyond, Err(EvaluateFailure::NotPrepared));
+    }
 }

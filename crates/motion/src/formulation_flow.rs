@@ -318,13 +318,7 @@ impl<'a> FormulationFlow<'a> {
             pivot: self.current.pivot,
             gap: f64::INFINITY,
         };
-        let before = chart::quality(
-            &present,
-            numeric.jacobian(),
-            numeric.r,
-            numeric.n,
-            &diagonal,
-        );
+        let before = chart::quality(&present, numeric.jacobian(), numeric.n, |i| diagonal[i]);
         if factor > 1.0 && before >= DEGRADED * self.current.pivot {
             return Control::Continue;
         }
@@ -610,9 +604,9 @@ impl Flow for FormulationFlow<'_> {
         let n = y.len();
         let turns = &self.current.turns;
         let reduced = turns.center(self.numeric.jumps, (y, carry), coefficients);
-        self.derivative(t, &reduced, &mut coefficients[n..2 * n])?;
-        if order < 2 {
-            return Ok(());
+        if self.numeric.jumps {
+            // Whether a constraint was left is seen on the way.
+            self.derivative(t, &reduced, &mut coefficients[n..2 * n])?;
         }
         let (g, binding, current) = (&self.system.graph, self.binding, &mut self.current);
         if current.series.is_none() {

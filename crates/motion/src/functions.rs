@@ -103,12 +103,19 @@ impl Functions {
     ///
     /// # Errors
     /// When a value is not finite or a linear system is singular.
+    #[allow(clippy::needless_range_loop)]
     pub fn evaluate(&mut self, t: f64, pieces: &[&[f64]]) -> Result<(), EvaluationFailure> {
-        let mut is_same = true;
-        let state = pieces.iter().flat_map(|piece| piece.iter());
-        for (input, &value) in self.inputs.iter_mut().zip(std::iter::once(&t).chain(state)) {
-            is_same &= input.to_bits() == value.to_bits();
-            *input = value;
+        let mut is_same = self.inputs[0].to_bits() == t.to_bits();
+        self.inputs[0] = t;
+        let mut next = 1;
+        for piece in pieces {
+            let own = &mut self.inputs[next..];
+            // Over indices: done several times in a step.
+            for i in 0..piece.len().min(own.len()) {
+                is_same &= own[i].to_bits() == piece[i].to_bits();
+                own[i] = piece[i];
+            }
+            next = (next + piece.len()).min(self.inputs.len());
         }
         match self.known {
             Some(known) if is_same => known,
@@ -126,7 +133,8 @@ impl Functions {
             .evaluate(&self.inputs, &mut self.workspace, &mut self.computed)
             .map_err(failure)?;
         let mut infinite = None;
-        for (&place, &value) in self.places.iter().zip(&self.computed) {
+        for i in 0..self.places.len() {
+            let (place, value) = (self.places[i], self.computed[i]);
             self.outputs[place] = value;
             if !value.is_finite() {
                 infinite = infinite.or(Some(place));

@@ -293,9 +293,8 @@ impl<'a> JetFlow<'a> {
             return None;
         }
         let a = self.gradient(t, y)?;
-        let (n, r) = (self.parts.system.n(), self.parts.terms.constraints.len());
         let present = self.chart();
-        Some(chart::quality(&present, &a, r, n, &vec![1.0; n]))
+        Some(chart::quality(&present, &a, self.parts.system.n(), |_| 1.0))
     }
 
     fn chart(&self) -> Chart {

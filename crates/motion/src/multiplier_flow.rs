@@ -65,6 +65,8 @@ pub struct MultiplierFlow {
 
 /// A stage whose pivot fell below this fraction of its value where the step began rejects the step.
 const UNUSABLE: f64 = 1e-3;
+/// The rate of a watched quantity that is not near zero: negative as on the way there, so that its minimum is a zero of the rate.
+const AWAY: f64 = -1e-12;
 /// A gradient counts as vanished below this fraction of its largest length so far.
 const VANISHED: f64 = 1e-8;
 
@@ -240,6 +242,9 @@ impl MultiplierFlow {
     }
 
     fn unpack(&mut self, t: f64, y: &[f64]) -> Result<(), EvaluationFailure> {
+        if self.solved == Some(t) && self.solved_state == y {
+            return Ok(());
+        }
         self.solved = None;
         let (positions, rest) = y.split_at(self.system.positions());
         self.q.copy_from_slice(positions);
@@ -276,21 +281,14 @@ impl MultiplierFlow {
     }
 
     fn quality(&self) -> f64 {
-        let system = &self.system;
-        chart::quality(
-            &self.chart,
-            system.jacobian(),
-            system.r,
-            system.n,
-            &system.mass_diagonal(),
-        )
+        let (system, n) = (&self.system, self.system.n);
+        let weight = |i: usize| system.mass()[i * n + i];
+        chart::quality(&self.chart, system.jacobian(), n, weight)
     }
 
     /// The same without the weights of the masses: where inertias grow or vanish the chart is not to blame.
     fn geometric_quality(&self) -> f64 {
-        let system = &self.system;
-        let unit = vec![1.0; system.n];
-        chart::quality(&self.chart, system.jacobian(), system.r, system.n, &unit)
+        chart::quality(&self.chart, self.system.jacobian(), self.system.n, |_| 1.0)
     }
 
     /// Chooses again at the state of the last evaluation of the constraints.
@@ -312,6 +310,7 @@ impl MultiplierFlow {
             pivot_after: next.pivot,
         };
         self.chart_number += 1;
+        self.solved = None;
         self.accepted_pivot = next.pivot;
         self.chart = next;
         let packed = self.pack(&self.q.clone(), &self.v.clone());
@@ -344,6 +343,7 @@ impl MultiplierFlow {
     /// Velocities back on the constraints in the kinetic metric; Newton for nonlinear ones. True when y changed.
     fn project(&mut self, t: f64, y: &mut [f64]) -> bool {
         let n = self.system.n;
+        self.solved = None;
         let all: Vec<usize> = (0..n).collect();
         let mut changed = false;
         self.project_positions(t, &all, &mut changed);
@@ -383,6 +383,7 @@ impl MultiplierFlow {
             return false;
         }
         let metric = self.system.metric();
+        self.solved = None;
         let moved = self
             .keep
             .as_mut()
@@ -467,24 +468,31 @@ impl MultiplierFlow {
 }
 
 impl MultiplierFlow {
+    /// The recurrences of (q, v) with the constraint rows of the present chart.
+    fn series(&mut self) -> Result<&mut RateSeries, EvaluationFailure> {
+        let known = self.series.take();
+        let known = known.filter(|(rows, _)| *rows == self.chart.rows);
+        let own = match known {
+            Some(own) => own,
+            None => {
+                let rows = self.chart.rows.clone();
+                let series = self.system.series(&rows);
+                (rows, series.map_err(|_| EvaluationFailure::NoSeries)?)
+            }
+        };
+        Ok(&mut self.series.insert(own).1)
+    }
+
     /// The coefficients of (q, v) at the state last evaluated, whatever the chart.
     fn expand_full(&mut self, t: f64, order: usize) -> Result<(), EvaluationFailure> {
-        if self
-            .series
-            .as_ref()
-            .is_none_or(|(rows, _)| *rows != self.chart.rows)
-        {
-            let rows = self.chart.rows.clone();
-            let series = self.system.series(&rows);
-            let series = series.map_err(|_| EvaluationFailure::NoSeries)?;
-            self.series = Some((rows, series));
-        }
-        let Some((_, series)) = &mut self.series else {
-            return Err(EvaluationFailure::NoSeries);
-        };
         let state = [&self.q[..], &self.v].concat();
-        self.full.resize((order + 1) * state.len(), 0.0);
-        series.expand(t, &state, order, &mut self.full)
+        let mut full = std::mem::take(&mut self.full);
+        full.resize((order + 1) * state.len(), 0.0);
+        let outcome = self
+            .series()
+            .map(|series| series.expand(t, &state, order, &mut full));
+        self.full = full;
+        outcome?
     }
 }
 
@@ -536,6 +544,11 @@ impl System for MultiplierFlow {
         let n = y.len();
         let turns = &self.system.turns;
         let reduced = turns.center(self.system.jumps, (y, carry), coefficients);
+        if self.kind == StateKind::Full && !self.system.jumps {
+            self.series()?.expand(t, &reduced, order, coefficients)?;
+            coefficients[..n].copy_from_slice(y);
+            return Ok(());
+        }
         // Whether the chart can be used here and no constraint was left is seen on the way.
         self.derivative(t, &reduced, &mut coefficients[n..2 * n])?;
         if order < 2 {
@@ -614,6 +627,10 @@ impl System for MultiplierFlow {
     }
 
     fn switching(&mut self, index: usize, t: f64, y: &[f64]) -> Result<f64, EvaluationFailure> {
+        // Zeros of the rate are no events away from those of the quantity, and there it takes no accelerations to say so.
+        if self.unpack(t, y).is_ok() && !self.watch.is_near(index, t, &self.q, &self.v) {
+            return Ok(AWAY);
+        }
         // At the singularity itself there are no accelerations, and the last known ones are as good as any: the rate of what
         // vanishes there is zero.
         if let Err(failure) = self.evaluate(t, y) {

@@ -3,8 +3,10 @@
 use crate::chart::Chart;
 use crate::dense::Lu;
 use crate::functions::{Functions, FunctionsError};
-use crate::series::RateSeries;
+use crate::reduced::Bordered;
+use crate::series::{self, RateSeries};
 use crate::turns::Turns;
+use chetaev_compile::Program;
 use chetaev_integrate::EvaluationFailure;
 use chetaev_mechanics::{ConstraintKind, MotionTerms, System};
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
@@ -228,17 +230,27 @@ impl NumericSystem {
         })
     }
 
-    /// The rates of (q, masses with a law of their own, v) by their Taylor recurrences; a and λ solve
-    ///
-    /// ```text
-    /// M a − Jᵀ λ = b,   J a = g        on independent rows of J
-    /// ```
-    ///
-    /// as one linear system, which is factorized once for each expansion (theory 5.4 (3)).
+    /// The rates of (q, masses with a law of their own, v) by their Taylor recurrences.
     ///
     /// # Errors
     /// [`FunctionsError`].
     pub(crate) fn series(&self, rows: &[usize]) -> Result<RateSeries, FunctionsError> {
+        let binding = &self.source.binding;
+        let parameters = binding.parameters.iter().map(|own| own.1).collect();
+        let mut series = RateSeries::of(&self.rates_program(rows)?, parameters)?;
+        if let Some(values) = &self.values {
+            series.set_parameters(values)?;
+        }
+        Ok(series)
+    }
+
+    /// The program whose outputs are the rates of (q, masses with a law of their own, v) and whose variables are (t, q, masses,
+    /// v), with the parameters in the order of the binding; `rows` are independent rows of J. The matrix of its linear
+    /// system is factorized once for each expansion (theory 5.4 (3)).
+    ///
+    /// # Errors
+    /// [`FunctionsError`].
+    pub fn rates_program(&self, rows: &[usize]) -> Result<Program, FunctionsError> {
         let Source {
             graph: g,
             binding,
@@ -246,30 +258,33 @@ impl NumericSystem {
             velocities,
             mass_rates,
         } = &*self.source;
-        let (n, size) = (self.n, self.n + rows.len());
-        let mut matrix = vec![g.zero(); size * size];
-        for (i, row) in terms.mass_matrix.iter().enumerate() {
-            matrix[i * size..i * size + n].copy_from_slice(row);
-        }
-        for (l, &row) in rows.iter().enumerate() {
-            for (i, &entry) in terms.jacobian[row].iter().enumerate() {
-                matrix[(n + l) * size + i] = entry;
-                matrix[i * size + n + l] = g.neg(entry);
-            }
-        }
-        let mut right = terms.force.clone();
-        right.extend(rows.iter().map(|&row| terms.constraint_rate[row]));
-        let unknowns = g
-            .solve(&matrix, &right)
-            .map_err(|_| FunctionsError::Singular)?;
-        let mut rates: Vec<Expr> = velocities.iter().map(|&v| g.symbol_expr(v)).collect();
-        rates.extend(mass_rates);
-        rates.extend(&unknowns[..n]);
-        let mut series = RateSeries::new(g, binding, &binding.variables, &rates)?;
-        if let Some(values) = &self.values {
-            series.set_parameters(values)?;
-        }
-        Ok(series)
+        let bordered = Bordered {
+            g,
+            mass: terms.mass_matrix.clone(),
+            force: terms.force.clone(),
+            jacobian: rows
+                .iter()
+                .map(|&row| terms.jacobian[row].clone())
+                .collect(),
+            rate: rows.iter().map(|&row| terms.constraint_rate[row]).collect(),
+        };
+        let program = |accelerations: Vec<Expr>| {
+            let velocities = velocities.iter().map(|&v| g.symbol_expr(v));
+            let rates: Vec<Expr> = velocities
+                .chain(mass_rates.iter().copied())
+                .chain(accelerations)
+                .collect();
+            series::program(g, binding, &binding.variables, &rates)
+        };
+        let stated = program(bordered.solve()?)?;
+        let Some(Ok(accelerations)) = bordered.eliminated() else {
+            return Ok(stated);
+        };
+        let eliminated = program(accelerations)?;
+        Ok(match series::cost(&eliminated)? < series::cost(&stated)? {
+            true => eliminated,
+            false => stated,
+        })
     }
 
     /// Sets other values of the parameters, in the order of the binding. What was derived and compiled stays.

@@ -8,6 +8,7 @@ use crate::numeric::NumericSystem;
 use crate::run::{End, Looking, Run, RunError, RunSettings, Subject, Watcher};
 use crate::stop;
 use crate::watch::Watch;
+use chetaev_integrate::method;
 
 /// Routh's equations with all that a run of them needs, compiled; a copy for each thread.
 ///
@@ -61,6 +62,18 @@ impl Subject<'_> {
         })
     }
 
+    /// Which variables are integrated. A step of the Taylor method is long, so that a chart may pass a place where it is
+    /// singular, and what is solved for there is known badly; the series of all velocities are known anyway. Constraints
+    /// that jump are followed in charts, and holonomic ones are kept by them.
+    fn variables(&self, settings: &RunSettings) -> StateKind {
+        let has_series = method(&settings.method).is_ok_and(|method| method.card().needs_series);
+        let is_free = self.numeric.holonomic.is_empty() && !self.numeric.jumps;
+        match has_series && is_free {
+            true => StateKind::Full,
+            false => settings.state,
+        }
+    }
+
     /// Integrates Routh's equations.
     ///
     /// # Errors
@@ -85,7 +98,7 @@ impl Subject<'_> {
         watcher: &mut Watcher<'_>,
     ) -> Result<Run, RunError> {
         let CompiledRouth { flow, looking } = compiled;
-        flow.begin(self.start, settings.state, settings.project);
+        flow.begin(self.start, self.variables(settings), settings.project);
         let watched = flow.watch.quantities.clone();
         let y0 = flow.pack(&self.start.q, &self.start.v);
         let (pieces, end) = self.watched(flow, &watched, y0, settings, (looking, watcher))?;

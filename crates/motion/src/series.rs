@@ -2,9 +2,34 @@
 
 use crate::functions::{failure, FunctionsError};
 use crate::numeric::Binding;
-use chetaev_compile::{Lowering, Taylor, TaylorWorkspace};
+use chetaev_compile::{Lowering, Program, Taylor, TaylorWorkspace};
 use chetaev_integrate::EvaluationFailure;
 use chetaev_symbolic::{Expr, Graph, Symbol};
+
+/// The program of rates over the time and a state.
+///
+/// # Errors
+/// [`FunctionsError`].
+pub(crate) fn program(
+    g: &Graph,
+    binding: &Binding,
+    variables: &[Symbol],
+    rates: &[Expr],
+) -> Result<Program, FunctionsError> {
+    let symbols: Vec<Symbol> = binding.parameters.iter().map(|own| own.0).collect();
+    let lowering = Lowering::new(g).variables(variables).parameters(&symbols);
+    let lowering = lowering.output("rates", &g.substitute_all(rates, &binding.controls));
+    Ok(lowering.lower()?)
+}
+
+/// What one order of a series costs, in sums: a convolution as many as a series of usual order has.
+///
+/// # Errors
+/// [`FunctionsError`].
+pub(crate) fn cost(program: &Program) -> Result<usize, FunctionsError> {
+    let (convolutions, others) = Taylor::interpreter(program)?.counts();
+    Ok(12 * convolutions + others)
+}
 
 /// The rates of a state (z₁, …, z_m), functions of (t, z), by their Taylor recurrences.
 #[derive(Clone, Debug)]
@@ -12,7 +37,7 @@ pub(crate) struct RateSeries {
     taylor: Taylor,
     workspace: TaylorWorkspace,
     parameters: Vec<f64>,
-    /// t and the state: the coefficients of one order.
+    /// t and the state.
     inputs: Vec<f64>,
 }
 
@@ -27,17 +52,22 @@ impl RateSeries {
         variables: &[Symbol],
         rates: &[Expr],
     ) -> Result<RateSeries, FunctionsError> {
-        let (symbols, parameters): (Vec<Symbol>, Vec<f64>) =
-            binding.parameters.iter().copied().unzip();
-        let program = Lowering::new(g)
-            .variables(variables)
-            .parameters(&symbols)
-            .output("rates", &g.substitute_all(rates, &binding.controls))
-            .lower()?;
-        let taylor = Taylor::new(&program)?;
+        let parameters = binding.parameters.iter().map(|&(_, value)| value).collect();
+        RateSeries::of(&program(g, binding, variables, rates)?, parameters)
+    }
+
+    /// The recurrences of a program of rates, with values of its parameters.
+    ///
+    /// # Errors
+    /// [`FunctionsError`].
+    pub(crate) fn of(
+        program: &Program,
+        parameters: Vec<f64>,
+    ) -> Result<RateSeries, FunctionsError> {
+        let taylor = Taylor::new(program)?;
         let mut series = RateSeries {
             workspace: taylor.workspace(0),
-            inputs: vec![0.0; variables.len()],
+            inputs: vec![0.0; program.variables.len()],
             taylor,
             parameters,
         };
@@ -74,26 +104,12 @@ impl RateSeries {
         if order > self.workspace.capacity() && self.make_room(order).is_err() {
             return Err(EvaluationFailure::NoSeries);
         }
-        let m = z.len();
-        coefficients[..m].copy_from_slice(z);
-        for j in 0..order {
-            self.inputs[0] = match j {
-                0 => t,
-                1 => 1.0,
-                _ => 0.0,
-            };
-            let (known, next) = coefficients[j * m..].split_at_mut(m);
-            self.inputs[1..].copy_from_slice(known);
-            let step = match j {
-                0 => self.taylor.start(&self.inputs, &mut self.workspace),
-                _ => self.taylor.advance(&self.inputs, &mut self.workspace),
-            };
-            step.map_err(failure)?;
-            let share = (j + 1) as f64;
-            for (k, next) in next[..m].iter_mut().enumerate() {
-                *next = self.taylor.output(k, &self.workspace) / share;
-            }
-        }
-        Ok(())
+        self.inputs[0] = t;
+        self.inputs[1..].copy_from_slice(z);
+        let coefficients = &mut coefficients[..(order + 1) * z.len()];
+        let workspace = &mut self.workspace;
+        self.taylor
+            .expand(&self.inputs, order, workspace, coefficients)
+            .map_err(failure)
     }
 }

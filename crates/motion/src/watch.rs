@@ -83,6 +83,11 @@ impl Watch {
         let g = &system.graph;
         let mut found: Vec<(Watched, Expr)> = Vec::new();
         for (row, gradient) in terms.jacobian.iter().enumerate() {
+            // A gradient with a number among its entries vanishes nowhere.
+            let is_number = |&e: &Expr| g.as_number(e).is_some() && !g.is_zero(e);
+            if gradient.iter().any(is_number) {
+                continue;
+            }
             let squares: Vec<Expr> = gradient.iter().map(|&e| g.powi(e, 2)).collect();
             found.push((Watched::Gradient { row }, g.add(&squares)));
         }

@@ -2,7 +2,7 @@
 #![allow(unsafe_code)] // Calls machine code through a pointer.
 
 use super::assembler::Width;
-use super::code::Base;
+use super::code::{Base, Code};
 use super::emit;
 use super::memory::Pages;
 use super::registers;
@@ -56,8 +56,6 @@ impl Machine {
             pivots,
             copied,
         } = translate::translate(program, width);
-        let allocated = registers::allocate(&code);
-        let bytes = emit::emit(&allocated.steps, width)?;
         let stride = translate::stride(width) as usize / 8;
         let reach = |count: usize| match count {
             0 => 0,
@@ -67,6 +65,39 @@ impl Machine {
         let homes = code.values.iter().filter_map(|info| info.home);
         let file = homes.filter(|place| place.base == Base::File);
         let file = file.map(|place| place.offset as usize / 8 + width.lanes());
+        let file = file.max().unwrap_or(0);
+        let (variables, outputs) = (reach(program.layout.variables), outputs.collect());
+        let machine = Machine::place(code, width, (variables, file, outputs))?;
+        Some(Machine {
+            pivots: pivots.into(),
+            copied,
+            ..machine
+        })
+    }
+
+    /// Straight-line code with one group, which reads and writes so many numbers of the file and of the outputs, and no
+    /// variables; `None` as for [`Machine::new`].
+    pub(crate) fn of_code(
+        code: Code,
+        width: Width,
+        file: usize,
+        outputs: usize,
+    ) -> Option<Machine> {
+        if !super::is_available() {
+            return None;
+        }
+        Machine::place(code, width, (0, file, vec![0, outputs]))
+    }
+
+    /// Assigns registers, writes the bytes and makes them executable; how many numbers of variables and file are read, and by
+    /// number of groups how many outputs are written.
+    fn place(
+        code: Code,
+        width: Width,
+        (variables, file, outputs): (usize, usize, Vec<usize>),
+    ) -> Option<Machine> {
+        let allocated = registers::allocate(&code);
+        let bytes = emit::emit(&allocated.steps, width)?;
         Some(Machine {
             pages: Pages::new(&bytes)?,
             width,
@@ -74,11 +105,11 @@ impl Machine {
             initial: code.initial,
             // One number more, for instructions that read sixteen bytes at the last.
             frame: allocated.frame as usize + 8,
-            pivots: pivots.into(),
-            copied,
-            variables: reach(program.layout.variables),
-            file: file.max().unwrap_or(0),
-            outputs: outputs.collect(),
+            pivots: Arc::default(),
+            copied: Vec::new(),
+            variables,
+            file,
+            outputs,
             bytes: bytes.len(),
         })
     }

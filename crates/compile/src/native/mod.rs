@@ -12,16 +12,17 @@
 //! Values differ from the interpreter's by fused multiply-adds, and by functions, whose greatest errors, measured
 //! against correctly rounded values, are stated in [`Native`].
 
-mod assembler;
+pub(crate) mod assembler;
 mod call;
-mod code;
+pub(crate) mod code;
 mod dense;
 mod emit;
 mod gather;
 mod kernels;
 mod linear;
-mod machine;
+pub(crate) mod machine;
 mod memory;
+pub(crate) mod products;
 mod registers;
 mod translate;
 

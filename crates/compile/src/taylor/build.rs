@@ -32,11 +32,7 @@ pub(super) struct Recurrences {
 impl Recurrences {
     /// The recurrences of a program in single-assignment form, and how many registers there are.
     pub(super) fn of(single: &Single) -> (Recurrences, usize) {
-        let mut builder = Builder::new(single);
-        for &instruction in &single.program.body {
-            builder.instruction(instruction);
-        }
-        builder.finish()
+        Builder::filled(single).finish()
     }
 
     /// Values of order 0 that no instruction computes, and whether all series exist.
@@ -92,11 +88,48 @@ impl Recurrences {
 }
 
 /// A recurrence before its place in the order of work is known.
-struct Planned {
-    kind: Kind,
-    recurrence: Recurrence,
+pub(super) struct Planned {
+    pub(super) kind: Kind,
+    pub(super) recurrence: Recurrence,
     /// Values of the same order that it reads.
     reads: Vec<u32>,
+}
+
+/// The recurrences in the order of the program: each comes after those of the same order that it reads.
+#[cfg_attr(not(all(unix, target_arch = "x86_64")), allow(dead_code))]
+pub(super) struct Plan {
+    /// How many registers there are.
+    pub(super) registers: usize,
+    /// By register.
+    pub(super) keep: Vec<Keep>,
+    /// By slot: the register whose series is stored there.
+    pub(super) owners: Vec<u32>,
+    pub(super) planned: Vec<Planned>,
+    pub(super) systems: Vec<Linear>,
+}
+
+impl Plan {
+    /// The plan of a program in single-assignment form.
+    #[cfg_attr(not(all(unix, target_arch = "x86_64")), allow(dead_code))]
+    pub(super) fn of(single: &Single) -> Plan {
+        let mut builder = Builder::filled(single);
+        builder.settle();
+        let mut owners = vec![builder.zero; builder.slots as usize];
+        for (register, keep) in builder.keep.iter().enumerate() {
+            for slot in [keep.forward, keep.reverse, keep.weighted] {
+                if slot > 0 {
+                    owners[slot as usize] = register as u32;
+                }
+            }
+        }
+        Plan {
+            registers: builder.is_constant.len(),
+            keep: builder.keep,
+            owners,
+            planned: builder.planned,
+            systems: builder.systems,
+        }
+    }
 }
 
 /// The recurrences under construction.
@@ -132,6 +165,15 @@ impl<'s> Builder<'s> {
             planned: Vec::new(),
             systems: Vec::new(),
         }
+    }
+
+    /// With the recurrences of all instructions.
+    fn filled(single: &'s Single) -> Builder<'s> {
+        let mut builder = Builder::new(single);
+        for &instruction in &single.program.body {
+            builder.instruction(instruction);
+        }
+        builder
     }
 
     pub(super) fn is_constant(&self, register: u32) -> bool {
@@ -344,7 +386,8 @@ impl<'s> Builder<'s> {
         self.push(Kind::Solve, self.zero, [number, 0, 0, 0, 0], &reads);
     }
 
-    fn finish(mut self) -> (Recurrences, usize) {
+    /// Tells the recurrences where the series of their results are stored.
+    fn settle(&mut self) {
         for planned in &mut self.planned {
             planned.recurrence.keep = self.keep[planned.recurrence.out as usize];
         }
@@ -353,6 +396,10 @@ impl<'s> Builder<'s> {
                 *keep = self.keep[*register as usize];
             }
         }
+    }
+
+    fn finish(mut self) -> (Recurrences, usize) {
+        self.settle();
         let stored = |register: u32| (register, self.keep[register as usize]);
         let is_stored = |keep: Keep| keep.forward + keep.reverse + keep.weighted > 0;
         let registers = self.is_constant.len();

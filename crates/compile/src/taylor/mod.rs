@@ -4,8 +4,7 @@
 //! up to order j, [`Taylor`] computes those of all values up to order j, one order per call, so that a caller who
 //! knows x' as an output finds the series of a solution of x' = F(x) from `x_[j+1] = F_[j]/(j + 1)`.
 //!
-//! Order 0 is computed by the interpreter, orders above by the recurrences of Moore 1966 and Griewank & Walther 2008,
-//! ch. 13 (see `recurrence`): a product or a function costs O(j), a sum or a product with what is constant O(1). A
+//! Orders above 0 follow from the recurrences of Moore 1966 and Griewank & Walther 2008, ch. 13 (see `recurrence`): a product or a function costs O(j), a sum or a product with what is constant O(1). A
 //! linear system is factorized once, at order 0; every further order costs one solution of it, with the right-hand
 //! side less the convolutions of those entries of the matrix that vary:
 //!
@@ -13,21 +12,35 @@
 //! A_[0] x_[j] = b_[j] − Σ_{i=1..j} A_[i] x_[j−i]
 //! ```
 //!
-//! Series are stored contiguously by order, those that are convolved also in reverse, so that each convolution is a
-//! dot product of two contiguous slices. Nothing is allocated after the workspace is made.
+//! Where the processor allows, order 0 is native code and so are the recurrences (`machine`); elsewhere both are
+//! interpreted, with series stored contiguously by order, those that are convolved also in reverse, so that each
+//! convolution is a dot product of two contiguous slices. The back ends agree to rounding: on the motions of the gallery
+//! within 256 units in the last place of the largest coefficient that a series of the radius found can have, for each order
+//! (`tests/series.rs` of the workspace). Nothing is allocated after the workspace is made.
 
 mod build;
 mod functions;
+#[cfg(all(unix, target_arch = "x86_64"))]
+mod machine;
+#[cfg(not(all(unix, target_arch = "x86_64")))]
+#[path = "no_machine.rs"]
+mod machine;
 mod recurrence;
 mod solve;
+#[cfg(all(unix, target_arch = "x86_64"))]
+mod writer;
+#[cfg(all(unix, target_arch = "x86_64"))]
+mod zero;
 
+use crate::backend::VARIABLE;
 use crate::decode::Code;
 use crate::evaluate::EvaluateFailure;
-use crate::interpret::State;
+use crate::interpret::{check_length, State};
 use crate::program::{Layout, Program};
 use crate::schedule;
 use crate::verify::VerifyError;
 use build::Recurrences;
+use machine::{Recurring, Running};
 
 /// The Taylor recurrences of a program.
 ///
@@ -55,6 +68,8 @@ pub struct Taylor {
     code: Code,
     recurrences: Recurrences,
     outputs: Vec<u32>,
+    /// Machine code for orders above 0, where there is any.
+    machine: Option<Recurring>,
 }
 
 /// Storage for series, one for each thread.
@@ -69,6 +84,7 @@ pub struct TaylorWorkspace {
     order: usize,
     started: bool,
     solution: Vec<f64>,
+    running: Option<Running>,
 }
 
 /// Series of those values that are convolved: `stride` numbers each.
@@ -100,9 +116,33 @@ impl Taylor {
     /// # Errors
     /// [`VerifyError`] if the program is not well formed; one made by [`Lowering`](crate::Lowering) is.
     pub fn new(program: &Program) -> Result<Taylor, VerifyError> {
+        let is_off = std::env::var_os(VARIABLE).is_some_and(|value| value == "interpreter");
+        Taylor::choose(program, !is_off)
+    }
+
+    /// The recurrences of `program` by the interpreter, on every machine.
+    ///
+    /// # Errors
+    /// As [`new`](Taylor::new).
+    pub fn interpreter(program: &Program) -> Result<Taylor, VerifyError> {
+        Taylor::choose(program, false)
+    }
+
+    fn choose(program: &Program, is_native_allowed: bool) -> Result<Taylor, VerifyError> {
         program.verify()?;
-        let single = schedule::Single::of(&schedule::in_runs(program));
+        let may_be_native = is_native_allowed && cfg!(all(unix, target_arch = "x86_64"));
+        // Runs are for the interpreter.
+        let single = match may_be_native {
+            true => schedule::Single::of(program),
+            false => schedule::Single::of(&schedule::in_runs(program)),
+        };
         let (recurrences, registers) = Recurrences::of(&single);
+        let outputs = single.groups.iter().flat_map(|group| &group.registers);
+        let outputs: Vec<u32> = outputs.map(|register| register.0).collect();
+        let machine = match may_be_native {
+            true => Recurring::of(&single, &outputs),
+            false => None,
+        };
         let schedule::Single {
             mut program,
             groups,
@@ -122,12 +162,17 @@ impl Taylor {
             end: group.end,
         });
         program.outputs = groups.collect();
-        let outputs = program.outputs.iter().flat_map(|group| &group.registers);
         Ok(Taylor {
-            outputs: outputs.map(|register| register.0).collect(),
+            machine,
+            outputs,
             code: Code::of(program),
             recurrences,
         })
+    }
+
+    /// Bytes of machine code; `None` where the recurrences are interpreted.
+    pub fn code_size(&self) -> Option<usize> {
+        self.machine.as_ref().map(Recurring::bytes)
     }
 
     /// Storage for series up to the given order.
@@ -135,7 +180,9 @@ impl Taylor {
         let stride = order + 1;
         let program = &self.code.program;
         let sizes = program.matrices.iter().map(|matrix| matrix.size);
+        let machine = self.machine.as_ref().filter(|_| order <= Recurring::most());
         TaylorWorkspace {
+            running: machine.map(Recurring::running),
             state: State::new(program),
             now: vec![0.0; program.layout.len()],
             series: Series {
@@ -160,7 +207,13 @@ impl Taylor {
         workspace.started = false;
         workspace.state.prepare(&self.code, parameters)?;
         workspace.state.is_prepared = workspace.state.failures.is_empty();
-        workspace.state.first_failure()
+        workspace.state.first_failure()?;
+        match (&self.machine, &mut workspace.running) {
+            (Some(machine), Some(running)) => {
+                machine.prepare(parameters, &workspace.state.file, running)
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Order 0: all values at the state `variables`, and the factorizations.
@@ -175,17 +228,22 @@ impl Taylor {
     ) -> Result<(), EvaluateFailure> {
         workspace.started = false;
         let groups = self.code.program.outputs.len();
-        // Outputs are read from the registers afterwards: every value has one of its own.
         let state = &mut workspace.state;
         state.check_variables(&self.code.program, variables)?;
+        workspace.order = 0;
+        if let (Some(machine), Some(running)) = (&self.machine, &mut workspace.running) {
+            machine.start(&self.recurrences, variables, running)?;
+            workspace.started = true;
+            return Ok(());
+        }
+        // Outputs are read from the registers afterwards: every value has one of its own.
         state.compute(&self.code, groups, variables, &mut [], |_, _| {});
         state.first_failure()?;
         self.recurrences.seed(&mut state.file)?;
+        workspace.started = true;
         workspace.now.copy_from_slice(&state.file);
         self.recurrences
             .keep_all(&state.file, &mut workspace.series);
-        workspace.order = 0;
-        workspace.started = true;
         Ok(())
     }
 
@@ -200,17 +258,14 @@ impl Taylor {
         workspace: &mut TaylorWorkspace,
     ) -> Result<(), EvaluateFailure> {
         let layout = &self.code.program.layout;
-        if variables.len() != layout.variables {
-            return Err(EvaluateFailure::Length {
-                what: "variables",
-                expected: layout.variables,
-                found: variables.len(),
-            });
-        }
+        check_length("variables", layout.variables, variables.len())?;
         if !workspace.started || workspace.order + 1 >= workspace.series.stride {
             return Err(EvaluateFailure::NotPrepared);
         }
         workspace.order += 1;
+        if let (Some(machine), Some(running)) = (&self.machine, &mut workspace.running) {
+            return machine.advance(workspace.order, variables, running);
+        }
         workspace.now[layout.variable_range()].copy_from_slice(variables);
         self.recurrences.advance(workspace);
         Ok(())
@@ -220,11 +275,55 @@ impl Taylor {
     #[inline]
     pub fn output(&self, index: usize, workspace: &TaylorWorkspace) -> f64 {
         let register = self.outputs[index] as usize;
+        if let (Some(machine), Some(running)) = (&self.machine, &workspace.running) {
+            return match workspace.order {
+                0 => machine.first(index, running),
+                order => machine.output(index, order, running),
+            };
+        }
         if workspace.order > 0 && self.recurrences.is_constant[register] {
             0.0
         } else {
             workspace.now[register]
         }
+    }
+
+    /// The series of a motion whose first variable is the time and whose outputs are the rates of the other variables, in
+    /// this order: writes their coefficients of orders 0 to `order`, one order after the other.
+    ///
+    /// # Errors
+    /// As [`start`](Taylor::start) and [`advance`](Taylor::advance); [`EvaluateFailure::Length`] where there are not as many
+    /// outputs, or `coefficients` has another length.
+    pub fn expand(
+        &self,
+        variables: &[f64],
+        order: usize,
+        workspace: &mut TaylorWorkspace,
+        coefficients: &mut [f64],
+    ) -> Result<(), EvaluateFailure> {
+        let m = self.outputs.len();
+        check_length("outputs", self.code.program.layout.variables, m + 1)?;
+        check_length("coefficients", (order + 1) * m, coefficients.len())?;
+        self.start(variables, workspace)?;
+        if order > workspace.capacity() {
+            return Err(EvaluateFailure::NotPrepared);
+        }
+        if let (Some(machine), Some(running)) = (&self.machine, &mut workspace.running) {
+            return machine.expand(variables, order, running, coefficients);
+        }
+        coefficients[..m].copy_from_slice(&variables[1..]);
+        let mut inputs = variables.to_vec();
+        for j in 1..=order {
+            for (k, input) in inputs[1..].iter_mut().enumerate() {
+                *input = self.output(k, workspace) / j as f64;
+            }
+            coefficients[j * m..(j + 1) * m].copy_from_slice(&inputs[1..]);
+            if j < order {
+                inputs[0] = if j == 1 { 1.0 } else { 0.0 };
+                self.advance(&inputs, workspace)?;
+            }
+        }
+        Ok(())
     }
 
     /// Number of outputs of all groups together.

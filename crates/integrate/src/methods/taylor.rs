@@ -12,6 +12,8 @@
 //! Coefficients may deceive: a series knows nothing of a corner ahead. So the derivative at the end of the step is
 //! compared with that of the polynomial, and the step halved where they differ.
 
+#![allow(clippy::needless_range_loop)] // What is done for every order has to be inlined, which iterators are not always.
+
 use crate::control::{ErrorControl, Scale};
 use crate::dense::{Basis, DenseStep};
 use crate::method::{Attempt, Method, MethodCard, State, Stepper, StepperSettings};
@@ -83,11 +85,14 @@ impl Method for TaylorMethod {
             weights: vec![0.0; n],
             coefficients: vec![0.0; n * (MOST + 1)],
             order: LEAST,
+            asked: LEAST,
             radius: 0.0,
             worst: 0,
             is_fresh: false,
             end: vec![0.0; 2 * n],
             increment: vec![0.0; n],
+            slope: vec![0.0; n],
+            strictest: f64::NAN,
             h: 0.0,
             evaluations: 0,
         })
@@ -107,6 +112,8 @@ struct Expansion {
     /// x_[0], x_[1], … one after the other.
     coefficients: Vec<f64>,
     order: usize,
+    /// The order chosen for the tolerance; coefficients that overflow make that of a step lower.
+    asked: usize,
     /// The step that the coefficients allow; infinite where the solution is a polynomial of low degree.
     radius: f64,
     worst: usize,
@@ -115,6 +122,10 @@ struct Expansion {
     /// State and derivative at the end of the step.
     end: Vec<f64>,
     increment: Vec<f64>,
+    /// The derivative of the polynomial at the end of the step.
+    slope: Vec<f64>,
+    /// The tolerance for which the order was chosen.
+    strictest: f64,
     h: f64,
     evaluations: u64,
 }
@@ -158,7 +169,11 @@ impl Expansion {
             };
             strictest = strictest.min(self.weights[i] / size);
         }
-        self.order = order_for(strictest);
+        if strictest != self.strictest {
+            self.strictest = strictest;
+            self.asked = order_for(strictest);
+        }
+        self.order = self.asked;
     }
 
     /// The step at which the last two terms that do not vanish are negligible. Parity may null every second one; a
@@ -169,9 +184,11 @@ impl Expansion {
         let mut seen = 0;
         for j in (p / 2 + 1..=p).rev() {
             let (mut norm, mut worst): (f64, usize) = (0.0, 0);
-            for (i, (c, w)) in self.coefficient(j).iter().zip(&self.weights).enumerate() {
-                if c.abs() > norm * w {
-                    (norm, worst) = (c.abs() / w, i);
+            let row = self.coefficient(j);
+            for i in 0..self.n {
+                let (c, w) = (row[i].abs(), self.weights[i]);
+                if c > norm * w {
+                    (norm, worst) = (c / w, i);
                 }
             }
             if norm == 0.0 {
@@ -190,18 +207,25 @@ impl Expansion {
         self.radius *= (-0.7 / (p as f64 - 1.0)).exp();
     }
 
-    /// Σ_{j≥1} x_[j] h^j
+    /// Σ_{j≥1} x_[j] h^j and its derivative, by Horner's scheme for both at once.
     fn sum(&mut self, h: f64) {
         let n = self.n;
-        let increment = &mut self.increment;
-        increment.copy_from_slice(&self.coefficients[self.order * n..(self.order + 1) * n]);
-        for j in (1..self.order).rev() {
-            let lower = &self.coefficients[j * n..(j + 1) * n];
-            for (sum, c) in increment.iter_mut().zip(lower) {
-                *sum = c + h * *sum;
+        let (increment, slope) = (&mut self.increment[..n], &mut self.slope[..n]);
+        increment.fill(0.0);
+        slope.fill(0.0);
+        for coefficients in self.coefficients[n..(self.order + 1) * n]
+            .chunks_exact(n.max(1))
+            .rev()
+        {
+            for i in 0..n {
+                slope[i] = increment[i] + h * slope[i];
+                increment[i] = coefficients[i] + h * increment[i];
             }
         }
-        increment.iter_mut().for_each(|sum| *sum *= h);
+        for i in 0..n {
+            slope[i] = increment[i] + h * slope[i];
+            increment[i] *= h;
+        }
     }
 
     /// The largest difference of the derivatives at the end, in units of what is tolerated, and its component.
@@ -220,11 +244,8 @@ impl Expansion {
         }
         let fastest = rates.iter().fold(0.0, |m: f64, rate| m.max(rate.abs()));
         let (mut largest, mut worst) = (0.0, 0);
-        for (i, rate) in rates.iter().enumerate() {
-            let mut slope = 0.0;
-            for j in (1..=self.order).rev() {
-                slope = j as f64 * self.coefficients[j * n + i] + h * slope;
-            }
+        for i in 0..n {
+            let (rate, slope) = (rates[i], self.slope[i]);
             let tolerated = self.scale.of(i, to.y[i].abs()).max(self.weights[i]);
             let gap = h.abs() * (rate - slope).abs();
             let defect = gap / (DEFECT * tolerated + h.abs() * ROUNDING * fastest);

@@ -178,7 +178,7 @@ impl Parts<'_> {
             pivot: 1.0,
             gap: f64::INFINITY,
         };
-        let poor = chart::quality(&present, a, r, n, &unit) < DEGRADED * best.pivot;
+        let poor = chart::quality(&present, a, n, |_| 1.0) < DEGRADED * best.pivot;
         match poor && best.rank() == wanted.rows.len() {
             true => Selection {
                 rows: best.rows,

@@ -1,0 +1,176 @@
+//! Sums of products of series, all of one order at once.
+//!
+//! ```text
+//! Σ_{i=1..j−1} a_i b_{j−i}
+//! ```
+//!
+//! These terms are known before any coefficient of order j is, so no sum waits for another; what else order j needs is
+//! straight-line code. Four sums share the additions across a register at their ends.
+#![allow(unsafe_code)] // Vectors are loaded through pointers, whose bounds are compared once for all sums.
+
+use std::arch::x86_64::{
+    _mm256_add_pd, _mm256_blend_pd, _mm256_fmadd_pd, _mm256_hadd_pd, _mm256_loadu_pd,
+    _mm256_permute2f128_pd, _mm256_permute4x64_pd, _mm256_setzero_pd, _mm256_storeu_pd,
+};
+
+/// Numbers from one series to the next.
+pub(crate) const STRIDE: usize = 48;
+/// The coefficient of order 0 would be here. It and those before it are zero, so that vectors may begin too early; those
+/// beyond the order reached meet them, so that vectors may end too late.
+pub(crate) const ZERO: usize = 3;
+/// The highest order that has room: vectors reach three orders beyond.
+pub(crate) const MOST: usize = STRIDE - ZERO - 4;
+
+/// The series that are multiplied, as their numbers; four products at a time.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Products {
+    list: Vec<[[u32; 2]; 4]>,
+    /// How many series there have to be.
+    series: usize,
+}
+
+impl Products {
+    /// Products of pairs of series, filled up to a multiple of four by products of series 0.
+    pub(crate) fn of(pairs: &[[u32; 2]]) -> Products {
+        let quads = pairs.chunks(4).map(|chunk| {
+            let mut quad = [[0; 2]; 4];
+            quad[..chunk.len()].copy_from_slice(chunk);
+            quad.map(|pair| pair.map(|series| series * STRIDE as u32))
+        });
+        let most = pairs.iter().flatten().max();
+        Products {
+            list: quads.collect(),
+            series: most.map_or(0, |&series| series as usize + 1),
+        }
+    }
+
+    /// How many sums there are.
+    pub(crate) fn len(&self) -> usize {
+        4 * self.list.len()
+    }
+
+    /// The sums of order j. Does nothing where a slice is too short or the order has no room, or where the processor
+    /// lacks the instructions.
+    pub(crate) fn sum(&self, j: usize, series: &[f64], sums: &mut [f64]) {
+        let fits = series.len() >= self.series * STRIDE
+            && series.len() >= STRIDE
+            && sums.len() >= self.len()
+            && (1..=MOST).contains(&j)
+            && super::is_available();
+        if !fits {
+            return;
+        }
+        // SAFETY: the processor has the instructions; every series begins at a multiple of the stride below the length
+        // of the slice, and of each the numbers from 1 + j − 4 C + ZERO − 1 ≥ 0 to ZERO + 4 C ≤ ZERO + j + 2 < STRIDE are
+        // read, where C is the number of vectors; as many sums are written as there are.
+        unsafe {
+            match (j + 2) / 4 {
+                0 => sums[..self.len()].fill(0.0),
+                1 => self.run::<1>(j, series, sums),
+                2 => self.run::<2>(j, series, sums),
+                3 => self.run::<3>(j, series, sums),
+                4 => self.run::<4>(j, series, sums),
+                5 => self.run::<5>(j, series, sums),
+                6 => self.run::<6>(j, series, sums),
+                7 => self.run::<7>(j, series, sums),
+                8 => self.run::<8>(j, series, sums),
+                9 => self.run::<9>(j, series, sums),
+                _ => self.run::<10>(j, series, sums),
+            }
+        }
+    }
+
+    /// The sums over C vectors.
+    ///
+    /// # Safety
+    /// As in [`Products::sum`].
+    #[target_feature(enable = "avx2,fma")]
+    #[allow(clippy::needless_range_loop)]
+    unsafe fn run<const C: usize>(&self, j: usize, series: &[f64], sums: &mut [f64]) {
+        let (from, mut to) = (series.as_ptr(), sums.as_mut_ptr());
+        for quad in &self.list {
+            let mut totals = [_mm256_setzero_pd(); 4];
+            // Over indices: iterators of the standard library are not always inlined here.
+            for k in 0..4 {
+                let [a, b] = quad[k];
+                // SAFETY: within the series, as `sum` says.
+                unsafe {
+                    let a = from.add(a as usize + ZERO + 1);
+                    let b = from.add(b as usize + ZERO + j);
+                    for v in 0..C {
+                        let reversed = _mm256_loadu_pd(b.sub(4 * v + 4));
+                        let reversed = _mm256_permute4x64_pd::<0b00_01_10_11>(reversed);
+                        let forward = _mm256_loadu_pd(a.add(4 * v));
+                        totals[k] = _mm256_fmadd_pd(forward, reversed, totals[k]);
+                    }
+                }
+            }
+            let [a, b, c, d] = totals;
+            let (low, high) = (_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d));
+            let crossed = _mm256_permute2f128_pd::<0x21>(low, high);
+            let straight = _mm256_blend_pd::<0b1100>(low, high);
+            // SAFETY: there are as many sums.
+            unsafe {
+                _mm256_storeu_pd(to, _mm256_add_pd(crossed, straight));
+                to = to.add(4);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_of_every_order() {
+        if !super::super::is_available() {
+            return;
+        }
+        // Small integers: sums are exact in every order of addition.
+        let count = 5;
+        let coefficient = |s: usize, i: usize| ((7 * s + 3 * i + 5 * i * i) % 11) as f64 - 4.0;
+        let mut series = vec![0.0; count * STRIDE];
+        let pairs = [[0, 1], [2, 2], [3, 0], [1, 4], [4, 3]];
+        let products = Products::of(&pairs);
+        assert_eq!(products.len(), 8);
+        for j in 1..=MOST {
+            for s in 0..count {
+                for i in 1..j {
+                    series[s * STRIDE + ZERO + i] = coefficient(s, i);
+                }
+            }
+            let mut sums = [f64::NAN; 8];
+            products.sum(j, &series, &mut sums);
+            for (&[a, b], &found) in pairs.iter().zip(&sums) {
+                let term = |i| coefficient(a as usize, i) * coefficient(b as usize, j - i);
+                let expected: f64 = (1..j).map(term).sum();
+                assert_eq!(found, expected, "order {j}, series {a} and {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_lies_beyond_the_order_does_not_count() {
+        let mut series = vec![0.0; STRIDE];
+        series[ZERO + 1..].fill(3.0);
+        let products = Products::of(&[[0, 0]]);
+        for j in 1..=MOST {
+            let mut sums = [0.0; 4];
+            products.sum(j, &series, &mut sums);
+            if super::super::is_available() {
+                assert_eq!(sums[0], 9.0 * (j as f64 - 1.0), "order {j}");
+            }
+        }
+    }
+
+    #[test]
+    fn slices_that_are_too_short_are_left_alone() {
+        let products = Products::of(&[[0, 1]]);
+        let mut sums = [1.0; 4];
+        products.sum(5, &[0.0; STRIDE], &mut sums);
+        products.sum(MOST + 1, &[0.0; 2 * STRIDE], &mut sums);
+        products.sum(5, &[0.0; 2 * STRIDE], &mut sums[..3]);
+        assert_eq!(sums, [1.0; 4]);
+    }
+}

@@ -1,0 +1,75 @@
+//! Where there is no machine code: no value of these types exists.
+
+use super::build::Recurrences;
+use crate::evaluate::EvaluateFailure;
+use crate::schedule::Single;
+
+#[derive(Clone, Debug)]
+pub(super) enum Recurring {}
+
+#[derive(Clone, Debug)]
+pub(super) enum Running {}
+
+#[allow(clippy::unused_self)]
+impl Recurring {
+    pub(super) fn of(_: &Single, _: &[u32]) -> Option<Recurring> {
+        None
+    }
+
+    pub(super) fn most() -> usize {
+        0
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        match *self {}
+    }
+
+    pub(super) fn running(&self) -> Running {
+        match *self {}
+    }
+
+    pub(super) fn prepare(
+        &self,
+        _: &[f64],
+        _: &[f64],
+        _: &mut Running,
+    ) -> Result<(), EvaluateFailure> {
+        match *self {}
+    }
+
+    pub(super) fn start(
+        &self,
+        _: &Recurrences,
+        _: &[f64],
+        _: &mut Running,
+    ) -> Result<(), EvaluateFailure> {
+        match *self {}
+    }
+
+    pub(super) fn first(&self, _: usize, _: &Running) -> f64 {
+        match *self {}
+    }
+
+    pub(super) fn advance(
+        &self,
+        _: usize,
+        _: &[f64],
+        _: &mut Running,
+    ) -> Result<(), EvaluateFailure> {
+        match *self {}
+    }
+
+    pub(super) fn output(&self, _: usize, _: usize, _: &Running) -> f64 {
+        match *self {}
+    }
+
+    pub(super) fn expand(
+        &self,
+        _: &[f64],
+        _: usize,
+        _: &mut Running,
+        _: &mut [f64],
+    ) -> Result<(), EvaluateFailure> {
+        match *self {}
+    }
+}
