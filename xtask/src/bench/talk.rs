@@ -4,7 +4,7 @@ use serde_json::Value;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{channel, Receiver, RecvTimeoutError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Why a participant gave no answer.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,24 +60,20 @@ impl Talk {
         if asked.is_err() {
             return Err(self.gone());
         }
-        let until = Instant::now() + Duration::from_secs_f64(seconds);
-        loop {
-            let left = until.saturating_duration_since(Instant::now());
-            match self.lines.recv_timeout(left) {
-                Ok(line) => match serde_json::from_str::<Value>(&line) {
-                    Ok(answer) if answer["ok"] == true => return Ok(answer),
-                    Ok(answer) => {
-                        let reason = answer["reason"].as_str().unwrap_or("no reason given");
-                        return Err(Silence::Refused(reason.into()));
-                    }
-                    Err(_) => return Err(Silence::Refused(format!("no JSON: {line:.80}"))),
-                },
-                Err(RecvTimeoutError::Timeout) => {
-                    self.end();
-                    return Err(Silence::Late(seconds));
+        match self.lines.recv_timeout(Duration::from_secs_f64(seconds)) {
+            Ok(line) => match serde_json::from_str::<Value>(&line) {
+                Ok(answer) if answer["ok"] == true => Ok(answer),
+                Ok(answer) => {
+                    let reason = answer["reason"].as_str().unwrap_or("no reason given");
+                    Err(Silence::Refused(reason.into()))
                 }
-                Err(RecvTimeoutError::Disconnected) => return Err(self.gone()),
+                Err(_) => Err(Silence::Refused(format!("no JSON: {line:.80}"))),
+            },
+            Err(RecvTimeoutError::Timeout) => {
+                self.end();
+                Err(Silence::Late(seconds))
             }
+            Err(RecvTimeoutError::Disconnected) => Err(self.gone()),
         }
     }
 

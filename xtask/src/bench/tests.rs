@@ -129,14 +129,17 @@ fn trajectories_are_compared_at_equal_errors() {
             deviation: Some(error),
             ..row("trajectory", "disc", peer, form, variant, &[seconds])
         };
-    let mut results = Results::default();
-    results.rows = vec![
+    let rows = vec![
         at("heyoka", "hand", "plain", 1e-9, 1e-8, 2.0),
         // Fast, but not as exact.
         at("chetaev", "text", "taylor", 1e-6, 1e-5, 0.1),
         at("chetaev", "text", "taylor", 1e-9, 2e-8, 3.0),
         at("chetaev", "text", "taylor", 1e-12, 1e-11, 5.0),
     ];
+    let mut results = Results {
+        rows,
+        ..Results::default()
+    };
     let what = "disc: trajectory at the error of heyoka's hand form at 1e-9";
     let found = |results: &Results| {
         let all = targets(results);
