@@ -13,8 +13,6 @@ struct Seat {
     row: Row,
     talk: Option<Talk>,
     expected: Option<Vec<Vec<f64>>>,
-    /// Seconds of the wall it has used.
-    used: f64,
 }
 
 /// Measures those participants of an item that `wanted` names.
@@ -77,7 +75,6 @@ fn prepare(place: &Workplace, item: &Item, participant: &Participant, reference:
         },
         talk: None,
         expected: judge::expected(reference, item.kind, participant.form, item.count),
-        used: 0.0,
     };
     if seat.expected.is_none() && matches!(item.kind, "derive" | "rhs" | "trajectory" | "ensemble")
     {
@@ -93,7 +90,6 @@ fn prepare(place: &Workplace, item: &Item, participant: &Participant, reference:
         Err(problem) => return seat.failed(problem),
     };
     let asked = question(item, participant, reference, place);
-    let clock = std::time::Instant::now();
     match talk.ask(&asked, item.cap) {
         Err(silence) => return seat.silent(silence),
         Ok(answer) => {
@@ -104,7 +100,6 @@ fn prepare(place: &Workplace, item: &Item, participant: &Participant, reference:
             }
         }
     }
-    seat.used = clock.elapsed().as_secs_f64();
     seat
 }
 
@@ -157,10 +152,9 @@ impl Seat {
         let Some(talk) = &mut self.talk else {
             return;
         };
-        if self.used > item.cap {
+        if talk.processor() > item.cap {
             return;
         }
-        let clock = std::time::Instant::now();
         match talk.ask(&json!({"do": "measure"}), item.cap) {
             // What was measured before counts.
             Err(Silence::Late(_)) if !self.row.seconds.is_empty() => self.talk = None,
@@ -176,7 +170,6 @@ impl Seat {
                 }
             }
         }
-        self.used += clock.elapsed().as_secs_f64();
     }
 
     fn word(&self) -> String {

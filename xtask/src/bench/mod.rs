@@ -116,6 +116,7 @@ fn bench(asked: &Arguments) -> Result<(), String> {
     });
     let mut results = Results::read(&kept).unwrap_or_default();
     results.quick = asked.quick;
+    results.date = machine::said("date", &["-u", "+%Y-%m-%d"]).unwrap_or_default();
     results.machine = machine::machine();
     results.versions.extend(place.versions(asked.peers));
     results.references = place.reference_words();
@@ -132,7 +133,6 @@ fn bench(asked: &Arguments) -> Result<(), String> {
         }
         results.write(&kept)?;
     }
-    results.date = machine::said("date", &["-u", "+%Y-%m-%d"]).unwrap_or_default();
     results.write(&root().join("bench/results.json"))?;
     page::write(&results)
 }

@@ -22,7 +22,7 @@ pub(crate) struct Item {
     pub(crate) tolerance: Option<f64>,
     /// Repeats.
     pub(crate) rounds: usize,
-    /// Seconds after which a participant is not asked again, and is ended where it is at work.
+    /// Seconds of the processor after which a participant is not asked again, and is ended where it is at work.
     pub(crate) cap: f64,
     /// Trajectories of an ensemble.
     pub(crate) count: u64,

@@ -10,7 +10,7 @@ use std::path::Path;
 pub(crate) struct Results {
     /// Whether it was a short one: fewer systems, tolerances, repeats and steps.
     pub(crate) quick: bool,
-    /// Day of its end.
+    /// Day of its last part.
     pub(crate) date: String,
     /// The machine.
     pub(crate) machine: Machine,
