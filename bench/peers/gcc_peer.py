@@ -1,4 +1,4 @@
-"""The hand form as C, common subexpressions shared by SymPy, compiled by gcc -O3 -march=native; one state at a time."""
+"""The hand form as C with a variable for each operation, compiled by gcc -O3 -march=native; one state at a time."""
 
 import ctypes
 import os
@@ -7,30 +7,15 @@ import tempfile
 
 import protocol
 import numpy as np
-import sympy as sp
 import systems
-
-
-class Ops:
-    num = staticmethod(lambda s: sp.Float(s, 17))
-    sin, cos, sqrt = sp.sin, sp.cos, sp.sqrt
-
-
-class Exact(Ops):
-    num = staticmethod(lambda s: sp.Rational(s))
-
-
-def shared(s):
-    z = sp.symbols(" ".join("z%d" % i for i in range(len(s.hand.variables(s.n)))))
-    rates = [sp.sympify(e) for e in s.hand.rates(Ops, list(z))]
-    return z, sp.cse(rates, optimizations="basic" if s.n <= 8 else None)
+from systems import trace
 
 
 def code(s):
-    z, (steps, rates) = shared(s)
+    z, steps, rates = trace.hand(s)
     inside = ["const double %s = in[%d];" % (x, i) for i, x in enumerate(z)]
-    inside += ["const double %s = %s;" % (x, sp.ccode(e)) for x, e in steps]
-    inside += ["out[%d] = %s;" % (i, sp.ccode(e)) for i, e in enumerate(rates)]
+    inside += ["const double %s = %s;" % step for step in steps]
+    inside += ["out[%d] = %s;" % (i, e) for i, e in enumerate(rates)]
     body = "\n  ".join(inside)
     return (
         "#include <math.h>\n__attribute__((noinline)) void f(const double* restrict in, double* restrict out) {\n  "

@@ -1,29 +1,27 @@
-"""Numba and SciPy: the hand form with common subexpressions shared, jitted by Numba, integrated by SciPy's solve_ivp."""
+"""Numba and SciPy: the hand form with a variable for each operation, jitted by Numba, integrated by SciPy's solve_ivp."""
 
 import protocol
 import numba
 import numpy as np
 import scipy.integrate
-import sympy as sp
 import systems
-from gcc_peer import shared
+from systems import trace
 
 
 def function(s, loop):
-    z, (steps, rates) = shared(s)
+    z, steps, rates = trace.hand(s)
     lines = ["def f(t, z):" if not loop else "def f(rows, out):"]
-    indent, prefix = "    ", "z"
+    indent = "    "
     if loop:
         lines.append("    for k in range(rows.shape[0]):")
-        indent, prefix = "        ", "rows[k, "
+        indent = "        "
     for i, x in enumerate(z):
         lines.append("%s%s = %s" % (indent, x, "rows[k, %d]" % i if loop else "z[%d]" % i))
-    code = lambda e: sp.pycode(e).replace("math.", "")
-    lines += ["%s%s = %s" % (indent, x, code(e)) for x, e in steps]
+    lines += ["%s%s = %s" % (indent, x, e) for x, e in steps]
     if not loop:
         lines.append("    out = np.empty(%d)" % len(rates))
     target = "out[k, %d]" if loop else "out[%d]"
-    lines += [("%s" + target + " = %s") % (indent, i, code(e)) for i, e in enumerate(rates)]
+    lines += [("%s" + target + " = %s") % (indent, i, e) for i, e in enumerate(rates)]
     if not loop:
         lines.append("    return out")
     space = {"np": np}
