@@ -1,5 +1,6 @@
-//! House tasks: `cargo xtask test`, `cargo xtask laws`.
+//! House tasks: `cargo xtask test`, `cargo xtask laws`, `cargo xtask bench`.
 
+mod bench;
 mod browser;
 mod laws;
 // The arguments of the laws are read here too, so that a slip is refused before anything is built.
@@ -19,6 +20,7 @@ Usage: cargo xtask <TASK> [ARGUMENTS]
 
   test    all tests of the workspace; installs what they need
   laws    random systems and the laws they must obey
+  bench   the benchmark, and the page of the book made of it
   help    this text
 
 `cargo xtask <TASK> --help` says more.
@@ -36,6 +38,7 @@ fn main() -> ExitCode {
     let status = match task {
         "test" => test::run(rest),
         "laws" => laws::run(rest),
+        "bench" => bench::run(rest),
         "help" | "--help" | "-h" => {
             out(HELP);
             0

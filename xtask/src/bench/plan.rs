@@ -1,0 +1,268 @@
+//! Who is measured at what: items, participants, settings.
+
+/// A participant at an item.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Participant {
+    /// `chetaev`, or the name of a file of `bench/peers`.
+    pub(crate) peer: &'static str,
+    /// `text`, `derived` or `hand`.
+    pub(crate) form: &'static str,
+    /// Mode, method or formulation.
+    pub(crate) variant: &'static str,
+}
+
+/// Participants measured side by side.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Item {
+    /// `derive`, `rhs`, `trajectory`, `ensemble`, `drift` or `main-job`.
+    pub(crate) kind: &'static str,
+    /// The system.
+    pub(crate) system: &'static str,
+    /// Tolerance of integrations.
+    pub(crate) tolerance: Option<f64>,
+    /// Repeats.
+    pub(crate) rounds: usize,
+    /// Seconds of the processor after which a participant is not asked again, and is ended where it is at work.
+    pub(crate) cap: f64,
+    /// Trajectories of an ensemble.
+    pub(crate) count: u64,
+    /// Steps of a long run.
+    pub(crate) steps: u64,
+    /// In the order in which they are asked first.
+    pub(crate) participants: Vec<Participant>,
+}
+
+const fn who(peer: &'static str, form: &'static str, variant: &'static str) -> Participant {
+    Participant {
+        peer,
+        form,
+        variant,
+    }
+}
+
+/// How much is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Extent {
+    /// A few minutes instead of hours.
+    pub(crate) quick: bool,
+    /// Others beside us.
+    pub(crate) peers: bool,
+}
+
+/// All items, the short ones first.
+pub(crate) fn items(extent: Extent) -> Vec<Item> {
+    let mut items = vec![main_job(extent)];
+    items.extend(derivations(extent));
+    items.extend(right_hand_sides(extent));
+    items.extend(trajectories(extent));
+    items.push(ensemble(extent));
+    items.extend(long_runs(extent));
+    for item in &mut items {
+        item.participants
+            .retain(|p| extent.peers || p.peer == "chetaev");
+    }
+    items
+}
+
+fn item(extent: Extent, kind: &'static str, system: &'static str) -> Item {
+    Item {
+        kind,
+        system,
+        tolerance: None,
+        rounds: if extent.quick { 3 } else { 9 },
+        cap: if extent.quick { 20.0 } else { 120.0 },
+        count: 0,
+        steps: 0,
+        participants: Vec::new(),
+    }
+}
+
+fn main_job(extent: Extent) -> Item {
+    Item {
+        participants: vec![who("chetaev", "text", "study")],
+        ..item(extent, "main-job", "sleigh")
+    }
+}
+
+/// The number of links of a snake; 0 for other systems.
+pub(crate) fn links(system: &str) -> u32 {
+    let size = system.strip_prefix("snake-");
+    size.and_then(|n| n.parse().ok()).unwrap_or(0)
+}
+
+const ALL: &[&str] = &[
+    "sleigh",
+    "disc",
+    "rattleback",
+    "appell-hamel",
+    "bicycle",
+    "snake-2",
+    "snake-4",
+    "snake-8",
+    "snake-16",
+    "snake-32",
+    "snake-64",
+    "snake-128",
+];
+
+fn derivations(extent: Extent) -> Vec<Item> {
+    let quick = &["disc", "bicycle", "snake-4", "snake-32", "snake-128"];
+    let systems = if extent.quick { &quick[..] } else { ALL };
+    let of = |&system: &&'static str| {
+        let n = links(system);
+        let mut list = vec![
+            who("chetaev", "text", "flow"),
+            who("chetaev", "text", "boltzmann-hamel"),
+            who("casadi", "derived", "reduced"),
+            who("casadi", "derived", "bordered"),
+            who("heyoka", "derived", "plain"),
+            who("heyoka", "derived", "compact"),
+        ];
+        // Kane's method of SymPy takes linear constraints.
+        if system != "appell-hamel" && n <= 8 {
+            list.push(who("sympy", "derived", "Kane"));
+        }
+        if extent.quick {
+            // Minutes of gcc.
+            list.retain(|p| p.peer == "chetaev" || n < 64 && (n < 32 || p.variant != "bordered"));
+        }
+        Item {
+            cap: match (extent.quick, system) {
+                (true, "bicycle" | "snake-32") => 90.0,
+                (true, _) => 20.0,
+                (false, _) => 300.0,
+            },
+            rounds: if extent.quick { 3 } else { 5 },
+            participants: list,
+            ..item(extent, "derive", system)
+        }
+    };
+    systems.iter().map(of).collect()
+}
+
+/// Our forms of which the right-hand side is measured.
+const FORMS: &[(&str, &str)] = &[
+    ("kane", "kane batch"),
+    ("boltzmann-hamel", "boltzmann-hamel batch"),
+    ("voronets", "voronets batch"),
+];
+
+fn right_hand_sides(extent: Extent) -> Vec<Item> {
+    let quick = &["disc", "rattleback", "bicycle", "snake-8"];
+    let systems = if extent.quick { &quick[..] } else { &ALL[..10] };
+    let of = |&system: &&'static str| {
+        let mut list = vec![who("chetaev", "text", "flow")];
+        for (one, many) in FORMS {
+            list.extend([who("chetaev", "text", one), who("chetaev", "text", many)]);
+        }
+        list.extend([
+            who("casadi", "derived", "reduced"),
+            who("casadi", "derived", "bordered"),
+            who("heyoka", "derived", "scalar"),
+            who("heyoka", "derived", "batch"),
+        ]);
+        if system != "bicycle" {
+            list.extend([
+                who("gcc", "hand", "C"),
+                who("casadi", "hand", "C"),
+                who("heyoka", "hand", "scalar"),
+                who("heyoka", "hand", "batch"),
+                who("numba", "hand", "loop"),
+                who("symjit", "hand", "arrays"),
+            ]);
+        }
+        Item {
+            participants: list,
+            ..item(extent, "rhs", system)
+        }
+    };
+    systems.iter().map(of).collect()
+}
+
+fn trajectories(extent: Extent) -> Vec<Item> {
+    let quick = &["disc", "rattleback", "snake-4"];
+    let systems = if extent.quick { &quick[..] } else { &ALL[..10] };
+    let tolerances: &[f64] = match extent.quick {
+        true => &[1e-15, 1e-9],
+        false => &[
+            1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6,
+        ],
+    };
+    let mut items = Vec::new();
+    for &system in systems {
+        for &tolerance in tolerances {
+            items.push(Item {
+                tolerance: Some(tolerance),
+                rounds: if extent.quick { 3 } else { 7 },
+                participants: integrators(extent, system, tolerance),
+                ..item(extent, "trajectory", system)
+            });
+        }
+    }
+    items
+}
+
+fn integrators(extent: Extent, system: &str, tolerance: f64) -> Vec<Participant> {
+    let n = links(system);
+    let mut list = vec![
+        who("chetaev", "text", "taylor"),
+        who("chetaev", "text", "taylor, boltzmann-hamel"),
+    ];
+    // Error estimates of Runge–Kutta pairs drown in rounding below.
+    let loose = tolerance >= 1e-13;
+    if loose {
+        list.push(who("chetaev", "text", "dormand-prince-853"));
+    }
+    if system != "bicycle" {
+        if n <= 8 {
+            list.push(who("heyoka", "hand", "plain"));
+        }
+        list.push(who("heyoka", "hand", "compact"));
+        if loose {
+            list.extend([
+                who("numba", "hand", "DOP853"),
+                who("numba", "hand", "LSODA"),
+                who("diffrax", "hand", "Tsit5"),
+                who("diffrax", "hand", "Dopri8"),
+                who("casadi", "hand", "cvodes"),
+            ]);
+        }
+    }
+    list.push(who("heyoka", "derived", "compact"));
+    // Half a minute of compilation for the disc; over every cap for what is larger.
+    if !extent.quick && matches!(system, "sleigh" | "disc" | "snake-2") {
+        list.push(who("heyoka", "derived", "plain"));
+    }
+    list
+}
+
+fn ensemble(extent: Extent) -> Item {
+    Item {
+        tolerance: Some(1e-9),
+        count: if extent.quick { 200 } else { 10_000 },
+        rounds: if extent.quick { 3 } else { 5 },
+        participants: vec![
+            who("chetaev", "text", "taylor"),
+            who("heyoka", "hand", "call"),
+            who("heyoka", "hand", "reused"),
+            who("diffrax", "hand", "Tsit5"),
+            who("diffrax", "hand", "Dopri8"),
+        ],
+        ..item(extent, "ensemble", "disc")
+    }
+}
+
+fn long_runs(extent: Extent) -> Vec<Item> {
+    let of = |system: &'static str| Item {
+        tolerance: Some(1e-15),
+        steps: if extent.quick { 20_000 } else { 1_000_000 },
+        rounds: 1,
+        cap: if extent.quick { 30.0 } else { 600.0 },
+        participants: vec![
+            who("chetaev", "text", "taylor"),
+            who("heyoka", "hand", "plain"),
+        ],
+        ..item(extent, "drift", system)
+    };
+    ["disc", "rattleback"].map(of).to_vec()
+}
