@@ -398,6 +398,7 @@ fn is_used(system: &System, name: &str) -> bool {
     system.moves(name)
         || system.parameters.iter().any(|p| p.name == name)
         || system.quasi_velocities.iter().any(|u| u.name == name)
+        || (system.characteristics.iter()).any(|c| c.parameters.iter().any(|p| p == name))
 }
 
 /// Gives intermediate objects names that nothing in the system and no other object has.

@@ -3,6 +3,7 @@
 //! Forms `ω^s = a^s_u dq^u + a^s_0 dt`, quasi-velocities `η^s = a^s_u v^u + a^s_0`, dual fields `X_s` and `X_0`, so that
 //! `v = X_0 + η^s X_s` (T3 §1; Poincaré 1901, Boltzmann 1902). The natural frame has `η = v`.
 
+use crate::equations::unused_name;
 use crate::linear::dot;
 use crate::sample;
 use crate::selection::{eliminate, pivot_cost, Selection};
@@ -256,7 +257,7 @@ impl Forms {
         let g = &system.graph;
         for &row in &selection.rows {
             let constraint = &system.constraints[terms.constraint_index[row]];
-            let name = format!("eta_{}", constraint.name);
+            let name = unused_name(system, &format!("eta_{}", constraint.name));
             self.adapted.push((row, self.speeds.len()));
             self.speeds.push(Speed {
                 value: g.symbol(&name, 0),

@@ -181,6 +181,12 @@ impl Prover {
             };
         }
         match rank.at_most {
+            Verdict::Proved(_) if rank.maximum == size => self
+                .determinant_at_a_point(system, matrix, manifold, what)
+                .map_or_else(
+                    || differing(what, &rank),
+                    |found| on_components(what, &rank, found),
+                ),
             Verdict::Proved(proof) => rank_counterexample(what, size, rank.maximum, &proof.detail),
             other => other,
         }
@@ -344,6 +350,28 @@ pub(crate) fn located(found: &str, on: &str, system: &System) -> String {
 }
 
 /// A matrix whose determinant vanishes identically: every state is a counterexample.
+/// The constraints have components, and a matrix is regular on some of them only.
+fn on_components(what: &str, rank: &GenericRank, found: Verdict) -> Verdict {
+    match found {
+        Verdict::Proved(proof) => Verdict::Conditional {
+            condition: format!(
+                "on those components of the constraints on which {what} does not vanish; on others the rank is {} of {}",
+                rank.minimum, rank.maximum
+            ),
+            proof,
+            counterexample: None,
+        },
+        _ => differing(what, rank),
+    }
+}
+
+fn differing(what: &str, rank: &GenericRank) -> Verdict {
+    Verdict::undecided(format!(
+        "{what} vanishes on some components of the constraints and not on others: ranks from {} to {} were found modulo primes",
+        rank.minimum, rank.maximum
+    ))
+}
+
 fn rank_counterexample(what: &str, size: usize, rank: usize, detail: &str) -> Verdict {
     let missing = (size - rank).to_string();
     Verdict::Refuted(Counterexample {

@@ -5,11 +5,14 @@
 //! left without κ must vanish, by one of its factors; every equation must be kept by the motion, and every condition
 //! differentiated along it must follow. Parameters are general: what contains only parameters does not vanish.
 
+mod angles;
 mod confirm;
 mod factors;
 
+pub(crate) use angles::joined;
 pub(crate) use confirm::confirmed;
 
+use self::angles::Angle;
 use super::closed_form::short;
 use super::motion::Motion;
 use chetaev_mechanics::claims::Context;
@@ -36,8 +39,8 @@ struct Row {
 struct Case {
     /// Symbols with their values, free of all these symbols.
     solved: Vec<(Expr, Expr)>,
-    /// What an angle was found from, `sin(phi)` for φ = 0 and φ = π.
-    angles: Vec<(Expr, Expr)>,
+    /// What angles were found from, `sin(phi)` for φ = 0 and φ = π.
+    angles: Vec<Angle>,
     /// Factors that do not vanish.
     nonzero: Vec<Expr>,
     rows: Vec<Row>,
@@ -52,11 +55,12 @@ pub(crate) struct Leaf {
     pub(crate) equations: Vec<String>,
     /// κ where the conditions determine it.
     pub(crate) kappa: Vec<Option<Expr>>,
-    /// Whether all speeds vanish.
+    /// Whether all velocities vanish.
     pub(crate) at_rest: bool,
     /// The conditions on κ in echelon form, with their pivots; `None` where no multipliers are asked for.
     rows: Option<Vec<(usize, Row)>>,
     nonzero: Vec<Expr>,
+    angles: Vec<Angle>,
 }
 
 /// What was found.
@@ -315,9 +319,10 @@ impl<'a, 'b> Search<'a, 'b> {
                 kappa[*column] = Some(row.right);
             }
         }
-        let at_rest = self.motion.speeds.iter().all(|&s| {
-            let symbol = g.symbol_expr(s);
-            g.is_zero(g.substitute(symbol, &case.solved))
+        // Where the constraints drift, a body without independent speeds moves.
+        let at_rest = self.cx.system.coordinates.iter().all(|c| {
+            let rate = self.motion.rate(g, c.q_symbol);
+            g.is_zero(self.on(&case, rate))
         });
         let mut leaf = Leaf {
             equations: self.equations(&case),
@@ -326,6 +331,7 @@ impl<'a, 'b> Search<'a, 'b> {
             at_rest,
             rows: self.with_multipliers.then(|| echelon.to_vec()),
             nonzero: Vec::new(),
+            angles: case.angles.clone(),
         };
         leaf.nonzero = self.needed(&leaf, &case.nonzero);
         leaf
@@ -369,10 +375,8 @@ impl<'a, 'b> Search<'a, 'b> {
             )
         });
         let pairs = solved.iter().map(|&(symbol, value)| {
-            match case.angles.iter().find(|(s, _)| *s == symbol) {
-                Some((_, factor)) => format!("{} = 0", g.text(*factor)),
-                None => format!("{} = {}", g.text(symbol), g.text(value)),
-            }
+            let angle = case.angles.iter().find(|angle| angle.symbol == symbol);
+            Leaf::written(g, angle, symbol, value)
         });
         pairs.collect()
     }

@@ -93,6 +93,14 @@ impl Motion {
         known.map_or(g.zero(), |(_, rate)| *rate)
     }
 
+    /// Rates, conditions and multipliers.
+    pub(crate) fn functions(&self) -> Vec<Expr> {
+        let rates = self.rates.iter().map(|(_, rate)| *rate);
+        let matrices = self.conditions.iter().chain(&self.transport).flatten();
+        let all = rates.chain(matrices.copied());
+        all.chain(self.multipliers.iter().copied()).collect()
+    }
+
     /// The symbols that move.
     pub(crate) fn state(&self) -> Vec<Symbol> {
         self.rates.iter().map(|(s, _)| *s).collect()
@@ -170,12 +178,7 @@ impl Builder<'_, '_> {
     /// The poles, where the motion is short enough.
     fn finish(&self, mut motion: Motion) -> Closed {
         let g = &self.cx.system.graph;
-        let rates = motion.rates.iter().map(|(_, rate)| *rate);
-        let all: Vec<Expr> = rates
-            .chain(motion.conditions.concat())
-            .chain(motion.transport.concat())
-            .chain(motion.multipliers.iter().copied())
-            .collect();
+        let all = motion.functions();
         let length: u64 = all.iter().map(|&e| simplify::length(g, e)).sum();
         if length > LARGEST {
             return Err(format!("the conditions have {length} signs in closed form, and cases are distinguished up to {LARGEST}"));

@@ -1,6 +1,6 @@
 //! `hamilton.stationary`: whether Hamilton's principle is one of stationary action.
 
-use super::cases::{confirmed, with_multipliers, Found, Leaf};
+use super::cases::{confirmed, joined, with_multipliers, Found, Leaf};
 use super::kappa::integrated;
 use super::motion::Motion;
 use super::Closure;
@@ -104,7 +104,9 @@ fn multipliers(cx: &Context<'_>, closure: &Closure) -> (String, Vec<Formula>) {
         .iter()
         .map(|&(symbol, value)| (g.symbol_expr(symbol), value))
         .collect();
-    let motion = (closure.free > 0).then(|| Motion::of(cx));
+    // Where conditions tie the multipliers to each other, their constants of integration are not independent.
+    let all_free = closure.free == closure.kappa.len();
+    let motion = (all_free && closure.free > 0).then(|| Motion::of(cx));
     let motion = motion
         .as_ref()
         .and_then(|motion| motion.as_ref().as_ref().ok());
@@ -177,7 +179,7 @@ pub(super) fn set_aside_unconfirmed(cx: &Context<'_>, motion: &Motion, found: &m
         .leaves
         .drain(..)
         .partition(|leaf| matches!(confirmed(cx, motion, leaf), Verdict::Proved(_)));
-    found.leaves = confirmed;
+    found.leaves = joined(&cx.system.graph, confirmed);
     let others = others.iter().map(|leaf| listed(&leaf.equations));
     found.open.extend(others);
 }

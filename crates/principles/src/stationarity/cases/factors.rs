@@ -5,7 +5,7 @@ use crate::stationarity::closed_form::short;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{simplify, Expr, Function, Node};
+use chetaev_symbolic::{simplify, Expr, Node};
 
 impl Search<'_, '_> {
     /// The factors by which an expression may vanish on the subset; `None` where it is too large to be factored.
@@ -59,15 +59,20 @@ impl Search<'_, '_> {
 
     /// The cases in which a factor vanishes.
     fn solved(&self, found: &mut Found, case: &Case, factor: Expr) -> Vec<Case> {
-        if let Some(values) = self.as_angle(factor) {
-            return values
-                .into_iter()
-                .filter_map(|(symbol, value)| {
-                    let mut case = self.with(case, symbol, value)?;
-                    case.angles.push((symbol, factor));
-                    Some(case)
-                })
-                .collect();
+        if let Some((angle, values)) = self.as_angle(factor) {
+            if angle.period.is_none() {
+                let (text, symbol) = (self.g.text(factor), self.g.text(angle.symbol));
+                let and = self.place(case);
+                found
+                    .open
+                    .push(format!("{text} = 0 at other {symbol}, {and}"));
+            }
+            let cases = values.into_iter().filter_map(|value| {
+                let mut case = self.with(case, angle.symbol, value)?;
+                case.angles.push(angle.clone());
+                Some(case)
+            });
+            return cases.collect();
         }
         if let Some(terms) = self.as_sum_of_squares(factor) {
             return self.require_all(found, case.clone(), &terms);
@@ -120,36 +125,20 @@ impl Search<'_, '_> {
             case.nonzero
                 .extend(list.into_iter().map(|(factor, _)| factor));
         }
-        Some(case)
+        self.is_defined(&case).then_some(case)
     }
 
-    /// The values of an angle at which its sine or cosine vanishes.
-    fn as_angle(&self, factor: Expr) -> Option<Vec<(Expr, Expr)>> {
-        let g = self.g;
-        let Node::Apply {
-            function,
-            arguments,
-        } = g.node(factor)
-        else {
-            return None;
-        };
-        let angle = *arguments.first()?;
-        let half = g.div(g.pi(), g.integer(2));
-        let values = match function {
-            Function::Sin => [g.zero(), g.pi()],
-            Function::Cos => [half, g.neg(half)],
-            _ => return None,
-        };
-        let symbol = *g
-            .symbols_in(&[angle])
-            .iter()
-            .find(|s| self.state.contains(s))?;
-        let slope = g.diff(angle, symbol);
-        g.as_number(slope)?;
-        let symbol = g.symbol_expr(symbol);
-        let rest = g.sub(angle, g.mul(&[slope, symbol]));
-        let value = |value: Expr| short(g, g.div(g.sub(value, rest), slope));
-        Some(values.into_iter().map(|v| (symbol, value(v))).collect())
+    /// Whether the motion is smooth somewhere on the subset: no root vanishes, or is one of what is never positive.
+    fn is_defined(&self, case: &Case) -> bool {
+        self.motion.poles.iter().all(|&pole| {
+            let radicand = match self.g.node(pole) {
+                Node::Power { base, exponent } if self.g.as_integer(*exponent).is_none() => *base,
+                _ => return !self.g.is_zero(self.on(case, pole)),
+            };
+            let rest = self.on(case, radicand);
+            let sign = known_sign(self.g, rest, &assumptions(self.cx.system));
+            !self.g.is_zero(rest) && !sign.is_nonpositive()
+        })
     }
 
     /// The terms of a sum none of which can be negative.
