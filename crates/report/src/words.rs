@@ -281,6 +281,8 @@ static ENGLISH: Words = Words {
         ("second-kind", "Principles of the second kind"),
         ("universal-relation", "Relations of the variations"),
         ("witness", "Numbers as a witness"),
+        ("frame", "Moving frames"),
+        ("cartan", "Cartan forms"),
         ("noether", "First integrals and symmetries"),
         ("distribution", "What can be reached"),
         ("liouville", "Integrability by quadratures"),

@@ -120,6 +120,9 @@ fn faithful(system: &System, original: Expr, readable: Expr) -> Expr {
 /// More signs than these in one formula are no longer read.
 const LEGIBLE: u64 = 4_000;
 
+/// Formulas up to this length are set where there is no room left, too: announcing them would take as long.
+const ALWAYS_SET: u64 = 120;
+
 /// Whether a formula is short enough for a page.
 pub fn is_legible(g: &Graph, e: Expr) -> bool {
     simplify::length(g, e) <= LEGIBLE
@@ -305,7 +308,7 @@ impl<'a> Typesetter<'a> {
     fn set(&self, es: &[Expr], document: impl FnOnce() -> Document) -> Printed {
         let signs = self.signs(es);
         let room = self.room.get();
-        if signs > LEGIBLE || room.bytes == 0 {
+        if signs > LEGIBLE || (room.bytes == 0 && signs > ALWAYS_SET) {
             return announced(signs);
         }
         let printed = printed(&document());

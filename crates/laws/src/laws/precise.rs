@@ -301,8 +301,8 @@ pub(super) fn followed(
         let own = place..place + parts.len();
         place = own.end;
         let total = |row: &Vec<Ball>| {
-            let parts = row[own.clone()].iter();
-            parts.fold(Ok(Ball::zero()), |sum, x| p.add(&sum?, x))
+            let mut parts = row[own.clone()].iter();
+            parts.try_fold(Ball::zero(), |sum, x| p.add(&sum, x))
         };
         let totals: Result<Vec<Ball>, _> = rows.iter().map(total).collect();
         let totals = totals.map_err(|problem| problem.to_string())?;
