@@ -12,11 +12,11 @@ use chetaev_tests::studied::{gallery_path, loaded, model_files};
 
 /// The highest order compared.
 const ORDER: usize = 24;
-/// What may differ, in units in the last place of the largest term of the series at the radius that it shows, for each order and
-/// for a matrix without condition; the inverse of a matrix of condition c loses c of them.
-const ULPS: f64 = 256.0;
+/// What may differ of a coefficient of order j, in units in the last place of the largest that a series of the radius found can
+/// have there, times j. Measured: at most 22, for the rattleback; 7 for the others.
+const ULPS: f64 = 64.0;
 
-/// Coefficients of the rates of (q, v) by both back ends at a state without any symmetry, and the condition of the matrix.
+/// Coefficients of (q, v) by machine code and by the interpreter, at a state without any symmetry.
 fn expansions(file: &str) -> Option<[Vec<f64>; 2]> {
     let (model, _) = loaded(&gallery_path(file), &[]).into_result().ok()?;
     let system = System::from_model(&model).ok()?;
@@ -47,9 +47,7 @@ fn expansions(file: &str) -> Option<[Vec<f64>; 2]> {
         outcome.map(|()| coefficients)
     };
     let native = Taylor::new(&program).unwrap();
-    if native.code_size().is_none() {
-        return None;
-    }
+    native.code_size()?;
     let found = [
         expand(native),
         expand(Taylor::interpreter(&program).unwrap()),

@@ -447,7 +447,7 @@ fn series_in_closed_form_to_high_orders() {
         }
         to_f64(&product)
     };
-    let alternating = |j: usize| if j % 2 == 0 { 1.0 } else { -1.0 };
+    let alternating = |j: usize| if j.is_multiple_of(2) { 1.0 } else { -1.0 };
     let odd = |j: usize, value: f64| if j % 2 == 1 { value } else { 0.0 };
     let even = |j: usize, value: f64| if j.is_multiple_of(2) { value } else { 0.0 };
     type Closed<'c> = (Expr, Box<dyn Fn(usize) -> f64 + 'c>);

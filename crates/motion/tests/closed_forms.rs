@@ -358,10 +358,12 @@ fn series_keep_the_energy_of_a_long_run() {
     });
     assert!(run.ending.finished, "{:?}", run.ending);
     let drift = run.followed[0].drift.value;
-    // The heading is rounded at 400·1.3 to 6e-14, and the energy, about 1 in size, is evaluated there.
+    // Every step rounds the terms of the energy by some units in the last place: by rounding alone they walk at random. At
+    // tolerances from 2.3e-16 to 1e-14, by machine code and by the interpreter, 1.5e-13 to 5.3e-13 were measured.
+    let walk = f64::EPSILON * run.followed[0].scale * (run.statistics.steps as f64).sqrt();
     assert!(
-        drift < 2e-13,
-        "{drift:e} after {} steps",
+        drift < 4.0 * walk,
+        "{drift:e} after {} steps, of which rounding explains {walk:e}",
         run.statistics.steps
     );
 }

@@ -104,10 +104,14 @@ fn walk(run: &Run) -> f64 {
 fn an_angle_of_many_turns() {
     let run = run(rotor, (&[0.0], &[3.0]), 10_000.0);
     assert!(run.ending.finished && run.statistics.steps > 10_000);
-    assert!(run.row(0)[0] > 20_000.0);
-    let energy = run.followed[0].drift.value / 3.5;
+    let angle = run.row(0)[0];
+    assert!(angle > 20_000.0);
+    let energy = run.followed[0].drift.value;
+    // The energy is evaluated where the angle is rounded, half a unit in its last place away.
+    let seen = f64::EPSILON / 2.0 * angle;
+    let scale = run.followed[0].scale;
     assert!(
-        energy < 4.0 * walk(&run),
+        energy < seen + 4.0 * walk(&run) * scale,
         "{energy:e} in {} steps",
         run.statistics.steps
     );

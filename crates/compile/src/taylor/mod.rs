@@ -15,7 +15,7 @@
 //! Where the processor allows, order 0 is native code and so are the recurrences (`machine`); elsewhere both are
 //! interpreted, with series stored contiguously by order, those that are convolved also in reverse, so that each
 //! convolution is a dot product of two contiguous slices. The back ends agree to rounding: on the motions of the gallery
-//! within 256 units in the last place of the largest coefficient that a series of the radius found can have, for each order
+//! within 64 units in the last place of the largest coefficient that a series of the radius found can have, for each order
 //! (`tests/series.rs` of the workspace). Nothing is allocated after the workspace is made.
 
 mod build;
@@ -143,6 +143,9 @@ impl Taylor {
             true => Recurring::of(&single, &outputs),
             false => None,
         };
+        if may_be_native && machine.is_none() {
+            return Taylor::choose(program, false);
+        }
         let schedule::Single {
             mut program,
             groups,
