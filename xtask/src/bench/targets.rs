@@ -171,13 +171,16 @@ fn right_hand_side(results: &Results) -> Vec<Target> {
 /// Our errors may be larger by this factor where errors are called equal.
 pub(crate) const EQUAL: f64 = 3.0;
 
+/// Errors up to this are all of the size of rounding.
+const ROUNDING: f64 = 10.0 * f64::EPSILON;
+
 /// Our least time at an error not larger than that of a row, over its time; `None` where we never come so close.
 fn at_equal_error(ours: &Rows<'_>, theirs: &Row) -> Result<Option<f64>, String> {
     ours.fastest("chetaev")?;
     let error = theirs.deviation.ok_or("no error is known")?;
     let reached = |row: &&&Row| {
         row.deviation
-            .is_some_and(|d| d <= EQUAL * error.max(f64::EPSILON))
+            .is_some_and(|d| d <= (EQUAL * error).max(ROUNDING))
     };
     let rows = Rows(ours.0.iter().filter(reached).copied().collect());
     let time = rows.time("chetaev").ok();
