@@ -166,3 +166,74 @@ fn multipliers_on_subsets() {
     assert_eq!(found.formulas.len(), 2);
     assert!(found.formulas.iter().all(|f| system.graph.is_zero(f.right)));
 }
+
+/// The knife edge whose constraint moves with the speed b glides across the line of fall where u = b sin φ: at φ = π/2 another
+/// speed than at φ = −π/2, so that the equation cos φ = 0 would say too much.
+#[test]
+fn angles_with_different_signs_are_not_one_equation() {
+    let moving = text(
+        "x y phi",
+        "1/2 m (x'^2 + y'^2) + 1/2 J phi'^2 + m G x",
+        &[("blade", "x' sin(phi) - (y' - b) cos(phi)")],
+    );
+    let condition = "phi' = 0 and sin(phi) = 0, or u_y = -b, phi' = 0 and phi = -pi/2 (mod 2 pi), or u_y = b, phi' = 0 and \
+                     phi = pi/2 (mod 2 pi) (with x' = (u_y - b sin(phi)) cos(phi), y' = u_y sin(phi) + b cos(phi)^2)";
+    assert_condition(&moving, STATIONARY, condition);
+}
+
+/// λ = (cos y − 1)(2 + sin y)/(1 + (2 + sin y)²) vanishes at y = 0 and not at y = π, where κ = 0 has no reaction to meet.
+#[test]
+fn a_zero_of_the_sine_may_be_one_only() {
+    let slope = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2) - x (1 - cos(y))",
+        &[("c", "z' - (2 + sin(y)) x'")],
+    );
+    let detail = finding(&system(&slope), STATIONARY)
+        .verdict
+        .detail()
+        .to_string();
+    assert!(detail.contains("y' = 0 and y = 0 (mod 2 pi)"), "{detail}");
+    assert!(!detail.contains("sin(y) = 0"), "{detail}");
+}
+
+/// y' = t x' + 1: with x' = 0 the particle moves along y and needs no reaction.
+#[test]
+fn a_drift_is_no_rest() {
+    let drift = text("x y", "1/2 (x'^2 + y'^2)", &[("c", "y' - t x' - 1")]);
+    assert_condition(&drift, STATIONARY, "x' = 0");
+}
+
+/// z' = √(1 − x'² − y'²) has no slope where the root vanishes: nothing is said of states there.
+#[test]
+fn edges_of_roots_are_no_motions() {
+    let sphere = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2) - z",
+        &[("c", "z' - sqrt(1 - x'^2 - y'^2)")],
+    );
+    assert_condition(&sphere, STATIONARY, "x' = 0 and y' = 0");
+}
+
+/// Σ κ E[f] = 2 (κ_f + 2 κ_g) (…): the constants of κ_f and κ_g are tied, and no formula gives each of its own.
+#[test]
+fn tied_multipliers_have_no_constants_of_their_own() {
+    let tied = text(
+        "x y z w",
+        "1/2 (x'^2 + y'^2 + z'^2 + w'^2)",
+        &[("f", "z' - y x' + x y'"), ("g", "w' - 2 y x' + 2 x y'")],
+    );
+    let found = finding(&system(&tied), STATIONARY);
+    assert_eq!(found.verdict.word(), "proved");
+    assert!(found
+        .formulas
+        .iter()
+        .all(|f| !f.caption.contains("multiplier")));
+    let method = finding(&system(&tied), "hamilton-jacobi.applicable");
+    assert_eq!(
+        method.verdict.word(),
+        "proved",
+        "{}",
+        method.verdict.detail()
+    );
+}

@@ -267,3 +267,34 @@ constraints = { c = "x'^2 + y'^2 = 8 + 2 cos(x)" }
         }
     }
 }
+
+/// A name of the model may be that of a quasi-velocity made for a constraint; the equations are those with another name.
+#[test]
+fn quasi_velocities_of_constraints_are_kept_apart_from_names_of_the_model() {
+    let skate = |angle: &str| {
+        format!(
+            r#"
+coordinates = ["x", "y", "{angle}"]
+parameters = {{ m = 2, J = 3 }}
+lagrangian = {{ T = "1/2 m (x'^2 + y'^2) + 1/2 J {angle}'^2" }}
+constraints = {{ b = "y' cos({angle}) = x' sin({angle})" }}
+quasi_velocities = {{ u = "x' cos({angle}) + y' sin({angle})", w = "{angle}'" }}
+"#
+        )
+    };
+    for angle in ["phi", "eta_b"] {
+        let case = Case::new(&skate(angle));
+        for form in [
+            "poincare-chetaev",
+            "lagrange-vector-field",
+            "boltzmann-hamel",
+        ] {
+            expect(&case, &format!("formulation.equivalent#{form}"), "proved");
+        }
+        expect(
+            &case,
+            "formulation.identity#lagrange-vector-field",
+            "proved",
+        );
+    }
+}

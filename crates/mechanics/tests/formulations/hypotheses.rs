@@ -187,3 +187,26 @@ fn jacobis_metric_has_a_sign() {
     expect(&both, claim, "conditional");
     expect(&both, jacobi, "proved");
 }
+
+/// W is diag(1, −1): on y' = x' the bordered determinant vanishes, on y' = 2 x' it is 3. The accelerations are unique there.
+#[test]
+fn a_matrix_that_is_singular_on_one_component_is_not_singular_on_all() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "y"]
+lagrangian = "(x'^2 - y'^2)/2 - x^2"
+constraints = { a = "(y' - x') (y' - 2 x') = 0" }
+"#,
+    );
+    expect(&case, "model.accelerations-unique", "conditional");
+    let (word, detail) = case.verdict("formulation.equivalent#maggi");
+    assert_ne!(word, "not-applicable", "{detail}");
+    let one = Case::new(
+        r#"
+coordinates = ["x", "y"]
+lagrangian = "(x'^2 - y'^2)/2 - x^2"
+constraints = { a = "y' = x'" }
+"#,
+    );
+    expect(&one, "model.accelerations-unique", "refuted");
+}
