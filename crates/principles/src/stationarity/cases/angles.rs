@@ -54,8 +54,7 @@ impl Search<'_, '_> {
         let rest = g.sub(angle, g.mul(&[slope, symbol]));
         let period = period(self.cx.system, self.motion, own);
         let zeros = period.and_then(|period| {
-            let zeros =
-                rational::to_i64(&(rational::abs(&number) * rational::integer(2 * period)))?;
+            let zeros = rational::to_i64(&(rational::abs(number) * rational::integer(2 * period)))?;
             (zeros <= VALUES).then_some(zeros)
         });
         let count = zeros.unwrap_or(2);
