@@ -1,11 +1,13 @@
 //! `model.metric-positive`: whether the kinetic metric of Jacobi's principle is positive on the admissible velocities.
 
 use super::{Claim, Context, Finding, Group};
+use crate::characteristics::Manifold;
 use crate::claims::formulation::manifold;
 use crate::formulations::stated_apart;
 use crate::linear::dot;
 use crate::prover::{located, Prover};
 use crate::quadratic_forms::{nonnegative, positive_in_linear_forms};
+use crate::system::System;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -64,39 +66,56 @@ impl Claim for MetricPositive {
             ..cx.prover.clone()
         };
         let manifold = manifold(cx);
-        let sign = |e: Expr| nonnegative(system, &prover, &manifold, e, ON);
-        let positive = sign(metric);
-        let Some(below) = point(&positive) else {
-            return positive.into();
-        };
-        match sign(g.neg(metric)) {
-            Verdict::Proved(proof) => Verdict::Refuted(Counterexample {
-                quantity: "|F| − F".into(),
-                detail: format!(
-                    "F = ½ vᵀ W v is positive at no admissible velocity ({})",
-                    proof.detail
-                ),
-                ..below
-            }),
-            other => match point(&other) {
-                Some(above) => Verdict::Conditional {
-                    condition: "F = ½ vᵀ W v > 0".into(),
-                    proof: Proof::exact(
-                        ON,
-                        format!(
-                            "F takes both signs; it is positive at a state: {}",
-                            above.detail
-                        ),
-                    ),
-                    counterexample: Some(Counterexample {
-                        quantity: "|F| − F".into(),
-                        ..below
-                    }),
-                },
-                None => other,
-            },
+        let general = by_signs(system, &prover, &manifold, metric);
+        let values = system.parameter_values();
+        if matches!(general, Verdict::Proved(_)) || values.is_empty() {
+            return general.into();
         }
-        .into()
+        let substituted = manifold.substituted(g, &values);
+        let mut valued = by_signs(system, &prover, &substituted, g.substitute(metric, &values));
+        match valued {
+            Verdict::Proved(_) | Verdict::Refuted(_) => {
+                valued.prefix("for the values of the parameters");
+                valued.into()
+            }
+            _ => general.into(),
+        }
+    }
+}
+
+/// The signs that F takes on the manifold.
+fn by_signs(system: &System, prover: &Prover, manifold: &Manifold, metric: Expr) -> Verdict {
+    let sign = |e: Expr| nonnegative(system, prover, manifold, e, ON);
+    let positive = sign(metric);
+    let Some(below) = point(&positive) else {
+        return positive;
+    };
+    match sign(system.graph.neg(metric)) {
+        Verdict::Proved(proof) => Verdict::Refuted(Counterexample {
+            quantity: "|F| − F".into(),
+            detail: format!(
+                "F = ½ vᵀ W v is positive at no admissible velocity ({})",
+                proof.detail
+            ),
+            ..below
+        }),
+        other => match point(&other) {
+            Some(above) => Verdict::Conditional {
+                condition: "F = ½ vᵀ W v > 0".into(),
+                proof: Proof::exact(
+                    ON,
+                    format!(
+                        "F takes both signs; it is positive at a state: {}",
+                        above.detail
+                    ),
+                ),
+                counterexample: Some(Counterexample {
+                    quantity: "|F| − F".into(),
+                    ..below
+                }),
+            },
+            None => other,
+        },
     }
 }
 

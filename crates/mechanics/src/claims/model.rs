@@ -514,8 +514,13 @@ impl Claim for Chaplygin {
         if cx.terms.constraints.is_empty() {
             return no_constraints().into();
         }
-        let chosen = chaplygin_choice(cx.system, cx.terms, &cx.selection.rows);
-        let dependent = chosen.as_ref().unwrap_or(&cx.selection.dependent);
+        let (terms, rows) = (cx.terms, &cx.selection.rows);
+        // The choice of the equations, where that fits.
+        let own = &cx.selection.dependent;
+        let fits = own.iter().all(|&d| is_absent(cx.system, terms, rows, d));
+        let other = (!fits).then(|| chaplygin_choice(cx.system, terms, rows));
+        let chosen = other.flatten();
+        let dependent = chosen.as_ref().unwrap_or(own);
         let names: Vec<&str> = dependent
             .iter()
             .map(|&d| cx.system.coordinates[d].name.as_str())

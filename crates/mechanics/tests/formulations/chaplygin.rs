@@ -61,3 +61,18 @@ fn it_says_why_it_does_not_apply() {
     assert_eq!(word, "not-applicable", "{detail}");
     assert!(detail.contains("model.chaplygin"), "{detail}");
 }
+
+/// Either coordinate occurs nowhere; the claim names the one that the equations eliminate.
+#[test]
+fn the_claim_names_the_choice_of_the_equations() {
+    let text = r#"
+coordinates = ["x", "y", "z"]
+lagrangian = { L = "1/2 (x'^2 + y'^2 + z'^2)" }
+constraints = { c = "z' = (5 + y) x'" }
+velocities = { independent = ["x'", "y'"] }
+"#;
+    let case = Case::new(text);
+    let (word, detail) = case.verdict("model.chaplygin");
+    assert_eq!(word, "proved", "{detail}");
+    assert!(detail.contains("dependent coordinates z"), "{detail}");
+}

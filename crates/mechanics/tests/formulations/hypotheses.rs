@@ -210,3 +210,22 @@ constraints = { a = "y' = x'" }
     );
     expect(&one, "model.accelerations-unique", "refuted");
 }
+
+/// F = ½ (m − k cos²x/4) x'² takes both signs for general m and k; for m = 2 and k = 1 it is positive.
+#[test]
+fn stated_values_decide_the_sign_of_the_metric() {
+    let text = r#"
+coordinates = ["x", "y"]
+parameters = { m = 2, k = 1 }
+lagrangian = "1/2 m x'^2 - 1/2 k y'^2"
+constraints = { a = "y' = x' cos(x)/2" }
+"#;
+    let (word, detail) = Case::new(text).verdict("model.metric-positive");
+    assert_eq!(word, "proved", "{detail}");
+    assert!(
+        detail.contains("for the values of the parameters"),
+        "{detail}"
+    );
+    let (word, _) = Case::new(&text.replace("k = 1", "k = 100")).verdict("model.metric-positive");
+    assert_eq!(word, "conditional");
+}
