@@ -135,9 +135,33 @@ fn conjugate_times_of_an_oscillator() {
     let free = of(&OSCILLATOR.replace("w = 2", "w = 0"));
     let (_, told) = detail(&free, "witness.index");
     assert!(told.contains("no conjugate time"), "{told}");
-    // Focal times of the motions from one point are the same.
+    // Focal times of the motions from one point are the same: t = 5 is none, and t = 3π/2 is one.
     let (_, told) = detail(&study, "witness.endpoints");
-    assert!(told.contains("rank 1"), "{told}");
+    assert!(told.contains("rank 1 "), "{told}");
+    let focal = of(&OSCILLATOR.replace("t_end = 5", "t_end = \"3 pi/2\""));
+    let (_, told) = detail(&focal, "witness.endpoints");
+    assert!(told.contains("rank less than 1"), "{told}");
+}
+
+/// Frequencies 1 and 2, also in coordinates turned by 45°: at t = π/2 the faster one is back, whatever the coordinates.
+#[test]
+fn focal_times_do_not_depend_on_coordinates() {
+    let end = |potential: &str| {
+        let text = OSCILLATOR
+            .replace("[\"q\"]", "[\"q\", \"s\"]")
+            .replace("1/2 q'^2", "1/2 (q'^2 + s'^2)")
+            .replace("1/2 w^2 q^2", potential)
+            .replace("\"q'\" = 0", "\"q'\" = 0, s = 1/2, \"s'\" = 0")
+            .replace("t_end = 5", "t_end = \"pi/2\"");
+        let text = text.replace("s = 1/2", "s = 0.5");
+        let model = load("oscillators.toml", &text, &NoFiles, &[]).model;
+        let study = studied(model.expect("a model"), &WITNESS, |_| ());
+        detail(&study, "witness.endpoints").1
+    };
+    let straight = end("1/2 (q^2 + w^2 s^2)");
+    assert!(straight.contains("rank less than 2"), "{straight}");
+    let turned = end("1/4 ((q + s)^2 + w^2 (q - s)^2)");
+    assert!(turned.contains("rank less than 2"), "{turned}");
 }
 
 /// The rolling disc is a minimum on a short interval, and its index is stated with its unique κ.

@@ -266,7 +266,7 @@ impl Claim for WitnessOfEnds {
 
     fn explanation(&self) -> &'static str {
         "What hamilton.endpoints says for small times is followed along the computed motion: the derivatives of q(t) by the n − r admissible initial velocities, from the variational equations. \
-         Their volume over the product of their lengths is 1 at right angles and 0 where they become dependent: at such focal times the rank drops, and neighbouring motions meet to first order."
+         The share of positions, √(2^k det Q / det(Q + τ² V)) with the Gram matrices Q and V of the derivatives of positions and velocities and τ the ratio of their largest lengths so far, is about 1 for small times and 0 where a change of the initial velocity moves no position: at such focal times the rank drops, and neighbouring motions meet to first order."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -298,7 +298,7 @@ fn of_ends(found: &linear::Reach) -> Verdict {
         false => found.dimension.to_string(),
     };
     let sentence = format!(
-        "the derivative of q(t) by the {} admissible initial velocities has the rank {rank} at the end; the least volume of its directions is {least:.1e}, at t = {t:.6}",
+        "the derivative of q(t) by the {} admissible initial velocities has the rank {rank} at the end; the least share of positions is {least:.1e}, at t = {t:.6}",
         found.dimension
     );
     numerical(1, found.interval, least, sentence)

@@ -24,7 +24,7 @@ const FLAT: f64 = 1e-6;
 pub struct Reach {
     /// n − r, the dimension for small times.
     pub dimension: usize,
-    /// The least volume, over the product of the lengths, of the derivatives of q(t) by the k admissible initial velocities, and when.
+    /// The least share of positions in the derivatives of (q, v) by the k admissible initial velocities, and when.
     pub least: (f64, f64),
     /// That at the end.
     pub at_end: f64,
@@ -120,18 +120,47 @@ pub(super) fn reach(cx: &Context<'_>) -> Result<Reach, String> {
         at_end: 0.0,
         interval: (t0, t1),
     };
+    let mut sizes = (0.0, 0.0);
     for row in (0..count).step_by(2) {
         for y in &mut states {
             *y = step(&rate, (row, 1), h, y)
                 .ok_or("the variational equations have no value at a row")?;
         }
-        let volume = volume(&states, n);
-        if volume < found.least.0 {
-            found.least = (volume, samples.times[row + 2]);
+        let share = share_of_positions(&states, n, &mut sizes);
+        if share < found.least.0 {
+            found.least = (share, samples.times[row + 2]);
         }
-        found.at_end = volume;
+        found.at_end = share;
     }
     Ok(found)
+}
+
+/// `√(2^k det Q / det (Q + τ² V))` for the Gram matrices Q and V of positions and velocities, τ the largest length of positions
+/// over that of velocities so far: about 1 for small times, zero where some initial velocity moves no position, whatever the
+/// basis of initial velocities.
+fn share_of_positions(states: &[Vec<f64>], n: usize, sizes: &mut (f64, f64)) -> f64 {
+    let k = states.len();
+    let part = |range: std::ops::Range<usize>| {
+        let rows: Vec<f64> = states
+            .iter()
+            .flat_map(|y| y[range.clone()].to_vec())
+            .collect();
+        gram(&rows, k, n)
+    };
+    let (positions, velocities) = (part(0..n), part(n..2 * n));
+    let size = |gram: &[f64]| (0..k).map(|i| gram[i * k + i]).fold(0.0_f64, f64::max);
+    sizes.0 = sizes.0.max(size(&positions));
+    sizes.1 = sizes.1.max(size(&velocities));
+    let weight = sizes.0 / sizes.1;
+    let pairs = positions.iter().zip(&velocities);
+    let both: Vec<f64> = pairs.map(|(q, v)| q + weight * v).collect();
+    let whole = determinant(k, &both);
+    match whole > 0.0 {
+        true => (2.0_f64.powi(k as i32) * determinant(k, &positions) / whole)
+            .max(0.0)
+            .sqrt(),
+        false => 0.0,
+    }
 }
 
 /// The volume of the first n components of vectors over the product of their lengths.
