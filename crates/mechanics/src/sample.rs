@@ -62,15 +62,14 @@ fn drawn(system: &System, terms: &MotionTerms, seed: u64, steps: usize) -> Optio
         for c in &terms.jets {
             point.entry(c.v_symbol).and_modify(|v| *v *= reach);
         }
-        let before = gradient_norms(system, terms, &point)?;
+        let usual = usual_gradients(system, terms, &point, seed.wrapping_add(attempt as u64))?;
         let sizes = values(system, &roots, &point)?;
         if !project_velocities(system, terms, &mut point, steps) {
             return None;
         }
         let after = gradient_norms(system, terms, &point)?;
         let left = values(system, &roots, &point)?;
-        // The gradient at the same position: from place to place its size may vary by any factor.
-        let is_regular = before.iter().zip(&after).all(|(b, a)| *a > 1e-4 * b);
+        let is_regular = usual.iter().zip(&after).all(|(u, a)| *a > 1e-4 * u);
         let has_slopes = sizes
             .iter()
             .zip(&left)
@@ -97,6 +96,35 @@ pub fn radicands(g: &Graph, es: &[Expr]) -> Vec<Expr> {
     }
     found
 }
+
+/// The largest lengths of gradients at several velocities at the position of a point; from place to place they may differ by
+/// any factor.
+fn usual_gradients(
+    system: &System,
+    terms: &MotionTerms,
+    point: &Point,
+    seed: u64,
+) -> Option<Vec<f64>> {
+    let mut usual = gradient_norms(system, terms, point)?;
+    let mut generator = Generator::new(seed ^ 0x6772_6164);
+    let mut other = point.clone();
+    for _ in 0..VELOCITIES {
+        for c in &terms.jets {
+            let v = generator.between(-1.3, 1.3);
+            other.entry(c.v_symbol).and_modify(|own| *own = v);
+        }
+        let norms = gradient_norms(system, terms, &other).unwrap_or_default();
+        for (usual, norm) in usual.iter_mut().zip(norms) {
+            if norm.is_finite() {
+                *usual = norm.max(*usual);
+            }
+        }
+    }
+    Some(usual)
+}
+
+/// Velocities at which the size of gradients is looked at.
+const VELOCITIES: usize = 6;
 
 /// The lengths of the gradients ∂f/∂v, one per constraint.
 fn gradient_norms(system: &System, terms: &MotionTerms, point: &Point) -> Option<Vec<f64>> {

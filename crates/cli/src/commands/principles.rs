@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let result = with_hooks(|hooks| {
         let study = study(read.model.clone(), options, hooks)?;
         let written = match arguments.compare {
-            true => write_all(&study, &folder, &arguments.model.model).map(|_| ()),
+            true => write_all(&study, &folder).map(|_| ()),
             false => Ok(()),
         };
         Ok::<_, StudyError>((study, written))

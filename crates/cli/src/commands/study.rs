@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let result = with_hooks(|hooks| {
         let study = study(read.model.clone(), options, hooks)?;
         (hooks.progress)("writing the report", None);
-        let written = write_all(&study, &folder, &arguments.model.model);
+        let written = write_all(&study, &folder);
         Ok::<_, StudyError>((study, written))
     });
     let (study, written) = match result {
@@ -90,7 +90,7 @@ fn json(study: &Study, files: &[String]) -> String {
 }
 
 /// Writes report.html, study.json and the trajectory; names of the data files.
-pub(super) fn write_all(study: &Study, folder: &Path, model: &Path) -> Result<Vec<String>, String> {
+pub(super) fn write_all(study: &Study, folder: &Path) -> Result<Vec<String>, String> {
     let mut names = Vec::new();
     if let Some(motion) = &study.motion {
         let table = Table::new(study, motion);
@@ -104,8 +104,7 @@ pub(super) fn write_all(study: &Study, folder: &Path, model: &Path) -> Result<Ve
         }
     }
     files::write(&folder.join("study.json"), json(study, &names).as_bytes())?;
-    let command = format!("chetaev study {}", model.display());
-    let html = page::page(study, Some(command), &names);
+    let html = page::page(study, Some(terminal::command()), &names);
     let report: PathBuf = folder.join("report.html");
     files::write(&report, html.as_bytes())?;
     Ok(names)
