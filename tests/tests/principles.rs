@@ -156,7 +156,7 @@ fn focal_times_do_not_depend_on_coordinates() {
         let text = text.replace("s = 1/2", "s = 0.5");
         let model = load("oscillators.toml", &text, &NoFiles, &[]).model;
         let study = studied(model.expect("a model"), &WITNESS, |_| ());
-        detail(&study, "witness.endpoints").1
+        detail(&study, "witness.endpoints").1.to_string()
     };
     let straight = end("1/2 (q^2 + w^2 s^2)");
     assert!(straight.contains("rank less than 2"), "{straight}");
