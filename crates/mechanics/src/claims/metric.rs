@@ -74,11 +74,11 @@ impl Claim for MetricPositive {
         let substituted = manifold.substituted(g, &values);
         let mut valued = by_signs(system, &prover, &substituted, g.substitute(metric, &values));
         match valued {
-            Verdict::Proved(_) | Verdict::Refuted(_) => {
+            Verdict::Conditional { .. } => general.into(),
+            _ => {
                 valued.prefix("for the values of the parameters");
                 valued.into()
             }
-            _ => general.into(),
         }
     }
 }
