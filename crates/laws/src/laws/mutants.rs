@@ -17,6 +17,9 @@ const ATTEMPTS: usize = 8;
 /// Every how many systems all formulations are tried.
 const ALL_EVERY: u64 = 10;
 
+/// Slips of one form that are tried where it is to be refuted.
+const SEVERAL: usize = 4;
+
 /// One forgotten term and one wrong sign, each in a random formulation that applies; now and then in every one.
 pub(super) fn slips(subject: &Subject<'_>) -> Vec<Trial> {
     let applicable: Vec<&'static str> = FORMULATIONS
@@ -36,13 +39,36 @@ pub(super) fn slips(subject: &Subject<'_>) -> Vec<Trial> {
     for slip in [Slip::Drop, Slip::Flip] {
         if subject.seed.is_multiple_of(ALL_EVERY) {
             let every = applicable.iter();
-            trials.extend(every.filter_map(|name| slip_in(subject, name, slip, &mut random)));
+            trials
+                .extend(every.filter_map(|name| one_of_several(subject, name, slip, &mut random)));
         } else if !applicable.is_empty() {
             let name = applicable[random.below(applicable.len() as u64) as usize];
             trials.extend(slip_in(subject, name, slip, &mut random));
         }
     }
     trials
+}
+
+/// Slips of one form, so that each form is tried: a wrong equation that is proved, else the first that is refuted.
+fn one_of_several(
+    subject: &Subject<'_>,
+    name: &'static str,
+    slip: Slip,
+    random: &mut Random,
+) -> Option<Trial> {
+    let mut last = None;
+    for _ in 0..SEVERAL {
+        let trial = slip_in(subject, name, slip, random)?;
+        // A root that a wrong sign leaves without real states is nowhere defined, and neither true nor false.
+        if !matches!(
+            trial.verdict,
+            Verdict::Undecided { .. } | Verdict::Numerical(_)
+        ) {
+            return Some(trial);
+        }
+        last = Some(trial);
+    }
+    last
 }
 
 /// `None` when no slip that was tried changes the accelerations.
