@@ -7,22 +7,12 @@ mod common;
 use chetaev_geometry::noether::embedded::Embedded;
 use chetaev_geometry::noether::family::{Family, Letter};
 use chetaev_geometry::noether::generator::Generator;
-use chetaev_geometry::noether::motion::Motion;
 use chetaev_geometry::noether::search::exhaust;
 use chetaev_mechanics::claims::Context;
-use chetaev_mechanics::{Characteristics, Manifold, Prepared, Prover, Registry, System};
+use chetaev_mechanics::{Characteristics, Manifold, System};
 use chetaev_symbolic::{Expr, Graph, Verdict};
-use common::{expr, framed, system};
+use common::{expr, framed, system, with_motion as with};
 use std::path::Path;
-
-fn with<T>(system: &System, ask: impl FnOnce(&Context<'_>, &Motion<'_>) -> T) -> T {
-    let prepared = Prepared::new(system).unwrap();
-    let registry = Registry::new(&[chetaev_mechanics::claims::CLAIMS, chetaev_geometry::CLAIMS]);
-    let (terms, selection) = (&prepared.terms, &prepared.selection);
-    let cx = Context::new(system, terms, selection, &registry, Prover::default());
-    let motion = Motion::of(&cx).unwrap();
-    ask(&cx, &motion)
-}
 
 fn natural<'a>(cx: &Context<'a>) -> Embedded<'a> {
     let chart = Characteristics::independent_velocities(cx.system, cx.terms, cx.selection);

@@ -5,25 +5,14 @@
 mod common;
 
 use chetaev_geometry::noether::family::{Family, Letter};
-use chetaev_geometry::noether::motion::Motion;
 use chetaev_geometry::noether::search::{exhaust, Exhausted, Integral, Table, Tie};
-use chetaev_mechanics::claims::Context;
-use chetaev_mechanics::{Prepared, Prover, Registry, System};
+use chetaev_mechanics::System;
 use chetaev_symbolic::Verdict;
-use common::{expr, system};
+use common::{expr, system, with_motion as with};
 
 fn letters(system: &System, texts: &[&str]) -> Vec<Letter> {
     let g = &system.graph;
     texts.iter().map(|t| Letter::plain(expr(g, t))).collect()
-}
-
-fn with<T>(system: &System, ask: impl FnOnce(&Context<'_>, &Motion<'_>) -> T) -> T {
-    let prepared = Prepared::new(system).unwrap();
-    let registry = Registry::new(&[chetaev_mechanics::claims::CLAIMS, chetaev_geometry::CLAIMS]);
-    let (terms, selection) = (&prepared.terms, &prepared.selection);
-    let cx = Context::new(system, terms, selection, &registry, Prover::default());
-    let motion = Motion::of(&cx).unwrap();
-    ask(&cx, &motion)
 }
 
 fn search(system: &System, velocities: &[&str], functions: &[&str], degree: u32) -> Exhausted {

@@ -7,17 +7,9 @@ mod common;
 use chetaev_geometry::noether::embedded::Embedded;
 use chetaev_geometry::noether::generator::Generator;
 use chetaev_mechanics::claims::Context;
-use chetaev_mechanics::{Characteristics, Prepared, Prover, Registry, System};
+use chetaev_mechanics::{Characteristics, System};
 use chetaev_symbolic::{Expr, Verdict};
-use common::{expr, system};
-
-fn with<T>(system: &System, ask: impl FnOnce(&Context<'_>) -> T) -> T {
-    let prepared = Prepared::new(system).unwrap();
-    let registry = Registry::new(&[chetaev_mechanics::claims::CLAIMS, chetaev_geometry::CLAIMS]);
-    let (terms, selection) = (&prepared.terms, &prepared.selection);
-    let cx = Context::new(system, terms, selection, &registry, Prover::default());
-    ask(&cx)
-}
+use common::{expr, system, with_context as with};
 
 fn vanish(cx: &Context<'_>, n: &Embedded<'_>, residuals: &[Expr]) -> bool {
     let verdict = cx.prover.identity(cx.system, residuals, n.manifold(), "");

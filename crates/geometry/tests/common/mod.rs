@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // each test file uses its part
 
+use chetaev_geometry::noether::motion::Motion;
 use chetaev_mechanics::claims::{Context, Finding};
 use chetaev_mechanics::sample::{self, Point};
 use chetaev_mechanics::{Prepared, Prover, Registry, System, SystemParts};
@@ -79,18 +80,26 @@ pub(crate) fn framed(
     System::new(graph, parts).unwrap()
 }
 
-/// The finding of `id#subject` with the claims of mechanics and of this crate.
-pub(crate) fn finding(system: &System, full: &str) -> Arc<Finding> {
+/// What `ask` makes of a system with the claims of mechanics and of this crate.
+pub(crate) fn with_context<T>(system: &System, ask: impl FnOnce(&Context<'_>) -> T) -> T {
     let prepared = Prepared::new(system).unwrap();
     let registry = Registry::new(&[chetaev_mechanics::claims::CLAIMS, chetaev_geometry::CLAIMS]);
-    let cx = Context::new(
-        system,
-        &prepared.terms,
-        &prepared.selection,
-        &registry,
-        Prover::default(),
-    );
-    cx.finding(full)
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let cx = Context::new(system, terms, selection, &registry, Prover::default());
+    ask(&cx)
+}
+
+/// The same with the motion X̄.
+pub(crate) fn with_motion<T>(
+    system: &System,
+    ask: impl FnOnce(&Context<'_>, &Motion<'_>) -> T,
+) -> T {
+    with_context(system, |cx| ask(cx, &Motion::of(cx).unwrap()))
+}
+
+/// The finding of `id#subject`.
+pub(crate) fn finding(system: &System, full: &str) -> Arc<Finding> {
+    with_context(system, |cx| cx.finding(full))
 }
 
 /// A state on the constraint manifold.
