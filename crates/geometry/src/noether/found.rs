@@ -7,7 +7,7 @@ use super::search::{Integral, Special, Table, Tie};
 use chetaev_mechanics::Context;
 use chetaev_symbolic::number::prime_field::Residue;
 use chetaev_symbolic::simplify::{simplify, Options};
-use chetaev_symbolic::{Expr, Graph};
+use chetaev_symbolic::{Expr, Graph, Node};
 use std::sync::Arc;
 
 /// The most members of a family of degree one in the velocities, and of degree two for a system of up to four coordinates and for
@@ -221,15 +221,51 @@ fn chosen(
     for &i in &independent {
         let candidate = &candidates[i];
         match table.proved(cx, candidate.family, &candidate.vector) {
-            Some(integral) => integrals.push(Integral {
-                shown: readable(&cx.system.graph, integral.shown),
-                name: candidate.name.clone(),
-                ..integral
-            }),
+            Some(integral) => {
+                let integral = Integral {
+                    shown: readable(&cx.system.graph, integral.shown),
+                    name: candidate.name.clone(),
+                    ..integral
+                };
+                integrals.push(match integral.name {
+                    Some(_) => integral,
+                    None => without_constant_factor(cx, integral),
+                });
+            }
             None => open += 1,
         }
     }
     (integrals, candidates.len() - independent.len(), open)
+}
+
+/// The integral divided by what all its terms share and nothing moves, as (1 + a²)^(3/2).
+fn without_constant_factor(cx: &Context<'_>, integral: Integral) -> Integral {
+    let g = &cx.system.graph;
+    let is_constant = |e: Expr| {
+        g.is_free_of(e, &|s| {
+            g.symbol_name(s) == "t" || cx.system.moves(g.symbol_name(s))
+        })
+    };
+    let Node::Product { factors, .. } = g.node(integral.shown) else {
+        return integral;
+    };
+    let constant: Vec<Expr> = factors
+        .iter()
+        .copied()
+        .filter(|&f| is_constant(f))
+        .collect();
+    if constant.is_empty() {
+        return integral;
+    }
+    let divided = |e: Expr| {
+        let reciprocals = constant.iter().map(|&f| g.powi(f, -1));
+        g.mul(&reciprocals.chain([e]).collect::<Vec<Expr>>())
+    };
+    Integral {
+        value: divided(integral.value),
+        shown: divided(integral.shown),
+        ..integral
+    }
 }
 
 /// An expression as a person would write it, where that does not take long.

@@ -13,6 +13,7 @@ use super::family::{Family, Letter, Member};
 use super::lift::{self, Sample};
 use super::motion::{draw_with_points, redraw_with_points, Motion, DRAWS};
 use chetaev_mechanics::{Context, Manifold};
+use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::number::modular_matrix::{null_space, NullSpace};
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
@@ -619,9 +620,40 @@ pub(super) fn constants(motion: &Motion<'_>, manifold: &Manifold, outputs: &[Exp
         if is_letter && !found.contains(&e) {
             found.push(e);
         }
+        for root in roots_of_constants(motion, manifold, e) {
+            if !found.contains(&root) {
+                found.push(root);
+            }
+        }
     }
     found.sort_by(|&a, &b| g.compare(a, b));
     found
+}
+
+/// The constants that a root of what moves contains on the manifold: `√(x'² + y'² + z'²)` contains `√(1 + a²)` where
+/// `z' = a √(x'² + y'²)`.
+fn roots_of_constants(motion: &Motion<'_>, manifold: &Manifold, e: Expr) -> Vec<Expr> {
+    let g = &motion.system.graph;
+    let is_constant = |e: Expr| g.is_free_of(e, &|s| motion.moves(s));
+    let Node::Power { base, exponent } = g.node(e) else {
+        return Vec::new();
+    };
+    if g.as_integer(*exponent).is_some() || !is_constant(*exponent) || is_constant(*base) {
+        return Vec::new();
+    }
+    let solved: Vec<(Expr, Expr)> = manifold
+        .solved
+        .iter()
+        .map(|&(s, value)| (g.symbol_expr(s), value))
+        .collect();
+    let Some(factored) = factored(g, g.substitute(*base, &solved)) else {
+        return Vec::new();
+    };
+    let constant = factored.factors.iter().filter(|(f, _)| is_constant(*f));
+    constant
+        .filter(|(f, n)| n % 2 != 0 && g.as_integer(*f).is_none())
+        .map(|&(f, _)| g.pow(f, *exponent))
+        .collect()
 }
 
 /// All first integrals of one family.
