@@ -4,7 +4,7 @@ use super::family::{Family, Member};
 use super::motion::Motion;
 use super::occurring::{Letters, ENERGY};
 use super::search::{Integral, Special, Table, Tie};
-use chetaev_mechanics::Context;
+use chetaev_mechanics::{Context, System};
 use chetaev_symbolic::number::prime_field::Residue;
 use chetaev_symbolic::simplify::{simplify, Options};
 use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol};
@@ -271,14 +271,17 @@ fn chosen(
     (integrals, others.unwrap_or_default(), open)
 }
 
+/// Whether nothing but parameters occurs; what is shown may contain names of quasi-velocities.
+pub(crate) fn is_constant(system: &System, e: Expr) -> bool {
+    let g = &system.graph;
+    let is_parameter = |s: Symbol| system.parameters.iter().any(|p| p.name == g.symbol_name(s));
+    g.symbols_in(&[e]).into_iter().all(is_parameter)
+}
+
 /// The integral divided by what all its terms share and nothing moves, as (1 + a²)^(3/2).
 fn without_constant_factor(cx: &Context<'_>, integral: Integral) -> Integral {
     let g = &cx.system.graph;
-    let is_constant = |e: Expr| {
-        g.is_free_of(e, &|s| {
-            g.symbol_name(s) == "t" || cx.system.moves(g.symbol_name(s))
-        })
-    };
+    let is_constant = |e: Expr| is_constant(cx.system, e);
     let Node::Product { factors, .. } = g.node(integral.shown) else {
         return integral;
     };

@@ -2,11 +2,11 @@
 
 use super::{bare, generator, generator_formulas, integral, requirements, subjects};
 use crate::noether::embedded::Embedded;
-use crate::noether::found::readable;
+use crate::noether::found::{is_constant, readable};
 use crate::noether::generator::Generator;
 use crate::noether::occurring::ENERGY;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
-use chetaev_symbolic::{Expr, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Verdict};
 
 /// `noether.integral#j`.
 #[derive(Clone, Copy, Debug)]
@@ -77,10 +77,9 @@ fn symmetry(n: &Embedded<'_>, generator: &Generator, name: Option<&str>) -> Stri
         .map(|(speed, &xi)| (bare(&speed.name), readable(g, xi)))
         .filter(|(_, xi)| !g.is_zero(*xi))
         .collect();
-    let moves = |s: Symbol| g.symbol_name(s) == "t" || system.moves(g.symbol_name(s));
     match &along[..] {
         [] => "its field vanishes on the constraints".into(),
-        [(field, xi)] if g.is_free_of(*xi, &moves) => {
+        [(field, xi)] if is_constant(system, *xi) => {
             format!("its symmetry is the shift along {field}")
         }
         _ => {
