@@ -2,6 +2,7 @@
 
 use crate::method_order::Orders;
 use chetaev_geometry::noether::found::Found;
+use chetaev_geometry::noether::occurring::ENERGY;
 use chetaev_mechanics::{MotionTerms, System};
 use chetaev_model::model::Model;
 use chetaev_motion::drift::Extreme;
@@ -149,7 +150,7 @@ impl FoundIntegrals {
     ) -> FoundIntegrals {
         let numbered = found.integrals.iter().enumerate();
         let quantities: Vec<(String, Expr)> = numbered
-            .filter(|(_, integral)| integral.name.is_none())
+            .filter(|(_, integral)| integral.name.as_deref() != Some(ENERGY))
             .map(|(j, integral)| ((j + 1).to_string(), integral.value))
             .collect();
         let count = quantities.len();

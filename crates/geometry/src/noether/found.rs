@@ -1,13 +1,15 @@
 //! The first integrals of a system in the families that are chosen for it, computed once for all claims about them.
 
+use super::embedded::Embedded;
 use super::family::{Family, Member};
+use super::killing::solutions;
 use super::motion::Motion;
 use super::occurring::{Letters, ENERGY};
 use super::search::{Integral, Special, Table, Tie};
 use chetaev_mechanics::{Context, System};
 use chetaev_symbolic::number::prime_field::Residue;
 use chetaev_symbolic::simplify::{simplify, Options};
-use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol};
+use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol, Verdict};
 use std::sync::Arc;
 
 /// The most members of a family of degree one in the velocities, and of degree two for a system of up to four coordinates and for
@@ -40,6 +42,8 @@ pub struct Searched {
 pub struct Found {
     /// The families, each exhausted.
     pub families: Vec<Searched>,
+    /// The generalized momenta ψ^i p_i that were searched, where these were not too many.
+    pub momenta: Option<Momenta>,
     /// Functionally independent first integrals, each proved.
     pub integrals: Vec<Integral>,
     /// Further integrals that are functions of `integrals`, linearly independent ones: products of two of these, and others.
@@ -48,6 +52,17 @@ pub struct Found {
     pub special: Vec<Special>,
     /// Independent integrals modulo p that could not be lifted or proved.
     pub open: usize,
+}
+
+/// Generalized momenta: fields along which the Killing-type equations were solved without a gauge.
+#[derive(Clone, Debug)]
+pub struct Momenta {
+    /// The functions of (t, q) of which ψ^i are combinations: products of the letters of the coefficients.
+    pub functions: Vec<Expr>,
+    /// Their weight at most.
+    pub weight: u32,
+    /// How many there are.
+    pub dimension: usize,
 }
 
 /// A combination of members, with its leading one last.
@@ -116,9 +131,11 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
     }
     candidates.extend(known(&table, letters, &families));
     candidates.sort_by_key(|c| c.order);
-    let (integrals, dependent, open) = chosen(cx, &table, &candidates);
+    let (mut integrals, dependent, open) = chosen(cx, &table, &candidates);
+    let momenta = momenta(cx, motion, letters, &mut integrals);
     Ok(Found {
         families: searched,
+        momenta,
         integrals,
         special: special(cx, &table, letters),
         dependent,
@@ -235,6 +252,48 @@ fn known<'f>(table: &Table<'_>, letters: &Letters, families: &'f [Family]) -> Ve
         }
     }
     found
+}
+
+/// The most components of fields of generalized momenta.
+const COMPONENTS: usize = 60;
+
+/// Searches generalized momenta and adds those that are no functions of the integrals found. Their coefficients are the momenta, which
+/// are in no family where they are long.
+fn momenta(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    letters: &Letters,
+    integrals: &mut Vec<Integral>,
+) -> Option<Momenta> {
+    let n = Embedded::of(cx).ok()?;
+    let most = COMPONENTS / n.k().max(1);
+    let (weight, functions) = (0..=WEIGHT)
+        .map(|weight| (weight, letters.functions(cx.system, weight)))
+        .take_while(|(_, functions)| functions.len() <= most)
+        .last()?;
+    let found = solutions(cx, &n, &functions, &[]).ok()?;
+    for solution in &found {
+        let mut all: Vec<Expr> = cx.system.fixed_functions();
+        all.extend(integrals.iter().map(|i| i.value));
+        all.push(solution.integral);
+        let is_new = motion
+            .independent_functions(&all, cx.prover.points_seed())
+            .is_some_and(|kept| kept.contains(&(all.len() - 1)));
+        if is_new && matches!(solution.verdict, Verdict::Proved(_)) {
+            integrals.push(Integral {
+                value: solution.integral,
+                shown: solution.integral,
+                verdict: solution.verdict.clone(),
+                independent: true,
+                name: None,
+            });
+        }
+    }
+    Some(Momenta {
+        dimension: found.len(),
+        weight,
+        functions,
+    })
 }
 
 /// The functionally independent candidates, lifted and proved; how many depend on them, and how many stay open.

@@ -7,6 +7,7 @@ use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::claims::formulation::{derive, manifold, REFERENCE};
 use chetaev_mechanics::prover;
 use chetaev_mechanics::{Characteristics, Context, Manifold, System};
+use chetaev_symbolic::number::modular_matrix::null_space;
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::zero::points::{Draw, Points, PointsOf};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
@@ -102,6 +103,19 @@ impl<'a> Motion<'a> {
         (0..es.len())
             .map(|i| columns.iter().map(|column| column[i]).collect())
             .collect()
+    }
+
+    /// Which functions of (t, q, v) are functionally independent on N of those before them, by what is seen at one point over a prime
+    /// field; `None` where there is no point.
+    pub fn independent_functions(&self, es: &[Expr], seed: u64) -> Option<Vec<usize>> {
+        let gradients = self.gradients(es);
+        let directions = gradients.first().map_or(0, Vec::len);
+        let points = self.points(&gradients.concat()).ok()?;
+        let mut random = Random::stream(seed, 1 << 23);
+        let draw = draw_with_points(&points, &mut random)?;
+        let at = points.at(&draw, &mut random)?;
+        let rows = (0..directions).flat_map(|d| at.chunks(directions).map(move |row| row[d]));
+        Some(null_space(&draw.field, es.len(), rows.collect()).pivots)
     }
 
     /// Names of the independent velocities of the chart of N.

@@ -88,6 +88,19 @@ impl Letters {
         })
     }
 
+    /// Functions of (t, q): monomials of weight up to `weight`.
+    pub fn functions(&self, system: &System, weight: u32) -> Vec<Expr> {
+        let g = &system.graph;
+        let value = |&(letter, exponent): &(usize, i8)| {
+            let base = self.coefficients[letter].letter.value;
+            g.powi(base, i64::from(exponent))
+        };
+        coefficients(&self.usual(), 0, weight)
+            .iter()
+            .map(|(_, member)| g.mul(&member.iter().map(value).collect::<Vec<Expr>>()))
+            .collect()
+    }
+
     /// Whether a letter of the coefficients belongs to the family of [`turned`](Letters::turned).
     pub fn is_turned(&self, place: usize) -> bool {
         place < self.circular || self.perhaps_turning.contains(&place)

@@ -113,7 +113,15 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
         ),
     };
     let dependent = dependent(cx, found);
-    let families: Vec<String> = found.families.iter().map(exhausted).collect();
+    let mut families: Vec<String> = found.families.iter().map(exhausted).collect();
+    families.extend(found.momenta.as_ref().map(|momenta| {
+        format!(
+            "generalized momenta whose fields have components made of {} functions of the place, coefficients of weight up to {}: dimension {}",
+            momenta.functions.len(),
+            momenta.weight,
+            momenta.dimension
+        )
+    }));
     let special: Vec<String> = found.special.iter().map(|s| special(cx, s)).collect();
     let special = match special.is_empty() {
         true => String::new(),
