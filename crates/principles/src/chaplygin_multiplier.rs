@@ -174,7 +174,16 @@ impl Reduced {
                 )
             })
             .collect();
-        let closed = identity(&mixed);
+        let mixed: Vec<(String, Expr)> = mixed
+            .into_iter()
+            .map(|e| {
+                (
+                    "the difference of two mixed derivatives of ln N".to_string(),
+                    e,
+                )
+            })
+            .collect();
+        let closed = cx.prover.named_identity(system, &mixed, &free, on);
         match &closed {
             Verdict::Proved(_) => self.multiplier(
                 cx,
