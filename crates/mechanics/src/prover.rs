@@ -300,7 +300,8 @@ const WRITTEN: usize = 120;
 /// `Q_x = -2 x'`.
 fn quantity(g: &Graph, name: &str, value: Expr) -> String {
     let text = g.text(value);
-    match text.chars().count() <= WRITTEN {
+    // A linear system that is only stated takes lines of its own.
+    match text.chars().count() <= WRITTEN && !text.contains('\n') {
         true => format!("{name} = {text}"),
         false => name.to_owned(),
     }

@@ -47,7 +47,9 @@ impl Claim for Multiplier {
          the rest is a condition more. `refuted`: that condition fails, or the mixed derivatives disagree, at a position, so there is no multiplier in this form; other momenta or other times are not refuted by it. \
          `proved`: they hold; N is stated where it is a product of powers of the factors that occur, else it is a quadrature. Then N^(k−1) det G is the density of an \
          invariant measure in (q, v), and δ∫(T + U) N dt = 0 with ∫N dt fixed. It is another property than stationary action: a skate has the multiplier cos φ \
-         in x and φ, a particle z' = y x' has 1/√(1 + y²), and loses it when a further coordinate moves freely beside it."
+         in x and φ, a particle z' = y x' has 1/√(1 + y²), and loses it when a further coordinate moves freely beside it. \
+         Example: for z' = y x' the momentum of z is θ = y P₁/(1 + y²) and c = 1, so ∂ln N/∂x = 0, ∂ln N/∂y = −y/(1 + y²): \
+         at y = 1 that is −1/2, and dt = √2 dτ there."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -174,7 +176,16 @@ impl Reduced {
                 )
             })
             .collect();
-        let closed = identity(&mixed);
+        let mixed: Vec<(String, Expr)> = mixed
+            .into_iter()
+            .map(|e| {
+                (
+                    "the difference of two mixed derivatives of ln N".to_string(),
+                    e,
+                )
+            })
+            .collect();
+        let closed = cx.prover.named_identity(system, &mixed, &free, on);
         match &closed {
             Verdict::Proved(_) => self.multiplier(
                 cx,

@@ -95,9 +95,14 @@ fn systems_agree(cx: &Context<'_>) -> Finding {
     };
     let on = "on the constraint manifold for all κ outside the singular set of the bordered matrix";
     let differences = residuals(cx, &routh, &extremum);
+    let name = "an acceleration of the extremum less that of the motion";
+    let named: Vec<(String, Expr)> = differences
+        .into_iter()
+        .map(|difference| (name.to_string(), difference))
+        .collect();
     let mut verdict = cx
         .prover
-        .identity(cx.system, &differences, &manifold(cx), on);
+        .named_identity(cx.system, &named, &manifold(cx), on);
     let sentence = match &verdict {
         Verdict::Proved(_) => format!("the extremals are the motions, for {}", every_kappa(cx)),
         Verdict::Refuted(_) => "the extremals are other curves than the motions for some κ".into(),

@@ -41,7 +41,9 @@ impl Claim for EnergyIntegral {
          at all states that satisfy the constraints, for example when every constraint is homogeneous in the velocities, \
          of any degree; the constraints may contain the time. The claim is decided by dH/dt = 0 with the accelerations \
          of the motion; the three hypotheses, each decided by itself, say why. `refuted` comes with a state at which \
-         the rate is not zero and with the power balance."
+         the rate is not zero and with the power balance. \
+         Example: a particle z' = y x' + b has λ = x' y'/(1 + y²) and dH/dt = b λ, which is 1/2 at b = y = x' = y' \
+         = 1; with b = 0 the energy is conserved."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

@@ -139,6 +139,10 @@ fn a_wrong_sign_is_refuted_at_a_state() {
         let Verdict::Refuted(found) = holds_on_motions(cx, &d, &local).unwrap() else {
             panic!("not refuted")
         };
+        // What does not vanish is named, with its value and the state.
+        let factor = "the factor of δx with the accelerations of the motion put in";
+        assert!(found.quantity.starts_with(factor), "{}", found.quantity);
+        assert!(found.detail.contains("does not vanish: it"));
         for name in ["y", "x'"] {
             let value = found.point.iter().find(|p| p.name == name).unwrap();
             assert_ne!(

@@ -208,7 +208,7 @@ class Player {
   readColors() {
     const probe = make("span", { hidden: "" }, this.figure);
     this.colors = {};
-    for (const name of ["ink", "muted", "blue", "red", "green", "amber", "violet", "grid", "paper"]) {
+    for (const name of ["ink", "muted", "blue", "red", "green", "amber", "violet", "teal", "grid", "paper"]) {
       probe.className = `tint-${name}`;
       this.colors[name] = getComputedStyle(probe).color;
     }

@@ -66,7 +66,7 @@ class Plot {
     this.rawX = x;
     this.times = own ? null : times;
     this.names = own
-      ? [unit(own.name, own.unit), unit("", spec.unit)]
+      ? [unit(own.name, own.unit), spec.unit ?? ""]
       : [unit("t", data.trajectory.timeUnit), spec.unit ?? ""];
     this.curves = list.map((curve, hue) => ({
       ...curve,

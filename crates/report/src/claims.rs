@@ -26,6 +26,9 @@ pub(crate) fn section(html: &mut Html, report: &Report, words: &Words) {
             None => html.text(prefix),
         };
         html.raw("</h3>\n");
+        if let Some(lead) = look_up(words.leads, &prefix) {
+            html.wrap("<p class=\"lead\">", lead, "</p>\n");
+        }
         for claim in claims {
             one(html, claim, report, words);
         }
@@ -148,16 +151,16 @@ fn one(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
     }
     html.raw("<span class=\"detail\">");
     capitalized(html, &shortened(&claim.detail));
-    html.raw("</span></span></summary>\n<div class=\"evidence\">\n<dl>\n");
-    evidence(html, claim, report, words);
-    html.raw("</dl>\n");
+    html.raw("</span></span></summary>\n<div class=\"evidence\">\n");
     for equation in claim.formulas.iter().take(ROWS) {
         html.raw("<div class=\"equation\">");
         equation_body(html, equation, None, words);
         html.raw("</div>\n");
         definitions(html, &equation.definitions, words);
     }
-    html.raw("<p class=\"permalink\"><a")
+    html.raw("<dl>\n");
+    evidence(html, claim, report, words);
+    html.raw("</dl>\n<p class=\"permalink\"><a")
         .attribute("href", fragment(&id))
         .wrap(">", words.link_to_claim, "</a></p>\n</div>\n</details>\n");
 }
@@ -180,6 +183,7 @@ fn evidence(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
         .map(|seconds| fill(words.seconds, &[&readable(seconds)]));
     let rows = [
         (words.method, claim.method.clone()),
+        (words.computed, claim.computed.clone()),
         (words.on, claim.on.clone()),
         (words.error_bound, claim.error_bound.as_deref().map(raised)),
         (words.samples, claim.samples.map(|n| n.to_string())),

@@ -41,6 +41,8 @@ pub struct Report {
     /// Further figures, not functions of the time of the trajectory (orders of convergence,
     /// variations of an action, …).
     pub figures: Vec<Figure>,
+    /// The motion beside another curve.
+    pub comparison: Option<Comparison>,
     /// The moving picture.
     pub animation: Option<Animation>,
     /// The model file.
@@ -220,6 +222,8 @@ pub struct Claim {
     pub on: Option<String>,
     /// One sentence a person understands.
     pub detail: String,
+    /// How it was computed, for those who check it.
+    pub computed: Option<String>,
     /// Proven bound on the probability of error, for example "2^-104".
     pub error_bound: Option<String>,
     /// Number of samples.
@@ -451,6 +455,24 @@ pub struct Figure {
     pub marks: bool,
     /// Full id of the claim it illustrates.
     pub claim: Option<String>,
+}
+
+/// The motion beside another curve from the same state: a story with its figures.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Comparison {
+    /// Heading.
+    pub title: String,
+    /// What is compared and what follows, one paragraph each.
+    pub paragraphs: Vec<String>,
+    /// What chooses the other curve, and how far apart both run.
+    pub facts: Vec<Fact>,
+    /// Full ids of the claims that the story rests on.
+    pub claims: Vec<String>,
+    /// The distance over the time.
+    pub figures: Vec<Figure>,
+    /// Show the first portrait of the trajectory here.
+    pub has_path: bool,
 }
 
 /// The model file as the study read it.

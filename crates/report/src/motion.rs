@@ -1,7 +1,7 @@
 //! The computed motion: places for the plots, statistics and drifts in tables.
 
 use crate::claims;
-use crate::data::{Report, Series, SeriesGroup, Trajectory};
+use crate::data::{Figure, Report, Series, SeriesGroup, Trajectory};
 use crate::html::{fragment, Html};
 use crate::number::{brief, readable};
 use crate::payload::{label, Payload, PlotKind};
@@ -55,17 +55,60 @@ pub(crate) fn figures(html: &mut Html, report: &Report, payload: &Payload<'_>, w
             words.figures,
             "</h2>\n<div class=\"plots\">\n",
         );
-    for (figure, (index, _)) in report.figures.iter().zip(payload.plots(PlotKind::Figure)) {
+    let places = payload.plots(PlotKind::Figure);
+    for (figure, (index, _)) in report.figures.iter().zip(places) {
+        drawn(html, figure, index, report, words);
+    }
+    html.raw("</div>\n</section>\n");
+}
+
+/// A figure with its words; the script draws into it.
+fn drawn(html: &mut Html, figure: &Figure, index: usize, report: &Report, words: &Words) {
+    html.raw("<figure class=\"plot\"")
+        .attribute("data-plot", index)
+        .wrap("><figcaption><h4>", &figure.title, "</h4>");
+    paragraphs(html, &figure.explanation);
+    if let Some(claim) = &figure.claim {
+        html.wrap("<p>", words.proved_by, ": ");
+        claims::reference(html, claim, report, words);
+        html.raw("</p>");
+    }
+    html.raw("</figcaption></figure>\n");
+}
+
+/// The section of the comparison: the story, what chose the other curve, both paths, the distance.
+pub(crate) fn comparison(html: &mut Html, report: &Report, payload: &Payload<'_>, words: &Words) {
+    let Some(compared) = &report.comparison else {
+        return;
+    };
+    html.raw("<section id=\"comparison\" aria-labelledby=\"comparison-title\">\n")
+        .wrap("<h2 id=\"comparison-title\">", &compared.title, "</h2>\n");
+    paragraphs(html, &compared.paragraphs);
+    facts(html, &compared.facts, report, words);
+    if !compared.claims.is_empty() {
+        html.wrap("<p class=\"evidence-line\">", words.proved_by, ":");
+        for claim in &compared.claims {
+            html.raw(" ");
+            claims::reference(html, claim, report, words);
+        }
+        html.raw("</p>\n");
+    }
+    html.raw("<div class=\"plots\">\n");
+    let path = payload.plots(PlotKind::Portrait).next();
+    if let Some((index, plot)) = path.filter(|_| compared.has_path) {
         html.raw("<figure class=\"plot\"")
             .attribute("data-plot", index)
-            .wrap("><figcaption><h4>", &figure.title, "</h4>");
-        paragraphs(html, &figure.explanation);
-        if let Some(claim) = &figure.claim {
-            html.wrap("<p>", words.proved_by, ": ");
-            claims::reference(html, claim, report, words);
-            html.raw("</p>");
-        }
-        html.raw("</figcaption></figure>\n");
+            .raw("><figcaption><h4>");
+        name(html, &plot.title);
+        html.wrap(
+            "</h4><p>",
+            words.both_curves,
+            "</p></figcaption></figure>\n",
+        );
+    }
+    let places = payload.plots(PlotKind::Comparison);
+    for (figure, (index, _)) in compared.figures.iter().zip(places) {
+        drawn(html, figure, index, report, words);
     }
     html.raw("</div>\n</section>\n");
 }

@@ -33,6 +33,7 @@ pub(crate) fn page(report: &Report, words: &'static Words) -> String {
     html.raw("<main id=\"main\">\n");
     title(&mut html, report, words);
     animation(&mut html, report, words);
+    motion::comparison(&mut html, report, &payload, words);
     if system::is_present(report) {
         system::section(&mut html, report, words);
     }
@@ -90,6 +91,9 @@ fn navigation(html: &mut Html, report: &Report, payload: &Payload<'_>, words: &W
         }
     };
     let (top, below) = ("<li>", "<li class=\"below\">");
+    if let Some(compared) = &report.comparison {
+        entry(true, "comparison", &compared.title, top);
+    }
     entry(system::is_present(report), "system", words.system, top);
     entry(
         !report.sections.is_empty(),

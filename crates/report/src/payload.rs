@@ -114,6 +114,8 @@ pub(crate) enum PlotKind {
     Time,
     Portrait,
     Figure,
+    /// A figure of the comparison.
+    Comparison,
 }
 
 /// Samples of a portrait.
@@ -203,7 +205,9 @@ impl<'a> Payload<'a> {
             plots.extend(portraits(trajectory, words));
             motion = Some(drawn_motion(trajectory, &mut plots));
         }
-        plots.extend(report.figures.iter().map(figure));
+        plots.extend(report.figures.iter().map(|f| figure(f, PlotKind::Figure)));
+        let compared = report.comparison.iter().flat_map(|c| &c.figures);
+        plots.extend(compared.map(|f| figure(f, PlotKind::Comparison)));
         let (animation, strides) = report
             .animation
             .as_ref()
@@ -404,10 +408,10 @@ fn portraits<'a>(trajectory: &'a Trajectory, words: &'a Words) -> Vec<Plot<'a>> 
         .collect()
 }
 
-fn figure(figure: &crate::data::Figure) -> Plot<'_> {
+fn figure(figure: &crate::data::Figure, kind: PlotKind) -> Plot<'_> {
     Plot {
         title: figure.title.as_str().into(),
-        kind: PlotKind::Figure,
+        kind,
         unit: figure.series.first().and_then(|s| s.unit.as_deref()),
         log: figure.logarithmic_vertical,
         log_horizontal: figure.logarithmic_horizontal,

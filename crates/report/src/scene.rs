@@ -124,4 +124,6 @@ pub enum Tint {
     Amber,
     /// Fifth color.
     Violet,
+    /// Sixth color, which no model can ask for: a second motion beside the first.
+    Teal,
 }

@@ -62,6 +62,7 @@ pub(crate) struct Words {
     pub(crate) expand: &'static str,
     pub(crate) link_to_claim: &'static str,
     pub(crate) method: &'static str,
+    pub(crate) computed: &'static str,
     pub(crate) on: &'static str,
     pub(crate) error_bound: &'static str,
     pub(crate) samples: &'static str,
@@ -78,6 +79,8 @@ pub(crate) struct Words {
     pub(crate) seconds: &'static str,
     pub(crate) verdicts: [(Verdict, VerdictWords); 6],
     pub(crate) groups: &'static [(&'static str, &'static str)],
+    /// What a group of claims is about.
+    pub(crate) leads: &'static [(&'static str, &'static str)],
 
     pub(crate) motion: &'static str,
     pub(crate) stopped_early: &'static str,
@@ -97,6 +100,8 @@ pub(crate) struct Words {
     pub(crate) plots_hint: &'static str,
     pub(crate) full_data: &'static str,
     pub(crate) figures: &'static str,
+    /// Under a drawing of two curves.
+    pub(crate) both_curves: &'static str,
     pub(crate) series_groups: [(SeriesGroup, &'static str); 9],
 
     pub(crate) animation: &'static str,
@@ -211,6 +216,7 @@ static ENGLISH: Words = Words {
     expand: "Show all evidence",
     link_to_claim: "Link to this claim",
     method: "Method",
+    computed: "Computed by",
     on: "Holds on",
     error_bound: "Probability of error",
     samples: "Samples",
@@ -290,6 +296,15 @@ static ENGLISH: Words = Words {
         ("functional", "Functionals"),
         ("motion", "The computed motion"),
     ],
+    leads: &[
+        ("variation", "Virtual displacements satisfy Σ ∂f/∂v δq = 0. What δv is has to be agreed upon: δv = D(δq) for all velocities (Hölder), or for the independent ones with δf = 0 (Suslov)."),
+        ("hamilton", "Four forms of one principle, each with virtual δq that vanish at the ends: what stands under the integral for this system, what is substituted, and the equations that follow. Then whether the principle says that the action is stationary."),
+        ("action", "The times vary too: Δq = δq + v Δt, Δv = D(Δq) − v D(Δt). At fixed energy this gives least action in the forms of Lagrange and Jacobi."),
+        ("hamilton-jacobi", "With π = p + Σ κ ∂f/∂v and H₁ = Σ π v − L the equation S_t + H₁(q, S_q, t) = 0 integrates those motions that make the action stationary."),
+        ("second-kind", "q and v are varied independently: with Z = L + Σ (Dq − v) ∂L/∂v the principle gives Dq = v besides the equations of motion."),
+        ("universal-relation", "Where Dq = v on the true path δv cancels, and any linear relation δv = A(δq) may be imposed."),
+        ("witness", "Integrals over the computed motion: numbers, independent of the proofs."),
+    ],
 
     motion: "Motion",
     stopped_early: "The run stopped early",
@@ -309,6 +324,7 @@ static ENGLISH: Words = Words {
     plots_hint: "Point at a plot to read values, drag to zoom, double-click to return, click to set the time of the animation. The wheel zooms a plot after a click into it, or with Ctrl.",
     full_data: "Full data",
     figures: "Figures",
+    both_curves: "Both paths, from the start that a ring marks.",
     series_groups: [
         (SeriesGroup::Coordinates, "Coordinates"),
         (SeriesGroup::Velocities, "Velocities"),

@@ -1,5 +1,9 @@
 //! The constrained extremum beside the motion: another curve from the same state (T1 §4.1).
 
+mod words;
+
+pub(crate) use words::{number, told};
+
 use crate::derivation::check_applies;
 use crate::options::Hooks;
 use crate::study::integrate;
@@ -19,8 +23,45 @@ pub struct Beside {
     pub kappa: Vec<(String, f64)>,
     /// Whether κ(0) is that with which `hamilton.stationary` finds every motion to be an extremal.
     pub is_of_motion: bool,
-    /// The largest distance of the two curves in coordinates, the coordinate, and when.
-    pub distance: (f64, String, f64),
+    /// Whether some κ(0) was stated, by the model or on the command line.
+    pub is_stated: bool,
+    /// How far the two curves are apart, coordinate by coordinate.
+    pub gaps: Vec<Gap>,
+}
+
+/// The distance of the two curves in one coordinate.
+#[derive(Clone, Debug)]
+pub struct Gap {
+    /// The coordinate, by its place in the system.
+    pub coordinate: usize,
+    /// |motion − extremum| at the times of the motion, as long as both go.
+    pub values: Vec<f64>,
+    /// The largest magnitude of the coordinate on either curve.
+    pub size: f64,
+}
+
+impl Gap {
+    /// The largest distance and its row.
+    pub fn largest(&self) -> (usize, f64) {
+        let rows = self.values.iter().copied().enumerate();
+        rows.fold((0, 0.0), |most, (j, gap)| {
+            match gap.total_cmp(&most.1).is_gt() {
+                true => (j, gap),
+                false => most,
+            }
+        })
+    }
+}
+
+/// Tolerances that two runs of one curve may differ by, relative to the size of the coordinate.
+const TOLERANCES: f64 = 1e3;
+
+impl Beside {
+    /// Whether the curves are one, as far as runs of this tolerance can tell.
+    pub fn agree(&self, tolerance: f64) -> bool {
+        let within = |gap: &Gap| gap.largest().1 <= TOLERANCES * tolerance * gap.size.max(1.0);
+        self.gaps.iter().all(within)
+    }
 }
 
 /// Integrates the extremum from the start of a run.
@@ -50,7 +91,8 @@ pub(crate) fn of(
             chetaev_mechanics::words::quoted(&names)
         ));
     }
-    let is_of_motion = known.is_some() && names.iter().all(|name| stated(name).is_none());
+    let is_stated = names.iter().any(|name| stated(name).is_some());
+    let is_of_motion = known.is_some() && !is_stated;
     let kappa: Vec<(String, f64)> = names
         .into_iter()
         .enumerate()
@@ -69,10 +111,11 @@ pub(crate) fn of(
     let run = integrate(subject, &Vakonomic, &settings, what, hooks)
         .map_err(|problem| problem.to_string())?;
     Ok(Beside {
-        distance: distance(cx, motion, &run),
+        gaps: gaps(cx, motion, &run),
         run,
         kappa,
         is_of_motion,
+        is_stated,
     })
 }
 
@@ -95,16 +138,18 @@ fn at_start(
     Some(all)
 }
 
-fn distance(cx: &Context<'_>, a: &Run, b: &Run) -> (f64, String, f64) {
-    let mut largest = (0.0, String::new(), a.times.first().copied().unwrap_or(0.0));
-    for j in 0..a.asked().min(b.asked()) {
-        let (x, y) = (a.row(j), b.row(j));
-        for (c, i) in cx.system.coordinates.iter().zip(a.layout.q()) {
-            let gap = (x[i] - y[i]).abs();
-            if gap > largest.0 {
-                largest = (gap, c.name.clone(), a.times[j]);
+/// The distances at the times that both runs have.
+fn gaps(cx: &Context<'_>, a: &Run, b: &Run) -> Vec<Gap> {
+    let shared = a.asked().min(b.asked());
+    let places = a.layout.q().take(cx.system.n()).enumerate();
+    places
+        .map(|(coordinate, i)| {
+            let pairs = (0..shared).map(|j| (a.row(j)[i], b.row(j)[i]));
+            Gap {
+                coordinate,
+                values: pairs.clone().map(|(x, y)| (x - y).abs()).collect(),
+                size: pairs.fold(0.0, |most, (x, y)| most.max(x.abs()).max(y.abs())),
             }
-        }
-    }
-    largest
+        })
+        .collect()
 }

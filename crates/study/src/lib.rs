@@ -15,6 +15,7 @@ mod notices;
 pub mod options;
 pub mod page;
 mod placed;
+mod plain;
 pub mod record;
 pub mod registry;
 mod start;

@@ -55,6 +55,22 @@ impl ClaimSelection {
             .collect()
     }
 
+    /// Whether a witness is asked for by its id: it needs a motion, which the group of principles alone does not.
+    pub(crate) fn names_witness(&self) -> bool {
+        self.words.iter().any(|word| word.starts_with("witness."))
+    }
+
+    /// Witnesses asked for by their ids that there are none of.
+    pub(crate) fn without_witness(&self, verdicts: &[Decided]) -> Vec<String> {
+        let ids = self
+            .words
+            .iter()
+            .filter(|word| word.starts_with("witness.") && !word.contains('#'));
+        ids.filter(|id| !verdicts.iter().any(|d| d.claim == **id))
+            .map(|id| format!("`{id}` was asked for; it needs a computed motion of constraints of order one, and a small system"))
+            .collect()
+    }
+
     /// Whether any subject of a claim may be wanted.
     pub fn wants_claim(&self, claim: &dyn Claim) -> bool {
         self.words.is_empty()

@@ -1,6 +1,7 @@
 //! The report of a study: plain data for the report crate.
 
 mod claims;
+mod comparison;
 mod drawing;
 mod equations;
 mod motion;
@@ -57,6 +58,10 @@ pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Repor
             .as_ref()
             .map(motion::figures)
             .unwrap_or_default(),
+        comparison: study
+            .motion
+            .as_ref()
+            .and_then(|m| comparison::comparison(study, m)),
         animation: study
             .motion
             .as_ref()
@@ -341,7 +346,7 @@ fn initial(study: &Study, set: &Typesetter<'_>) -> Vec<InitialValue> {
 }
 
 /// The unit of a coordinate, of its velocity (order 1) or acceleration.
-fn unit(study: &Study, coordinate: usize, order: usize) -> Option<String> {
+pub(crate) fn unit(study: &Study, coordinate: usize, order: usize) -> Option<String> {
     let unit = &study.model.coordinates.get(coordinate)?.unit.as_ref()?.text;
     let time = match order {
         0 => return (unit != "1").then(|| unit.clone()),

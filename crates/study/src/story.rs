@@ -1,9 +1,11 @@
 //! What the variational principles say of a system, as a story for a terminal: `chetaev principles MODEL`.
 
-use crate::beside::Beside;
+use crate::beside::{number, told, Beside};
+use crate::plain;
 use crate::study::{Decided, Study};
 use crate::summary::{bold, coloured, Style};
 use chetaev_mechanics::Formula;
+use chetaev_symbolic::Verdict;
 use std::fmt::Write as _;
 
 /// A chapter: its title, what it is about, and the claims it tells of, by id or by what ids begin with.
@@ -160,28 +162,55 @@ fn verdict(text: &mut String, study: &Study, decided: &Decided, style: Style) {
             decided.expected.join(" or ")
         );
     }
+    let written = |words: &str| plain::written(&study.system, words);
     for formula in &decided.finding.formulas {
-        let _ = writeln!(text, "    {}", line(study, formula));
+        let _ = writeln!(text, "    {}", written(&line(study, formula)));
     }
-    let detail = decided.finding.verdict.detail().replace('\n', " ");
-    let told: Vec<&str> = detail
-        .split("; ")
-        .filter(|part| !is_technique(part))
-        .collect();
-    if !told.is_empty() {
-        paragraph(text, &format!("{}.", told.join("; ")), 4);
+    let (mut told, _) = plain::told(decided.finding.verdict.detail());
+    if let (Verdict::NotApplicable { .. }, Some((first, _))) =
+        (&decided.finding.verdict, told.split_once("; "))
+    {
+        // The rest is told where the hypothesis is.
+        told = first.to_string();
+    }
+    paragraph(text, &format!("{}.", written(&told)), 4);
+    if let Some(found) = counterexample(decided) {
+        paragraph(text, &written(&found), 4);
     }
 }
 
-/// How a zero test was made, which the record and the report say; the verdict's word is enough in a story.
-fn is_technique(part: &str) -> bool {
-    const BEGINNINGS: [&str; 4] = [
-        "the difference cancels",
-        "the normal form over",
-        "zero at ",
-        "vanishes at ",
-    ];
-    BEGINNINGS.iter().any(|begin| part.starts_with(begin))
+/// The state at which a claim fails, where the detail does not say it already.
+fn counterexample(decided: &Decided) -> Option<String> {
+    let (found, where_) = match &decided.finding.verdict {
+        Verdict::Refuted(found) => (found, "It fails at"),
+        Verdict::Conditional {
+            counterexample: Some(found),
+            ..
+        } => (found, "Elsewhere it fails, as at"),
+        _ => return None,
+    };
+    let says_where = decided
+        .finding
+        .verdict
+        .detail()
+        .contains("does not vanish: it");
+    if found.point.is_empty() || says_where {
+        return None;
+    }
+    let shown = |text: &str| text.parse().map_or(text.to_string(), number);
+    let point: Vec<String> = found
+        .point
+        .iter()
+        .map(|p| match (&p.exact, &p.enclosure) {
+            (Some(exact), _) => format!("{} = {exact}", p.name),
+            (None, Some((low, _))) => format!("{} ≈ {}", p.name, shown(low)),
+            (None, None) => p.name.clone(),
+        })
+        .collect();
+    let (low, high) = &found.residual;
+    let about = if low == high { "is" } else { "is about" };
+    let value = format!("{} {about} {}, not 0", found.quantity, shown(low));
+    Some(format!("{where_} {}: {value}.", point.join(", ")))
 }
 
 /// "caption: left = right".
@@ -221,37 +250,10 @@ fn extremum(text: &mut String, study: &Study, found: &Beside) {
     let Some(motion) = &study.motion else {
         return;
     };
-    let kappa: Vec<String> = found
-        .kappa
-        .iter()
-        .map(|(name, value)| format!("{name}(0) = {value}"))
-        .collect();
-    let whence = match found.is_of_motion {
-        true => ", the multipliers with which every motion is an extremal",
-        false => "",
-    };
-    let (distance, coordinate, t) = &found.distance;
-    let sentence = format!(
-        "Both from the same state, the extremum with {}{whence}. They are farthest apart in {coordinate}, by {distance:.6} at t = {t:.6}.",
-        kappa.join(", ")
-    );
-    match coordinate.is_empty() {
-        true => paragraph(
-            text,
-            &format!(
-                "Both from the same state, the extremum with {}{whence}: they do not differ.",
-                kappa.join(", ")
-            ),
-            0,
-        ),
-        false => paragraph(text, &sentence, 0),
+    for words in told(study, motion, found) {
+        paragraph(text, &words, 0);
     }
     table(text, study, &motion.evidence.run, &found.run);
-    for (name, run) in [("motion", &motion.evidence.run), ("extremum", &found.run)] {
-        if !run.ending.finished {
-            let _ = writeln!(text, "  the {name} ended early: {}", run.ending.reason);
-        }
-    }
 }
 
 /// Coordinates of the motion and of the extremum at some times.

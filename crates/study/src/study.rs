@@ -233,7 +233,8 @@ pub fn study(
             "{detail}; Maggi's and Volterra's equations are not derived by them"
         ));
     }
-    let wants_motion = options.motion && options.claims.wants_group(Group::Motion, known.claims());
+    let asks = options.claims.wants_group(Group::Motion, known.claims());
+    let wants_motion = options.motion && (asks || options.claims.names_witness());
     let motion = match numeric {
         Ok(numeric) if wants_motion => Some(compute(
             &model, &system, &prepared, numeric, &options, hooks,
@@ -263,6 +264,7 @@ pub fn study(
         outcome => outcome,
     };
     notices.extend(unmatched);
+    notices.extend(options.claims.without_witness(&verdicts));
     Ok(Study {
         model,
         system,
@@ -529,7 +531,7 @@ fn decide(
             };
             verdicts.push(Decided {
                 claim: claim.id(),
-                title: claim.title(),
+                title: claim.title_of(subject.as_deref()),
                 group: claim.group(),
                 requires: claim.requires(subject.as_deref()),
                 finding,

@@ -162,6 +162,11 @@ impl<'a> Typesetter<'a> {
         }
     }
 
+    /// The system.
+    pub fn system(&self) -> &'a System {
+        self.system
+    }
+
     /// The graph of the system.
     pub fn graph(&self) -> &'a Graph {
         &self.system.graph

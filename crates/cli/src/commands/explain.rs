@@ -104,7 +104,7 @@ fn explained(claim: &'static dyn Claim, wanted: &str) -> String {
     let mut text = format!(
         "{}\n{}\n\n{}\n",
         claim.id(),
-        claim.title(),
+        claim.title_of(wanted.split_once('#').map(|(_, subject)| subject)),
         wrapped(claim.explanation())
     );
     if let Some(card) = card(wanted) {

@@ -117,6 +117,12 @@ pub trait Claim: Sync {
     /// A short title for people.
     fn title(&self) -> &'static str;
 
+    /// The title for a subject, where that is another statement.
+    fn title_of(&self, subject: Option<&str>) -> &'static str {
+        let _ = subject;
+        self.title()
+    }
+
     /// What is claimed, how it is decided, and what the verdicts mean: the page of `chetaev explain`.
     fn explanation(&self) -> &'static str;
 

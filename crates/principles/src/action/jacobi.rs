@@ -44,7 +44,8 @@ impl Claim for Jacobi {
          give the accelerations of the motion; their contraction with q' vanishes for every curve, so that τ is free; and Σ κ E[f]·δq taken with τ is that taken with t \
          times a factor, so that the principle is one of stationary action exactly where Hamilton's is. Since h + L₀ = L₂ along a motion, the form fails where L₂ = 0: with a positive kinetic energy at rest. There \
          the coefficient of q'' vanishes, the path ends on the boundary of the region h + L₀ > 0, and the motion that reaches it goes back. Example: a particle on a level plane \
-         in a magnetic field, L = (x'² + y'²)/2 + (B/2)(x y' − y x'), runs round circles of radius √(2h)/B, one way only."
+         in a magnetic field, L = (x'² + y'²)/2 + (B/2)(x y' − y x'), runs round circles of radius √(2h)/B, one way only. \
+         With h = 2 and B = 1 the radius is 2."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

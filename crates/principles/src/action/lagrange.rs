@@ -37,7 +37,9 @@ impl Claim for Lagrange {
          velocities stay under the integral). Δq is free and virtual; ΔH = 0 is a linear equation for D(Δt), whose coefficient Σ ∂H/∂v·v must not vanish. \
          Decided is the identity Δ(Σ p v) + Σ p v D(Δt) − D(Σ p Δq) = ΔH − Σ (Dp − ∂L/∂q) Δq on every curve, and that the last sum vanishes on the motions. \
          As for Hamilton's principle this is stationary action among admissible curves only where multipliers κ exist (hamilton.stationary). \
-         Example: a particle z' = y x' with Δq = (a, b, y a), a and b any functions that vanish at the ends."
+         Example: a particle z' = y x' with Δq = (a, b, y a), a and b any functions that vanish at the ends. \
+         With L = (x'² + y'² + z'²)/2 then D(Δt) = (x' a' + y' b' + z' (y a)')/(x'² + y'² + z'²); where all \
+         velocities and y are 1 and a' = 3, a = b' = 0 that is 2."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

@@ -32,7 +32,9 @@ impl Claim for CentralIdentity {
          d'Alembert's principle with Σ p D(δq) added on both sides, and δv cancels in it. Integrated, ∫(δL + Σ Q δq + Σ p (D(δq) − δv)) dt = \
          [Σ p δq] between the ends (Rumyantsev's (1.6)); every form of Hamilton's principle is this with some choice of δv and \
          δq = 0 at the ends. Decided are two things: that the difference of both sides is Σ (E[L] + Q) δq for arbitrary \
-         symbols δq, D(δq), δv, and that this vanishes for virtual δq on the motions."
+         symbols δq, D(δq), δv, and that this vanishes for virtual δq on the motions. \
+         Example: free fall, L = v²/2 − 10 q: on the right −10 δq + v δv + v (D(δq) − δv) = −10 δq + v D(δq), on \
+         the left D(v δq), which is the same where v' = −10."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

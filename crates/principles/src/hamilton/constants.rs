@@ -26,7 +26,9 @@ impl Claim for Constants {
         "A motion is determined by n positions and n − r admissible velocities. An extremal of the action under the constraints \
          needs beside them the initial values of its r multipliers κ, so its equations have 2n constants (where the matrix \
          [[L_vv + Σ κ f_vv, f_vᵀ], [f_v, 0]] is regular). The two systems are different systems wherever r > 0; whether every motion is an \
-         extremal for some κ is hamilton.stationary. r counts independent constraints."
+         extremal for some κ is hamilton.stationary. r counts independent constraints. \
+         Example: a skate has n = 3, r = 1 and 5 constants: x, y, φ, its speed and its rate of turning; the \
+         extremum has 6, with κ(0). A rolling disc with n = 4, r = 2 has 6, the extremum 8."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

@@ -28,7 +28,9 @@ impl Claim for Endpoints {
          shortly after t₀ a set of dimension k = n − r only, even where any two positions can be joined by admissible curves. The \
          derivative of q(t₁) by the k admissible initial velocities is (t₁ − t₀) B + O((t₁ − t₀)²), where the columns of B span the \
          virtual displacements; so its rank is that of B. The statement is about small t₁ − t₀: over longer times the rank \
-         may drop at focal times. Example: a skate reaches, from one position, a surface of positions (x, y, φ), by its forward speed and its rate of turning."
+         may drop at focal times. Example: a skate reaches, from one position, a surface of positions (x, y, φ), by its forward speed and its rate of turning. \
+         On a level plane with the speed u and the rate w it is at t = 1 at x = (u/w) sin w, y = (u/w)(1 − cos w), \
+         φ = w: two parameters for three coordinates."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

@@ -30,7 +30,10 @@ impl Claim for FormsEquivalent {
         "For the same virtual displacements, each form with its own rule for δv inserted: Hölder's, Voronets' and Suslov's integrands \
          are equal identically, for all accelerations; no total derivative and no equation of motion is needed. That of \
          Helmholtz and Poincaré differs from them by exactly Σ δp (q' − ∂H/∂p), which is no total derivative and vanishes where \
-         q' = ∂H/∂p. The differences are computed and shown. Where ∂²L/∂v∂v is singular there is no H, and the three others are compared."
+         q' = ∂H/∂p. The differences are computed and shown. Where ∂²L/∂v∂v is singular there is no H, and the three others are compared. \
+         Example: z' = y x' at y = x' = y' = 1 with δx = 1 and δy = D(δx) = D(δy) = 0: Hölder's integrand x' D(δx) \
+         + y' D(δy) + z' D(y δx) is z' y' δx = 1; in Voronets' and Suslov's forms δL* is 0, and θ (y' δx − x' δy) \
+         is 1."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

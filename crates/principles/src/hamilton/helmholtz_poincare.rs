@@ -2,7 +2,6 @@
 
 use super::phase::Phase;
 use super::requirements;
-use crate::words::formula;
 use chetaev_mechanics::claims::formulation::{basis, derive, manifold};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::formulations::DeriveError;
@@ -79,14 +78,9 @@ fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
         _ => "the form of Helmholtz and Poincaré",
     };
     verdict.prefix(sentence);
-    let hamiltonian = phase
-        .legendre
-        .is_explicit
-        .then_some(phase.legendre.hamiltonian);
-    let formulas = hamiltonian.and_then(|h| formula(cx, "the Hamiltonian H(q, p, t)", None, h));
     Ok(Finding {
         verdict,
-        formulas: formulas.into_iter().collect(),
+        formulas: super::told::helmholtz_poincare(cx, &phase),
     })
 }
 

@@ -13,6 +13,7 @@ static FORM: Form = Form {
     gives: "maggi",
     equations: "Maggi's equations, and with multipliers Routh's",
     integrand,
+    told: super::told::hoelder,
 };
 
 /// δL by Hölder's rule (T1 §3).
@@ -39,7 +40,8 @@ impl Claim for Hoelder {
          see hamilton.stationary. The integrand is built by the rule, integrated by parts, and its local equations are \
          compared with Maggi's for all accelerations, and with the accelerations of Routh's equations. Controls u(t) in the constraints \
          are functions of the time and not varied. Example: a particle z' = y x' with L = (x'² + y'² + z'²)/2 and δz = y δx: \
-         the integrand is x' D(δx) + y' D(δy) + z' D(y δx), which gives x'' + y z'' = 0 and y'' = 0."
+         the integrand is x' D(δx) + y' D(δy) + z' D(y δx), which gives x'' + y z'' = 0 and y'' = 0. \
+         At y = x' = y' = 1 these are x'' = −1/2, z'' = 1/2, y'' = 0."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

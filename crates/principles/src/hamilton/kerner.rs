@@ -31,7 +31,9 @@ impl Claim for Kerner {
          integrable. Both sides are decided by themselves for this system: integrability by the curvature coefficients A = 0, \
          the systems by their accelerations (formulation.vakonomic-coincides#system). It is not a statement about \
          inclusion: a rolling disc is not integrable, and yet each of its motions is an extremal. For constraints nonlinear in the velocities \
-         it is false (Appell–Hamel), and then not applicable."
+         it is false (Appell–Hamel), and then not applicable. \
+         Example: z' = y x' + x y' is integrable, z − x y is constant, and κ does not act on the curves. z' = y x' \
+         is not: its extremum has y'' = −κ x', with κ = x' = 1 that is −1, and the motion has y'' = 0."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

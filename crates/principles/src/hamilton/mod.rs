@@ -19,6 +19,7 @@ pub mod hoelder;
 mod kerner;
 pub(crate) mod phase;
 pub mod suslov;
+mod told;
 pub mod voronets;
 
 pub use central_identity::CentralIdentity;
@@ -32,9 +33,8 @@ pub use suslov::Suslov;
 pub use voronets::Voronets;
 
 use crate::variations::{Displacements, Variation};
-use crate::words::formula;
 use chetaev_mechanics::claims::formulation::basis;
-use chetaev_mechanics::claims::{Context, Finding};
+use chetaev_mechanics::claims::{Context, Finding, Formula};
 use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::{formulation, Basis};
 use chetaev_symbolic::{Expr, Verdict};
@@ -54,6 +54,8 @@ struct Form {
     equations: &'static str,
     /// The integrand without the work of the forces.
     integrand: fn(&Displacements<'_>) -> Variation,
+    /// The statement for the system, given the work of the forces.
+    told: fn(&Context<'_>, &Displacements<'_>, &Variation) -> Vec<Formula>,
 }
 
 impl Form {
@@ -84,14 +86,9 @@ impl Form {
             _ => format!("{} form of Hamilton's principle", self.whose),
         };
         verdict.prefix(&sentence);
-        let shown = d.sum(&integrand, &work(cx, &d));
-        let caption = format!("integrand of {} form, by the independent δ", self.whose);
-        Ok(Finding {
-            verdict,
-            formulas: formula(cx, caption, None, d.written(&shown))
-                .into_iter()
-                .collect(),
-        })
+        let mut formulas = (self.told)(cx, &d, &work(cx, &d));
+        formulas.extend(told::local(cx, &d, &local));
+        Ok(Finding { verdict, formulas })
     }
 }
 
@@ -148,9 +145,14 @@ pub fn holds_on_motions(
     covector: &[Expr],
 ) -> Result<Verdict, DeriveError> {
     let residuals = d.on_motion(cx, covector)?;
+    let names = d.chart.independent.iter().map(|&i| {
+        let name = &cx.system.coordinates[i].name;
+        format!("the factor of δ{name} with the accelerations of the motion put in")
+    });
+    let named: Vec<(String, Expr)> = names.zip(residuals).collect();
     Ok(cx
         .prover
-        .identity(cx.system, &residuals, d.manifold(), ON_MOTIONS))
+        .named_identity(cx.system, &named, d.manifold(), ON_MOTIONS))
 }
 
 /// The covector `E` of a form `∫(integrand + Σ Q δq) dt = Σ ∫ E_s δ_s dt + end terms`, one component for each independent

@@ -13,6 +13,7 @@ static FORM: Form = Form {
     gives: "voronets",
     equations: "Voronets' equations",
     integrand,
+    told: super::told::suslov,
 };
 
 /// `δL + Σ θ_l A^l_s δ_s` by Suslov's rule (T1 §3).
@@ -43,7 +44,8 @@ impl Claim for Suslov {
          is not the rate of δq_d. θ are the momenta of the dependent velocities, A the curvature coefficients of the constraints. The \
          integrand is built by this rule, integrated by parts, and compared with Voronets' equations for all \
          accelerations, and with the motion. Whether the terms θ A vanish is hamilton.stationary-suslov. Example: z' = y x' \
-         has A_x = y', A_y = −x' and θ = y x', so the integrand contains y x' (y' δx − x' δy)."
+         has A_x = y', A_y = −x' and θ = y x', so the integrand contains y x' (y' δx − x' δy). \
+         At y = x' = 1 these terms are y' δx − δy; without them there would be y'' = y x'² = 1 instead of y'' = 0."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

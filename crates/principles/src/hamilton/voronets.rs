@@ -13,6 +13,7 @@ static FORM: Form = Form {
     gives: "voronets",
     equations: "Voronets' equations",
     integrand,
+    told: super::told::voronets,
 };
 
 /// `δL* + Σ θ (δv_d − δφ)` by Hölder's rule, from the restricted Lagrangian (T1 §3).
@@ -41,7 +42,9 @@ impl Claim for Voronets {
          eliminated, θ their momenta ∂L/∂v_d from the full Lagrangian. The second term repairs what the elimination loses, as varied curves \
          do not obey v_d = φ. Its local equations are compared with Voronets' for all accelerations, and with the motion. \
          Without the second term there would be Lagrange's equations for L*, which are wrong. Example: z' = y x', L* = \
-         ((1 + y²) x'² + y'²)/2, θ = y x', δz' − δφ = y' δx − x' δy."
+         ((1 + y²) x'² + y'²)/2, θ = y x', δz' − δφ = y' δx − x' δy. \
+         The motion has (1 + y²) x'' + y x' y' = 0 and y'' = 0, at y = x' = y' = 1 x'' = −1/2 and y'' = 0; \
+         Lagrange's equations for L* would give x'' = −1 and y'' = 1 there."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

@@ -39,6 +39,18 @@ impl Claim for Applicable {
         "The generalized method of Hamilton and Jacobi integrates the motions"
     }
 
+    fn title_of(&self, subject: Option<&str>) -> &'static str {
+        match subject {
+            Some("separated") => {
+                "The equation of Hamilton and Jacobi separates in these coordinates"
+            }
+            Some("stated") => {
+                "The complete integral that the model states is one, and gives the motions"
+            }
+            _ => self.title(),
+        }
+    }
+
     fn explanation(&self) -> &'static str {
         "With multipliers κ of the constrained extremum, momenta π = p + Σ κ ∂f/∂v and H₁ = Σ π v − L, (v, κ) by π and f = 0, the extremals are the characteristics of \
          S_t + H₁(q, S_q, t) = 0. They are motions exactly where Hamilton's principle is one of stationary action (hamilton.stationary), with the κ found there: then δ∫(Σ π q' − H₁) dt = 0, \

@@ -73,7 +73,11 @@ pub(super) fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
     }
     let conditions = levi_civita(cx, &extremum);
     let on = "for all q and π";
-    let mut verdict = cx.prover.identity(cx.system, &conditions, &free(), on);
+    let named: Vec<(String, Expr)> = conditions
+        .iter()
+        .map(|&e| ("an expression of Levi-Civita".to_string(), e))
+        .collect();
+    let mut verdict = cx.prover.named_identity(cx.system, &named, &free(), on);
     let sentence = match &verdict {
         Verdict::Proved(_) => {
             "S_t + H₁ = 0 separates in these coordinates, S = −E t + Σ S_i(q_i): the conditions of Levi-Civita hold"
@@ -99,11 +103,19 @@ pub(super) fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
             formulas: found.formulas,
         });
     }
-    let open = format!(
-        "the quadratures found were not confirmed ({})",
-        found.verdict.detail()
-    );
-    Ok(verdict.prefixed(&open).into())
+    let open = match &found.verdict {
+        Verdict::Refuted(_) => {
+            "S as these quadratures give it is not confirmed as one whose curves are all motions; `motion = { … }` in \
+             [complete_integral] can state the constants that motions have"
+                .to_string()
+        }
+        other => format!("whether the quadratures give motions was not decided: {}", other.detail()),
+    };
+    let Verdict::Proved(proof) = &mut verdict else {
+        return Ok(verdict.into());
+    };
+    proof.detail = format!("{}; {open}", proof.detail);
+    Ok(verdict.into())
 }
 
 /// The coordinates that occur in H₁.

@@ -30,7 +30,9 @@ impl Claim for Canonical {
         "∫(δ(Σ p Dq − H) + Σ Q δq) dt, less [Σ p δq] with free ends, or with δq = 0 (half-fixed) and also δp = 0 (fixed) at the ends; δp is \
          arbitrary, and δq obeys Chetaev's condition in momenta: with u(q, p, t) = f(q, ∂H/∂p, t) it is Σ ∂u/∂p [∂²H/∂p∂p]⁻¹ δq = 0. Using \
          ∂u/∂p alone would be wrong unless ∂²H/∂p∂p is a multiple of the identity. Results: Dq = ∂H/∂p, and Dp = −∂H/∂q + Q + Σ λ ∂u/∂p [∂²H/∂p∂p]⁻¹. \
-         Decided are the coefficients of δp and δq, Chetaev's condition against ∂f/∂v, and the ends."
+         Decided are the coefficients of δp and δq, Chetaev's condition against ∂f/∂v, and the ends. \
+         Example: two masses 1 and 2 with v₁ = v₂ have H = p₁²/2 + p₂²/4 and u = p₁ − p₂/2: ∂u/∂p [∂²H/∂p∂p]⁻¹ = \
+         (1, −1), so δq₁ = δq₂; ∂u/∂p = (1, −1/2) alone would demand δq₂ = 2 δq₁, which is wrong."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

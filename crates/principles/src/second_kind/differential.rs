@@ -28,7 +28,9 @@ impl Claim for Differential {
         "Zhu's differential principle: Σ (∂L/∂q + Q − D(∂L/∂v)) δq + Σ (Dq − v) δ(∂L/∂v) = 0 along a curve (q(t), v(t)) in state \
          space, for all δv and all virtual δq, with f(q, v, t) = 0. Its coefficient of δv is W (Dq − v) with W = ∂²L/∂v∂v, so Dq = v where \
          W is regular; then the coefficient of δq gives the equations of motion. Where W is singular the kinematic law does \
-         not follow, and what of it does is stated: L = (v₁ + v₂)²/2 gives D(q₁ + q₂) = v₁ + v₂ only."
+         not follow, and what of it does is stated: L = (v₁ + v₂)²/2 gives D(q₁ + q₂) = v₁ + v₂ only. \
+         Example: an oscillator, L = (v² − q²)/2: (−q − Dv) δq + (Dq − v) δv = 0 for all δq and δv, so Dq = v and \
+         Dv = −q."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

@@ -26,7 +26,8 @@ impl Claim for PointwiseIdentity {
         "With Z = L + Σ (Dq − v) ∂L/∂v: Σ (∂L/∂q + Q − D(∂L/∂v)) δq + Σ (Dq − v) δ(∂L/∂v) = δZ + Σ Q δq − D(Σ ∂L/∂v δq) for arbitrary \
          curves (q(t), v(t)) and arbitrary variations, δ(Dq) = D(δq). For particles the generalized relations of \
          Lagrange are proved too. Without constraints and forces ∫Z dt is stationary: the principle of Livens, and in momenta the \
-         modified principle of Hamilton. With constraints it is not, as δq is restricted by Chetaev's condition and δ is a partial variation."
+         modified principle of Hamilton. With constraints it is not, as δq is restricted by Chetaev's condition and δ is a partial variation. \
+         Example: L = v²/2 has Z = v Dq − v²/2, and δZ − D(v δq) = (Dq − v) δv − Dv δq."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

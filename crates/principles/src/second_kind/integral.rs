@@ -28,7 +28,9 @@ impl Claim for Integral {
          at the ends; `half-fixed`: ∫(δZ + Σ Q δq) dt = 0 with δq = 0 there; `fixed`: with δv = 0 there too. Each \
          is equivalent to f = 0, Dq = v and D(∂L/∂v) − ∂L/∂q − Q = Σ λ ∂f/∂v, for regular ∂²L/∂v∂v. The first variation is \
          integrated by parts: the coefficient of δv is W (Dq − v), that of δq vanishes on the motions for virtual δq, and what is left \
-         at the ends is zero by the conditions asked. Free ends without the term [Σ ∂L/∂v δq] would leave the momenta there."
+         at the ends is zero by the conditions asked. Free ends without the term [Σ ∂L/∂v δq] would leave the momenta there. \
+         Example: L = (v² − q²)/2 has δZ = (Dq − v) δv − (Dv + q) δq + D(v δq): with δq = 0 at the ends the last \
+         term goes, with free ends it has to be subtracted."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

@@ -25,7 +25,8 @@ impl Claim for DifferentialNewton {
         "For particles: Σ (F − m Du)·δr + Σ m (Dr − u)·δu = 0 for arbitrary δu and virtual δr, with positions r and velocities u \
          varied independently, is equivalent to Newton's law with ideal reactions together with Dr = u. In generalized coordinates, u = ∂r/∂t + Σ ∂r/∂q v, the \
          generalized relations of Lagrange ∂u/∂v = ∂r/∂q and D(∂r/∂q) = ∂u/∂q + Σ (Dq − v) ∂²r/∂q∂q turn it into Lagrange's \
-         statement; second derivatives of r cancel. Both are proved for arbitrary curves and variations."
+         statement; second derivatives of r cancel. Both are proved for arbitrary curves and variations. \
+         Example: a mass of 2 on a line, pulled by 6: (6 − 2 Du) δr + 2 (Dr − u) δu = 0 gives Du = 3 and Dr = u."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

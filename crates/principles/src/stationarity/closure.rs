@@ -120,7 +120,12 @@ impl Closure {
             .map(|row| difference(cx, &all[row], &rank.pivots.columns, &values))
             .collect();
         let on = "on the constraint manifold, for almost every motion";
-        let follow = cx.prover.identity(cx.system, &differences, manifold, on);
+        let left = "what one more condition on κ leaves when the κ of the others is put in";
+        let named: Vec<(String, Expr)> = differences
+            .into_iter()
+            .map(|difference| (left.to_string(), difference))
+            .collect();
+        let follow = cx.prover.named_identity(cx.system, &named, manifold, on);
         let ranks = rank.at_least.and(rank.at_most);
         self.verdict = match (follow, ranks) {
             // The rank is that at almost every state: its place is contained in the other one.

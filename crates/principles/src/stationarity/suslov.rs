@@ -34,7 +34,8 @@ impl Claim for StationarySuslov {
          all s, with the momenta θ of the dependent velocities and the curvature coefficients A of the constraints. It is the condition of \
          stationarity with κ = −θ; for Chaplygin systems it suffices, for others also ∂L*/∂q_d = 0 along the motion is \
          needed, so it neither implies hamilton.stationary in general nor follows from it; and it depends on which velocities are called dependent. `proved`: identically, or on all motions; `conditional`: \
-         on the motions stated. Example: for a rolling disc θ A vanishes although A does not; for z' = y x' it is y x' (y', −x')."
+         on the motions stated. Example: for a rolling disc θ A vanishes although A does not; for z' = y x' it is y x' (y', −x'). \
+         At y = x' = y' = 1 that is (1, −1), so this motion does not satisfy the condition."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -84,7 +85,12 @@ fn on_motions(
 ) -> Result<Finding, DeriveError> {
     let terms = d.on_motion(cx, terms)?;
     let on = "on every motion";
-    let mut verdict = cx.prover.identity(cx.system, &terms, d.manifold(), on);
+    let names = d.chart.independent.iter();
+    let names = names.map(|&i| format!("Σ θ A of δ{}", cx.system.coordinates[i].name));
+    let named: Vec<(String, Expr)> = names.zip(terms.iter().copied()).collect();
+    let mut verdict = cx
+        .prover
+        .named_identity(cx.system, &named, d.manifold(), on);
     match &verdict {
         Verdict::Proved(_) => verdict.prefix("Σ θ A = 0 on every motion, though not for all accelerations: Suslov's form is ∫δL dt = 0",
         ),

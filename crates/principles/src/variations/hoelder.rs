@@ -36,7 +36,8 @@ impl Claim for Hoelder {
          happens for constraints nonlinear in the velocities, or for some virtual displacements only, whose equations are \
          stated. `refuted`: for no displacement but zero. Example: a skate, f = x' sin φ − y' cos φ. Turn it by δφ while it moves with the speed \
          u along its blade, and let the blade's displacement δs grow with time along its direction: δf = u δφ − φ' δs. Unless these are in the \
-         ratio of the actual velocities, the varied path is none a skate can take."
+         ratio of the actual velocities, the varied path is none a skate can take. \
+         With u = 2 and φ' = 1 that is δf = 2 δφ − δs, zero for δs = 2 δφ only."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -60,9 +61,9 @@ fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
     let d = Displacements::new(cx)?;
     let varied = d.of_constraints(cx);
     let formulas = formulas(cx, &d, &varied);
-    let identically = by_curvature(cx, &d, &varied).and(cx.prover.identity(
+    let identically = by_curvature(cx, &d, &varied).and(cx.prover.named_identity(
         cx.system,
-        &varied.concat(),
+        &named(cx, &d, &varied.concat()),
         d.manifold(),
         "at all admissible states, for all accelerations and virtual displacements",
     ));
@@ -118,7 +119,8 @@ fn not_identically(
     let flat = d.on_motion(cx, &flat)?;
     let rows: Vec<Vec<Expr>> = flat.chunks(k).map(<[Expr]>::to_vec).collect();
     let on = "on the motions, for all virtual displacements";
-    match cx.prover.identity(cx.system, &flat, d.manifold(), on) {
+    let flat = named(cx, d, &flat);
+    match cx.prover.named_identity(cx.system, &flat, d.manifold(), on) {
         Verdict::Proved(proof) => {
             let mut verdict = conditional("on the motions".into(), proof, identically);
             verdict.prefix("δf = 0 on every motion for every virtual displacement, although not for all accelerations: the reason is \
@@ -132,6 +134,20 @@ fn not_identically(
             Ok(other.into())
         }
     }
+}
+
+/// The coefficients of δf with names, constraint after constraint.
+fn named(cx: &Context<'_>, d: &Displacements<'_>, flat: &[Expr]) -> Vec<(String, Expr)> {
+    let rows = cx.selection.rows.iter();
+    let constraints = rows.map(|&row| &cx.system.constraints[cx.terms.constraint_index[row]].name);
+    let names = constraints.flat_map(|f| {
+        let independent = d.chart.independent.iter();
+        independent.map(move |&i| {
+            let name = &cx.system.coordinates[i].name;
+            format!("the factor of δ{name} in δf of `{f}`")
+        })
+    });
+    names.zip(flat.iter().copied()).collect()
 }
 
 /// The displacements for which δf vanishes, by the rank of its coefficients.

@@ -411,6 +411,7 @@ const MODEL: &str = include_str!("model.toml");
 pub(crate) fn report() -> Report {
     let rows = states();
     Report {
+        comparison: None,
         title: "Chaplygin sleigh".into(),
         subtitle: Some("A rigid body on a plane, carried by a blade and two smooth feet".into()),
         description: vec![

@@ -1,5 +1,6 @@
 //! The claims with their evidence, for the page.
 
+use crate::plain;
 use crate::record::bound_text;
 use crate::study::Decided;
 use crate::typeset::Typesetter;
@@ -17,12 +18,15 @@ pub(super) fn word(verdict: &str) -> Word {
 /// One claim.
 pub(super) fn claim(decided: &Decided, set: &Typesetter<'_>) -> Claim {
     let finding: &Finding = &decided.finding;
+    let written = |text: &str| plain::written(set.system(), text);
+    let (told, how) = plain::told(finding.verdict.detail());
     let mut claim = Claim {
         claim: decided.claim.into(),
         subject: decided.subject.clone(),
         title: Some(decided.title.into()),
         verdict: word(finding.verdict.word()),
-        detail: finding.verdict.detail().into(),
+        detail: written(&told),
+        computed: (!how.is_empty()).then_some(how),
         requires: decided.requires.clone(),
         // Of several verdicts that the model accepts, the one found.
         expected: match decided.expected.first() {
@@ -48,6 +52,8 @@ pub(super) fn claim(decided: &Decided, set: &Typesetter<'_>) -> Claim {
         ..Claim::default()
     };
     evidence(&mut claim, &finding.verdict);
+    claim.condition = claim.condition.map(|text| written(&text));
+    claim.counterexample = claim.counterexample.map(|text| written(&text));
     claim
 }
 

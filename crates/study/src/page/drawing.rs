@@ -41,12 +41,13 @@ pub(super) fn animation(study: &Study, motion: &Motion) -> Option<Animation> {
                 .into_iter()
                 .zip(&drawing.elements)
                 .filter(|(_, stated)| moving(&stated.shape))
-                .map(|(element, stated)| Element {
-                    name: match stated.name.is_empty() {
-                        true => String::new(),
-                        false => format!("{}, constrained extremum", stated.name),
+                .enumerate()
+                .map(|(place, (element, _))| Element {
+                    name: match place {
+                        0 => "constrained extremum".into(),
+                        _ => String::new(),
                     },
-                    tint: Tint::Muted,
+                    tint: Tint::Teal,
                     ..element
                 }),
         );

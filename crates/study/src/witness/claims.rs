@@ -4,6 +4,7 @@ use super::first::Form;
 use super::{evidence, first, linear, neighbours};
 use crate::motion_claims::of_another_system;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_mechanics::words::counted;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue};
 use chetaev_symbolic::Verdict;
 
@@ -102,7 +103,9 @@ impl Claim for WitnessOfForms {
         "Along the computed motion each form of Hamilton's principle is integrated for random virtual displacements that vanish at the ends: the integrand of Hölder and that of \
          Helmholtz and Poincaré (with random δp) for displacements projected on the constraints, those of Voronets and Suslov by their own rules in the independent velocities, where these stay independent. \
          The trapezoidal rule is repeated with doubled steps. The integral, over that of the sizes of its terms, must vanish as the step is refined, down to the error of the motion; \
-         `refuted` means that it does not, so motion or form is wrong. It is a witness, not a proof: numbers of one motion."
+         `refuted` means that it does not, so motion or form is wrong. It is a witness, not a proof: numbers of one motion. \
+         Example: a free particle x = t from 0 to 1 with δx = t (1 − t): ∫x' D(δx) dt = ∫(1 − 2 t) dt = 0. For x = \
+         t², which is no motion, it is ∫2 t (1 − 2 t) dt = −1/3."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -266,7 +269,9 @@ impl Claim for WitnessOfEnds {
 
     fn explanation(&self) -> &'static str {
         "What hamilton.endpoints says for small times is followed along the computed motion: the derivatives of q(t) by the n − r admissible initial velocities, from the variational equations. \
-         The share of positions, √(2^k det Q / det(Q + τ² V)) with the Gram matrices Q and V of the derivatives of positions and velocities and τ the ratio of their largest lengths so far, is about 1 for small times and 0 where a change of the initial velocity moves no position: at such focal times the rank drops, and neighbouring motions meet to first order."
+         The share of positions, √(2^k det Q / det(Q + τ² V)) with the Gram matrices Q and V of the derivatives of positions and velocities and τ the ratio of their largest lengths so far, is about 1 for small times and 0 where a change of the initial velocity moves no position: at such focal times the rank drops, and neighbouring motions meet to first order. \
+         Example: an oscillator q'' = −q has ∂q/∂v(0) = sin t, which is 0 at t = π: all motions from one point \
+         meet again there."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -298,8 +303,12 @@ fn of_ends(found: &linear::Reach) -> Verdict {
         false => found.dimension.to_string(),
     };
     let sentence = format!(
-        "the derivative of q(t) by the {} admissible initial velocities has the rank {rank} at the end; the least share of positions is {least:.1e}, at t = {t:.6}",
-        found.dimension
+        "the derivative of q(t) by {} has the rank {rank} at the end; the least share of positions is {least:.1e}, at t = {t:.6}",
+        counted(
+            found.dimension,
+            "admissible initial velocity",
+            "admissible initial velocities"
+        )
     );
     numerical(1, found.interval, least, sentence)
 }
