@@ -40,7 +40,12 @@ pub struct Factored {
 
 /// `e` over a common denominator, both sides factored as far as [`factors`] promises; `None` where that is too large.
 pub fn factored(graph: &Graph, e: Expr) -> Option<Factored> {
-    let (field, values) = normal_forms(graph, &[e], &Options::display(BUDGET)).ok()?;
+    factored_within(graph, e, BUDGET)
+}
+
+/// As [`factored`], with room of choice.
+pub(crate) fn factored_within(graph: &Graph, e: Expr, budget: Budget) -> Option<Factored> {
+    let (field, values) = normal_forms(graph, &[e], &Options::display(budget)).ok()?;
     let value = values.first()?;
     let above = value.numerator().factorize(field.meter()).ok()?;
     let below = value.denominator().factorize(field.meter()).ok()?;

@@ -90,22 +90,25 @@ impl Fit {
         let rows = samples[..unknowns + 3].iter();
         let matrix: Vec<Residue> = rows.flat_map(|s| self.row(&monomials, s)).collect();
         let space = null_space(&self.field, unknowns, matrix);
-        let vectors = space.vectors.iter();
-        vectors
-            .filter(|(free, rest)| {
-                *free < monomials.len() || rest.iter().any(|(i, _)| *i < monomials.len())
-            })
-            .find_map(|(free, rest)| {
-                let mut coefficients = vec![Residue::ZERO; unknowns];
-                coefficients[*free] = self.field.one();
-                rest.iter().for_each(|&(i, c)| coefficients[i] = c);
-                let (below, above) = coefficients.split_at(monomials.len());
-                self.fraction(&monomials, above, below, meter)
-            })
+        let values = self.values(&monomials, &samples[0]);
+        space.vectors.iter().find_map(|(free, rest)| {
+            let mut coefficients = vec![Residue::ZERO; unknowns];
+            coefficients[*free] = self.field.one();
+            rest.iter().for_each(|&(i, c)| coefficients[i] = c);
+            let (below, above) = coefficients.split_at(monomials.len());
+            // Where letters are related, as r² (1 + a²) = 1, a denominator of them may vanish without being zero.
+            let terms = below.iter().zip(&values);
+            let denominator = terms.fold(Residue::ZERO, |sum, (&c, &value)| {
+                self.field.add(sum, self.field.mul(c, value))
+            });
+            match denominator.is_zero() {
+                true => None,
+                false => self.fraction(&monomials, above, below, meter),
+            }
+        })
     }
 
-    /// `-c` times the monomials of D, then those of N.
-    fn row(&self, monomials: &[Vec<u32>], sample: &Sample) -> Vec<Residue> {
+    fn values(&self, monomials: &[Vec<u32>], sample: &Sample) -> Vec<Residue> {
         let field = &self.field;
         let value = |exponents: &Vec<u32>| {
             let powers = self.used.iter().zip(exponents);
@@ -113,7 +116,13 @@ impl Fit {
                 field.mul(product, field.pow(sample.parameters[p], u64::from(e)))
             })
         };
-        let values: Vec<Residue> = monomials.iter().map(value).collect();
+        monomials.iter().map(value).collect()
+    }
+
+    /// `-c` times the monomials of D, then those of N.
+    fn row(&self, monomials: &[Vec<u32>], sample: &Sample) -> Vec<Residue> {
+        let field = &self.field;
+        let values = self.values(monomials, sample);
         let negative = field.neg(sample.entries[self.entry]);
         let below = values.iter().map(|&v| field.mul(negative, v));
         below.chain(values.iter().copied()).collect()

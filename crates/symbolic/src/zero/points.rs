@@ -9,7 +9,7 @@ use super::eliminate::{eliminate_all, Eliminated};
 use super::evaluate::{Parametrization, Point, Run};
 use super::modular::bound;
 use super::prepare::{prepare, Question};
-use super::program::{Generator, Program};
+use super::program::{Generator, Operation, Program};
 use super::ring::Scalars;
 use super::size::{Sizes, SLACK};
 use super::tower::{Element, Tower};
@@ -48,6 +48,8 @@ pub struct Points {
     /// Which generators keep their values in one draw.
     fixed_generators: Vec<bool>,
     fixed_circles: Vec<bool>,
+    /// Which operations depend on nothing that moves.
+    fixed_operations: Vec<bool>,
     /// The symbols that are generators of their own.
     symbols: Vec<Option<Symbol>>,
 }
@@ -110,9 +112,13 @@ impl Points {
             Generator::Symbol(symbol) => Some(*symbol),
             _ => None,
         });
+        let fixed_generators: Vec<bool> = fixed_generators.collect();
+        let angles = program.circle_angles.iter();
+        let fixed_circles: Vec<bool> = angles.map(|&e| is_fixed(e)).collect();
         Ok(Points {
-            fixed_generators: fixed_generators.collect(),
-            fixed_circles: program.circle_angles.iter().map(|&e| is_fixed(e)).collect(),
+            fixed_operations: fixed_operations(&program, &fixed_generators, &fixed_circles),
+            fixed_generators,
+            fixed_circles,
             symbols: symbols.collect(),
             program,
         })
@@ -157,26 +163,44 @@ impl Points {
             let mut roots = program.odd_roots.iter();
             roots.all(|q| !(p - 1).is_multiple_of(*q))
         };
-        for _ in 0..16 {
+        (0..16).find_map(|_| {
             let p = random_prime(random, program.order_of_unity, 1 << 16, suits)?;
             let field = PrimeField::new(p)?;
-            if let Some(constants) = self.random_point(&field, random) {
-                let negative = (0..program.radicals).map(|_| random.next_u64() & 1 == 1);
-                return Some(Draw {
-                    negative: negative.collect(),
-                    field,
-                    constants,
-                });
-            }
-        }
-        None
+            let negative = (0..program.radicals).map(|_| random.next_u64() & 1 == 1);
+            let negative: Vec<bool> = negative.collect();
+            Some(Draw {
+                constants: self.constants(&field, &negative, random)?,
+                negative,
+                field,
+            })
+        })
     }
 
     /// The same prime with other values of what does not move.
     pub fn redraw(&self, draw: &Draw, random: &mut Random) -> Option<Draw> {
         Some(Draw {
-            constants: self.random_point(&draw.field, random)?,
+            constants: self.constants(&draw.field, &draw.negative, random)?,
             ..draw.clone()
+        })
+    }
+
+    /// Values of what does not move, with a root of each of its radicands: without one no point of the draw would do.
+    fn constants(
+        &self,
+        field: &PrimeField,
+        negative: &[bool],
+        random: &mut Random,
+    ) -> Option<Point> {
+        let ring = Scalars {
+            field: *field,
+            negative,
+        };
+        (0..REFUSED).find_map(|_| {
+            let point = self.random_point(field, random)?;
+            let mut run = Run::new(&self.program, &point, Vec::new());
+            let is_fixed = |operation: usize| self.fixed_operations[operation];
+            let ends = run.advance_over(&ring, self.program.prefix, is_fixed);
+            ends.is_ok().then_some(point)
         })
     }
 
@@ -277,6 +301,24 @@ impl Points {
         }
         None
     }
+}
+
+/// Which operations depend on nothing that moves.
+fn fixed_operations(program: &Program, generators: &[bool], circles: &[bool]) -> Vec<bool> {
+    let mut fixed: Vec<bool> = Vec::with_capacity(program.operations.len());
+    for operation in &program.operations {
+        let own = match operation {
+            Operation::Generator(index) => generators[*index as usize],
+            Operation::CircleCos(circle) | Operation::CircleSin(circle) => {
+                circles[*circle as usize]
+            }
+            _ => true,
+        };
+        let mut all = own;
+        operation.for_each_operand(|operand| all &= fixed[operand as usize]);
+        fixed.push(all);
+    }
+    fixed
 }
 
 /// A random root of the monic polynomial with these lower coefficients, if it has one in the prime field: the part that

@@ -7,13 +7,23 @@ use dashu_int::IBig;
 
 use super::super::program::{Operation, Value};
 use super::{is_even, Builder, Missing};
+use crate::factors::factored_within;
 use crate::node::{Expr, Function, Node};
+use crate::polynomial::Budget;
 use crate::rational::{self, Rational};
+
+/// Room for factoring one radicand.
+const RADICAND: Budget = Budget {
+    terms: 200,
+    degree: 24,
+    bits: 400,
+    work: 50_000,
+};
 
 impl Builder<'_> {
     /// base^r for a rational r that is not an integer; defined for base ≥ 0.
     pub(super) fn rational_power(&mut self, base: Expr, r: &Rational) -> Result<Value, Missing> {
-        let (coefficient, factors) = self.factors(base);
+        let (coefficient, factors) = self.factors_of_radicand(base);
         if coefficient.is_zero() {
             return Ok(if rational::is_negative(r) {
                 self.nowhere()
@@ -65,6 +75,23 @@ impl Builder<'_> {
             values.push(self.root(radicand, &exponent)?);
         }
         Ok(self.product(Rational::ONE, values))
+    }
+
+    /// The factors of a radicand, those of a sum included: on `z' = a √(x'² + y'²)` the radicand `x'² + y'² + z'²` is
+    /// `(1 + a²) (x'² + y'²)`, and its root is tied to that of `x'² + y'²`.
+    fn factors_of_radicand(&self, base: Expr) -> (Rational, Vec<(Expr, Rational)>) {
+        let structural = || self.factors(base);
+        if !matches!(self.graph.node(base), Node::Sum { .. }) {
+            return structural();
+        }
+        match factored_within(self.graph, base, RADICAND) {
+            Some(found) if found.factors.len() > 1 => {
+                let powers = found.factors.into_iter();
+                let powers = powers.map(|(f, n)| (f, Rational::from(n)));
+                (found.coefficient, powers.collect())
+            }
+            _ => structural(),
+        }
     }
 
     /// (factor^exponent)^r for factor^exponent ≥ 0: an even power is a power of |factor|.
