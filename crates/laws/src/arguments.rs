@@ -3,7 +3,7 @@
 //! Plain standard library: the task runner reads the same file, so that it refuses a slip before anything is built.
 
 /// The names of the families, in the order they are run.
-pub const FAMILY_NAMES: [&str; 19] = [
+pub const FAMILY_NAMES: [&str; 20] = [
     "polynomial-linear",
     "trigonometric-linear",
     "polynomial-nonlinear",
@@ -23,6 +23,7 @@ pub const FAMILY_NAMES: [&str; 19] = [
     "third-order-nonlinear",
     "integrable",
     "symmetric",
+    "sparse",
 ];
 
 /// Systems of each family without `--full`.
@@ -46,7 +47,7 @@ Usage: cargo xtask laws [--full | --count N] [--family NAME] [--seed N]
 Families: polynomial-linear, trigonometric-linear, polynomial-nonlinear, trigonometric-nonlinear, nonquadratic,
 rheonomic-affine, radicals, moving-frame, singular, particles, chaplygin, variable-mass, velocity-mass,
 second-order-linear, second-order-nonlinear, third-order-linear, third-order-nonlinear, integrable,
-symmetric.
+symmetric, sparse.
 
 Exit status: 0 all laws hold, 1 a law fails, 2 the arguments are wrong.
 

@@ -21,6 +21,7 @@ pub mod redundancy;
 mod restricted;
 pub mod sample;
 pub mod selection;
+mod stated;
 pub mod system;
 pub mod terms;
 pub mod words;

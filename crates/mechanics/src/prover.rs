@@ -232,8 +232,9 @@ impl Prover {
     }
 
     /// Where points in a prime field say nothing, as the constraints have none (they are transcendental) or the generators
-    /// of the matrix may be related: a real point at which the determinant is enclosed away from zero.
-    fn determinant_at_a_point(
+    /// of the matrix may be related: `proved` by a real point at which the determinant is enclosed away from zero, for the
+    /// component of the constraints on which it lies. `None` where no such point was found.
+    pub fn determinant_at_a_point(
         &self,
         system: &System,
         matrix: &[Vec<Expr>],

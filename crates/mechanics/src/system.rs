@@ -305,7 +305,7 @@ pub enum SystemError {
 }
 
 /// A constrained system.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct System {
     /// The graph all expressions live in.
     pub graph: Arc<Graph>,

@@ -21,6 +21,7 @@ use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::{Characteristics, Manifold};
 use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{simplify, Expr, Graph, Symbol, Verdict};
 
 /// `chaplygin.multiplier`.
@@ -70,11 +71,15 @@ impl Claim for Multiplier {
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        let r = cx.selection.rows.len();
-        once_where(cx.terms.order == 1 && r > 0 && cx.system.n() >= r + 2)
+        once_where(cx.terms.order <= 1)
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        // c is skew in the independent velocities.
+        if cx.selection.rows.is_empty() || cx.system.n() < cx.selection.rows.len() + 2 {
+            let detail = "N = 1: without two independent velocities of a constraint there is no curvature, and the equations are Lagrange's for L*";
+            return Verdict::Proved(Proof::structural("for every motion", detail)).into();
+        }
         Reduced::new(cx).map_or_else(Finding::from, |reduced| reduced.decide(cx))
     }
 }

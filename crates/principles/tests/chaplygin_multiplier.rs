@@ -45,6 +45,23 @@ fn particle() {
     assert_multiplier(&PARTICLE, "1/sqrt(1 + y^2)");
 }
 
+/// y' = x x' leaves one velocity, and (1 + x²) x'' + x x'² = 0 is Lagrange's equation of L* = (1 + x²) x'²/2; without constraints
+/// L* = L.
+#[test]
+fn nothing_to_reduce() {
+    let line = text("x y", "1/2 (x'^2 + y'^2)", &[("c", "y' - x x'")]);
+    let free = text("x y", "1/2 (x'^2 + y'^2) - x^2 y", &[]);
+    for stated in [&line, &free] {
+        let found = finding(&system(stated), ID);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "proved", "{detail}");
+        assert!(detail.starts_with("N = 1"), "{detail}");
+    }
+    let circle = text("x y", "1/2 (x'^2 + y'^2)", &[("c", "x'^2 + y'^2 - 1")]);
+    let nonlinear = finding(&system(&circle), ID);
+    assert_eq!(nonlinear.verdict.word(), "not-applicable");
+}
+
 /// S1 with y' = tan φ x': cos φ; by the other velocity, sin φ. Also for a force function of x and φ.
 #[test]
 fn skate() {

@@ -72,6 +72,32 @@ fn rheonomic_constraint() {
     assert!(detail.contains("except rest where x' = 0"), "{detail}");
 }
 
+/// cosh of both velocities, which a cubic constraint relates: with a = 3x'² + 1 and b = 3y'² + 1 the motion is x'' = b s,
+/// y'' = −a s, where s ((1 + cosh x') b² + cosh y' a²) = −b does not vanish. E[f]·δq = 0 demands κ s (x' b² + y' a²) = 0, whence κ = 0, and
+/// λ = −cosh y' a s/b is not zero. No motion is stationary.
+#[test]
+fn functions_of_velocities_that_no_formula_relates() {
+    let cubic = text(
+        "x y",
+        "x'^2/2 + cosh(x') + cosh(y') - x",
+        &[("c", "x'^3 + x' + y'^3 + y' - 3")],
+    );
+    let found = finding(&system(&cubic), STATIONARY);
+    assert_eq!(
+        found.verdict.word(),
+        "refuted",
+        "{}",
+        found.verdict.detail()
+    );
+    let inclusion = finding(&system(&cubic), "formulation.vakonomic-coincides#inclusion");
+    assert_eq!(
+        inclusion.verdict.word(),
+        "refuted",
+        "{}",
+        inclusion.verdict.detail()
+    );
+}
+
 /// κ by name, in closed form.
 #[track_caller]
 fn assert_kappa(stated: &Text, expected: &[(&str, &str)], says: &str) {

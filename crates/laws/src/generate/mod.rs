@@ -8,6 +8,7 @@ mod lagrangian;
 mod masses;
 mod particles;
 mod singular;
+mod sparse;
 mod symmetric;
 mod text;
 
@@ -65,6 +66,8 @@ pub enum Family {
     /// A first integral is known, and stated: a momentum, a moment of momentum or a part of the energy, after a change of
     /// coordinates.
     Symmetric,
+    /// Few terms: some motions make the action stationary, and others do not.
+    Sparse,
 }
 
 /// Seeds below it make larger systems too.
@@ -72,7 +75,7 @@ const LARGER: u64 = 50;
 
 impl Family {
     /// All families, in the order of [`FAMILY_NAMES`].
-    pub const ALL: [Family; 19] = [
+    pub const ALL: [Family; 20] = [
         Family::PolynomialLinear,
         Family::TrigonometricLinear,
         Family::PolynomialNonlinear,
@@ -92,6 +95,7 @@ impl Family {
         Family::ThirdOrderNonlinear,
         Family::Integrable,
         Family::Symmetric,
+        Family::Sparse,
     ];
 
     /// The name on the command line.
@@ -135,6 +139,7 @@ impl Family {
             Family::Radicals | Family::MovingFrame | Family::Singular => &[2, 2, 3, 3, 3, 4],
             Family::VariableMass | Family::VelocityMass => &[2, 2, 2, 3],
             _ if self.higher_order().is_some() => &[2, 2, 2, 3],
+            Family::Sparse => &[3, 3, 3, 4],
             Family::Particles | Family::Chaplygin | Family::Integrable => &[2, 3, 3, 4],
             _ => &[2, 2, 3, 3, 3, 4, 4, 5, 6],
         }
@@ -197,6 +202,7 @@ fn parts(g: &Graph, family: Family, seed: u64) -> SystemParts {
         Family::VariableMass => variable_mass_system(&mut draw, &values, false),
         Family::VelocityMass => variable_mass_system(&mut draw, &values, true),
         Family::Symmetric => symmetric::system(&mut draw, &values),
+        Family::Sparse => sparse::system(&mut draw, &values),
         Family::Chaplygin => chaplygin_system(&mut draw, &values),
         Family::Integrable => SystemParts {
             forces: Vec::new(),

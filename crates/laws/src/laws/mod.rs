@@ -19,6 +19,7 @@ mod principles;
 mod reduced;
 mod rewrite;
 mod series;
+mod sets;
 mod wrong;
 
 use chetaev_mechanics::claims::formulation::{self, derive, residuals};
@@ -246,8 +247,11 @@ mod tests {
     use super::*;
     use crate::generate::{generate, Family};
     use chetaev_mechanics::claims::CLAIMS;
-    use chetaev_mechanics::{Prepared, Prover, Registry};
+    use chetaev_mechanics::{Prepared, Prover, Registry, System, SystemParts};
+    use chetaev_principles::stationarity::StationarySets;
     use chetaev_symbolic::verdict::Counterexample;
+    use chetaev_symbolic::Graph;
+    use std::sync::Arc;
 
     /// Looks at a system after something was spoilt in it.
     fn spoilt(family: Family, spoil: impl Fn(&mut Subject<'_>), look: impl Fn(&Subject<'_>)) {
@@ -319,6 +323,43 @@ mod tests {
                 assert_eq!(subject.compared(&wrong).word(), "refuted");
             });
         }
+    }
+
+    /// z' = y x' with L = v·v/2 is stationary where x' = 0 or y' = 0, and κ = 0 there; elsewhere, or with another κ(0), the extremal
+    /// leaves the motion.
+    #[test]
+    fn a_state_off_the_sets_printed_is_found() {
+        let registry = Registry::new(super::CLAIMS);
+        let system = particle();
+        let prepared = Prepared::new(&system).unwrap();
+        let (terms, selection) = (&prepared.terms, &prepared.selection);
+        let cx = Context::new(&system, terms, selection, &registry, Prover::default());
+        let subject = Subject::new(Sampled::new(&cx, 1).unwrap()).unwrap();
+        let printed = StationarySets::of(&cx).unwrap();
+        let holds = |sets: &StationarySets| sets::from_sets(&subject, sets).unwrap().holds();
+        assert_eq!(printed.sets.len(), 2);
+        assert!(holds(&printed));
+        let g = &system.graph;
+        let mut elsewhere = printed.clone();
+        elsewhere.sets[0].solved[0].1 = g.one();
+        assert!(!holds(&elsewhere));
+        let mut other = printed.clone();
+        other.sets[0].conditions[0].right = g.one();
+        assert!(!holds(&other));
+    }
+
+    fn particle() -> System {
+        let g = Arc::new(Graph::new());
+        let s = |name: &str, order: u32| g.symbol(name, order);
+        let squares = ["x", "y", "z"].map(|name| g.powi(s(name, 1), 2));
+        let product = g.mul(&[s("y", 0), s("x", 1)]);
+        let parts = SystemParts {
+            coordinates: ["x", "y", "z"].map(String::from).to_vec(),
+            lagrangian: Some(g.div(g.add(&squares), g.integer(2))),
+            constraints: vec![("c".into(), g.sub(s("z", 1), product))],
+            ..SystemParts::default()
+        };
+        System::new(g, parts).unwrap()
     }
 
     #[test]

@@ -1,10 +1,10 @@
 //! What the variational principles say of a random system: no verdict contradicts another one, integrable constraints leave every
 //! motion stationary, and wrong principles are refuted.
 
-use super::extremals;
 use super::hypotheses::{seen, Seen};
 use super::numbers::Size;
 use super::reduced::curvature_and_terms;
+use super::{extremals, sets};
 use super::{Expected, Kind, Subject, Trial};
 use chetaev_mechanics::claims::formulation::{derive, manifold};
 use chetaev_mechanics::claims::full_id;
@@ -53,6 +53,7 @@ pub(super) fn all(subject: &Subject<'_>) -> Vec<Trial> {
     trials.extend(timed(|| extremal(subject)));
     if applies(subject, STATIONARY, None) {
         trials.extend(timed(|| extremals::integrated(subject)));
+        trials.extend(timed(|| sets::drawn(subject)));
     }
     trials.extend(timed(|| terms_dropped(subject)));
     trials.extend(timed(|| ends_left_open(subject)));

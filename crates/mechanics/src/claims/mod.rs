@@ -229,6 +229,14 @@ pub struct Context<'a> {
     extensions: BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>,
     shared: Mutex<BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>>,
     out_of_time: AtomicBool,
+    stated: Option<Stated<'a>>,
+}
+
+/// Claims that are decided for the parameters stated to be zero, and the context of that system.
+#[derive(Clone, Copy)]
+struct Stated<'a> {
+    claims: &'a [&'static dyn Claim],
+    context: &'a Context<'a>,
 }
 
 impl std::fmt::Debug for Context<'_> {
@@ -285,7 +293,20 @@ impl<'a> Context<'a> {
             extensions: BTreeMap::new(),
             shared: Mutex::default(),
             out_of_time: AtomicBool::new(false),
+            stated: None,
         }
+    }
+
+    /// Decides these claims for the system with the parameters that the model states to be zero, whose context is given; their
+    /// verdicts say so.
+    #[must_use]
+    pub fn for_stated_zeros(
+        mut self,
+        claims: &'a [&'static dyn Claim],
+        context: &'a Context<'a>,
+    ) -> Context<'a> {
+        self.stated = Some(Stated { claims, context });
+        self
     }
 
     /// Adds data of a higher layer (a computed motion, initial data), found again by its type.
@@ -321,6 +342,9 @@ impl<'a> Context<'a> {
     /// Says that the time for claims is spent: what takes long is not begun any more.
     pub fn spend_time(&self) {
         self.out_of_time.store(true, Ordering::Relaxed);
+        if let Some(stated) = &self.stated {
+            stated.context.spend_time();
+        }
     }
 
     /// Whether the time for claims is spent.
@@ -351,14 +375,33 @@ impl<'a> Context<'a> {
             return Arc::new(verdict.into());
         }
         lock(&self.in_progress).push(full.to_string());
-        let finding = match self.obstacle(claim, subject) {
-            Some(verdict) => verdict.into(),
-            None => claim.decide(self, subject),
+        let finding = match (self.for_zeros(claim, full), self.obstacle(claim, subject)) {
+            (Some(finding), _) => finding,
+            (None, Some(verdict)) => verdict.into(),
+            (None, None) => claim.decide(self, subject),
         };
         lock(&self.in_progress).retain(|name| name != full);
         let finding = Arc::new(finding);
         lock(&self.decided).insert(full.to_string(), finding.clone());
         finding
+    }
+
+    /// The finding for the parameters stated to be zero, where the claim is decided for them.
+    fn for_zeros(&self, claim: &dyn Claim, full: &str) -> Option<Finding> {
+        let stated = self.stated?;
+        if !stated.claims.iter().any(|c| c.id() == claim.id()) {
+            return None;
+        }
+        let g = &self.system.graph;
+        let zeros = self.system.stated_zeros();
+        let zeros: Vec<String> = zeros
+            .iter()
+            .map(|&(parameter, _)| format!("{} = 0", g.text(parameter)))
+            .collect();
+        let mut finding = Finding::clone(&stated.context.finding(full));
+        let sentence = format!("for {}, as the model states it", zeros.join(" and "));
+        finding.verdict.prefix(&sentence);
+        Some(finding)
     }
 
     fn constraint_beyond(&self, order: u32) -> Option<Verdict> {

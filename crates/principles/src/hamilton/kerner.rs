@@ -3,6 +3,7 @@
 use crate::variations::Displacements;
 use chetaev_mechanics::claims::{once_where, Claim, Context, Finding, Group};
 use chetaev_mechanics::words::quoted;
+use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::Verdict;
 
 /// `hamilton.kerner`.
@@ -48,10 +49,14 @@ impl Claim for Kerner {
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        once_where(!cx.selection.rows.is_empty() && cx.terms.order <= 1)
+        once_where(cx.terms.order <= 1)
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
+        if cx.selection.rows.is_empty() {
+            let detail = "there are no constraints, and the extremals are the motions";
+            return Verdict::Proved(Proof::structural("for every motion", detail)).into();
+        }
         let rows = cx.selection.rows.iter();
         let constraints = rows.map(|&row| &cx.system.constraints[cx.terms.constraint_index[row]]);
         let nonlinear: Vec<&str> = constraints
@@ -88,7 +93,7 @@ fn compared(cx: &Context<'_>) -> Verdict {
         }
         (Verdict::Refuted(curved), Verdict::Refuted(different)) => {
             // Each side is settled by a point, exactly.
-            let mut proof = chetaev_symbolic::verdict::Proof::exact(
+            let mut proof = Proof::exact(
                 "on the constraint manifold",
                 format!("{}; {}", curved.detail, different.detail),
             );

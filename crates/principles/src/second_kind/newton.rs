@@ -40,7 +40,7 @@ impl Claim for DifferentialNewton {
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        once_where(cx.terms.order <= 1 && !cx.system.particles.is_empty())
+        once_where(cx.terms.order <= 1)
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {

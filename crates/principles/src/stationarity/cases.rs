@@ -14,6 +14,7 @@ pub(crate) use confirm::confirmed;
 
 use self::angles::Angle;
 use super::closed_form::short;
+use super::closure::Condition;
 use super::motion::Motion;
 use chetaev_mechanics::claims::Context;
 use chetaev_symbolic::factors::factored;
@@ -61,6 +62,19 @@ pub(crate) struct Leaf {
     rows: Option<Vec<(usize, Row)>>,
     nonzero: Vec<Expr>,
     angles: Vec<Angle>,
+}
+
+impl Leaf {
+    /// The conditions on κ, each with the place of the multiplier for which it is solved.
+    pub(crate) fn conditions(&self) -> Vec<(usize, Condition)> {
+        let condition = |row: &Row| Condition {
+            coefficients: row.coefficients.clone(),
+            right: row.right,
+        };
+        let rows = self.rows.iter().flatten();
+        rows.map(|(column, row)| (*column, condition(row)))
+            .collect()
+    }
 }
 
 /// What was found.

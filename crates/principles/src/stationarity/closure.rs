@@ -7,6 +7,7 @@ use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::formulations::{Basis, DeriveError};
 use chetaev_mechanics::{Equations, Manifold};
 use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::zero::{GenericRank, Pivots};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 use std::sync::Arc;
 
@@ -126,11 +127,15 @@ impl Closure {
             .map(|difference| (left.to_string(), difference))
             .collect();
         let follow = cx.prover.named_identity(cx.system, &named, manifold, on);
-        let ranks = rank.at_least.and(rank.at_most);
-        self.verdict = match (follow, ranks) {
-            // The rank is that at almost every state: its place is contained in the other one.
-            (Verdict::Proved(follow), Verdict::Proved(mut ranks)) => {
-                ranks.on.clone_from(&follow.on);
+        self.verdict = match (follow, full_rank(cx, manifold, &matrix, &rank)) {
+            (Verdict::Proved(mut follow), Verdict::Proved(mut ranks)) => {
+                let generic = matches!(rank.at_least, Verdict::Proved(_));
+                // The rank is that at almost every state: its place is contained in the other one. One found at a point is
+                // that on the component of the point, and so is what follows.
+                match generic {
+                    true => ranks.on.clone_from(&follow.on),
+                    false => follow.on.clone_from(&ranks.on),
+                }
                 Verdict::Proved(follow).and(Verdict::Proved(ranks))
             }
             (follow, ranks) => follow.and(ranks),
@@ -139,6 +144,30 @@ impl Closure {
         self.columns = rank.pivots.columns;
         Ok(())
     }
+}
+
+/// That the pivots are independent, and that no other rows are. Where functions like cosh of a dependent velocity leave the first
+/// open, since it may be related to others, a state is looked for at which the minor is enclosed away from zero.
+fn full_rank(
+    cx: &Context<'_>,
+    manifold: &Manifold,
+    matrix: &[Vec<Expr>],
+    rank: &GenericRank,
+) -> Verdict {
+    let generic = rank.at_least.clone();
+    let at_least = match generic {
+        Verdict::Undecided { .. } => {
+            let Pivots { rows, columns } = &rank.pivots;
+            let entries = |&row: &usize| columns.iter().map(|&l| matrix[row][l]).collect();
+            let minor: Vec<Vec<Expr>> = rows.iter().map(entries).collect();
+            let what = "a minor of the conditions on κ";
+            cx.prover
+                .determinant_at_a_point(cx.system, &minor, manifold, what)
+                .unwrap_or(generic)
+        }
+        known => known,
+    };
+    at_least.and(rank.at_most.clone())
 }
 
 fn nothing_to_show() -> Verdict {

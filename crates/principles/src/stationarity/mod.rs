@@ -10,10 +10,12 @@ mod closed_form;
 mod closure;
 mod kappa;
 mod motion;
+mod sets;
 mod stationary;
 mod suslov;
 
 pub(crate) use closed_form::{short as by_sines, zero_of};
 pub use closure::{Closure, Condition};
+pub use sets::{StationarySet, StationarySets};
 pub use stationary::Stationary;
 pub use suslov::StationarySuslov;

@@ -1,9 +1,9 @@
 //! `hamilton.stationary`: whether Hamilton's principle is one of stationary action.
 
-use super::cases::{confirmed, joined, with_multipliers, Found, Leaf};
+use super::cases::{confirmed, joined, Found, Leaf};
 use super::kappa::integrated;
 use super::motion::Motion;
-use super::Closure;
+use super::{sets, Closure};
 use crate::words::{conditional, formula, listed};
 use chetaev_mechanics::claims::formulation::{basis, manifold};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
@@ -141,11 +141,11 @@ fn multipliers(cx: &Context<'_>, closure: &Closure) -> (String, Vec<Formula>) {
 
 /// The motions for which κ exists although it does not for all.
 fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Finding {
-    let mut found = with_multipliers(cx, motion);
-    set_aside_unconfirmed(cx, motion, &mut found);
+    let found = sets::found(cx, motion);
+    let found = &found.0;
     let (rest, moving): (Vec<&Leaf>, Vec<&Leaf>) =
         found.leaves.iter().partition(|leaf| leaf.at_rest);
-    let open = not_followed(&found);
+    let open = not_followed(found);
     if moving.is_empty() {
         let sentence = match (rest.is_empty(), open.is_empty()) {
             (true, true) => "no motion makes the action stationary among admissible curves".to_string(),
@@ -168,7 +168,7 @@ fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Findin
     let mut verdict = conditional(condition, proof, refuted);
     verdict.prefix(&format!(
         "motions make the action stationary {}where {stated}{open}",
-        only(&found)
+        only(found)
     ));
     Finding { verdict, formulas }
 }

@@ -43,7 +43,7 @@ impl Claim for StationarySuslov {
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        once_where(!cx.selection.rows.is_empty() && cx.terms.order <= 1)
+        once_where(cx.terms.order <= 1)
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {

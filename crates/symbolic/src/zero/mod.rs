@@ -35,7 +35,7 @@ mod tower;
 mod variety;
 
 pub use decide::{decide_zero, Options, ZeroTest};
-pub use rank::{generic_determinant_nonzero, generic_rank, GenericRank, RankTest};
+pub use rank::{generic_determinant_nonzero, generic_rank, GenericRank, Pivots, RankTest};
 
 /// The signs that an expression can have under assumptions, as far as its structure tells.
 pub fn known_sign(

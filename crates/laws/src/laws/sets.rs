@@ -1,0 +1,123 @@
+//! States drawn from the sets that `hamilton.stationary` prints: from there the motion and the extremal with the κ(0) printed are
+//! one curve, both integrated in double precision.
+
+use super::extremals::{Curves, ONE, TWO};
+use super::{Expected, Kind, Subject, Trial};
+use chetaev_mechanics::sample::{Generator, Point};
+use chetaev_principles::stationarity::{StationarySet, StationarySets};
+use chetaev_symbolic::verdict::{Counterexample, Proof};
+use chetaev_symbolic::{Expr, Symbol, Verdict};
+
+/// States drawn from each set.
+const DRAWN: u64 = 3;
+/// Larger values are the neighbourhood of a pole.
+const LARGEST: f64 = 20.0;
+/// A state is admissible where the constraints are smaller than this.
+const ADMISSIBLE: f64 = 1e-9;
+
+/// The trial, where states could be drawn and the curves are clearly one or clearly two.
+pub(super) fn drawn(subject: &Subject<'_>) -> Option<Trial> {
+    if !subject.cx.system.masses.is_empty() {
+        return None;
+    }
+    from_sets(subject, &StationarySets::of(subject.cx)?)
+}
+
+pub(super) fn from_sets(subject: &Subject<'_>, sets: &StationarySets) -> Option<Trial> {
+    let curves = Curves::new(subject)?;
+    let all = sets.sets.iter().filter_map(|set| {
+        let states = (0..DRAWN).filter_map(|draw| state(subject, sets, set, draw));
+        let gaps = states.filter_map(|(state, kappa)| curves.gap(&state, &kappa));
+        let clear = gaps.filter(|gap| !(ONE..=TWO).contains(gap));
+        Some((clear.reduce(f64::max)?, set))
+    });
+    let (gap, set) = all.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    let g = &subject.cx.system.graph;
+    let equations = set.solved.iter();
+    let equations: Vec<String> = equations
+        .map(|&(symbol, value)| format!("{} = {}", g.symbol_text(symbol), g.text(value)))
+        .collect();
+    let place = equations.join(", ");
+    let detail = format!("where {place} the curves are {gap:.1e} apart");
+    let verdict = match gap < ONE {
+        true => Verdict::Proved(Proof::structural("at the states drawn", detail)),
+        false => Verdict::Refuted(Counterexample {
+            point: Vec::new(),
+            quantity: "distance of motion and extremal".into(),
+            residual: (format!("{gap:e}"), format!("{gap:e}")),
+            detail,
+        }),
+    };
+    Some(Trial {
+        kind: Kind::Other,
+        law: "motion and extremal are one curve from the states printed",
+        formulation: "",
+        about: String::new(),
+        expected: Expected::Proved,
+        verdict,
+        seconds: 0.0,
+    })
+}
+
+/// A state of the set with κ(0); `None` where it is near a pole or not defined.
+fn state(
+    subject: &Subject<'_>,
+    sets: &StationarySets,
+    set: &StationarySet,
+    draw: u64,
+) -> Option<(Point, Vec<f64>)> {
+    let system = subject.cx.system;
+    let mut random = Generator::new(subject.seed.wrapping_mul(DRAWN).wrapping_add(draw));
+    let mut point = subject.states.first()?.clone();
+    let coordinates = system.coordinates.iter();
+    for symbol in coordinates
+        .map(|c| c.q_symbol)
+        .chain(sets.speeds.iter().copied())
+    {
+        point.insert(symbol, random.between(-1.0, 1.0));
+    }
+    let (symbols, values): (Vec<Symbol>, Vec<Expr>) = set.solved.iter().copied().unzip();
+    let values = at(subject, &values, &point)?;
+    point.extend(symbols.into_iter().zip(values));
+    let velocities = at(subject, &sets.velocities, &point)?;
+    let coordinates = system.coordinates.iter();
+    point.extend(coordinates.map(|c| c.v_symbol).zip(velocities));
+    let constraints: Vec<Expr> = system.constraints.iter().map(|c| c.f).collect();
+    let violated = |f: &f64| f.abs() > ADMISSIBLE;
+    if at(subject, &constraints, &point)?.iter().any(violated) {
+        return None;
+    }
+    let kappa = multipliers(subject, set, &point, &mut random)?;
+    Some((point, kappa))
+}
+
+/// κ(0): the free multipliers at random, the others by the conditions.
+fn multipliers(
+    subject: &Subject<'_>,
+    set: &StationarySet,
+    point: &Point,
+    random: &mut Generator,
+) -> Option<Vec<f64>> {
+    let r = subject.cx.selection.rows.len();
+    let mut kappa: Vec<f64> = (0..r)
+        .map(|l| match set.pivots.contains(&l) {
+            true => 0.0,
+            false => random.between(-1.0, 1.0),
+        })
+        .collect();
+    let free = kappa.clone();
+    for (condition, &pivot) in set.conditions.iter().zip(&set.pivots) {
+        let coefficients = at(subject, &condition.coefficients, point)?;
+        let right = at(subject, &[condition.right], point)?[0];
+        let known: f64 = coefficients.iter().zip(&free).map(|(c, k)| c * k).sum();
+        kappa[pivot] = right - known;
+    }
+    Some(kappa)
+}
+
+/// Values that are defined and not large.
+fn at(subject: &Subject<'_>, es: &[Expr], point: &Point) -> Option<Vec<f64>> {
+    let value = |s: Symbol| point.get(&s).copied();
+    let values = subject.cx.system.graph.evaluate_f64(es, &value).ok()?;
+    values.iter().all(|x| x.abs() < LARGEST).then_some(values)
+}

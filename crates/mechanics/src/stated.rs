@@ -1,0 +1,88 @@
+//! The system for the parameters that a model states to be zero.
+//!
+//! Claims are decided for arbitrary parameters, so that one verdict holds for a family of systems. A parameter that is stated to
+//! be zero is an exception: a plane without slope, a drift switched off. What a model with it says is asked about that system.
+
+use crate::constraint::Constraint;
+use crate::system::{System, Thrust};
+use chetaev_symbolic::Expr;
+
+impl System {
+    /// Pairs (parameter, 0) of the parameters that the model states to be zero and that occur in L, the forces or the constraints.
+    pub fn stated_zeros(&self) -> Vec<(Expr, Expr)> {
+        let g = &self.graph;
+        let mut all = vec![self.lagrangian];
+        all.extend(self.forces.iter().chain(&self.reactive_forces));
+        all.extend(self.constraints.iter().map(|c| c.stated));
+        let occurring = g.reachable(&all);
+        let mut zeros = self.parameter_values();
+        zeros.retain(|(parameter, value)| g.is_zero(*value) && occurring.contains(parameter));
+        zeros
+    }
+
+    /// The system with these parameters zero. `None` where there are none, where it is no system then, or where masses vary.
+    pub fn for_stated_zeros(&self) -> Option<System> {
+        let zeros = self.stated_zeros();
+        let thrust = |p: &crate::system::Particle| !matches!(p.thrust, Thrust::Isotropic);
+        let vary = !self.masses.is_empty() || self.particles.iter().any(thrust);
+        if zeros.is_empty() || vary {
+            return None;
+        }
+        let g = self.graph.clone();
+        let mut system = self.clone();
+        for e in system.expressions() {
+            *e = g.substitute(*e, &zeros);
+        }
+        let stated = std::mem::take(&mut system.constraints);
+        for constraint in stated {
+            let value = g.substitute(constraint.stated, &zeros);
+            let classified = Constraint::classify(&system, constraint.name, value).ok()?;
+            system.constraints.push(classified);
+        }
+        system
+            .assumptions
+            .retain(|a| !g.symbols_in(&[a.left, a.right]).is_empty());
+        Some(system)
+    }
+
+    /// Everything in which parameters may occur, but for the constraints.
+    fn expressions(&mut self) -> Vec<&mut Expr> {
+        let mut all: Vec<&mut Expr> = vec![&mut self.lagrangian];
+        all.extend(self.kinetic.iter_mut().chain(&mut self.potential));
+        all.extend(self.rayleigh.iter_mut());
+        all.extend(self.forces.iter_mut().chain(&mut self.reactive_forces));
+        all.extend(self.controls.iter_mut().flat_map(|c| &mut c.law));
+        all.extend(self.mass_functions.iter_mut().map(|(_, e)| e));
+        all.extend(self.quasi_velocities.iter_mut().map(|p| &mut p.definition));
+        if let Some(frame) = &mut self.frame {
+            all.extend(frame.fields.iter_mut().flatten().chain(&mut frame.drift));
+        }
+        all.extend(
+            self.characteristics
+                .iter_mut()
+                .flat_map(|c| &mut c.formulas),
+        );
+        for particle in &mut self.particles {
+            all.push(&mut particle.mass);
+            all.extend(particle.position.iter_mut().chain(&mut particle.force));
+        }
+        all.extend(self.definitions.iter_mut().map(|(_, e)| e));
+        let conditions = self.integral_conditions.iter_mut();
+        all.extend(conditions.flat_map(|(_, left, right, _)| [left, right]));
+        all.extend(&mut self.search_functions);
+        all.extend(self.integrals.iter_mut().map(|(_, e)| e));
+        let variations = self.variations.iter_mut().flat_map(|v| &mut v.relations);
+        all.extend(variations.map(|(_, e)| e));
+        if let Some(complete) = &mut self.complete_integral {
+            all.push(&mut complete.action);
+            all.extend(complete.quadratures.iter_mut().map(|(_, e)| e));
+            all.extend(complete.motion.iter_mut().map(|(_, e)| e));
+        }
+        all.extend(
+            self.assumptions
+                .iter_mut()
+                .flat_map(|a| [&mut a.left, &mut a.right]),
+        );
+        all
+    }
+}

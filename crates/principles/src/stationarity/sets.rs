@@ -1,0 +1,76 @@
+//! The sets of states whose motions make the action stationary, as values: what a state is drawn from, with its κ.
+
+use super::cases::{with_multipliers, Found, Leaf};
+use super::closure::Condition;
+use super::motion::Motion;
+use super::stationary::set_aside_unconfirmed;
+use chetaev_mechanics::claims::Context;
+use chetaev_symbolic::{Expr, Symbol};
+use std::sync::Arc;
+
+/// States whose motions make the action stationary.
+#[derive(Clone, Debug)]
+pub struct StationarySet {
+    /// Symbols of the state with their values, free of all these symbols.
+    pub solved: Vec<(Symbol, Expr)>,
+    /// The conditions on κ there, each solved for one multiplier: its coefficient is 1, and zero in the others.
+    pub conditions: Vec<Condition>,
+    /// The place of the multiplier for which each condition is solved.
+    pub pivots: Vec<usize>,
+}
+
+/// All sets found for a system.
+#[derive(Clone, Debug)]
+pub struct StationarySets {
+    /// Independent speeds: with the coordinates they are the state.
+    pub speeds: Vec<Symbol>,
+    /// The velocities of the coordinates as functions of the state.
+    pub velocities: Vec<Expr>,
+    /// The sets.
+    pub sets: Vec<StationarySet>,
+}
+
+/// Found once for all that ask.
+#[derive(Debug)]
+pub(super) struct Sets(pub(super) Found);
+
+/// The motions for which κ exists, confirmed by the zero test.
+pub(super) fn found(cx: &Context<'_>, motion: &Motion) -> Arc<Sets> {
+    cx.shared(|cx| {
+        let mut found = with_multipliers(cx, motion);
+        set_aside_unconfirmed(cx, motion, &mut found);
+        Sets(found)
+    })
+}
+
+impl StationarySets {
+    /// The sets that `hamilton.stationary` states; `None` where the motion is not had in closed form, or they were not looked
+    /// for.
+    pub fn of(cx: &Context<'_>) -> Option<StationarySets> {
+        cx.finding("hamilton.stationary");
+        let motion = cx.known::<Result<Motion, String>>()?;
+        let motion = motion.as_ref().as_ref().ok()?;
+        let found = cx.known::<Sets>()?;
+        let leaves = found.0.leaves.iter();
+        let coordinates = cx.system.coordinates.iter();
+        let rate = |symbol| motion.rate(&cx.system.graph, symbol);
+        Some(StationarySets {
+            speeds: motion.speeds.clone(),
+            velocities: coordinates.map(|c| rate(c.q_symbol)).collect(),
+            sets: leaves.filter_map(|leaf| set(cx, leaf)).collect(),
+        })
+    }
+}
+
+fn set(cx: &Context<'_>, leaf: &Leaf) -> Option<StationarySet> {
+    let solved = leaf.solved.iter();
+    let solved: Option<Vec<(Symbol, Expr)>> = solved
+        .map(|&(symbol, value)| Some((cx.system.graph.as_symbol(symbol)?, value)))
+        .collect();
+    let (pivots, conditions) = leaf.conditions().into_iter().unzip();
+    Some(StationarySet {
+        solved: solved?,
+        conditions,
+        pivots,
+    })
+}
