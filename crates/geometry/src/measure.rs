@@ -450,13 +450,13 @@ fn by_brackets(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Verdict {
     match flag(cx, flow, free) {
         Ok(Some(flag)) => exists(flag),
         Ok(None) => not_affine(cx, flow),
-        Err(verdict) => verdict,
+        Err(verdict) => *verdict,
     }
 }
 
 /// What the derivatives of ln N along admissible fields generate; none for constraints nonlinear in the velocities; a verdict
 /// where there is no density of the coordinates, or where that is not known.
-fn flag(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Result<Option<Flag>, Verdict> {
+fn flag(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Result<Option<Flag>, Box<Verdict>> {
     let (system, g) = (cx.system, &cx.system.graph);
     let Ok((mut fields, mut drift)) = horizontal(system, &flow.chart) else {
         return Ok(None);
@@ -481,9 +481,9 @@ fn flag(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Result<Option<Flag
                 "the divergence of the motion is not affine in the velocities, so no density depends on the coordinates only; {}",
                 found.detail
             );
-            return Err(Verdict::Refuted(found));
+            return Err(Box::new(Verdict::Refuted(found)));
         }
-        other => return Err(other),
+        other => return Err(Box::new(other)),
     }
     let drift_matters = !flow.autonomous || drift.place.iter().any(|&e| !g.is_zero(e));
     let is_steady = g.is_zero(drift.value) && !drift_matters;
@@ -532,17 +532,17 @@ fn exists(flag: Flag) -> Verdict {
 }
 
 /// Whether the values on the brackets agree; a contradiction refutes densities of the coordinates.
-fn closed(cx: &Context<'_>, flow: &Flow<'_>, fields: &[Directed]) -> Result<Flag, Verdict> {
+fn closed(cx: &Context<'_>, flow: &Flow<'_>, fields: &[Directed]) -> Result<Flag, Box<Verdict>> {
     match Flag::of(cx, fields, !flow.autonomous, true) {
         Ok(flag) => Ok(flag),
-        Err(Obstacle::Undecided(tried)) => Err(Verdict::undecided(tried)),
-        Err(Obstacle::Contradiction(verdict)) => Err(match *verdict {
+        Err(Obstacle::Undecided(tried)) => Err(Box::new(Verdict::undecided(tried))),
+        Err(Obstacle::Contradiction(verdict)) => Err(Box::new(match *verdict {
             Verdict::Refuted(mut found) => {
                 found.detail = format!("{CONTRADICTION}; {}", found.detail);
                 Verdict::Refuted(found)
             }
             other => other,
-        }),
+        })),
     }
 }
 

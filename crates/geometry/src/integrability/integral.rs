@@ -135,8 +135,7 @@ fn combined(cx: &Context<'_>, members: &[Member], found: &[Expr]) -> Expr {
         pairs.filter(|(_, &c)| !g.is_zero(c))
     };
     let leading = used()
-        .filter(|(member, _)| matches!(member, Member::Logarithm(_)))
-        .last()
+        .rfind(|(member, _)| matches!(member, Member::Logarithm(_)))
         .map(|(_, &c)| c);
     let plain = |by: Expr| -> Expr {
         let parts: Vec<Expr> = used()

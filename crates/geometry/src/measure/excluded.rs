@@ -9,7 +9,7 @@
 //!    density at rest is a function of the coordinates with prescribed derivatives along the admissible fields. That is the
 //!    argument by which the conditions of Kozlov (1988) and others on densities of the coordinates decide on all of them.
 
-use super::{closed, Flow};
+use super::{closed, Flow, CONTRADICTION};
 use crate::flag::{horizontal, Directed};
 use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{sample, Context, System};
@@ -70,14 +70,15 @@ fn at_rest(cx: &Context<'_>, flow: &Flow<'_>) -> Option<Verdict> {
 /// the brackets of the admissible fields.
 fn linear_at_rest(cx: &Context<'_>, flow: &Flow<'_>) -> Option<Verdict> {
     let fields = fields_at_rest(cx, flow)?;
-    match closed(cx, flow, &fields) {
-        Err(Verdict::Refuted(mut found)) => {
+    match closed(cx, flow, &fields).err().map(|verdict| *verdict) {
+        Some(Verdict::Refuted(mut found)) => {
+            // What contradicts stands first there.
+            let residual = found.detail.strip_prefix(CONTRADICTION);
             found.detail = format!(
-                "no density depends on the coordinates only: what the divergence asks of its logarithm along admissible fields \
-                 contradicts their brackets; as rest is admissible and the accelerations have neither terms without velocities \
-                 nor terms linear in them there, no other smooth positive density exists either: the terms linear in the \
-                 velocities of its equation are those for the density at rest; {}",
-                found.detail
+                "{CONTRADICTION}; as rest is admissible and the accelerations have neither terms without velocities nor terms \
+                 linear in them there, no other smooth positive density exists either: the terms linear in the velocities of \
+                 its equation are those for the density at rest{}",
+                residual.unwrap_or_default()
             );
             Some(Verdict::Refuted(found))
         }
@@ -237,10 +238,8 @@ fn is_smooth(cx: &Context<'_>, flow: &Flow<'_>, state: &State) -> bool {
     let mut bases = Vec::new();
     for e in g.reachable(&all) {
         match g.node(e) {
-            Node::Power { base, exponent } => {
-                if g.as_integer(*exponent).is_none_or(|n| n < 0) {
-                    bases.push(*base);
-                }
+            Node::Power { base, exponent } if g.as_integer(*exponent).is_none_or(|n| n < 0) => {
+                bases.push(*base);
             }
             Node::Apply {
                 function: Function::Sin | Function::Cos | Function::Exp | Function::Atan,
