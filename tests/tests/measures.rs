@@ -95,11 +95,12 @@ const GALLERY: &[Expected] = &[
         "proved",
         "N = sin(theta)^2",
     ),
+    // Spinning upright is steady, but asymptotically stable in one direction (Walker 1896): the volume shrinks on it.
     (
         "rattleback",
         "measure.invariant",
         "refuted",
-        "contradicts their brackets",
+        "the motion with w3 alone",
     ),
     // ρ' is constant and the direction is kept, so the divergence of the motion is that of 1/ρ across.
     (
@@ -288,4 +289,171 @@ fn a_density_that_contains_what_is_left_out_is_none_of_the_reduced_motion() {
         assert_eq!(word, "undecided", "{detail}");
         assert!(detail.contains("after x"), "{detail}");
     });
+}
+
+/// A model of coordinates that are lengths with forces only, T = Σ q'²/2.
+fn forced(coordinates: &str, forces: &[(&str, &str)], more: &str) -> System {
+    let names: Vec<&str> = coordinates.split(' ').collect();
+    let squares: Vec<String> = names.iter().map(|q| format!("{q}'^2")).collect();
+    let forces: String = forces
+        .iter()
+        .map(|(q, force)| format!("{q} = \"{force}\"\n"))
+        .collect();
+    let list: Vec<String> = names.iter().map(|q| format!("\"{q}\"")).collect();
+    stated(&format!(
+        "name = \"forced\"\ncoordinates = [{}]\n{more}\n[lagrangian]\nT = \"({})/2\"\n[forces]\n{forces}",
+        list.join(", "),
+        squares.join(" + ")
+    ))
+}
+
+fn verdict(system: &System) -> (String, String) {
+    with(system, |cx| {
+        let verdict = &cx.finding("measure.invariant").verdict;
+        (verdict.word().to_owned(), verdict.detail().to_owned())
+    })
+}
+
+/// With w = 1 + x², x'' = -w y', y'' = w (x' + s y'²/2): the density exp(s x') has `X̄ N = -s w y' N = -N div X̄`. For
+/// x'' = -w y'/(1 + 2 e x'), y'' = w (x' + e x'²) it is 1 + 2 e x', and with √(1 + x'²) for x'² it is 1 + e x'/√(1 + x'²).
+#[test]
+fn densities_with_velocities_are_not_excluded() {
+    let models: [[(&str, &str); 2]; 3] = [
+        [("x", "-(1 + x^2) y'"), ("y", "(1 + x^2) (x' + y'^2/4)")],
+        [
+            ("x", "-(1 + x^2) y'/(1 + x'/2)"),
+            ("y", "(1 + x^2) (x' + x'^2/4)"),
+        ],
+        [
+            ("x", "-(1 + x^2) y'/(1 + x'/(2 sqrt(1 + x'^2)))"),
+            ("y", "(1 + x^2) (x' + (sqrt(1 + x'^2) - 1)/2)"),
+        ],
+    ];
+    for forces in models {
+        let (word, detail) = verdict(&forced("x y", &forces, ""));
+        assert_eq!(word, "undecided", "{detail}");
+        assert!(detail.contains("are not excluded"), "{detail}");
+    }
+}
+
+/// A blade that has to drift: nothing is at rest, so nothing is said of densities there.
+#[test]
+fn rest_that_is_not_admissible_excludes_nothing() {
+    let text = r#"
+name = "drifting sleigh"
+coordinates = ["x", "y", "phi"]
+[lagrangian]
+T = "1/2 (x'^2 + y'^2) + 1/4 phi'^2 + 3/10 phi' (y' cos(phi) - x' sin(phi))"
+[constraints]
+blade = "x' sin(phi) - y' cos(phi) = 2/5"
+"#;
+    let (word, detail) = verdict(&stated(text));
+    assert_eq!(word, "undecided", "{detail}");
+}
+
+/// x'' = -c x': at rest nothing moves, so `N div X̄ = -c N` would vanish there. The density exp(c t) changes with the time, and the
+/// same equations from a Lagrangian with the time have the same verdict.
+#[test]
+fn damping_is_refuted_for_densities_free_of_the_time() {
+    let own = "[search]\nfunctions = [\"exp(t/3)\"]";
+    let (word, detail) = verdict(&forced("x", &[("x", "-x'/3")], own));
+    assert_eq!(word, "refuted", "{detail}");
+    assert!(detail.contains("free of the time"), "{detail}");
+    assert!(detail.contains("N = exp(t/3)"), "{detail}");
+    let (force, _) = verdict(&forced("x", &[("x", "-2 x - x'/3")], ""));
+    let lagrangian = "name = \"osc\"\ncoordinates = [\"x\"]\n\
+        lagrangian = \"exp(t/3) (1/2 x'^2 - x^2)\"\n";
+    let (time, detail) = verdict(&stated(lagrangian));
+    assert_eq!((&force[..], &time[..]), ("refuted", "refuted"), "{detail}");
+}
+
+/// x'' = -a x'² keeps N = exp(2 a x) dx dx', which does not return on a circle.
+#[test]
+fn densities_return_after_a_turn() {
+    let text = |unit: &str| {
+        format!(
+            "name = \"drag\"\n[coordinates]\nx = {{ unit = \"{unit}\" }}\n[parameters]\n\
+             a = {{ value = 0.5, unit = \"1/({unit})\" }}\nm = {{ value = 1, unit = \"kg\" }}\n\
+             [lagrangian]\nT = \"1/2 m x'^2\"\n[forces]\nx = \"-a m x'^2\"\n"
+        )
+    };
+    let (word, detail) = verdict(&stated(&text("rad")));
+    assert_eq!(word, "refuted", "{detail}");
+    assert!(detail.contains("turn"), "{detail}");
+    let (word, detail) = verdict(&stated(&text("m")));
+    assert_eq!(word, "proved", "{detail}");
+    assert!(detail.starts_with("near almost every place"), "{detail}");
+}
+
+/// Liouville's density in velocities is the determinant of ∂²L/∂v², here (1 - v²/c²)^(-2) for two dimensions, not its root.
+#[test]
+fn the_density_of_a_relativistic_point() {
+    let text = r#"
+name = "relativistic"
+coordinates = ["x", "y"]
+[parameters]
+c = 3
+m = 1
+E = 0.5
+[lagrangian]
+L = "-m c^2 sqrt(1 - (x'^2 + y'^2)/c^2) + E x"
+"#;
+    with(&stated(text), |cx| {
+        let finding = cx.finding("measure.invariant");
+        let detail = finding.verdict.detail();
+        assert_eq!(finding.verdict.word(), "proved", "{detail}");
+        assert!(detail.contains("η = (x', y')"), "{detail}");
+        assert!(!detail.contains("root"), "{detail}");
+    });
+}
+
+/// The measure of one motion in other velocities has another density, so these are named: with u along the blade it is 1, with y'
+/// for it 1/sin φ, as u = y'/sin φ.
+#[test]
+fn the_velocities_of_a_density_are_named() {
+    let text = |more: &str| {
+        format!(
+            "name = \"blade\"\ncoordinates = [\"x\", \"y\", \"phi\"]\n[lagrangian]\n\
+             T = \"1/2 (x'^2 + y'^2 + phi'^2)\"\n{more}[constraints]\nblade = \"x' sin(phi) - y' cos(phi) = 0\"\n"
+        )
+    };
+    let own = "[quasi_velocities]\nu = \"x' cos(phi) + y' sin(phi)\"\nw = \"phi'\"\n";
+    let (_, detail) = verdict(&stated(&text(own)));
+    assert!(
+        detail.contains("η = (u, w), is invariant for N = 1;"),
+        "{detail}"
+    );
+    let (_, detail) = verdict(&stated(&text("")));
+    assert!(
+        detail.contains("η = (x', phi'), is invariant for N = 1/cos(phi);")
+            || detail.contains("η = (y', phi'), is invariant for N = 1/sin(phi);"),
+        "{detail}"
+    );
+}
+
+/// Separable constraints: y' = k y x' keeps y exp(-k x), x y' = k y x' keeps y x^(-k).
+#[test]
+fn integrals_of_constraints_are_named() {
+    let found = |constraint: &str| {
+        let text = format!(
+            "name = \"int\"\ncoordinates = [\"x\", \"y\"]\n[parameters]\nk = 2\n[lagrangian]\n\
+             T = \"1/2 (x'^2 + y'^2)\"\n[constraints]\nf = \"{constraint}\"\n"
+        );
+        with(&stated(&text), |cx| {
+            let finding = cx.finding("model.constraints-integrable#weak");
+            let g = &cx.system.graph;
+            let formulas = finding.formulas.iter().map(|f| g.text(f.right));
+            let detail = finding.verdict.detail().to_owned();
+            (formulas.collect::<Vec<String>>(), detail)
+        })
+    };
+    for (constraint, integral) in [
+        ("y' = k y x'", "y exp(-k x)"),
+        ("x y' = k y x'", "y x^(-k)"),
+        ("x x' + y y' = 0", "x^2 + y^2"),
+    ] {
+        let (formulas, detail) = found(constraint);
+        assert_eq!(formulas, [integral], "{detail}");
+        assert!(detail.contains(integral), "{detail}");
+    }
 }

@@ -17,6 +17,8 @@
 //! Where the pairs are too many, `dΘ(U, V) = 0` is tested for U and V with indeterminate coefficients in the basis: an
 //! identity in these coefficients is the same statement, one residual for each constraint.
 
+mod integral;
+
 use crate::cartan::{exterior_derivative, CartanForm, JetField};
 use crate::distribution::Distribution;
 use chetaev_mechanics::characteristics::{self, Manifold};
@@ -259,6 +261,17 @@ impl Claim for ConstraintsIntegrable {
         let pfaff = PfaffSystem::new(cx.system, cx.terms, cx.selection.clone());
         let mut finding = decide(cx, &pfaff, strength);
         let mut sentence = summary(&pfaff, strength, &finding.verdict).to_string();
+        let integrable = matches!(finding.verdict, Verdict::Proved(_));
+        if let (true, Strength::Weak, Some(g)) = (integrable, strength, integral::of_one(cx)) {
+            let text = cx.system.graph.text(g);
+            sentence = format!("{sentence}, as {text} keeps its value");
+            finding.formulas.push(Formula {
+                caption: "the integral of the constraint, a function of the positions that keeps its value"
+                    .into(),
+                left: None,
+                right: g,
+            });
+        }
         if let Some(parts) = subsystems(cx, strength) {
             sentence = format!("{sentence}; {parts}");
         }

@@ -162,7 +162,10 @@ fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
     let m = reduced.variables;
     let about = about(cx, &reduced, many);
     if many + 1 >= m {
-        let detail = format!("{about}, which determine the path without a measure");
+        let detail = match many {
+            0 => format!("{about}; a single variable needs neither integrals nor a measure"),
+            _ => format!("{about}; these determine the path without a measure"),
+        };
         let on = "where the integrals are independent";
         return Ok(Verdict::Proved(Proof::exact(on, detail)));
     }
@@ -181,7 +184,7 @@ fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
     let missing = m - 2 - many.min(m - 2);
     Ok(match (missing, usable) {
         (0, true) => {
-            let detail = format!("{about}, and the measure of `measure.invariant` is kept");
+            let detail = format!("{about}; the measure of `measure.invariant` is kept");
             let on = "where the integrals are independent";
             Verdict::Proved(Proof::exact(on, detail)).and(measure.verdict.clone())
         }
@@ -190,11 +193,11 @@ fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
         )),
         (missing, usable) => {
             let measure = match usable {
-                true => "the invariant measure is there",
-                false => "and an invariant measure of the reduced motion is not known",
+                true => "the invariant measure is known",
+                false => "an invariant measure of the reduced motion is not known either",
             };
             let more = counted(missing, "further integral is", "further integrals are");
-            Verdict::undecided(format!("{about}; {more} missing, {measure}"))
+            Verdict::undecided(format!("{about}; {more} missing; {measure}"))
         }
     })
 }
@@ -263,7 +266,7 @@ fn about(cx: &Context<'_>, reduced: &Reduced, many: usize) -> String {
     let constant = match reduced.constant.is_empty() {
         true => String::new(),
         false => format!(
-            "; {} by {}",
+            " ({} by {})",
             {
                 let list = reduced.constant.join(", ");
                 match reduced.constant.len() {
@@ -277,9 +280,12 @@ fn about(cx: &Context<'_>, reduced: &Reduced, many: usize) -> String {
             }
         ),
     };
+    let found = match many {
+        1 => "1 integral".to_owned(),
+        _ => counted(many, "independent integral", "independent integrals"),
+    };
     format!(
-        "the motion has {}{left_out} and {} of them{constant}",
+        "the motion has {}{left_out}{constant}, with {found} of them",
         counted(reduced.variables, "variable", "variables"),
-        counted(many, "independent integral", "independent integrals")
     )
 }

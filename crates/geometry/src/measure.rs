@@ -1,12 +1,20 @@
 //! `measure.invariant`: an invariant measure with a smooth density in the coordinates.
 //!
-//! In the chart (t, q, η) of the constraint manifold the measure `N dq dη` is kept by the motion when `X̄ ln N = -div X̄`. For N(q), or
+//! In the chart (t, q, η) of the constraint manifold the measure `N dq dη` is kept by the motion when `X̄ ln N = -div X̄`. Where the
+//! motion is free of the time so is N: with the time any density can be carried along. For N(q), or
 //! N(t, q) where the motion contains the time, the left side is `Z σ`, σ = ln N, affine in η for constraints affine in the velocities;
 //! hence `div X̄ = d_0 + d_i η^i` is necessary, and then `Y_i σ = -d_i`, `Y_0 σ = -d_0`. These have a solution near almost every
 //! place exactly when the values forced on brackets agree ([`crate::flag`]). For constraints with roots of velocities, densities that
 //! contain powers of these are searched too. In a frame of left-invariant fields on a group
 //! that is Kozlov's condition for Suslov's problem (1988), generalized by Jovanović (1998); for Chaplygin's systems it is that of
 //! Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002).
+//!
+//! A contradiction excludes densities of the coordinates only; when no smooth positive density exists at all is the matter of
+//! [`excluded`]. What is known on formulas is in [`formula`].
+
+mod angles;
+mod excluded;
+mod formula;
 
 use crate::flag::{horizontal, Directed, Flag, Obstacle};
 use crate::noether::ansatz::Ansatz;
@@ -44,7 +52,18 @@ pub struct Measure {
     pub verdict: Verdict,
     /// The divergence of X̄.
     pub divergence: Option<Expr>,
+    /// Names of the velocities η.
+    pub velocities: Vec<String>,
+    /// What a formula too long for a sentence contains, in words.
+    words: &'static str,
 }
+
+/// Of densities of functions that occur, of `det W̄`, and of its root.
+const WORDS: [&str; 3] = [
+    "",
+    ", the determinant of the mass matrix on admissible velocities",
+    " with the root of the determinant of the mass matrix on admissible velocities",
+];
 
 /// The motion in a chart of the constraint manifold, with its divergence.
 struct Flow<'a> {
@@ -79,10 +98,14 @@ impl<'a> Flow<'a> {
         all.extend(&chart.velocities);
         let time = g.symbol("t", 0);
         let time = g.as_symbol(time);
+        // The time may cancel in the equations: what counts is the motion.
         let autonomous = g
             .symbols_in(&all)
             .into_iter()
-            .all(|s| Some(s) != time && system.prescribed_rate(s).is_none());
+            .all(|s| match Some(s) == time {
+                true => all.iter().all(|&e| is_free(cx, e, s)),
+                false => system.prescribed_rate(s).is_none(),
+            });
         Ok(Flow {
             motion,
             chart,
@@ -119,13 +142,34 @@ impl<'a> Flow<'a> {
     }
 
     /// A density of the family that is kept, not proved yet.
-    fn density(&self, cx: &Context<'_>) -> Option<Expr> {
-        let letters = self.letters(cx);
-        self.density_in(cx, &letters).or_else(|| {
+    fn density(&self, cx: &Context<'_>) -> Option<(Expr, &'static str)> {
+        let letters = self.letters(cx, self.autonomous);
+        let plain = self.density_in(cx, &letters).map(|n| (n, WORDS[0]));
+        plain.or_else(|| {
             let mut more = letters.clone();
             more.push(self.root_of_mass(cx)?);
-            self.density_in(cx, &more)
+            Some((self.density_in(cx, &more)?, WORDS[2]))
         })
+    }
+
+    /// A density that contains the time, for a motion free of it, where functions of the time occur or are stated.
+    fn density_in_time(&self, cx: &Context<'_>) -> Option<Expr> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let time = g.symbol("t", 0);
+        let letters = self.letters(cx, false);
+        let own = g.symbols_in(&[time]);
+        let is_timed =
+            |c: &CoefficientLetter| c.letter.value != time && g.contains_any(c.letter.value, &own);
+        if !self.autonomous || !letters.iter().any(is_timed) {
+            return None;
+        }
+        let density = self.density_in(cx, &letters)?;
+        let defect = self.defects(system, &[density]);
+        let on = "on the constraint manifold";
+        let verdict = cx
+            .prover
+            .identity(system, &defect, &self.chart.manifold, on);
+        matches!(verdict, Verdict::Proved(_)).then_some(density)
     }
 
     fn density_in(&self, cx: &Context<'_>, letters: &[CoefficientLetter]) -> Option<Expr> {
@@ -150,17 +194,15 @@ impl<'a> Flow<'a> {
             .filter(|(c, _)| !g.is_zero(**c))
             .map(|(&c, &n)| g.mul(&[c, n]))
             .collect();
-        Some(without_constants(&self.motion, readable(g, g.add(&parts))))
+        Some(formula::plain(cx, self, readable(g, g.add(&parts))))
     }
 
-    /// The functions of (t, q) that occur; of q where the motion does not contain the time.
-    fn letters(&self, cx: &Context<'_>) -> Vec<CoefficientLetter> {
+    /// The functions of (t, q) that occur; of q only where densities free of the time are asked for.
+    fn letters(&self, cx: &Context<'_>, timeless: bool) -> Vec<CoefficientLetter> {
         let g = &cx.system.graph;
         let time = g.symbol("t", 0);
         let mut letters = Letters::of(cx).coefficients;
-        letters.retain(|c| {
-            !self.autonomous || !g.contains_any(c.letter.value, &g.symbols_in(&[time]))
-        });
+        letters.retain(|c| !timeless || !g.contains_any(c.letter.value, &g.symbols_in(&[time])));
         for own in &mut letters {
             // Velocities as quasi-velocities have such factors.
             own.exponents.0 = match g.node(own.letter.value) {
@@ -196,13 +238,13 @@ impl<'a> Flow<'a> {
     fn liouville(&self, cx: &Context<'_>) -> Option<(Expr, Verdict)> {
         let (system, g) = (cx.system, &cx.system.graph);
         let det = self.determinant(cx)?;
-        if !g.contains_any(det, &self.symbols()) {
+        if !g.contains_any(det, &self.symbols()) || !self.is_wanted(det) {
             return None;
         }
         let defect = self.full_defects(system, &[det]);
         let (manifold, on) = (&self.chart.manifold, "on the constraint manifold");
         let verdict = cx.prover.identity(system, &defect, manifold, on);
-        let density = without_constants(&self.motion, readable(g, det));
+        let density = formula::plain(cx, self, readable(g, det));
         matches!(verdict, Verdict::Proved(_)).then_some((density, verdict))
     }
 
@@ -216,7 +258,10 @@ impl<'a> Flow<'a> {
         }
         let (manifold, own) = (&self.chart.manifold, self.symbols());
         let seed = cx.prover.points_seed();
-        let candidates = self.candidates(cx, &[&roots[..], &self.letters(cx)].concat());
+        let candidates = self.candidates(
+            cx,
+            &[&roots[..], &self.letters(cx, self.autonomous)].concat(),
+        );
         let columns: Vec<Vec<Expr>> = self
             .full_defects(system, &candidates)
             .into_iter()
@@ -226,7 +271,7 @@ impl<'a> Flow<'a> {
         let found = ansatz.first()?;
         let pairs = found.iter().zip(&candidates);
         let parts: Vec<Expr> = pairs.map(|(&c, &n)| g.mul(&[c, n])).collect();
-        let density = without_constants(&self.motion, readable(g, g.add(&parts)));
+        let density = formula::plain(cx, self, readable(g, g.add(&parts)));
         // Members may depend on each other, and a combination may vanish.
         if g.is_free_of(density, &|s| self.motion.moves(s) || own.contains(&s)) {
             return None;
@@ -238,6 +283,12 @@ impl<'a> Flow<'a> {
         let is_one =
             matches!(verdict, Verdict::Proved(_)) && matches!(vanishes, Verdict::Refuted(_));
         is_one.then_some((density, verdict))
+    }
+
+    /// Whether densities may contain an expression: the time only where the motion does.
+    fn is_wanted(&self, e: Expr) -> bool {
+        let g = &self.motion.system.graph;
+        !self.autonomous || !g.contains_any(e, &g.symbols_in(&[g.symbol("t", 0)]))
     }
 
     /// Roots with velocities in L and the constraints, as functions on N.
@@ -254,11 +305,14 @@ impl<'a> Flow<'a> {
         };
         let roots: Vec<Expr> = g.reachable(&all).into_iter().filter(is_root).collect();
         let roots = self.chart.restrict(system, &roots);
-        let letters = roots.into_iter().map(|root| CoefficientLetter {
-            letter: Letter::plain(root),
-            exponents: (-3, 2),
-            weight: 1,
-        });
+        let letters = roots
+            .into_iter()
+            .filter(|&e| self.is_wanted(e))
+            .map(|root| CoefficientLetter {
+                letter: Letter::plain(root),
+                exponents: (-3, 2),
+                weight: 1,
+            });
         letters.collect()
     }
 
@@ -283,7 +337,8 @@ impl<'a> Flow<'a> {
         let g = &cx.system.graph;
         let det = self.determinant(cx)?;
         let moves = |s: Symbol| self.motion.moves(s);
-        let wanted = !g.contains_any(det, &self.symbols()) && !g.is_free_of(det, &moves);
+        let is_of_place = !g.contains_any(det, &self.symbols()) && !g.is_free_of(det, &moves);
+        let wanted = is_of_place && self.is_wanted(det);
         wanted.then(|| CoefficientLetter {
             letter: Letter::plain(g.sqrt(det)),
             exponents: (-1, 2),
@@ -304,20 +359,12 @@ impl<'a> Flow<'a> {
     }
 }
 
-/// A product without the factors that do not move.
-fn without_constants(motion: &Motion<'_>, e: Expr) -> Expr {
-    let g = &motion.system.graph;
-    match g.node(e) {
-        Node::Product { factors, .. } => {
-            let moving = factors.iter().copied();
-            let moving: Vec<Expr> = moving
-                .filter(|&f| !g.is_free_of(f, &|s| motion.moves(s)))
-                .collect();
-            g.mul(&moving)
-        }
-        _ if g.is_free_of(e, &|s| motion.moves(s)) => g.one(),
-        _ => e,
-    }
+/// Whether an expression does not depend on a symbol, by its form or by its derivative.
+fn is_free(cx: &Context<'_>, e: Expr, s: Symbol) -> bool {
+    let g = &cx.system.graph;
+    let nowhere = chetaev_mechanics::Manifold::default();
+    let slope = |e: Expr| cx.prover.identity(cx.system, &[g.diff(e, s)], &nowhere, "");
+    !g.contains_any(e, &[s]) || matches!(slope(e), Verdict::Proved(_))
 }
 
 /// What is known of the invariant measure of the context's system, computed once; a sentence where it cannot be.
@@ -332,32 +379,62 @@ pub fn measure(cx: &Context<'_>) -> Arc<Result<Measure, String>> {
 }
 
 fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
-    let system = cx.system;
-    let manifold = &flow.chart.manifold;
-    let on = "on the constraint manifold";
-    if let Some(density) = flow.density(cx) {
+    let known = |density, verdict, words| Measure {
+        density,
+        verdict,
+        divergence: Some(flow.divergence),
+        velocities: flow
+            .chart
+            .parameters
+            .iter()
+            .map(|p| p.name.clone())
+            .collect(),
+        words,
+    };
+    let (system, manifold) = (cx.system, &flow.chart.manifold);
+    if let Some((density, words)) = flow.density(cx) {
         let defect = flow.defects(system, &[density]);
+        let on = "on the constraint manifold";
         let verdict = cx.prover.identity(system, &defect, manifold, on);
         if matches!(verdict, Verdict::Proved(_)) {
-            return Measure {
-                density: Some(density),
-                verdict,
-                divergence: Some(flow.divergence),
-            };
+            let verdict = angles::returning(cx, flow, density, verdict);
+            return known(Some(density), verdict, words);
         }
     }
-    if let Some((density, verdict)) = flow.liouville(cx).or_else(|| flow.with_roots(cx)) {
-        return Measure {
-            density: Some(density),
-            verdict,
-            divergence: Some(flow.divergence),
-        };
+    if let Some((density, verdict)) = flow.liouville(cx) {
+        return known(Some(density), verdict, WORDS[1]);
     }
-    Measure {
-        density: None,
-        verdict: by_brackets(cx, flow, &[]),
-        divergence: Some(flow.divergence),
+    if let Some((density, verdict)) = flow.with_roots(cx) {
+        return known(Some(density), verdict, WORDS[0]);
     }
+    known(None, without_formula(cx, flow), WORDS[0])
+}
+
+/// The verdict where no formula was found.
+fn without_formula(cx: &Context<'_>, flow: &Flow<'_>) -> Verdict {
+    let by_brackets = by_brackets(cx, flow, &[]);
+    if matches!(by_brackets, Verdict::Proved(_)) {
+        return angles::around(cx, flow, by_brackets);
+    }
+    let mut verdict = excluded::excluded(cx, flow).unwrap_or_else(|| match by_brackets {
+        Verdict::Refuted(found) => Verdict::undecided(format!(
+            "{}; densities that contain velocities are not excluded",
+            found.detail
+        )),
+        other => other,
+    });
+    if let Some(density) = flow.density_in_time(cx) {
+        let text = cx.system.graph.text(density);
+        let more = format!(
+            "; N dt dq dη is kept for N = {text}, which changes with the time, and so is no measure on the states of a motion free of it"
+        );
+        match &mut verdict {
+            Verdict::Refuted(found) => found.detail.push_str(&more),
+            Verdict::Undecided { tried } => tried.push_str(&more),
+            _ => {}
+        }
+    }
+    verdict
 }
 
 /// Whether a density exists that does not contain some of the coordinates.
@@ -370,10 +447,19 @@ pub fn free_of(cx: &Context<'_>, coordinates: &[usize]) -> Result<Verdict, Strin
 
 /// Whether a density exists, without its formula; free of the coordinates with these indices.
 fn by_brackets(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Verdict {
+    match flag(cx, flow, free) {
+        Ok(Some(flag)) => exists(flag),
+        Ok(None) => not_affine(cx, flow),
+        Err(verdict) => *verdict,
+    }
+}
+
+/// What the derivatives of ln N along admissible fields generate; none for constraints nonlinear in the velocities; a verdict
+/// where there is no density of the coordinates, or where that is not known.
+fn flag(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Result<Option<Flag>, Box<Verdict>> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let (mut fields, mut drift) = match horizontal(system, &flow.chart) {
-        Ok(found) => found,
-        Err(why) => return not_affine(cx, flow, &why),
+    let Ok((mut fields, mut drift)) = horizontal(system, &flow.chart) else {
+        return Ok(None);
     };
     let rest = flow.at(system, flow.divergence, None);
     drift.value = g.neg(rest);
@@ -395,9 +481,9 @@ fn by_brackets(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Verdict {
                 "the divergence of the motion is not affine in the velocities, so no density depends on the coordinates only; {}",
                 found.detail
             );
-            return Verdict::Refuted(found);
+            return Err(Box::new(Verdict::Refuted(found)));
         }
-        other => return other,
+        other => return Err(Box::new(other)),
     }
     let drift_matters = !flow.autonomous || drift.place.iter().any(|&e| !g.is_zero(e));
     let is_steady = g.is_zero(drift.value) && !drift_matters;
@@ -415,11 +501,11 @@ fn by_brackets(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Verdict {
             value: g.zero(),
         }
     }));
-    closed(cx, flow, &fields)
+    closed(cx, flow, &fields).map(Some)
 }
 
 /// For constraints nonlinear in the velocities: only a divergence that vanishes, or a density of the family.
-fn not_affine(cx: &Context<'_>, flow: &Flow<'_>, why: &str) -> Verdict {
+fn not_affine(cx: &Context<'_>, flow: &Flow<'_>) -> Verdict {
     let on = "on the constraint manifold";
     let manifold = &flow.chart.manifold;
     let zero = cx
@@ -427,45 +513,41 @@ fn not_affine(cx: &Context<'_>, flow: &Flow<'_>, why: &str) -> Verdict {
         .identity(cx.system, &[flow.divergence], manifold, on);
     match zero {
         Verdict::Proved(_) => zero,
-        _ => Verdict::undecided(format!(
-            "{why}; no density was found among the functions of the coordinates that occur and their products with powers of the roots that contain velocities"
-        )),
+        _ => Verdict::undecided(
+            "the constraints are not affine in the velocities; no density was found among the functions of the coordinates that occur and their products with powers of the roots that contain velocities"
+        ),
     }
 }
 
-/// Whether the values on the brackets agree.
-fn closed(cx: &Context<'_>, flow: &Flow<'_>, fields: &[Directed]) -> Verdict {
-    let g = &cx.system.graph;
+/// Where the values on the brackets agree.
+fn exists(flag: Flag) -> Verdict {
+    match flag.verdict {
+        Verdict::Proved(mut proof) => {
+            proof.on = "near almost every place".into();
+            proof.detail = "near almost every place a density exists, as the values that its logarithm has along the admissible fields and their brackets agree; its formula is not among the functions searched".into();
+            Verdict::Proved(proof)
+        }
+        other => other,
+    }
+}
+
+/// Whether the values on the brackets agree; a contradiction refutes densities of the coordinates.
+fn closed(cx: &Context<'_>, flow: &Flow<'_>, fields: &[Directed]) -> Result<Flag, Box<Verdict>> {
     match Flag::of(cx, fields, !flow.autonomous, true) {
-        Ok(flag) => match flag.verdict {
-            Verdict::Proved(mut proof) => {
-                proof.on = "near almost every place".into();
-                proof.detail = "a density exists, as the values that its logarithm has along the admissible fields and their brackets agree; its formula is not among the functions searched".into();
-                Verdict::Proved(proof)
-            }
-            other => other,
-        },
-        Err(Obstacle::Undecided(tried)) => Verdict::undecided(tried),
-        Err(Obstacle::Contradiction(verdict)) => match *verdict {
+        Ok(flag) => Ok(flag),
+        Err(Obstacle::Undecided(tried)) => Err(Box::new(Verdict::undecided(tried))),
+        Err(Obstacle::Contradiction(verdict)) => Err(Box::new(match *verdict {
             Verdict::Refuted(mut found) => {
-                let free = flow
-                    .rates
-                    .iter()
-                    .all(|&rate| g.is_zero(flow.at(cx.system, rate, None)));
-                let more = match free && flow.autonomous {
-                    true => "; as no force acts on a body at rest, no other smooth positive density exists either",
-                    false => "",
-                };
-                found.detail = format!(
-                    "no density depends on the coordinates only: what the divergence asks of its logarithm along admissible fields contradicts their brackets{more}; {}",
-                    found.detail
-                );
+                found.detail = format!("{CONTRADICTION}; {}", found.detail);
                 Verdict::Refuted(found)
             }
             other => other,
-        },
+        })),
     }
 }
+
+/// What contradicting brackets say.
+const CONTRADICTION: &str = "no density depends on the coordinates only: what the divergence asks of its logarithm along admissible fields contradicts their brackets";
 
 impl Claim for InvariantMeasure {
     fn id(&self) -> &'static str {
@@ -481,7 +563,7 @@ impl Claim for InvariantMeasure {
     }
 
     fn explanation(&self) -> &'static str {
-        "On the constraint manifold with coordinates q and (quasi-)velocities η the measure N dq dη is invariant when X̄ ln N = -div X̄. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). Where no force acts at rest, a refutation excludes every smooth positive density, as the terms linear in the velocities of its equation are those for N at rest."
+        "On the constraint manifold with coordinates q and independent (quasi-)velocities η, which the verdict names, the measure N dq dη is invariant when X̄ ln N = -div X̄. For a motion free of the time N is free of it too, as a density that changes with the time can always be carried along. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). The claim is refuted only where no smooth positive density N(q, η) exists at all, rest included: where the divergence does not vanish at states of rest or on a steady motion that only turns angles; where ln N would change over a turn of an angle; and where rest is admissible, the accelerations have there neither terms without velocities nor linear ones, and the brackets contradict each other: then the terms of its equation that are linear in the velocities are those for N at rest. Where brackets contradict each other otherwise, densities that contain velocities are not excluded, and the claim is undecided."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -499,11 +581,12 @@ impl Claim for InvariantMeasure {
             Err(why) => return Verdict::undecided(why.clone()).into(),
         };
         let g = &cx.system.graph;
+        let with = format!("with η = ({})", measure.velocities.join(", "));
         let mut formulas = Vec::new();
         let mut verdict = measure.verdict.clone();
         if let Some(density) = measure.density {
             formulas.push(Formula {
-                caption: "the density N of the invariant measure N dq dη".into(),
+                caption: format!("the density N of the invariant measure N dq dη, {with}"),
                 left: None,
                 right: density,
             });
@@ -511,9 +594,9 @@ impl Claim for InvariantMeasure {
                 let text = g.text(density);
                 let what = match text.chars().count() <= LONGEST {
                     true => format!("for N = {text}"),
-                    false => "for N with the root of the determinant of the mass matrix on admissible velocities".into(),
+                    false => format!("for the N stated{}", measure.words),
                 };
-                proof.detail = format!("N dq dη is invariant {what}; {}", proof.detail);
+                proof.detail = format!("N dq dη, {with}, is invariant {what}; {}", proof.detail);
             }
         }
         if let Some(divergence) = measure.divergence {

@@ -1,0 +1,147 @@
+//! Densities on configurations where an angle returns to itself: ln N has to return too.
+
+use super::{by_brackets, excluded, flag, Flow};
+use crate::flag::Flag;
+use chetaev_mechanics::{Context, Manifold};
+use chetaev_symbolic::{Expr, Function, Node, Verdict};
+
+/// Coordinates that are angles and that no assumption bounds.
+fn closed_angles(cx: &Context<'_>) -> Vec<usize> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let sides: Vec<Expr> = system
+        .assumptions
+        .iter()
+        .flat_map(|a| [a.left, a.right])
+        .collect();
+    let is_closed = |j: &usize| {
+        let c = &system.coordinates[*j];
+        system.angles.contains(&c.name) && !g.any_contains_any(&sides, &[c.q_symbol])
+    };
+    (0..system.n()).filter(is_closed).collect()
+}
+
+/// What is proved near almost every place, with what is known of whole turns of the angles.
+pub(super) fn around(cx: &Context<'_>, flow: &Flow<'_>, local: Verdict) -> Verdict {
+    let angles = closed_angles(cx);
+    if angles.is_empty() || matches!(by_brackets(cx, flow, &angles), Verdict::Proved(_)) {
+        return local;
+    }
+    let names: Vec<&str> = angles
+        .iter()
+        .map(|&j| cx.system.coordinates[j].name.as_str())
+        .collect();
+    let open = format!(
+        "whether it returns to its values after a turn of {} is not decided",
+        names.join(", ")
+    );
+    match turned(cx, flow, &angles) {
+        Some(verdict) => verdict,
+        None => match local {
+            Verdict::Proved(mut proof) => {
+                proof.detail = format!("{}; {open}", proof.detail);
+                Verdict::Proved(proof)
+            }
+            other => other,
+        },
+    }
+}
+
+/// A formula that does not return after a turn of an angle is that of a measure near every place only.
+pub(super) fn returning(
+    cx: &Context<'_>,
+    flow: &Flow<'_>,
+    density: Expr,
+    verdict: Verdict,
+) -> Verdict {
+    let angles = closed_angles(cx);
+    let open: Vec<usize> = angles
+        .into_iter()
+        .filter(|&j| !returns(cx, density, j))
+        .collect();
+    if open.is_empty() {
+        return verdict;
+    }
+    let names: Vec<&str> = open
+        .iter()
+        .map(|&j| cx.system.coordinates[j].name.as_str())
+        .collect();
+    turned(cx, flow, &open).unwrap_or_else(|| {
+        Verdict::undecided(format!(
+            "N = {} makes N dq dη invariant near every place; whether a density returns to its values after a turn of {} is not decided",
+            cx.system.graph.text(density),
+            names.join(", ")
+        ))
+    })
+}
+
+/// Whether an expression contains an angle only in sines and the like of whole multiples.
+fn returns(cx: &Context<'_>, e: Expr, angle: usize) -> bool {
+    let g = &cx.system.graph;
+    let symbol = cx.system.coordinates[angle].q_symbol;
+    let mut replaced: Vec<(Expr, Expr)> = Vec::new();
+    for part in g.reachable(&[e]) {
+        let Node::Apply {
+            function:
+                Function::Sin
+                | Function::Cos
+                | Function::Tan
+                | Function::Cot
+                | Function::Sec
+                | Function::Csc,
+            arguments,
+        } = g.node(part)
+        else {
+            continue;
+        };
+        let slope = g.diff(arguments[0], symbol);
+        if g.as_integer(slope).is_some() {
+            replaced.push((part, g.one()));
+        }
+    }
+    !g.contains_any(g.substitute(e, &replaced), &[symbol])
+}
+
+/// A verdict where ln N changes by a constant along an angle.
+fn turned(cx: &Context<'_>, flow: &Flow<'_>, angles: &[usize]) -> Option<Verdict> {
+    let found = flag(cx, flow, &[]).ok()??;
+    let slopes = slopes(cx, flow, &found)?;
+    angles.iter().find_map(|&j| {
+        if !excluded::is_constant(cx, slopes[j]) {
+            return None;
+        }
+        let on = "in the coordinates";
+        let verdict = cx
+            .prover
+            .identity(cx.system, &[slopes[j]], &Manifold::default(), on);
+        let Verdict::Refuted(mut refuted) = verdict else {
+            return None;
+        };
+        let name = &cx.system.coordinates[j].name;
+        let what = format!(
+            "near every place a density of the coordinates exists, but its logarithm has a constant slope that is not zero along the angle {name}, and so does not return after a turn"
+        );
+        Some(match excluded::fields_at_rest(cx, flow).is_some() {
+            true => {
+                refuted.detail = format!(
+                    "{what}; as the accelerations at rest have neither terms without velocities nor linear ones, the same holds for every smooth positive density; {}",
+                    refuted.detail
+                );
+                Verdict::Refuted(refuted)
+            }
+            false => Verdict::undecided(format!(
+                "{what}; densities that contain velocities are not excluded"
+            )),
+        })
+    })
+}
+
+/// The derivatives of ln N by the coordinates, where the brackets determine all of them.
+fn slopes(cx: &Context<'_>, flow: &Flow<'_>, flag: &Flag) -> Option<Vec<Expr>> {
+    let n = cx.system.n();
+    if !flow.autonomous || flag.fields.len() != n {
+        return None;
+    }
+    let entries: Vec<Expr> = flag.fields.iter().flat_map(|f| f.place.clone()).collect();
+    let values: Vec<Expr> = flag.fields.iter().map(|f| f.value).collect();
+    cx.system.graph.solve(&entries, &values).ok()
+}
