@@ -297,7 +297,8 @@ impl Keep {
             for row in 0..own.targets.len() {
                 let left = own.left(row, x)?;
                 // A component that is large may not be moved by so little, and others must not be moved for it.
-                rest.left.push(if left.units <= 1.0 { 0.0 } else { left.value });
+                rest.left
+                    .push(if left.units <= 1.0 { 0.0 } else { left.value });
                 rest.worst = rest.worst.max(left.units);
                 rest.with_state = rest.with_state.max(left.with_state);
             }
@@ -342,7 +343,8 @@ impl Keep {
 
     /// Whether a change is one that a step in error makes necessary: across a cut of an angle, say, it is not.
     fn is_near(&self, start: &[f64], x: &[f64]) -> bool {
-        let difference = |a: &[f64]| -> Vec<f64> { start.iter().zip(a).map(|(s, a)| s - a).collect() };
+        let difference =
+            |a: &[f64]| -> Vec<f64> { start.iter().zip(a).map(|(s, a)| s - a).collect() };
         let mut pairs = start.iter().zip(x);
         pairs.all(|(a, b)| (a - b).abs() <= FAR * (1.0 + a.abs()))
             || norm(&difference(x)) <= PART_OF_STEP * norm(&difference(&self.before))

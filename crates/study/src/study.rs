@@ -5,7 +5,9 @@ use crate::derivation::check_applies;
 use crate::error::StudyError;
 use crate::expectations::{check_expectations, expected, outcome, unmatched};
 use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
-use crate::notices::{events_not_followed, integrals_not_kept, left_assumptions, negative_masses, notices};
+use crate::notices::{
+    events_not_followed, integrals_not_kept, left_assumptions, negative_masses, notices,
+};
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
 use crate::start::{
