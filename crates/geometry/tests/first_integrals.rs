@@ -214,10 +214,8 @@ fn special_values_of_parameters() {
     with(&general, |cx, motion| {
         let table = Table::new(motion, &family.letters, 7).unwrap();
         let g = &general.graph;
-        let tie = |parameter: &str, other: &str| Tie {
-            parameter: g.intern_symbol(parameter, 0),
-            equals: Some(g.intern_symbol(other, 0)),
-        };
+        let symbol = |name: &str| g.intern_symbol(name, 0);
+        let tie = |parameter: &str, other: &str| Tie::Equal(symbol(parameter), symbol(other));
         let ties = [tie("I2", "I1"), tie("I3", "I1")];
         let special = table.special(cx, &family, &ties);
         assert_eq!(special.len(), 2);

@@ -367,6 +367,12 @@ pub struct System {
 }
 
 impl System {
+    /// Functions of the place and the time that the constraints fix: the left sides of the holonomic ones.
+    pub fn fixed_functions(&self) -> Vec<Expr> {
+        let holonomic = self.constraints.iter().filter(|c| c.order == 0);
+        holonomic.map(|c| c.stated).collect()
+    }
+
     /// Builds a system and classifies its constraints.
     ///
     /// # Errors

@@ -2,12 +2,12 @@
 
 use super::family::{Family, Member};
 use super::motion::Motion;
-use super::occurring::Letters;
+use super::occurring::{Letters, ENERGY};
 use super::search::{Integral, Special, Table, Tie};
-use chetaev_mechanics::Context;
+use chetaev_mechanics::{Context, System};
 use chetaev_symbolic::number::prime_field::Residue;
 use chetaev_symbolic::simplify::{simplify, Options};
-use chetaev_symbolic::{Expr, Graph, Node};
+use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol};
 use std::sync::Arc;
 
 /// The most members of a family of degree one in the velocities, and of degree two for a system of up to four coordinates and for
@@ -42,8 +42,8 @@ pub struct Found {
     pub families: Vec<Searched>,
     /// Functionally independent first integrals, each proved.
     pub integrals: Vec<Integral>,
-    /// Dimensions whose integrals are functions of `integrals`.
-    pub dependent: usize,
+    /// Further integrals that are functions of `integrals`, linearly independent ones: products of two of these, and others.
+    pub dependent: (usize, usize),
     /// What there is more of at special values of the parameters, in small families.
     pub special: Vec<Special>,
     /// Independent integrals modulo p that could not be lifted or proved.
@@ -143,26 +143,9 @@ fn awkwardness(cx: &Context<'_>, family: &Family, member: &Member) -> u8 {
 /// The most members of a family that is searched at special values, and the most special values.
 const SMALL: (usize, usize) = (130, 36);
 
-/// Further integrals where two parameters are equal, or one is zero that is not assumed otherwise, in small families.
+/// Further integrals in small families where two parameters are equal, or one is zero that is not assumed otherwise, and for the
+/// values that the model states.
 fn special(cx: &Context<'_>, table: &Table<'_>, letters: &Letters) -> Vec<Special> {
-    let parameters = table.free_parameters();
-    let mut ties: Vec<Tie> = Vec::new();
-    for (i, &parameter) in parameters.iter().enumerate() {
-        let others = parameters[..i].iter();
-        ties.extend(others.map(|&other| Tie {
-            parameter,
-            equals: Some(other),
-        }));
-    }
-    let g = &cx.system.graph;
-    let zeros = parameters
-        .iter()
-        .filter(|&&s| !is_assumed(cx, g.symbol_expr(s)));
-    ties.extend(zeros.map(|&parameter| Tie {
-        parameter,
-        equals: None,
-    }));
-    ties.truncate(SMALL.1);
     let family = [
         letters.polynomials(2, 1),
         letters.polynomials(2, 0),
@@ -170,7 +153,55 @@ fn special(cx: &Context<'_>, table: &Table<'_>, letters: &Letters) -> Vec<Specia
     ]
     .into_iter()
     .find(|family| family.members.len() <= SMALL.0);
-    family.map_or(Vec::new(), |family| table.special(cx, &family, &ties))
+    let Some(family) = family else {
+        return Vec::new();
+    };
+    let parameters = table.free_parameters();
+    let mut found = table.special(cx, &family, &ties(cx, &parameters));
+    let values: Vec<(Symbol, Rational)> = parameters
+        .iter()
+        .filter_map(|&s| Some((s, stated(cx, s)?)))
+        .collect();
+    let seen = found.iter().any(|special| is_stated(cx, &special.tie));
+    if !seen && !values.is_empty() {
+        found.extend(table.special(cx, &family, &[Tie::Values(values)]));
+    }
+    found
+}
+
+/// The special values that are looked at, those that the model states first.
+fn ties(cx: &Context<'_>, parameters: &[Symbol]) -> Vec<Tie> {
+    let mut ties: Vec<Tie> = Vec::new();
+    for (i, &parameter) in parameters.iter().enumerate() {
+        let others = parameters[..i].iter();
+        ties.extend(others.map(|&other| Tie::Equal(parameter, other)));
+    }
+    let g = &cx.system.graph;
+    let zeros = parameters.iter().copied();
+    ties.extend(zeros.map(Tie::Zero).filter(|tie| match tie {
+        Tie::Zero(s) => is_stated(cx, tie) || !is_assumed(cx, g.symbol_expr(*s)),
+        _ => true,
+    }));
+    ties.sort_by_key(|tie| !is_stated(cx, tie));
+    ties.truncate(SMALL.1);
+    ties
+}
+
+/// The value that the model states for a parameter, where it is rational.
+fn stated(cx: &Context<'_>, symbol: Symbol) -> Option<Rational> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let name = g.symbol_name(symbol);
+    let parameter = system.parameters.iter().find(|p| p.name == name)?;
+    g.as_number(parameter.value?).cloned()
+}
+
+/// Whether parameters are tied so by the values that the model states.
+pub(crate) fn is_stated(cx: &Context<'_>, tie: &Tie) -> bool {
+    match tie {
+        Tie::Equal(a, b) => stated(cx, *a).is_some_and(|value| stated(cx, *b) == Some(value)),
+        Tie::Zero(s) => stated(cx, *s).is_some_and(|value| value == Rational::ZERO),
+        Tie::Values(_) => true,
+    }
 }
 
 /// Whether the model assumes something of a parameter, by which it may not vanish.
@@ -194,10 +225,11 @@ fn known<'f>(table: &Table<'_>, letters: &Letters, families: &'f [Family]) -> Ve
             continue;
         };
         if let Some(one) = table.rate_vanishes(family, place) {
+            let degree = if name == ENERGY { 2 } else { 1 };
             found.push(Candidate {
                 family,
                 vector: vec![(place, one)],
-                order: (false, 2, false, 0, 0),
+                order: (false, degree, false, 0, 0),
                 name: Some(name.clone()),
             });
         }
@@ -210,7 +242,7 @@ fn chosen(
     cx: &Context<'_>,
     table: &Table<'_>,
     candidates: &[Candidate<'_>],
-) -> (Vec<Integral>, usize, usize) {
+) -> (Vec<Integral>, (usize, usize), usize) {
     let vectors: Vec<(&Family, &[(usize, Residue)])> = candidates
         .iter()
         .map(|c| (c.family, &c.vector[..]))
@@ -227,25 +259,29 @@ fn chosen(
                     name: candidate.name.clone(),
                     ..integral
                 };
-                integrals.push(match integral.name {
-                    Some(_) => integral,
-                    None => without_constant_factor(cx, integral),
+                integrals.push(match integral.name.as_deref() {
+                    Some(ENERGY) => integral,
+                    _ => without_constant_factor(cx, integral),
                 });
             }
             None => open += 1,
         }
     }
-    (integrals, candidates.len() - independent.len(), open)
+    let others = table.others(&vectors, &independent);
+    (integrals, others.unwrap_or_default(), open)
+}
+
+/// Whether nothing but parameters occurs; what is shown may contain names of quasi-velocities.
+pub(crate) fn is_constant(system: &System, e: Expr) -> bool {
+    let g = &system.graph;
+    let is_parameter = |s: Symbol| system.parameters.iter().any(|p| p.name == g.symbol_name(s));
+    g.symbols_in(&[e]).into_iter().all(is_parameter)
 }
 
 /// The integral divided by what all its terms share and nothing moves, as (1 + a²)^(3/2).
 fn without_constant_factor(cx: &Context<'_>, integral: Integral) -> Integral {
     let g = &cx.system.graph;
-    let is_constant = |e: Expr| {
-        g.is_free_of(e, &|s| {
-            g.symbol_name(s) == "t" || cx.system.moves(g.symbol_name(s))
-        })
-    };
+    let is_constant = |e: Expr| is_constant(cx.system, e);
     let Node::Product { factors, .. } = g.node(integral.shown) else {
         return integral;
     };
@@ -264,6 +300,7 @@ fn without_constant_factor(cx: &Context<'_>, integral: Integral) -> Integral {
     Integral {
         value: divided(integral.value),
         shown: divided(integral.shown),
+        name: None,
         ..integral
     }
 }
@@ -303,6 +340,7 @@ fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
             largest
         })
         .collect();
+    families.extend(turned(cx, letters));
     if letters.velocities.len() > 1 {
         let mut quotients = letters.quotients();
         quotients.words = "quotients of two velocities".into();
@@ -311,13 +349,45 @@ fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
     families
 }
 
+/// Which powers of a letter are formed, where not all of them. A cosine stands with its first power only because of the sine.
+fn powers((least, most): (i8, i8)) -> String {
+    match (least, most) {
+        (0, 1 | 9) => String::new(),
+        (least, most) => format!(" to the powers {least} to {most}"),
+    }
+}
+
+/// The family with sines and cosines of coordinates that may be angles.
+fn turned(cx: &Context<'_>, letters: &Letters) -> Option<Family> {
+    let g = &cx.system.graph;
+    let families = (1..=WEIGHT).map_while(|weight| Some((weight, letters.turned(weight)?)));
+    let (weight, mut family) = families
+        .take_while(|(_, family)| family.members.len() <= MEMBERS[0])
+        .last()?;
+    let places = 0..letters.coefficients.len();
+    let used = places.filter(|&i| letters.is_turned(i));
+    let names: Vec<String> = used
+        .map(|i| g.text(letters.coefficients[i].letter.shown))
+        .collect();
+    let velocities: Vec<String> = letters.velocities.iter().map(|l| g.text(l.shown)).collect();
+    family.words = format!(
+        "polynomials of degree up to 1 in the velocities {}, with products of up to {weight} of {} as coefficients",
+        velocities.join(", "),
+        names.join(", ")
+    );
+    Some(family)
+}
+
 fn words(cx: &Context<'_>, letters: &Letters, degree: u32, weight: u32) -> String {
     let g = &cx.system.graph;
     let list = |weight: u32| {
         let numbered = letters.coefficients.iter().enumerate();
-        let own = numbered
-            .filter(|(i, c)| c.weight == weight && (degree == 1 || !letters.turning.contains(i)));
-        own.map(|(_, c)| g.text(c.letter.shown))
+        let own = numbered.filter(|(i, c)| {
+            c.weight == weight
+                && !letters.perhaps_turning.contains(i)
+                && (degree == 1 || !letters.turning.contains(i))
+        });
+        own.map(|(_, c)| format!("{}{}", g.text(c.letter.shown), powers(c.exponents)))
             .collect::<Vec<String>>()
     };
     let velocities: Vec<String> = letters.velocities.iter().map(|l| g.text(l.shown)).collect();

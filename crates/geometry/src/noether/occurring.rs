@@ -18,9 +18,18 @@ pub struct Letters {
     pub coefficients: Vec<CoefficientLetter>,
     /// Places in `coefficients` of the sines and cosines of angles that occur nowhere, which stand in linear integrals only.
     pub turning: Vec<usize>,
-    /// Functions that are members by themselves, with their names: the energy.
+    /// So many of `coefficients` at the beginning are sines and cosines.
+    circular: usize,
+    /// Places at the end of `coefficients` of the sines and cosines of coordinates that occur nowhere and may be angles, where the model
+    /// gives no units; they stand in a family of their own.
+    pub perhaps_turning: Vec<usize>,
+    /// Functions that are members by themselves, with their names: the energy, and the momenta of coordinates that L does not
+    /// contain.
     pub known: Vec<(String, Letter)>,
 }
+
+/// The name of the energy among the known functions.
+pub const ENERGY: &str = "the energy";
 
 /// The largest order of a mass matrix whose determinant is looked at.
 const DETERMINANT: usize = 4;
@@ -42,30 +51,63 @@ impl Letters {
         roots.extend(velocities.iter().map(|l| l.value));
         let mut found = Occurring::in_roots(system, &roots);
         found.roots_of_measure(cx);
-        let (coefficients, turning) = found.letters();
-        let energy = Letter::plain(system.energy());
-        let is_constant = system
-            .graph
-            .is_free_of(energy.value, &|s| system.moves(system.graph.symbol_name(s)));
         Letters {
             velocities,
-            coefficients,
-            turning,
-            known: match is_constant {
-                true => Vec::new(),
-                false => vec![("the energy".into(), energy)],
-            },
+            known: known(cx),
+            ..found.letters()
         }
+    }
+
+    /// The letters of the coefficients, those of another family with no power but 0.
+    fn usual(&self) -> Vec<CoefficientLetter> {
+        let mut usual = self.coefficients.clone();
+        for &place in &self.perhaps_turning {
+            usual[place].exponents = (0, 0);
+        }
+        usual
+    }
+
+    /// The polynomials of degree one in the velocities whose coefficients are made of sines and cosines, those of coordinates that
+    /// may be angles too, of weight up to `weight`; `None` where there are no such coordinates.
+    pub fn turned(&self, weight: u32) -> Option<Family> {
+        let (&first, count) = (self.perhaps_turning.first()?, self.velocities.len());
+        let mut letters = self.coefficients.clone();
+        for letter in &mut letters[self.circular..first] {
+            letter.exponents = (0, 0);
+        }
+        let functions = coefficients(&letters, count, weight);
+        let mut members: Vec<Member> = functions.iter().map(|(_, f)| f.clone()).collect();
+        for (_, function) in &functions {
+            let own = monomials(count, 1).into_iter();
+            members.extend(own.map(|monomial| product(&monomial, function)));
+        }
+        Some(Family {
+            letters: self.all(),
+            members,
+            words: String::new(),
+        })
+    }
+
+    /// Whether a letter of the coefficients belongs to the family of [`turned`](Letters::turned).
+    pub fn is_turned(&self, place: usize) -> bool {
+        place < self.circular || self.perhaps_turning.contains(&place)
     }
 
     /// The letters without roots, where these leave no points over a prime field.
     #[must_use]
     pub fn without_roots(&self, system: &System) -> Letters {
         let mut without = self.clone();
+        let before = self.coefficients.len();
         without.coefficients.retain(|c| {
             let (_, exponent) = system.graph.base_exponent(c.letter.value);
             system.graph.as_integer(exponent).is_some()
         });
+        // Roots stand after the first sines and cosines, and before the last ones.
+        let gone = before - without.coefficients.len();
+        without
+            .perhaps_turning
+            .iter_mut()
+            .for_each(|place| *place -= gone);
         without
     }
 
@@ -105,7 +147,7 @@ impl Letters {
         for d in 0..=degree {
             // The terms without velocities of an integral linear in these need nothing more than the others.
             let more = if degree == 1 { 0 } else { degree - d };
-            let usual = coefficients(&self.coefficients, count, weight + more);
+            let usual = coefficients(&self.usual(), count, weight + more);
             let is_used = |(_, member): &(u32, Member)| degree == 1 || !self.is_turning(member);
             let functions: Vec<(u32, Member)> = usual.into_iter().filter(is_used).collect();
             for monomial in monomials(count, d) {
@@ -403,35 +445,37 @@ impl<'a> Occurring<'a> {
         }
     }
 
-    fn letters(&self) -> (Vec<CoefficientLetter>, Vec<usize>) {
+    /// The letters of the coefficients; velocities and known functions are left empty.
+    fn letters(&self) -> Letters {
         let g = &self.system.graph;
         let letter = |e: Expr, exponents: (i8, i8), weight: u32| CoefficientLetter {
             letter: Letter::plain(e),
             exponents,
             weight,
         };
+        let circle = |angle: Expr| {
+            [
+                letter(g.sin(angle), (0, 9), 1),
+                letter(g.cos(angle), (0, 1), 1),
+            ]
+        };
         let plain_weight = if self.angles.is_empty() { 1 } else { 2 };
-        let mut all = Vec::new();
-        for &angle in &self.angles {
-            all.push(letter(g.sin(angle), (0, 9), 1));
-            all.push(letter(g.cos(angle), (0, 1), 1));
-        }
-        let mut turning = Vec::new();
+        let mut all: Vec<CoefficientLetter> = Vec::new();
+        self.angles
+            .iter()
+            .for_each(|&angle| all.extend(circle(angle)));
+        let first_turning = all.len();
         for c in &self.system.coordinates {
             if self.system.angles.contains(&c.name) && !self.angles.contains(&c.q) {
-                turning.extend([all.len(), all.len() + 1]);
-                all.push(letter(g.sin(c.q), (0, 9), 1));
-                all.push(letter(g.cos(c.q), (0, 1), 1));
+                all.extend(circle(c.q));
             }
         }
+        let circular = all.len();
         for &root in self.roots.iter().chain(&self.measure) {
             all.push(letter(root, (-1, 1), 1));
         }
         for &e in &self.system.search_functions {
-            if !all
-                .iter()
-                .any(|own: &CoefficientLetter| own.letter.value == e)
-            {
+            if !all.iter().any(|own| own.letter.value == e) {
                 all.push(letter(e, (-1, 2), 1));
             }
         }
@@ -448,8 +492,85 @@ impl<'a> Occurring<'a> {
             all.push(letter(g.powi(e, -1), (0, 9), 1));
         }
         all.push(letter(g.symbol("t", 0), (0, 9), 2));
-        (all, turning)
+        let usual = all.len();
+        self.perhaps_angles()
+            .into_iter()
+            .for_each(|q| all.extend(circle(q)));
+        Letters {
+            velocities: Vec::new(),
+            turning: (first_turning..circular).collect(),
+            circular,
+            perhaps_turning: (usual..all.len()).collect(),
+            coefficients: all,
+            known: Vec::new(),
+        }
     }
+
+    /// Coordinates that occur nowhere, where others occur in sines and the model gives no unit of an angle.
+    fn perhaps_angles(&self) -> Vec<Expr> {
+        let g = &self.system.graph;
+        if self.angles.is_empty() || !self.system.angles.is_empty() {
+            return Vec::new();
+        }
+        let mut roots = vec![self.system.lagrangian];
+        roots.extend(&self.system.forces);
+        roots.extend(self.system.constraints.iter().map(|c| c.f));
+        let all = self.system.coordinates.iter();
+        all.filter(|c| !g.any_contains_any(&roots, &[c.q_symbol]))
+            .map(|c| c.q)
+            .collect()
+    }
+}
+
+/// The energy, and the momenta of the coordinates that L does not contain, with their names.
+fn known(cx: &Context<'_>) -> Vec<(String, Letter)> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let moves = |s: Symbol| g.symbol_name(s) == "t" || system.moves(g.symbol_name(s));
+    let mut values = vec![(ENERGY.to_owned(), system.energy())];
+    for c in &system.coordinates {
+        if !g.contains_any(system.lagrangian, &[c.q_symbol]) {
+            let momentum = g.diff(system.lagrangian, c.v_symbol);
+            values.push((format!("the momentum of {}", c.name), momentum));
+        }
+    }
+    values.retain(|(_, value)| !g.is_free_of(*value, &moves));
+    let shown = in_quasi_velocities(cx, &values);
+    let letters = values.into_iter().zip(shown);
+    letters
+        .map(|((name, value), shown)| (name, Letter { value, shown }))
+        .collect()
+}
+
+/// Larger functions, in nodes, are not rewritten in quasi-velocities.
+const REWRITTEN: usize = 400;
+
+/// Functions of the state as they are shown: in the quasi-velocities that the model states where that is shorter.
+fn in_quasi_velocities(cx: &Context<'_>, values: &[(String, Expr)]) -> Vec<Expr> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let as_they_are = || values.iter().map(|(_, value)| *value).collect();
+    let Some(Ok((frame, _))) = Frame::stated(system, cx.terms, cx.selection) else {
+        return as_they_are();
+    };
+    let is_adapted = |s: usize| frame.adapted.iter().any(|&(_, speed)| speed == s);
+    let speeds = frame.speeds.iter().enumerate();
+    let speeds: Vec<Expr> = speeds
+        .map(|(s, speed)| if is_adapted(s) { g.zero() } else { speed.value })
+        .collect();
+    let velocities = frame.velocities(system, &speeds);
+    let own = system.coordinates.iter().map(|c| c.v);
+    let pairs: Vec<(Expr, Expr)> = own.zip(velocities).collect();
+    let shorter = |value: Expr| {
+        let rewritten = g.substitute(value, &pairs);
+        if g.reachable(&[rewritten]).len() > REWRITTEN {
+            return value;
+        }
+        let rewritten = simplify::simplify(g, rewritten, &simplify::Options::default());
+        match simplify::length(g, rewritten) < simplify::length(g, value) {
+            true => rewritten,
+            false => value,
+        }
+    };
+    values.iter().map(|(_, value)| shorter(*value)).collect()
 }
 
 /// Bᵀ W B.

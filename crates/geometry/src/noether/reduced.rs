@@ -22,9 +22,9 @@ pub struct Symmetry {
     pub coordinate: usize,
     /// Z f, one for each constraint of which it is not zero, with the name of the constraint.
     pub integrals: Vec<(String, Expr)>,
-    /// E, length n, with the verdict that X f vanishes everywhere, that E is the force on f = 0, and that E is free of q^j; `None`
-    /// where no extension was found.
-    pub extension: Option<(Vec<Expr>, Verdict)>,
+    /// E, length n, with the verdict that X f vanishes everywhere, that E is the force on f = 0, and that E is free of q^j; a
+    /// sentence that says what was searched where no extension was found.
+    pub extension: Result<(Vec<Expr>, Verdict), String>,
 }
 
 /// The most unknowns.
@@ -105,14 +105,14 @@ impl<'c, 'a> Setting<'c, 'a> {
         })
     }
 
-    /// Functions free of q^j: velocities to the second degree, with functions of the place.
-    fn family(&self, symbol: Symbol) -> Vec<Expr> {
+    /// Functions free of q^j: velocities to the second degree, with functions of the place of weight up to `weight`.
+    fn family(&self, symbol: Symbol, weight: u32) -> Vec<Expr> {
         let (system, g) = (self.cx.system, &self.cx.system.graph);
         let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
         let mut letters = Letters::of(self.cx).coefficients;
         letters.retain(|c| !g.contains_any(c.letter.value, &[symbol]));
         let first = velocities.len();
-        let functions = coefficients(&letters, first, 1);
+        let functions = coefficients(&letters, first, weight);
         let value = |(letter, e): &(usize, i8)| {
             let base = match letter.checked_sub(first) {
                 None => velocities[*letter],
@@ -132,15 +132,34 @@ impl<'c, 'a> Setting<'c, 'a> {
         all
     }
 
-    /// The extension that is free of q^j, if there is one in the family.
-    fn extension(&self, symbol: Symbol) -> Option<Vec<Expr>> {
+    /// The extension that is free of q^j, or a sentence that says where none was found.
+    fn extension(&self, symbol: Symbol) -> Result<Vec<Expr>, String> {
+        let n = self.cx.system.n();
+        let mut searched = None;
+        for (weight, words) in [
+            (0, "with constant coefficients"),
+            (1, "with coefficients that occur in the model"),
+        ] {
+            let family = self.family(symbol, weight);
+            if family.len() * n > UNKNOWNS {
+                break;
+            }
+            if let Some(found) = self.extension_in(&family) {
+                return Ok(found);
+            }
+            searched = Some(words);
+        }
+        Err(match searched {
+            Some(words) => format!("no extension of the forces was found among polynomials of the second degree in the velocities {words}"),
+            None => "polynomials of the second degree in so many velocities are too many to be searched".into(),
+        })
+    }
+
+    /// The extension in a family of functions.
+    fn extension_in(&self, family: &[Expr]) -> Option<Vec<Expr>> {
         let g = &self.cx.system.graph;
         let n = self.cx.system.n();
-        let family = self.family(symbol);
-        if family.len() * n > UNKNOWNS {
-            return None;
-        }
-        let on = g.substitute_all(&family, &self.solved);
+        let on = g.substitute_all(family, &self.solved);
         let mut columns: Vec<Vec<Expr>> = Vec::new();
         for s in 0..n {
             for (&everywhere, &there) in family.iter().zip(&on) {
@@ -162,7 +181,7 @@ impl<'c, 'a> Setting<'c, 'a> {
         let extension = (0..n).map(|s| {
             let own = rest[s * family.len()..(s + 1) * family.len()].iter();
             let parts: Vec<Expr> = own
-                .zip(&family)
+                .zip(family)
                 .filter(|(c, _)| !g.is_zero(**c))
                 .map(|(&c, &f)| g.mul(&[g.div(c, last), f]))
                 .collect();

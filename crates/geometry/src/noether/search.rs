@@ -18,7 +18,7 @@ use chetaev_symbolic::number::modular_matrix::{null_space, NullSpace};
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::zero::points::{Draw, Points};
-use chetaev_symbolic::{Expr, Node, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol, Verdict};
 
 /// More points than members.
 const SURPLUS: usize = 10;
@@ -38,6 +38,8 @@ pub struct Table<'a> {
     /// Parameters and constant functions of them.
     parameters: Vec<Expr>,
     directions: usize,
+    /// How many functions of the place the constraints fix.
+    fixed: usize,
     seed: u64,
 }
 
@@ -78,7 +80,7 @@ struct At {
     /// `X̄x/x` of each letter x.
     rates: Vec<Residue>,
     parameters: Vec<Residue>,
-    /// Derivatives of the letters along N.
+    /// Derivatives along N of the letters, then of the functions that the constraints fix.
     gradients: Vec<Residue>,
 }
 
@@ -96,9 +98,12 @@ impl<'a> Table<'a> {
         let parameters = constants(motion, &motion.manifold, &outputs);
         outputs.extend(&parameters);
         outputs.extend(gradients.concat());
+        let fixed = motion.gradients(&motion.system.fixed_functions());
+        outputs.extend(fixed.concat());
         Ok(Table {
             points: motion.points(&outputs)?,
             directions: gradients.first().map_or(0, Vec::len),
+            fixed: fixed.len(),
             letters: letters.to_vec(),
             parameters,
             motion,
@@ -301,12 +306,71 @@ impl<'a> Table<'a> {
         let mut random = Random::stream(self.seed, 1 << 20);
         let field = &draw.field;
         let at = self.at(draw, &mut random)?;
-        let columns: Vec<Vec<Residue>> = candidates
-            .iter()
-            .map(|(family, vector)| self.gradient(field, &at, family, vector))
-            .collect();
+        let letters = self.letters.len();
+        let fixed = at.gradients[letters * self.directions..].chunks(self.directions.max(1));
+        let mut columns: Vec<Vec<Residue>> = fixed.map(<[Residue]>::to_vec).collect();
+        columns.extend(
+            candidates
+                .iter()
+                .map(|(family, vector)| self.gradient(field, &at, family, vector)),
+        );
         let rows = (0..self.directions).flat_map(|d| columns.iter().map(move |column| column[d]));
-        Some(null_space(field, candidates.len(), rows.collect()).pivots)
+        let pivots = null_space(field, columns.len(), rows.collect()).pivots;
+        let own = pivots.into_iter().filter_map(|i| i.checked_sub(self.fixed));
+        Some(own.collect())
+    }
+
+    /// How many of the candidates are new functions, constants aside, beside the first of them at the places `independent`: as
+    /// (products of these, others).
+    pub fn others(
+        &self,
+        candidates: &[(&Family, &[(usize, Residue)])],
+        independent: &[usize],
+    ) -> Option<(usize, usize)> {
+        let (draw, _) = self.draw(0)?;
+        let mut random = Random::stream(self.seed, 1 << 22);
+        let field = &draw.field;
+        let pairs = independent.len() * (independent.len() + 1) / 2;
+        let columns = 1 + independent.len() + pairs + candidates.len();
+        let mut matrix = Vec::with_capacity(columns * (columns + SURPLUS));
+        for _ in 0..columns + SURPLUS {
+            let at = self.at(&draw, &mut random)?;
+            let value = |(family, vector): &(&Family, &[(usize, Residue)])| {
+                vector.iter().fold(Residue::ZERO, |sum, &(member, c)| {
+                    let (value, _) = self.member(field, &at, &family.members[member]);
+                    field.add(sum, field.mul(c, value))
+                })
+            };
+            let values: Vec<Residue> = candidates.iter().map(value).collect();
+            let first: Vec<Residue> = independent.iter().map(|&i| values[i]).collect();
+            matrix.push(field.one());
+            matrix.extend(&first);
+            for (i, &a) in first.iter().enumerate() {
+                matrix.extend(first[..=i].iter().map(|&b| field.mul(a, b)));
+            }
+            matrix.extend(values);
+        }
+        self.counted(field, columns, matrix, independent.len(), pairs)
+    }
+
+    /// Of columns 1, G_i, G_i G_j and candidates: how many candidates are new beside the G_i, by products or otherwise.
+    fn counted(
+        &self,
+        field: &PrimeField,
+        columns: usize,
+        matrix: Vec<Residue>,
+        first: usize,
+        pairs: usize,
+    ) -> Option<(usize, usize)> {
+        let known = 1 + first + pairs;
+        let pivots = null_space(field, columns, matrix.clone()).pivots;
+        let others = pivots.iter().filter(|&&i| i >= known).count();
+        let kept: Vec<usize> = (0..=first).chain(known..columns).collect();
+        let rows = matrix.chunks(columns);
+        let without: Vec<Residue> = rows.flat_map(|row| kept.iter().map(|&i| row[i])).collect();
+        let pivots = null_space(field, kept.len(), without).pivots;
+        let new = pivots.iter().filter(|&&i| i > first).count();
+        Some((new.checked_sub(others)?, others))
     }
 
     fn gradient(
@@ -348,7 +412,7 @@ impl<'a> Table<'a> {
         &self,
         family: &Family,
         vector: &[(usize, Residue)],
-        tie: Option<Tie>,
+        tie: Option<&Tie>,
     ) -> Option<(Expr, Expr)> {
         let g = &self.motion.system.graph;
         let (&(leading, _), rest) = vector.split_last()?;
@@ -413,16 +477,34 @@ struct Restricted<'a> {
     support: &'a [usize],
     draw: Draw,
     random: Random,
-    tie: Option<Tie>,
+    tie: Option<&'a Tie>,
 }
 
-/// A special value of a parameter: that of another one, or zero.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Tie {
-    /// The parameter.
-    pub parameter: Symbol,
-    /// The one it equals; `None` for zero.
-    pub equals: Option<Symbol>,
+/// Special values of parameters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Tie {
+    /// A parameter equals another one.
+    Equal(Symbol, Symbol),
+    /// A parameter is zero.
+    Zero(Symbol),
+    /// Parameters have these values.
+    Values(Vec<(Symbol, Rational)>),
+}
+
+impl Tie {
+    /// The parameters with what they are.
+    pub fn pairs(&self, g: &Graph) -> Vec<(Expr, Expr)> {
+        match self {
+            Tie::Equal(parameter, other) => {
+                vec![(g.symbol_expr(*parameter), g.symbol_expr(*other))]
+            }
+            Tie::Zero(parameter) => vec![(g.symbol_expr(*parameter), g.zero())],
+            Tie::Values(values) => values
+                .iter()
+                .map(|(s, value)| (g.symbol_expr(*s), g.number(value.clone())))
+                .collect(),
+        }
+    }
 }
 
 /// What a family has more of at a special value of a parameter.
@@ -436,13 +518,17 @@ pub struct Special {
 }
 
 impl Table<'_> {
-    fn tied(&self, draw: &Draw, tie: Tie) -> Option<Draw> {
-        let value = match tie.equals {
-            Some(other) => self.points.value(draw, other)?,
-            None => Residue::ZERO,
+    fn tied(&self, draw: &Draw, tie: &Tie) -> Option<Draw> {
+        let values = match tie {
+            Tie::Equal(parameter, other) => vec![(*parameter, self.points.value(draw, *other)?)],
+            Tie::Zero(parameter) => vec![(*parameter, Residue::ZERO)],
+            Tie::Values(values) => values
+                .iter()
+                .map(|(s, value)| Some((*s, draw.field.from_rational(value)?)))
+                .collect::<Option<Vec<_>>>()?,
         };
         let mut tied = draw.clone();
-        self.points.set(&mut tied, &[(tie.parameter, value)]);
+        self.points.set(&mut tied, &values);
         Some(tied)
     }
 
@@ -467,7 +553,7 @@ impl Table<'_> {
         let leading = |v: &Vector| v.last().map(|&(member, _)| member);
         let usual: Vec<Option<usize>> = general.iter().map(leading).collect();
         let mut found: Vec<Special> = Vec::new();
-        for &tie in ties {
+        for tie in ties {
             let Some((draw, mut random)) = self.draw(0) else {
                 continue;
             };
@@ -489,7 +575,10 @@ impl Table<'_> {
                 .filter_map(|&i| self.proved_on(cx, family, &vectors[i], tie))
                 .collect();
             if !integrals.is_empty() {
-                found.push(Special { tie, integrals });
+                found.push(Special {
+                    tie: tie.clone(),
+                    integrals,
+                });
             }
         }
         found
@@ -501,12 +590,12 @@ impl Table<'_> {
         cx: &Context<'_>,
         family: &Family,
         vector: &[(usize, Residue)],
-        tie: Tie,
+        tie: &Tie,
     ) -> Option<Expr> {
         let (system, g) = (self.motion.system, &self.motion.system.graph);
         let (value, shown) = self.lifted_on(family, vector, Some(tie))?;
-        let other = tie.equals.map_or(g.zero(), |s| g.symbol_expr(s));
-        let replaced = |e: Expr| g.substitute(e, &[(g.symbol_expr(tie.parameter), other)]);
+        let pairs = tie.pairs(g);
+        let replaced = |e: Expr| g.substitute(e, &pairs);
         let manifold = &self.motion.manifold;
         let manifold = Manifold {
             solved: manifold

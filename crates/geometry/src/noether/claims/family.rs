@@ -1,7 +1,7 @@
 //! `noether.family`: the families searched, and the dimension found.
 
 use super::requirements;
-use crate::noether::found::{found, Found, Searched};
+use crate::noether::found::{found, is_stated, Found, Searched};
 use crate::noether::search::Special;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::words::counted;
@@ -112,22 +112,15 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
             counted(open, "more was", "more were")
         ),
     };
-    let dependent = match found.dependent {
-        0 => String::new(),
-        dependent => format!(
-            "; {} of these",
-            counted(
-                dependent,
-                "more that was found is a function",
-                "more that were found are functions"
-            )
-        ),
-    };
+    let dependent = dependent(cx, found);
     let families: Vec<String> = found.families.iter().map(exhausted).collect();
     let special: Vec<String> = found.special.iter().map(|s| special(cx, s)).collect();
     let special = match special.is_empty() {
         true => String::new(),
-        false => format!("; more {}", special.join("; ")),
+        false => format!(
+            "; looked at where parameters are equal or zero or as stated, there are more {}",
+            special.join("; ")
+        ),
     };
     format!(
         "{many} in the families searched{dependent}{open}{special}; exhausted: {}",
@@ -135,15 +128,44 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
     )
 }
 
-/// A special value of a parameter with what it adds, in words.
+/// What was found beside the independent ones, in words.
+fn dependent(cx: &Context<'_>, found: &Found) -> String {
+    let (products, others) = found.dependent;
+    let constraints = match cx.system.fixed_functions().is_empty() {
+        true => "",
+        false => " and of what the constraints fix",
+    };
+    let mut parts = Vec::new();
+    if products > 0 {
+        parts.push(counted(products, "is a product", "are products") + " of two of these");
+    }
+    if others > 0 {
+        let words = counted(others, "is another function", "are other functions");
+        parts.push(format!("{words} of these{constraints}"));
+    }
+    match parts.is_empty() {
+        true => String::new(),
+        false => format!("; of the further ones {}", parts.join(" and ")),
+    }
+}
+
+/// Special values of parameters with what they add, in words.
 fn special(cx: &Context<'_>, special: &Special) -> String {
     let g = &cx.system.graph;
-    let name = |s| g.symbol_text(s);
-    let value = special.tie.equals.map_or("0".to_owned(), name);
+    let equations: Vec<String> = special
+        .tie
+        .pairs(g)
+        .into_iter()
+        .map(|(a, b)| format!("{} = {}", g.text(a), g.text(b)))
+        .collect();
     let integrals: Vec<String> = special.integrals.iter().map(|&e| g.text(e)).collect();
+    let here = match is_stated(cx, &special.tie) {
+        true => ", as the model states",
+        false => "",
+    };
     format!(
-        "where {} = {value}: {}",
-        name(special.tie.parameter),
+        "where {}{here}: {}",
+        equations.join(", "),
         integrals.join(", ")
     )
 }

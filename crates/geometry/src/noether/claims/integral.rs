@@ -1,8 +1,12 @@
 //! `noether.integral#j`: a first integral that was found, with its generator.
 
 use super::{bare, generator, generator_formulas, integral, requirements, subjects};
+use crate::noether::embedded::Embedded;
+use crate::noether::found::{is_constant, readable};
+use crate::noether::generator::Generator;
+use crate::noether::occurring::ENERGY;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
-use chetaev_symbolic::Verdict;
+use chetaev_symbolic::{Expr, Verdict};
 
 /// `noether.integral#j`.
 #[derive(Clone, Copy, Debug)]
@@ -53,13 +57,34 @@ impl Claim for FirstIntegral {
         let mut sentence = format!("X̄G = 0 on motions for G = {}", g.text(integral.shown));
         if let Ok((_, n, generator)) = generator(cx, subject) {
             formulas.extend(generator_formulas(&n, &generator));
-            let speeds = n.embedding.chart.parameters.iter();
-            let fields: Vec<&str> = speeds.map(|p| bare(&p.name)).collect();
-            sentence = format!("{sentence}; its field is along {}", fields.join(", "));
+            sentence = format!("{sentence}; {}", symmetry(&n, &generator, name));
         }
         Finding {
             verdict: integral.verdict.prefixed(&sentence),
             formulas,
+        }
+    }
+}
+
+/// What the symmetry is, in words.
+fn symmetry(n: &Embedded<'_>, generator: &Generator, name: Option<&str>) -> String {
+    let (system, g) = (n.system, &n.system.graph);
+    if name == Some(ENERGY) {
+        return "its symmetry is the shift of time".into();
+    }
+    let speeds = n.embedding.chart.parameters.iter().zip(&generator.xi);
+    let along: Vec<(&str, Expr)> = speeds
+        .map(|(speed, &xi)| (bare(&speed.name), readable(g, xi)))
+        .filter(|(_, xi)| !g.is_zero(*xi))
+        .collect();
+    match &along[..] {
+        [] => "its field vanishes on the constraints".into(),
+        [(field, xi)] if is_constant(system, *xi) => {
+            format!("its symmetry is the shift along {field}")
+        }
+        _ => {
+            let fields: Vec<&str> = along.iter().map(|(field, _)| *field).collect();
+            format!("its field is along {}", fields.join(", "))
         }
     }
 }

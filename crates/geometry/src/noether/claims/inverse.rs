@@ -6,7 +6,8 @@ use crate::noether::generator::Generator;
 use crate::noether::motion::Motion;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::Manifold;
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::{Expr, Function, Graph, Node, Verdict};
 
 /// `noether.inverse#NAME`.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +30,7 @@ impl Claim for Inverse {
         "A function G stated under [integrals] keeps its value along every motion: X̄G = 0 on the constraint manifold. If so, the inverse of \
          Noether's theorem gives its field: χ = -W̄⁻¹ ∂G, here with δ = 0, and the gauge g = G + p χ; the Killing-type equations are \
          proved for them. `conditional` says that it is one for parameters as the model defines them by others, not for \
-         independent ones, or on the part of the states that the model states with `on`, which is proved to be invariant; `refuted` comes with an admissible state at which the rate of G is not zero."
+         independent ones, or for the values that it states, or as long as the function does not jump, or on the part of the states that the model states with `on`, which is proved to be invariant; `refuted` comes with an admissible state at which the rate of G is not zero."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -55,19 +56,26 @@ impl Claim for Inverse {
             Err(why) => return Verdict::undecided(why).into(),
         };
         let verdict = match motion.is_integral(cx, *value) {
-            Verdict::Proved(proof) => Verdict::Proved(proof),
+            Verdict::Proved(proof) => match trivial(cx, &motion, *value, &proof) {
+                Some(verdict) => return verdict.into(),
+                None => Verdict::Proved(proof),
+            },
             other => match on_part(cx, &motion, subject, *value) {
                 Some(verdict) => verdict,
-                None => by_definitions(cx, &motion, *value).unwrap_or(other),
+                None => by_definitions(cx, &motion, *value)
+                    .or_else(|| by_values(cx, &motion, *value))
+                    .unwrap_or(other),
             },
         };
         if matches!(verdict, Verdict::Conditional { .. }) {
             return verdict.into();
         }
         if !matches!(verdict, Verdict::Proved(_)) {
-            return verdict
-                .prefixed("whether the rate of the function vanishes on motions")
-                .into();
+            let words = match verdict {
+                Verdict::Refuted(_) => "the rate of the function does not vanish on motions",
+                _ => "whether the rate of the function vanishes on motions",
+            };
+            return verdict.prefixed(words).into();
         }
         let (killing, formulas) = symmetry(cx, *value);
         let verdict = verdict.prefixed("X̄G = 0 on motions").and(killing);
@@ -150,19 +158,91 @@ fn on_part(
     })
 }
 
-/// The verdict where it holds for parameters as the model defines them by others, and not for independent ones.
-fn by_definitions(cx: &Context<'_>, motion: &Motion<'_>, value: Expr) -> Option<Verdict> {
+/// The verdict on a function that says nothing of the motion, or that jumps where it is not smooth.
+fn trivial(cx: &Context<'_>, motion: &Motion<'_>, value: Expr, proof: &Proof) -> Option<Verdict> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let occurring = g.symbols_in(&[value]);
-    if system.definitions.is_empty() {
+    if g.is_free_of(value, &|s| motion.moves(s)) {
+        let proof = Verdict::Proved(proof.clone());
+        return Some(proof.prefixed("trivial, as the function is a constant"));
+    }
+    let vanishes = |es: &[Expr], manifold: &Manifold, on: &str| {
+        let verdict = cx.prover.identity(system, es, manifold, on);
+        matches!(verdict, Verdict::Proved(_))
+    };
+    if vanishes(&[value], &motion.manifold, "on the constraint manifold") {
+        let proof = Verdict::Proved(proof.clone());
+        return Some(proof.prefixed("trivial, as the function vanishes on the constraints"));
+    }
+    let symbols = g.symbols_in(&[value]);
+    let moving = symbols.into_iter().filter(|&s| motion.moves(s));
+    let slopes: Vec<Expr> = moving.map(|s| g.diff(value, s)).collect();
+    let is_locally_constant = vanishes(&slopes, &Manifold::default(), "everywhere");
+    let jumps = jumps(g, motion, value);
+    if !is_locally_constant && jumps.is_empty() {
         return None;
     }
-    // Definitions may use each other, in as many steps as there are definitions at most.
-    let resolved = |e: Expr| {
-        let steps = 0..system.definitions.len();
-        steps.fold(e, |e, _| g.substitute(e, &system.definitions))
+    let what = match (is_locally_constant, jumps.is_empty()) {
+        (true, _) => "trivial, as the function is constant on each part of its domain",
+        (false, _) => "X̄G = 0 on motions where the function is smooth",
     };
-    let rate = resolved(*motion.derivatives(&[value]).first()?);
+    let condition = match jumps.is_empty() {
+        true => "as long as the motion stays in one part of the domain of the function".to_owned(),
+        false => format!("as long as {} does not jump", jumps.join(", ")),
+    };
+    let mut proof = proof.clone();
+    proof.detail = format!("{what}; {}", proof.detail);
+    Some(Verdict::Conditional {
+        condition,
+        proof,
+        counterexample: None,
+    })
+}
+
+/// The parts of a function that jump: signs, and angles of two arguments.
+fn jumps(g: &Graph, motion: &Motion<'_>, value: Expr) -> Vec<String> {
+    let jumps = |e: &Expr| match g.node(*e) {
+        Node::Apply { function, .. } => {
+            matches!(function, Function::Sign | Function::Atan2)
+                && !g.is_free_of(*e, &|s| motion.moves(s))
+        }
+        _ => false,
+    };
+    let all = g.reachable(&[value]).into_iter();
+    all.filter(jumps).map(|e| g.text(e)).collect()
+}
+
+/// The verdict where it holds for parameters as the model defines them by others, and not for independent ones.
+fn by_definitions(cx: &Context<'_>, motion: &Motion<'_>, value: Expr) -> Option<Verdict> {
+    let definitions = &cx.system.definitions;
+    // Definitions may use each other, in as many steps as there are definitions at most.
+    for_parameters(cx, motion, value, definitions, definitions.len(), "defines")
+}
+
+/// The verdict where it holds for the values that the model states, and not for independent parameters.
+fn by_values(cx: &Context<'_>, motion: &Motion<'_>, value: Expr) -> Option<Verdict> {
+    let (g, parameters) = (&cx.system.graph, cx.system.parameters.iter());
+    let stated = parameters.filter_map(|p| Some((p.expr, p.value?)));
+    let values: Vec<(Expr, Expr)> = stated
+        .filter(|(_, value)| g.symbols_in(&[*value]).is_empty())
+        .collect();
+    for_parameters(cx, motion, value, &values, 1, "states")
+}
+
+/// The verdict where it holds once parameters are replaced, which is done so many times.
+fn for_parameters(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    value: Expr,
+    given: &[(Expr, Expr)],
+    steps: usize,
+    verb: &str,
+) -> Option<Verdict> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    if given.is_empty() {
+        return None;
+    }
+    let resolved = |e: Expr| (0..steps).fold(e, |e, _| g.substitute(e, given));
+    let general = *motion.derivatives(&[value]).first()?;
     let manifold = Manifold {
         solved: motion
             .manifold
@@ -177,19 +257,20 @@ fn by_definitions(cx: &Context<'_>, motion: &Motion<'_>, value: Expr) -> Option<
             .map(|&(f, s)| (resolved(f), s))
             .collect(),
     };
-    let on = "on the constraint manifold, for parameters as the model defines them";
-    let Verdict::Proved(mut proof) = cx.prover.identity(system, &[rate], &manifold, on) else {
+    let on = format!("on the constraint manifold, for parameters as the model {verb} them");
+    let rate = resolved(general);
+    let Verdict::Proved(mut proof) = cx.prover.identity(system, &[rate], &manifold, &on) else {
         return None;
     };
-    let used = system
-        .definitions
+    let occurring = g.symbols_in(&[general, value]);
+    let used = given
         .iter()
         .filter(|(symbol, _)| g.as_symbol(*symbol).is_some_and(|s| occurring.contains(&s)));
     let conditions: Vec<String> = used
         .map(|&(symbol, e)| format!("{} = {}", g.text(symbol), g.text(e)))
         .collect();
     proof.detail = format!(
-        "X̄G = 0 on motions for parameters as the model defines them; {}",
+        "X̄G = 0 on motions for parameters as the model {verb} them; {}",
         proof.detail
     );
     Some(Verdict::Conditional {

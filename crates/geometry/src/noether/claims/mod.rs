@@ -25,6 +25,7 @@ use super::found::found;
 use super::generator::Generator;
 use super::search::Integral;
 use crate::noether::found::readable;
+use crate::noether::occurring::ENERGY;
 use chetaev_mechanics::claims::{Finding, Formula};
 use chetaev_mechanics::Context;
 use chetaev_symbolic::simplify::length;
@@ -87,9 +88,9 @@ fn generator<'a>(
     let integral = integral(cx, subject)?;
     let n = Embedded::of(cx)?;
     let g = &cx.system.graph;
-    let delta = match integral.name {
-        Some(_) => g.one(),
-        None => g.zero(),
+    let delta = match integral.name.as_deref() {
+        Some(ENERGY) => g.one(),
+        _ => g.zero(),
     };
     let generator = Generator::of(&n, integral.value, delta)
         .map_err(|problem| format!("the generator was not found: {problem}"))?;

@@ -78,14 +78,17 @@ fn integral(cx: &Context<'_>, symmetry: &Symmetry) -> Finding {
     let kept = cx.prover.identity(system, &rates, &motion.manifold, on);
     let shown: Vec<String> = values.iter().map(|&e| g.text(readable(g, e))).collect();
     let shown = shown.join(", ");
-    let Some((extension, verdict)) = &symmetry.extension else {
-        return match kept {
-            Verdict::Refuted(_) => kept.prefixed(
-                &format!("Z f = {shown} does not keep its value for Z = ∂/∂{name}, so no extension of the forces makes Z a symmetry"),
-            ),
-            _ => Verdict::undecided(format!("for Z = ∂/∂{name} no extension of the forces was found among polynomials of the second degree in the velocities")),
+    let (extension, verdict) = match &symmetry.extension {
+        Ok(found) => found,
+        Err(searched) => {
+            return match kept {
+                Verdict::Refuted(_) => kept.prefixed(
+                    &format!("Z f = {shown} does not keep its value for Z = ∂/∂{name}, so no extension of the forces makes Z a symmetry"),
+                ),
+                _ => Verdict::undecided(format!("for Z = ∂/∂{name} {searched}")),
+            }
+            .into()
         }
-        .into();
     };
     let sentence = format!("Z = ∂/∂{name} is a symmetry of the reduced 2-form with the forces extended as stated, so that Z f = {shown} keeps its value");
     let mut formulas: Vec<Formula> = symmetry
