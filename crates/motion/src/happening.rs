@@ -41,6 +41,38 @@ pub(crate) struct WithEvents<'f, F> {
     /// One for each event, since a value that does not exist belongs to one only.
     pub(crate) observers: &'f mut [Observer],
     pub(crate) row: Vec<f64>,
+    /// For each of the flow's own switching functions the minimum that was looked at last, where it is not zero.
+    pub(crate) passed: &'f [Option<Passed>],
+}
+
+/// A minimum of a watched quantity that was passed: a state that projection moves back by rounding is behind it all the same.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Passed {
+    from: f64,
+    /// Signed time for which the rate counts as positive.
+    length: f64,
+}
+
+impl Passed {
+    /// One that was met at time t, after `before`. One met again at once is left behind by a longer time.
+    pub(crate) fn at(t: f64, forward: bool, before: Option<Passed>) -> Passed {
+        let again = before.filter(|before| before.just_left(t));
+        let least = 64.0 * f64::EPSILON * t.abs().max(f64::MIN_POSITIVE);
+        let length = again.map_or(least, |before| 16.0 * before.length.abs());
+        Passed {
+            from: t,
+            length: if forward { length } else { -length },
+        }
+    }
+
+    fn covers(&self, t: f64) -> bool {
+        (0.0..=1.0).contains(&((t - self.from) / self.length))
+    }
+
+    /// Whether t comes so soon after that the minimum is the same one.
+    fn just_left(&self, t: f64) -> bool {
+        (0.0..=2.0).contains(&((t - self.from) / self.length))
+    }
 }
 
 /// The events as the integrator takes them: those of the flow first.
@@ -125,7 +157,9 @@ impl<F: WatchedFlow> System for WithEvents<'_, F> {
 
     fn switching(&mut self, index: usize, t: f64, y: &[f64]) -> Result<f64, EvaluationFailure> {
         let Some(number) = index.checked_sub(self.own) else {
-            return self.flow.switching(index, t, y);
+            let rate = self.flow.switching(index, t, y)?;
+            let is_passed = self.passed[index].is_some_and(|passed| passed.covers(t));
+            return Ok(if is_passed { rate.abs() } else { rate });
         };
         self.row.resize(self.flow.output_dimension(), 0.0);
         self.flow.output(t, y, &mut self.row)?;

@@ -30,16 +30,11 @@ pub(crate) fn least_step(
     if m == 0 || f.is_empty() {
         return step;
     }
-    let mut sub: Vec<f64> = Vec::with_capacity(m * m);
-    for &i in movable {
-        sub.extend(movable.iter().map(|&j| metric[i * n + j]));
-    }
-    let factor = cholesky(&sub, m).unwrap_or_else(|| identity(m));
-    // With x = L⁻ᵀ y the norm is Euclidean; rows of J L⁻ᵀ by forward substitution.
+    let factor = root(metric, n, movable);
+    // With x = L⁻ᵀ y the norm is Euclidean.
     let mut basis: Vec<(Vec<f64>, f64)> = Vec::new();
     for (row, &target) in jacobian.chunks(n).zip(f) {
-        let mut direction: Vec<f64> = movable.iter().map(|&i| row[i]).collect();
-        forward(&factor, &mut direction);
+        let mut direction = dual(row, movable, &factor);
         let original = norm(&direction);
         let mut value = target;
         for (unit, component) in &basis {
@@ -67,6 +62,72 @@ pub(crate) fn least_step(
         step[i] = x;
     }
     step
+}
+
+/// L with `L Lᵀ` the metric of the movable components, or the identity where that is not positive definite.
+fn root(metric: &[f64], n: usize, movable: &[usize]) -> Vec<f64> {
+    let m = movable.len();
+    let mut sub: Vec<f64> = Vec::with_capacity(m * m);
+    for &i in movable {
+        sub.extend(movable.iter().map(|&j| metric[i * n + j]));
+    }
+    cholesky(&sub, m).unwrap_or_else(|| identity(m))
+}
+
+/// A row of `J L⁻ᵀ`, by forward substitution.
+fn dual(row: &[f64], movable: &[usize], factor: &[f64]) -> Vec<f64> {
+    let mut direction: Vec<f64> = movable.iter().map(|&i| row[i]).collect();
+    forward(factor, &mut direction);
+    direction
+}
+
+/// The rows after the `first` ones of a matrix with n columns in an order in which each is the one of the rest that depends
+/// least on those before it; rows of which no more than the part `least` is independent of them are left out.
+pub(crate) fn independent(
+    rows: &[f64],
+    (n, first): (usize, usize),
+    metric: &[f64],
+    least: f64,
+) -> Vec<usize> {
+    let all: Vec<usize> = (0..n).collect();
+    let factor = root(metric, n, &all);
+    let mut rests: Vec<Vec<f64>> = rows
+        .chunks(n.max(1))
+        .map(|row| dual(row, &all, &factor))
+        .collect();
+    let lengths: Vec<f64> = rests.iter().map(|rest| norm(rest)).collect();
+    let part = |rests: &[Vec<f64>], i: usize| norm(&rests[i]) / lengths[i].max(f64::MIN_POSITIVE);
+    for i in 0..first.min(rests.len()) {
+        if part(&rests, i) > least {
+            take_out(&mut rests, i);
+        }
+    }
+    let mut open: Vec<usize> = (first..rests.len()).collect();
+    let mut order = Vec::new();
+    while let Some(place) =
+        (0..open.len()).max_by(|&a, &b| part(&rests, open[a]).total_cmp(&part(&rests, open[b])))
+    {
+        let next = open.remove(place);
+        // What is not a number comes first and is left out.
+        match part(&rests, next) > least {
+            true => take_out(&mut rests, next),
+            false => continue,
+        }
+        order.push(next);
+    }
+    order
+}
+
+/// Takes the direction of row i out of all rows.
+fn take_out(rests: &mut [Vec<f64>], i: usize) {
+    let length = norm(&rests[i]);
+    let unit: Vec<f64> = rests[i].iter().map(|x| x / length).collect();
+    for rest in rests {
+        let along: f64 = rest.iter().zip(&unit).map(|(a, b)| a * b).sum();
+        rest.iter_mut()
+            .zip(&unit)
+            .for_each(|(a, b)| *a -= along * b);
+    }
 }
 
 /// L with `L Lᵀ = A`; `None` when A is not safely positive definite.

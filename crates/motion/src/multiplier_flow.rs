@@ -272,12 +272,22 @@ impl MultiplierFlow {
             return Ok(());
         }
         self.unpack(t, y)?;
+        self.solve_here(t)?;
+        self.remember(t, y);
+        Ok(())
+    }
+
+    /// The accelerations at (q, v).
+    fn solve_here(&mut self, t: f64) -> Result<(), EvaluationFailure> {
         self.system.evaluate(t, &self.q, &self.v)?;
-        self.accelerations.solve(&self.system, &self.chart)?;
+        Ok(self.accelerations.solve(&self.system, &self.chart)?)
+    }
+
+    /// The accelerations are those at the state y.
+    fn remember(&mut self, t: f64, y: &[f64]) {
         self.solved = Some(t);
         self.solved_state.clear();
         self.solved_state.extend_from_slice(y);
-        Ok(())
     }
 
     fn quality(&self) -> f64 {
@@ -382,15 +392,40 @@ impl MultiplierFlow {
         if self.keep.is_none() || self.unpack(t, y).is_err() {
             return false;
         }
-        let metric = self.system.metric();
-        self.solved = None;
-        let moved = self
-            .keep
-            .as_mut()
-            .is_some_and(|keep| keep.bring_back(t, &mut self.q, &mut self.v, &metric));
+        let moved = self.move_by(t, Keep::bring_back);
         if moved {
             let packed = self.pack(&self.q, &self.v);
             y.copy_from_slice(&packed);
+            // A chart that is about to be left gives the dependent velocities badly.
+            if self.solve_here(t).is_ok() {
+                self.remember(t, y);
+            }
+        }
+        moved
+    }
+
+    /// The same for a state within a step, of which the accelerations are known: they are computed anew where it changes.
+    fn bring_between(&mut self, t: f64) -> Result<(), EvaluationFailure> {
+        if self.keep.is_none() || !self.move_by(t, Keep::bring_between) {
+            return Ok(());
+        }
+        self.solve_here(t)
+    }
+
+    /// Moves (q, v), where the metric is known there; true when they changed.
+    fn move_by(
+        &mut self,
+        t: f64,
+        way: fn(&mut Keep, f64, &mut [f64], &mut [f64], &[f64]) -> bool,
+    ) -> bool {
+        if self.system.evaluate(t, &self.q, &self.v).is_err() {
+            return false;
+        }
+        let metric = self.system.metric();
+        let (q, v) = (&mut self.q, &mut self.v);
+        let moved = (self.keep.as_mut()).is_some_and(|keep| way(keep, t, q, v, &metric));
+        if moved {
+            self.solved = None;
         }
         moved
     }
@@ -615,6 +650,7 @@ impl System for MultiplierFlow {
 
     fn output(&mut self, t: f64, y: &[f64], row: &mut [f64]) -> Result<(), EvaluationFailure> {
         self.evaluate(t, y)?;
+        self.bring_between(t)?;
         let layout = self.layout();
         layout.write(
             row,

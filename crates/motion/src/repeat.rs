@@ -64,11 +64,13 @@ impl Subject<'_> {
 
     /// Which variables are integrated. A step of the Taylor method is long, so that a chart may pass a place where it is
     /// singular, and what is solved for there is known badly; the series of all velocities are known anyway. Constraints
-    /// that jump are followed in charts, and holonomic ones are kept by them.
+    /// that jump are followed in charts, and holonomic ones are kept by them. Where integrals are kept the constraints are kept
+    /// with them, and no chart is needed.
     fn variables(&self, settings: &RunSettings) -> StateKind {
         let has_series = method(&settings.method).is_ok_and(|method| method.card().needs_series);
         let is_free = self.numeric.holonomic.is_empty() && !self.numeric.jumps;
-        match has_series && is_free {
+        let by_projection = !settings.keep.is_empty() && !self.numeric.jumps;
+        match has_series && is_free || by_projection {
             true => StateKind::Full,
             false => settings.state,
         }
@@ -119,13 +121,15 @@ impl Subject<'_> {
         };
         let measured = flow.kind() == StateKind::Full || !self.numeric.holonomic.is_empty();
         let drift = (self.numeric.r > 0 && measured).then(|| flow.drift.clone());
-        Ok(self.collect(
+        let kept = flow.keep.as_ref().map(|keep| keep.report().clone());
+        let run = self.collect(
             "routh",
             (flow.layout(), Vec::new()),
             settings,
             (pieces, watched.len()),
             ending,
             (drift, flow.follow.as_ref()),
-        ))
+        );
+        Ok(Run { kept, ..run })
     }
 }

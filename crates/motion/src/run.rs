@@ -2,10 +2,11 @@
 
 use crate::follow::{Deviation, Follow};
 use crate::formulation_flow::{FlowError, FormulationFlow};
-use crate::happening::{self, EventWatched, Happened, WithEvents};
+use crate::happening::{self, EventWatched, Happened, Passed, WithEvents};
 use crate::initial::jets::JetStart;
 use crate::initial::ConsistentState;
 use crate::jet_flow::{self, JetFlow};
+use crate::keep::KeptReport;
 use crate::multiplier_flow::{MultiplierFlow, StateKind};
 use crate::numeric::{Binding, NumericSystem};
 use crate::observe::Observer;
@@ -130,6 +131,8 @@ pub struct Run {
     pub chart_changes: Vec<(f64, ChartChange)>,
     /// Remarks.
     pub notes: Vec<Note>,
+    /// What became of the integrals of [`RunSettings::keep`]; `None` where nothing was to be kept, or not in the multiplier form.
+    pub kept: Option<KeptReport>,
     /// Largest violation of each constraint before projection; `None` when constraints hold by construction.
     pub drift: Option<crate::drift::Drift>,
     /// Deviations over all steps of the quantities of [`RunSettings::follow`] and of [`Subject::residuals`].
@@ -249,6 +252,7 @@ impl Subject<'_> {
         let mut pieces: Vec<Solution> = Vec::new();
         let (mut t, mut y) = (self.start.t, y0);
         let own = watched.len();
+        let mut passed: Vec<Option<Passed>> = vec![None; own];
         loop {
             let mut events = happening::events(own, &settings.events);
             let options = self.options(settings, t, looking.absolute(y.len()), watcher)?;
@@ -257,6 +261,7 @@ impl Subject<'_> {
                 own,
                 observers: &mut looking.observers,
                 row: Vec::new(),
+                passed: &passed,
             };
             let span = (t, settings.t_end);
             let mut solution = integrate(&mut with_events, span, &y, &mut events, options)?;
@@ -279,6 +284,8 @@ impl Subject<'_> {
                     let ending = stop::vanished(&watched[index], t, &self.constraint_names());
                     return Ok((pieces, End::Vanished(ending)));
                 }
+                let forward = settings.t_end >= self.start.t;
+                passed[index] = Some(Passed::at(t, forward, passed[index]));
                 if t != settings.t_end {
                     // Nothing ends here: the row is kept only where it was asked for.
                     if let Some(piece) = pieces.last_mut() {
@@ -592,6 +599,7 @@ impl Subject<'_> {
             statistics: Statistics::default(),
             chart_changes: Vec::new(),
             notes: Vec::new(),
+            kept: None,
             drift,
             followed: followed.map_or(Vec::new(), |f| f.finish(ended_early)),
             ends_between: false,

@@ -2,13 +2,14 @@
 
 use crate::options::StudyOptions;
 use crate::start::{holds, Start};
-use crate::study::Motion;
+use crate::study::{keeps, Motion};
 use chetaev_integrate::Note;
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::words::quoted;
 use chetaev_mechanics::{choice, Prepared, System};
 use chetaev_model::model::{MassLaw, Model};
 use chetaev_motion::initial::branches::describe;
+use chetaev_motion::keep::Missed;
 use chetaev_motion::observe::Observer;
 use chetaev_symbolic::Expr;
 
@@ -67,6 +68,63 @@ pub(crate) fn events_not_followed(model: &Model, motion: &Motion) -> Vec<String>
         }
     }
     said
+}
+
+/// Integrals that were to be kept along the run and were not, with the first time.
+pub(crate) fn integrals_not_kept(
+    model: &Model,
+    motion: &Motion,
+    options: &StudyOptions,
+) -> Vec<String> {
+    let (run, integrals) = (&motion.evidence.run, &motion.settings.keep);
+    match keeps(model, options) {
+        false => return Vec::new(),
+        true if integrals.is_empty() => {
+            return vec!["no first integrals were found that could be kept".into()]
+        }
+        true => (),
+    }
+    let Some(kept) = &run.kept else {
+        return vec![format!(
+            "first integrals are kept in Routh's equations only; those of `{}` are integrated without projection",
+            run.formulation
+        )];
+    };
+    let mut said = Vec::new();
+    let at = |missed: &Missed| {
+        let first = missed.first?;
+        let (count, steps) = (missed.count, kept.steps);
+        Some(format!(
+            "after {count} of {steps} steps, first at t = {first:.6}"
+        ))
+    };
+    if let Some(when) = at(&kept.failed) {
+        said.push(format!(
+            "no state near the one integrated has the values of the first integrals {when}; the run goes on from the state integrated"
+        ));
+    }
+    for (missed, &value) in kept.left_out.iter().zip(integrals) {
+        let Some(when) = at(missed) else { continue };
+        said.push(format!(
+            "the first integral {} could not be kept together with the others {when}",
+            shortened(model, value)
+        ));
+    }
+    if let Some(first) = kept.between.first {
+        said.push(format!(
+            "states within steps do not have the values of all first integrals to keep, first at t = {first:.6}"
+        ));
+    }
+    said
+}
+
+/// A formula, or the begin of a long one.
+fn shortened(model: &Model, value: Expr) -> String {
+    let text = model.graph.text(value);
+    match text.chars().count() <= LONGEST {
+        true => text,
+        false => text.chars().take(LONGEST).chain(" …".chars()).collect(),
+    }
 }
 
 /// Longer formulas do not belong into a sentence.

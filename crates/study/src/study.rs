@@ -5,7 +5,9 @@ use crate::derivation::check_applies;
 use crate::error::StudyError;
 use crate::expectations::{check_expectations, expected, outcome, unmatched};
 use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
-use crate::notices::{events_not_followed, left_assumptions, negative_masses, notices};
+use crate::notices::{
+    events_not_followed, integrals_not_kept, left_assumptions, negative_masses, notices,
+};
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
 use crate::start::{
@@ -248,6 +250,7 @@ pub fn study(
     if let Some(motion) = &motion {
         notices.extend(left_assumptions(&system, &prepared, motion));
         notices.extend(events_not_followed(&model, motion));
+        notices.extend(integrals_not_kept(&model, motion, &options));
         notices.extend(negative_masses(&system, &prepared, motion));
     }
     let (verdicts, found, witness) =
@@ -402,6 +405,11 @@ fn dense(
     integrate(subject, formulation, &settings, what, hooks).ok()
 }
 
+/// Whether first integrals are to be kept.
+pub(crate) fn keeps(model: &Model, options: &StudyOptions) -> bool {
+    options.keep_integrals || model.simulation.keep_integrals == Some(true)
+}
+
 /// The first integrals to keep, where that is asked for: those that are found.
 pub(crate) fn kept(
     model: &Model,
@@ -409,7 +417,7 @@ pub(crate) fn kept(
     options: &StudyOptions,
     hooks: &mut Hooks<'_>,
 ) -> Vec<Expr> {
-    if !options.keep_integrals && model.simulation.keep_integrals != Some(true) {
+    if !keeps(model, options) {
         return Vec::new();
     }
     (hooks.progress)("searching first integrals", None);

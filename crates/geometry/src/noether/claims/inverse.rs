@@ -39,10 +39,7 @@ impl Claim for Inverse {
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
         let stated = cx.system.integrals.iter();
-        stated
-            .filter(|(_, value)| is_of_state(cx, *value))
-            .map(|(name, _)| Some(name.clone()))
-            .collect()
+        stated.map(|(name, _)| Some(name.clone())).collect()
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
@@ -50,6 +47,10 @@ impl Claim for Inverse {
         let Some((_, value)) = stated.find(|(name, _)| Some(name.as_str()) == subject) else {
             return Verdict::undecided("the model states no integral of this name").into();
         };
+        if let Some(foreign) = beside_state(cx, *value) {
+            let detail = format!("`{foreign}` occurs in it, which is not of (t, q, v)");
+            return Verdict::not_applicable("the function is one of the state", detail).into();
+        }
         let motion = match Motion::of(cx) {
             Ok(motion) => motion,
             Err(why) => return Verdict::undecided(why).into(),
@@ -297,13 +298,13 @@ fn symmetry(cx: &Context<'_>, value: Expr) -> (Verdict, Vec<Formula>) {
     (verdict, generator_formulas(&n, &generator))
 }
 
-/// Whether a function depends on the state (t, q, v) only.
-fn is_of_state(cx: &Context<'_>, e: Expr) -> bool {
+/// What occurs in a function beside the state (t, q, v) and parameters: an acceleration, a reaction.
+fn beside_state(cx: &Context<'_>, e: Expr) -> Option<String> {
     let g = &cx.system.graph;
     let known = |name: &str| {
         name == "t" || cx.system.moves(name) || cx.system.parameters.iter().any(|p| p.name == name)
     };
-    g.symbols_in(&[e])
-        .into_iter()
-        .all(|s| known(g.symbol_name(s)) && g.symbol_order(s) < 2)
+    let mut symbols = g.symbols_in(&[e]).into_iter();
+    let foreign = symbols.find(|&s| !known(g.symbol_name(s)) || g.symbol_order(s) >= 2)?;
+    Some(g.text(g.symbol_expr(foreign)))
 }
