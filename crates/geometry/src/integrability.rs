@@ -262,17 +262,23 @@ impl Claim for ConstraintsIntegrable {
         let mut finding = decide(cx, &pfaff, strength);
         let mut sentence = summary(&pfaff, strength, &finding.verdict).to_string();
         let integrable = matches!(finding.verdict, Verdict::Proved(_));
-        if let (true, Strength::Weak, Some(g)) = (integrable, strength, integral::of_one(cx)) {
-            let text = cx.system.graph.text(g);
-            sentence = format!("{sentence}, as {text} keeps its value");
-            finding.formulas.push(Formula {
-                caption: "the integral of the constraint, a function of the positions that keeps its value"
-                    .into(),
-                left: None,
-                right: g,
-            });
+        let subsystems = subsystems(cx, strength);
+        let some = integrable || subsystems.as_ref().is_some_and(|(_, some)| *some);
+        if some && strength == Strength::Weak {
+            let kept = integral::kept(cx);
+            let texts: Vec<String> = kept.iter().map(|&e| cx.system.graph.text(e)).collect();
+            if !texts.is_empty() {
+                sentence = format!("{sentence}; what they keep: {}", texts.join(", "));
+            }
+            finding
+                .formulas
+                .extend(kept.into_iter().map(|right| Formula {
+                    caption: "a function of the positions that the constraints keep".into(),
+                    left: None,
+                    right,
+                }));
         }
-        if let Some(parts) = subsystems(cx, strength) {
+        if let Some((parts, _)) = subsystems {
             sentence = format!("{sentence}; {parts}");
         }
         finding.verdict = finding.verdict.prefixed(&sentence);
@@ -368,7 +374,7 @@ fn summary(pfaff: &PfaffSystem<'_>, strength: Strength, verdict: &Verdict) -> &'
 }
 
 /// Which sub-systems of several constraints are integrable by themselves, in words.
-fn subsystems(cx: &Context<'_>, strength: Strength) -> Option<String> {
+fn subsystems(cx: &Context<'_>, strength: Strength) -> Option<(String, bool)> {
     let rows = &cx.selection.rows;
     let r = rows.len();
     if r < 2 {
@@ -389,6 +395,7 @@ fn subsystems(cx: &Context<'_>, strength: Strength) -> Option<String> {
             _ => open.push(names),
         }
     }
+    let some = !integrable.is_empty();
     let parts: Vec<String> = [
         (integrable, "integrable by themselves"),
         (not, "not integrable by themselves"),
@@ -398,7 +405,7 @@ fn subsystems(cx: &Context<'_>, strength: Strength) -> Option<String> {
     .filter(|(names, _)| !names.is_empty())
     .map(|(names, word)| format!("{word}: {}", listed(&names)))
     .collect();
-    Some(parts.join("; "))
+    Some((parts.join("; "), some))
 }
 
 /// All names of a short list, the first few of a long one.

@@ -187,7 +187,7 @@ impl<'a> Flow<'a> {
             .map(|defect| vec![defect])
             .collect();
         let ansatz = Ansatz::new(&self.motion, &columns, manifold, &own, seed).ok()?;
-        let found = ansatz.first()?;
+        let found = ansatz.up_to(1)?.pop()?;
         let parts: Vec<Expr> = found
             .iter()
             .zip(&candidates)
@@ -268,7 +268,7 @@ impl<'a> Flow<'a> {
             .map(|defect| vec![defect])
             .collect();
         let ansatz = Ansatz::new(&self.motion, &columns, manifold, &own, seed).ok()?;
-        let found = ansatz.first()?;
+        let found = ansatz.up_to(1)?.pop()?;
         let pairs = found.iter().zip(&candidates);
         let parts: Vec<Expr> = pairs.map(|(&c, &n)| g.mul(&[c, n])).collect();
         let density = formula::plain(cx, self, readable(g, g.add(&parts)));

@@ -1,6 +1,6 @@
-//! The function of the positions that a single integrable constraint keeps.
+//! The functions of the positions that integrable constraints keep.
 //!
-//! It is searched among combinations of functions of (t, q) that occur in the model and of logarithms of these. A combination with
+//! They are searched among combinations of functions of (t, q) that occur in the model and of logarithms of these. A combination with
 //! logarithms is shown by its exponential: `ln y - k x` as `y exp(-k x)`, `ln y - k ln x` as `y x^(-k)`. So integrating factors
 //! that are functions of one coordinate, and separable constraints, are covered where their quadratures are in the family.
 
@@ -29,14 +29,36 @@ enum Member {
     Logarithm(Expr),
 }
 
-/// The integral of the context's constraint, proved; none where there are several constraints or none was found.
-pub(super) fn of_one(cx: &Context<'_>) -> Option<Expr> {
-    let (system, g) = (cx.system, &cx.system.graph);
-    if cx.selection.rows.len() != 1 || cx.is_out_of_time() {
-        return None;
+/// So many combinations are looked at for each constraint: functions of those before them are among them.
+const LOOKED_AT: usize = 12;
+
+/// Functions of (t, q) that the context's constraints keep, each proved, none a function of those before it: what holonomic
+/// constraints fix, then what is found.
+pub(super) fn kept(cx: &Context<'_>) -> Vec<Expr> {
+    let (most, mut kept) = (cx.selection.rows.len(), cx.system.fixed_functions());
+    let motion = match Motion::of(cx) {
+        Ok(motion) if kept.len() < most && !cx.is_out_of_time() => motion,
+        _ => return kept,
+    };
+    for candidate in candidates(cx, &motion).unwrap_or_default() {
+        kept.push(candidate);
+        let seed = cx.prover.points_seed();
+        let independent = motion.independent_functions(&kept, seed);
+        let is_new = independent.is_some_and(|own| own.len() == kept.len());
+        if !is_new || !is_kept(cx, candidate).unwrap_or(false) {
+            kept.pop();
+        }
+        if kept.len() == most {
+            break;
+        }
     }
-    let motion = Motion::of(cx).ok()?;
-    let members = members(cx, &motion)?;
+    kept
+}
+
+/// Combinations that are kept at the points looked at.
+fn candidates(cx: &Context<'_>, motion: &Motion<'_>) -> Option<Vec<Expr>> {
+    let g = &cx.system.graph;
+    let members = members(cx, motion)?;
     let values: Vec<Expr> = members
         .iter()
         .map(|member| match *member {
@@ -46,9 +68,18 @@ pub(super) fn of_one(cx: &Context<'_>) -> Option<Expr> {
         .collect();
     let columns = rates(cx, &values)?;
     let seed = cx.prover.points_seed();
-    let ansatz = Ansatz::new(&motion, &columns, &Manifold::default(), &[], seed).ok()?;
-    let found = ansatz.first()?;
-    let integral = readable(g, without_power(cx, combined(cx, &members, &found)));
+    let ansatz = Ansatz::new(motion, &columns, &Manifold::default(), &[], seed).ok()?;
+    let found = ansatz.up_to(LOOKED_AT * cx.selection.rows.len())?;
+    let shown = found.iter().map(|c| {
+        let combined = combined(cx, &members, c);
+        readable(g, without_power(cx, combined))
+    });
+    Some(shown.collect())
+}
+
+/// Whether a function of (t, q) is no constant, and proved to be kept along all admissible velocities.
+fn is_kept(cx: &Context<'_>, integral: Expr) -> Option<bool> {
+    let (system, g) = (cx.system, &cx.system.graph);
     let rates = rates(cx, &[integral])?.concat();
     let is = |e: &[Expr]| cx.prover.identity(system, e, &Manifold::default(), "");
     let slopes: Vec<Expr> = system
@@ -57,7 +88,7 @@ pub(super) fn of_one(cx: &Context<'_>) -> Option<Expr> {
         .map(|c| g.diff(integral, c.q_symbol))
         .collect();
     let moves = matches!(is(&slopes), Verdict::Refuted(_));
-    (moves && matches!(is(&rates), Verdict::Proved(_))).then_some(integral)
+    Some(moves && matches!(is(&rates), Verdict::Proved(_)))
 }
 
 /// The base of a power with a constant exponent, which is kept as well: x² + y² for 1/√(x² + y²).

@@ -79,14 +79,18 @@ impl<'a> Ansatz<'a> {
         Some(all.into_iter().filter(|place| !is_free(place)).collect())
     }
 
-    /// Coefficients of the solution whose last nonzero coefficient stands at the first possible column; a leading one.
-    pub fn first(&self) -> Option<Vec<Expr>> {
+    /// Up to `most` solutions of a basis, those first whose last nonzero coefficient stands at an early column; those that could not
+    /// be lifted are missing.
+    pub fn up_to(&self, most: usize) -> Option<Vec<Vec<Expr>>> {
         let all: Vec<usize> = (0..self.columns).collect();
         let mut random = Random::stream(self.seed, 0);
         let draw = draw_with_points(&self.points, &mut random)?;
         let space = self.space(&draw, &mut random, &all)?;
-        let (leading, rest) = space.into_iter().next()?;
-        self.lifted(draw, random, leading, &rest)
+        let first = space.iter().take(most);
+        let lifted = first.filter_map(|(leading, rest)| {
+            self.lifted(draw.clone(), random.clone(), *leading, rest)
+        });
+        Some(lifted.collect())
     }
 
     /// A solution in which the last column has the coefficient one.
