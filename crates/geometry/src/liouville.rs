@@ -155,7 +155,9 @@ fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
         excluded.extend(g.as_symbol(g.symbol("t", 0)));
     }
     let counts = |e: Expr| excluded.iter().all(|&s| is_free(cx, e, s));
-    let values: Vec<Expr> = found.integrals.iter().map(|i| i.value).collect();
+    // What holonomic constraints fix keeps its value as integrals do.
+    let mut values = system.fixed_functions();
+    values.extend(found.integrals.iter().map(|i| i.value));
     let values = reduced.chart.restrict(system, &values);
     let free = values.iter().filter(|&&e| counts(e)).count();
     let many = invariant(cx, &reduced, &values).unwrap_or(0).max(free);
@@ -284,8 +286,12 @@ fn about(cx: &Context<'_>, reduced: &Reduced, many: usize) -> String {
         1 => "1 integral".to_owned(),
         _ => counted(many, "independent integral", "independent integrals"),
     };
+    let fixed = match cx.system.fixed_functions().is_empty() {
+        true => "",
+        false => ", what the constraints fix among these",
+    };
     format!(
-        "the motion has {}{left_out}{constant}, with {found} of them",
+        "the motion has {}{left_out}{constant}, with {found} of them{fixed}",
         counted(reduced.variables, "variable", "variables"),
     )
 }

@@ -124,23 +124,24 @@ impl Letters {
         without
     }
 
-    /// The letters without velocities that vanish on the constraints, as a quasi-velocity that is a constraint does.
+    /// The letters without velocities and known functions that vanish on the constraints, as a quasi-velocity that is a constraint
+    /// does.
     ///
     /// # Errors
     /// A sentence that says why no points were found.
     pub fn without_zeros(&self, motion: &Motion<'_>, seed: u64) -> Result<Letters, String> {
-        let values: Vec<Expr> = self.velocities.iter().map(|l| l.value).collect();
+        let known = self.known.iter().map(|(_, letter)| letter.value);
+        let velocities = self.velocities.iter().map(|l| l.value);
+        let values: Vec<Expr> = velocities.chain(known).collect();
         let points = motion.points(&values)?;
         let mut random = Random::stream(seed, 1 << 21);
         let at = draw_with_points(&points, &mut random)
             .and_then(|draw| points.at(&draw, &mut random))
             .ok_or("no points of the constraint manifold were found over a prime field")?;
         let mut without = self.clone();
-        let mut place = 0;
-        without.velocities.retain(|_| {
-            place += 1;
-            !at[place - 1].is_zero()
-        });
+        let mut kept = at.iter().map(|value| !value.is_zero());
+        without.velocities.retain(|_| kept.next().unwrap_or(true));
+        without.known.retain(|_| kept.next().unwrap_or(true));
         Ok(without)
     }
 
