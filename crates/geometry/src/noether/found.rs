@@ -8,7 +8,7 @@ use super::occurring::{Letters, ENERGY};
 use super::search::{Integral, Special, Table, Tie};
 use chetaev_mechanics::{Context, System};
 use chetaev_symbolic::number::prime_field::Residue;
-use chetaev_symbolic::simplify::{simplify, Options};
+use chetaev_symbolic::simplify::{length, simplify, Options};
 use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol, Verdict};
 use std::sync::Arc;
 
@@ -280,13 +280,14 @@ fn momenta(
             .independent_functions(&all, cx.prover.points_seed())
             .is_some_and(|kept| kept.contains(&(all.len() - 1)));
         if is_new && matches!(solution.verdict, Verdict::Proved(_)) {
-            integrals.push(Integral {
+            let integral = Integral {
                 value: solution.integral,
                 shown: solution.integral,
                 verdict: solution.verdict.clone(),
                 independent: true,
                 name: None,
-            });
+            };
+            integrals.push(without_constant_factor(cx, integral));
         }
     }
     Some(Momenta {
@@ -314,7 +315,7 @@ fn chosen(
         match table.proved(cx, candidate.family, &candidate.vector) {
             Some(integral) => {
                 let integral = Integral {
-                    shown: readable(&cx.system.graph, integral.shown),
+                    shown: shortest(&cx.system.graph, &integral),
                     name: candidate.name.clone(),
                     ..integral
                 };
@@ -337,30 +338,52 @@ pub(crate) fn is_constant(system: &System, e: Expr) -> bool {
     g.symbols_in(&[e]).into_iter().all(is_parameter)
 }
 
+/// An integral in the letters of its family or in velocities, whichever is shorter: letters may be related.
+fn shortest(g: &Graph, integral: &Integral) -> Expr {
+    let [shown, value] = [integral.shown, integral.value].map(|e| readable(g, e));
+    match length(g, value) < length(g, shown) {
+        true => value,
+        false => shown,
+    }
+}
+
 /// The integral divided by what all its terms share and nothing moves, as (1 + a²)^(3/2).
 fn without_constant_factor(cx: &Context<'_>, integral: Integral) -> Integral {
     let g = &cx.system.graph;
-    let is_constant = |e: Expr| is_constant(cx.system, e);
-    let Node::Product { factors, .. } = g.node(integral.shown) else {
-        return integral;
+    let Node::Product {
+        coefficient,
+        factors,
+    } = g.node(integral.shown)
+    else {
+        return without_first_minus(g, integral);
     };
-    let constant: Vec<Expr> = factors
-        .iter()
-        .copied()
-        .filter(|&f| is_constant(f))
-        .collect();
-    if constant.is_empty() {
-        return integral;
+    let constant = factors.iter().copied();
+    let constant: Vec<Expr> = constant.filter(|&f| is_constant(cx.system, f)).collect();
+    if constant.is_empty() && *coefficient == Rational::ONE {
+        return without_first_minus(g, integral);
     }
-    let divided = |e: Expr| {
-        let reciprocals = constant.iter().map(|&f| g.powi(f, -1));
-        g.mul(&reciprocals.chain([e]).collect::<Vec<Expr>>())
-    };
-    Integral {
-        value: divided(integral.value),
-        shown: divided(integral.shown),
+    let by = g.mul(&[&[g.number(coefficient.clone())], &constant[..]].concat());
+    let divided = Integral {
+        value: g.div(integral.value, by),
+        shown: g.div(integral.shown, by),
         name: None,
         ..integral
+    };
+    without_first_minus(g, divided)
+}
+
+/// The integral or its negative, whichever is not written with a minus in front.
+fn without_first_minus(g: &Graph, integral: Integral) -> Integral {
+    let negative = g.neg(integral.shown);
+    let begins = |e: Expr| g.text(e).starts_with('-');
+    match begins(integral.shown) && !begins(negative) {
+        true => Integral {
+            value: g.neg(integral.value),
+            shown: negative,
+            name: None,
+            ..integral
+        },
+        false => integral,
     }
 }
 

@@ -558,7 +558,7 @@ fn known(cx: &Context<'_>) -> Vec<(String, Letter)> {
 /// Larger functions, in nodes, are not rewritten in quasi-velocities.
 const REWRITTEN: usize = 400;
 
-/// Functions of the state as they are shown: in the quasi-velocities that the model states where that is shorter.
+/// Functions of the state as they are shown: in the quasi-velocities that the model states where that is not longer.
 fn in_quasi_velocities(cx: &Context<'_>, values: &[(String, Expr)]) -> Vec<Expr> {
     let (system, g) = (cx.system, &cx.system.graph);
     let as_they_are = || values.iter().map(|(_, value)| *value).collect();
@@ -579,7 +579,7 @@ fn in_quasi_velocities(cx: &Context<'_>, values: &[(String, Expr)]) -> Vec<Expr>
             return value;
         }
         let rewritten = simplify::simplify(g, rewritten, &simplify::Options::default());
-        match simplify::length(g, rewritten) < simplify::length(g, value) {
+        match simplify::length(g, rewritten) <= simplify::length(g, value) {
             true => rewritten,
             false => value,
         }
