@@ -258,7 +258,7 @@ fn jacobi_equations_of_a_charge_and_of_the_particle() {
         group: OBJECTS,
         names: &["P", "h", "w_x", "w_y", "w_z"],
         equations: &[(
-            "P = sqrt(2) sqrt(h) sqrt(m w_x^2 + m w_y^2 + m w_z^2)",
+            "P = sqrt(2) sqrt(m (w_x^2 + w_y^2 + w_z^2)) sqrt(h)",
             Value("P - sqrt(2 h) sqrt(m (w_x^2 + w_y^2 + w_z^2))"),
         )],
     }
