@@ -65,6 +65,8 @@ pub struct MultiplierFlow {
 
 /// A stage whose pivot fell below this fraction of its value where the step began rejects the step.
 const UNUSABLE: f64 = 1e-3;
+/// A projection that keeps integrals: time, q, v and the metric; true when it moved them.
+type Way = fn(&mut Keep, f64, &mut [f64], &mut [f64], &[f64]) -> bool;
 /// The rate of a watched quantity that is not near zero: negative as on the way there, so that its minimum is a zero of the rate.
 const AWAY: f64 = -1e-12;
 /// A gradient counts as vanished below this fraction of its largest length so far.
@@ -413,11 +415,7 @@ impl MultiplierFlow {
     }
 
     /// Moves (q, v), where the metric is known there; true when they changed.
-    fn move_by(
-        &mut self,
-        t: f64,
-        way: fn(&mut Keep, f64, &mut [f64], &mut [f64], &[f64]) -> bool,
-    ) -> bool {
+    fn move_by(&mut self, t: f64, way: Way) -> bool {
         if self.system.evaluate(t, &self.q, &self.v).is_err() {
             return false;
         }
