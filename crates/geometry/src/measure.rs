@@ -10,7 +10,7 @@
 //! Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002).
 //!
 //! A contradiction excludes densities of the coordinates only; when no smooth positive density exists at all is the matter of
-//! [`excluded`]. What is known on formulas is in [`formula`].
+//! `excluded`. What is known on formulas is in `formula`.
 
 mod angles;
 mod excluded;
