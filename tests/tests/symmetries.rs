@@ -200,6 +200,10 @@ fn studied(model: &Model, claims: &[&str], keep: bool) -> Study {
         keep_integrals: keep,
         ..StudyOptions::default()
     };
+    with_options(model, options)
+}
+
+fn with_options(model: &Model, options: StudyOptions) -> Study {
     let mut hooks = Hooks {
         clock: &|| 0.0,
         interrupt: None,
@@ -274,12 +278,7 @@ fn long_run(model: &Model, t_end: f64, keep: bool) -> Study {
         keep_integrals: keep,
         ..StudyOptions::default()
     };
-    let mut hooks = Hooks {
-        clock: &|| 0.0,
-        interrupt: None,
-        progress: &mut |_, _| (),
-    };
-    study(model.clone(), options, &mut hooks).expect("a study")
+    with_options(model, options)
 }
 
 /// A function with an acceleration is none of the state, and the claim says so.

@@ -49,6 +49,19 @@ pub enum Function {
 }
 
 impl Function {
+    /// Whether it is a function of an angle: sine, cosine, and what is made of them.
+    pub fn is_circular(self) -> bool {
+        matches!(
+            self,
+            Function::Sin
+                | Function::Cos
+                | Function::Tan
+                | Function::Cot
+                | Function::Sec
+                | Function::Csc
+        )
+    }
+
     /// Every function, in declaration order.
     pub const ALL: [Function; 20] = [
         Function::Sin,

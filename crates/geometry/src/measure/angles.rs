@@ -3,7 +3,7 @@
 use super::{by_brackets, excluded, flag, Flow};
 use crate::flag::Flag;
 use chetaev_mechanics::{Context, Manifold};
-use chetaev_symbolic::{Expr, Function, Node, Verdict};
+use chetaev_symbolic::{Expr, Node, Verdict};
 
 /// Coordinates that are angles and that no assumption bounds.
 fn closed_angles(cx: &Context<'_>) -> Vec<usize> {
@@ -80,18 +80,12 @@ fn returns(cx: &Context<'_>, e: Expr, angle: usize) -> bool {
     let symbol = cx.system.coordinates[angle].q_symbol;
     let mut replaced: Vec<(Expr, Expr)> = Vec::new();
     for part in g.reachable(&[e]) {
-        let Node::Apply {
-            function:
-                Function::Sin
-                | Function::Cos
-                | Function::Tan
-                | Function::Cot
-                | Function::Sec
-                | Function::Csc,
-            arguments,
-        } = g.node(part)
-        else {
-            continue;
+        let arguments = match g.node(part) {
+            Node::Apply {
+                function,
+                arguments,
+            } if function.is_circular() => arguments,
+            _ => continue,
         };
         let slope = g.diff(arguments[0], symbol);
         if g.as_integer(slope).is_some() {

@@ -321,15 +321,9 @@ impl<'a> Occurring<'a> {
                     function,
                     arguments,
                 } => match (function, &**arguments) {
-                    (
-                        Function::Sin
-                        | Function::Cos
-                        | Function::Tan
-                        | Function::Cot
-                        | Function::Sec
-                        | Function::Csc,
-                        &[angle],
-                    ) if found.is_of_place(angle) => found.angle(angle),
+                    (function, &[angle]) if function.is_circular() && found.is_of_place(angle) => {
+                        found.angle(angle)
+                    }
                     (Function::Exp, &[x]) if found.is_of_place(x) => {
                         insert(&mut found.exponentials, e)
                     }

@@ -133,12 +133,7 @@ pub(super) fn voronets(cx: &Context<'_>, d: &Displacements<'_>, work: &Variation
         free(cx, d),
         forces(cx)
     );
-    formulas.extend(of_states(cx, d, caption, work));
-    if d.chart.dependent.is_empty() {
-        return formulas;
-    }
-    let caption = "and Σ θ (δv − δφ)";
-    formulas.extend(formula(cx, caption, None, d.written(&d.gyroscopic())));
+    formulas.extend(statement(cx, d, work, [&caption, "and Σ θ (δv − δφ)"]));
     formulas
 }
 
@@ -151,24 +146,27 @@ pub(super) fn suslov(cx: &Context<'_>, d: &Displacements<'_>, work: &Variation) 
         free(cx, d),
         forces(cx)
     );
-    formulas.extend(of_states(cx, d, caption, work));
-    if d.chart.dependent.is_empty() {
-        return formulas;
-    }
-    let caption = "and Σ θ A δq, with the curvature coefficients A of `variation.hoelder`";
-    formulas.extend(formula(cx, caption, None, d.written(&d.gyroscopic())));
+    let more = "and Σ θ A δq, with the curvature coefficients A of `variation.hoelder`";
+    formulas.extend(statement(cx, d, work, [&caption, more]));
     formulas
 }
 
-/// δL* with the work of the forces.
-fn of_states(
+/// What stands under the integral of a form with L*: δL* with the work of the forces, and Σ θ (δv − δφ) where velocities are
+/// dependent.
+fn statement(
     cx: &Context<'_>,
     d: &Displacements<'_>,
-    caption: String,
     work: &Variation,
-) -> Option<Formula> {
+    [caption, more]: [&str; 2],
+) -> Vec<Formula> {
     let varied = d.sum(&d.of_lagrangian(Rule::Suslov), work);
-    formula(cx, caption, None, d.written(&varied))
+    let mut formulas: Vec<Formula> = formula(cx, caption, None, d.written(&varied))
+        .into_iter()
+        .collect();
+    if !d.chart.dependent.is_empty() {
+        formulas.extend(formula(cx, more, None, d.written(&d.gyroscopic())));
+    }
+    formulas
 }
 
 /// The form of Helmholtz and Poincaré: H, the integrand, and the factors of δp and of the virtual δq.

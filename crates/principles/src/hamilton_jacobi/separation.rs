@@ -14,7 +14,7 @@ use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::system::CompleteIntegral;
-use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Graph, Node, Symbol, Verdict};
 
 /// Larger H₁, in nodes, are not differentiated twice.
 const LARGEST: usize = 2_000;
@@ -22,14 +22,6 @@ const LARGEST: usize = 2_000;
 const POINTS: usize = 256;
 /// A smaller value is zero.
 const VANISHING: f64 = 1e-9;
-const TRIGONOMETRIC: [Function; 6] = [
-    Function::Sin,
-    Function::Cos,
-    Function::Tan,
-    Function::Cot,
-    Function::Sec,
-    Function::Csc,
-];
 
 /// For each pair i < j, what vanishes where `H₁(q, S_q) = E` separates additively in the coordinates:
 /// `Hⁱ Hʲ H_ij − Hⁱ H_j H_iʲ − H_i Hʲ Hⁱ_j + H_i H_j Hⁱʲ`, with lower indices for ∂/∂q, upper ones for ∂/∂π.
@@ -314,7 +306,7 @@ fn angles(g: &Graph, es: &[Expr]) -> Vec<Symbol> {
         Node::Apply {
             function,
             arguments,
-        } if TRIGONOMETRIC.contains(function) => Some(arguments[0]),
+        } if function.is_circular() => Some(arguments[0]),
         _ => None,
     });
     let arguments: Vec<Expr> = arguments.collect();
