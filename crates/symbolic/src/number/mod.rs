@@ -5,6 +5,7 @@
 
 pub mod ball;
 pub mod modular_matrix;
+pub mod modular_polynomial;
 pub mod prime;
 pub mod prime_field;
 pub mod random;

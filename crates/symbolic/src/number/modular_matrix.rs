@@ -79,6 +79,26 @@ pub fn rank(field: &PrimeField, rows: usize, columns: usize, matrix: &[Residue])
     rank
 }
 
+/// The determinant of the row-major `size` × `size` matrix.
+pub fn determinant(field: &PrimeField, size: usize, mut matrix: Vec<Residue>) -> Residue {
+    let mut product = field.one();
+    for column in 0..size {
+        let found = (column..size).find(|&row| !matrix[row * size + column].is_zero());
+        let pivot = found.map(|row| (row, matrix[row * size + column]));
+        let reciprocal = pivot.and_then(|(_, entry)| field.inv(entry));
+        let (Some((row, entry)), Some(reciprocal)) = (pivot, reciprocal) else {
+            return Residue::ZERO;
+        };
+        product = field.mul(product, entry);
+        if row != column {
+            product = field.neg(product);
+        }
+        swap_rows(&mut matrix, size, row, column);
+        eliminate(field, &mut matrix, size, column, column, reciprocal);
+    }
+    product
+}
+
 /// The null space of a matrix in the echelon form that is unique: each vector belongs to a column that depends on those to
 /// its left, has a one there and its other entries at columns that do not.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -235,6 +255,18 @@ mod tests {
             factorize(&field, 2, vec![Residue::ZERO; 3]).is_none(),
             "not square"
         );
+    }
+
+    #[test]
+    fn determinants_count_row_exchanges() {
+        let field = field();
+        let of = |size: usize, entries: &[i64]| {
+            let matrix = entries.iter().map(|&n| field.from_i64(n)).collect();
+            determinant(&field, size, matrix)
+        };
+        assert_eq!(of(2, &[0, 2, 3, 5]), field.from_i64(-6));
+        assert_eq!(of(3, &[2, 0, 1, 1, 3, -1, 0, 5, 4]), field.from_i64(39));
+        assert_eq!(of(2, &[1, 2, 2, 4]), Residue::ZERO);
     }
 
     #[test]

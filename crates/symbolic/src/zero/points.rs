@@ -16,6 +16,7 @@ use super::tower::{Element, Tower};
 use super::variety::{Solution, Variety};
 use crate::graph::Graph;
 use crate::node::{Expr, Symbol};
+use crate::number::modular_polynomial::random_root;
 use crate::number::prime::{random_prime, LOG2_PRIME_COUNT};
 use crate::number::prime_field::{PrimeField, Residue};
 use crate::number::random::Random;
@@ -204,6 +205,12 @@ impl Points {
         })
     }
 
+    /// Whether the expressions are rational functions of the generators: the same random numbers then give the same point
+    /// whatever does not move.
+    pub fn are_rational(&self) -> bool {
+        self.program.radicals == 0 && self.program.constraints.is_empty()
+    }
+
     /// Gives symbols that do not move values of choice.
     pub fn set(&self, draw: &mut Draw, values: &[(Symbol, Residue)]) {
         for (generator, symbol) in self.symbols.iter().enumerate() {
@@ -321,117 +328,9 @@ fn fixed_operations(program: &Program, generators: &[bool], circles: &[bool]) ->
     fixed
 }
 
-/// A random root of the monic polynomial with these lower coefficients, if it has one in the prime field: the part that
-/// splits into linear factors is gcd(x^p − x, f), and (x + a)^((p−1)/2) − 1 takes it apart (Cantor and Zassenhaus, Math. Comp.
-/// 36, 1981).
-fn random_root(field: &PrimeField, lower: &[Residue], random: &mut Random) -> Option<Residue> {
-    let mut f = lower.to_vec();
-    f.push(field.one());
-    let x = vec![Residue::ZERO, field.one()];
-    let mut power = power_modulo(field, &x, field.modulus(), &f);
-    power.resize(power.len().max(2), Residue::ZERO);
-    power[1] = field.sub(power[1], field.one());
-    let mut linear = gcd(field, f, power);
-    for _ in 0..200 {
-        match linear.len() {
-            0 | 1 => return None,
-            2 => return Some(field.neg(linear[0])),
-            _ => {}
-        }
-        let shifted = vec![field.random(random), field.one()];
-        let mut half = power_modulo(field, &shifted, (field.modulus() - 1) / 2, &linear);
-        half.resize(half.len().max(1), Residue::ZERO);
-        half[0] = field.sub(half[0], field.one());
-        let part = gcd(field, linear.clone(), half);
-        if part.len() > 1 && part.len() < linear.len() {
-            linear = part;
-        }
-    }
-    None
-}
-
-/// a^n modulo the monic f.
-fn power_modulo(field: &PrimeField, a: &[Residue], n: u64, f: &[Residue]) -> Vec<Residue> {
-    let mut result = vec![field.one()];
-    for bit in (0..64 - n.leading_zeros()).rev() {
-        result = remainder(field, product(field, &result, &result), f);
-        if n >> bit & 1 == 1 {
-            result = remainder(field, product(field, &result, a), f);
-        }
-    }
-    result
-}
-
-fn product(field: &PrimeField, a: &[Residue], b: &[Residue]) -> Vec<Residue> {
-    if a.is_empty() || b.is_empty() {
-        return Vec::new();
-    }
-    let mut product = vec![Residue::ZERO; a.len() + b.len() - 1];
-    for (i, &x) in a.iter().enumerate() {
-        for (j, &y) in b.iter().enumerate() {
-            product[i + j] = field.add(product[i + j], field.mul(x, y));
-        }
-    }
-    product
-}
-
-/// The remainder by a monic polynomial.
-fn remainder(field: &PrimeField, mut a: Vec<Residue>, monic: &[Residue]) -> Vec<Residue> {
-    let degree = monic.len().saturating_sub(1);
-    while a.len() > degree {
-        let Some(leading) = a.pop() else { break };
-        let shift = a.len() - degree;
-        for (i, &c) in monic[..degree].iter().enumerate() {
-            a[shift + i] = field.sub(a[shift + i], field.mul(leading, c));
-        }
-    }
-    trim(&mut a);
-    a
-}
-
-fn trim(a: &mut Vec<Residue>) {
-    while a.last().is_some_and(|c| c.is_zero()) {
-        a.pop();
-    }
-}
-
-/// The monic greatest common divisor.
-fn gcd(field: &PrimeField, mut a: Vec<Residue>, mut b: Vec<Residue>) -> Vec<Residue> {
-    loop {
-        trim(&mut b);
-        let Some(reciprocal) = b.last().and_then(|&leading| field.inv(leading)) else {
-            return a;
-        };
-        let monic: Vec<Residue> = b.iter().map(|&c| field.mul(c, reciprocal)).collect();
-        let rest = remainder(field, a, &monic);
-        a = monic;
-        b = rest;
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn roots_of_products_of_linear_and_irreducible_factors() {
-        let field = PrimeField::new((1 << 61) - 1).unwrap();
-        let mut random = Random::new(5);
-        let number = |n: i64| field.from_i64(n);
-        // (x − 2)(x + 7) and x² − 3 times x − 1; 3 is no square modulo 2^61 − 1 or it is: any root must be one.
-        for coefficients in [vec![-14, 5], vec![3, -3, -1], vec![-5]] {
-            let lower: Vec<Residue> = coefficients.iter().map(|&n| number(n)).collect();
-            let root = random_root(&field, &lower, &mut random).unwrap();
-            let mut value = field.one();
-            for &c in lower.iter().rev() {
-                value = field.add(field.mul(value, root), c);
-            }
-            assert!(value.is_zero());
-        }
-        let nonsquare = (2..).find(|&n| field.legendre(field.from_u64(n)) == -1);
-        let lower = [field.neg(field.from_u64(nonsquare.unwrap())), Residue::ZERO];
-        assert!(random_root(&field, &lower, &mut random).is_none());
-    }
 
     #[test]
     fn points_lie_on_the_constraint_and_constants_stay() {

@@ -1,0 +1,268 @@
+//! Polynomials in one variable over a prime field, lists of coefficients from the constant on without zeros at the end: roots,
+//! and rational functions from their values.
+
+use super::prime_field::{PrimeField, Residue};
+use super::random::Random;
+
+/// A random root of the monic polynomial with these lower coefficients, if it has one in the prime field: the part that
+/// splits into linear factors is gcd(x^p − x, f), and (x + a)^((p−1)/2) − 1 takes it apart (Cantor and Zassenhaus, Math. Comp.
+/// 36, 1981).
+pub fn random_root(field: &PrimeField, lower: &[Residue], random: &mut Random) -> Option<Residue> {
+    let mut f = lower.to_vec();
+    f.push(field.one());
+    let x = vec![Residue::ZERO, field.one()];
+    let mut power = power_modulo(field, &x, field.modulus(), &f);
+    power.resize(power.len().max(2), Residue::ZERO);
+    power[1] = field.sub(power[1], field.one());
+    let mut linear = gcd(field, f, power);
+    for _ in 0..200 {
+        match linear.len() {
+            0 | 1 => return None,
+            2 => return Some(field.neg(linear[0])),
+            _ => {}
+        }
+        let shifted = vec![field.random(random), field.one()];
+        let mut half = power_modulo(field, &shifted, (field.modulus() - 1) / 2, &linear);
+        half.resize(half.len().max(1), Residue::ZERO);
+        half[0] = field.sub(half[0], field.one());
+        let part = gcd(field, linear.clone(), half);
+        if part.len() > 1 && part.len() < linear.len() {
+            linear = part;
+        }
+    }
+    None
+}
+
+/// a^n modulo the monic f.
+fn power_modulo(field: &PrimeField, a: &[Residue], n: u64, f: &[Residue]) -> Vec<Residue> {
+    let mut result = vec![field.one()];
+    for bit in (0..64 - n.leading_zeros()).rev() {
+        result = remainder(field, product(field, &result, &result), f);
+        if n >> bit & 1 == 1 {
+            result = remainder(field, product(field, &result, a), f);
+        }
+    }
+    result
+}
+
+fn product(field: &PrimeField, a: &[Residue], b: &[Residue]) -> Vec<Residue> {
+    if a.is_empty() || b.is_empty() {
+        return Vec::new();
+    }
+    let mut product = vec![Residue::ZERO; a.len() + b.len() - 1];
+    for (i, &x) in a.iter().enumerate() {
+        for (j, &y) in b.iter().enumerate() {
+            product[i + j] = field.add(product[i + j], field.mul(x, y));
+        }
+    }
+    product
+}
+
+/// The remainder by a monic polynomial.
+fn remainder(field: &PrimeField, mut a: Vec<Residue>, monic: &[Residue]) -> Vec<Residue> {
+    let degree = monic.len().saturating_sub(1);
+    while a.len() > degree {
+        let Some(leading) = a.pop() else { break };
+        let shift = a.len() - degree;
+        for (i, &c) in monic[..degree].iter().enumerate() {
+            a[shift + i] = field.sub(a[shift + i], field.mul(leading, c));
+        }
+    }
+    trim(&mut a);
+    a
+}
+
+fn trim(a: &mut Vec<Residue>) {
+    while a.last().is_some_and(|c| c.is_zero()) {
+        a.pop();
+    }
+}
+
+/// The monic greatest common divisor.
+pub fn gcd(field: &PrimeField, mut a: Vec<Residue>, mut b: Vec<Residue>) -> Vec<Residue> {
+    loop {
+        trim(&mut b);
+        let Some(reciprocal) = b.last().and_then(|&leading| field.inv(leading)) else {
+            return a;
+        };
+        let monic: Vec<Residue> = b.iter().map(|&c| field.mul(c, reciprocal)).collect();
+        let rest = remainder(field, a, &monic);
+        a = monic;
+        b = rest;
+    }
+}
+
+/// All roots in the field, each once.
+pub fn roots(field: &PrimeField, f: &[Residue], random: &mut Random) -> Vec<Residue> {
+    let mut f = f.to_vec();
+    trim(&mut f);
+    let mut found = Vec::new();
+    while f.len() > 1 {
+        let Some(reciprocal) = f.last().and_then(|&leading| field.inv(leading)) else {
+            break;
+        };
+        let lower: Vec<Residue> = f[..f.len() - 1]
+            .iter()
+            .map(|&c| field.mul(c, reciprocal))
+            .collect();
+        let Some(root) = random_root(field, &lower, random) else {
+            break;
+        };
+        found.push(root);
+        while f.len() > 1 && value(field, &f, root).is_zero() {
+            f = without_root(field, &f, root);
+        }
+    }
+    found
+}
+
+/// The value at a place.
+pub fn value(field: &PrimeField, f: &[Residue], x: Residue) -> Residue {
+    let terms = f.iter().rev();
+    terms.fold(Residue::ZERO, |sum, &c| field.add(field.mul(sum, x), c))
+}
+
+/// f/(x - root), where that is a polynomial.
+fn without_root(field: &PrimeField, f: &[Residue], root: Residue) -> Vec<Residue> {
+    let mut quotient = vec![Residue::ZERO; f.len() - 1];
+    let mut carry = Residue::ZERO;
+    for (place, &c) in f.iter().enumerate().rev() {
+        carry = field.add(c, field.mul(carry, root));
+        if place > 0 {
+            quotient[place - 1] = carry;
+        }
+    }
+    quotient
+}
+
+/// How many more values than unknowns a rational function needs to be believed.
+const SPARE: usize = 3;
+
+/// The numerator and the denominator of the rational function of least degree with these values, as (place, value), places
+/// different; `None` where no function of so low a degree has them that values are left over. (Monagan, "Maximal quotient
+/// rational reconstruction", 2004.)
+pub fn fraction(
+    field: &PrimeField,
+    values: &[(Residue, Residue)],
+) -> Option<(Vec<Residue>, Vec<Residue>)> {
+    let (mut r, mut next_r) = interpolated(field, values);
+    let (mut t, mut next_t) = (Vec::new(), vec![field.one()]);
+    let mut best: Option<(usize, Vec<Residue>, Vec<Residue>)> = None;
+    while !next_r.is_empty() {
+        let degrees = next_r.len() + next_t.len();
+        if best.as_ref().is_none_or(|(least, _, _)| degrees < *least) {
+            best = Some((degrees, next_r.clone(), next_t.clone()));
+        }
+        let (quotient, rest) = divided(field, r, &next_r)?;
+        let mut new_t = product(field, &quotient, &next_t);
+        new_t.resize(new_t.len().max(t.len()), Residue::ZERO);
+        for (c, new) in new_t.iter_mut().enumerate() {
+            *new = field.sub(t.get(c).copied().unwrap_or(Residue::ZERO), *new);
+        }
+        trim(&mut new_t);
+        (r, next_r) = (next_r, rest);
+        (t, next_t) = (next_t, new_t);
+    }
+    let (degrees, above, below) = best?;
+    (degrees + SPARE <= values.len() + 1).then_some((above, below))
+}
+
+/// ∏ (x - x_i), and the polynomial of degree below their number with these values.
+fn interpolated(field: &PrimeField, values: &[(Residue, Residue)]) -> (Vec<Residue>, Vec<Residue>) {
+    let (mut all, mut f) = (vec![field.one()], Vec::new());
+    for &(x, y) in values {
+        let slope = field.inv(value(field, &all, x)).unwrap_or(Residue::ZERO);
+        let slope = field.mul(field.sub(y, value(field, &f, x)), slope);
+        f.resize(all.len(), Residue::ZERO);
+        for (c, &own) in f.iter_mut().zip(&all) {
+            *c = field.add(*c, field.mul(slope, own));
+        }
+        all = product(field, &all, &[field.neg(x), field.one()]);
+    }
+    trim(&mut f);
+    (all, f)
+}
+
+/// Quotient and remainder; `None` by zero.
+fn divided(
+    field: &PrimeField,
+    mut a: Vec<Residue>,
+    by: &[Residue],
+) -> Option<(Vec<Residue>, Vec<Residue>)> {
+    let reciprocal = field.inv(*by.last()?)?;
+    let degree = by.len() - 1;
+    let mut quotient = vec![Residue::ZERO; a.len().saturating_sub(degree)];
+    while a.len() > degree {
+        let Some(leading) = a.pop() else { break };
+        let shift = a.len() - degree;
+        let factor = field.mul(leading, reciprocal);
+        quotient[shift] = factor;
+        for (i, &c) in by[..degree].iter().enumerate() {
+            a[shift + i] = field.sub(a[shift + i], field.mul(factor, c));
+        }
+    }
+    trim(&mut a);
+    Some((quotient, a))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_of_products_of_linear_and_irreducible_factors() {
+        let field = PrimeField::new((1 << 61) - 1).unwrap();
+        let mut random = Random::new(5);
+        let number = |n: i64| field.from_i64(n);
+        // (x − 2)(x + 7) and x² − 3 times x − 1; 3 is no square modulo 2^61 − 1 or it is: any root must be one.
+        for coefficients in [vec![-14, 5], vec![3, -3, -1], vec![-5]] {
+            let lower: Vec<Residue> = coefficients.iter().map(|&n| number(n)).collect();
+            let root = random_root(&field, &lower, &mut random).unwrap();
+            let mut value = field.one();
+            for &c in lower.iter().rev() {
+                value = field.add(field.mul(value, root), c);
+            }
+            assert!(value.is_zero());
+        }
+        let nonsquare = (2..).find(|&n| field.legendre(field.from_u64(n)) == -1);
+        let lower = [field.neg(field.from_u64(nonsquare.unwrap())), Residue::ZERO];
+        assert!(random_root(&field, &lower, &mut random).is_none());
+    }
+
+    /// 3 (x - 2)² (x + 5) (x² + 1)/((x - 7) (x + 1)), from its values.
+    #[test]
+    fn rational_functions_come_back_with_their_roots() {
+        // -1 is no square.
+        let field = PrimeField::new((1 << 61) - 1).unwrap();
+        let number = |n: i64| field.from_i64(n);
+        let at = |x: i64| {
+            let (above, below) = (
+                3 * (x - 2).pow(2) * (x + 5) * (x * x + 1),
+                (x - 7) * (x + 1),
+            );
+            let below = field.inv(number(below)).unwrap();
+            (number(x), field.mul(number(above), below))
+        };
+        let values: Vec<_> = (10..21).map(at).collect();
+        let (above, below) = fraction(&field, &values).unwrap();
+        assert_eq!((above.len(), below.len()), (6, 3));
+        let mut random = Random::new(3);
+        let found = |f: &[Residue], random: &mut Random| {
+            let mut found: Vec<u64> = roots(&field, f, random)
+                .into_iter()
+                .map(|r| field.to_u64(r))
+                .collect();
+            found.sort_unstable();
+            found
+        };
+        let sorted = |list: &[i64]| {
+            let mut list: Vec<u64> = list.iter().map(|&n| field.to_u64(number(n))).collect();
+            list.sort_unstable();
+            list
+        };
+        assert_eq!(found(&above, &mut random), sorted(&[2, -5]));
+        assert_eq!(found(&below, &mut random), sorted(&[7, -1]));
+        // Too few values for these degrees.
+        assert!(fraction(&field, &values[..9]).is_none());
+    }
+}
