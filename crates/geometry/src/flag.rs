@@ -9,14 +9,14 @@
 use chetaev_mechanics::characteristics::derive_along;
 use chetaev_mechanics::{Characteristics, Context, Manifold, System};
 use chetaev_symbolic::matrix::determinant;
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Symbol, Verdict};
 
 /// A field on (t, q) with the derivative of σ along it.
 #[derive(Clone, Debug)]
 pub struct Directed {
     /// dt of the field: zero or one, or zero for brackets.
     pub time: Expr,
-    /// The components along the coordinates.
+    /// The components along the coordinates, and after them along masses with a law of their own, where these are looked at.
     pub place: Vec<Expr>,
     /// The derivative of σ along the field; zero where there is no σ in question.
     pub value: Expr,
@@ -81,8 +81,14 @@ pub fn bracket(system: &System, u: &Directed, v: &Directed) -> Directed {
         all.push(field.value);
         all
     };
-    let forward = derive_along(system, &with(v), &u.place, u.time, &[]);
-    let backward = derive_along(system, &with(u), &v.place, v.time, &[]);
+    let along = |field: &Directed, es: &[Expr]| {
+        let (place, masses) = field.place.split_at(system.n());
+        let symbols = system.masses.iter().map(|m| m.symbol);
+        let masses: Vec<(Symbol, Expr)> = symbols.zip(masses.iter().copied()).collect();
+        derive_along(system, es, place, field.time, &masses)
+    };
+    let forward = along(u, &with(v));
+    let backward = along(v, &with(u));
     let mut place: Vec<Expr> = forward
         .into_iter()
         .zip(backward)
@@ -129,7 +135,7 @@ impl Flag {
             fields: Vec::new(),
             independent: None,
             dependent: Vec::new(),
-            full: cx.system.n() + usize::from(with_time),
+            full: generators.first().map_or(0, |f| f.place.len()) + usize::from(with_time),
         };
         for field in generators {
             growing.take(field.clone())?;

@@ -1,9 +1,10 @@
 //! `liouville.integrable`: enough first integrals and an invariant measure for integration by quadratures (Euler, Jacobi).
 //!
 //! A motion of m variables with m - 2 independent integrals and an invariant measure is integrated by quadratures (Jacobi's last
-//! multiplier); m - 1 integrals need no measure. Coordinates on which neither the rates of the others nor their own depend are
-//! left out first (Routh's ignorable coordinates, also where their momenta are no integrals, as for rolling bodies); they
-//! follow by quadratures at the end.
+//! multiplier); m - 1 integrals need no measure. Coordinates on which no rates of others depend are left out first
+//! (Routh's ignorable coordinates, also where their momenta are no integrals, as for rolling bodies); they follow by quadratures at
+//! the end. The measure of the motion is one of the rest only where their own rates do not depend on them either, as the divergences
+//! are then the same. Masses with a law of their own are variables like the coordinates.
 
 use crate::measure::{free_of, measure};
 use crate::noether::found::found;
@@ -23,7 +24,7 @@ pub struct Liouville;
 /// The motion without the coordinates that can be left out.
 #[derive(Clone, Debug)]
 pub struct Reduced {
-    /// Indices of the coordinates left out.
+    /// Indices of the coordinates left out, and of masses with a law of their own, which count from n on.
     pub ignorable: Vec<usize>,
     /// Numbers of independent (quasi-)velocities that keep their values and occur alone, as symbols.
     pub constant: Vec<String>,
@@ -31,6 +32,8 @@ pub struct Reduced {
     pub variables: usize,
     /// Whether the time is one of them.
     pub timed: bool,
+    /// Whether the rates of what is left out do not depend on it themselves: then the divergence of the rest is that of the motion.
+    pub keeps_divergence: bool,
     chart: Characteristics,
 }
 
@@ -51,15 +54,18 @@ impl Reduced {
         let definitions: Vec<Expr> = chart.parameters.iter().map(|p| p.definition).collect();
         let rates = chart.restrict(system, &motion.derivatives(&definitions));
         let free = |e: Expr, s: Symbol| is_free(cx, e, s);
+        let symbols = system.coordinate_symbols().into_iter();
+        let mut moving: Vec<(Symbol, Expr)> = symbols.zip(chart.velocities.clone()).collect();
+        moving.extend(system.mass_rates(&chart.velocities));
         let mut ignorable: Vec<usize> = Vec::new();
         loop {
             let kept = |i: &usize| !ignorable.contains(i);
-            let rest: Vec<usize> = (0..system.n()).filter(kept).collect();
+            let rest: Vec<usize> = (0..moving.len()).filter(kept).collect();
             let next = rest.iter().copied().find(|&i| {
-                let s = system.coordinates[i].q_symbol;
+                let s = moving[i].0;
                 let others = rest.iter().filter(|&&j| j != i);
                 rates.iter().all(|&e| free(e, s))
-                    && others.into_iter().all(|&j| free(chart.velocities[j], s))
+                    && others.into_iter().all(|&j| free(moving[j].1, s))
             });
             match next {
                 Some(i) => ignorable.push(i),
@@ -74,20 +80,34 @@ impl Reduced {
             .map(|(p, _)| p.name.clone())
             .collect();
         let mut all = rates;
-        let rest = (0..system.n()).filter(|i| !ignorable.contains(i));
-        all.extend(rest.map(|i| chart.velocities[i]));
+        let rest = (0..moving.len()).filter(|i| !ignorable.contains(i));
+        all.extend(rest.map(|i| moving[i].1));
+        let is_state = |s: Symbol| moving.iter().any(|(own, _)| *own == s);
         let timed = g.as_symbol(g.symbol("t", 0)).is_some_and(|t| {
             let own = g.symbols_in(&all);
             own.into_iter()
-                .any(|s| s == t || system.prescribed_rate(s).is_some())
+                .any(|s| s == t || (system.prescribed_rate(s).is_some() && !is_state(s)))
         });
         Ok(Reduced {
-            variables: system.n() - ignorable.len() + chart.k() + usize::from(timed),
+            variables: moving.len() - ignorable.len() + chart.k() + usize::from(timed),
+            keeps_divergence: ignorable.iter().all(|&i| free(moving[i].1, moving[i].0)),
             ignorable,
             constant,
             timed,
             chart,
         })
+    }
+}
+
+/// The name and the symbol of a coordinate, or of a mass, which count from n on.
+fn variable<'a>(cx: &Context<'a>, place: usize) -> (&'a str, Symbol) {
+    let system = cx.system;
+    match place.checked_sub(system.n()) {
+        None => {
+            let coordinate = &system.coordinates[place];
+            (&coordinate.name, coordinate.q_symbol)
+        }
+        Some(place) => (&system.masses[place].name, system.masses[place].symbol),
     }
 }
 
@@ -149,7 +169,7 @@ fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
     let mut excluded: Vec<Symbol> = reduced
         .ignorable
         .iter()
-        .map(|&i| system.coordinates[i].q_symbol)
+        .map(|&i| variable(cx, i).1)
         .collect();
     if !reduced.timed {
         excluded.extend(g.as_symbol(g.symbol("t", 0)));
@@ -180,6 +200,7 @@ fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
         false => free_of(cx, &reduced.ignorable).map(|v| matches!(v, Verdict::Proved(_))),
     };
     let usable = match measure.density {
+        _ if !reduced.keeps_divergence => false,
         Some(density) if counts(density) => true,
         _ => exists && reduced_exists()?,
     };
@@ -218,15 +239,27 @@ fn invariant(cx: &Context<'_>, reduced: &Reduced, values: &[Expr]) -> Option<usi
         (0..size).map(entry).collect()
     };
     let (n, k) = (system.n(), chart.k());
-    let along = |es: &[Expr], place: usize| {
+    let masses = system.mass_rates(&chart.velocities);
+    let along = |es: &[Expr], place: usize| -> Vec<Expr> {
+        if let Some(mass) = place.checked_sub(n + k + 1) {
+            return es.iter().map(|&e| g.diff(e, masses[mass].0)).collect();
+        }
         let direction = Direction {
             time: if place == 0 { g.one() } else { g.zero() },
             coordinates: unit(n, place.checked_sub(1).filter(|&i| i < n)),
             parameters: unit(k, place.checked_sub(1 + n)),
         };
-        chart.along(system, es, &direction)
+        let rates = chart.along(system, es, &direction).into_iter();
+        // Along the time alone masses stay as they are.
+        let held = |(e, rate): (&Expr, Expr)| {
+            let own = masses.iter().filter(|_| place == 0);
+            let own = own.map(|&(mass, phi)| g.neg(g.mul(&[phi, g.diff(*e, mass)])));
+            g.add(&own.chain([rate]).collect::<Vec<Expr>>())
+        };
+        es.iter().zip(rates).map(held).collect()
     };
-    let mut shifts: Vec<usize> = reduced.ignorable.iter().map(|&i| i + 1).collect();
+    let shift = |&i: &usize| if i < n { i + 1 } else { i + k + 1 };
+    let mut shifts: Vec<usize> = reduced.ignorable.iter().map(shift).collect();
     if !reduced.timed {
         shifts.push(0);
     }
@@ -245,7 +278,8 @@ fn invariant(cx: &Context<'_>, reduced: &Reduced, values: &[Expr]) -> Option<usi
     };
     let orbit = rank(&columns)?;
     let all = [values, &moved].concat();
-    let gradients: Vec<Vec<Expr>> = (0..=n + k).map(|place| along(&all, place)).collect();
+    let places = 0..=n + k + masses.len();
+    let gradients: Vec<Vec<Expr>> = places.map(|place| along(&all, place)).collect();
     (rank(&gradients)? == values.len()).then(|| values.len() - orbit)
 }
 
@@ -253,7 +287,7 @@ fn about(cx: &Context<'_>, reduced: &Reduced, many: usize) -> String {
     let names: Vec<&str> = reduced
         .ignorable
         .iter()
-        .map(|&i| cx.system.coordinates[i].name.as_str())
+        .map(|&i| variable(cx, i).0)
         .collect();
     let left_out = match names.is_empty() {
         true => String::new(),

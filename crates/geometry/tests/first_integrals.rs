@@ -5,9 +5,10 @@
 mod common;
 
 use chetaev_geometry::noether::family::{Family, Letter};
-use chetaev_geometry::noether::search::{exhaust, Exhausted, Integral, Table, Tie};
+use chetaev_geometry::noether::search::{exhaust, Exhausted, Integral, Table};
+use chetaev_geometry::noether::special::{Term, Tie};
 use chetaev_mechanics::System;
-use chetaev_symbolic::Verdict;
+use chetaev_symbolic::{Rational, Verdict};
 use common::{expr, system, with_motion as with};
 
 fn letters(system: &System, texts: &[&str]) -> Vec<Letter> {
@@ -299,5 +300,61 @@ fn rolling_sphere() {
         &sphere,
         &found,
         &["x'", "y'", "phi' + psi' cos(theta)", spin],
+    );
+}
+
+/// Values of one parameter where more integrals appear: Hénon's and Heiles' potential with C = -6 D has a second integral quadratic in
+/// the velocities (Bountis, Segur and Vivaldi, Phys. Rev. A 25, 1982); two springs with frequencies as 1 : 2.
+#[test]
+fn critical_values_of_parameters() {
+    let at = |lagrangian: &str, names: [&str; 2], factor: (i64, u64), expected: &str| {
+        let top = system("x y", lagrangian, &[]);
+        common::with_context(&top, |cx| {
+            let found = chetaev_geometry::noether::found::found(cx);
+            let found = found.as_ref().as_ref().unwrap();
+            let g = &top.graph;
+            let [parameter, other] = names.map(|name| g.intern_symbol(name, 0));
+            let term = Term {
+                coefficient: Rational::from_parts(factor.0.into(), factor.1.into()),
+                powers: vec![(other, 1)],
+            };
+            let wanted = Tie::Is(parameter, vec![term]);
+            let specials = &found.special.found;
+            let special = specials.iter().find(|special| special.tie == wanted);
+            let special = special.unwrap_or_else(|| panic!("{names:?} {specials:?}"));
+            let [integral] = special.integrals[..] else {
+                panic!("{special:?}");
+            };
+            // Proportional, by values at some places.
+            let expected = expr(g, expected);
+            let ratio = |seed: u64| {
+                let point = common::anywhere(g, &[integral, expected], seed);
+                let values = common::values(g, &[integral, expected], &point);
+                values[0] / values[1]
+            };
+            let first = ratio(1);
+            assert!(first.is_finite() && first != 0.0);
+            assert!((2..6).all(|seed| (ratio(seed) / first - 1.0).abs() < 1e-9));
+        });
+    };
+    // In the form (x'^2 + y'^2 + A x² + B y²)/2 + D x² y - C y³/3 with A = B = 1, the sign of C turned, and times D².
+    at(
+        "(x'^2 + y'^2)/2 - (x^2 + y^2)/2 - D x^2 y - C y^3/3",
+        ["C", "D"],
+        (6, 1),
+        "D^2 (x^4 + 4 x^2 y^2) - 4 D x' (x' y - y' x) + 4 D x^2 y + 3 (x'^2 + x^2)",
+    );
+    at(
+        "(x'^2 + y'^2)/2 - (a x^2 + b y^2)/2",
+        ["b", "a"],
+        (4, 1),
+        "x' (x y' - y x') + a x^2 y",
+    );
+    // Frequencies occur as squares: the negative value is the same.
+    at(
+        "(x'^2 + y'^2)/2 - (a^2 x^2 + b^2 y^2)/2",
+        ["b", "a"],
+        (2, 1),
+        "x' (x y' - y x') + a^2 x^2 y",
     );
 }

@@ -2,7 +2,7 @@
 
 use crate::method_order::Orders;
 use chetaev_geometry::noether::found::Found;
-use chetaev_geometry::noether::occurring::ENERGY;
+use chetaev_geometry::noether::letters::ENERGY;
 use chetaev_mechanics::{MotionTerms, System};
 use chetaev_model::model::Model;
 use chetaev_motion::drift::Extreme;

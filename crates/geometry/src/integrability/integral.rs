@@ -7,9 +7,9 @@
 use crate::flag::horizontal;
 use crate::noether::ansatz::Ansatz;
 use crate::noether::family::coefficients;
-use crate::noether::found::readable;
+use crate::noether::letters::Letters;
 use crate::noether::motion::Motion;
-use crate::noether::occurring::Letters;
+use crate::noether::shown::readable;
 use chetaev_mechanics::characteristics::derive_along;
 use chetaev_mechanics::{Characteristics, Context, Manifold};
 use chetaev_symbolic::{Expr, Function, Node, Verdict};

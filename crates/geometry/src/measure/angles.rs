@@ -131,7 +131,7 @@ fn turned(cx: &Context<'_>, flow: &Flow<'_>, angles: &[usize]) -> Option<Verdict
 
 /// The derivatives of ln N by the coordinates, where the brackets determine all of them.
 fn slopes(cx: &Context<'_>, flow: &Flow<'_>, flag: &Flag) -> Option<Vec<Expr>> {
-    let n = cx.system.n();
+    let n = cx.system.n() + flow.masses.len();
     if !flow.autonomous || flag.fields.len() != n {
         return None;
     }

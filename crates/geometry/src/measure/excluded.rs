@@ -38,7 +38,8 @@ fn rest(flow: &Flow<'_>, system: &System) -> State {
 fn stays_at_rest(cx: &Context<'_>, flow: &Flow<'_>) -> bool {
     let (system, g) = (cx.system, &cx.system.graph);
     let state = rest(flow, system);
-    let all = [&flow.chart.velocities[..], &flow.rates[..]].concat();
+    let mut all = [&flow.chart.velocities[..], &flow.rates[..]].concat();
+    all.extend(flow.masses.iter().map(|(_, rate)| *rate));
     let vanish = g.substitute_all(&all, &state);
     let mut moving = system.velocity_symbols();
     moving.extend(flow.symbols());
@@ -103,6 +104,8 @@ pub(super) fn fields_at_rest(cx: &Context<'_>, flow: &Flow<'_>) -> Option<Vec<Di
         if !flow.rates.iter().all(|&rate| vanishes(cx, slope(rate, i))) {
             return None;
         }
+        let masses = flow.masses.iter();
+        field.place.extend(masses.map(|&(_, rate)| slope(rate, i)));
         field.value = g.neg(slope(flow.divergence, i));
     }
     Some(fields)
@@ -152,7 +155,9 @@ fn steady_with(cx: &Context<'_>, flow: &Flow<'_>, one: Option<usize>) -> Option<
         true => is_constant(cx, velocities[j]),
         false => vanishes(cx, velocities[j]),
     };
-    let rates = g.substitute_all(&flow.rates, &state);
+    let mut rates = flow.rates.clone();
+    rates.extend(flow.masses.iter().map(|(_, rate)| *rate));
+    let rates = g.substitute_all(&rates, &state);
     let divergence = g.substitute(flow.divergence, &state);
     let is_steady = (0..system.n()).all(kept) && rates.into_iter().all(|e| vanishes(cx, e));
     if !is_steady || !is_constant(cx, divergence) {
@@ -201,7 +206,8 @@ fn vanishes(cx: &Context<'_>, e: Expr) -> bool {
 
 /// Whether an expression does not depend on coordinates.
 pub(super) fn is_constant(cx: &Context<'_>, e: Expr) -> bool {
-    let mut own = cx.system.coordinate_symbols().into_iter();
+    let masses = cx.system.masses.iter().map(|m| m.symbol);
+    let mut own = cx.system.coordinate_symbols().into_iter().chain(masses);
     own.all(|s| vanishes(cx, cx.system.graph.diff(e, s)))
 }
 
@@ -234,6 +240,7 @@ const TINY: f64 = 1e-9;
 fn is_smooth(cx: &Context<'_>, flow: &Flow<'_>, state: &State) -> bool {
     let (system, g) = (cx.system, &cx.system.graph);
     let mut all = [&flow.chart.velocities[..], &flow.rates[..]].concat();
+    all.extend(flow.masses.iter().map(|(_, rate)| *rate));
     all.push(flow.divergence);
     let mut bases = Vec::new();
     for e in g.reachable(&all) {

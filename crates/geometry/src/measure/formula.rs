@@ -1,8 +1,12 @@
-//! Densities as a person writes them: without constant factors, positive where states are looked at.
+//! Densities as a person writes them: without constant factors, positive where states are looked at, in as few angles and with as
+//! little under roots as possible.
 
 use super::Flow;
+use crate::noether::shown::readable;
+use chetaev_mechanics::system::Coordinate;
 use chetaev_mechanics::{sample, Context};
-use chetaev_symbolic::{Expr, Node};
+use chetaev_symbolic::simplify::length;
+use chetaev_symbolic::{Expr, Graph, Node, Verdict};
 
 /// The states at which the sign of a density is looked at, and where their draws begin.
 const SAMPLES: u64 = 8;
@@ -11,22 +15,116 @@ const SEED: u64 = 0x64_65_6e;
 /// The density divided by constants; its negative where it is negative at all sampled states.
 pub(super) fn plain(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Expr {
     let g = &cx.system.graph;
-    let without = without_constants(flow, density);
+    let without = without_constants(flow, in_differences(cx, flow, density));
+    let outside = outside_roots(g, without);
+    // Outside a root the sign of a base counts, which is one for all states where it has to be.
+    match signs(cx, outside) {
+        Some(true) => outside,
+        Some(false) => g.neg(outside),
+        None => match signs(cx, without) {
+            Some(false) => g.neg(without),
+            Some(true) => without,
+            // A root of a product whose constant factor is negative.
+            None => match values(cx, without).iter().any(|v| v.is_nan()) {
+                true => density,
+                false => without,
+            },
+        },
+    }
+}
+
+/// Whether an expression is positive, or negative, at all sampled states.
+fn signs(cx: &Context<'_>, e: Expr) -> Option<bool> {
+    let values = values(cx, e);
+    let all = |holds: fn(f64) -> bool| !values.is_empty() && values.iter().all(|&v| holds(v));
+    match (all(|v| v > 0.0), all(|v| v < 0.0)) {
+        (true, _) => Some(true),
+        (_, true) => Some(false),
+        _ => None,
+    }
+}
+
+fn values(cx: &Context<'_>, e: Expr) -> Vec<f64> {
+    let g = &cx.system.graph;
     let points =
         (0..SAMPLES).filter_map(|i| sample::admissible_point(cx.system, cx.terms, SEED + i));
     let values = points.filter_map(|point| {
-        let found = g.evaluate_f64(&[without], &|s| point.get(&s).copied()).ok();
+        let found = g.evaluate_f64(&[e], &|s| point.get(&s).copied()).ok();
         found.and_then(|values| values.first().copied())
     });
-    let values: Vec<f64> = values.collect();
-    // A root of a product whose constant factor is negative.
-    if values.iter().any(|v| v.is_nan()) {
+    values.collect()
+}
+
+/// A function of two coordinates that depends on their sum or difference only, written in it.
+fn in_differences(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Expr {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let own: Vec<&Coordinate> = system
+        .coordinates
+        .iter()
+        .filter(|c| g.contains_any(density, &[c.q_symbol]))
+        .collect();
+    let [first, second] = own[..] else {
         return density;
+    };
+    let slopes = [first, second].map(|c| g.diff(density, c.q_symbol));
+    let is_kept = |along: Expr| {
+        let manifold = &flow.chart.manifold;
+        let verdict = cx.prover.identity(system, &[along], manifold, "");
+        matches!(verdict, Verdict::Proved(_))
+    };
+    // Where it does not change as both grow it depends on the difference.
+    let combination = match slopes {
+        [a, b] if is_kept(g.add(&[a, b])) => g.sub(first.q, second.q),
+        [a, b] if is_kept(g.sub(a, b)) => g.add(&[first.q, second.q]),
+        _ => return density,
+    };
+    let at_zero = readable(g, g.substitute(density, &[(second.q, g.zero())]));
+    let written = g.substitute(at_zero, &[(first.q, combination)]);
+    match length(g, written) < length(g, density) {
+        true => written,
+        false => density,
     }
-    match !values.is_empty() && values.iter().all(|&v| v < 0.0) {
-        true => g.neg(without),
-        false => without,
+}
+
+/// Even powers under square roots stand outside: `√(a/b²)` as `√a/b`.
+fn outside_roots(g: &Graph, e: Expr) -> Expr {
+    match g.node(e) {
+        Node::Product {
+            coefficient,
+            factors,
+        } => {
+            let factors = factors.iter().map(|&factor| outside_root(g, factor));
+            let coefficient = g.number(coefficient.clone());
+            g.mul(&factors.chain([coefficient]).collect::<Vec<Expr>>())
+        }
+        _ => outside_root(g, e),
     }
+}
+
+fn outside_root(g: &Graph, root: Expr) -> Expr {
+    let (base, exponent) = g.base_exponent(root);
+    let twice = g.as_integer(g.mul(&[exponent, g.integer(2)]));
+    let (
+        Node::Product {
+            coefficient,
+            factors,
+        },
+        Some(twice),
+    ) = (g.node(base), twice.filter(|n| n % 2 != 0))
+    else {
+        return root;
+    };
+    let mut inside = vec![g.number(coefficient.clone())];
+    let mut outside = Vec::new();
+    for &factor in factors.iter() {
+        let (own, power) = g.base_exponent(factor);
+        match g.as_integer(power).filter(|n| n % 2 == 0) {
+            Some(power) => outside.push(g.powi(own, power / 2 * twice)),
+            None => inside.push(factor),
+        }
+    }
+    outside.push(g.pow(g.mul(&inside), exponent));
+    g.mul(&outside)
 }
 
 /// The factors that do not move, of a product or of all terms of a sum; roots of products included.

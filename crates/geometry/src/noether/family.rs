@@ -144,7 +144,10 @@ pub fn coefficients(letters: &[CoefficientLetter], first: usize, most: u32) -> V
         }
         found.extend(more);
     }
-    found.into_iter().collect()
+    let mut found: Vec<(u32, Member)> = found.into_iter().collect();
+    let is_quotient = |member: &Member| member.iter().any(|&(_, e)| e < 0);
+    found.sort_by_key(|(weight, member)| (*weight, is_quotient(member)));
+    found
 }
 
 #[cfg(test)]

@@ -8,9 +8,9 @@
 
 use super::ansatz::Ansatz;
 use super::embedded::{dot, Embedded};
-use super::found::readable;
 use super::generator::Generator;
 use super::motion::Motion;
+use super::shown::readable;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 

@@ -1,15 +1,24 @@
 //! First integrals: their search, their symmetries and generators (T3 §6–7).
 
 pub mod ansatz;
+mod automatic;
 pub mod claims;
+mod constants;
+mod critical;
+mod dependence;
 pub mod embedded;
 pub mod family;
 pub mod found;
 pub mod generator;
 pub mod killing;
+pub mod letters;
 mod lift;
+mod lifting;
 pub mod motion;
 pub mod moving;
-pub mod occurring;
+pub(crate) mod occurring;
 pub mod reduced;
 pub mod search;
+mod shorter;
+pub(crate) mod shown;
+pub mod special;

@@ -83,8 +83,8 @@ impl<'a> Motion<'a> {
         g.substitute_all(&rates, &pairs)
     }
 
-    /// The derivatives of functions of (t, q, v) along t, each coordinate and each independent velocity on N: one row for each
-    /// function.
+    /// The derivatives of functions of (t, q, v) along t, each coordinate, each independent velocity and each mass with a law of its
+    /// own on N: one row for each function.
     pub fn gradients(&self, es: &[Expr]) -> Vec<Vec<Expr>> {
         let (g, n, k) = (&self.system.graph, self.system.n(), self.chart.k());
         let restricted = self.chart.restrict(self.system, es);
@@ -97,9 +97,15 @@ impl<'a> Motion<'a> {
             coordinates: unit(n, d.checked_sub(1).filter(|&i| i < n)),
             parameters: unit(k, d.checked_sub(1 + n)),
         });
-        let columns: Vec<Vec<Expr>> = directions
+        let mut columns: Vec<Vec<Expr>> = directions
             .map(|direction| self.chart.along(self.system, &restricted, &direction))
             .collect();
+        // No constraint contains a mass.
+        let masses = self.system.masses.iter();
+        columns.extend(masses.map(|mass| {
+            let by_mass = restricted.iter().map(|&e| g.diff(e, mass.symbol));
+            by_mass.collect::<Vec<Expr>>()
+        }));
         (0..es.len())
             .map(|i| columns.iter().map(|column| column[i]).collect())
             .collect()

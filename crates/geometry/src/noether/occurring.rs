@@ -1,300 +1,31 @@
-//! The families of a system, from what occurs in it (T3 §7): letters of the velocities, and functions of (t, q) for the
-//! coefficients.
+//! What occurs in a system: angles, roots, exponentials, reciprocals, the roots of what divides accelerations, and the functions of
+//! (t, q) that are letters because of them.
 
-use super::family::{coefficients, monomials, product, CoefficientLetter, Family, Letter, Member};
-use super::motion::{draw_with_points, Motion};
-use chetaev_mechanics::{sample, Characteristics, Context, Frame, System};
+use super::family::{CoefficientLetter, Letter};
+use super::letters::{Letters, Polar};
+use chetaev_mechanics::system::Coordinate;
+use chetaev_mechanics::{sample, Characteristics, Context, System};
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::matrix::determinant;
-use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::{simplify, Expr, Function, Node, Symbol};
 
-/// The letters of a system.
-#[derive(Clone, Debug)]
-pub struct Letters {
-    /// Of degree one in the velocities: independent (quasi-)velocities first.
-    pub velocities: Vec<Letter>,
-    /// Functions of (t, q).
-    pub coefficients: Vec<CoefficientLetter>,
-    /// Places in `coefficients` of the sines and cosines of angles that occur nowhere, which stand in linear integrals only.
-    pub turning: Vec<usize>,
-    /// So many of `coefficients` at the beginning are sines and cosines.
-    circular: usize,
-    /// Places at the end of `coefficients` of the sines and cosines of coordinates that occur nowhere and may be angles, where the model
-    /// gives no units; they stand in a family of their own.
-    pub perhaps_turning: Vec<usize>,
-    /// Functions that are members by themselves, with their names: the energy, and the momenta of coordinates that L does not
-    /// contain.
-    pub known: Vec<(String, Letter)>,
-}
+/// Integrals quadratic in the velocities of a particle in Cartesian coordinates contain no higher multiples of a polar angle.
+const MULTIPLES: i64 = 2;
 
-/// The name of the energy among the known functions.
-pub const ENERGY: &str = "the energy";
+/// What the logarithm of a mass counts: integrals without logarithms come before those with them.
+const LOGARITHM: u32 = 3;
 
 /// The largest order of a mass matrix whose determinant is looked at.
 const DETERMINANT: usize = 4;
 
 /// The largest factor of a determinant, in nodes, whose root is a letter.
-const FACTOR: usize = 30;
+const FACTOR: usize = 60;
 
 /// Its longest, as it is written.
-const LENGTH: u64 = 40;
-
-impl Letters {
-    /// The letters of the context's system.
-    pub fn of(cx: &Context<'_>) -> Letters {
-        let system = cx.system;
-        let velocities = velocities(cx);
-        let mut roots = vec![system.lagrangian];
-        roots.extend(&system.forces);
-        roots.extend(system.constraints.iter().map(|c| c.f));
-        roots.extend(velocities.iter().map(|l| l.value));
-        let mut found = Occurring::in_roots(system, &roots);
-        found.roots_of_measure(cx);
-        Letters {
-            velocities,
-            known: known(cx),
-            ..found.letters()
-        }
-    }
-
-    /// The letters of the coefficients, those of another family with no power but 0.
-    fn usual(&self) -> Vec<CoefficientLetter> {
-        let mut usual = self.coefficients.clone();
-        for &place in &self.perhaps_turning {
-            usual[place].exponents = (0, 0);
-        }
-        usual
-    }
-
-    /// The polynomials of degree one in the velocities whose coefficients are made of sines and cosines, those of coordinates that
-    /// may be angles too, of weight up to `weight`; `None` where there are no such coordinates.
-    pub fn turned(&self, weight: u32) -> Option<Family> {
-        let (&first, count) = (self.perhaps_turning.first()?, self.velocities.len());
-        let mut letters = self.coefficients.clone();
-        for letter in &mut letters[self.circular..first] {
-            letter.exponents = (0, 0);
-        }
-        let functions = coefficients(&letters, count, weight);
-        let mut members: Vec<Member> = functions.iter().map(|(_, f)| f.clone()).collect();
-        for (_, function) in &functions {
-            let own = monomials(count, 1).into_iter();
-            members.extend(own.map(|monomial| product(&monomial, function)));
-        }
-        Some(Family {
-            letters: self.all(),
-            members,
-            words: String::new(),
-        })
-    }
-
-    /// Functions of (t, q): monomials of weight up to `weight`.
-    pub fn functions(&self, system: &System, weight: u32) -> Vec<Expr> {
-        let g = &system.graph;
-        let value = |&(letter, exponent): &(usize, i8)| {
-            let base = self.coefficients[letter].letter.value;
-            g.powi(base, i64::from(exponent))
-        };
-        coefficients(&self.usual(), 0, weight)
-            .iter()
-            .map(|(_, member)| g.mul(&member.iter().map(value).collect::<Vec<Expr>>()))
-            .collect()
-    }
-
-    /// Whether a letter of the coefficients belongs to the family of [`turned`](Letters::turned).
-    pub fn is_turned(&self, place: usize) -> bool {
-        place < self.circular || self.perhaps_turning.contains(&place)
-    }
-
-    /// The letters without roots, where these leave no points over a prime field.
-    #[must_use]
-    pub fn without_roots(&self, system: &System) -> Letters {
-        let mut without = self.clone();
-        let before = self.coefficients.len();
-        without.coefficients.retain(|c| {
-            let (_, exponent) = system.graph.base_exponent(c.letter.value);
-            system.graph.as_integer(exponent).is_some()
-        });
-        // Roots stand after the first sines and cosines, and before the last ones.
-        let gone = before - without.coefficients.len();
-        without
-            .perhaps_turning
-            .iter_mut()
-            .for_each(|place| *place -= gone);
-        without
-    }
-
-    /// The letters without velocities and known functions that vanish on the constraints, as a quasi-velocity that is a constraint
-    /// does.
-    ///
-    /// # Errors
-    /// A sentence that says why no points were found.
-    pub fn without_zeros(&self, motion: &Motion<'_>, seed: u64) -> Result<Letters, String> {
-        let known = self.known.iter().map(|(_, letter)| letter.value);
-        let velocities = self.velocities.iter().map(|l| l.value);
-        let values: Vec<Expr> = velocities.chain(known).collect();
-        let points = motion.points(&values)?;
-        let mut random = Random::stream(seed, 1 << 21);
-        let at = draw_with_points(&points, &mut random)
-            .and_then(|draw| points.at(&draw, &mut random))
-            .ok_or("no points of the constraint manifold were found over a prime field")?;
-        let mut without = self.clone();
-        let mut kept = at.iter().map(|value| !value.is_zero());
-        without.velocities.retain(|_| kept.next().unwrap_or(true));
-        without.known.retain(|_| kept.next().unwrap_or(true));
-        Ok(without)
-    }
-
-    /// All letters, velocities first, known functions last.
-    pub fn all(&self) -> Vec<Letter> {
-        let coefficients = self.coefficients.iter().map(|c| c.letter.clone());
-        let known = self.known.iter().map(|(_, letter)| letter.clone());
-        let velocities = self.velocities.iter().cloned();
-        velocities.chain(coefficients).chain(known).collect()
-    }
-
-    /// The polynomials of degree up to `degree` in the velocities whose coefficients have weight up to `weight` in the terms of
-    /// that degree, and one more for each degree less; at the end the known functions.
-    pub fn polynomials(&self, degree: u32, weight: u32) -> Family {
-        let count = self.velocities.len();
-        let mut members: Vec<(u32, Member)> = Vec::new();
-        for d in 0..=degree {
-            // The terms without velocities of an integral linear in these need nothing more than the others.
-            let more = if degree == 1 { 0 } else { degree - d };
-            let usual = coefficients(&self.usual(), count, weight + more);
-            let is_used = |(_, member): &(u32, Member)| degree == 1 || !self.is_turning(member);
-            let functions: Vec<(u32, Member)> = usual.into_iter().filter(is_used).collect();
-            for monomial in monomials(count, d) {
-                let own = functions.iter();
-                members.extend(own.map(|(w, f)| (d + w, product(&monomial, f))));
-            }
-        }
-        // Light ones first; among these, those with fewer velocities.
-        members.sort_by_key(|(weight, member)| (*weight, self.degree(member)));
-        let mut members: Vec<Member> = members.into_iter().map(|(_, member)| member).collect();
-        let known = count + self.coefficients.len();
-        if degree >= 2 {
-            members.extend((0..self.known.len()).map(|i| vec![(known + i, 1)]));
-        }
-        Family {
-            letters: self.all(),
-            members,
-            words: String::new(),
-        }
-    }
-
-    /// The known functions alone, for a system too large for polynomials.
-    pub fn known_only(&self) -> Family {
-        let first = self.velocities.len() + self.coefficients.len();
-        let names: Vec<&str> = self.known.iter().map(|(name, _)| name.as_str()).collect();
-        let mut members = vec![Vec::new()];
-        members.extend((0..self.known.len()).map(|i| vec![(first + i, 1)]));
-        Family {
-            letters: self.all(),
-            members,
-            words: format!(
-                "only {}, as polynomials in the velocities are too many",
-                names.join(", ")
-            ),
-        }
-    }
-
-    /// Quotients of two velocities.
-    pub fn quotients(&self) -> Family {
-        let count = self.velocities.len();
-        let mut members = vec![Vec::new()];
-        for a in 0..count {
-            for b in (0..count).filter(|&b| b != a) {
-                members.push(product(&vec![(a, 1)], &vec![(b, -1)]));
-            }
-        }
-        Family {
-            letters: self.all(),
-            members,
-            words: String::new(),
-        }
-    }
-
-    /// Whether a member contains the sine or cosine of a coordinate that occurs nowhere.
-    fn is_turning(&self, member: &Member) -> bool {
-        let first = self.velocities.len();
-        let mut own = member
-            .iter()
-            .filter_map(|&(letter, _)| letter.checked_sub(first));
-        own.any(|place| self.turning.contains(&place))
-    }
-
-    /// Whether a member contains the time.
-    pub fn is_timed(&self, system: &System, member: &Member) -> bool {
-        let g = &system.graph;
-        let first = self.velocities.len();
-        let own = member.iter().filter_map(|&(letter, _)| {
-            let coefficient = letter.checked_sub(first)?;
-            self.coefficients.get(coefficient)
-        });
-        own.into_iter()
-            .any(|c| system.is_rheonomic(c.letter.value) || g.text(c.letter.value) == "t")
-    }
-
-    /// The degree of a member in the velocities.
-    pub fn degree(&self, member: &Member) -> u32 {
-        let known = self.velocities.len() + self.coefficients.len();
-        let of_letter = |&(letter, exponent): &(usize, i8)| match letter {
-            l if l < self.velocities.len() => u32::from(exponent.unsigned_abs()),
-            l if l >= known => 2,
-            _ => 0,
-        };
-        member.iter().map(of_letter).sum()
-    }
-}
-
-/// The quasi-velocities of the model, or independent velocities; then the dependent velocities, in which an integral may be
-/// simpler.
-fn velocities(cx: &Context<'_>) -> Vec<Letter> {
-    let system = cx.system;
-    let natural = |i: usize| Letter::plain(system.coordinates[i].v);
-    let quasi = match Frame::stated(system, cx.terms, cx.selection) {
-        Some(Ok((frame, _))) => definitions(system, &frame),
-        _ => Vec::new(),
-    };
-    if quasi.is_empty() {
-        let mut all: Vec<Letter> = cx
-            .selection
-            .independent(system.n())
-            .into_iter()
-            .map(natural)
-            .collect();
-        all.extend(cx.selection.dependent.iter().map(|&d| natural(d)));
-        return all;
-    }
-    let mut all = quasi;
-    if all.len() < system.n() {
-        all.extend(cx.selection.dependent.iter().map(|&d| natural(d)));
-    }
-    let mut seen: Vec<Expr> = Vec::new();
-    all.retain(|letter| {
-        let is_new = !seen.contains(&letter.value);
-        seen.push(letter.value);
-        is_new
-    });
-    all
-}
-
-/// The quasi-velocities that the model states, by their definitions in (q, v, t).
-fn definitions(system: &System, frame: &Frame) -> Vec<Letter> {
-    let stated = frame.speeds.iter().take(system.quasi_velocities.len());
-    let mut letters = Vec::new();
-    for (speed, quasi) in stated.zip(&system.quasi_velocities) {
-        letters.push(Letter {
-            value: quasi.definition,
-            shown: speed.value,
-        });
-    }
-    letters
-}
+const LENGTH: u64 = 100;
 
 /// What occurs in a system, apart from velocities.
-struct Occurring<'a> {
+pub(super) struct Occurring<'a> {
     system: &'a System,
     angles: Vec<Expr>,
     roots: Vec<Expr>,
@@ -305,7 +36,7 @@ struct Occurring<'a> {
 }
 
 impl<'a> Occurring<'a> {
-    fn in_roots(system: &'a System, roots: &[Expr]) -> Occurring<'a> {
+    pub(super) fn in_roots(system: &'a System, roots: &[Expr]) -> Occurring<'a> {
         let g = &system.graph;
         let mut found = Occurring {
             system,
@@ -398,7 +129,7 @@ impl<'a> Occurring<'a> {
 
     /// The roots of the factors of the determinant of the restricted mass matrix: denominators of the accelerations, whose
     /// roots occur in integrals linear in the velocities as in the densities of invariant measures.
-    fn roots_of_measure(&mut self, cx: &Context<'_>) {
+    pub(super) fn roots_of_measure(&mut self, cx: &Context<'_>) {
         let (system, g) = (cx.system, &cx.system.graph);
         let chart = Characteristics::independent_velocities(system, cx.terms, cx.selection);
         let Ok(chart) = chart else { return };
@@ -454,7 +185,7 @@ impl<'a> Occurring<'a> {
     }
 
     /// The letters of the coefficients; velocities and known functions are left empty.
-    fn letters(&self) -> Letters {
+    pub(super) fn letters(&self) -> Letters {
         let g = &self.system.graph;
         let letter = |e: Expr, exponents: (i8, i8), weight: u32| CoefficientLetter {
             letter: Letter::plain(e),
@@ -499,86 +230,93 @@ impl<'a> Occurring<'a> {
         for &e in &self.reciprocals {
             all.push(letter(g.powi(e, -1), (0, 9), 1));
         }
+        for mass in &self.system.masses {
+            all.push(letter(mass.expr, (-1, 9), 1));
+        }
+        for mass in self.varying_masses() {
+            all.push(letter(g.apply(Function::Log, &[mass]), (0, 1), LOGARITHM));
+        }
         all.push(letter(g.symbol("t", 0), (0, 9), 2));
         let usual = all.len();
         self.perhaps_angles()
             .into_iter()
             .for_each(|q| all.extend(circle(q)));
+        let turning_end = all.len();
+        let mut polar = Vec::new();
+        for coordinate in self.polar_angles() {
+            let first = all.len();
+            for k in 1..=MULTIPLES {
+                let angle = g.mul(&[g.integer(k), coordinate]);
+                all.extend([g.cos(angle), g.sin(angle)].map(|e| letter(e, (0, 0), 1)));
+            }
+            polar.push(Polar {
+                coordinate,
+                places: (first..all.len()).collect(),
+            });
+        }
         Letters {
             velocities: Vec::new(),
+            polar,
             turning: (first_turning..circular).collect(),
             circular,
-            perhaps_turning: (usual..all.len()).collect(),
+            perhaps_turning: (usual..turning_end).collect(),
             coefficients: all,
             known: Vec::new(),
         }
     }
 
+    /// Masses that change with the time, by a law of their own too. Their logarithms occur in integrals as in Tsiolkovsky's: a
+    /// relative velocity u gives `v' = u m'/m`.
+    fn varying_masses(&self) -> Vec<Expr> {
+        let own = self.system.masses.iter().map(|m| m.expr);
+        let named = self.system.mass_functions.iter().map(|(_, value)| *value);
+        let mut masses = Vec::new();
+        for mass in own
+            .chain(named)
+            .chain(self.system.particles.iter().map(|p| p.mass))
+        {
+            let own = self.system.coordinate_symbols();
+            if self.is_of_place(mass) && !self.system.graph.contains_any(mass, &own) {
+                insert(&mut masses, mass);
+            }
+        }
+        masses
+    }
+
     /// Coordinates that occur nowhere, where others occur in sines and the model gives no unit of an angle.
     fn perhaps_angles(&self) -> Vec<Expr> {
-        let g = &self.system.graph;
         if self.angles.is_empty() || !self.system.angles.is_empty() {
             return Vec::new();
         }
-        let mut roots = vec![self.system.lagrangian];
-        roots.extend(&self.system.forces);
-        roots.extend(self.system.constraints.iter().map(|c| c.f));
-        let all = self.system.coordinates.iter();
-        all.filter(|c| !g.any_contains_any(&roots, &[c.q_symbol]))
-            .map(|c| c.q)
-            .collect()
+        self.absent().map(|c| c.q).collect()
     }
-}
 
-/// The energy, and the momenta of the coordinates that L does not contain, with their names.
-fn known(cx: &Context<'_>) -> Vec<(String, Letter)> {
-    let (system, g) = (cx.system, &cx.system.graph);
-    let moves = |s: Symbol| g.symbol_name(s) == "t" || system.moves(g.symbol_name(s));
-    let mut values = vec![(ENERGY.to_owned(), system.energy())];
-    for c in &system.coordinates {
-        if !g.contains_any(system.lagrangian, &[c.q_symbol]) {
-            let momentum = g.diff(system.lagrangian, c.v_symbol);
-            values.push((format!("the momentum of {}", c.name), momentum));
-        }
+    /// Coordinates that neither L nor forces nor constraints contain.
+    fn absent(&self) -> impl Iterator<Item = &Coordinate> {
+        let (system, g) = (self.system, &self.system.graph);
+        let mut roots = vec![system.lagrangian];
+        roots.extend(&system.forces);
+        roots.extend(system.constraints.iter().map(|c| c.f));
+        let all = system.coordinates.iter();
+        all.filter(move |c| !g.any_contains_any(&roots, &[c.q_symbol]))
     }
-    values.retain(|(_, value)| !g.is_free_of(*value, &moves));
-    let shown = in_quasi_velocities(cx, &values);
-    let letters = values.into_iter().zip(shown);
-    letters
-        .map(|((name, value), shown)| (name, Letter { value, shown }))
-        .collect()
-}
 
-/// Larger functions, in nodes, are not rewritten in quasi-velocities.
-const REWRITTEN: usize = 400;
-
-/// Functions of the state as they are shown: in the quasi-velocities that the model states where that is not longer.
-fn in_quasi_velocities(cx: &Context<'_>, values: &[(String, Expr)]) -> Vec<Expr> {
-    let (system, g) = (cx.system, &cx.system.graph);
-    let as_they_are = || values.iter().map(|(_, value)| *value).collect();
-    let Some(Ok((frame, _))) = Frame::stated(system, cx.terms, cx.selection) else {
-        return as_they_are();
-    };
-    let is_adapted = |s: usize| frame.adapted.iter().any(|&(_, speed)| speed == s);
-    let speeds = frame.speeds.iter().enumerate();
-    let speeds: Vec<Expr> = speeds
-        .map(|(s, speed)| if is_adapted(s) { g.zero() } else { speed.value })
-        .collect();
-    let velocities = frame.velocities(system, &speeds);
-    let own = system.coordinates.iter().map(|c| c.v);
-    let pairs: Vec<(Expr, Expr)> = own.zip(velocities).collect();
-    let shorter = |value: Expr| {
-        let rewritten = g.substitute(value, &pairs);
-        if g.reachable(&[rewritten]).len() > REWRITTEN {
-            return value;
-        }
-        let rewritten = simplify::simplify(g, rewritten, &simplify::Options::default());
-        match simplify::length(g, rewritten) <= simplify::length(g, value) {
-            true => rewritten,
-            false => value,
-        }
-    };
-    values.iter().map(|(_, value)| shorter(*value)).collect()
+    /// Those of them that are polar angles: ∂²L/∂v² contains a coordinate that is no angle. Where the model says by units which
+    /// coordinates are angles, only these.
+    fn polar_angles(&self) -> Vec<Expr> {
+        let (system, g) = (self.system, &self.system.graph);
+        let lengths = system
+            .coordinates
+            .iter()
+            .filter(|c| !self.angles.contains(&c.q));
+        let lengths: Vec<Symbol> = lengths.map(|c| c.q_symbol).collect();
+        let is_polar = |c: &&Coordinate| {
+            let inertia = g.diff(g.diff(system.lagrangian, c.v_symbol), c.v_symbol);
+            let is_angle = system.angles.is_empty() || system.angles.contains(&c.name);
+            is_angle && g.contains_any(inertia, &lengths)
+        };
+        self.absent().filter(is_polar).map(|c| c.q).collect()
+    }
 }
 
 /// Bᵀ W B.

@@ -8,9 +8,9 @@
 
 use super::ansatz::Ansatz;
 use super::family::{coefficients, monomials, product};
-use super::found::readable;
+use super::letters::Letters;
 use super::motion::Motion;
-use super::occurring::Letters;
+use super::shown::readable;
 use chetaev_mechanics::claims::formulation::{derive, REFERENCE};
 use chetaev_mechanics::{Context, Manifold};
 use chetaev_symbolic::{Expr, Symbol, Verdict};

@@ -9,19 +9,18 @@
 //! **What is certain.** Columns of X̄φ independent at some points are independent, so the members that are pivots contribute no
 //! integral, without error. A combination called a relation might be none: only at unlucky draws, hence several of them.
 
+use super::constants::constants;
 use super::family::{Family, Letter, Member};
-use super::lift::{self, Sample};
-use super::motion::{draw_with_points, redraw_with_points, Motion, DRAWS};
-use chetaev_mechanics::{Context, Manifold};
-use chetaev_symbolic::factors::factored;
+use super::motion::{draw_with_points, Motion, DRAWS};
+use chetaev_mechanics::Context;
 use chetaev_symbolic::number::modular_matrix::{null_space, NullSpace};
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::zero::points::{Draw, Points};
-use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Verdict};
 
 /// More points than members.
-const SURPLUS: usize = 10;
+pub(super) const SURPLUS: usize = 10;
 
 /// The bound on the probability of error that is wanted, as log2.
 const WANTED_LOG2: f64 = -104.0;
@@ -32,15 +31,15 @@ const MOST_DRAWS: usize = 6;
 /// The letters and parameters of a system at points of N.
 #[derive(Debug)]
 pub struct Table<'a> {
-    motion: &'a Motion<'a>,
-    letters: Vec<Letter>,
-    points: Points,
+    pub(super) motion: &'a Motion<'a>,
+    pub(super) letters: Vec<Letter>,
+    pub(super) points: Points,
     /// Parameters and constant functions of them.
-    parameters: Vec<Expr>,
-    directions: usize,
+    pub(super) parameters: Vec<Expr>,
+    pub(super) directions: usize,
     /// How many functions of the place the constraints fix.
-    fixed: usize,
-    seed: u64,
+    pub(super) fixed: usize,
+    pub(super) seed: u64,
 }
 
 /// A family with its null space modulo p.
@@ -75,13 +74,13 @@ pub struct Integral {
 }
 
 /// A value of all letters at one point.
-struct At {
-    values: Vec<Residue>,
+pub(super) struct At {
+    pub(super) values: Vec<Residue>,
     /// `X̄x/x` of each letter x.
-    rates: Vec<Residue>,
-    parameters: Vec<Residue>,
+    pub(super) rates: Vec<Residue>,
+    pub(super) parameters: Vec<Residue>,
     /// Derivatives along N of the letters, then of the functions that the constraints fix.
-    gradients: Vec<Residue>,
+    pub(super) gradients: Vec<Residue>,
 }
 
 impl<'a> Table<'a> {
@@ -111,7 +110,7 @@ impl<'a> Table<'a> {
         })
     }
 
-    fn at(&self, draw: &Draw, random: &mut Random) -> Option<At> {
+    pub(super) fn at(&self, draw: &Draw, random: &mut Random) -> Option<At> {
         let count = self.letters.len();
         (0..20).find_map(|_| {
             let outputs = self.points.at(draw, random)?;
@@ -131,7 +130,12 @@ impl<'a> Table<'a> {
     }
 
     /// The value of a member and of X̄ of it.
-    fn member(&self, field: &PrimeField, at: &At, member: &Member) -> (Residue, Residue) {
+    pub(super) fn member(
+        &self,
+        field: &PrimeField,
+        at: &At,
+        member: &Member,
+    ) -> (Residue, Residue) {
         let mut value = field.one();
         let mut rate = Residue::ZERO;
         for &(letter, exponent) in member {
@@ -148,7 +152,7 @@ impl<'a> Table<'a> {
         (value, field.mul(value, rate))
     }
 
-    fn draw(&self, number: usize) -> Option<(Draw, Random)> {
+    pub(super) fn draw(&self, number: usize) -> Option<(Draw, Random)> {
         let mut random = Random::stream(self.seed, number as u64);
         let draw = draw_with_points(&self.points, &mut random)?;
         Some((draw, random))
@@ -185,12 +189,12 @@ impl<'a> Table<'a> {
     }
 
     /// The null vectors of the first draw that are integrals, and the members of each relation, the leading one last.
-    fn vectors(&self, family: &Family) -> Option<(Vec<Vector>, Vec<Vec<usize>>)> {
+    pub(super) fn vectors(&self, family: &Family) -> Option<(Vec<Vector>, Vec<Vec<usize>>)> {
         let (draw, mut random) = self.draw(0)?;
         self.vectors_at(family, &draw, &mut random)
     }
 
-    fn vectors_at(
+    pub(super) fn vectors_at(
         &self,
         family: &Family,
         draw: &Draw,
@@ -198,11 +202,7 @@ impl<'a> Table<'a> {
     ) -> Option<(Vec<Vector>, Vec<Vec<usize>>)> {
         let field = &draw.field;
         let members = &family.members[1..];
-        let mut matrix = Vec::with_capacity(members.len() * (members.len() + SURPLUS));
-        for _ in 0..members.len() + SURPLUS {
-            let at = self.at(draw, random)?;
-            matrix.extend(members.iter().map(|m| self.member(field, &at, m).1));
-        }
+        let matrix = self.rows(draw, random, members, members.len() + SURPLUS)?;
         let found = null_space(field, members.len(), matrix);
         // Members count from the constant on.
         let vectors: Vec<Vector> = found
@@ -227,6 +227,23 @@ impl<'a> Table<'a> {
         let relations = relations.collect();
         let integrals = functions.pivots.iter().map(|&i| vectors[i].clone());
         Some((integrals.collect(), relations))
+    }
+
+    /// X̄ of the members at so many points, row by row.
+    pub(super) fn rows(
+        &self,
+        draw: &Draw,
+        random: &mut Random,
+        members: &[Member],
+        points: usize,
+    ) -> Option<Vec<Residue>> {
+        let mut rows = Vec::with_capacity(members.len() * points);
+        for _ in 0..points {
+            let at = self.at(draw, random)?;
+            let rates = members.iter().map(|m| self.member(&draw.field, &at, m).1);
+            rows.extend(rates);
+        }
+        Some(rows)
     }
 
     /// Whether the members of each list are linearly dependent, the constant among them, at the points of a further draw.
@@ -289,460 +306,12 @@ impl<'a> Table<'a> {
             .flat_map(|row| row.iter().zip(first).map(|(&a, &b)| field.sub(a, b)));
         Some(null_space(field, vectors.len(), differences.collect()))
     }
-
-    /// Which of the candidates are functionally independent of those before them: the rank of their derivatives along N, at a
-    /// point of the first draw.
-    pub fn independent(&self, candidates: &[(&Family, &[(usize, Residue)])]) -> Option<Vec<usize>> {
-        let (draw, _) = self.draw(0)?;
-        self.independent_at(&draw, candidates)
-    }
-
-    fn independent_at(
-        &self,
-        draw: &Draw,
-        candidates: &[(&Family, &[(usize, Residue)])],
-    ) -> Option<Vec<usize>> {
-        // Another stream than that of the null space.
-        let mut random = Random::stream(self.seed, 1 << 20);
-        let field = &draw.field;
-        let at = self.at(draw, &mut random)?;
-        let letters = self.letters.len();
-        let fixed = at.gradients[letters * self.directions..].chunks(self.directions.max(1));
-        let mut columns: Vec<Vec<Residue>> = fixed.map(<[Residue]>::to_vec).collect();
-        columns.extend(
-            candidates
-                .iter()
-                .map(|(family, vector)| self.gradient(field, &at, family, vector)),
-        );
-        let rows = (0..self.directions).flat_map(|d| columns.iter().map(move |column| column[d]));
-        let pivots = null_space(field, columns.len(), rows.collect()).pivots;
-        let own = pivots.into_iter().filter_map(|i| i.checked_sub(self.fixed));
-        Some(own.collect())
-    }
-
-    /// How many of the candidates are new functions, constants aside, beside the first of them at the places `independent`: as
-    /// (products of these, others).
-    pub fn others(
-        &self,
-        candidates: &[(&Family, &[(usize, Residue)])],
-        independent: &[usize],
-    ) -> Option<(usize, usize)> {
-        let (draw, _) = self.draw(0)?;
-        let mut random = Random::stream(self.seed, 1 << 22);
-        let field = &draw.field;
-        let pairs = independent.len() * (independent.len() + 1) / 2;
-        let columns = 1 + independent.len() + pairs + candidates.len();
-        let mut matrix = Vec::with_capacity(columns * (columns + SURPLUS));
-        for _ in 0..columns + SURPLUS {
-            let at = self.at(&draw, &mut random)?;
-            let value = |(family, vector): &(&Family, &[(usize, Residue)])| {
-                vector.iter().fold(Residue::ZERO, |sum, &(member, c)| {
-                    let (value, _) = self.member(field, &at, &family.members[member]);
-                    field.add(sum, field.mul(c, value))
-                })
-            };
-            let values: Vec<Residue> = candidates.iter().map(value).collect();
-            let first: Vec<Residue> = independent.iter().map(|&i| values[i]).collect();
-            matrix.push(field.one());
-            matrix.extend(&first);
-            for (i, &a) in first.iter().enumerate() {
-                matrix.extend(first[..=i].iter().map(|&b| field.mul(a, b)));
-            }
-            matrix.extend(values);
-        }
-        self.counted(field, columns, matrix, independent.len(), pairs)
-    }
-
-    /// Of columns 1, G_i, G_i G_j and candidates: how many candidates are new beside the G_i, by products or otherwise.
-    fn counted(
-        &self,
-        field: &PrimeField,
-        columns: usize,
-        matrix: Vec<Residue>,
-        first: usize,
-        pairs: usize,
-    ) -> Option<(usize, usize)> {
-        let known = 1 + first + pairs;
-        let pivots = null_space(field, columns, matrix.clone()).pivots;
-        let others = pivots.iter().filter(|&&i| i >= known).count();
-        let kept: Vec<usize> = (0..=first).chain(known..columns).collect();
-        let rows = matrix.chunks(columns);
-        let without: Vec<Residue> = rows.flat_map(|row| kept.iter().map(|&i| row[i])).collect();
-        let pivots = null_space(field, kept.len(), without).pivots;
-        let new = pivots.iter().filter(|&&i| i > first).count();
-        Some((new.checked_sub(others)?, others))
-    }
-
-    fn gradient(
-        &self,
-        field: &PrimeField,
-        at: &At,
-        family: &Family,
-        vector: &[(usize, Residue)],
-    ) -> Vec<Residue> {
-        // ∂G = Σ_x (Σ_ν c_ν φ_ν e_ν(x)/x) ∂x.
-        let mut slopes = vec![Residue::ZERO; self.letters.len()];
-        for &(member, c) in vector {
-            let (value, _) = self.member(field, at, &family.members[member]);
-            let weighted = field.mul(c, value);
-            for &(letter, exponent) in &family.members[member] {
-                let times = field.mul(weighted, field.from_i64(i64::from(exponent)));
-                let inverse = field.inv(at.values[letter]).unwrap_or(Residue::ZERO);
-                slopes[letter] = field.add(slopes[letter], field.mul(times, inverse));
-            }
-        }
-        let along = |direction: usize| {
-            let mut sum = Residue::ZERO;
-            for (letter, &slope) in slopes.iter().enumerate() {
-                let own = at.gradients[letter * self.directions + direction];
-                sum = field.add(sum, field.mul(slope, own));
-            }
-            sum
-        };
-        (0..self.directions).map(along).collect()
-    }
-
-    /// An integral with its coefficients as functions of the parameters: as (value, shown); `None` where they are none of
-    /// moderate degree.
-    pub fn lifted(&self, family: &Family, vector: &[(usize, Residue)]) -> Option<(Expr, Expr)> {
-        self.lifted_on(family, vector, None)
-    }
-
-    fn lifted_on(
-        &self,
-        family: &Family,
-        vector: &[(usize, Residue)],
-        tie: Option<&Tie>,
-    ) -> Option<(Expr, Expr)> {
-        let g = &self.motion.system.graph;
-        let (&(leading, _), rest) = vector.split_last()?;
-        let support: Vec<usize> = rest.iter().map(|&(member, _)| member).collect();
-        let (draw, random) = self.draw(0)?;
-        let mut source = Restricted {
-            table: self,
-            family,
-            leading,
-            support: &support,
-            draw,
-            random,
-            tie,
-        };
-        let entries = match support.is_empty() {
-            true => Vec::new(),
-            false => lift::entries(&mut source, support.len())?,
-        };
-        let polynomials = lift::cleared(&entries)?;
-        let members = std::iter::once(leading).chain(support);
-        let (mut value, mut shown) = (Vec::new(), Vec::new());
-        for (member, polynomial) in members.zip(&polynomials) {
-            let coefficient = lift::expression(g, polynomial, &self.parameters);
-            let member = &family.members[member];
-            let system = self.motion.system;
-            value.push(g.mul(&[coefficient, family.expression(system, member, false)]));
-            shown.push(g.mul(&[coefficient, family.expression(system, member, true)]));
-        }
-        Some((g.add(&value), g.add(&shown)))
-    }
-
-    /// Lifts and proves an integral; `None` where that fails.
-    pub fn proved(
-        &self,
-        cx: &Context<'_>,
-        family: &Family,
-        vector: &[(usize, Residue)],
-    ) -> Option<Integral> {
-        let (value, shown) = self.lifted(family, vector)?;
-        let verdict = self.motion.is_integral(cx, value);
-        matches!(verdict, Verdict::Proved(_)).then_some(Integral {
-            value,
-            shown,
-            verdict,
-            independent: true,
-            name: None,
-        })
-    }
 }
 
 /// The degree of a member in the letters.
 fn degree(member: &Member) -> u32 {
     let exponents = member.iter().map(|(_, e)| u32::from(e.unsigned_abs()));
     exponents.sum()
-}
-
-/// The linear system of one integral, restricted to the members it uses.
-struct Restricted<'a> {
-    table: &'a Table<'a>,
-    family: &'a Family,
-    leading: usize,
-    support: &'a [usize],
-    draw: Draw,
-    random: Random,
-    tie: Option<&'a Tie>,
-}
-
-/// Special values of parameters.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Tie {
-    /// A parameter equals another one.
-    Equal(Symbol, Symbol),
-    /// A parameter is zero.
-    Zero(Symbol),
-    /// Parameters have these values.
-    Values(Vec<(Symbol, Rational)>),
-}
-
-impl Tie {
-    /// The parameters with what they are.
-    pub fn pairs(&self, g: &Graph) -> Vec<(Expr, Expr)> {
-        match self {
-            Tie::Equal(parameter, other) => {
-                vec![(g.symbol_expr(*parameter), g.symbol_expr(*other))]
-            }
-            Tie::Zero(parameter) => vec![(g.symbol_expr(*parameter), g.zero())],
-            Tie::Values(values) => values
-                .iter()
-                .map(|(s, value)| (g.symbol_expr(*s), g.number(value.clone())))
-                .collect(),
-        }
-    }
-}
-
-/// What a family has more of at a special value of a parameter.
-#[derive(Clone, Debug)]
-pub struct Special {
-    /// The special value.
-    pub tie: Tie,
-    /// The further integrals, as they are shown, none of them a function of simpler ones; of those that exist for all values
-    /// some may be functions of them.
-    pub integrals: Vec<Expr>,
-}
-
-impl Table<'_> {
-    fn tied(&self, draw: &Draw, tie: &Tie) -> Option<Draw> {
-        let values = match tie {
-            Tie::Equal(parameter, other) => vec![(*parameter, self.points.value(draw, *other)?)],
-            Tie::Zero(parameter) => vec![(*parameter, Residue::ZERO)],
-            Tie::Values(values) => values
-                .iter()
-                .map(|(s, value)| Some((*s, draw.field.from_rational(value)?)))
-                .collect::<Option<Vec<_>>>()?,
-        };
-        let mut tied = draw.clone();
-        self.points.set(&mut tied, &values);
-        Some(tied)
-    }
-
-    /// The parameters that the motion contains as symbols of their own.
-    pub fn free_parameters(&self) -> Vec<Symbol> {
-        let g = &self.motion.system.graph;
-        let symbols = self.parameters.iter().filter_map(|&e| g.as_symbol(e));
-        let (draw, _) = match self.draw(0) {
-            Some(draw) => draw,
-            None => return Vec::new(),
-        };
-        symbols
-            .filter(|&s| self.points.value(&draw, s).is_some())
-            .collect()
-    }
-
-    /// What a family has more of at special values of the parameters, each integral proved there.
-    pub fn special(&self, cx: &Context<'_>, family: &Family, ties: &[Tie]) -> Vec<Special> {
-        let Some((general, _)) = self.vectors(family) else {
-            return Vec::new();
-        };
-        let leading = |v: &Vector| v.last().map(|&(member, _)| member);
-        let usual: Vec<Option<usize>> = general.iter().map(leading).collect();
-        let mut found: Vec<Special> = Vec::new();
-        for tie in ties {
-            let Some((draw, mut random)) = self.draw(0) else {
-                continue;
-            };
-            let Some(draw) = self.tied(&draw, tie) else {
-                continue;
-            };
-            let Some((vectors, _)) = self.vectors_at(family, &draw, &mut random) else {
-                continue;
-            };
-            if vectors.len() <= general.len() {
-                continue;
-            }
-            let candidates: Vec<(&Family, &[(usize, Residue)])> =
-                vectors.iter().map(|v| (family, &v[..])).collect();
-            let independent = self.independent_at(&draw, &candidates).unwrap_or_default();
-            let integrals: Vec<Expr> = independent
-                .iter()
-                .filter(|&&i| !usual.contains(&leading(&vectors[i])))
-                .filter_map(|&i| self.proved_on(cx, family, &vectors[i], tie))
-                .collect();
-            if !integrals.is_empty() {
-                found.push(Special {
-                    tie: tie.clone(),
-                    integrals,
-                });
-            }
-        }
-        found
-    }
-
-    /// An integral at a special value, lifted and proved there.
-    fn proved_on(
-        &self,
-        cx: &Context<'_>,
-        family: &Family,
-        vector: &[(usize, Residue)],
-        tie: &Tie,
-    ) -> Option<Expr> {
-        let (system, g) = (self.motion.system, &self.motion.system.graph);
-        let (value, shown) = self.lifted_on(family, vector, Some(tie))?;
-        let pairs = tie.pairs(g);
-        let replaced = |e: Expr| g.substitute(e, &pairs);
-        let manifold = &self.motion.manifold;
-        let manifold = Manifold {
-            solved: manifold
-                .solved
-                .iter()
-                .map(|&(s, e)| (s, replaced(e)))
-                .collect(),
-            implicit: manifold
-                .implicit
-                .iter()
-                .map(|&(f, s)| (replaced(f), s))
-                .collect(),
-        };
-        let rate: Vec<Expr> = self
-            .motion
-            .derivatives(&[value])
-            .into_iter()
-            .map(replaced)
-            .collect();
-        let verdict = cx
-            .prover
-            .identity(system, &rate, &manifold, "at a special value");
-        matches!(verdict, Verdict::Proved(_)).then(|| replaced(shown))
-    }
-}
-
-impl Restricted<'_> {
-    fn solve(&mut self, draw: &Draw) -> Option<Sample> {
-        let field = draw.field;
-        let columns = self.support.len() + 1;
-        let mut matrix = Vec::new();
-        let mut parameters = Vec::new();
-        for _ in 0..columns + 2 {
-            let at = self.table.at(draw, &mut self.random)?;
-            let members = self.support.iter().chain([&self.leading]);
-            matrix.extend(
-                members.map(|&m| self.table.member(&field, &at, &self.family.members[m]).1),
-            );
-            parameters = at.parameters;
-        }
-        let space = null_space(&field, columns, matrix);
-        let (_, rest) = space
-            .vectors
-            .iter()
-            .find(|(free, _)| *free == columns - 1)?;
-        if space.vectors.len() != 1 {
-            return None;
-        }
-        let mut entries = vec![Residue::ZERO; self.support.len()];
-        rest.iter().for_each(|&(i, c)| entries[i] = c);
-        Some(Sample {
-            parameters,
-            entries,
-        })
-    }
-}
-
-impl lift::Source for Restricted<'_> {
-    fn field(&self) -> PrimeField {
-        self.draw.field
-    }
-
-    fn sample(&mut self) -> Option<Sample> {
-        let draw = match self.table.parameters.is_empty() {
-            true => self.draw.clone(),
-            false => redraw_with_points(&self.table.points, &self.draw, &mut self.random)?,
-        };
-        let draw = match self.tie {
-            Some(tie) => self.table.tied(&draw, tie)?,
-            None => draw,
-        };
-        // The first sample is the one that others are compared with.
-        self.draw = draw.clone();
-        self.solve(&draw)
-    }
-
-    fn varied(&mut self, parameter: usize) -> Option<Sample> {
-        let g = &self.table.motion.system.graph;
-        let symbol: Symbol = g.as_symbol(self.table.parameters[parameter])?;
-        let mut draw = self.draw.clone();
-        let value = self.draw.field.random(&mut self.random);
-        self.table.points.set(&mut draw, &[(symbol, value)]);
-        match self.tie {
-            // The other follows, so what depends on either is seen to depend on this one.
-            Some(tie) => {
-                let draw = self.table.tied(&draw, tie)?;
-                self.solve(&draw)
-            }
-            None => self.solve(&draw),
-        }
-    }
-}
-
-/// The parameters that occur in functions on a manifold or in what ties these, and the functions of parameters alone that are no
-/// rational functions of them.
-pub(super) fn constants(motion: &Motion<'_>, manifold: &Manifold, outputs: &[Expr]) -> Vec<Expr> {
-    let g = &motion.system.graph;
-    let is_constant = |e: Expr| g.is_free_of(e, &|s| motion.moves(s));
-    let mut roots = outputs.to_vec();
-    roots.extend(manifold.solved.iter().map(|(_, e)| *e));
-    roots.extend(manifold.implicit.iter().map(|(f, _)| *f));
-    let mut found: Vec<Expr> = Vec::new();
-    for e in g.reachable(&roots) {
-        let is_letter = match g.node(e) {
-            Node::Symbol(symbol) => !motion.moves(*symbol),
-            Node::Pi => true,
-            Node::Apply { .. } => is_constant(e),
-            Node::Power { exponent, .. } => g.as_integer(*exponent).is_none() && is_constant(e),
-            _ => false,
-        };
-        if is_letter && !found.contains(&e) {
-            found.push(e);
-        }
-        for root in roots_of_constants(motion, manifold, e) {
-            if !found.contains(&root) {
-                found.push(root);
-            }
-        }
-    }
-    found.sort_by(|&a, &b| g.compare(a, b));
-    found
-}
-
-/// The constants that a root of what moves contains on the manifold: `√(x'² + y'² + z'²)` contains `√(1 + a²)` where
-/// `z' = a √(x'² + y'²)`.
-fn roots_of_constants(motion: &Motion<'_>, manifold: &Manifold, e: Expr) -> Vec<Expr> {
-    let g = &motion.system.graph;
-    let is_constant = |e: Expr| g.is_free_of(e, &|s| motion.moves(s));
-    let Node::Power { base, exponent } = g.node(e) else {
-        return Vec::new();
-    };
-    if g.as_integer(*exponent).is_some() || !is_constant(*exponent) || is_constant(*base) {
-        return Vec::new();
-    }
-    let solved: Vec<(Expr, Expr)> = manifold
-        .solved
-        .iter()
-        .map(|&(s, value)| (g.symbol_expr(s), value))
-        .collect();
-    let Some(factored) = factored(g, g.substitute(*base, &solved)) else {
-        return Vec::new();
-    };
-    let constant = factored.factors.iter().filter(|(f, _)| is_constant(*f));
-    constant
-        .filter(|(f, n)| n % 2 != 0 && g.as_integer(*f).is_none())
-        .map(|&(f, _)| g.pow(f, *exponent))
-        .collect()
 }
 
 /// All first integrals of one family.

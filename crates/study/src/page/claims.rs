@@ -15,6 +15,9 @@ pub(super) fn word(verdict: &str) -> Word {
         .unwrap_or(Word::Undecided)
 }
 
+/// In place of a long formula of a claim, which no command prints.
+const UNPRINTED: &str = "A formula that is too long to be read, not printed here.";
+
 /// One claim.
 pub(super) fn claim(decided: &Decided, set: &Typesetter<'_>) -> Claim {
     let finding: &Finding = &decided.finding;
@@ -45,6 +48,7 @@ pub(super) fn claim(decided: &Decided, set: &Typesetter<'_>) -> Claim {
                 };
                 Equation {
                     caption: Some(f.caption.clone()),
+                    omitted: printed.omitted.as_ref().map(|_| UNPRINTED.to_owned()),
                     ..printed
                 }
             })

@@ -1,8 +1,8 @@
 //! `noether.family`: the families searched, and the dimension found.
 
 use super::requirements;
-use crate::noether::found::{found, is_stated, Found, Searched};
-use crate::noether::search::Special;
+use crate::noether::found::{found, Found, Searched};
+use crate::noether::special::{is_stated, Special};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::words::counted;
 use chetaev_symbolic::verdict::{Evidence, Method, Proof};
@@ -31,7 +31,8 @@ impl Claim for FamilySearched {
     fn explanation(&self) -> &'static str {
         "First integrals G(t, q, v) are searched as combinations of the functions of a family: products of velocities, dependent \
          ones and quasi-velocities too, with functions of the coordinates and the time that occur in the model (sines and cosines of its \
-         angles, its roots and exponentials, powers of coordinates and time, roots of the factors of the determinant of the mass matrix). The \
+         angles, its roots and exponentials, powers of coordinates, time and masses with a law of their own, logarithms of masses that vary, roots of the factors of the determinant of \
+         the mass matrix; in a family of its own sines and cosines of multiples of polar angles that occur nowhere). The \
          family is as large as the budget allows and is stated. X̄G = 0 on the constraint manifold is a linear system for the \
          coefficients; it is solved at random points of prime fields with random parameters, the coefficients are lifted to functions of \
          the parameters, and every integral is then proved. The dimension counts neither constants nor what vanishes on the \
@@ -122,11 +123,26 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
             momenta.dimension
         )
     }));
-    let special: Vec<String> = found.special.iter().map(|s| special(cx, s)).collect();
+    let special: Vec<String> = found.special.found.iter().map(|s| special(cx, s)).collect();
+    let (parameters, size) = &found.special.critical;
+    let names: Vec<&str> = parameters
+        .iter()
+        .map(|&s| cx.system.graph.symbol_name(s))
+        .collect();
+    let critical = match &names[..] {
+        [] => String::new(),
+        [one] => {
+            format!(", and, with {size} functions free of the time, where {one} is a simple rational number")
+        }
+        all => format!(
+            ", and, with {size} functions free of the time, where one of {} is a simple rational multiple of powers of others",
+            all.join(", ")
+        ),
+    };
     let special = match special.is_empty() {
         true => String::new(),
         false => format!(
-            "; looked at where parameters are equal or zero or as stated, there are more {}",
+            "; looked at where parameters are equal or zero or as stated{critical}, there are more {}",
             special.join("; ")
         ),
     };

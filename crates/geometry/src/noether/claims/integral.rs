@@ -2,9 +2,9 @@
 
 use super::{bare, generator, generator_formulas, integral, requirements, subjects};
 use crate::noether::embedded::Embedded;
-use crate::noether::found::{is_constant, readable};
 use crate::noether::generator::Generator;
-use crate::noether::occurring::ENERGY;
+use crate::noether::letters::ENERGY;
+use crate::noether::shown::{is_constant, readable};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -78,6 +78,7 @@ fn symmetry(n: &Embedded<'_>, generator: &Generator, name: Option<&str>) -> Stri
         .filter(|(_, xi)| !g.is_zero(*xi))
         .collect();
     match &along[..] {
+        [] if system.constraints.is_empty() => "its field vanishes".into(),
         [] => "its field vanishes on the constraints".into(),
         [(field, xi)] if is_constant(system, *xi) => {
             format!("its symmetry is the shift along {field}")

@@ -1,9 +1,9 @@
 //! `noether.moving-direction#j` and `noether.moving-axis#j`: momenta and moments of momentum that particles keep.
 
 use super::requirements;
-use crate::noether::found::readable;
 use crate::noether::motion::Motion;
 use crate::noether::moving::{axes, directions, masses_are_constant, Kept, Searched};
+use crate::noether::shown::readable;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_symbolic::Verdict;
 use std::sync::Arc;

@@ -1,9 +1,9 @@
 //! `noether.reduced-symmetry#j`: Z f is a first integral for a symmetry Z of the reduced 2-form.
 
 use super::requirements;
-use crate::noether::found::readable;
 use crate::noether::motion::Motion;
 use crate::noether::reduced::{candidates, symmetries, Symmetry};
+use crate::noether::shown::readable;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_symbolic::Verdict;
 use std::sync::Arc;

@@ -1,0 +1,332 @@
+//! The motion in a chart of the constraint manifold, and densities in the families of functions that occur.
+
+use super::{formula, WORDS};
+use crate::noether::ansatz::Ansatz;
+use crate::noether::family::{coefficients, CoefficientLetter, Letter};
+use crate::noether::letters::Letters;
+use crate::noether::motion::Motion;
+use crate::noether::occurring::congruent;
+use crate::noether::shown::readable;
+use chetaev_mechanics::characteristics::Direction;
+use chetaev_mechanics::claims::formulation::basis;
+use chetaev_mechanics::{Characteristics, Context, System};
+use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::{Expr, Node, Symbol, Verdict};
+
+/// Determinants of larger matrices are not formed.
+const DETERMINANT: usize = 4;
+
+/// The highest weight of these functions.
+const WEIGHT: u32 = 4;
+
+/// The most functions among which a density is looked for.
+const MEMBERS: usize = 260;
+
+/// The motion in a chart of the constraint manifold, with its divergence.
+pub(super) struct Flow<'a> {
+    pub(super) motion: Motion<'a>,
+    pub(super) chart: Characteristics,
+    /// Rates of η.
+    pub(super) rates: Vec<Expr>,
+    /// Rates of the masses with a law of their own, which are states beside q and η.
+    pub(super) masses: Vec<(Symbol, Expr)>,
+    pub(super) divergence: Expr,
+    pub(super) autonomous: bool,
+}
+
+impl<'a> Flow<'a> {
+    pub(super) fn of(cx: &Context<'a>) -> Result<Flow<'a>, String> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let motion = Motion::of(cx)?;
+        let chart = basis(cx)
+            .characteristics()
+            .map_err(|problem| problem.to_string())?;
+        let definitions: Vec<Expr> = chart.parameters.iter().map(|p| p.definition).collect();
+        let rates = chart.restrict(system, &motion.derivatives(&definitions));
+        let mut parts: Vec<Expr> = (0..system.n())
+            .map(|s| {
+                let mut unit = vec![g.zero(); system.n()];
+                unit[s] = g.one();
+                chart.by_coordinates(system, &chart.velocities[s..=s], &unit)[0]
+            })
+            .collect();
+        let slopes = chart.by_parameters(system, &rates);
+        parts.extend((0..chart.k()).map(|i| slopes[i][i]));
+        let masses = system.mass_rates(&chart.velocities);
+        parts.extend(masses.iter().map(|&(mass, rate)| g.diff(rate, mass)));
+        let divergence = g.add(&parts);
+        let mut all = rates.clone();
+        all.extend(&chart.velocities);
+        all.extend(masses.iter().map(|(_, rate)| *rate));
+        let time = g.symbol("t", 0);
+        let time = g.as_symbol(time);
+        // The time may cancel in the equations: what counts is the motion.
+        let autonomous = g
+            .symbols_in(&all)
+            .into_iter()
+            .all(|s| match Some(s) == time {
+                true => all.iter().all(|&e| is_free(cx, e, s)),
+                false => system.prescribed_rate(s).is_none() || masses.iter().any(|m| m.0 == s),
+            });
+        Ok(Flow {
+            motion,
+            chart,
+            rates,
+            masses,
+            divergence,
+            autonomous,
+        })
+    }
+
+    pub(super) fn symbols(&self) -> Vec<Symbol> {
+        self.chart.parameters.iter().map(|p| p.symbol).collect()
+    }
+
+    pub(super) fn at(&self, system: &System, e: Expr, one: Option<usize>) -> Expr {
+        let g = &system.graph;
+        let pairs: Vec<(Expr, Expr)> = self
+            .chart
+            .parameters
+            .iter()
+            .enumerate()
+            .map(|(i, p)| (p.value, if Some(i) == one { g.one() } else { g.zero() }))
+            .collect();
+        g.substitute(e, &pairs)
+    }
+
+    /// `Z N + N div X̄` for functions N(t, q).
+    pub(super) fn defects(&self, system: &System, densities: &[Expr]) -> Vec<Expr> {
+        let g = &system.graph;
+        let rates = self.chart.frozen_derivative(system, densities);
+        let pairs = rates.into_iter().zip(densities);
+        pairs
+            .map(|(rate, &n)| g.add(&[rate, g.mul(&[n, self.divergence])]))
+            .collect()
+    }
+
+    /// A density of the family that is kept, not proved yet.
+    pub(super) fn density(&self, cx: &Context<'_>) -> Option<(Expr, &'static str)> {
+        let letters = self.letters(cx, self.autonomous);
+        let plain = self.density_in(cx, &letters).map(|n| (n, WORDS[0]));
+        plain.or_else(|| {
+            let mut more = letters.clone();
+            more.push(self.root_of_mass(cx)?);
+            Some((self.density_in(cx, &more)?, WORDS[2]))
+        })
+    }
+
+    /// A density that contains the time, for a motion free of it, where functions of the time occur or are stated.
+    pub(super) fn density_in_time(&self, cx: &Context<'_>) -> Option<Expr> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let time = g.symbol("t", 0);
+        let letters = self.letters(cx, false);
+        let own = g.symbols_in(&[time]);
+        let is_timed =
+            |c: &CoefficientLetter| c.letter.value != time && g.contains_any(c.letter.value, &own);
+        if !self.autonomous || !letters.iter().any(is_timed) {
+            return None;
+        }
+        let density = self.density_in(cx, &letters)?;
+        let defect = self.defects(system, &[density]);
+        let on = "on the constraint manifold";
+        let verdict = cx
+            .prover
+            .identity(system, &defect, &self.chart.manifold, on);
+        matches!(verdict, Verdict::Proved(_)).then_some(density)
+    }
+
+    fn density_in(&self, cx: &Context<'_>, letters: &[CoefficientLetter]) -> Option<Expr> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let (manifold, own) = (&self.chart.manifold, self.symbols());
+        let seed = cx.prover.points_seed();
+        let candidates = self.candidates(cx, letters);
+        let values: Vec<Vec<Expr>> = candidates.iter().map(|&n| vec![n]).collect();
+        let ansatz = Ansatz::new(&self.motion, &values, manifold, &own, seed).ok()?;
+        let independent = ansatz.independent()?;
+        let candidates: Vec<Expr> = independent.iter().map(|&i| candidates[i]).collect();
+        let columns: Vec<Vec<Expr>> = self
+            .defects(system, &candidates)
+            .into_iter()
+            .map(|defect| vec![defect])
+            .collect();
+        let ansatz = Ansatz::new(&self.motion, &columns, manifold, &own, seed).ok()?;
+        let found = ansatz.up_to(1)?.pop()?;
+        let parts: Vec<Expr> = found
+            .iter()
+            .zip(&candidates)
+            .filter(|(c, _)| !g.is_zero(**c))
+            .map(|(&c, &n)| g.mul(&[c, n]))
+            .collect();
+        Some(formula::plain(cx, self, readable(g, g.add(&parts))))
+    }
+
+    /// The functions of (t, q) that occur; of q only where densities free of the time are asked for.
+    fn letters(&self, cx: &Context<'_>, timeless: bool) -> Vec<CoefficientLetter> {
+        let g = &cx.system.graph;
+        let time = g.symbol("t", 0);
+        let mut letters = Letters::of(cx).coefficients;
+        letters.retain(|c| c.exponents != (0, 0));
+        letters.retain(|c| !timeless || !g.contains_any(c.letter.value, &g.symbols_in(&[time])));
+        for own in &mut letters {
+            // Velocities as quasi-velocities have such factors.
+            own.exponents.0 = match g.node(own.letter.value) {
+                Node::Apply { .. } => -2,
+                _ => -1,
+            };
+        }
+        letters
+    }
+
+    /// Monomials in letters, simple ones first.
+    fn candidates(&self, cx: &Context<'_>, letters: &[CoefficientLetter]) -> Vec<Expr> {
+        let g = &cx.system.graph;
+        let mut members = coefficients(letters, 0, 1);
+        for weight in 2..=WEIGHT {
+            let next = coefficients(letters, 0, weight);
+            if next.len() > MEMBERS {
+                break;
+            }
+            members = next;
+        }
+        members.truncate(MEMBERS);
+        let value = |member: &[(usize, i8)]| {
+            let powers = member.iter();
+            let powers = powers.map(|&(l, e)| g.powi(letters[l].letter.value, i64::from(e)));
+            g.mul(&powers.collect::<Vec<_>>())
+        };
+        members.iter().map(|(_, member)| value(member)).collect()
+    }
+
+    /// det W̄ where it contains velocities, for Lagrangians that are not quadratic, with the proof that it is kept: Liouville's
+    /// theorem where the constraints are integrable.
+    pub(super) fn liouville(&self, cx: &Context<'_>) -> Option<(Expr, Verdict)> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let det = self.determinant(cx)?;
+        if !g.contains_any(det, &self.symbols()) || !self.is_wanted(det) {
+            return None;
+        }
+        let defect = self.full_defects(system, &[det]);
+        let (manifold, on) = (&self.chart.manifold, "on the constraint manifold");
+        let verdict = cx.prover.identity(system, &defect, manifold, on);
+        let density = formula::plain(cx, self, readable(g, det));
+        matches!(verdict, Verdict::Proved(_)).then_some((density, verdict))
+    }
+
+    /// A density of products of functions of (t, q) with powers of the roots that contain velocities, as ρ of a cone: these vanish
+    /// only where the constraints are singular. With the proof that it is kept.
+    pub(super) fn with_roots(&self, cx: &Context<'_>) -> Option<(Expr, Verdict)> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let roots = self.roots(cx);
+        if roots.is_empty() {
+            return None;
+        }
+        let (manifold, own) = (&self.chart.manifold, self.symbols());
+        let seed = cx.prover.points_seed();
+        let candidates = self.candidates(
+            cx,
+            &[&roots[..], &self.letters(cx, self.autonomous)].concat(),
+        );
+        let columns: Vec<Vec<Expr>> = self
+            .full_defects(system, &candidates)
+            .into_iter()
+            .map(|defect| vec![defect])
+            .collect();
+        let ansatz = Ansatz::new(&self.motion, &columns, manifold, &own, seed).ok()?;
+        let found = ansatz.up_to(1)?.pop()?;
+        let pairs = found.iter().zip(&candidates);
+        let parts: Vec<Expr> = pairs.map(|(&c, &n)| g.mul(&[c, n])).collect();
+        let density = formula::plain(cx, self, readable(g, g.add(&parts)));
+        // Members may depend on each other, and a combination may vanish.
+        if g.is_free_of(density, &|s| self.motion.moves(s) || own.contains(&s)) {
+            return None;
+        }
+        let defect = self.full_defects(system, &[density]);
+        let on = "on the constraint manifold";
+        let verdict = cx.prover.identity(system, &defect, manifold, on);
+        let vanishes = cx.prover.identity(system, &[density], manifold, on);
+        let is_one =
+            matches!(verdict, Verdict::Proved(_)) && matches!(vanishes, Verdict::Refuted(_));
+        is_one.then_some((density, verdict))
+    }
+
+    /// Whether densities may contain an expression: the time only where the motion does.
+    fn is_wanted(&self, e: Expr) -> bool {
+        let g = &self.motion.system.graph;
+        !self.autonomous || !g.contains_any(e, &g.symbols_in(&[g.symbol("t", 0)]))
+    }
+
+    /// Roots with velocities in L and the constraints, as functions on N.
+    fn roots(&self, cx: &Context<'_>) -> Vec<CoefficientLetter> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let mut all = vec![system.lagrangian];
+        all.extend(system.constraints.iter().map(|c| c.f));
+        let velocities = system.velocity_symbols();
+        let is_root = |&e: &Expr| match g.node(e) {
+            Node::Power { base, exponent } => {
+                g.as_integer(*exponent).is_none() && g.contains_any(*base, &velocities)
+            }
+            _ => false,
+        };
+        let roots: Vec<Expr> = g.reachable(&all).into_iter().filter(is_root).collect();
+        let roots = self.chart.restrict(system, &roots);
+        let letters = roots
+            .into_iter()
+            .filter(|&e| self.is_wanted(e))
+            .map(|root| CoefficientLetter {
+                letter: Letter::plain(root),
+                exponents: (-3, 2),
+                weight: 1,
+            });
+        letters.collect()
+    }
+
+    /// `X̄ N + N div X̄` for functions on N.
+    fn full_defects(&self, system: &System, densities: &[Expr]) -> Vec<Expr> {
+        let g = &system.graph;
+        let direction = Direction {
+            time: g.one(),
+            coordinates: self.chart.velocities.clone(),
+            parameters: self.rates.clone(),
+        };
+        let rates = self.chart.along(system, densities, &direction);
+        let pairs = rates.into_iter().zip(densities);
+        pairs
+            .map(|(rate, &n)| g.add(&[rate, g.mul(&[n, self.divergence])]))
+            .collect()
+    }
+
+    /// The root of the determinant of the restricted mass matrix: its square is Liouville's density in these variables where the
+    /// constraints are integrable, itself is a factor of Chaplygin's for his sphere.
+    fn root_of_mass(&self, cx: &Context<'_>) -> Option<CoefficientLetter> {
+        let g = &cx.system.graph;
+        let det = self.determinant(cx)?;
+        let moves = |s: Symbol| self.motion.moves(s);
+        let is_of_place = !g.contains_any(det, &self.symbols()) && !g.is_free_of(det, &moves);
+        let wanted = is_of_place && self.is_wanted(det);
+        wanted.then(|| CoefficientLetter {
+            letter: Letter::plain(g.sqrt(det)),
+            exponents: (-1, 2),
+            weight: 1,
+        })
+    }
+
+    /// det Bᵀ W B, of few velocities.
+    fn determinant(&self, cx: &Context<'_>) -> Option<Expr> {
+        let (system, n, k) = (cx.system, cx.system.n(), self.chart.k());
+        if k > DETERMINANT || k == 0 {
+            return None;
+        }
+        let mass = self.chart.restrict(system, &cx.terms.mass_matrix.concat());
+        let mass: Vec<Vec<Expr>> = mass.chunks(n).map(<[Expr]>::to_vec).collect();
+        let restricted = congruent(system, &mass, &self.chart.basis);
+        Some(determinant(&system.graph, &restricted))
+    }
+}
+
+/// Whether an expression does not depend on a symbol, by its form or by its derivative.
+fn is_free(cx: &Context<'_>, e: Expr, s: Symbol) -> bool {
+    let g = &cx.system.graph;
+    let nowhere = chetaev_mechanics::Manifold::default();
+    let slope = |e: Expr| cx.prover.identity(cx.system, &[g.diff(e, s)], &nowhere, "");
+    !g.contains_any(e, &[s]) || matches!(slope(e), Verdict::Proved(_))
+}

@@ -1,0 +1,163 @@
+//! The families that are chosen for a system, as large as the budget allows.
+
+use super::family::Family;
+use super::letters::{Letters, Polar};
+use chetaev_mechanics::Context;
+use chetaev_symbolic::Expr;
+
+/// The most members of a family of degree one in the velocities, and of degree two for a system of up to four coordinates and for
+/// a larger one.
+const MEMBERS: [usize; 3] = [620, 400, 700];
+
+/// The most members of a family with multiples of a polar angle.
+const WAVES: usize = 520;
+
+/// Families do not grow beyond this weight of the coefficients.
+pub(super) const WEIGHT: u32 = 6;
+
+/// The largest families within the budget: polynomials of degree one and two in the velocities, and quotients.
+pub(super) fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
+    let mut families: Vec<Family> = [1, 2]
+        .into_iter()
+        .map(|degree| {
+            let most = match (degree, cx.system.n()) {
+                (1, _) => MEMBERS[0],
+                (_, 0..=4) => MEMBERS[1],
+                _ => MEMBERS[2],
+            };
+            let mut weight = 0;
+            let mut largest = letters.polynomials(degree, 0);
+            if largest.members.len() > 2 * most {
+                return letters.known_only();
+            }
+            while weight < WEIGHT {
+                let next = letters.polynomials(degree, weight + 1);
+                if next.members.len() > most {
+                    break;
+                }
+                weight += 1;
+                largest = next;
+            }
+            largest.words = words(cx, letters, degree, weight);
+            largest
+        })
+        .collect();
+    families.extend(turned(cx, letters));
+    families.extend(letters.polar.iter().map(|polar| waves(cx, letters, polar)));
+    if letters.velocities.len() > 1 {
+        let mut quotients = letters.quotients();
+        quotients.words = "quotients of two velocities".into();
+        families.push(quotients);
+    }
+    families
+}
+
+/// Which powers of a letter are formed, where not all of them. A cosine stands with its first power only because of the sine.
+fn powers((least, most): (i8, i8)) -> String {
+    match (least, most) {
+        (0, 1 | 9) => String::new(),
+        (least, most) => format!(" to the powers {least} to {most}"),
+    }
+}
+
+/// The family with sines and cosines of coordinates that may be angles.
+fn turned(cx: &Context<'_>, letters: &Letters) -> Option<Family> {
+    let g = &cx.system.graph;
+    let families = (1..=WEIGHT).map_while(|weight| Some((weight, letters.turned(weight)?)));
+    let (weight, mut family) = families
+        .take_while(|(_, family)| family.members.len() <= MEMBERS[0])
+        .last()?;
+    let places = 0..letters.coefficients.len();
+    let used = places.filter(|&i| letters.is_turned(i));
+    let names: Vec<String> = used
+        .map(|i| g.text(letters.coefficients[i].letter.shown))
+        .collect();
+    let velocities: Vec<String> = letters.velocities.iter().map(|l| g.text(l.shown)).collect();
+    family.words = format!(
+        "polynomials of degree up to 1 in the velocities {}, with products of up to {weight} of {} as coefficients",
+        velocities.join(", "),
+        names.join(", ")
+    );
+    Some(family)
+}
+
+/// The family with sines and cosines of multiples of a polar angle.
+fn waves(cx: &Context<'_>, letters: &Letters, polar: &Polar) -> Family {
+    let g = &cx.system.graph;
+    let (mut weight, mut family) = (0, letters.waves(cx.system, polar, 0));
+    while weight < WEIGHT {
+        let next = letters.waves(cx.system, polar, weight + 1);
+        if next.members.len() > WAVES {
+            break;
+        }
+        (weight, family) = (weight + 1, next);
+    }
+    let list = |es: Vec<Expr>| {
+        es.iter()
+            .map(|&e| g.text(e))
+            .collect::<Vec<String>>()
+            .join(", ")
+    };
+    let velocities = letters.velocities.iter().map(|l| l.shown).collect();
+    let used = |place: &usize| {
+        family
+            .members
+            .iter()
+            .flatten()
+            .any(|(letter, _)| letter == place)
+    };
+    let first = letters.velocities.len();
+    let own = letters.coefficients.iter().enumerate();
+    let own = own.filter(|(i, _)| used(&(first + i)) && !polar.places.contains(i));
+    let built = list(own.map(|(_, c)| c.letter.shown).collect());
+    let waves = polar
+        .places
+        .iter()
+        .map(|&i| letters.coefficients[i].letter.shown);
+    family.words = format!(
+        "polynomials of degree up to 2 in the velocities {} whose terms contain one of {}, with coefficients of weight up to {weight} in the quadratic terms and one more for each velocity less, built of {built}",
+        list(velocities),
+        list(waves.collect())
+    );
+    family
+}
+
+fn words(cx: &Context<'_>, letters: &Letters, degree: u32, weight: u32) -> String {
+    let g = &cx.system.graph;
+    let list = |weight: u32| {
+        let numbered = letters.coefficients.iter().enumerate();
+        let own = numbered.filter(|(i, c)| {
+            c.weight == weight
+                && !letters.perhaps_turning.contains(i)
+                && c.exponents != (0, 0)
+                && (degree == 1 || !letters.turning.contains(i))
+        });
+        own.map(|(_, c)| format!("{}{}", g.text(c.letter.shown), powers(c.exponents)))
+            .collect::<Vec<String>>()
+    };
+    let velocities: Vec<String> = letters.velocities.iter().map(|l| g.text(l.shown)).collect();
+    let weights: Vec<String> = (1..=3)
+        .filter(|&w| !list(w).is_empty())
+        .map(|w| format!("{} ({w} each)", list(w).join(", ")))
+        .collect();
+    let more = match degree {
+        1 => "",
+        _ => " in the quadratic terms and one more for each velocity less",
+    };
+    let known = match degree >= 2 && !letters.known.is_empty() {
+        true => {
+            let names: Vec<&str> = letters
+                .known
+                .iter()
+                .map(|(name, _)| name.as_str())
+                .collect();
+            format!(", and {}", names.join(", "))
+        }
+        false => String::new(),
+    };
+    format!(
+        "polynomials of degree up to {degree} in the velocities {}, with coefficients of weight up to {weight}{more}, built of {}{known}",
+        velocities.join(", "),
+        weights.join("; ")
+    )
+}

@@ -1,0 +1,188 @@
+//! Values of one parameter at which a family may contain more integrals.
+//!
+//! The columns X̄φ that are independent in general make a square matrix at as many points of N. With the points and all other
+//! parameters at random values modulo p its determinant is a rational function of the one parameter, and it vanishes where the
+//! rank falls, hence wherever there are more integrals. Of its roots those are candidates that are rational multiples of
+//! products of powers of the others, or sums of two such; whoever asks searches there again, and proves what is found.
+
+use super::family::{Family, Member};
+use super::search::{Table, SURPLUS};
+use super::special::{Term, Tie};
+use chetaev_symbolic::number::modular_matrix::{determinant, null_space};
+use chetaev_symbolic::number::modular_polynomial::{fraction, roots};
+use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
+use chetaev_symbolic::number::random::Random;
+use chetaev_symbolic::number::reconstruct::rational;
+use chetaev_symbolic::zero::points::Draw;
+use chetaev_symbolic::{Rational, Symbol};
+
+/// The most values of the determinant.
+const VALUES: usize = 400;
+
+/// Numerators and denominators of the factors that are recognized.
+const HEIGHT: u64 = 1000;
+
+/// The highest power of another parameter that is recognized.
+const POWER: i8 = 2;
+
+/// A product of powers with its value in a draw.
+type Product = (Vec<(Symbol, i8)>, Residue);
+
+impl Table<'_> {
+    /// Candidates for values of a parameter where the family contains more integrals, in terms of the others; `None` where they were
+    /// not found within the work left, counted in multiplications.
+    pub(super) fn critical(
+        &self,
+        family: &Family,
+        parameter: Symbol,
+        others: &[Symbol],
+        work: &mut u64,
+    ) -> Option<Vec<Tie>> {
+        if !self.points.are_rational() {
+            return None;
+        }
+        let (draw, mut random) = self.draw(0)?;
+        let all = &family.members[1..];
+        let rows = self.rows(&draw, &mut random, all, all.len() + SURPLUS)?;
+        let pivots = null_space(&draw.field, all.len(), rows).pivots;
+        let members: Vec<Member> = pivots.into_iter().map(|i| all[i].clone()).collect();
+        let (draw, random) = self.draw(1)?;
+        let numerator = self.numerator(&draw, &random, &members, parameter, work)?;
+        let mut random = Random::stream(self.seed, 1 << 24);
+        let found = roots(&draw.field, &numerator, &mut random);
+        // An even function has both signs of each root, and the parameter occurs as its square only.
+        let is_even = [0, 1].iter().any(|&odd| {
+            let mut of_parity = numerator.iter().skip(odd).step_by(2);
+            of_parity.all(|c| c.is_zero())
+        });
+        let products = self.products(&draw, others);
+        let ties = found.into_iter().filter_map(|root| {
+            let terms = recognized(&draw.field, root, &products)?;
+            let is_negative = terms.iter().all(|t| t.coefficient < Rational::ZERO);
+            let is_left_out = terms.is_empty() || (is_even && is_negative);
+            (!is_left_out).then(|| written(parameter, terms))
+        });
+        Some(ties.collect())
+    }
+
+    /// The numerator of the determinant as a polynomial in the parameter.
+    fn numerator(
+        &self,
+        draw: &Draw,
+        random: &Random,
+        members: &[Member],
+        parameter: Symbol,
+        work: &mut u64,
+    ) -> Option<Vec<Residue>> {
+        let (field, size) = (&draw.field, members.len());
+        let cost = (size * size * size / 3 + size * self.points.cost()) as u64;
+        let mut places = Random::stream(self.seed, 1 << 25);
+        let mut values = Vec::new();
+        let mut next = 12;
+        while next <= VALUES {
+            while values.len() < next {
+                *work = work.checked_sub(cost)?;
+                let place = field.random(&mut places);
+                let mut draw = draw.clone();
+                self.points.set(&mut draw, &[(parameter, place)]);
+                // The same random numbers are the same points.
+                let rows = self.rows(&draw, &mut random.clone(), members, size)?;
+                values.push((place, determinant(field, size, rows)));
+            }
+            if let Some((numerator, _)) = fraction(field, &values) {
+                return Some(numerator);
+            }
+            next *= 2;
+        }
+        None
+    }
+
+    /// One, and products of powers of one or two parameters, simple ones first.
+    fn products(&self, draw: &Draw, others: &[Symbol]) -> Vec<Product> {
+        let field = &draw.field;
+        let power = |(s, e): (Symbol, i8)| {
+            let value = self.points.value(draw, s)?;
+            let power = field.pow(value, u64::from(e.unsigned_abs()));
+            let value = if e < 0 { field.inv(power)? } else { power };
+            Some((vec![(s, e)], value))
+        };
+        let exponents: Vec<i8> = (1..=POWER).flat_map(|e| [e, -e]).collect();
+        let single: Vec<Product> = exponents
+            .iter()
+            .flat_map(|&e| others.iter().map(move |&s| (s, e)))
+            .filter_map(power)
+            .collect();
+        let mut all: Vec<Product> = vec![(Vec::new(), field.one())];
+        all.extend(single.iter().cloned());
+        for (i, (powers, value)) in single.iter().enumerate() {
+            for (more, other) in &single[..i] {
+                if powers[0].0 != more[0].0 {
+                    all.push(([&more[..], powers].concat(), field.mul(*value, *other)));
+                }
+            }
+        }
+        all
+    }
+}
+
+/// A root as a rational multiple of a product, or as a sum of two parameters with simple factors; empty for zero.
+fn recognized(field: &PrimeField, root: Residue, products: &[Product]) -> Option<Vec<Term>> {
+    if root.is_zero() {
+        return Some(Vec::new());
+    }
+    let term = |rest: Residue, (powers, value): &Product| {
+        let coefficient = small(field, field.mul(rest, field.inv(*value)?))?;
+        Some(Term {
+            coefficient,
+            powers: powers.clone(),
+        })
+    };
+    if let Some(own) = products.iter().find_map(|product| term(root, product)) {
+        return Some(vec![own]);
+    }
+    let is_linear = |(powers, _): &&Product| matches!(&powers[..], [(_, 1)]);
+    let linear: Vec<&Product> = products.iter().filter(is_linear).collect();
+    let factors = [(1, 1_u64), (-1, 1), (2, 1), (-2, 1), (1, 2), (-1, 2)];
+    let factors = factors.map(|(n, d)| Rational::from_parts(n.into(), d.into()));
+    linear.iter().enumerate().find_map(|(i, (powers, value))| {
+        factors.iter().find_map(|factor| {
+            let own = field.mul(field.from_rational(factor)?, *value);
+            let rest = field.sub(root, own);
+            let other = linear[..i].iter().find_map(|product| term(rest, product))?;
+            let own = Term {
+                coefficient: factor.clone(),
+                powers: powers.clone(),
+            };
+            Some(vec![other, own])
+        })
+    })
+}
+
+/// A parameter as a multiple of another one, by a factor of at least one; other ties as they are.
+fn written(parameter: Symbol, terms: Vec<Term>) -> Tie {
+    let [term] = &terms[..] else {
+        return Tie::Is(parameter, terms);
+    };
+    let one = Rational::ONE;
+    let is_below_one = term.coefficient < one && -term.coefficient.clone() < one;
+    match term.powers[..] {
+        [(other, 1)] if is_below_one => Tie::Is(
+            other,
+            vec![Term {
+                coefficient: one / term.coefficient.clone(),
+                powers: vec![(parameter, 1)],
+            }],
+        ),
+        _ => Tie::Is(parameter, terms),
+    }
+}
+
+/// The rational number of a class, where its numerator and denominator are small.
+fn small(field: &PrimeField, class: Residue) -> Option<Rational> {
+    let most = || Rational::from(HEIGHT);
+    let number = rational(field, class)?;
+    let numerator = Rational::from(number.numerator().clone());
+    let denominator = Rational::from(number.denominator().clone());
+    let is_small = numerator <= most() && -numerator <= most() && denominator <= most();
+    is_small.then_some(number)
+}

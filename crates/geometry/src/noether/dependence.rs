@@ -1,0 +1,122 @@
+//! Which integrals of families are functions of others, by their derivatives and values modulo p.
+
+use super::family::Family;
+use super::search::{At, Table, SURPLUS};
+use chetaev_symbolic::number::modular_matrix::null_space;
+use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
+use chetaev_symbolic::number::random::Random;
+use chetaev_symbolic::zero::points::Draw;
+
+impl Table<'_> {
+    /// Which of the candidates are functionally independent of those before them: the rank of their derivatives along N, at a
+    /// point of the first draw.
+    pub fn independent(&self, candidates: &[(&Family, &[(usize, Residue)])]) -> Option<Vec<usize>> {
+        let (draw, _) = self.draw(0)?;
+        self.independent_at(&draw, candidates)
+    }
+
+    pub(super) fn independent_at(
+        &self,
+        draw: &Draw,
+        candidates: &[(&Family, &[(usize, Residue)])],
+    ) -> Option<Vec<usize>> {
+        // Another stream than that of the null space.
+        let mut random = Random::stream(self.seed, 1 << 20);
+        let field = &draw.field;
+        let at = self.at(draw, &mut random)?;
+        let letters = self.letters.len();
+        let fixed = at.gradients[letters * self.directions..].chunks(self.directions.max(1));
+        let mut columns: Vec<Vec<Residue>> = fixed.map(<[Residue]>::to_vec).collect();
+        columns.extend(
+            candidates
+                .iter()
+                .map(|(family, vector)| self.gradient(field, &at, family, vector)),
+        );
+        let rows = (0..self.directions).flat_map(|d| columns.iter().map(move |column| column[d]));
+        let pivots = null_space(field, columns.len(), rows.collect()).pivots;
+        let own = pivots.into_iter().filter_map(|i| i.checked_sub(self.fixed));
+        Some(own.collect())
+    }
+
+    /// How many of the candidates are new functions, constants aside, beside the first of them at the places `independent`: as
+    /// (products of these, others).
+    pub fn others(
+        &self,
+        candidates: &[(&Family, &[(usize, Residue)])],
+        independent: &[usize],
+    ) -> Option<(usize, usize)> {
+        let (draw, _) = self.draw(0)?;
+        let mut random = Random::stream(self.seed, 1 << 22);
+        let field = &draw.field;
+        let pairs = independent.len() * (independent.len() + 1) / 2;
+        let columns = 1 + independent.len() + pairs + candidates.len();
+        let mut matrix = Vec::with_capacity(columns * (columns + SURPLUS));
+        for _ in 0..columns + SURPLUS {
+            let at = self.at(&draw, &mut random)?;
+            let value = |(family, vector): &(&Family, &[(usize, Residue)])| {
+                vector.iter().fold(Residue::ZERO, |sum, &(member, c)| {
+                    let (value, _) = self.member(field, &at, &family.members[member]);
+                    field.add(sum, field.mul(c, value))
+                })
+            };
+            let values: Vec<Residue> = candidates.iter().map(value).collect();
+            let first: Vec<Residue> = independent.iter().map(|&i| values[i]).collect();
+            matrix.push(field.one());
+            matrix.extend(&first);
+            for (i, &a) in first.iter().enumerate() {
+                matrix.extend(first[..=i].iter().map(|&b| field.mul(a, b)));
+            }
+            matrix.extend(values);
+        }
+        self.counted(field, columns, matrix, independent.len(), pairs)
+    }
+
+    /// Of columns 1, G_i, G_i G_j and candidates: how many candidates are new beside the G_i, by products or otherwise.
+    fn counted(
+        &self,
+        field: &PrimeField,
+        columns: usize,
+        matrix: Vec<Residue>,
+        first: usize,
+        pairs: usize,
+    ) -> Option<(usize, usize)> {
+        let known = 1 + first + pairs;
+        let pivots = null_space(field, columns, matrix.clone()).pivots;
+        let others = pivots.iter().filter(|&&i| i >= known).count();
+        let kept: Vec<usize> = (0..=first).chain(known..columns).collect();
+        let rows = matrix.chunks(columns);
+        let without: Vec<Residue> = rows.flat_map(|row| kept.iter().map(|&i| row[i])).collect();
+        let pivots = null_space(field, kept.len(), without).pivots;
+        let new = pivots.iter().filter(|&&i| i > first).count();
+        Some((new.checked_sub(others)?, others))
+    }
+
+    fn gradient(
+        &self,
+        field: &PrimeField,
+        at: &At,
+        family: &Family,
+        vector: &[(usize, Residue)],
+    ) -> Vec<Residue> {
+        // ∂G = Σ_x (Σ_ν c_ν φ_ν e_ν(x)/x) ∂x.
+        let mut slopes = vec![Residue::ZERO; self.letters.len()];
+        for &(member, c) in vector {
+            let (value, _) = self.member(field, at, &family.members[member]);
+            let weighted = field.mul(c, value);
+            for &(letter, exponent) in &family.members[member] {
+                let times = field.mul(weighted, field.from_i64(i64::from(exponent)));
+                let inverse = field.inv(at.values[letter]).unwrap_or(Residue::ZERO);
+                slopes[letter] = field.add(slopes[letter], field.mul(times, inverse));
+            }
+        }
+        let along = |direction: usize| {
+            let mut sum = Residue::ZERO;
+            for (letter, &slope) in slopes.iter().enumerate() {
+                let own = at.gradients[letter * self.directions + direction];
+                sum = field.add(sum, field.mul(slope, own));
+            }
+            sum
+        };
+        (0..self.directions).map(along).collect()
+    }
+}
