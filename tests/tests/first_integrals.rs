@@ -268,6 +268,16 @@ fn constant_roots_in_coefficients() {
     });
 }
 
+/// The center of a ball on a turntable keeps its speed (Earnshaw 1844): what is found is a square less that of a linear integral.
+#[test]
+fn integrals_are_shortened_by_products_of_others() {
+    with("sphere-on-turntable", |cx, found| {
+        let g = &cx.system.graph;
+        let shown: Vec<String> = found.integrals.iter().map(|i| g.text(i.shown)).collect();
+        assert!(shown.contains(&"x'^2 + y'^2".to_owned()), "{shown:?}");
+    });
+}
+
 /// Tsiolkovsky 1903: with the relative velocity u of what is burnt, `v - u log m + g t` keeps its value, and so does the momentum with
 /// what left it. A mass with a law of its own is a state: `m + k t` is an integral, and so is `m² (g - k z'²)` for a drop that grows
 /// as it falls through a fog at rest, as `(m z')' = m g` and `m' = k m z'` give.

@@ -65,6 +65,8 @@ struct Candidate<'f> {
     /// Whether it contains the time, then the degree in the velocities of the leading member; a known function goes before others
     /// of its degree, and what contains neither roots nor reciprocals before what does.
     order: (bool, u32, bool, u8, usize),
+    /// Whether no member is of higher degree in the velocities than one.
+    is_linear: bool,
     name: Option<String>,
 }
 
@@ -114,7 +116,11 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
                 .map(|&(m, _)| awkwardness(cx, family, &family.members[m]))
                 .max()
                 .unwrap_or(0);
+            let is_linear = vector
+                .iter()
+                .all(|&(m, _)| letters.degree(&family.members[m]) <= 1);
             candidates.push(Candidate {
+                is_linear,
                 order: (timed, degree, true, awkward, place),
                 family,
                 vector,
@@ -169,6 +175,7 @@ fn known<'f>(table: &Table<'_>, letters: &Letters, families: &'f [Family]) -> Ve
                 family,
                 vector: vec![(place, one)],
                 order: (false, degree, false, 0, 0),
+                is_linear: name != ENERGY,
                 name: Some(name.clone()),
             });
         }
@@ -247,11 +254,10 @@ fn chosen(
                     Some(ENERGY) => integral,
                     _ => without_constant_factor(cx, integral),
                 };
-                let is_linear = candidate.order.1 == 1;
-                if is_linear {
+                if candidate.is_linear {
                     linear.push(integral.clone());
                 }
-                integrals.push(match integral.name.is_none() && !is_linear {
+                integrals.push(match integral.name.is_none() && !candidate.is_linear {
                     true => shorter(cx, motion, integral, &linear),
                     false => integral,
                 });
