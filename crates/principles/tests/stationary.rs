@@ -51,6 +51,28 @@ fn particle() {
     assert_condition(&PARTICLE, SUSLOV, "y' = 0 and y = 0, or x' = 0");
 }
 
+/// z' = a y x' + b x y' has A = a − b, and λ is (a + b) x'y' over 1 + a² y² + b² x²: for a = b the constraint is integrable, for a = −b
+/// there is no reaction, and κ = 0 serves every motion.
+#[test]
+fn particular_parameters() {
+    let stated = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2)",
+        &[("c", "z' - a y x' - b x y'")],
+    );
+    assert_condition(&stated, STATIONARY, "x' = 0 or y' = 0");
+    let found = finding(&system(&stated), STATIONARY);
+    let detail = found.verdict.detail();
+    assert!(
+        detail.contains("where b = a, every motion does"),
+        "{detail}"
+    );
+    assert!(
+        detail.contains("where b = -a, every motion does"),
+        "{detail}"
+    );
+}
+
 /// With a shift of the constraint, z' = y x' + b: λ = x'y'/(1 + y²) as before, and κ = 0 for the same motions.
 #[test]
 fn affine_particle() {
