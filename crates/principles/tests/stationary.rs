@@ -73,6 +73,21 @@ fn particular_parameters() {
     );
 }
 
+/// z' = h x', h = u + 2 sin u, has A = h' = 1 + 2 cos u, which vanishes at angles that are not looked up: u is constant there, so that
+/// u' = 0, and these motions are among those found.
+#[test]
+fn a_function_of_one_coordinate_that_vanishes() {
+    let stated = text(
+        "x u z",
+        "1/2 (x'^2 + u'^2 + z'^2)",
+        &[("c", "z' - (u + 2 sin(u)) x'")],
+    );
+    let found = finding(&system(&stated), STATIONARY);
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "conditional", "{detail}");
+    assert!(detail.contains("only where x' = 0 or u' = 0"), "{detail}");
+}
+
 /// With a shift of the constraint, z' = y x' + b: λ = x'y'/(1 + y²) as before, and κ = 0 for the same motions.
 #[test]
 fn affine_particle() {

@@ -151,6 +151,8 @@ struct Search<'a, 'b> {
     with_multipliers: bool,
     spent: Cell<u64>,
     regular: RefCell<Vec<Expr>>,
+    /// The equations of each case that was not followed, with what is said of it.
+    left: RefCell<Vec<(String, Case)>>,
 }
 
 impl<'a, 'b> Search<'a, 'b> {
@@ -163,6 +165,7 @@ impl<'a, 'b> Search<'a, 'b> {
             with_multipliers,
             spent: Cell::new(0),
             regular: RefCell::default(),
+            left: RefCell::default(),
         }
     }
 
@@ -173,9 +176,8 @@ impl<'a, 'b> Search<'a, 'b> {
                 break;
             };
             if self.spent.get() > SIGNS {
-                found
-                    .open
-                    .push(format!("{} (the budget was spent)", self.place(&case)));
+                let text = format!("{} (the budget was spent)", self.place(&case));
+                self.leave(&mut found, &case, text);
                 continue;
             }
             match self.advance(&mut found, case) {
@@ -189,6 +191,12 @@ impl<'a, 'b> Search<'a, 'b> {
         found.open.extend(rest);
         found.regular.clone_from(&self.regular.borrow());
         self.arranged(found)
+    }
+
+    /// Leaves a case that is not followed, with what is said of it.
+    fn leave(&self, found: &mut Found, case: &Case, text: String) {
+        self.left.borrow_mut().push((text.clone(), case.clone()));
+        found.open.push(text);
     }
 
     /// The state of a case in words.
@@ -481,6 +489,13 @@ impl<'a, 'b> Search<'a, 'b> {
                 found.leaves.push(written);
             }
         }
+        // Motions of a case that lie in a set found are known, whatever else holds for them.
+        for (text, case) in self.left.borrow().iter() {
+            let mut leaves = found.leaves.iter();
+            if leaves.any(|leaf| leaf.nonzero.is_empty() && self.holds_on(leaf, case)) {
+                found.open.retain(|open| open != text);
+            }
+        }
         found.open.extend(self.motion.gaps.iter().cloned());
         found.open.sort();
         found.open.dedup();
@@ -489,15 +504,20 @@ impl<'a, 'b> Search<'a, 'b> {
 
     /// Whether the equations of `large` hold on `small`.
     fn contains(&self, large: &Leaf, small: &Leaf) -> bool {
-        let solved = large.solved.iter();
-        let solved = solved.map(|&(symbol, value)| self.g.sub(symbol, value));
-        let mut all = solved.chain(large.implicit.iter().map(|&(e, _)| e));
-        let small = Case {
+        let case = Case {
             solved: small.solved.clone(),
             implicit: small.implicit.clone(),
             ..Case::default()
         };
-        all.all(|residual| self.g.is_zero(self.on(&small, residual)))
+        self.holds_on(large, &case)
+    }
+
+    /// Whether the equations of a set hold on a case.
+    fn holds_on(&self, large: &Leaf, case: &Case) -> bool {
+        let solved = large.solved.iter();
+        let solved = solved.map(|&(symbol, value)| self.g.sub(symbol, value));
+        let mut all = solved.chain(large.implicit.iter().map(|&(e, _)| e));
+        all.all(|residual| self.g.is_zero(self.on(case, residual)))
     }
 }
 

@@ -148,9 +148,7 @@ impl Search<'_, '_> {
             };
             if turns.is_none() {
                 let (text, symbol, and) = (g.text(factor), g.text(at), self.place(case));
-                found
-                    .open
-                    .push(format!("{text} = 0 at other {symbol}, {and}"));
+                self.leave(found, case, format!("{text} = 0 at other {symbol}, {and}"));
             }
             for turn in 0..turns.unwrap_or(1) {
                 for &first in first {

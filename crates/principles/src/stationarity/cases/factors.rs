@@ -113,10 +113,11 @@ impl Search<'_, '_> {
                 case.pending.push(e);
                 return vec![case];
             }
-            found.open.push(format!(
+            let text = format!(
                 "{} (a condition is too long to be factored)",
                 self.place(case)
-            ));
+            );
+            self.leave(found, case, text);
             return Vec::new();
         };
         list.into_iter()
@@ -130,9 +131,7 @@ impl Search<'_, '_> {
             if angle.period.is_none() {
                 let (text, symbol) = (self.g.text(factor), self.g.text(angle.symbol));
                 let and = self.place(case);
-                found
-                    .open
-                    .push(format!("{text} = 0 at other {symbol}, {and}"));
+                self.leave(found, case, format!("{text} = 0 at other {symbol}, {and}"));
             }
             let cases = values.into_iter().filter_map(|value| {
                 let mut case = self.with(case, angle.symbol, value)?;
@@ -175,7 +174,7 @@ impl Search<'_, '_> {
                         true => String::new(),
                         false => format!(" and {}", self.place(case)),
                     };
-                    found.open.push(format!("{text} = 0{and}"));
+                    self.leave(found, case, format!("{text} = 0{and}"));
                     Vec::new()
                 })
             }
