@@ -209,9 +209,9 @@ impl Search<'_, '_> {
     fn zeros(&self, polynomial: Expr, symbol: Symbol) -> Option<Vec<Expr>> {
         let g = self.g;
         let list = coefficients(g, polynomial, symbol)?;
-        match list.as_slice() {
-            &[c, b] => Some(vec![short(g, g.neg(g.div(c, b)))]),
-            &[c, b, a] => match self.root_of_discriminant(a, b, c) {
+        match *list.as_slice() {
+            [c, b] => Some(vec![short(g, g.neg(g.div(c, b)))]),
+            [c, b, a] => match self.root_of_discriminant(a, b, c) {
                 Root::Imaginary(_) => Some(Vec::new()),
                 Root::Both(root) => Some(self.both(a, b, root)),
                 Root::Unknown => None,
