@@ -181,7 +181,6 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
     // An index belongs to a κ, not to the curve.
     ("appell-hamel/model.toml", "witness.index", "not unique"),
     ("appell-hamel/to-rest.toml", "witness.index", "not unique"),
-    ("moving-knife-edge/lift.toml", "witness.index", "not unique"),
     // An integral with √(1 + a²), which is no rational function of the parameters.
     (
         "rocket-on-appells-constraint/model.toml",

@@ -164,6 +164,41 @@ fn focal_times_do_not_depend_on_coordinates() {
     assert!(turned.contains("rank less than 2"), "{turned}");
 }
 
+/// Great circles of the unit sphere meet again after half a turn, whether the sphere is stated by a rate or not at all; and motions
+/// x' = 0 beside z' = y x' with V = y²/2 are oscillations with κ = 0.
+#[test]
+fn conjugate_times_on_a_leaf_and_on_a_set() {
+    let of = |potential: &str, constraint: &str, initial: &str| {
+        let text = format!(
+            "coordinates = [\"x\", \"y\", \"z\"]\n\
+             lagrangian = \"1/2 (x'^2 + y'^2 + z'^2){potential}\"\n\
+             constraints = {{ c = \"{constraint}\" }}\n\
+             initial = {{ {initial} }}\n\
+             simulation = {{ t_end = 4, output = 600, tolerance = 1e-11 }}\n"
+        );
+        let model = load("leaf.toml", &text, &NoFiles, &[]).model;
+        let study = studied(model.expect("a model"), &WITNESS, |_| ());
+        let found = study
+            .motion
+            .as_ref()
+            .and_then(|m| m.witness.conjugate.clone());
+        let times = found.expect("conjugate times").times;
+        assert_eq!(times.len(), 1, "{times:?}");
+        assert!((times[0] - std::f64::consts::PI).abs() < 1e-6, "{times:?}");
+        detail(&study, "witness.index").1.to_string()
+    };
+    let sphere = "x x' + y y' + z z' = 0";
+    let start = "x = 1, y = 0, z = 0, \"x'\" = 0, \"y'\" = 1, \"z'\" = 0";
+    let told = of("", sphere, start);
+    assert!(told.starts_with("among the curves on the leaf"), "{told}");
+    let start = "x = 0, y = 1, z = 0, \"x'\" = 0, \"y'\" = 0";
+    let told = of(" - 1/2 y^2", "z' = y x'", start);
+    assert!(
+        told.starts_with("on the set of stationary motions"),
+        "{told}"
+    );
+}
+
 /// The rolling disc is a minimum on a short interval, and its index is stated with its unique κ.
 #[test]
 fn the_index_of_the_disc() {

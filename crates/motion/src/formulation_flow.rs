@@ -359,7 +359,14 @@ impl<'a> FormulationFlow<'a> {
         let left = std::mem::replace(&mut self.current, entered);
         self.charts.push(left);
         let (q, v) = (self.q.clone(), self.v.clone());
-        let Ok(packed) = self.pack(t, &q, &v) else {
+        let packed = self.pack(t, &q, &v);
+        // Where other dependent velocities stay implicit, the state has another size: the former chart goes on.
+        let fits = |packed: &Vec<f64>| packed.len() == y.len();
+        let Some(packed) = packed.ok().filter(fits) else {
+            if let Some(former) = self.charts.pop() {
+                let unfit = std::mem::replace(&mut self.current, former);
+                self.charts.push(unfit);
+            }
             return Control::Continue;
         };
         y.copy_from_slice(&packed);

@@ -11,11 +11,13 @@
 //! work in the equations it says that the gyroscopic tensor is `T(Y, Z) = Z[φ] Y − Y[φ] Z`, the sufficient condition of
 //! García-Naranjo 2019 (φ-simple systems). Then the form φ_s dq_s must be closed.
 //!
-//! N is then searched as a product of powers of the factors that occur in the denominators of φ_s and in det G.
+//! N is then searched as a product of powers of the factors that occur in the denominators of φ_s and in det G, times the exponential
+//! of a polynomial in the coordinates.
 
 use crate::words::{formula, listed, readable};
 use chetaev_mechanics::claims::formulation::{basis, derive, REFERENCE};
 use chetaev_mechanics::claims::{once_where, Claim, Context, Finding, Formula, Group};
+use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::formulations::{ignorable, DeriveError};
 use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::{Characteristics, Manifold};
@@ -46,7 +48,7 @@ impl Claim for Multiplier {
          for L* in (q, dq/dτ). Two independent velocities: exactly where ∂ln N/∂q₁ = Σ B₂ c, ∂ln N/∂q₂ = −Σ B₁ c, with the curvature c = ∂a₁/∂q₂ − ∂a₂/∂q₁ \
          and the momenta θ = B₁ P₁ + B₂ P₂ of the dependent velocities. k > 2 of them: the gyroscopic terms Σ S v v must be φ_s Σ v P − P_s Σ v φ, φ = ln N, as in the φ-simple systems of García-Naranjo; the trace of that gives φ_s, \
          the rest is a condition more. `refuted`: that condition fails, or the mixed derivatives disagree, at a position, so there is no multiplier in this form; other momenta or other times are not refuted by it. \
-         `proved`: they hold; N is stated where it is a product of powers of the factors that occur, else it is a quadrature. Then N^(k−1) det G is the density of an \
+         `proved`: they hold; N is stated where it is a product of powers of the factors that occur and of the exponential of a polynomial in the coordinates, else it is a quadrature. Then N^(k−1) det G is the density of an \
          invariant measure in (q, v), and δ∫(T + U) N dt = 0 with ∫N dt fixed. It is another property than stationary action: a skate has the multiplier cos φ \
          in x and φ, a particle z' = y x' has 1/√(1 + y²), and loses it when a further coordinate moves freely beside it. \
          Example: for z' = y x' the momentum of z is θ = y P₁/(1 + y²) and c = 1, so ∂ln N/∂x = 0, ∂ln N/∂y = −y/(1 + y²): \
@@ -84,6 +86,9 @@ impl Claim for Multiplier {
     }
 }
 
+/// Polynomials of a higher degree are not looked for in ln N.
+const DEGREE: i64 = 8;
+
 /// More independent velocities are too many for determinants in closed form.
 const VELOCITIES: usize = 5;
 
@@ -95,7 +100,7 @@ struct Reduced {
     /// φ_s = `∂ln N/∂q_s`.
     form: Vec<Expr>,
     /// What vanishes, besides the mixed derivatives, where N exists; nothing for k = 2.
-    condition: Vec<Expr>,
+    condition: Vec<(String, Expr)>,
     /// det G.
     determinant: Expr,
 }
@@ -135,7 +140,7 @@ impl Reduced {
         let form: Vec<Expr> = form.into_iter().map(simple).collect();
         Ok(Reduced {
             condition: match k {
-                3..=VELOCITIES => gyroscopic.rest(g, &metric, &form),
+                3..=VELOCITIES => gyroscopic.rest(g, &metric, &form, &coordinates),
                 _ => Vec::new(),
             },
             coordinates,
@@ -159,8 +164,7 @@ impl Reduced {
         }
         let on = "for all positions";
         let free = Manifold::default();
-        let identity = |residuals: &[Expr]| cx.prover.identity(system, residuals, &free, on);
-        let mut verdict = identity(&self.condition);
+        let mut verdict = cx.prover.named_identity(system, &self.condition, &free, on);
         if k > 2 && !matches!(verdict, Verdict::Proved(_)) {
             let sentence = match &verdict {
                 Verdict::Refuted(_) => "no time dτ = N(q) dt makes the equations Lagrange's for L* in (q, dq/dτ): the gyroscopic terms are not φ_s Σ v P − P_s Σ v φ with φ = ln N (other forms of Hamilton's equations are not refuted by that)",
@@ -222,7 +226,7 @@ impl Reduced {
         let mut formulas = self.stated(cx);
         let Some(reducer) = self.integrated(cx) else {
             let mut verdict = closed;
-            verdict.prefix("the mixed derivatives of ln N agree, so N exists near every position, by a quadrature; it is no product of powers of the factors that occur",
+            verdict.prefix("the mixed derivatives of ln N agree, so N exists near every position, by a quadrature; it is no product of powers of the factors that occur and of the exponential of a polynomial in the coordinates",
             );
             return Finding { verdict, formulas };
         };
@@ -250,7 +254,7 @@ impl Reduced {
         Finding { verdict, formulas }
     }
 
-    /// N as a product of powers of the factors that occur.
+    /// N as a product of powers of the factors that occur, and of the exponential of a polynomial in the coordinates.
     fn integrated(&self, cx: &Context<'_>) -> Option<Expr> {
         let g = &cx.system.graph;
         let mut candidates: Vec<Expr> = Vec::new();
@@ -281,7 +285,44 @@ impl Reduced {
             rest = (0..self.k()).map(less).collect();
             powers.push(g.pow(factor, exponent));
         }
-        rest.iter().all(|&e| g.is_zero(e)).then(|| g.mul(&powers))
+        powers.push(g.exp(self.potential(cx, &rest)?));
+        Some(g.mul(&powers))
+    }
+
+    /// The polynomial of which a closed form is the differential, `∫₀¹ Σ q_s form_s(τ q) dτ`; `None` where the form is no polynomial.
+    fn potential(&self, cx: &Context<'_>, form: &[Expr]) -> Option<Expr> {
+        let g = &cx.system.graph;
+        let has_poles = |e: Expr| {
+            let factors = factored(g, e).map(|parts| parts.factors);
+            factors.is_none_or(|list| {
+                let below = list.iter().filter(|(_, power)| *power < 0);
+                below
+                    .into_iter()
+                    .any(|(f, _)| g.contains_any(*f, &self.coordinates))
+            })
+        };
+        if form.iter().any(|&e| has_poles(e)) {
+            return None;
+        }
+        let name = unused_name(cx.system, "tau");
+        let (tau, own) = (g.symbol(&name, 0), g.intern_symbol(&name, 0));
+        let at: Vec<Expr> = self.coordinates.iter().map(|&q| g.symbol_expr(q)).collect();
+        let scaled: Vec<(Expr, Expr)> = at.iter().map(|&q| (q, g.mul(&[tau, q]))).collect();
+        let simple = |e: Expr| crate::stationarity::by_sines(g, e);
+        // The Taylor coefficients in τ: a polynomial has so many that do not vanish.
+        let mut derivative = simple(dot(g, &at, &g.substitute_all(form, &scaled)));
+        let mut terms = Vec::new();
+        let mut factorial = 1;
+        for order in 0..=DEGREE {
+            if g.is_zero(derivative) {
+                return Some(g.add(&terms));
+            }
+            let value = g.substitute(derivative, &[(tau, g.zero())]);
+            terms.push(g.div(value, g.integer(factorial * (order + 1))));
+            factorial *= order + 1;
+            derivative = simple(g.diff(derivative, own));
+        }
+        None
     }
 
     /// The exponent of a factor in N: the residue of what is left where the factor vanishes, or the ratio of what is left to
@@ -445,19 +486,32 @@ impl Gyroscopic {
             .collect()
     }
 
-    /// `S_s,uw + S_s,wu − 2 φ_s G_uw + φ_u G_sw + φ_w G_su`, u ≤ w.
-    fn rest(&self, g: &Graph, metric: &[Vec<Expr>], form: &[Expr]) -> Vec<Expr> {
+    /// `S_s,uw + S_s,wu − 2 φ_s G_uw + φ_u G_sw + φ_w G_su`, u ≤ w, each with its name.
+    fn rest(
+        &self,
+        g: &Graph,
+        metric: &[Vec<Expr>],
+        form: &[Expr],
+        coordinates: &[Symbol],
+    ) -> Vec<(String, Expr)> {
         let k = metric.len();
+        let name = |(s, u, w): (usize, usize, usize)| {
+            let [s, u, w] = [s, u, w].map(|i| g.symbol_text(coordinates[i]));
+            format!(
+                "the coefficient of {u}' {w}' in the equation of {s}, Σ S v v less φ_s Σ v P − P_s Σ v φ (twice, symmetrized),"
+            )
+        };
         let places = (0..k).flat_map(|s| (0..k).flat_map(move |u| (u..k).map(move |w| (s, u, w))));
         places
             .map(|(s, u, w)| {
-                g.add(&[
+                let rest = g.add(&[
                     self.entry(g, (s, u, w)),
                     self.entry(g, (s, w, u)),
                     g.mul(&[g.integer(-2), form[s], metric[u][w]]),
                     g.mul(&[form[u], metric[s][w]]),
                     g.mul(&[form[w], metric[s][u]]),
-                ])
+                ]);
+                (name((s, u, w)), rest)
             })
             .collect()
     }

@@ -63,7 +63,7 @@ impl Claim for EnergyIntegral {
         };
         let rate = energy_rate(cx.system, &equations.accelerations);
         let hypotheses = hypotheses(cx);
-        let mut verdict = on_motion(cx, &[rate]);
+        let mut verdict = on_motion(cx, "dH/dt along the motion", rate);
         let sentence = match &verdict {
             Verdict::Proved(_) => why_conserved(&hypotheses),
             Verdict::Refuted(_) => format!(
@@ -154,13 +154,15 @@ impl Hypothesis {
     }
 }
 
-fn on_motion(cx: &Context<'_>, residuals: &[Expr]) -> Verdict {
+fn on_motion(cx: &Context<'_>, name: &str, residual: Expr) -> Verdict {
     let on = if cx.terms.constraints.is_empty() {
         "everywhere outside the singular set of the mass matrix"
     } else {
         "on the constraint manifold outside the singular set of the linear systems"
     };
-    cx.prover.identity(cx.system, residuals, &manifold(cx), on)
+    let named = [(name.to_string(), residual)];
+    cx.prover
+        .named_identity(cx.system, &named, &manifold(cx), on)
 }
 
 /// ∂L/∂t = 0, ΣQv = 0, and ∂f/∂v · v = 0 on f = 0 for each constraint.
@@ -196,7 +198,7 @@ fn hypotheses(cx: &Context<'_>) -> Vec<Hypothesis> {
             false => "the forces Q and the reactive forces Ψ do work".into(),
         },
         constraint: None,
-        verdict: on_motion(cx, &[power]),
+        verdict: on_motion(cx, "the power Σ Q v of the forces", power),
     });
     for &row in &cx.selection.rows {
         let constraint = &system.constraints[cx.terms.constraint_index[row]];
@@ -211,7 +213,7 @@ fn hypotheses(cx: &Context<'_>) -> Vec<Hypothesis> {
             holding: format!("∂f/∂v · v = 0 where f = 0 for {{}}{time}"),
             failing: "∂f/∂v · v does not vanish for {}, so the reaction can do work".into(),
             constraint: Some(format!("`{}`", constraint.name)),
-            verdict: on_motion(cx, &[speed]),
+            verdict: on_motion(cx, "∂f/∂v · v", speed),
         });
     }
     all

@@ -45,6 +45,17 @@ fn particle() {
     assert_multiplier(&PARTICLE, "1/sqrt(1 + y^2)");
 }
 
+/// θ = e^(y²) x' and G₁₁ = 4 e^(2y²): ∂ln N/∂y = −2y e^(2y²)/(4 e^(2y²)) = −y/2, which no power of a polynomial has.
+#[test]
+fn exponential() {
+    let stated = text(
+        "x y z",
+        "1/2 (3 exp(2 y^2) x'^2 + y'^2 + z'^2)",
+        &[("c", "z' - exp(y^2) x'")],
+    );
+    assert_multiplier(&stated, "exp(-y^2/4)");
+}
+
 /// y' = x x' leaves one velocity, and (1 + x²) x'' + x x'² = 0 is Lagrange's equation of L* = (1 + x²) x'²/2; without constraints
 /// L* = L.
 #[test]

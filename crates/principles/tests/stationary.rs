@@ -51,6 +51,43 @@ fn particle() {
     assert_condition(&PARTICLE, SUSLOV, "y' = 0 and y = 0, or x' = 0");
 }
 
+/// z' = a y x' + b x y' has A = a − b, and λ is (a + b) x'y' over 1 + a² y² + b² x²: for a = b the constraint is integrable, for a = −b
+/// there is no reaction, and κ = 0 serves every motion.
+#[test]
+fn particular_parameters() {
+    let stated = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2)",
+        &[("c", "z' - a y x' - b x y'")],
+    );
+    assert_condition(&stated, STATIONARY, "x' = 0 or y' = 0");
+    let found = finding(&system(&stated), STATIONARY);
+    let detail = found.verdict.detail();
+    assert!(
+        detail.contains("where b = a, every motion does"),
+        "{detail}"
+    );
+    assert!(
+        detail.contains("where b = -a, every motion does"),
+        "{detail}"
+    );
+}
+
+/// z' = h x', h = u + 2 sin u, has A = h' = 1 + 2 cos u, which vanishes at angles that are not looked up: u is constant there, so that
+/// u' = 0, and these motions are among those found.
+#[test]
+fn a_function_of_one_coordinate_that_vanishes() {
+    let stated = text(
+        "x u z",
+        "1/2 (x'^2 + u'^2 + z'^2)",
+        &[("c", "z' - (u + 2 sin(u)) x'")],
+    );
+    let found = finding(&system(&stated), STATIONARY);
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "conditional", "{detail}");
+    assert!(detail.contains("only where x' = 0 or u' = 0"), "{detail}");
+}
+
 /// With a shift of the constraint, z' = y x' + b: λ = x'y'/(1 + y²) as before, and κ = 0 for the same motions.
 #[test]
 fn affine_particle() {

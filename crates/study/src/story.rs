@@ -5,7 +5,7 @@ use crate::plain;
 use crate::study::{Decided, Study};
 use crate::summary::{bold, coloured, Style};
 use chetaev_mechanics::Formula;
-use chetaev_symbolic::Verdict;
+use chetaev_symbolic::{Expr, Function, Node, Verdict};
 use std::fmt::Write as _;
 
 /// A chapter: its title, what it is about, and the claims it tells of, by id or by what ids begin with.
@@ -173,14 +173,24 @@ fn verdict(text: &mut String, study: &Study, decided: &Decided, style: Style) {
         // The rest is told where the hypothesis is.
         told = first.to_string();
     }
-    paragraph(text, &format!("{}.", written(&told)), 4);
-    if let Some(found) = counterexample(decided) {
+    let found = counterexample(study, decided);
+    if found.is_some() {
+        // What does not vanish, and where, is told of the counterexample.
+        let parts = told
+            .split("; ")
+            .filter(|part| !part.contains("does not vanish: it"));
+        told = parts.collect::<Vec<&str>>().join("; ");
+    }
+    if !told.is_empty() {
+        paragraph(text, &format!("{}.", written(&told)), 4);
+    }
+    if let Some(found) = found {
         paragraph(text, &written(&found), 4);
     }
 }
 
-/// The state at which a claim fails, where the detail does not say it already.
-fn counterexample(decided: &Decided) -> Option<String> {
+/// The state at which a claim fails, with the values that the proof used.
+fn counterexample(study: &Study, decided: &Decided) -> Option<String> {
     let (found, where_) = match &decided.finding.verdict {
         Verdict::Refuted(found) => (found, "It fails at"),
         Verdict::Conditional {
@@ -189,28 +199,48 @@ fn counterexample(decided: &Decided) -> Option<String> {
         } => (found, "Elsewhere it fails, as at"),
         _ => return None,
     };
-    let says_where = decided
-        .finding
-        .verdict
-        .detail()
-        .contains("does not vanish: it");
-    if found.point.is_empty() || says_where {
+    if found.point.is_empty() {
         return None;
     }
     let shown = |text: &str| text.parse().map_or(text.to_string(), number);
     let point: Vec<String> = found
         .point
         .iter()
-        .map(|p| match (&p.exact, &p.enclosure) {
-            (Some(exact), _) => format!("{} = {exact}", p.name),
-            (None, Some((low, _))) => format!("{} ≈ {}", p.name, shown(low)),
-            (None, None) => p.name.clone(),
+        .map(|p| {
+            let unit = angle_unit(study, &p.name);
+            match (&p.exact, &p.enclosure) {
+                (Some(exact), _) => format!("{} = {exact}{unit}", p.name),
+                (None, Some((low, _))) => format!("{} ≈ {}{unit}", p.name, shown(low)),
+                (None, None) => p.name.clone(),
+            }
         })
         .collect();
     let (low, high) = &found.residual;
     let about = if low == high { "is" } else { "is about" };
     let value = format!("{} {about} {}, not 0", found.quantity, shown(low));
     Some(format!("{where_} {}: {value}.", point.join(", ")))
+}
+
+/// " rad" after the value of a coordinate the sine or cosine of which occurs: numbers of a proof are radians, whatever the unit of the model.
+fn angle_unit(study: &Study, name: &str) -> &'static str {
+    let (system, g) = (&study.system, &study.system.graph);
+    let Some(coordinate) = system.coordinates.iter().find(|c| c.name == name) else {
+        return "";
+    };
+    let mut all = vec![system.lagrangian];
+    all.extend(&system.forces);
+    all.extend(system.constraints.iter().map(|c| c.stated));
+    let is_circular = |e: Expr| match g.node(e) {
+        Node::Apply {
+            function: Function::Sin | Function::Cos | Function::Tan,
+            arguments,
+        } => g.contains_any(arguments[0], &[coordinate.q_symbol]),
+        _ => false,
+    };
+    match g.reachable(&all).into_iter().any(is_circular) {
+        true => " rad",
+        false => "",
+    }
 }
 
 /// "caption: left = right".

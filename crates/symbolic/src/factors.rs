@@ -1,7 +1,7 @@
 //! Factors of the polynomial that an expression is in its generators.
 
 use crate::graph::Graph;
-use crate::node::{Expr, Symbol};
+use crate::node::{Expr, Node, Symbol};
 use crate::polynomial::normal_form::{normal_forms, Options};
 use crate::polynomial::Budget;
 use crate::rational::Rational;
@@ -27,6 +27,50 @@ pub fn factors(graph: &Graph, e: Expr, symbols: &[Symbol]) -> Option<Vec<(Expr, 
         .filter(|(factor, _)| graph.contains_any(*factor, symbols))
         .collect();
     Some(list)
+}
+
+/// The remainder of the numerator of `e` in the division by the numerator of `by`, both as polynomials in `symbol`, up to factors that
+/// divide the leading coefficient of `by`: where that does not vanish and `by` does, the remainder vanishes exactly where `e` does.
+/// `None` where they are no polynomials in it, or too large.
+pub fn remainder(graph: &Graph, e: Expr, by: Expr, symbol: Symbol) -> Option<Expr> {
+    if !is_polynomial_in(graph, &[e, by], symbol) {
+        return None;
+    }
+    let (field, values) = normal_forms(graph, &[e, by], &Options::display(BUDGET)).ok()?;
+    let [e, by] = values.as_slice() else {
+        return None;
+    };
+    let generator = field.generator_of(graph.symbol_expr(symbol))?;
+    let (e, by) = (e.numerator(), by.numerator());
+    let rest = e.pseudo_remainder(by, generator, field.meter()).ok()?;
+    Some(field.polynomial_expression(&rest))
+}
+
+/// The coefficients of the numerator of `e` as a polynomial in `symbol`, the constant first; `None` where it is none, or too large.
+pub fn coefficients(graph: &Graph, e: Expr, symbol: Symbol) -> Option<Vec<Expr>> {
+    if !is_polynomial_in(graph, &[e], symbol) {
+        return None;
+    }
+    let (field, values) = normal_forms(graph, &[e], &Options::display(BUDGET)).ok()?;
+    let numerator = values.first()?.numerator();
+    let Some(generator) = field.generator_of(graph.symbol_expr(symbol)) else {
+        return Some(vec![field.polynomial_expression(numerator)]);
+    };
+    let degree = numerator.degree_in(generator);
+    let coefficient = |n| field.polynomial_expression(&numerator.coefficient_in(generator, n));
+    Some((0..=degree).map(coefficient).collect())
+}
+
+/// Whether a symbol stands in no function and under no root.
+fn is_polynomial_in(graph: &Graph, es: &[Expr], symbol: Symbol) -> bool {
+    graph.reachable(es).into_iter().all(|e| {
+        let is_plain = match graph.node(e) {
+            Node::Apply { .. } | Node::Matrix { .. } => false,
+            Node::Power { exponent, .. } => graph.as_integer(*exponent).is_some(),
+            _ => true,
+        };
+        is_plain || !graph.contains_any(e, &[symbol])
+    })
 }
 
 /// A rational function as a number times powers of its factors.

@@ -67,7 +67,11 @@ fn obstacle(cx: &Context<'_>) -> Option<Verdict> {
         let name = &cx.system.constraints[cx.terms.constraint_index[row]].name;
         let speed = reaction_speed(cx, row);
         let on = "on the constraint manifold";
-        match cx.prover.identity(cx.system, &[speed], &manifold(cx), on) {
+        let named = [(format!("∂f/∂v·v of `{name}`"), speed)];
+        let verdict = cx
+            .prover
+            .named_identity(cx.system, &named, &manifold(cx), on);
+        match verdict {
             Verdict::Proved(_) => {}
             Verdict::Refuted(found) => {
                 let detail = format!("the actual velocity is no virtual displacement, as ∂f/∂v·v does not vanish for `{name}`: {}", found.detail);

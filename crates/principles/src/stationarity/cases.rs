@@ -3,14 +3,19 @@
 //! A case is a subset of the states, given by symbols that others determine (`x' = 0`, `phi = 0`) and by quantities that do not
 //! vanish there. On it the linear conditions on κ are brought to echelon form; a pivot that may vanish splits the case. What is
 //! left without κ must vanish, by one of its factors; every equation must be kept by the motion, and every condition
-//! differentiated along it must follow. Parameters are general: what contains only parameters does not vanish.
+//! differentiated along it must follow. Parameters are general: what contains only parameters does not vanish; where it does is
+//! looked at apart (`parameters`). Equations that are not solved stay beside the case (`implicit`), or wait (`pending`).
 
 mod angles;
 mod confirm;
+mod constants;
 mod factors;
+mod implicit;
+mod parameters;
 
 pub(crate) use angles::joined;
 pub(crate) use confirm::confirmed;
+pub(crate) use parameters::Special;
 
 use self::angles::Angle;
 use super::closed_form::short;
@@ -19,7 +24,7 @@ use super::motion::Motion;
 use chetaev_mechanics::claims::Context;
 use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::{simplify, Expr, Graph, Symbol};
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 /// At most so many cases.
 const CASES: usize = 120;
@@ -42,6 +47,12 @@ struct Case {
     solved: Vec<(Expr, Expr)>,
     /// What angles were found from, `sin(phi)` for φ = 0 and φ = π.
     angles: Vec<Angle>,
+    /// Polynomials that vanish, each with a symbol in which it has a degree of two or more.
+    implicit: Vec<(Expr, Symbol)>,
+    /// What vanishes and is too long to be followed by itself: what else vanishes may make it shorter, or the case impossible.
+    pending: Vec<Expr>,
+    /// Symbols whose rates were required to vanish.
+    constant: Vec<Symbol>,
     /// Factors that do not vanish.
     nonzero: Vec<Expr>,
     rows: Vec<Row>,
@@ -52,6 +63,8 @@ struct Case {
 pub(crate) struct Leaf {
     /// The equations of the set, symbol and value.
     pub(crate) solved: Vec<(Expr, Expr)>,
+    /// Equations that are not solved: what vanishes, with the symbol that it determines.
+    pub(crate) implicit: Vec<(Expr, Symbol)>,
     /// The equations as they are written: `x' = 0`, `sin(phi) = 0`, with `≠` last.
     pub(crate) equations: Vec<String>,
     /// κ where the conditions determine it.
@@ -84,6 +97,10 @@ pub(crate) struct Found {
     pub(crate) leaves: Vec<Leaf>,
     /// What was not followed, in words.
     pub(crate) open: Vec<String>,
+    /// Functions of parameters alone that were taken not to vanish.
+    pub(crate) regular: Vec<Expr>,
+    /// What more is found where some of these vanish, and those of which that is not known.
+    pub(crate) special: Special,
 }
 
 /// The motions along which κ exists with (12) and (13).
@@ -97,7 +114,15 @@ pub(crate) fn with_multipliers(cx: &Context<'_>, motion: &Motion) -> Found {
         rows: rows.collect(),
         ..Case::default()
     };
-    Search::new(cx, motion, true).run(vec![case])
+    let mut found = Search::new(cx, motion, true).run(vec![case.clone()]);
+    found.special = parameters::special(cx, motion, &found, |at| {
+        let case = Case {
+            solved: vec![at],
+            ..case.clone()
+        };
+        Search::new(cx, motion, true).run(vec![case])
+    });
+    found
 }
 
 /// The motions along which functions of the state vanish.
@@ -108,6 +133,7 @@ pub(crate) fn where_zero(cx: &Context<'_>, motion: &Motion, functions: &[Expr]) 
     let rest = search.run(cases);
     found.leaves.extend(rest.leaves);
     found.open.extend(rest.open);
+    found.regular = rest.regular;
     found
 }
 
@@ -124,6 +150,9 @@ struct Search<'a, 'b> {
     state: Vec<Symbol>,
     with_multipliers: bool,
     spent: Cell<u64>,
+    regular: RefCell<Vec<Expr>>,
+    /// The equations of each case that was not followed, with what is said of it.
+    left: RefCell<Vec<(String, Case)>>,
 }
 
 impl<'a, 'b> Search<'a, 'b> {
@@ -135,6 +164,8 @@ impl<'a, 'b> Search<'a, 'b> {
             state: motion.state(),
             with_multipliers,
             spent: Cell::new(0),
+            regular: RefCell::default(),
+            left: RefCell::default(),
         }
     }
 
@@ -145,9 +176,8 @@ impl<'a, 'b> Search<'a, 'b> {
                 break;
             };
             if self.spent.get() > SIGNS {
-                found
-                    .open
-                    .push(format!("{} (the budget was spent)", self.place(&case)));
+                let text = format!("{} (the budget was spent)", self.place(&case));
+                self.leave(&mut found, &case, text);
                 continue;
             }
             match self.advance(&mut found, case) {
@@ -159,7 +189,14 @@ impl<'a, 'b> Search<'a, 'b> {
             .iter()
             .map(|case| format!("{} (too many cases)", self.place(case)));
         found.open.extend(rest);
+        found.regular.clone_from(&self.regular.borrow());
         self.arranged(found)
+    }
+
+    /// Leaves a case that is not followed, with what is said of it.
+    fn leave(&self, found: &mut Found, case: &Case, text: String) {
+        self.left.borrow_mut().push((text.clone(), case.clone()));
+        found.open.push(text);
     }
 
     /// The state of a case in words.
@@ -179,11 +216,18 @@ impl<'a, 'b> Search<'a, 'b> {
         let restricted = self.g.substitute(e, &case.solved);
         self.spent
             .set(self.spent.get() + simplify::length(self.g, restricted));
-        short(self.g, restricted)
+        let e = short(self.g, restricted);
+        match self.remainder(case, e) {
+            rest if self.g.is_zero(rest) => rest,
+            _ => e,
+        }
     }
 
     /// Makes equations kept by the motion and conditions closed, as far as one step goes.
     fn advance(&self, found: &mut Found, mut case: Case) -> Step {
+        if let Some(cases) = self.made_explicit(found, &case) {
+            return Step::Cases(cases);
+        }
         for &(symbol, value) in &case.solved {
             let rate = self
                 .g
@@ -194,6 +238,15 @@ impl<'a, 'b> Search<'a, 'b> {
             if !self.g.is_zero(residual) {
                 return Step::Cases(self.require(found, &case, residual));
             }
+        }
+        for &(polynomial, _) in &case.implicit {
+            let moved = self.on(&case, self.motion.along(self.cx, polynomial));
+            if !self.g.is_zero(moved) {
+                return Step::Cases(self.require(found, &case, moved));
+            }
+        }
+        if let Some(cases) = self.no_longer_pending(found, &case) {
+            return Step::Cases(cases);
         }
         let mut echelon: Vec<(usize, Row)> = Vec::new();
         for row in &case.rows {
@@ -221,6 +274,18 @@ impl<'a, 'b> Search<'a, 'b> {
             .chain(fresh)
             .collect();
         Step::Cases(vec![case])
+    }
+
+    /// The cases that something pending gives which has become shorter.
+    fn no_longer_pending(&self, found: &mut Found, case: &Case) -> Option<Vec<Case>> {
+        let place = case.pending.iter().position(|&e| self.on(case, e) != e)?;
+        let mut case = case.clone();
+        let e = case.pending.remove(place);
+        let rest = self.on(&case, e);
+        Some(match self.g.is_zero(rest) {
+            true => vec![case],
+            false => self.require(found, &case, rest),
+        })
     }
 
     fn is_zero(&self, row: &Row) -> bool {
@@ -273,6 +338,7 @@ impl<'a, 'b> Search<'a, 'b> {
     /// Enters a row with a pivot that does not vanish, and eliminates it from the others.
     fn enter(&self, case: &Case, echelon: &mut Vec<(usize, Row)>, column: usize, row: &Row) {
         let pivot = row.coefficients[column];
+        self.take_as_regular(pivot);
         let over = |e: Expr| self.on(case, self.g.div(e, pivot));
         let row = Row {
             coefficients: row.coefficients.iter().map(|&e| over(e)).collect(),
@@ -341,6 +407,7 @@ impl<'a, 'b> Search<'a, 'b> {
         let mut leaf = Leaf {
             equations: self.equations(&case),
             solved: case.solved.clone(),
+            implicit: case.implicit.clone(),
             kappa,
             at_rest,
             rows: self.with_multipliers.then(|| echelon.to_vec()),
@@ -392,7 +459,9 @@ impl<'a, 'b> Search<'a, 'b> {
             let angle = case.angles.iter().find(|angle| angle.symbol == symbol);
             Leaf::written(g, angle, symbol, value)
         });
-        pairs.collect()
+        let implicit = case.implicit.iter();
+        let implicit = implicit.map(|(e, _)| format!("{} = 0", g.text(*e)));
+        pairs.chain(implicit).collect()
     }
 
     /// Sets contained in others are left out, and what must not vanish is added to the equations.
@@ -400,9 +469,9 @@ impl<'a, 'b> Search<'a, 'b> {
         let leaves = std::mem::take(&mut found.leaves);
         for (place, leaf) in leaves.iter().enumerate() {
             let contained = leaves.iter().enumerate().any(|(earlier, other)| {
-                let equal = || self.contains(leaf, other) && leaf.nonzero.is_empty();
+                let equal = || self.contains(leaf, other) && leaf.nonzero == other.nonzero;
                 earlier != place
-                    && other.nonzero.is_empty()
+                    && other.nonzero.iter().all(|e| leaf.nonzero.contains(e))
                     && self.contains(other, leaf)
                     && (earlier < place || !equal())
             });
@@ -420,6 +489,13 @@ impl<'a, 'b> Search<'a, 'b> {
                 found.leaves.push(written);
             }
         }
+        // Motions of a case that lie in a set found are known, whatever else holds for them.
+        for (text, case) in self.left.borrow().iter() {
+            let mut leaves = found.leaves.iter();
+            if leaves.any(|leaf| leaf.nonzero.is_empty() && self.holds_on(leaf, case)) {
+                found.open.retain(|open| open != text);
+            }
+        }
         found.open.extend(self.motion.gaps.iter().cloned());
         found.open.sort();
         found.open.dedup();
@@ -428,11 +504,20 @@ impl<'a, 'b> Search<'a, 'b> {
 
     /// Whether the equations of `large` hold on `small`.
     fn contains(&self, large: &Leaf, small: &Leaf) -> bool {
-        large.solved.iter().all(|&(symbol, value)| {
-            let residual = self.g.sub(symbol, value);
-            self.g
-                .is_zero(short(self.g, self.g.substitute(residual, &small.solved)))
-        })
+        let case = Case {
+            solved: small.solved.clone(),
+            implicit: small.implicit.clone(),
+            ..Case::default()
+        };
+        self.holds_on(large, &case)
+    }
+
+    /// Whether the equations of a set hold on a case.
+    fn holds_on(&self, large: &Leaf, case: &Case) -> bool {
+        let solved = large.solved.iter();
+        let solved = solved.map(|&(symbol, value)| self.g.sub(symbol, value));
+        let mut all = solved.chain(large.implicit.iter().map(|&(e, _)| e));
+        all.all(|residual| self.g.is_zero(self.on(case, residual)))
     }
 }
 

@@ -72,7 +72,7 @@ pub(crate) fn zero_of(g: &Graph, factor: Expr, coordinates: &[Symbol]) -> Option
     }
 }
 
-/// tan, cot, sec, csc by sine and cosine.
+/// tan, cot, sec, csc by sine and cosine, and sin acos x as √(1 − x²).
 fn as_quotient(g: &Graph, e: Expr) -> Option<Expr> {
     let Node::Apply {
         function,
@@ -83,6 +83,16 @@ fn as_quotient(g: &Graph, e: Expr) -> Option<Expr> {
     };
     let angle = *arguments.first()?;
     let (sin, cos) = (g.sin(angle), g.cos(angle));
+    if let Node::Apply {
+        function: inner,
+        arguments,
+    } = g.node(angle)
+    {
+        if let (Function::Sin, Function::Acos) | (Function::Cos, Function::Asin) = (function, inner)
+        {
+            return Some(g.sqrt(g.sub(g.one(), g.powi(arguments[0], 2))));
+        }
+    }
     match function {
         Function::Tan => Some(g.div(sin, cos)),
         Function::Cot => Some(g.div(cos, sin)),

@@ -121,7 +121,7 @@ impl Closure {
             .map(|row| difference(cx, &all[row], &rank.pivots.columns, &values))
             .collect();
         let on = "on the constraint manifold, for almost every motion";
-        let left = "what one more condition on κ leaves when the κ of the others is put in";
+        let left = "the left side less the right side of one more condition on κ, with the κ that the others demand,";
         let named: Vec<(String, Expr)> = differences
             .into_iter()
             .map(|difference| (left.to_string(), difference))

@@ -3,6 +3,7 @@
 use super::closed_form::{closed, gram, short, zero_of};
 use super::closure::Flow;
 use chetaev_mechanics::characteristics::derive_along;
+use chetaev_mechanics::characteristics::Selection;
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::equations::unused_name;
@@ -17,6 +18,9 @@ const LARGEST: u64 = 4_000;
 
 /// Motions of more nodes are not brought to closed form.
 const MOST_NODES: usize = 600;
+
+/// Among the velocities of the first so many coordinates dependent ones are looked for.
+const MOST_COORDINATES: usize = 6;
 
 /// The flow of the motion on the state (q, P), P the quasi-velocities of the model, or speeds along virtual displacements
 /// without poles: of a skate the speed u with x' = u cos φ, y' = u sin φ.
@@ -63,7 +67,10 @@ impl Motion {
         if !chart.manifold.implicit.is_empty() {
             return Err("the dependent velocities stay implicit functions of the others".into());
         }
-        Builder { cx, flow, chart }.build()
+        let mut builder = Builder { cx, flow, chart };
+        builder.check_size()?;
+        builder.choose_speeds();
+        builder.build()
     }
 
     /// A function of (q, v, t) on the admissible states, simplified.
@@ -107,6 +114,13 @@ impl Motion {
     }
 }
 
+/// The subsets of `size` of the numbers below n, in ascending order.
+fn subsets(n: usize, size: usize) -> impl Iterator<Item = Vec<usize>> {
+    (0..1_usize << n.min(MOST_COORDINATES))
+        .filter(move |set| set.count_ones() as usize == size)
+        .map(move |set| (0..n).filter(|i| set >> i & 1 == 1).collect())
+}
+
 struct Builder<'a, 'b> {
     cx: &'b Context<'a>,
     flow: Flow,
@@ -123,20 +137,10 @@ struct Scaled {
 
 impl Builder<'_, '_> {
     fn build(self) -> Closed {
-        let (system, g) = (self.cx.system, &self.cx.system.graph);
-        self.check_size()?;
+        let system = self.cx.system;
         let scaled = self.scaled()?;
-        let velocity = |s: &Scaled| g.add(&[g.mul(&[s.factor, s.speed]), s.shift]);
-        let parameters = self.chart.parameters.iter().zip(&scaled);
-        let to_speeds: Vec<(Expr, Expr)> = parameters
-            .filter_map(|(p, s)| Some((p.value, velocity(s.as_ref()?))))
-            .collect();
-        let velocities: Vec<Expr> = self
-            .chart
-            .velocities
-            .iter()
-            .map(|&phi| closed(g, g.substitute(phi, &to_speeds)))
-            .collect::<Result<_, _>>()?;
+        let to_speeds = self.to_speeds(&scaled);
+        let velocities = self.velocities(&to_speeds)?;
         let pairs = system.coordinates.iter().zip(&velocities);
         let mut replaced: Vec<(Expr, Expr)> = pairs
             .map(|(c, &v)| (c.v, v))
@@ -161,6 +165,59 @@ impl Builder<'_, '_> {
         self.add_rates(&mut motion, &velocities, &scaled)?;
         self.add_conditions(&mut motion, &scaled)?;
         self.finish(motion)
+    }
+
+    /// The independent velocities by the speeds in their place.
+    fn to_speeds(&self, scaled: &[Option<Scaled>]) -> Vec<(Expr, Expr)> {
+        let g = &self.cx.system.graph;
+        let velocity = |s: &Scaled| g.add(&[g.mul(&[s.factor, s.speed]), s.shift]);
+        let parameters = self.chart.parameters.iter().zip(scaled);
+        parameters
+            .filter_map(|(p, s)| Some((p.value, velocity(s.as_ref()?))))
+            .collect()
+    }
+
+    /// All velocities by the speeds.
+    fn velocities(&self, to_speeds: &[(Expr, Expr)]) -> Result<Vec<Expr>, String> {
+        let g = &self.cx.system.graph;
+        let velocities = self.chart.velocities.iter();
+        velocities
+            .map(|&phi| closed(g, g.substitute(phi, to_speeds)))
+            .collect()
+    }
+
+    /// Independent velocities whose speeds describe all admissible velocities, where those of the system do not.
+    fn choose_speeds(&mut self) {
+        let own = self.chart.clone();
+        if !own.frame.is_natural(self.cx.system) || self.has_no_gaps() {
+            return;
+        }
+        let rows = &self.cx.selection.rows;
+        for dependent in subsets(self.cx.system.n(), rows.len()) {
+            let selection = Selection {
+                rows: rows.clone(),
+                dependent,
+            };
+            let (system, terms) = (self.cx.system, self.cx.terms);
+            let other = Characteristics::independent_velocities(system, terms, &selection);
+            let Ok(other) = other else {
+                continue;
+            };
+            self.chart = other;
+            if self.chart.manifold.implicit.is_empty() && self.has_no_gaps() {
+                return;
+            }
+        }
+        self.chart = own;
+    }
+
+    fn has_no_gaps(&self) -> bool {
+        let gaps = || -> Result<bool, String> {
+            let scaled = self.scaled()?;
+            let velocities = self.velocities(&self.to_speeds(&scaled))?;
+            Ok(self.gaps(&scaled, &velocities).is_empty())
+        };
+        gaps().unwrap_or(false)
     }
 
     /// Refuses what is large before anything is simplified.

@@ -62,7 +62,11 @@ impl StationarySets {
     }
 }
 
+/// A set all of whose equations are solved.
 fn set(cx: &Context<'_>, leaf: &Leaf) -> Option<StationarySet> {
+    if !leaf.implicit.is_empty() {
+        return None;
+    }
     let solved = leaf.solved.iter();
     let solved: Option<Vec<(Symbol, Expr)>> = solved
         .map(|&(symbol, value)| Some((cx.system.graph.as_symbol(symbol)?, value)))

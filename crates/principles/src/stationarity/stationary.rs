@@ -38,7 +38,7 @@ impl Claim for Stationary {
          (`refuted`; rest is named apart). Example: a particle z' = y x' has E[f]·δq = y' δx − x' δy, so (a) \
          demands κ = 0 unless x' = y' = 0, and then (b) demands λ = x' y'/(1 + y²) = 0: only motions with x' = 0 or y' = 0 are stationary. \
          A rolling disc, which is not integrable either, has κ = (−m x', −m y') for every motion. κ = 0 alone would need all \
-         reactions to vanish. Parameters are taken as general."
+         reactions to vanish. Parameters are taken as general; particular values with more such motions are named where they were found."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -148,14 +148,19 @@ fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Findin
     let open = not_followed(found);
     if moving.is_empty() {
         let sentence = match (rest.is_empty(), open.is_empty()) {
-            (true, true) => "no motion makes the action stationary among admissible curves".to_string(),
+            (true, true) => format!(
+                "no motion makes the action stationary among admissible curves{}",
+                for_general(found)
+            ),
             (false, true) => format!(
-                "no motion makes the action stationary among admissible curves, except rest where {}",
+                "no motion makes the action stationary among admissible curves{}, except rest where {}",
+                for_general(found),
                 alternatives(&rest)
             ),
             _ => ALMOST_NONE.into(),
         };
-        refuted.prefix(&format!("{sentence}{open}"));
+        let particular = particular(cx, found);
+        refuted.prefix(&format!("{sentence}{particular}{open}"));
         return refuted.into();
     }
     let all: Vec<&Leaf> = moving.into_iter().chain(rest).collect();
@@ -166,20 +171,47 @@ fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Findin
     let proof = Proof::exact(place(cx, motion), how);
     let formulas = all.iter().flat_map(|leaf| of_leaf(cx, leaf)).collect();
     let mut verdict = conditional(condition, proof, refuted);
+    let particular = particular(cx, found);
     verdict.prefix(&format!(
-        "motions make the action stationary {}where {stated}{open}",
+        "motions make the action stationary {}where {stated}{particular}{open}",
         only(found)
     ));
     Finding { verdict, formulas }
 }
 
+/// What particular values of parameters change, as the end of a sentence.
+fn particular(cx: &Context<'_>, found: &Found) -> String {
+    let g = &cx.system.graph;
+    let mut sentence = String::new();
+    for ((parameter, value), leaves) in &found.special.found {
+        let own = format!("{} = {}", g.text(*parameter), g.text(*value));
+        let mut sets: Vec<Leaf> = leaves.clone();
+        for leaf in &mut sets {
+            leaf.equations.retain(|equation| *equation != own);
+        }
+        let sets: Vec<&Leaf> = sets.iter().collect();
+        let more = match sets.iter().any(|leaf| leaf.equations.is_empty()) {
+            true => "every motion does".to_string(),
+            false => format!("also those do where {}", alternatives(&sets)),
+        };
+        sentence.push_str(&format!("; where {own}, {more}"));
+    }
+    sentence
+}
+
 /// Sets that the zero test does not confirm are no longer among those found.
 pub(super) fn set_aside_unconfirmed(cx: &Context<'_>, motion: &Motion, found: &mut Found) {
-    let (confirmed, others): (Vec<Leaf>, Vec<Leaf>) = found
-        .leaves
-        .drain(..)
-        .partition(|leaf| matches!(confirmed(cx, motion, leaf), Verdict::Proved(_)));
-    found.leaves = joined(&cx.system.graph, confirmed);
+    let is_confirmed = |leaf: &Leaf| matches!(confirmed(cx, motion, leaf), Verdict::Proved(_));
+    let (known, others): (Vec<Leaf>, Vec<Leaf>) =
+        found.leaves.drain(..).partition(|leaf| is_confirmed(leaf));
+    found.leaves = joined(&cx.system.graph, known);
+    for (_, leaves) in &mut found.special.found {
+        let count = leaves.len();
+        leaves.retain(&is_confirmed);
+        found.special.open |= leaves.len() < count;
+        *leaves = joined(&cx.system.graph, std::mem::take(leaves));
+    }
+    found.special.found.retain(|(_, leaves)| !leaves.is_empty());
     let others = others.iter().map(|leaf| listed(&leaf.equations));
     found.open.extend(others);
 }
@@ -216,8 +248,17 @@ const FOLLOWED: usize = 120;
 
 /// "only " where every case was followed.
 pub(super) fn only(found: &Found) -> &'static str {
-    match found.open.is_empty() {
-        true => "only ",
+    match (found.open.is_empty(), found.special.open) {
+        (true, true) => "(for general values of the parameters only) ",
+        (true, false) => "only ",
+        (false, _) => "",
+    }
+}
+
+/// Of which parameters a sentence is said, where particular ones were not followed.
+fn for_general(found: &Found) -> &'static str {
+    match found.special.open {
+        true => ", for general values of the parameters",
         false => "",
     }
 }

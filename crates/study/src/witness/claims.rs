@@ -331,9 +331,10 @@ impl Claim for WitnessOfIndex {
     }
 
     fn explanation(&self) -> &'static str {
-        "Where every motion makes the action stationary with a unique κ, the second variation ∫(η' F_vv η' + 2 η F_qv η' + η F_qq η) dt, F = L + Σ κ f, for admissible η that vanish at the ends, says of which kind the stationary value is: \
+        "Where the computed motion makes the action stationary with a unique κ, the second variation ∫(η' F_vv η' + 2 η F_qv η' + η F_qq η) dt, F = L + Σ κ f, for admissible η that vanish at the ends, says of which kind the stationary value is: \
          with F_vv positive on the null space of ∂f/∂v it has as many negative directions as there are conjugate times, and the action is a (weak) minimum up to the first. Conjugate times are found from the linearized equations of the extremum with η = 0 at the start. \
-         It is a property of the motion, of κ and of the interval, never of the system alone. Where κ is not unique an index belongs to κ, not to the curve, and none is stated. Example: an oscillator q'' = −w² q has them every π/w."
+         It is a property of the motion, of κ and of the interval, never of the system alone. Where κ is not unique an index belongs to κ, not to the curve, and none is stated, unless the constraints are integrable and affine in the velocities: \
+         then κ adds nothing to the second variation on the leaf, and conjugate times are those at which motions from one point meet again to first order. Example: an oscillator q'' = −w² q has them every π/w."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -351,24 +352,29 @@ impl Claim for WitnessOfIndex {
         if let Some(other) = elsewhere(cx) {
             return other;
         }
-        if !matches!(
-            cx.finding("hamilton.stationary").verdict,
-            Verdict::Proved(_)
-        ) {
-            let detail = "whether the action is stationary depends on the motion, and κ is followed where it is for every motion";
-            return Verdict::not_applicable("hamilton.stationary", detail).into();
+        let stationary = cx.finding("hamilton.stationary");
+        let of_all = matches!(stationary.verdict, Verdict::Proved(_));
+        let leaf = linear::on_leaf(cx);
+        match linear::multipliers(cx) {
+            Err(why) if !of_all => {
+                return Verdict::not_applicable("hamilton.stationary", why).into();
+            }
+            Err(why) if !leaf => return Verdict::undecided(why).into(),
+            _ => {}
         }
-        if let Err(why) = linear::multipliers(cx) {
-            return Verdict::undecided(why).into();
-        }
+        let where_ = match (leaf, of_all) {
+            (true, _) => "among the curves on the leaf of the integrable constraints, where κ takes no part: ",
+            (_, false) => "on the set of stationary motions that this one lies on: ",
+            _ => "",
+        };
         match linear::conjugate(cx) {
-            Ok(found) => of_index(&found).into(),
+            Ok(found) => of_index(&found, where_).into(),
             Err(why) => Verdict::undecided(why).into(),
         }
     }
 }
 
-fn of_index(found: &linear::Conjugate) -> Verdict {
+fn of_index(found: &linear::Conjugate, where_: &str) -> Verdict {
     let (from, to) = found.interval;
     let sentence = match (&found.legendre, found.times.as_slice()) {
         (Err(t), _) => format!(
@@ -385,5 +391,5 @@ fn of_index(found: &linear::Conjugate) -> Verdict {
             )
         }
     };
-    numerical(1, found.interval, 0.0, sentence)
+    numerical(1, found.interval, 0.0, format!("{where_}{sentence}"))
 }

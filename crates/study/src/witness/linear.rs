@@ -8,7 +8,7 @@ use chetaev_mechanics::claims::formulation::{basis, derive, REFERENCE};
 use chetaev_mechanics::formulations::kappa_symbols;
 use chetaev_mechanics::Context;
 use chetaev_principles::stationarity::Closure;
-use chetaev_symbolic::{Expr, Symbol};
+use chetaev_symbolic::{Expr, Symbol, Verdict};
 
 /// More coordinates are too many.
 pub(super) const COORDINATES: usize = 8;
@@ -45,6 +45,16 @@ pub struct Conjugate {
 
 /// The result, computed once.
 pub(super) struct FoundConjugate(pub(super) Result<Conjugate, String>);
+
+/// Conjugate times are looked for along a motion with κ, or on the leaf of integrable constraints.
+pub(super) fn on_leaf(cx: &Context<'_>) -> bool {
+    let rows = cx.selection.rows.iter();
+    let mut constraints = rows.map(|&row| &cx.system.constraints[cx.terms.constraint_index[row]]);
+    let integrable = cx.finding("model.constraints-integrable#weak");
+    !cx.selection.rows.is_empty()
+        && constraints.all(|c| c.gradient_constant)
+        && matches!(integrable.verdict, Verdict::Proved(_))
+}
 
 fn small(cx: &Context<'_>, es: &[Expr]) -> Result<(), String> {
     match cx.system.graph.reachable(es).len() > LARGEST {
@@ -182,13 +192,26 @@ pub(super) fn is_flat(volume: f64) -> bool {
 
 /// The conjugate times of the computed motion.
 pub(super) fn conjugate(cx: &Context<'_>) -> Result<Conjugate, String> {
-    cx.shared(|cx| FoundConjugate(compute(cx))).0.clone()
+    cx.shared(|cx| {
+        FoundConjugate(match on_leaf(cx) {
+            true => along_leaf(cx),
+            false => compute(cx),
+        })
+    })
+    .0
+    .clone()
 }
 
-/// κ along every motion as functions of the state.
+/// κ along the motion as functions of the state: of every motion, or of those on the set that the computed one lies on.
 pub(super) fn multipliers(cx: &Context<'_>) -> Result<Vec<Expr>, String> {
     if cx.selection.rows.is_empty() {
         return Ok(Vec::new());
+    }
+    if matches!(
+        cx.finding("hamilton.stationary").verdict,
+        Verdict::Conditional { .. }
+    ) {
+        return super::subset::multipliers(cx);
     }
     let closure = Closure::of(cx);
     let Ok(closure) = closure.as_ref() else {
@@ -239,6 +262,58 @@ fn compute(cx: &Context<'_>) -> Result<Conjugate, String> {
                 .collect()
         })
         .collect();
+    let complete = |_: usize| Vec::new();
+    let (found, largest) = followed(&samples, (n, r), (&rate, &complete), &mut states)?;
+    match is_flat(largest) {
+        true => Err("the extremal is abnormal: some variations of κ move no coordinate".into()),
+        false => Ok(found),
+    }
+}
+
+/// Motions that start beside the computed one from its position, on the leaf of integrable constraints affine in the velocities: there
+/// the motions are the extremals of L, and κ takes no part. With k variations of the position that satisfy `f_v η = 0` a conjugate
+/// time is one at which they, beside the r gradients f_v, are dependent.
+fn along_leaf(cx: &Context<'_>) -> Result<Conjugate, String> {
+    let (system, g, n) = (cx.system, &cx.system.graph, cx.system.n());
+    let routh = derive(cx, REFERENCE).map_err(|problem| problem.to_string())?;
+    let by = |symbols: &[Symbol]| g.jacobian(&routh.accelerations, symbols).concat();
+    let parts = [
+        cx.terms.mass_matrix.concat(),
+        by(&system.coordinate_symbols()),
+        by(&system.velocity_symbols()),
+        basis(cx).jacobian().concat(),
+    ];
+    small(cx, &parts.concat())?;
+    let groups: Vec<&[Expr]> = parts.iter().map(Vec::as_slice).collect();
+    let samples = Samples::new(cx, &groups)?;
+    let r = cx.selection.rows.len();
+    let rate = |row: usize, y: &[f64]| {
+        let (position, velocity) = y.split_at(n);
+        let by_position = super::algebra::times(samples.at(1, row), n, position);
+        let by_velocity = super::algebra::times(samples.at(2, row), n, velocity);
+        let moved = by_position.into_iter().zip(by_velocity).map(|(a, b)| a + b);
+        Some(velocity.iter().copied().chain(moved).collect())
+    };
+    let starts = null_space(samples.at(3, 0), r, n, 1e-12);
+    let mut states: Vec<Vec<f64>> = starts
+        .iter()
+        .map(|v| vec![0.0; n].into_iter().chain(v.iter().copied()).collect())
+        .collect();
+    let normals = |row: usize| samples.at(3, row).to_vec();
+    followed(&samples, (n, r), (&rate, &normals), &mut states).map(|(found, _)| found)
+}
+
+/// Rows of length n that complete the variations of the position at a row.
+type Rows<'a> = dyn Fn(usize) -> Vec<f64> + 'a;
+
+/// Variations followed along the motion: conjugate times, and the largest volume of what they move. F_vv is the group 0 of the
+/// samples, f_v the group 3.
+fn followed(
+    samples: &Samples,
+    (n, r): (usize, usize),
+    (rate, completing): (&Rate<'_>, &Rows<'_>),
+    states: &mut [Vec<f64>],
+) -> Result<(Conjugate, f64), String> {
     let count = samples.intervals(4);
     if count < LEAST {
         return Err("there are too few output times".into());
@@ -253,26 +328,24 @@ fn compute(cx: &Context<'_>) -> Result<Conjugate, String> {
     let mut determinants: Vec<(f64, f64)> = Vec::new();
     let mut largest = 0.0_f64;
     for row in (0..count).step_by(4) {
-        let fails = |row: &usize| !is_positive(&samples, (n, r), *row);
+        let fails = |row: &usize| !is_positive(samples, (n, r), *row);
         if found.legendre.is_ok() {
             if let Some(failing) = [row, row + 2].into_iter().find(fails) {
                 found.legendre = Err(samples.times[failing]);
             }
         }
-        for y in &mut states {
-            *y = extrapolated(&rate, row, h, y)
+        for y in states.iter_mut() {
+            *y = extrapolated(rate, row, h, y)
                 .ok_or("the linearized extremum is singular at a row")?;
         }
-        let rows: Vec<f64> = states.iter().flat_map(|y| y[..n].to_vec()).collect();
+        let mut rows: Vec<f64> = states.iter().flat_map(|y| y[..n].to_vec()).collect();
+        rows.extend(completing(row + 4));
         determinants.push((samples.times[row + 4], determinant(n, &rows)));
-        largest = largest.max(volume(&states, n));
+        largest = largest.max(volume(states, n));
     }
     // Near the start all η are small, and the sign of their determinant is rounding.
     found.times = zeros(&determinants[EARLY.min(determinants.len())..], n);
-    match is_flat(largest) {
-        true => Err("the extremal is abnormal: some variations of κ move no coordinate".into()),
-        false => Ok(found),
-    }
+    Ok((found, largest))
 }
 
 fn linearized(

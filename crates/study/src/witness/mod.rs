@@ -13,6 +13,7 @@ mod neighbours;
 mod of_quadratures;
 mod quadratures;
 mod samples;
+mod subset;
 mod wave;
 mod zeros;
 

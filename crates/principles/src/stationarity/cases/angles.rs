@@ -11,7 +11,7 @@ use chetaev_mechanics::System;
 use chetaev_symbolic::{rational, Expr, Function, Graph, Node, Symbol};
 
 /// At most so many values of one angle.
-const VALUES: i64 = 8;
+pub(super) const VALUES: i64 = 8;
 
 /// An angle at which a function vanishes.
 #[derive(Clone, Debug)]
@@ -24,9 +24,9 @@ pub(super) struct Angle {
     /// where some are not.
     pub(super) period: Option<i64>,
     /// How many values were looked at.
-    of: usize,
+    pub(super) of: usize,
     /// Whether all of them give the same.
-    whole: bool,
+    pub(super) whole: bool,
 }
 
 impl Search<'_, '_> {
@@ -77,7 +77,7 @@ impl Search<'_, '_> {
 }
 
 /// The least d for which the motion has the period 2πd in a coordinate, which then stands in sines, cosines and tangents only.
-fn period(system: &System, motion: &Motion, symbol: Symbol) -> Option<i64> {
+pub(super) fn period(system: &System, motion: &Motion, symbol: Symbol) -> Option<i64> {
     let g = &system.graph;
     let all = motion.functions();
     let mut period = 1;
@@ -134,6 +134,7 @@ impl Leaf {
             pairs
         };
         rest(self) == rest(other)
+            && self.implicit == other.implicit
             && self.kappa == other.kappa
             && self.nonzero == other.nonzero
             && self.at_rest == other.at_rest

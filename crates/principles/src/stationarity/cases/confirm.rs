@@ -20,13 +20,18 @@ pub(crate) fn confirmed(cx: &Context<'_>, motion: &Motion, leaf: &Leaf) -> Verdi
             Some(g.sub(rate, motion.along(cx, value)))
         })
         .collect();
+    let implicit = leaf.implicit.iter();
+    residuals.extend(implicit.map(|&(e, _)| motion.along(cx, e)));
     if let Some(rows) = &leaf.rows {
         residuals.extend(of_multipliers(cx, motion, rows));
     }
     let residuals = g.substitute_all(&residuals, &leaf.solved);
     let on = "on the motions stated";
-    cx.prover
-        .identity(cx.system, &residuals, &Manifold::default(), on)
+    let manifold = Manifold {
+        solved: Vec::new(),
+        implicit: leaf.implicit.clone(),
+    };
+    cx.prover.identity(cx.system, &residuals, &manifold, on)
 }
 
 /// (12), and (13) for the multipliers that the rows determine by those that stay free.

@@ -2,10 +2,14 @@
 
 use super::{Case, Found, Search, LONGEST};
 use crate::stationarity::closed_form::short;
+use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{simplify, Expr, Node};
+use chetaev_symbolic::{simplify, Expr, Node, Symbol};
+
+/// Powers of sines and cosines are exchanged for so many angles.
+const ANGLES: usize = 2;
 
 impl Search<'_, '_> {
     /// The factors by which an expression may vanish on the subset; `None` where it is too large to be factored.
@@ -13,9 +17,60 @@ impl Search<'_, '_> {
         if simplify::length(self.g, e) > LONGEST {
             return None;
         }
+        let list = self.split_factors(e)?;
+        let list = list.into_iter().filter(|&f| !self.never_zero(case, f));
+        let mut open = Vec::new();
+        for factor in list {
+            // In another of the forms that sin² + cos² = 1 allows it may be a product or a power.
+            let length =
+                |list: &[Expr]| -> u64 { list.iter().map(|&f| simplify::length(self.g, f)).sum() };
+            let forms = self.turned(factor).into_iter();
+            let shortest = forms
+                .filter(|list| !list.is_empty())
+                .min_by_key(|list| length(list));
+            let others = shortest.filter(|list| length(list) < length(&[factor]));
+            let parts = others.unwrap_or_else(|| vec![factor]);
+            open.extend(parts.into_iter().filter(|&f| !self.never_zero(case, f)));
+        }
+        Some(open)
+    }
+
+    /// The factors in which symbols of the state occur.
+    fn split_factors(&self, e: Expr) -> Option<Vec<Expr>> {
         let list = factors(self.g, e, &self.state)?;
-        let list = list.into_iter().map(|(factor, _)| factor);
-        Some(list.filter(|&f| !self.never_zero(case, f)).collect())
+        Some(list.into_iter().map(|(factor, _)| factor).collect())
+    }
+
+    /// The factors of an expression written with powers of the sine, or of the cosine, of each angle that occurs.
+    fn turned(&self, e: Expr) -> Vec<Vec<Expr>> {
+        let g = self.g;
+        let reached = g.reachable(&[e]);
+        let occurs = |f: Expr| reached.contains(&f);
+        let angles = self.state.iter().map(|&s| g.symbol_expr(s));
+        let angles: Vec<Expr> = angles
+            .filter(|&angle| occurs(g.sin(angle)) || occurs(g.cos(angle)))
+            .take(ANGLES)
+            .collect();
+        let forms = (1..1_usize << angles.len()).filter_map(|set| {
+            let turned = angles.iter().enumerate().filter(|(i, _)| set >> i & 1 == 1);
+            let (mut to, mut back) = (Vec::new(), Vec::new());
+            for (i, &angle) in turned {
+                let name = unused_name(self.cx.system, &format!("turned_{i}"));
+                let other = g.symbol(&name, 0);
+                to.extend([(g.sin(angle), g.cos(other)), (g.cos(angle), g.sin(other))]);
+                back.extend([(g.cos(other), g.sin(angle)), (g.sin(other), g.cos(angle))]);
+            }
+            let written = g.substitute(e, &to);
+            let state = g.symbols_in(&[written]);
+            let state: Vec<Symbol> = state
+                .into_iter()
+                .filter(|s| !g.contains_any(e, &[*s]) || self.state.contains(s))
+                .collect();
+            let list = factors(g, written, &state)?;
+            let list = list.into_iter();
+            Some(list.map(|(f, _)| g.substitute(f, &back)).collect())
+        });
+        forms.collect()
     }
 
     fn never_zero(&self, case: &Case, factor: Expr) -> bool {
@@ -23,9 +78,14 @@ impl Search<'_, '_> {
         let mut known = case.nonzero.iter().chain(&self.motion.poles);
         // Where a root vanishes is the edge of where the motion is defined.
         let is_root = matches!(g.node(factor), Node::Power { exponent, .. } if g.as_integer(*exponent).is_none());
+        let has_sign = |e: Expr| known_sign(g, e, &assumptions(self.cx.system)).is_nonzero();
         is_root
             || known.any(|&e| e == factor || e == negative)
-            || known_sign(g, factor, &assumptions(self.cx.system)).is_nonzero()
+            || has_sign(factor)
+            || self
+                .turned(factor)
+                .iter()
+                .any(|list| !list.is_empty() && list.iter().all(|&f| has_sign(f)))
     }
 
     /// The cases in which all of several expressions vanish.
@@ -45,11 +105,19 @@ impl Search<'_, '_> {
 
     /// The cases in which an expression, which is not zero on the subset, vanishes: none where it has no factor that can.
     pub(super) fn require(&self, found: &mut Found, case: &Case, e: Expr) -> Vec<Case> {
+        let e = self.remainder(case, e);
+        self.take_as_regular(e);
         let Some(list) = self.vanishing_factors(case, e) else {
-            found.open.push(format!(
+            if !case.pending.contains(&e) {
+                let mut case = case.clone();
+                case.pending.push(e);
+                return vec![case];
+            }
+            let text = format!(
                 "{} (a condition is too long to be factored)",
                 self.place(case)
-            ));
+            );
+            self.leave(found, case, text);
             return Vec::new();
         };
         list.into_iter()
@@ -63,9 +131,7 @@ impl Search<'_, '_> {
             if angle.period.is_none() {
                 let (text, symbol) = (self.g.text(factor), self.g.text(angle.symbol));
                 let and = self.place(case);
-                found
-                    .open
-                    .push(format!("{text} = 0 at other {symbol}, {and}"));
+                self.leave(found, case, format!("{text} = 0 at other {symbol}, {and}"));
             }
             let cases = values.into_iter().filter_map(|value| {
                 let mut case = self.with(case, angle.symbol, value)?;
@@ -74,11 +140,15 @@ impl Search<'_, '_> {
             });
             return cases.collect();
         }
-        if let Some(terms) = self.as_sum_of_squares(factor) {
+        let forms = self.turned(factor).into_iter();
+        let forms = forms.filter_map(|list| <[Expr; 1]>::try_from(list).ok());
+        let mut forms = [[factor]].into_iter().chain(forms);
+        if let Some(terms) = forms.find_map(|[form]| self.as_sum_of_squares(form)) {
             return self.require_all(found, case.clone(), &terms);
         }
         match self.as_affine(case, factor) {
             Some((symbol, value, slope)) => {
+                self.take_as_regular(slope);
                 let mut cases = Vec::new();
                 let certain = self
                     .vanishing_factors(case, slope)
@@ -96,19 +166,23 @@ impl Search<'_, '_> {
                 cases
             }
             None => {
-                let text = self.g.text(factor);
-                let and = match case.solved.is_empty() {
-                    true => String::new(),
-                    false => format!(" and {}", self.place(case)),
-                };
-                found.open.push(format!("{text} = 0{and}"));
-                Vec::new()
+                let cases = self.where_constant(found, case, factor);
+                let cases = cases.or_else(|| self.where_implicit(found, case, factor));
+                cases.unwrap_or_else(|| {
+                    let text = self.g.text(factor);
+                    let and = match self.equations(case).is_empty() {
+                        true => String::new(),
+                        false => format!(" and {}", self.place(case)),
+                    };
+                    self.leave(found, case, format!("{text} = 0{and}"));
+                    Vec::new()
+                })
             }
         }
     }
 
     /// A case with a further equation; `None` where it contradicts what does not vanish.
-    fn with(&self, case: &Case, symbol: Expr, value: Expr) -> Option<Case> {
+    pub(super) fn with(&self, case: &Case, symbol: Expr, value: Expr) -> Option<Case> {
         let pair = [(symbol, value)];
         let mut case = case.clone();
         for (_, known) in &mut case.solved {
@@ -149,11 +223,13 @@ impl Search<'_, '_> {
         let known = assumptions(self.cx.system);
         let zero = chetaev_symbolic::Rational::from(0);
         let parts: Vec<Expr> = terms.iter().map(|(e, c)| self.g.scale(c, *e)).collect();
-        let one_sign = constant == &zero
-            && parts
-                .iter()
-                .all(|&e| known_sign(self.g, e, &known).is_nonnegative());
-        one_sign.then_some(parts)
+        let signs: Vec<_> = parts
+            .iter()
+            .map(|&e| known_sign(self.g, e, &known))
+            .collect();
+        let one_sign = signs.iter().all(|sign| sign.is_nonnegative())
+            || signs.iter().all(|sign| sign.is_nonpositive());
+        (constant == &zero && one_sign).then_some(parts)
     }
 
     /// A symbol of the state in which a factor is affine, its value where the factor vanishes, and its coefficient. Speeds
