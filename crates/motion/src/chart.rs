@@ -21,6 +21,11 @@ pub const RANK_TOLERANCE: f64 = 1e-10;
 /// A chart is replaced when its pivot fell below this fraction of its value at the time of choice (theory 5.2).
 pub(crate) const DEGRADED: f64 = 0.1;
 
+/// Where the pivot falls below this fraction of its value at the last accepted state, a step of independent velocities is
+/// rejected: the errors of the others, which nobody measures, are larger by its inverse. Below [`DEGRADED`], so that steps may
+/// end where the chart is replaced.
+pub(crate) const BLIND: f64 = 0.05;
+
 /// A new chart must be better by this factor, or charts would chatter.
 pub(crate) const HYSTERESIS: f64 = 3.0;
 

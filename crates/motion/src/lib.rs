@@ -20,6 +20,7 @@ pub mod multiplier_flow;
 mod nearest;
 pub mod numeric;
 pub mod observe;
+mod projection;
 mod reduced;
 pub mod repeat;
 pub mod row;

@@ -1,7 +1,8 @@
 //! The motion by Routh's equations: the multiplier form solved numerically at every state.
 //!
-//! State (q, v), where masses with a law of their own stand behind the coordinates, projected on the constraints where asked; or (q, v_i) with the dependent velocities from the
-//! constraints, which are then satisfied identically (affine constraints only).
+//! State (q, v), where masses with a law of their own stand behind the coordinates, projected on the constraints where
+//! asked; or (q, v_i) with the dependent velocities from the constraints, which are then satisfied identically (affine
+//! constraints only). The former measures the error of every velocity, the latter that of the v_i alone.
 
 use crate::accelerations::Accelerations;
 use crate::chart::{self, Chart, DEGRADED, HYSTERESIS};
@@ -10,9 +11,9 @@ use crate::follow::Follow;
 use crate::functions::FunctionsError;
 use crate::initial::ConsistentState;
 use crate::keep::Keep;
-use crate::least_norm::least_step;
 use crate::leaving::Anchor;
 use crate::numeric::{Completion, NumericSystem};
+use crate::projection::Projection;
 use crate::row::RowLayout;
 use crate::run::WatchedFlow;
 use crate::series::RateSeries;
@@ -35,7 +36,7 @@ pub struct MultiplierFlow {
     kind: StateKind,
     chart: Chart,
     chart_number: u32,
-    project: bool,
+    projection: Projection,
     q: Vec<f64>,
     v: Vec<f64>,
     accelerations: Accelerations,
@@ -63,7 +64,8 @@ pub struct MultiplierFlow {
     solved_state: Vec<f64>,
 }
 
-/// A stage whose pivot fell below this fraction of its value where the step began rejects the step.
+/// A stage whose pivot fell below this fraction of its value where the step began rejects the step, where the chart only
+/// serves to solve for the accelerations.
 const UNUSABLE: f64 = 1e-3;
 /// A projection that keeps integrals: time, q, v and the metric; true when it moved them.
 type Way = fn(&mut Keep, f64, &mut [f64], &mut [f64], &[f64]) -> bool;
@@ -73,16 +75,15 @@ const AWAY: f64 = -1e-12;
 const VANISHED: f64 = 1e-8;
 
 impl MultiplierFlow {
-    /// The flow from a consistent state. `Reduced` falls back to `Full` for constraints nonlinear in the velocities.
+    /// The flow from a consistent state, without projection. `Reduced` falls back to `Full` for constraints nonlinear in the velocities.
     pub fn new(
         system: NumericSystem,
         start: &ConsistentState,
         kind: StateKind,
-        project: bool,
         watch: Watch,
     ) -> MultiplierFlow {
         let mut flow = MultiplierFlow::idle(system, watch);
-        flow.begin(start, kind, project);
+        flow.begin(start, kind, Projection::NONE);
         flow
     }
 
@@ -107,7 +108,7 @@ impl MultiplierFlow {
             accepted_pivot: 1.0,
             accelerations: Accelerations::default(),
             completion: Completion::default(),
-            project: false,
+            projection: Projection::NONE,
             kind: StateKind::Full,
             watch,
             zero_between: false,
@@ -121,13 +122,21 @@ impl MultiplierFlow {
 
     /// Begins at a consistent state. Nothing is left of the runs before but what was compiled: a run has the same bits
     /// whichever went before it.
-    pub(crate) fn begin(&mut self, start: &ConsistentState, kind: StateKind, project: bool) {
+    pub(crate) fn begin(
+        &mut self,
+        start: &ConsistentState,
+        kind: StateKind,
+        projection: Projection,
+    ) {
         self.watch.begin(start.t, &start.q, &start.v);
         self.kind = match self.system.is_affine() {
             true => kind,
             false => StateKind::Full,
         };
-        self.project = project && self.kind == StateKind::Full;
+        self.projection = match self.kind {
+            StateKind::Full => projection,
+            StateKind::Reduced => Projection::NONE,
+        };
         self.q.clone_from(&start.q);
         self.v.clone_from(&start.v);
         self.chart.clone_from(&start.chart);
@@ -352,41 +361,18 @@ impl MultiplierFlow {
         })
     }
 
-    /// Velocities back on the constraints in the kinetic metric; Newton for nonlinear ones. True when y changed.
+    /// Moves an accepted state onto the constraints; true when y changed.
     fn project(&mut self, t: f64, y: &mut [f64]) -> bool {
-        let n = self.system.n;
-        self.solved = None;
-        let all: Vec<usize> = (0..n).collect();
-        let mut changed = false;
-        self.project_positions(t, &all, &mut changed);
-        for _ in 0..10 {
-            if self.system.evaluate(t, &self.q, &self.v).is_err() {
-                return false;
-            }
-            let residual = self.system.residual();
-            let scale: f64 = self.v.iter().fold(1e-300, |m, x| m.max(x.abs()));
-            if residual
-                .iter()
-                .all(|f| f.abs() <= 8.0 * f64::EPSILON * scale)
-            {
-                break;
-            }
-            let step = least_step(
-                self.system.jacobian(),
-                residual,
-                n,
-                &all,
-                &self.system.metric(),
-            );
-            self.v.iter_mut().zip(&step).for_each(|(v, dv)| *v -= dv);
-            changed = true;
-        }
-        if changed {
+        let moved = self
+            .projection
+            .apply(&mut self.system, t, &mut self.q, &mut self.v);
+        if moved {
+            self.solved = None;
             let (positions, rest) = y.split_at_mut(self.system.positions());
             positions.copy_from_slice(&self.q);
             rest.copy_from_slice(&self.v);
         }
-        changed
+        moved
     }
 
     /// Moves an accepted state onto the integrals to keep; true when y changed.
@@ -452,7 +438,7 @@ impl MultiplierFlow {
         if let Some(row) = self.vanished_gradient() {
             return self.rank_drop(self.chart.rank().saturating_sub(1), row);
         }
-        let unchanged = if self.project && self.project(t, y) {
+        let unchanged = if self.project(t, y) {
             Control::StateModified
         } else {
             Control::Continue
@@ -473,30 +459,6 @@ impl MultiplierFlow {
             return unchanged;
         }
         self.switch(next, before, y)
-    }
-
-    fn project_positions(&mut self, t: f64, all: &[usize], changed: &mut bool) {
-        if self.system.holonomic.is_empty() {
-            return;
-        }
-        for _ in 0..10 {
-            if self.system.evaluate_positions(t, &self.q, &self.v).is_err() {
-                return;
-            }
-            let scale: f64 = self.q.iter().fold(1e-300, |m, x| m.max(x.abs()));
-            let residual = self.system.position_residual();
-            if residual
-                .iter()
-                .all(|f| f.abs() <= 8.0 * f64::EPSILON * scale)
-            {
-                return;
-            }
-            let gradient = self.system.position_gradient();
-            let metric = self.system.metric();
-            let step = least_step(gradient, residual, self.system.n, all, &metric);
-            self.q.iter_mut().zip(&step).for_each(|(q, dq)| *q -= dq);
-            *changed = true;
-        }
     }
 }
 
@@ -540,8 +502,12 @@ impl System for MultiplierFlow {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure> {
         self.evaluate(t, y)?;
         if self.system.r > 0 {
+            let least = match self.kind {
+                StateKind::Full => UNUSABLE,
+                StateKind::Reduced => chart::BLIND,
+            };
             let ratio = self.quality() / self.accepted_pivot;
-            if ratio < UNUSABLE && self.geometric_quality() < UNUSABLE {
+            if ratio < least && self.geometric_quality() < least {
                 return Err(EvaluationFailure::PivotDegraded { ratio });
             }
         }

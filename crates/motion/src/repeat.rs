@@ -5,6 +5,7 @@ use crate::functions::FunctionsError;
 use crate::keep::Keep;
 use crate::multiplier_flow::{MultiplierFlow, StateKind};
 use crate::numeric::NumericSystem;
+use crate::projection::Projection;
 use crate::run::{End, Looking, Run, RunError, RunSettings, Subject, Watcher};
 use crate::stop;
 use crate::watch::Watch;
@@ -62,17 +63,18 @@ impl Subject<'_> {
         })
     }
 
-    /// Which variables are integrated. A step of the Taylor method is long, so that a chart may pass a place where it is
-    /// singular, and what is solved for there is known badly; the series of all velocities are known anyway. Constraints
-    /// that jump are followed in charts, and holonomic ones are kept by them. Where integrals are kept the constraints are kept
-    /// with them, and no chart is needed.
-    fn variables(&self, settings: &RunSettings) -> StateKind {
+    /// Which variables are integrated. Independent velocities alone hide the error of the others, which is larger by the
+    /// inverse of a pivot where a step comes near a singular place of their chart; and a step of the Taylor method is so long
+    /// that it may pass one, while the series of all velocities are known anyway. So all velocities are integrated, and
+    /// constraints are kept by projection. Those that jump are followed in charts.
+    pub(crate) fn variables(&self, settings: &RunSettings) -> StateKind {
         let has_series = method(&settings.method).is_ok_and(|method| method.card().needs_series);
-        let is_free = self.numeric.holonomic.is_empty() && !self.numeric.jumps;
-        let by_projection = !settings.keep.is_empty() && !self.numeric.jumps;
-        match has_series && is_free || by_projection {
-            true => StateKind::Full,
-            false => settings.state,
+        let needs_all = has_series || !settings.keep.is_empty();
+        match settings.state {
+            _ if needs_all && !self.numeric.jumps => StateKind::Full,
+            Some(stated) => stated,
+            None if self.numeric.jumps => StateKind::Reduced,
+            None => StateKind::Full,
         }
     }
 
@@ -100,7 +102,11 @@ impl Subject<'_> {
         watcher: &mut Watcher<'_>,
     ) -> Result<Run, RunError> {
         let CompiledRouth { flow, looking } = compiled;
-        flow.begin(self.start, self.variables(settings), settings.project);
+        flow.begin(
+            self.start,
+            self.variables(settings),
+            Projection::of(settings),
+        );
         let watched = flow.watch.quantities.clone();
         let y0 = flow.pack(&self.start.q, &self.start.v);
         let (pieces, end) = self.watched(flow, &watched, y0, settings, (looking, watcher))?;
