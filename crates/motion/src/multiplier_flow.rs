@@ -59,6 +59,8 @@ pub struct MultiplierFlow {
     series: Option<(Vec<usize>, RateSeries)>,
     /// Coefficients of (q, v).
     full: Vec<f64>,
+    /// The state without whole turns of its angles.
+    reduced: Vec<f64>,
     /// Time and state at which the accelerations were computed last, where nothing has changed since.
     solved: Option<f64>,
     solved_state: Vec<f64>,
@@ -114,6 +116,7 @@ impl MultiplierFlow {
             zero_between: false,
             series: None,
             full: Vec::new(),
+            reduced: Vec::new(),
             solved: None,
             solved_state: Vec::new(),
             system,
@@ -465,17 +468,40 @@ impl MultiplierFlow {
 impl MultiplierFlow {
     /// The recurrences of (q, v) with the constraint rows of the present chart.
     fn series(&mut self) -> Result<&mut RateSeries, EvaluationFailure> {
-        let known = self.series.take();
-        let known = known.filter(|(rows, _)| *rows == self.chart.rows);
-        let own = match known {
-            Some(own) => own,
-            None => {
-                let rows = self.chart.rows.clone();
-                let series = self.system.series(&rows);
-                (rows, series.map_err(|_| EvaluationFailure::NoSeries)?)
+        let rows = &self.chart.rows;
+        // What is there stays where it is: it is large, and asked for several times in a step.
+        if self.series.as_ref().is_none_or(|(known, _)| known != rows) {
+            let series = self.system.series(rows);
+            let series = series.map_err(|_| EvaluationFailure::NoSeries)?;
+            self.series = Some((rows.clone(), series));
+        }
+        let made = self.series.as_mut().map(|(_, series)| series);
+        made.ok_or(EvaluationFailure::NoSeries)
+    }
+
+    /// Makes the series of the chart that most motions have, so that copies of this flow share them.
+    pub(crate) fn share_series(&mut self) {
+        if self.series.is_none() {
+            let rows: Vec<usize> = (0..self.system.r).collect();
+            let made = self.system.series(&rows).ok();
+            self.series = made.map(|series| (rows, series));
+        }
+    }
+
+    /// Says which series will be asked for next; these are given, as far as they are known.
+    pub(crate) fn announce(
+        &mut self,
+        asked: Option<(f64, (&[f64], &[f64]), usize)>,
+    ) -> Option<&mut RateSeries> {
+        if self.kind == StateKind::Full && !self.system.jumps {
+            if let Some((t, (y, carry), order)) = asked {
+                let mut reduced = std::mem::take(&mut self.reduced);
+                self.system.turns.reduce(y, carry, &mut reduced);
+                self.series().ok()?.announce(t, &reduced, order);
+                self.reduced = reduced;
             }
-        };
-        Ok(&mut self.series.insert(own).1)
+        }
+        self.series.as_mut().map(|(_, series)| series)
     }
 
     /// The coefficients of (q, v) at the state last evaluated, whatever the chart.
@@ -541,13 +567,17 @@ impl System for MultiplierFlow {
         coefficients: &mut [f64],
     ) -> Result<(), EvaluationFailure> {
         let n = y.len();
+        if self.kind == StateKind::Full && !self.system.jumps {
+            let mut reduced = std::mem::take(&mut self.reduced);
+            self.system.turns.reduce(y, carry, &mut reduced);
+            let series = self.series();
+            let outcome = series.and_then(|series| series.expand(t, &reduced, order, coefficients));
+            self.reduced = reduced;
+            coefficients[..n].copy_from_slice(y);
+            return outcome;
+        }
         let turns = &self.system.turns;
         let reduced = turns.center(self.system.jumps, (y, carry), coefficients);
-        if self.kind == StateKind::Full && !self.system.jumps {
-            self.series()?.expand(t, &reduced, order, coefficients)?;
-            coefficients[..n].copy_from_slice(y);
-            return Ok(());
-        }
         // Whether the chart can be used here and no constraint was left is seen on the way.
         self.derivative(t, &reduced, &mut coefficients[n..2 * n])?;
         if order < 2 {

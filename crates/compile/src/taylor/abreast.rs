@@ -3,6 +3,8 @@
 //! Every motion has the bits that it has alone: its sums are added up in the same parts, and the code for four does the same
 //! operations in the same order. Motions do not see each other; one that has no series says so and leaves the others alone.
 
+#![allow(clippy::needless_range_loop)] // As in `machine`.
+
 use super::machine::Recurring;
 use super::writer::{Layout, SCALARS};
 use super::{Taylor, TaylorWorkspace, ABREAST};
@@ -139,7 +141,7 @@ impl Recurring {
             self.seed_four(taylor, running, &mut outcome);
         }
         for (i, derived) in self.derived.iter().enumerate() {
-            let value = derived.of(|register| running.file[register as usize].0);
+            let value = derived.of(running.file[derived.register() as usize].0);
             running.file[self.layout.derived + i] = Four(value);
         }
         Ok(outcome)
@@ -191,8 +193,10 @@ impl Recurring {
             let sums = &mut running.file[self.layout.sums..];
             self.products.sum_four(j, &running.series, sums);
             let x = j as f64;
-            let scalars = [1.0 / x, x, 1.0 / (x + 1.0)].map(|x| Four([x; ABREAST]));
-            running.file[self.layout.scalars..][..SCALARS].copy_from_slice(&scalars);
+            let scalars: [f64; SCALARS] = [1.0 / x, x, 1.0 / (x + 1.0)];
+            for i in 0..SCALARS {
+                running.file[self.layout.scalars + i] = Four([scalars[i]; ABREAST]);
+            }
             let data = Data {
                 variables: &[],
                 file: flat(&running.file),

@@ -120,6 +120,11 @@ impl Recurring {
         self.four.get_or_init(make).as_ref()
     }
 
+    /// Whether this is a copy of the other, or the other of this.
+    pub(super) fn is_same(&self, other: &Recurring) -> bool {
+        Arc::ptr_eq(&self.machine, &other.machine)
+    }
+
     /// The highest order that has room.
     pub(super) fn most() -> usize {
         MOST
@@ -190,7 +195,7 @@ impl Recurring {
         recurrences.seed(zero)?;
         let derived = &mut rest[self.layout.derived - self.layout.registers..];
         for (to, derived) in derived.iter_mut().zip(&self.derived) {
-            *to = derived.value(zero);
+            [*to] = derived.of([zero[derived.register() as usize]]);
         }
         at.copy_from_slice(variables);
         *is_known = true;
@@ -269,15 +274,25 @@ impl Recurring {
         }
         let m = own.len();
         coefficients[..m].copy_from_slice(&variables[1..]);
-        // Zero where all are finite: what is not spreads to all values that are computed of it.
-        let mut trace = 0.0;
         for k in 0..m {
             let series = &running.series[at(own[k], 0)..=at(own[k], order)];
             let column = &mut coefficients[k..];
             for j in 1..=order {
                 column[j * m] = series[j];
-                trace += 0.0 * series[j];
             }
+        }
+        // Zero where all are finite: what is not spreads to all values that are computed of it. Side by side, so that no
+        // addition waits for the one before.
+        let (blocks, rest) = coefficients.as_chunks::<8>();
+        let mut traces = [0.0; 8];
+        for block in blocks {
+            for i in 0..8 {
+                traces[i] += 0.0 * block[i];
+            }
+        }
+        let mut trace = 0.0;
+        for x in traces.iter().chain(rest) {
+            trace += 0.0 * x;
         }
         running.is_stained = trace != 0.0;
         Ok(())

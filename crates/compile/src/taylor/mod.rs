@@ -404,6 +404,14 @@ impl Taylor {
         }
     }
 
+    /// Whether the other runs the same machine code, as copies of one do.
+    pub fn is_same_code(&self, other: &Taylor) -> bool {
+        match (&self.machine, &other.machine) {
+            (Some(machine), Some(other)) => machine.is_same(other),
+            _ => false,
+        }
+    }
+
     /// The highest order of [`expand_abreast`](Taylor::expand_abreast).
     pub fn most() -> usize {
         Recurring::most()

@@ -36,18 +36,27 @@ pub(super) enum Derived {
 }
 
 impl Derived {
-    pub(super) fn value(self, zero: &[f64]) -> f64 {
-        let [value] = self.of(|register| [zero[register as usize]]);
-        value
+    /// The register of x.
+    #[inline]
+    pub(super) fn register(self) -> u32 {
+        match self {
+            Derived::Reciprocal(register) | Derived::Half(register) | Derived::Sign(register) => {
+                register
+            }
+        }
     }
 
-    /// Of the values of order 0 that `zero` gives for a register, those of several motions.
-    pub(super) fn of<const N: usize>(self, zero: impl Fn(u32) -> [f64; N]) -> [f64; N] {
-        match self {
-            Derived::Reciprocal(register) => zero(register).map(|x| 1.0 / x),
-            Derived::Half(register) => zero(register).map(|x| 0.5 / x),
-            Derived::Sign(register) => zero(register).map(f64::signum),
+    /// The numbers that belong to those of x, for several motions.
+    #[inline]
+    pub(super) fn of<const N: usize>(self, mut x: [f64; N]) -> [f64; N] {
+        for x in &mut x {
+            *x = match self {
+                Derived::Reciprocal(_) => 1.0 / *x,
+                Derived::Half(_) => 0.5 / *x,
+                Derived::Sign(_) => x.signum(),
+            };
         }
+        x
     }
 }
 
