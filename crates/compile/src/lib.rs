@@ -64,5 +64,5 @@ pub use lower::{LowerError, Lowering};
 #[cfg(all(unix, target_arch = "x86_64"))]
 pub use native::Native;
 pub use program::Program;
-pub use taylor::{Taylor, TaylorWorkspace};
+pub use taylor::{Abreast, Taylor, TaylorWorkspace, ABREAST};
 pub use verify::VerifyError;

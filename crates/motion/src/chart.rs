@@ -21,6 +21,11 @@ pub const RANK_TOLERANCE: f64 = 1e-10;
 /// A chart is replaced when its pivot fell below this fraction of its value at the time of choice (theory 5.2).
 pub(crate) const DEGRADED: f64 = 0.1;
 
+/// Where the pivot falls below this fraction of its value at the last accepted state, a step of independent velocities is
+/// rejected: the errors of the others, which nobody measures, are larger by its inverse. Below [`DEGRADED`], so that steps may
+/// end where the chart is replaced.
+pub(crate) const BLIND: f64 = 0.05;
+
 /// A new chart must be better by this factor, or charts would chatter.
 pub(crate) const HYSTERESIS: f64 = 3.0;
 
@@ -122,13 +127,20 @@ fn least_pivot(
     (block, order): (&mut [f64], &mut [usize]),
 ) -> f64 {
     let size = chart.rows.len();
-    for (own, &row) in block.chunks_exact_mut(size.max(1)).zip(&chart.rows) {
-        let row = &jacobian[row * n..(row + 1) * n];
-        let entry = |j: usize| row[j] / scale(weight(j));
-        let length = (0..n).map(|j| entry(j) * entry(j)).sum::<f64>().sqrt();
-        let length = if length > 0.0 { length } else { 1.0 };
-        for (own, &d) in own.iter_mut().zip(&chart.dependent) {
-            *own = entry(d) / length;
+    for l in 0..size {
+        let row = &jacobian[chart.rows[l] * n..][..n];
+        // Over indices, and with one root for a row: done at every step.
+        let mut square = 0.0;
+        for j in 0..n {
+            if row[j] != 0.0 {
+                square += row[j] * row[j] / heaviness(weight(j));
+            }
+        }
+        for k in 0..size {
+            let d = chart.dependent[k];
+            let own = row[d] * row[d] / heaviness(weight(d));
+            let part = if square > 0.0 { own / square } else { own };
+            block[l * size + k] = part.sqrt().copysign(row[d]);
         }
     }
     let (rows, columns) = order.split_at_mut(size);
@@ -142,13 +154,18 @@ fn least_pivot(
     }
 }
 
-/// What a column of the Jacobian is divided by.
-fn scale(mass: f64) -> f64 {
+/// The square of what a column of the Jacobian is divided by.
+fn heaviness(mass: f64) -> f64 {
     if mass != 0.0 && mass.is_finite() {
-        mass.abs().sqrt()
+        mass.abs()
     } else {
         1.0
     }
+}
+
+/// What a column of the Jacobian is divided by.
+fn scale(mass: f64) -> f64 {
+    heaviness(mass).sqrt()
 }
 
 impl Chart {

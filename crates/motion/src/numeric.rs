@@ -58,6 +58,8 @@ pub struct NumericSystem {
     pub jumps: bool,
     /// Whether constraints of order two and more are left out here, which also determine accelerations.
     pub is_part: bool,
+    /// Coordinates on which the velocity constraints depend.
+    pub(crate) directing: Vec<bool>,
     mass_envelope: Vec<usize>,
     dynamics: Functions,
     kinematics: Functions,
@@ -199,6 +201,11 @@ impl NumericSystem {
             constrained_positions: occurring(g, &gradient, system.n()),
             jumps: has_jumps(g, &[terms.constraints.clone(), stated.clone()].concat()),
             is_part,
+            directing: {
+                let present = g.symbols_in(&terms.constraints);
+                let coordinates = system.coordinate_symbols();
+                coordinates.iter().map(|q| present.contains(q)).collect()
+            },
             mass_envelope: envelope(g, &terms.mass_matrix),
             dynamics: Functions::new(g, binding, &binding.variables, &groups)?,
             kinematics: Functions::new(g, binding, &binding.variables, &groups[2..5])?,

@@ -61,6 +61,26 @@ fn order_for(tolerance: f64) -> usize {
     (order.max(0.0) as usize).clamp(LEAST, MOST)
 }
 
+/// The first number that is not finite.
+fn not_finite(numbers: &[f64]) -> Option<usize> {
+    // Zero where all are finite; side by side, so that no addition waits for the one before.
+    let (blocks, rest) = numbers.as_chunks::<8>();
+    let mut traces = [0.0; 8];
+    for block in blocks {
+        for i in 0..8 {
+            traces[i] += 0.0 * block[i];
+        }
+    }
+    let mut trace = 0.0;
+    for x in traces.iter().chain(rest) {
+        trace += 0.0 * x;
+    }
+    match trace == 0.0 {
+        true => None,
+        false => numbers.iter().position(|x| !x.is_finite()),
+    }
+}
+
 impl Method for TaylorMethod {
     fn card(&self) -> &MethodCard {
         &self.card
@@ -89,6 +109,7 @@ impl Method for TaylorMethod {
             radius: 0.0,
             worst: 0,
             is_fresh: false,
+            is_weighed: false,
             end: vec![0.0; 2 * n],
             increment: vec![0.0; n],
             slope: vec![0.0; n],
@@ -119,6 +140,8 @@ struct Expansion {
     worst: usize,
     /// Whether the coefficients are those of the present start.
     is_fresh: bool,
+    /// Whether the weights are those of the state at which the next expansion is made.
+    is_weighed: bool,
     /// State and derivative at the end of the step.
     end: Vec<f64>,
     increment: Vec<f64>,
@@ -137,13 +160,15 @@ impl Expansion {
 
     fn expand(&mut self, system: &mut dyn System, from: &State) -> Result<(), EvaluationFailure> {
         self.is_fresh = false;
-        self.weigh(&from.y);
+        if !std::mem::take(&mut self.is_weighed) {
+            self.weigh(&from.y);
+        }
         let filled = (self.order + 1) * self.n;
         let coefficients = &mut self.coefficients[..filled];
         self.evaluations += 1;
         let state = (&from.y[..], &from.carry[..]);
         system.expand(from.t.high, state, self.order, coefficients)?;
-        if let Some(place) = coefficients.iter().position(|c| !c.is_finite()) {
+        if let Some(place) = not_finite(coefficients) {
             // Close to a pole the high coefficients overflow while the step is still well determined by the others.
             let known = (place / self.n).saturating_sub(1);
             if known < LEAST {
@@ -275,6 +300,15 @@ impl Stepper for Expansion {
 
     fn restart(&mut self, system: &mut dyn System, from: &State) -> Result<(), EvaluationFailure> {
         self.expand(system, from)
+    }
+
+    fn next_expansion(&mut self, from: &State, is_changed: bool) -> Option<usize> {
+        if self.is_fresh && !is_changed {
+            return None;
+        }
+        self.weigh(&from.y);
+        self.is_weighed = true;
+        Some(self.order)
     }
 
     fn attempt(
