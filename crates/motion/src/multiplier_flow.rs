@@ -8,7 +8,7 @@ use crate::accelerations::Accelerations;
 use crate::chart::{self, Chart, DEGRADED, HYSTERESIS};
 use crate::drift::Drift;
 use crate::follow::Follow;
-use crate::functions::FunctionsError;
+use crate::functions::{Functions, FunctionsError};
 use crate::initial::ConsistentState;
 use crate::keep::Keep;
 use crate::leaving::Anchor;
@@ -57,6 +57,9 @@ pub struct MultiplierFlow {
     zero_between: bool,
     /// Taylor recurrences of the rates of (q, v), with the constraint rows that they use; made when first asked for.
     series: Option<(Vec<usize>, RateSeries)>,
+    /// Accelerations without multipliers, with the constraint rows that they use, where there are such; made when first asked
+    /// for.
+    direct: Option<(Vec<usize>, Option<Functions>)>,
     /// Coefficients of (q, v).
     full: Vec<f64>,
     /// The state without whole turns of its angles.
@@ -115,6 +118,7 @@ impl MultiplierFlow {
             watch,
             zero_between: false,
             series: None,
+            direct: None,
             full: Vec::new(),
             reduced: Vec::new(),
             solved: None,
@@ -178,6 +182,9 @@ impl MultiplierFlow {
         }
         if let Some((_, series)) = &mut self.series {
             series.set_parameters(values)?;
+        }
+        if let Some((_, Some(direct))) = &mut self.direct {
+            direct.set_parameters(values)?;
         }
         Ok(())
     }
@@ -479,6 +486,38 @@ impl MultiplierFlow {
         made.ok_or(EvaluationFailure::NoSeries)
     }
 
+    /// Makes the accelerations without multipliers, so that copies of this flow share them.
+    pub(crate) fn share_accelerations(&mut self) {
+        if self.direct.is_none() {
+            let rows: Vec<usize> = (0..self.system.r).collect();
+            let found = self.system.accelerations(&rows);
+            self.direct = Some((rows, found));
+        }
+    }
+
+    /// The rates of (q, v) by accelerations without multipliers; false where there are none, or have no value here: the
+    /// multiplier form then says why.
+    fn direct_rates(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> bool {
+        if self.kind != StateKind::Full || self.system.jumps {
+            return false;
+        }
+        let rows = &self.chart.rows;
+        if self.direct.as_ref().is_none_or(|(known, _)| known != rows) {
+            self.direct = Some((rows.clone(), self.system.accelerations(rows)));
+        }
+        let Some((_, Some(direct))) = &mut self.direct else {
+            return false;
+        };
+        let (q, v) = y.split_at(self.system.positions());
+        if direct.evaluate(t, &[q, v]).is_err() {
+            return false;
+        }
+        let (positions, rest) = dy.split_at_mut(q.len());
+        positions.copy_from_slice(v);
+        rest.copy_from_slice(direct.group(0));
+        true
+    }
+
     /// Makes the series of the chart that most motions have, so that copies of this flow share them.
     pub(crate) fn share_series(&mut self) {
         if self.series.is_none() {
@@ -526,6 +565,9 @@ impl System for MultiplierFlow {
     }
 
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure> {
+        if self.direct_rates(t, y, dy) {
+            return Ok(());
+        }
         self.evaluate(t, y)?;
         if self.system.r > 0 {
             let least = match self.kind {

@@ -49,8 +49,9 @@ impl CompiledRouth {
     /// A copy for another run, which shares the machine code of series.
     #[must_use]
     pub fn copy(&mut self) -> CompiledRouth {
-        if self.needs_series {
-            self.flow.share_series();
+        match self.needs_series {
+            true => self.flow.share_series(),
+            false => self.flow.share_accelerations(),
         }
         self.clone()
     }
