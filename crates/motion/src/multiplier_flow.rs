@@ -298,9 +298,17 @@ impl MultiplierFlow {
         Ok(())
     }
 
-    /// The accelerations at (q, v).
+    /// The accelerations at (q, v). Where all velocities are integrated the chart serves for this alone, and where it is bad
+    /// another one is taken, for this state.
     fn solve_here(&mut self, t: f64) -> Result<(), EvaluationFailure> {
         self.system.evaluate(t, &self.q, &self.v)?;
+        let is_free = self.kind == StateKind::Full && self.system.r > 0;
+        if is_free && self.quality() < DEGRADED * self.chart.pivot {
+            let better = self.choose();
+            if better.rank() == self.chart.rank() {
+                return Ok(self.accelerations.solve(&self.system, &better)?);
+            }
+        }
         Ok(self.accelerations.solve(&self.system, &self.chart)?)
     }
 
