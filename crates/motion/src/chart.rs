@@ -143,6 +143,10 @@ fn least_pivot(
             block[l * size + k] = part.sqrt().copysign(row[d]);
         }
     }
+    if let (1, [single]) = (size, &*block) {
+        // Zero for what is not a number.
+        return single.abs().max(0.0);
+    }
     let (rows, columns) = order.split_at_mut(size);
     rows.iter_mut().enumerate().for_each(|(i, row)| *row = i);
     columns.copy_from_slice(rows);
