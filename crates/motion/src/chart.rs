@@ -119,6 +119,7 @@ pub fn quality(chart: &Chart, jacobian: &[f64], n: usize, weight: impl Fn(usize)
 }
 
 /// The same, in space for a block of the size of the chart and for its rows and columns; 0 where the rank is less.
+#[allow(clippy::needless_range_loop)] // Done at every step: iterators are not always inlined.
 fn least_pivot(
     chart: &Chart,
     jacobian: &[f64],
@@ -129,7 +130,7 @@ fn least_pivot(
     let size = chart.rows.len();
     for l in 0..size {
         let row = &jacobian[chart.rows[l] * n..][..n];
-        // Over indices, and with one root for a row: done at every step.
+        // One root for an entry of the block, none for the others.
         let mut square = 0.0;
         for j in 0..n {
             if row[j] != 0.0 {

@@ -18,7 +18,7 @@ use crate::row::RowLayout;
 use crate::run::WatchedFlow;
 use crate::series::RateSeries;
 use crate::watch::Watch;
-use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System};
+use chetaev_integrate::{ChartChange, Control, EvaluationFailure, Expansion, HaltReason, System};
 
 /// Which variables are integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -489,15 +489,13 @@ impl MultiplierFlow {
     }
 
     /// Says which series will be asked for next; these are given, as far as they are known.
-    pub(crate) fn announce(
-        &mut self,
-        asked: Option<(f64, (&[f64], &[f64]), usize)>,
-    ) -> Option<&mut RateSeries> {
+    pub(crate) fn announce(&mut self, asked: Option<Expansion<'_>>) -> Option<&mut RateSeries> {
         if self.kind == StateKind::Full && !self.system.jumps {
-            if let Some((t, (y, carry), order)) = asked {
+            if let Some(asked) = asked {
                 let mut reduced = std::mem::take(&mut self.reduced);
-                self.system.turns.reduce(y, carry, &mut reduced);
-                self.series().ok()?.announce(t, &reduced, order);
+                let turns = &self.system.turns;
+                turns.reduce(asked.y, asked.carry, &mut reduced);
+                self.series().ok()?.announce(asked.t, &reduced, asked.order);
                 self.reduced = reduced;
             }
         }
