@@ -162,7 +162,8 @@ fn least_pivot(
 /// The square of what a column of the Jacobian is divided by.
 fn heaviness(mass: f64) -> f64 {
     if mass != 0.0 && mass.is_finite() {
-        mass.abs()
+        // The squares of what is divided by it must not overflow: a rank would be lost that is there.
+        mass.abs().clamp(1e-100, 1e100)
     } else {
         1.0
     }
@@ -245,6 +246,20 @@ mod tests {
         let other = choose(&rescaled, 2, 3, &[1.0; 3]);
         assert_eq!(chart.dependent, other.dependent);
         assert!((chart.pivot - other.pivot).abs() < 1e-12);
+    }
+
+    /// A mass on the way to zero is no reason to take a constraint for vanished.
+    #[test]
+    fn the_rank_does_not_depend_on_tiny_masses() {
+        for mass in [1e-300, 1e-310, 5e-324, 0.0, 1e300] {
+            let (jacobian, diagonal) = ([-1e-3, 1.0], [mass, 2.0]);
+            let chart = choose(&jacobian, 1, 2, &diagonal);
+            assert_eq!(chart.rank(), 1, "{mass:e}");
+            assert!(
+                quality(&chart, &jacobian, 2, |i| diagonal[i]) > 0.5,
+                "{mass:e}"
+            );
+        }
     }
 
     #[test]
