@@ -294,7 +294,14 @@ impl MultiplierFlow {
     /// The accelerations at (q, v).
     fn solve_here(&mut self, t: f64) -> Result<(), EvaluationFailure> {
         self.system.evaluate(t, &self.q, &self.v)?;
-        Ok(self.accelerations.solve(&self.system, &self.chart)?)
+        // In all velocities a chart only serves to solve. A step may pass a singular place of it, with rows to be written there.
+        let is_poor = self.kind == StateKind::Full
+            && self.system.r > 0
+            && self.quality() < DEGRADED * self.chart.pivot;
+        let here = is_poor.then(|| self.choose());
+        let better = here.filter(|here| here.rows == self.chart.rows);
+        let chart = better.as_ref().unwrap_or(&self.chart);
+        Ok(self.accelerations.solve(&self.system, chart)?)
     }
 
     /// The accelerations are those at the state y.
