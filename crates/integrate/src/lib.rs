@@ -45,5 +45,5 @@ pub use problem::{
     from_fn, try_from_fn, ChartChange, Control, EvaluationFailure, HaltReason, System,
 };
 pub use solution::{Note, Solution, Statistics, Stop};
-pub use stepping::Stepping;
+pub use stepping::{Expansion, Stepping};
 pub use stiffness::StiffnessPolicy;

@@ -22,6 +22,19 @@ use crate::stiffness::{Detector, StiffnessPolicy};
 /// Failed attempts are repeated with a step shorter by this factor.
 const RETRY: f64 = 0.25;
 
+/// A series that a run asks its system for ([`System::expand`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expansion<'s> {
+    /// The time.
+    pub t: f64,
+    /// The state, rounded.
+    pub y: &'s [f64],
+    /// What the rounding leaves out.
+    pub carry: &'s [f64],
+    /// The highest order.
+    pub order: usize,
+}
+
 /// One run at work, step by step, always of the same system and events. All storage is made before the first step; later only
 /// rows, events and notes grow.
 pub struct Stepping<'o> {
@@ -126,7 +139,7 @@ impl<'o> Stepping<'o> {
         }
     }
 
-    /// Makes one accepted step, before the first of them what precedes it; false when the run has ended.
+    /// Prepares the method at the first call, and makes one accepted step at every later one; false when the run has ended.
     pub fn advance(&mut self, system: &mut dyn System, events: &mut [Event<'_>]) -> bool {
         if self.stop.is_none() {
             let outcome = match std::mem::replace(&mut self.begun, true) {
@@ -156,13 +169,18 @@ impl<'o> Stepping<'o> {
     }
 
     /// The expansion that the next call of [`advance`](Stepping::advance) asks the system for first, where it is known that
-    /// one is: time, state with carry, and order.
-    pub fn next_expansion(&mut self) -> Option<(f64, (&[f64], &[f64]), usize)> {
+    /// one is.
+    pub fn next_expansion(&mut self) -> Option<Expansion<'_>> {
         if self.stop.is_some() {
             return None;
         }
         let order = self.stepper.next_expansion(&self.now, self.changed)?;
-        Some((self.now.t.high, (&self.now.y, &self.now.carry), order))
+        Some(Expansion {
+            t: self.now.t.high,
+            y: &self.now.y,
+            carry: &self.now.carry,
+            order,
+        })
     }
 
     /// Records the initial state and prepares the method.

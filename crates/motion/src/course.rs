@@ -5,7 +5,7 @@ use crate::happening::{self, Passed, WithEvents};
 use crate::run::{End, Looking, RunError, RunSettings, Subject, WatchedFlow, Watcher};
 use crate::stop;
 use crate::watch::Watched;
-use chetaev_integrate::{Event, HaltReason, Solution, Stepping, Stop};
+use chetaev_integrate::{Event, Expansion, HaltReason, Solution, Stepping, Stop};
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
 
@@ -47,11 +47,11 @@ impl<'o> Course<'o> {
     }
 
     /// The expansion with which the next step begins, where it is known.
-    pub(crate) fn next_expansion(&mut self) -> Option<(f64, (&[f64], &[f64]), usize)> {
+    pub(crate) fn next_expansion(&mut self) -> Option<Expansion<'_>> {
         self.stepping.as_mut()?.next_expansion()
     }
 
-    /// Makes one step; false when the run has ended.
+    /// Makes one step, or begins a piece; false when the run has ended.
     ///
     /// # Errors
     /// [`RunError`] where a piece cannot begin.

@@ -18,7 +18,7 @@ use crate::row::RowLayout;
 use crate::run::WatchedFlow;
 use crate::series::RateSeries;
 use crate::watch::Watch;
-use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System};
+use chetaev_integrate::{ChartChange, Control, EvaluationFailure, Expansion, HaltReason, System};
 
 /// Which variables are integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -302,14 +302,14 @@ impl MultiplierFlow {
     /// another one is taken, for this state.
     fn solve_here(&mut self, t: f64) -> Result<(), EvaluationFailure> {
         self.system.evaluate(t, &self.q, &self.v)?;
-        let is_free = self.kind == StateKind::Full && self.system.r > 0;
-        if is_free && self.quality() < DEGRADED * self.chart.pivot {
-            let better = self.choose();
-            if better.rank() == self.chart.rank() {
-                return Ok(self.accelerations.solve(&self.system, &better)?);
-            }
-        }
-        Ok(self.accelerations.solve(&self.system, &self.chart)?)
+        // In all velocities a chart only serves to solve. A step may pass a singular place of it, with rows to be written there.
+        let is_poor = self.kind == StateKind::Full
+            && self.system.r > 0
+            && self.quality() < DEGRADED * self.chart.pivot;
+        let here = is_poor.then(|| self.choose());
+        let better = here.filter(|here| here.rows == self.chart.rows);
+        let chart = better.as_ref().unwrap_or(&self.chart);
+        Ok(self.accelerations.solve(&self.system, chart)?)
     }
 
     /// The accelerations are those at the state y.
@@ -536,15 +536,13 @@ impl MultiplierFlow {
     }
 
     /// Says which series will be asked for next; these are given, as far as they are known.
-    pub(crate) fn announce(
-        &mut self,
-        asked: Option<(f64, (&[f64], &[f64]), usize)>,
-    ) -> Option<&mut RateSeries> {
+    pub(crate) fn announce(&mut self, asked: Option<Expansion<'_>>) -> Option<&mut RateSeries> {
         if self.kind == StateKind::Full && !self.system.jumps {
-            if let Some((t, (y, carry), order)) = asked {
+            if let Some(asked) = asked {
                 let mut reduced = std::mem::take(&mut self.reduced);
-                self.system.turns.reduce(y, carry, &mut reduced);
-                self.series().ok()?.announce(t, &reduced, order);
+                let turns = &self.system.turns;
+                turns.reduce(asked.y, asked.carry, &mut reduced);
+                self.series().ok()?.announce(asked.t, &reduced, asked.order);
                 self.reduced = reduced;
             }
         }

@@ -198,7 +198,7 @@ impl std::fmt::Debug for RouthCourse<'_> {
 }
 
 impl RouthCourse<'_> {
-    /// Makes one step; false when the run has ended.
+    /// Makes one step, or begins; false when the run has ended.
     ///
     /// # Errors
     /// [`RunError`] when the run cannot begin.

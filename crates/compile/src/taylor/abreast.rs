@@ -218,13 +218,13 @@ impl Recurring {
         running: &FourRunning,
         coefficients: &mut [f64],
     ) {
-        let m = self.registers.len();
+        let (m, lane) = (self.registers.len(), lane % ABREAST);
         for (k, &slot) in self.variables[1..].iter().enumerate() {
-            let from = slot as usize * STRIDE + ZERO;
-            let series = &running.series[from..=from + order];
-            let column = &mut coefficients[k..];
-            for j in 1..=order {
-                column[j * m] = series[j].0[lane];
+            let from = slot as usize * STRIDE + ZERO + 1;
+            let series = &running.series[from..from + order];
+            let column = coefficients[m..].iter_mut().skip(k).step_by(m);
+            for (to, coefficient) in column.zip(series) {
+                *to = coefficient.0[lane];
             }
         }
     }

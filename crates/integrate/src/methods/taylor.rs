@@ -61,6 +61,27 @@ fn order_for(tolerance: f64) -> usize {
     (order.max(0.0) as usize).clamp(LEAST, MOST)
 }
 
+/// Components whose sums are formed side by side, in registers.
+const BLOCK: usize = 4;
+
+/// Σ_{j≥1} x_[j] h^j and its derivative of N components from `first` on; the rows are the coefficients of the orders from 1 on.
+#[inline(always)]
+fn horner<const N: usize>(rows: &[f64], n: usize, first: usize, h: f64) -> ([f64; N], [f64; N]) {
+    let (mut sum, mut slope) = ([0.0; N], [0.0; N]);
+    for row in rows.chunks_exact(n).rev() {
+        let own = &row[first..first + N];
+        for i in 0..N {
+            slope[i] = sum[i] + h * slope[i];
+            sum[i] = own[i] + h * sum[i];
+        }
+    }
+    for i in 0..N {
+        slope[i] = sum[i] + h * slope[i];
+        sum[i] *= h;
+    }
+    (sum, slope)
+}
+
 /// The first number that is not finite.
 fn not_finite(numbers: &[f64]) -> Option<usize> {
     // Zero where all are finite; side by side, so that no addition waits for the one before.
@@ -219,8 +240,9 @@ impl Expansion {
             if norm == 0.0 {
                 continue;
             }
-            let allowed: f64 = if seen == 0 { (-2.0f64).exp() } else { 1.0 };
-            let step = (allowed / norm).powf(1.0 / j as f64);
+            // The logarithm of the step.
+            let allowed = if seen == 0 { -2.0 } else { 0.0 };
+            let step = (allowed - norm.ln()) / j as f64;
             if step < self.radius {
                 (self.radius, self.worst) = (step, worst);
             }
@@ -229,27 +251,24 @@ impl Expansion {
                 break;
             }
         }
-        self.radius *= (-0.7 / (p as f64 - 1.0)).exp();
+        self.radius = (self.radius - 0.7 / (p as f64 - 1.0)).exp();
     }
 
     /// Σ_{j≥1} x_[j] h^j and its derivative, by Horner's scheme for both at once.
     fn sum(&mut self, h: f64) {
         let n = self.n;
-        let (increment, slope) = (&mut self.increment[..n], &mut self.slope[..n]);
-        increment.fill(0.0);
-        slope.fill(0.0);
-        for coefficients in self.coefficients[n..(self.order + 1) * n]
-            .chunks_exact(n.max(1))
-            .rev()
-        {
-            for i in 0..n {
-                slope[i] = increment[i] + h * slope[i];
-                increment[i] = coefficients[i] + h * increment[i];
-            }
+        let rows = &self.coefficients[n..(self.order + 1) * n];
+        let mut first = 0;
+        while first + BLOCK <= n {
+            let (sum, slope) = horner::<BLOCK>(rows, n, first, h);
+            self.increment[first..first + BLOCK].copy_from_slice(&sum);
+            self.slope[first..first + BLOCK].copy_from_slice(&slope);
+            first += BLOCK;
         }
-        for i in 0..n {
-            slope[i] = increment[i] + h * slope[i];
-            increment[i] *= h;
+        while first < n {
+            let ([sum], [slope]) = horner::<1>(rows, n, first, h);
+            (self.increment[first], self.slope[first]) = (sum, slope);
+            first += 1;
         }
     }
 
