@@ -253,6 +253,58 @@ fn threads_and_blocks_do_not_change_a_bit() {
     }
 }
 
+/// Their series are made four at a time. Pendulums of different length end at different times at the bottom, one without length
+/// cannot begin: the others do not notice, and a trajectory in a block of its own has no company.
+#[test]
+fn trajectories_side_by_side_do_not_see_each_other() {
+    let text = format!("{PENDULUM}action = \"stop\"\n");
+    let model = of_text(&text, &[]);
+    let variations = varied(
+        &model,
+        &["l=0,0.5,1,3"],
+        &["theta=0.1:3:7"],
+        Together::default(),
+    );
+    let study = StudyOptions {
+        method: Some("taylor".into()),
+        ..StudyOptions::default()
+    };
+    let options = SweepOptions {
+        study: study.clone(),
+        samples: 3,
+    };
+    let sweep = sweep(&model, variations, options);
+    assert!(sweep.is_compiled_once());
+    let found = outcomes(&sweep, 28, 1);
+    let reference: Vec<Vec<u64>> = found.iter().map(bits_of).collect();
+    for (size, threads) in [(1, 1), (3, 2), (5, 1)] {
+        let again: Vec<Vec<u64>> = outcomes(&sweep, size, threads)
+            .iter()
+            .map(bits_of)
+            .collect();
+        assert_eq!(again, reference, "{size} {threads}");
+    }
+    let mut steps = Vec::new();
+    for (index, outcome) in found.iter().enumerate() {
+        let values = sweep.values(index as u64);
+        if values[0] == 0.0 {
+            assert!(outcome.stop.is_failure(), "{outcome:?}");
+            continue;
+        }
+        let (l, theta) = (values[0], values[1]);
+        let quarter = (l / 9.81).sqrt() * complete_elliptic((theta / 2.0).sin());
+        assert_eq!(outcome.stop, StopCode::Event(0));
+        assert!(
+            (outcome.t - quarter).abs() < 1e-11,
+            "{l} {theta}: {}",
+            outcome.t
+        );
+        steps.push(outcome.steps);
+    }
+    steps.sort_unstable();
+    assert!(steps.len() == 21 && steps[0] < steps[20], "{steps:?}");
+}
+
 /// The complete elliptic integral K by the arithmetic-geometric mean of Gauss: K(k) = π/(2 agm(1, √(1 − k²))).
 fn complete_elliptic(k: f64) -> f64 {
     let (mut a, mut b) = (1.0, (1.0 - k * k).sqrt());

@@ -119,7 +119,7 @@ fn of_flow(question: &Question, mut prepared: Prepared) -> Result<Ready, String>
     let watch = Watch::new(&prepared.system, &prepared.terms, &prepared.binding).map_err(words)?;
     let info = json!({"native": prepared.numeric.is_native()});
     let (n, start) = (prepared.numeric.n, prepared.start);
-    let mut flow = MultiplierFlow::new(prepared.numeric, &start, StateKind::Reduced, false, watch);
+    let mut flow = MultiplierFlow::new(prepared.numeric, &start, StateKind::Full, watch);
     let states: Vec<Vec<f64>> = question
         .states
         .iter()

@@ -7,6 +7,7 @@ use crate::emit::{Emitter, Origin};
 use crate::program::{Instruction, Layout, OutputGroup, Program, Register};
 
 /// A group of outputs in single-assignment form.
+#[derive(Clone, Debug)]
 pub(crate) struct Group {
     pub(crate) name: String,
     pub(crate) registers: Vec<Register>,

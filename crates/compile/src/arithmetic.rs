@@ -2,6 +2,7 @@
 
 use crate::emit::Emitter;
 use crate::lower::{Fault, Lowerer};
+use crate::pairs::Element;
 use crate::program::{Binary, Fused, Register, Unary};
 use chetaev_symbolic::{rational, Expr, Node, Rational};
 
@@ -136,6 +137,10 @@ impl Lowerer<'_> {
         for &node in nodes {
             self.sort_factor(node, &mut factors)?;
         }
+        if let Some(elements) = self.pairs.of_product(e).map(<[u32]>::to_vec) {
+            let registers = elements.iter().map(|&index| self.element(index));
+            factors.above = registers.collect::<Result<_, Fault>>()?;
+        }
         let coefficient = coefficient * scale;
         let mut negative = rational::is_negative(&coefficient);
         let magnitude = rational::abs(&coefficient);
@@ -154,6 +159,17 @@ impl Lowerer<'_> {
         }
         let (a, b) = self.assemble(&factors);
         Ok(Term { negative, a, b })
+    }
+
+    /// The register of an element of a product.
+    fn element(&mut self, index: u32) -> Result<Register, Fault> {
+        match self.pairs.element(index) {
+            Element::Factor(e) => self.scalar(e),
+            Element::Pair(a, b) => {
+                let (a, b) = (self.element(a)?, self.element(b)?);
+                Ok(self.emitter.mul(a, b))
+            }
+        }
     }
 
     fn sort_factor(&mut self, node: Expr, factors: &mut Factors) -> Result<(), Fault> {

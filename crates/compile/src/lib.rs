@@ -43,12 +43,14 @@ mod emit;
 pub mod evaluate;
 mod factor;
 mod frames;
+mod horner;
 pub mod interpret;
 mod kernel;
 mod lanes;
 pub mod lower;
 #[cfg(all(unix, target_arch = "x86_64"))]
 pub mod native;
+mod pairs;
 pub mod program;
 mod schedule;
 pub mod taylor;
@@ -62,5 +64,5 @@ pub use lower::{LowerError, Lowering};
 #[cfg(all(unix, target_arch = "x86_64"))]
 pub use native::Native;
 pub use program::Program;
-pub use taylor::{Taylor, TaylorWorkspace};
+pub use taylor::{Abreast, Taylor, TaylorWorkspace, ABREAST};
 pub use verify::VerifyError;

@@ -3,8 +3,10 @@
 //! The order of instructions follows the expressions depth first from the first output to the last, so it depends
 //! on the expressions only, not on how the graph was built. What is decided here, and nothing else:
 //!
+//! - common factors of the terms of a sum are taken out (`horner`);
 //! - every node is computed once; equal instructions are one;
 //! - a sum is folded with fused products in runs of eight terms, the runs are added pairwise;
+//! - what several products have in common is multiplied first (`pairs`);
 //! - in a product the factors that depend on parameters only are one hoisted factor; powers with negative
 //!   exponent that occur nowhere else are gathered into one division;
 //! - integer powers are chains of products, half-integer ones use one square root;
@@ -14,8 +16,11 @@
 use crate::allocate;
 use crate::arithmetic::Exponent;
 use crate::emit::{Emitter, Origin};
+use crate::horner;
+use crate::pairs::Pairs;
 use crate::program::{Binary, Factorization, Program, Register, Unary};
 use chetaev_symbolic::{rational, Expr, Function, Graph, Node, Rational, Symbol};
+use rustc_hash::FxHashSet;
 
 /// Why expressions cannot be lowered.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
@@ -115,6 +120,20 @@ impl<'g> Lowering<'g> {
     /// # Errors
     /// [`LowerError`] for a symbol that is not bound or bound twice, and for an output that is not a number.
     pub fn lower(&self) -> Result<Program, LowerError> {
+        let lists = self.groups.iter().map(|(_, values)| values);
+        let lists = lists.chain(self.names.iter().map(|(_, values)| values));
+        let all: Vec<Expr> = lists.chain([&self.definite]).flatten().copied().collect();
+        let mut all = horner::factored(self.graph, &all).into_iter();
+        let mut factored = self.clone();
+        let lists = factored.groups.iter_mut().map(|(_, values)| values);
+        let lists = lists.chain(factored.names.iter_mut().map(|(_, values)| values));
+        for value in lists.chain([&mut factored.definite]).flatten() {
+            *value = all.next().unwrap_or(*value);
+        }
+        factored.lower_factored()
+    }
+
+    fn lower_factored(&self) -> Result<Program, LowerError> {
         let mut lowerer = Lowerer::new(self)?;
         let mut outputs = Vec::with_capacity(self.groups.len());
         for (name, values) in &self.groups {
@@ -178,6 +197,8 @@ pub(crate) struct Lowerer<'g> {
     /// By symbol expression, sorted: the register.
     inputs: Vec<(Expr, Register)>,
     definite: Vec<Expr>,
+    /// The order in which factors are multiplied.
+    pub(crate) pairs: Pairs,
     names: Vec<(Expr, usize)>,
     name_texts: Vec<String>,
 }
@@ -196,6 +217,7 @@ impl<'g> Lowerer<'g> {
             trigonometry: vec![0; size],
             inputs: Vec::new(),
             definite: matrices_in(graph, &lowering.definite),
+            pairs: Pairs::default(),
             names: Vec::new(),
             name_texts: Vec::new(),
         };
@@ -210,7 +232,22 @@ impl<'g> Lowerer<'g> {
         lowerer.bind(&lowering.parameters, Origin::Parameter)?;
         lowerer.bind(&lowering.variables, Origin::Variable)?;
         lowerer.survey(roots().copied());
+        lowerer.pairs = lowerer.pairs_below(roots().copied().collect(), &lowering.variables);
         Ok(lowerer)
+    }
+
+    /// The order of multiplication of factors that change with the state and stand above the fraction bar.
+    fn pairs_below(&self, roots: Vec<Expr>, variables: &[Symbol]) -> Pairs {
+        let (graph, variables) = (self.graph, FxHashSet::from_iter(variables.iter().copied()));
+        let mut moves = vec![false; self.uses.len()];
+        for e in graph.reachable(&roots) {
+            let mut own = graph.as_symbol(e).is_some_and(|s| variables.contains(&s));
+            let node = graph.node(e);
+            node.for_each_child(|child| own |= moves[child.index()]);
+            moves[e.index()] = own;
+        }
+        let is_factor = |e: Expr| moves[e.index()] && self.inlined_denominator(e).is_none();
+        Pairs::new(graph, &roots, is_factor)
     }
 
     fn bind(

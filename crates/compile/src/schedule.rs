@@ -27,6 +27,7 @@ pub(crate) fn in_runs(program: &Program) -> Program {
 }
 
 /// A program whose registers are written once each.
+#[derive(Clone, Debug)]
 pub(crate) struct Single {
     pub(crate) program: Program,
     pub(crate) origins: Vec<Origin>,

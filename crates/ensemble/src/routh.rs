@@ -3,8 +3,8 @@
 use crate::outcome::{Outcome, Shape};
 use crate::pool::{Work, Worker};
 use chetaev_motion::{
-    consistent_state, Binding, CompiledRouth, ConsistentState, InitialData, RunSettings, Subject,
-    Watcher,
+    consistent_state, Binding, CompiledRouth, ConsistentState, InitialData, RouthCourse,
+    RunSettings, SideBySide, Subject, Watcher,
 };
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
@@ -45,6 +45,8 @@ pub struct Routh<'a, M> {
     subject: Subject<'a>,
     compiled: CompiledRouth,
     shape: Shape,
+    /// How many trajectories a thread computes in turns.
+    places: usize,
 }
 
 impl<'a, M: Members> Routh<'a, M> {
@@ -58,18 +60,34 @@ impl<'a, M: Members> Routh<'a, M> {
         Routh {
             members,
             subject,
-            compiled,
             shape,
+            places: compiled.abreast(),
+            compiled,
         }
+    }
+
+    /// The same with so many trajectories in turns on each thread; each has the same bits whatever the number.
+    #[must_use]
+    pub fn in_turns(mut self, places: usize) -> Routh<'a, M> {
+        self.places = places.clamp(1, self.compiled.abreast());
+        self
     }
 }
 
 impl<M: Members> Work for Routh<'_, M> {
     fn worker(&self) -> Box<dyn Worker + '_> {
+        let mut compiled = self.compiled.clone();
+        let place = |compiled| Place {
+            compiled,
+            is_set: false,
+        };
+        let others: Vec<CompiledRouth> = (1..self.places).map(|_| compiled.copy()).collect();
+        let mut places = vec![place(compiled)];
+        places.extend(others.into_iter().map(place));
         Box::new(Thread {
             ensemble: self,
-            compiled: self.compiled.clone(),
-            is_set: false,
+            places,
+            side_by_side: SideBySide::default(),
         })
     }
 
@@ -78,58 +96,146 @@ impl<M: Members> Work for Routh<'_, M> {
     }
 }
 
-/// One thread at work.
+/// One thread at work on as many trajectories as there are places, in turns: their series are made side by side.
 struct Thread<'e, 'a, M> {
     ensemble: &'e Routh<'a, M>,
+    places: Vec<Place>,
+    side_by_side: SideBySide,
+}
+
+/// Where one trajectory at a time is computed.
+struct Place {
     compiled: CompiledRouth,
     /// Whether other parameters than those of the binding are set.
     is_set: bool,
 }
 
+/// A trajectory on the way.
+struct Trajectory<'o> {
+    index: u64,
+    start: ConsistentState,
+    settings: RunSettings,
+    course: RouthCourse<'o>,
+}
+
 impl<M: Members> Worker for Thread<'_, '_, M> {
     fn block(&mut self, range: Range<u64>, interrupt: &AtomicBool) -> Option<Vec<Outcome>> {
-        let mut outcomes = Vec::with_capacity((range.end - range.start) as usize);
-        for index in range {
-            let outcome = match self.outcome(index, interrupt) {
-                Ok(outcome) => outcome?,
-                Err(reason) => Outcome::not_started(self.ensemble.shape, reason),
-            };
-            outcomes.push(outcome);
+        let count = (range.end - range.start) as usize;
+        let mut outcomes: Vec<Option<Outcome>> = vec![None; count];
+        let place_of = |index: u64| (index - range.start) as usize;
+        let mut waiting = range.clone();
+        let mut running: Vec<Option<Trajectory<'_>>> = Vec::new();
+        running.resize_with(self.places.len(), || None);
+        loop {
+            for (place, slot) in self.places.iter_mut().zip(&mut running) {
+                while slot.is_none() {
+                    let Some(index) = waiting.next() else { break };
+                    match place.begin(self.ensemble, index, interrupt) {
+                        Ok(trajectory) => *slot = Some(trajectory),
+                        Err(reason) => {
+                            let shape = self.ensemble.shape;
+                            let failed = Outcome::not_started(shape, reason);
+                            outcomes[place_of(index)] = Some(failed);
+                        }
+                    }
+                }
+            }
+            if running.iter().all(Option::is_none) {
+                return outcomes.into_iter().collect();
+            }
+            let pairs = running.iter_mut().zip(&mut self.places);
+            self.side_by_side
+                .look_ahead(pairs.map(|(slot, place)| match slot {
+                    Some(trajectory) => Some((&mut trajectory.course, &mut place.compiled)),
+                    None => None,
+                }));
+            for (place, slot) in self.places.iter_mut().zip(&mut running) {
+                let Some(trajectory) = slot else { continue };
+                let outcome = match place.advance(self.ensemble, trajectory, interrupt) {
+                    Ok(true) => continue,
+                    Ok(false) => slot
+                        .take()
+                        .map(|trajectory| place.finish(self.ensemble, trajectory)),
+                    Err(reason) => {
+                        let failed = Outcome::not_started(self.ensemble.shape, reason);
+                        slot.take().map(|own| (own.index, Some(failed)))
+                    }
+                };
+                if let Some((index, outcome)) = outcome {
+                    outcomes[place_of(index)] = Some(outcome?);
+                }
+            }
         }
-        Some(outcomes)
     }
 }
 
-impl<M: Members> Thread<'_, '_, M> {
-    /// One trajectory; `None` when it was interrupted.
-    fn outcome(&mut self, index: u64, interrupt: &AtomicBool) -> Result<Option<Outcome>, String> {
-        let Routh {
-            members,
-            subject,
-            shape,
-            ..
-        } = self.ensemble;
-        let member = members.member(index)?;
-        self.set(subject.binding, member.parameters.as_deref())?;
+impl Place {
+    /// Begins a trajectory.
+    fn begin<'o, M: Members>(
+        &mut self,
+        ensemble: &Routh<'_, M>,
+        index: u64,
+        interrupt: &'o AtomicBool,
+    ) -> Result<Trajectory<'o>, String> {
+        let member = ensemble.members.member(index)?;
+        self.set(ensemble.subject.binding, member.parameters.as_deref())?;
         let start = consistent_state(self.compiled.numeric(), &member.data);
         let start = start.map_err(|problem| problem.to_string())?;
-        members.check(index, &start)?;
+        ensemble.members.check(index, &start)?;
+        let settings = member.settings;
         let subject = Subject {
             start: &start,
-            ..*subject
+            ..ensemble.subject
+        };
+        let course = subject.begin_routh(&mut self.compiled, &settings, Some(interrupt));
+        Ok(Trajectory {
+            index,
+            start,
+            settings,
+            course,
+        })
+    }
+
+    /// Makes one step; false when the trajectory has ended.
+    fn advance<M: Members>(
+        &mut self,
+        ensemble: &Routh<'_, M>,
+        trajectory: &mut Trajectory<'_>,
+        interrupt: &AtomicBool,
+    ) -> Result<bool, String> {
+        let subject = Subject {
+            start: &trajectory.start,
+            ..ensemble.subject
         };
         let mut watcher = Watcher {
             interrupt: Some(interrupt),
             progress: None,
         };
-        let settings = &member.settings;
-        let run = subject
-            .routh_by(&mut self.compiled, settings, &mut watcher)
-            .map_err(|problem| problem.to_string())?;
-        if run.ending.interrupted {
-            return Ok(None);
-        }
-        Ok(Some(Outcome::of(&run, &start, settings, *shape)))
+        let with = (&subject, &mut self.compiled);
+        let course = &mut trajectory.course;
+        let advanced = course.advance(with, &trajectory.settings, &mut watcher);
+        advanced.map_err(|problem| problem.to_string())
+    }
+
+    /// What is kept of a trajectory that has ended, with its number; `None` when it was interrupted.
+    fn finish<M: Members>(
+        &mut self,
+        ensemble: &Routh<'_, M>,
+        trajectory: Trajectory<'_>,
+    ) -> (u64, Option<Outcome>) {
+        let Trajectory {
+            index,
+            start,
+            settings,
+            course,
+        } = trajectory;
+        let subject = Subject {
+            start: &start,
+            ..ensemble.subject
+        };
+        let run = course.finish((&subject, &mut self.compiled), &settings);
+        let outcome = Outcome::of(&run, &start, &settings, ensemble.shape);
+        (index, (!run.ending.interrupted).then_some(outcome))
     }
 
     /// Sets the parameters of a member.

@@ -9,8 +9,8 @@ use crate::method::{Method, StepperSettings};
 use crate::methods::DORMAND_PRINCE_853;
 use crate::output::Schedule;
 use crate::problem::System;
-use crate::run::Run;
 use crate::solution::Solution;
+use crate::stepping::Stepping;
 use crate::stiffness::StiffnessPolicy;
 use crate::IntegrateError;
 
@@ -212,19 +212,39 @@ pub fn integrate(
     events: &mut [Event<'_>],
     options: Options<'_>,
 ) -> Result<Solution, IntegrateError> {
-    let expected = system.dimension();
-    if y0.len() != expected {
-        return Err(IntegrateError::Dimension {
-            what: "the initial state",
-            expected,
-            found: y0.len(),
-        });
+    let mut stepping = Stepping::new(system, span, y0, events, options)?;
+    while stepping.advance(system, events) {}
+    Ok(stepping.finish(system))
+}
+
+impl<'o> Stepping<'o> {
+    /// A run that [`integrate`] would make, to be made step by step; `events` are the same at every step.
+    ///
+    /// # Errors
+    /// As [`integrate`].
+    pub fn new(
+        system: &dyn System,
+        span: (f64, f64),
+        y0: &[f64],
+        events: &mut [Event<'_>],
+        options: Options<'o>,
+    ) -> Result<Stepping<'o>, IntegrateError> {
+        let expected = system.dimension();
+        if y0.len() != expected {
+            return Err(IntegrateError::Dimension {
+                what: "the initial state",
+                expected,
+                found: y0.len(),
+            });
+        }
+        options.check(span, y0)?;
+        let card = options.method.card();
+        if card.needs_series && !system.has_series() {
+            return Err(IntegrateError::NoSeries { method: card.name });
+        }
+        let schedule = Schedule::new(&options.output, span)?;
+        Ok(Stepping::checked(
+            system, span, y0, events, options, schedule,
+        ))
     }
-    options.check(span, y0)?;
-    let card = options.method.card();
-    if card.needs_series && !system.has_series() {
-        return Err(IntegrateError::NoSeries { method: card.name });
-    }
-    let schedule = Schedule::new(&options.output, span)?;
-    Ok(Run::new(system, span, y0, events, options, schedule).run_to_end())
 }

@@ -29,9 +29,9 @@ pub mod methods;
 mod output;
 pub mod problem;
 mod roots;
-mod run;
 mod sampling;
 pub mod solution;
+pub mod stepping;
 pub mod stiffness;
 
 pub use control::ErrorControl;
@@ -45,4 +45,5 @@ pub use problem::{
     from_fn, try_from_fn, ChartChange, Control, EvaluationFailure, HaltReason, System,
 };
 pub use solution::{Note, Solution, Statistics, Stop};
+pub use stepping::{Expansion, Stepping};
 pub use stiffness::StiffnessPolicy;

@@ -136,6 +136,13 @@ pub trait Stepper {
     /// The failure of an evaluation at the state.
     fn restart(&mut self, system: &mut dyn System, from: &State) -> Result<(), EvaluationFailure>;
 
+    /// The order of the expansion at `from` that the next attempt begins with, where it begins with one; `is_changed` where
+    /// the state was changed since the last.
+    fn next_expansion(&mut self, from: &State, is_changed: bool) -> Option<usize> {
+        let _ = (from, is_changed);
+        None
+    }
+
     /// Attempts a step of signed length at most `h` from `from` and writes its end into `to`.
     ///
     /// # Errors

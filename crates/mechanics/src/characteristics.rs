@@ -213,25 +213,39 @@ impl Characteristics {
             rate_symbol: g.intern_symbol(name, 1),
             definition: g.symbol(name, 0),
         };
+        let parameters = stated.parameters.iter().map(parameter).collect();
+        let (rows, formulas) = (&selection.rows, stated.formulas.clone());
+        let made = Characteristics::by_formulas(system, terms, rows, parameters, formulas);
+        Some(Ok(made))
+    }
+
+    /// Characteristics by formulas that satisfy the constraints of `rows`.
+    pub(crate) fn by_formulas(
+        system: &System,
+        terms: &MotionTerms,
+        rows: &[usize],
+        parameters: Vec<Parameter>,
+        velocities: Vec<Expr>,
+    ) -> Characteristics {
         let mut characteristics = Characteristics {
             order: terms.order,
             jets: terms.jets.clone(),
-            parameters: stated.parameters.iter().map(parameter).collect(),
-            velocities: stated.formulas.clone(),
+            parameters,
+            velocities,
             independent: Vec::new(),
             dependent: Vec::new(),
             solved: Vec::new(),
             basis: Vec::new(),
             accelerations: Vec::new(),
             acceleration_offset: Vec::new(),
-            rows: selection.rows.clone(),
+            rows: rows.to_vec(),
             manifold: Manifold::default(),
             implicit: Vec::new(),
             gradient: Vec::new(),
             frame: Frame::natural_of(system, &terms.jets),
         };
         characteristics.finish(system);
-        Some(Ok(characteristics))
+        characteristics
     }
 
     fn of_frame(

@@ -35,7 +35,7 @@ pub(crate) fn nonnegative(
 pub(crate) fn positive_in_linear_forms(system: &System, kinetic: Expr) -> Option<usize> {
     let g = &system.graph;
     let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
-    let (written, variables) = in_linear_forms(g, kinetic, &velocities)?;
+    let (written, variables, _) = in_linear_forms(g, kinetic, &velocities)?;
     let symbols: Vec<_> = variables.iter().filter_map(|&e| g.as_symbol(e)).collect();
     let momenta = g.gradient(written, &symbols);
     let matrix = g.jacobian(&momenta, &symbols);
@@ -75,8 +75,41 @@ pub(crate) fn is_convex_in_one_form(system: &System) -> bool {
         })
 }
 
-/// The expression with a new symbol for every composed linear form, and all symbols in which it is then quadratic.
-fn in_linear_forms(g: &Graph, kinetic: Expr, velocities: &[Expr]) -> Option<(Expr, Vec<Expr>)> {
+/// The part of an expression that is homogeneous of a degree in the velocities, as it is written, and the rest.
+pub(crate) fn terms_of_degree(system: &System, e: Expr, degree_asked: u32) -> (Expr, Expr) {
+    let g = &system.graph;
+    let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
+    let mut degrees: FxHashMap<Expr, Option<u32>> = FxHashMap::default();
+    for child in g.reachable(&[e]) {
+        let own = match velocities.contains(&child) {
+            true => Some(1),
+            false => degree(g, child, &degrees),
+        };
+        degrees.insert(child, own);
+    }
+    let is_asked = |e: Expr| degrees.get(&e).copied().flatten() == Some(degree_asked);
+    if is_asked(e) {
+        return (e, g.zero());
+    }
+    let Node::Sum { terms, .. } = g.node(e) else {
+        return (g.zero(), e);
+    };
+    let own: Vec<Expr> = terms
+        .iter()
+        .filter(|(term, _)| is_asked(*term))
+        .map(|(term, factor)| g.scale(factor, *term))
+        .collect();
+    let own = g.add(&own);
+    (own, g.sub(e, own))
+}
+
+/// The expression with a new symbol for every composed linear form, all symbols in which it is then quadratic, and what they
+/// stand for.
+pub(crate) fn in_linear_forms(
+    g: &Graph,
+    kinetic: Expr,
+    velocities: &[Expr],
+) -> Option<(Expr, Vec<Expr>, Vec<Expr>)> {
     let mut degrees: FxHashMap<Expr, Option<u32>> = FxHashMap::default();
     let mut forms = Vec::new();
     for e in g.reachable(&[kinetic]) {
@@ -97,9 +130,10 @@ fn in_linear_forms(g: &Graph, kinetic: Expr, velocities: &[Expr]) -> Option<(Exp
     let pairs: Vec<(Expr, Expr)> = forms.iter().copied().zip(symbols).collect();
     let written = g.substitute(kinetic, &pairs);
     let occurring = g.reachable(&[written]);
-    let all = pairs.iter().map(|&(_, symbol)| symbol);
-    let all = all.chain(velocities.iter().copied());
-    Some((written, all.filter(|e| occurring.contains(e)).collect()))
+    let all = pairs.iter().map(|&(form, symbol)| (symbol, form));
+    let all = all.chain(velocities.iter().map(|&v| (v, v)));
+    let (symbols, forms) = all.filter(|(e, _)| occurring.contains(e)).unzip();
+    Some((written, symbols, forms))
 }
 
 /// The degree of a homogeneous polynomial in the velocities; `None` for anything else.

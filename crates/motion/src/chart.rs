@@ -21,6 +21,11 @@ pub const RANK_TOLERANCE: f64 = 1e-10;
 /// A chart is replaced when its pivot fell below this fraction of its value at the time of choice (theory 5.2).
 pub(crate) const DEGRADED: f64 = 0.1;
 
+/// Where the pivot falls below this fraction of its value at the last accepted state, a step of independent velocities is
+/// rejected: the errors of the others, which nobody measures, are larger by its inverse. Below [`DEGRADED`], so that steps may
+/// end where the chart is replaced.
+pub(crate) const BLIND: f64 = 0.05;
+
 /// A new chart must be better by this factor, or charts would chatter.
 pub(crate) const HYSTERESIS: f64 = 3.0;
 
@@ -114,6 +119,7 @@ pub fn quality(chart: &Chart, jacobian: &[f64], n: usize, weight: impl Fn(usize)
 }
 
 /// The same, in space for a block of the size of the chart and for its rows and columns; 0 where the rank is less.
+#[allow(clippy::needless_range_loop)] // Done at every step: iterators are not always inlined.
 fn least_pivot(
     chart: &Chart,
     jacobian: &[f64],
@@ -122,14 +128,25 @@ fn least_pivot(
     (block, order): (&mut [f64], &mut [usize]),
 ) -> f64 {
     let size = chart.rows.len();
-    for (own, &row) in block.chunks_exact_mut(size.max(1)).zip(&chart.rows) {
-        let row = &jacobian[row * n..(row + 1) * n];
-        let entry = |j: usize| row[j] / scale(weight(j));
-        let length = (0..n).map(|j| entry(j) * entry(j)).sum::<f64>().sqrt();
-        let length = if length > 0.0 { length } else { 1.0 };
-        for (own, &d) in own.iter_mut().zip(&chart.dependent) {
-            *own = entry(d) / length;
+    for l in 0..size {
+        let row = &jacobian[chart.rows[l] * n..][..n];
+        // One root for an entry of the block, none for the others.
+        let mut square = 0.0;
+        for j in 0..n {
+            if row[j] != 0.0 {
+                square += row[j] * row[j] / heaviness(weight(j));
+            }
         }
+        for k in 0..size {
+            let d = chart.dependent[k];
+            let own = row[d] * row[d] / heaviness(weight(d));
+            let part = if square > 0.0 { own / square } else { own };
+            block[l * size + k] = part.sqrt().copysign(row[d]);
+        }
+    }
+    if let (1, [single]) = (size, &*block) {
+        // Zero for what is not a number.
+        return single.abs().max(0.0);
     }
     let (rows, columns) = order.split_at_mut(size);
     rows.iter_mut().enumerate().for_each(|(i, row)| *row = i);
@@ -142,13 +159,19 @@ fn least_pivot(
     }
 }
 
-/// What a column of the Jacobian is divided by.
-fn scale(mass: f64) -> f64 {
+/// The square of what a column of the Jacobian is divided by.
+fn heaviness(mass: f64) -> f64 {
     if mass != 0.0 && mass.is_finite() {
-        mass.abs().sqrt()
+        // The squares of what is divided by it must not overflow: a rank would be lost that is there.
+        mass.abs().clamp(1e-100, 1e100)
     } else {
         1.0
     }
+}
+
+/// What a column of the Jacobian is divided by.
+fn scale(mass: f64) -> f64 {
+    heaviness(mass).sqrt()
 }
 
 impl Chart {
@@ -223,6 +246,20 @@ mod tests {
         let other = choose(&rescaled, 2, 3, &[1.0; 3]);
         assert_eq!(chart.dependent, other.dependent);
         assert!((chart.pivot - other.pivot).abs() < 1e-12);
+    }
+
+    /// A mass on the way to zero is no reason to take a constraint for vanished.
+    #[test]
+    fn the_rank_does_not_depend_on_tiny_masses() {
+        for mass in [1e-300, 1e-310, 5e-324, 0.0, 1e300] {
+            let (jacobian, diagonal) = ([-1e-3, 1.0], [mass, 2.0]);
+            let chart = choose(&jacobian, 1, 2, &diagonal);
+            assert_eq!(chart.rank(), 1, "{mass:e}");
+            assert!(
+                quality(&chart, &jacobian, 2, |i| diagonal[i]) > 0.5,
+                "{mass:e}"
+            );
+        }
     }
 
     #[test]

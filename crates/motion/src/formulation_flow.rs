@@ -5,7 +5,7 @@
 //! functions of velocities) are brought back to zero after each step.
 
 use crate::accelerations::Accelerations;
-use crate::chart::{self, Chart, DEGRADED, HYSTERESIS};
+use crate::chart::{self, Chart, BLIND, DEGRADED, HYSTERESIS};
 use crate::dense::Lu;
 use crate::follow::Follow;
 use crate::functions::{Functions, FunctionsError};
@@ -114,6 +114,8 @@ pub struct FormulationFlow<'a> {
     reactions: Option<(Accelerations, Chart)>,
     is_chart: bool,
     chart_number: u32,
+    /// The chart's rows and velocities, with its pivot at the last accepted state.
+    chart: Chart,
     q: Vec<f64>,
     v: Vec<f64>,
     anchor: Anchor,
@@ -180,6 +182,7 @@ impl<'a> FormulationFlow<'a> {
             q: start.q.clone(),
             v: start.v.clone(),
             chart_number: 0,
+            chart: start.chart.clone(),
             charts: Vec::new(),
             formulation,
             system,
@@ -310,30 +313,24 @@ impl<'a> FormulationFlow<'a> {
         if self.numeric.evaluate(t, &q, &v).is_err() {
             return Control::Continue;
         }
+        let before = self.quality();
+        self.chart.pivot = before;
         let (numeric, diagonal) = (&self.numeric, self.numeric.mass_diagonal());
-        let present = Chart {
-            rows: self.current.selection.rows.clone(),
-            dependent: self.current.selection.dependent.clone(),
-            independent: Vec::new(),
-            pivot: self.current.pivot,
-            gap: f64::INFINITY,
-        };
-        let before = chart::quality(&present, numeric.jacobian(), numeric.n, |i| diagonal[i]);
         if factor > 1.0 && before >= DEGRADED * self.current.pivot {
             return Control::Continue;
         }
         let next = chart::choose(numeric.jacobian(), numeric.r, numeric.n, &diagonal);
-        if next.rank() < present.rank() {
+        if next.rank() < self.chart.rank() {
             let constraint = (0..numeric.r)
                 .find(|row| !next.rows.contains(row))
                 .unwrap_or(0);
             return Control::Stop(HaltReason::RankDrop {
-                from: present.rank(),
+                from: self.chart.rank(),
                 to: next.rank(),
                 constraint,
             });
         }
-        if next.pivot < factor * before || next.dependent == present.dependent {
+        if next.pivot < factor * before || next.dependent == self.chart.dependent {
             return Control::Continue;
         }
         self.enter(t, y, next, before)
@@ -371,12 +368,37 @@ impl<'a> FormulationFlow<'a> {
         };
         y.copy_from_slice(&packed);
         self.chart_number += 1;
+        let pivot_after = next.pivot;
+        self.chart = next;
         Control::ChartSwitched(ChartChange {
             from: self.chart_number - 1,
             to: self.chart_number,
             pivot_before: before,
-            pivot_after: next.pivot,
+            pivot_after,
         })
+    }
+
+    /// The smallest pivot of the present chart at the state last evaluated.
+    fn quality(&self) -> f64 {
+        let (numeric, n) = (&self.numeric, self.numeric.n);
+        let weight = |i: usize| numeric.mass()[i * n + i];
+        chart::quality(&self.chart, numeric.jacobian(), n, weight)
+    }
+
+    /// Whether the variables still give all velocities, at the state last evaluated, about as well as where the step began.
+    fn sees_all(&mut self, t: f64) -> Result<(), EvaluationFailure> {
+        let numeric = &mut self.numeric;
+        if !self.is_chart || numeric.r == 0 || numeric.evaluate(t, &self.q, &self.v).is_err() {
+            return Ok(());
+        }
+        let ratio = self.quality() / self.chart.pivot;
+        // Where inertias grow or vanish the chart is not to blame.
+        let numeric = &self.numeric;
+        let geometric = || chart::quality(&self.chart, numeric.jacobian(), numeric.n, |_| 1.0);
+        match ratio < BLIND && geometric() < BLIND {
+            true => Err(EvaluationFailure::PivotDegraded { ratio }),
+            false => Ok(()),
+        }
     }
 
     /// Takes the present (q, v) for a state of the motion, from which constraints with jumps do not jump.
@@ -584,6 +606,7 @@ impl Flow for FormulationFlow<'_> {
 
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure> {
         self.evaluate(t, y)?;
+        self.sees_all(t)?;
         if self.numeric.jumps {
             if let Some(constraint) = self.left(t) {
                 return Err(EvaluationFailure::LeftConstraint { constraint });
@@ -611,8 +634,8 @@ impl Flow for FormulationFlow<'_> {
         let n = y.len();
         let turns = &self.current.turns;
         let reduced = turns.center(self.numeric.jumps, (y, carry), coefficients);
-        if self.numeric.jumps {
-            // Whether a constraint was left is seen on the way.
+        if self.numeric.jumps || self.is_chart && self.numeric.r > 0 {
+            // Whether a constraint was left, and whether the chart can be used here, is seen on the way.
             self.derivative(t, &reduced, &mut coefficients[n..2 * n])?;
         }
         let (g, binding, current) = (&self.system.graph, self.binding, &mut self.current);

@@ -40,7 +40,7 @@ pub(crate) struct WithEvents<'f, F> {
     pub(crate) own: usize,
     /// One for each event, since a value that does not exist belongs to one only.
     pub(crate) observers: &'f mut [Observer],
-    pub(crate) row: Vec<f64>,
+    pub(crate) row: &'f mut Vec<f64>,
     /// For each of the flow's own switching functions the minimum that was looked at last, where it is not zero.
     pub(crate) passed: &'f [Option<Passed>],
 }
@@ -162,8 +162,8 @@ impl<F: WatchedFlow> System for WithEvents<'_, F> {
             return Ok(if is_passed { rate.abs() } else { rate });
         };
         self.row.resize(self.flow.output_dimension(), 0.0);
-        self.flow.output(t, y, &mut self.row)?;
-        let value = self.observers[number].value(t, &self.row);
+        self.flow.output(t, y, self.row)?;
+        let value = self.observers[number].value(t, self.row);
         match value.is_finite() {
             true => Ok(value),
             false => Err(EvaluationFailure::NotFinite { component: 0 }),

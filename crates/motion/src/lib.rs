@@ -5,6 +5,7 @@
 
 pub mod accelerations;
 pub mod chart;
+mod course;
 pub mod dense;
 pub mod drift;
 pub mod follow;
@@ -20,6 +21,7 @@ pub mod multiplier_flow;
 mod nearest;
 pub mod numeric;
 pub mod observe;
+mod projection;
 mod reduced;
 pub mod repeat;
 pub mod row;
@@ -33,6 +35,6 @@ pub use happening::{EventWatched, Happened};
 pub use initial::{consistent_state, ConsistentState, InitialData, InitialError};
 pub use multiplier_flow::StateKind;
 pub use numeric::{Binding, NumericError, NumericSystem};
-pub use repeat::CompiledRouth;
+pub use repeat::{CompiledRouth, RouthCourse, SideBySide};
 pub use row::RowLayout;
 pub use run::{Run, RunError, RunSettings, Subject, Watcher};

@@ -1,23 +1,24 @@
 //! The motion by Routh's equations: the multiplier form solved numerically at every state.
 //!
-//! State (q, v), where masses with a law of their own stand behind the coordinates, projected on the constraints where asked; or (q, v_i) with the dependent velocities from the
-//! constraints, which are then satisfied identically (affine constraints only).
+//! State (q, v), where masses with a law of their own stand behind the coordinates, projected on the constraints where
+//! asked; or (q, v_i) with the dependent velocities from the constraints, which are then satisfied identically (affine
+//! constraints only). The former measures the error of every velocity, the latter that of the v_i alone.
 
 use crate::accelerations::Accelerations;
 use crate::chart::{self, Chart, DEGRADED, HYSTERESIS};
 use crate::drift::Drift;
 use crate::follow::Follow;
-use crate::functions::FunctionsError;
+use crate::functions::{Functions, FunctionsError};
 use crate::initial::ConsistentState;
 use crate::keep::Keep;
-use crate::least_norm::least_step;
 use crate::leaving::Anchor;
 use crate::numeric::{Completion, NumericSystem};
+use crate::projection::Projection;
 use crate::row::RowLayout;
 use crate::run::WatchedFlow;
 use crate::series::RateSeries;
 use crate::watch::Watch;
-use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System};
+use chetaev_integrate::{ChartChange, Control, EvaluationFailure, Expansion, HaltReason, System};
 
 /// Which variables are integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +36,7 @@ pub struct MultiplierFlow {
     kind: StateKind,
     chart: Chart,
     chart_number: u32,
-    project: bool,
+    projection: Projection,
     q: Vec<f64>,
     v: Vec<f64>,
     accelerations: Accelerations,
@@ -56,14 +57,20 @@ pub struct MultiplierFlow {
     zero_between: bool,
     /// Taylor recurrences of the rates of (q, v), with the constraint rows that they use; made when first asked for.
     series: Option<(Vec<usize>, RateSeries)>,
+    /// Accelerations without multipliers, with the constraint rows that they use, where there are such; made when first asked
+    /// for.
+    direct: Option<(Vec<usize>, Option<Functions>)>,
     /// Coefficients of (q, v).
     full: Vec<f64>,
+    /// The state without whole turns of its angles.
+    reduced: Vec<f64>,
     /// Time and state at which the accelerations were computed last, where nothing has changed since.
     solved: Option<f64>,
     solved_state: Vec<f64>,
 }
 
-/// A stage whose pivot fell below this fraction of its value where the step began rejects the step.
+/// A stage whose pivot fell below this fraction of its value where the step began rejects the step, where the chart only
+/// serves to solve for the accelerations.
 const UNUSABLE: f64 = 1e-3;
 /// A projection that keeps integrals: time, q, v and the metric; true when it moved them.
 type Way = fn(&mut Keep, f64, &mut [f64], &mut [f64], &[f64]) -> bool;
@@ -73,16 +80,15 @@ const AWAY: f64 = -1e-12;
 const VANISHED: f64 = 1e-8;
 
 impl MultiplierFlow {
-    /// The flow from a consistent state. `Reduced` falls back to `Full` for constraints nonlinear in the velocities.
+    /// The flow from a consistent state, without projection. `Reduced` falls back to `Full` for constraints nonlinear in the velocities.
     pub fn new(
         system: NumericSystem,
         start: &ConsistentState,
         kind: StateKind,
-        project: bool,
         watch: Watch,
     ) -> MultiplierFlow {
         let mut flow = MultiplierFlow::idle(system, watch);
-        flow.begin(start, kind, project);
+        flow.begin(start, kind, Projection::NONE);
         flow
     }
 
@@ -107,12 +113,14 @@ impl MultiplierFlow {
             accepted_pivot: 1.0,
             accelerations: Accelerations::default(),
             completion: Completion::default(),
-            project: false,
+            projection: Projection::NONE,
             kind: StateKind::Full,
             watch,
             zero_between: false,
             series: None,
+            direct: None,
             full: Vec::new(),
+            reduced: Vec::new(),
             solved: None,
             solved_state: Vec::new(),
             system,
@@ -121,13 +129,21 @@ impl MultiplierFlow {
 
     /// Begins at a consistent state. Nothing is left of the runs before but what was compiled: a run has the same bits
     /// whichever went before it.
-    pub(crate) fn begin(&mut self, start: &ConsistentState, kind: StateKind, project: bool) {
+    pub(crate) fn begin(
+        &mut self,
+        start: &ConsistentState,
+        kind: StateKind,
+        projection: Projection,
+    ) {
         self.watch.begin(start.t, &start.q, &start.v);
         self.kind = match self.system.is_affine() {
             true => kind,
             false => StateKind::Full,
         };
-        self.project = project && self.kind == StateKind::Full;
+        self.projection = match self.kind {
+            StateKind::Full => projection,
+            StateKind::Reduced => Projection::NONE,
+        };
         self.q.clone_from(&start.q);
         self.v.clone_from(&start.v);
         self.chart.clone_from(&start.chart);
@@ -166,6 +182,9 @@ impl MultiplierFlow {
         }
         if let Some((_, series)) = &mut self.series {
             series.set_parameters(values)?;
+        }
+        if let Some((_, Some(direct))) = &mut self.direct {
+            direct.set_parameters(values)?;
         }
         Ok(())
     }
@@ -279,10 +298,18 @@ impl MultiplierFlow {
         Ok(())
     }
 
-    /// The accelerations at (q, v).
+    /// The accelerations at (q, v). Where all velocities are integrated the chart serves for this alone, and where it is bad
+    /// another one is taken, for this state.
     fn solve_here(&mut self, t: f64) -> Result<(), EvaluationFailure> {
         self.system.evaluate(t, &self.q, &self.v)?;
-        Ok(self.accelerations.solve(&self.system, &self.chart)?)
+        // In all velocities a chart only serves to solve. A step may pass a singular place of it, with rows to be written there.
+        let is_poor = self.kind == StateKind::Full
+            && self.system.r > 0
+            && self.quality() < DEGRADED * self.chart.pivot;
+        let here = is_poor.then(|| self.choose());
+        let better = here.filter(|here| here.rows == self.chart.rows);
+        let chart = better.as_ref().unwrap_or(&self.chart);
+        Ok(self.accelerations.solve(&self.system, chart)?)
     }
 
     /// The accelerations are those at the state y.
@@ -352,41 +379,18 @@ impl MultiplierFlow {
         })
     }
 
-    /// Velocities back on the constraints in the kinetic metric; Newton for nonlinear ones. True when y changed.
+    /// Moves an accepted state onto the constraints; true when y changed.
     fn project(&mut self, t: f64, y: &mut [f64]) -> bool {
-        let n = self.system.n;
-        self.solved = None;
-        let all: Vec<usize> = (0..n).collect();
-        let mut changed = false;
-        self.project_positions(t, &all, &mut changed);
-        for _ in 0..10 {
-            if self.system.evaluate(t, &self.q, &self.v).is_err() {
-                return false;
-            }
-            let residual = self.system.residual();
-            let scale: f64 = self.v.iter().fold(1e-300, |m, x| m.max(x.abs()));
-            if residual
-                .iter()
-                .all(|f| f.abs() <= 8.0 * f64::EPSILON * scale)
-            {
-                break;
-            }
-            let step = least_step(
-                self.system.jacobian(),
-                residual,
-                n,
-                &all,
-                &self.system.metric(),
-            );
-            self.v.iter_mut().zip(&step).for_each(|(v, dv)| *v -= dv);
-            changed = true;
-        }
-        if changed {
+        let moved = self
+            .projection
+            .apply(&mut self.system, t, &mut self.q, &mut self.v);
+        if moved {
+            self.solved = None;
             let (positions, rest) = y.split_at_mut(self.system.positions());
             positions.copy_from_slice(&self.q);
             rest.copy_from_slice(&self.v);
         }
-        changed
+        moved
     }
 
     /// Moves an accepted state onto the integrals to keep; true when y changed.
@@ -452,7 +456,7 @@ impl MultiplierFlow {
         if let Some(row) = self.vanished_gradient() {
             return self.rank_drop(self.chart.rank().saturating_sub(1), row);
         }
-        let unchanged = if self.project && self.project(t, y) {
+        let unchanged = if self.project(t, y) {
             Control::StateModified
         } else {
             Control::Continue
@@ -474,46 +478,75 @@ impl MultiplierFlow {
         }
         self.switch(next, before, y)
     }
-
-    fn project_positions(&mut self, t: f64, all: &[usize], changed: &mut bool) {
-        if self.system.holonomic.is_empty() {
-            return;
-        }
-        for _ in 0..10 {
-            if self.system.evaluate_positions(t, &self.q, &self.v).is_err() {
-                return;
-            }
-            let scale: f64 = self.q.iter().fold(1e-300, |m, x| m.max(x.abs()));
-            let residual = self.system.position_residual();
-            if residual
-                .iter()
-                .all(|f| f.abs() <= 8.0 * f64::EPSILON * scale)
-            {
-                return;
-            }
-            let gradient = self.system.position_gradient();
-            let metric = self.system.metric();
-            let step = least_step(gradient, residual, self.system.n, all, &metric);
-            self.q.iter_mut().zip(&step).for_each(|(q, dq)| *q -= dq);
-            *changed = true;
-        }
-    }
 }
 
 impl MultiplierFlow {
     /// The recurrences of (q, v) with the constraint rows of the present chart.
     fn series(&mut self) -> Result<&mut RateSeries, EvaluationFailure> {
-        let known = self.series.take();
-        let known = known.filter(|(rows, _)| *rows == self.chart.rows);
-        let own = match known {
-            Some(own) => own,
-            None => {
-                let rows = self.chart.rows.clone();
-                let series = self.system.series(&rows);
-                (rows, series.map_err(|_| EvaluationFailure::NoSeries)?)
-            }
+        let rows = &self.chart.rows;
+        // What is there stays where it is: it is large, and asked for several times in a step.
+        if self.series.as_ref().is_none_or(|(known, _)| known != rows) {
+            let series = self.system.series(rows);
+            let series = series.map_err(|_| EvaluationFailure::NoSeries)?;
+            self.series = Some((rows.clone(), series));
+        }
+        let made = self.series.as_mut().map(|(_, series)| series);
+        made.ok_or(EvaluationFailure::NoSeries)
+    }
+
+    /// Makes the accelerations without multipliers, so that copies of this flow share them.
+    pub(crate) fn share_accelerations(&mut self) {
+        if self.direct.is_none() {
+            let rows: Vec<usize> = (0..self.system.r).collect();
+            let found = self.system.accelerations(&rows);
+            self.direct = Some((rows, found));
+        }
+    }
+
+    /// The rates of (q, v) by accelerations without multipliers; false where there are none, or have no value here: the
+    /// multiplier form then says why.
+    fn direct_rates(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> bool {
+        if self.kind != StateKind::Full || self.system.jumps {
+            return false;
+        }
+        let rows = &self.chart.rows;
+        if self.direct.as_ref().is_none_or(|(known, _)| known != rows) {
+            self.direct = Some((rows.clone(), self.system.accelerations(rows)));
+        }
+        let Some((_, Some(direct))) = &mut self.direct else {
+            return false;
         };
-        Ok(&mut self.series.insert(own).1)
+        let (q, v) = y.split_at(self.system.positions());
+        if direct.evaluate(t, &[q, v]).is_err() {
+            return false;
+        }
+        let (positions, rest) = dy.split_at_mut(q.len());
+        positions.copy_from_slice(v);
+        rest.copy_from_slice(direct.group(0));
+        true
+    }
+
+    /// Makes the series of the chart that most motions have, so that copies of this flow share them.
+    pub(crate) fn share_series(&mut self) {
+        if self.series.is_none() {
+            let rows: Vec<usize> = (0..self.system.r).collect();
+            let made = self.system.series(&rows).ok();
+            self.series = made.map(|series| (rows, series));
+        }
+    }
+
+    /// Says which series will be asked for next; these are given, as far as they are known.
+    pub(crate) fn announce(&mut self, asked: Option<Expansion<'_>>) -> Option<&mut RateSeries> {
+        if self.kind == StateKind::Full && !self.system.jumps {
+            if let Some(asked) = asked {
+                let mut reduced = std::mem::take(&mut self.reduced);
+                let turns = &self.system.turns;
+                turns.reduce(asked.y, asked.carry, &mut reduced);
+                self.series().ok()?.announce(asked.t, &reduced, asked.order);
+                self.reduced = reduced;
+            }
+        }
+        self.series.as_mut().map(|(_, series)| series)
     }
 
     /// The coefficients of (q, v) at the state last evaluated, whatever the chart.
@@ -538,10 +571,17 @@ impl System for MultiplierFlow {
     }
 
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure> {
+        if self.direct_rates(t, y, dy) {
+            return Ok(());
+        }
         self.evaluate(t, y)?;
         if self.system.r > 0 {
+            let least = match self.kind {
+                StateKind::Full => UNUSABLE,
+                StateKind::Reduced => chart::BLIND,
+            };
             let ratio = self.quality() / self.accepted_pivot;
-            if ratio < UNUSABLE && self.geometric_quality() < UNUSABLE {
+            if ratio < least && self.geometric_quality() < least {
                 return Err(EvaluationFailure::PivotDegraded { ratio });
             }
         }
@@ -575,13 +615,17 @@ impl System for MultiplierFlow {
         coefficients: &mut [f64],
     ) -> Result<(), EvaluationFailure> {
         let n = y.len();
+        if self.kind == StateKind::Full && !self.system.jumps {
+            let mut reduced = std::mem::take(&mut self.reduced);
+            self.system.turns.reduce(y, carry, &mut reduced);
+            let series = self.series();
+            let outcome = series.and_then(|series| series.expand(t, &reduced, order, coefficients));
+            self.reduced = reduced;
+            coefficients[..n].copy_from_slice(y);
+            return outcome;
+        }
         let turns = &self.system.turns;
         let reduced = turns.center(self.system.jumps, (y, carry), coefficients);
-        if self.kind == StateKind::Full && !self.system.jumps {
-            self.series()?.expand(t, &reduced, order, coefficients)?;
-            coefficients[..n].copy_from_slice(y);
-            return Ok(());
-        }
         // Whether the chart can be used here and no constraint was left is seen on the way.
         self.derivative(t, &reduced, &mut coefficients[n..2 * n])?;
         if order < 2 {

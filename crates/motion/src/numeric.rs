@@ -8,9 +8,9 @@ use crate::series::{self, RateSeries};
 use crate::turns::Turns;
 use chetaev_compile::Program;
 use chetaev_integrate::EvaluationFailure;
-use chetaev_mechanics::{ConstraintKind, MotionTerms, System};
+use chetaev_mechanics::{reduced_equations, ConstraintKind, MotionTerms, System};
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Why a system has no numeric form.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -58,6 +58,8 @@ pub struct NumericSystem {
     pub jumps: bool,
     /// Whether constraints of order two and more are left out here, which also determine accelerations.
     pub is_part: bool,
+    /// Coordinates on which the velocity constraints depend.
+    pub(crate) directing: Vec<bool>,
     mass_envelope: Vec<usize>,
     dynamics: Functions,
     kinematics: Functions,
@@ -73,11 +75,24 @@ pub struct NumericSystem {
 /// The expressions behind the functions, for the Taylor series of the motion.
 #[derive(Debug)]
 struct Source {
-    graph: Arc<Graph>,
+    system: System,
     binding: Binding,
     terms: MotionTerms,
     velocities: Vec<Symbol>,
     mass_rates: Vec<Expr>,
+    /// Accelerations by quasi-velocities without singular places, for the constraint rows first asked for.
+    regular: OnceLock<(Vec<usize>, Option<Vec<Expr>>)>,
+}
+
+impl Source {
+    fn accelerations(&self, rows: &[usize]) -> Option<Vec<Expr>> {
+        let make = || reduced_equations::accelerations(&self.system, &self.terms, rows);
+        let (known, found) = self.regular.get_or_init(|| (rows.to_vec(), make()));
+        match known == rows {
+            true => found.clone(),
+            false => make(),
+        }
+    }
 }
 
 /// Groups of the dynamics program, in order.
@@ -199,6 +214,11 @@ impl NumericSystem {
             constrained_positions: occurring(g, &gradient, system.n()),
             jumps: has_jumps(g, &[terms.constraints.clone(), stated.clone()].concat()),
             is_part,
+            directing: {
+                let present = g.symbols_in(&terms.constraints);
+                let coordinates = system.coordinate_symbols();
+                coordinates.iter().map(|q| present.contains(q)).collect()
+            },
             mass_envelope: envelope(g, &terms.mass_matrix),
             dynamics: Functions::new(g, binding, &binding.variables, &groups)?,
             kinematics: Functions::new(g, binding, &binding.variables, &groups[2..5])?,
@@ -220,7 +240,8 @@ impl NumericSystem {
                 &moving_parts(system, &terms),
             ),
             source: Arc::new(Source {
-                graph: system.graph.clone(),
+                system: system.clone(),
+                regular: OnceLock::new(),
                 binding: binding.clone(),
                 velocities: system.velocity_symbols(),
                 mass_rates: system.masses.iter().map(|m| m.rate).collect(),
@@ -252,12 +273,14 @@ impl NumericSystem {
     /// [`FunctionsError`].
     pub fn rates_program(&self, rows: &[usize]) -> Result<Program, FunctionsError> {
         let Source {
-            graph: g,
+            system,
             binding,
             terms,
             velocities,
             mass_rates,
+            ..
         } = &*self.source;
+        let g = &system.graph;
         let bordered = Bordered {
             g,
             mass: terms.mass_matrix.clone(),
@@ -277,14 +300,33 @@ impl NumericSystem {
             series::program(g, binding, &binding.variables, &rates)
         };
         let stated = program(bordered.solve()?)?;
-        let Some(Ok(accelerations)) = bordered.eliminated() else {
-            return Ok(stated);
+        let accelerations = match self.source.accelerations(rows) {
+            Some(found) => found,
+            None => match bordered.eliminated() {
+                Some(Ok(found)) => found,
+                _ => return Ok(stated),
+            },
         };
         let eliminated = program(accelerations)?;
         Ok(match series::cost(&eliminated)? < series::cost(&stated)? {
             true => eliminated,
             false => stated,
         })
+    }
+
+    /// The accelerations as compiled functions of (t, q, masses, v), by quasi-velocities without singular places; `None` where none
+    /// are found.
+    pub(crate) fn accelerations(&self, rows: &[usize]) -> Option<Functions> {
+        let Source {
+            system, binding, ..
+        } = &*self.source;
+        let groups = [("accelerations", self.source.accelerations(rows)?)];
+        let made = Functions::new(&system.graph, binding, &binding.variables, &groups);
+        let mut made = made.ok()?;
+        if let Some(values) = &self.values {
+            made.set_parameters(values).ok()?;
+        }
+        Some(made)
     }
 
     /// Sets other values of the parameters, in the order of the binding. What was derived and compiled stays.

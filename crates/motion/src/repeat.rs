@@ -1,14 +1,19 @@
 //! Routh's equations for many starts and many values of the parameters: derived and compiled once.
 
+use crate::course::Course;
 use crate::follow::Follow;
 use crate::functions::FunctionsError;
 use crate::keep::Keep;
 use crate::multiplier_flow::{MultiplierFlow, StateKind};
 use crate::numeric::NumericSystem;
+use crate::projection::Projection;
 use crate::run::{End, Looking, Run, RunError, RunSettings, Subject, Watcher};
+use crate::series::{self, RateSeries};
 use crate::stop;
 use crate::watch::Watch;
+use chetaev_compile::ABREAST;
 use chetaev_integrate::method;
+use std::sync::atomic::AtomicBool;
 
 /// Routh's equations with all that a run of them needs, compiled; a copy for each thread.
 ///
@@ -17,6 +22,8 @@ use chetaev_integrate::method;
 pub struct CompiledRouth {
     pub(crate) flow: MultiplierFlow,
     pub(crate) looking: Looking,
+    /// Whether the method asks for Taylor series.
+    needs_series: bool,
 }
 
 impl CompiledRouth {
@@ -28,6 +35,25 @@ impl CompiledRouth {
         self.flow.set_parameters(values)?;
         let mut observers = self.looking.observers.iter_mut();
         observers.try_for_each(|observer| observer.set_parameters(values))
+    }
+
+    /// How many runs gain by going on in turns, since their series can be made side by side.
+    pub fn abreast(&self) -> usize {
+        if self.needs_series {
+            ABREAST
+        } else {
+            1
+        }
+    }
+
+    /// A copy for another run, which shares the machine code of series.
+    #[must_use]
+    pub fn copy(&mut self) -> CompiledRouth {
+        match self.needs_series {
+            true => self.flow.share_series(),
+            false => self.flow.share_accelerations(),
+        }
+        self.clone()
     }
 
     /// The numeric system with the present parameters, to look for consistent states with.
@@ -59,20 +85,22 @@ impl Subject<'_> {
         Ok(CompiledRouth {
             flow,
             looking: self.looking(settings, &[])?,
+            needs_series: method(&settings.method)?.card().needs_series,
         })
     }
 
-    /// Which variables are integrated. A step of the Taylor method is long, so that a chart may pass a place where it is
-    /// singular, and what is solved for there is known badly; the series of all velocities are known anyway. Constraints
-    /// that jump are followed in charts, and holonomic ones are kept by them. Where integrals are kept the constraints are kept
-    /// with them, and no chart is needed.
-    fn variables(&self, settings: &RunSettings) -> StateKind {
+    /// Which variables are integrated. Independent velocities alone hide the error of the others, which is larger by the
+    /// inverse of a pivot where a step comes near a singular place of their chart; and a step of the Taylor method is so long
+    /// that it may pass one, while the series of all velocities are known anyway. So all velocities are integrated, and
+    /// constraints are kept by projection. Those that jump are followed in charts.
+    pub(crate) fn variables(&self, settings: &RunSettings) -> StateKind {
         let has_series = method(&settings.method).is_ok_and(|method| method.card().needs_series);
-        let is_free = self.numeric.holonomic.is_empty() && !self.numeric.jumps;
-        let by_projection = !settings.keep.is_empty() && !self.numeric.jumps;
-        match has_series && is_free || by_projection {
-            true => StateKind::Full,
-            false => settings.state,
+        let needs_all = has_series || !settings.keep.is_empty();
+        match settings.state {
+            _ if needs_all && !self.numeric.jumps => StateKind::Full,
+            Some(stated) => stated,
+            None if self.numeric.jumps => StateKind::Reduced,
+            None => StateKind::Full,
         }
     }
 
@@ -99,37 +127,126 @@ impl Subject<'_> {
         settings: &RunSettings,
         watcher: &mut Watcher<'_>,
     ) -> Result<Run, RunError> {
-        let CompiledRouth { flow, looking } = compiled;
-        flow.begin(self.start, self.variables(settings), settings.project);
-        let watched = flow.watch.quantities.clone();
+        let mut course = self.begin_routh(compiled, settings, watcher.interrupt);
+        while course.advance((self, compiled), settings, watcher)? {}
+        Ok(course.finish((self, compiled), settings))
+    }
+
+    /// The same, to be made step by step: with the same subject, what is compiled and settings at every step.
+    pub fn begin_routh<'o>(
+        &self,
+        compiled: &mut CompiledRouth,
+        settings: &RunSettings,
+        interrupt: Option<&'o AtomicBool>,
+    ) -> RouthCourse<'o> {
+        let flow = &mut compiled.flow;
+        flow.begin(
+            self.start,
+            self.variables(settings),
+            Projection::of(settings),
+        );
         let y0 = flow.pack(&self.start.q, &self.start.v);
-        let (pieces, end) = self.watched(flow, &watched, y0, settings, (looking, watcher))?;
+        let watched = flow.watch.quantities.clone();
+        RouthCourse(Course::new(watched, (self.start.t, y0), interrupt))
+    }
+}
+
+/// Makes the Taylor series of several runs at once. A run has the same bits with it and without.
+#[derive(Clone, Debug, Default)]
+pub struct SideBySide {
+    own: Option<series::SideBySide>,
+    /// Whether there is no machine code for several.
+    is_impossible: bool,
+}
+
+impl SideBySide {
+    /// Makes the series that the next steps of these runs ask for; places without a run are `None`.
+    pub fn look_ahead<'s, 'o: 's>(
+        &mut self,
+        runs: impl Iterator<Item = Option<(&'s mut RouthCourse<'o>, &'s mut CompiledRouth)>>,
+    ) {
+        if self.is_impossible {
+            return;
+        }
+        let mut motions: [Option<&mut RateSeries>; ABREAST] = Default::default();
+        for (motion, run) in motions.iter_mut().zip(runs) {
+            *motion = run.and_then(|(course, compiled)| {
+                let asked = course.0.next_expansion();
+                compiled.flow.announce(asked)
+            });
+        }
+        if self.own.is_none() {
+            let Some(first) = motions.iter().flatten().next() else {
+                return;
+            };
+            self.own = series::SideBySide::of(first);
+            self.is_impossible = self.own.is_none();
+        }
+        if let Some(own) = &mut self.own {
+            own.make(motions.into_iter());
+        }
+    }
+}
+
+/// A run of Routh's equations on the way.
+pub struct RouthCourse<'o>(Course<'o>);
+
+impl std::fmt::Debug for RouthCourse<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("RouthCourse")
+    }
+}
+
+impl RouthCourse<'_> {
+    /// Makes one step, or begins; false when the run has ended.
+    ///
+    /// # Errors
+    /// [`RunError`] when the run cannot begin.
+    pub fn advance(
+        &mut self,
+        (subject, compiled): (&Subject<'_>, &mut CompiledRouth),
+        settings: &RunSettings,
+        watcher: &mut Watcher<'_>,
+    ) -> Result<bool, RunError> {
+        let CompiledRouth { flow, looking, .. } = compiled;
+        self.0
+            .advance((subject, flow), settings, (looking, watcher))
+    }
+
+    /// The motion as far as it was computed.
+    pub fn finish(
+        self,
+        (subject, compiled): (&Subject<'_>, &mut CompiledRouth),
+        settings: &RunSettings,
+    ) -> Run {
+        let flow = &mut compiled.flow;
+        let (pieces, watched, end) = self.0.finish();
         let ending = match end {
             End::Vanished(ending) | End::Happened(ending) => ending,
             End::Stopped(stop, t, y) => {
                 let pivot = flow.pivot_ratio(t, &y);
                 let (kind, chart) = (flow.kind(), flow.chart());
                 let names = stop::Names {
-                    coordinates: &self.numeric.coordinates,
-                    constraints: &self.numeric.constraints,
-                    state: stop::component_names(self.numeric, kind, chart),
+                    coordinates: &subject.numeric.coordinates,
+                    constraints: &subject.numeric.constraints,
+                    state: stop::component_names(subject.numeric, kind, chart),
                     unknowns: None,
                     matrix: None,
                 };
                 stop::ending(&stop, &names, pivot)
             }
         };
-        let measured = flow.kind() == StateKind::Full || !self.numeric.holonomic.is_empty();
-        let drift = (self.numeric.r > 0 && measured).then(|| flow.drift.clone());
+        let measured = flow.kind() == StateKind::Full || !subject.numeric.holonomic.is_empty();
+        let drift = (subject.numeric.r > 0 && measured).then(|| flow.drift.clone());
         let kept = flow.keep.as_ref().map(|keep| keep.report().clone());
-        let run = self.collect(
+        let run = subject.collect(
             "routh",
             (flow.layout(), Vec::new()),
             settings,
-            (pieces, watched.len()),
+            (pieces, watched),
             ending,
             (drift, flow.follow.as_ref()),
         );
-        Ok(Run { kept, ..run })
+        Run { kept, ..run }
     }
 }

@@ -1,8 +1,9 @@
 //! One run: settings, the trajectory as rows (q, v, a, λ), and why it ended, in words.
 
+use crate::course::Course;
 use crate::follow::{Deviation, Follow};
 use crate::formulation_flow::{FlowError, FormulationFlow};
-use crate::happening::{self, EventWatched, Happened, Passed, WithEvents};
+use crate::happening::{self, EventWatched, Happened};
 use crate::initial::jets::JetStart;
 use crate::initial::ConsistentState;
 use crate::jet_flow::{self, JetFlow};
@@ -15,8 +16,8 @@ use crate::stop::{self, Ending};
 use crate::turns::outside_angles;
 use crate::watch::{Watch, Watched};
 use chetaev_integrate::{
-    integrate, method, ChartChange, ErrorControl, HaltReason, IntegrateError, Note, Options,
-    Output, Progress, Solution, Statistics, StiffnessPolicy, Stop,
+    integrate, method, ChartChange, ErrorControl, IntegrateError, Note, Options, Output, Progress,
+    Solution, Statistics, StiffnessPolicy, Stop,
 };
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::{Constraint, ConstraintKind, Formulation, MotionTerms, Selection, System};
@@ -41,9 +42,11 @@ pub struct RunSettings {
     pub times: Vec<f64>,
     /// Most steps.
     pub max_steps: u64,
-    /// Variables of the multiplier form.
-    pub state: StateKind,
-    /// Whether the state is projected on the constraints after each step.
+    /// Variables of the multiplier form; `None` for those in which the error of a step is measured best: all velocities, or
+    /// independent ones where constraints jump.
+    pub state: Option<StateKind>,
+    /// Whether a state of all velocities is projected on the constraints after each step that leaves them by more than a tenth
+    /// of the tolerance.
     pub project: bool,
     /// Quantities in (t, q, v) whose deviation from their initial values is measured at every step, and with them those of
     /// the constraints; nothing is measured when empty.
@@ -57,7 +60,7 @@ pub struct RunSettings {
 }
 
 impl RunSettings {
-    /// 500 equal intervals, DOP853 at tolerance 1e-10, reduced state.
+    /// 500 equal intervals, DOP853 at tolerance 1e-10, projected on the constraints.
     pub fn new(t_start: f64, t_end: f64) -> RunSettings {
         RunSettings {
             t_end,
@@ -67,8 +70,8 @@ impl RunSettings {
             method: "dormand-prince-853".into(),
             times: equal_times(t_start, t_end, 500),
             max_steps: 2_000_000,
-            state: StateKind::Reduced,
-            project: false,
+            state: None,
+            project: true,
             follow: Vec::new(),
             keep: Vec::new(),
             own: Vec::new(),
@@ -205,7 +208,7 @@ pub(crate) struct Looking {
 
 impl Looking {
     /// The same for all components of a state.
-    fn absolute(&self, dimension: usize) -> Vec<bool> {
+    pub(crate) fn absolute(&self, dimension: usize) -> Vec<bool> {
         let mut absolute = self.cyclic.clone();
         absolute.resize(dimension, false);
         absolute
@@ -240,92 +243,18 @@ pub struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    /// Integrates piece by piece: a watched quantity that comes near zero ends a piece, and the run where it is zero.
-    pub(crate) fn watched<F: WatchedFlow>(
+    /// Integrates to the end, piece by piece.
+    fn watched<F: WatchedFlow>(
         &self,
         flow: &mut F,
-        watched: &[Watched],
+        watched: Vec<Watched>,
         y0: Vec<f64>,
         settings: &RunSettings,
         (looking, watcher): (&mut Looking, &mut Watcher<'_>),
-    ) -> Result<(Vec<Solution>, End), RunError> {
-        let mut pieces: Vec<Solution> = Vec::new();
-        let (mut t, mut y) = (self.start.t, y0);
-        let own = watched.len();
-        let mut passed: Vec<Option<Passed>> = vec![None; own];
-        loop {
-            let mut events = happening::events(own, &settings.events);
-            let options = self.options(settings, t, looking.absolute(y.len()), watcher)?;
-            let mut with_events = WithEvents {
-                flow: &mut *flow,
-                own,
-                observers: &mut looking.observers,
-                row: Vec::new(),
-                passed: &passed,
-            };
-            let span = (t, settings.t_end);
-            let mut solution = integrate(&mut with_events, span, &y, &mut events, options)?;
-            (t, y) = (solution.t, solution.state.clone());
-            let stop = solution.stop;
-            if let Stop::Halted {
-                reason: HaltReason::LeftConstraint { .. },
-                ..
-            } = stop
-            {
-                keep_until(&mut solution, flow.settled());
-            }
-            pieces.push(solution);
-            if let Stop::Event { index, t } = stop {
-                if let Some(number) = index.checked_sub(own) {
-                    let ending = stop::happened(&settings.events[number].name, t);
-                    return Ok((pieces, End::Happened(ending)));
-                }
-                if flow.vanishes(index, t, &y) {
-                    let ending = stop::vanished(&watched[index], t, &self.constraint_names());
-                    return Ok((pieces, End::Vanished(ending)));
-                }
-                let forward = settings.t_end >= self.start.t;
-                passed[index] = Some(Passed::at(t, forward, passed[index]));
-                if t != settings.t_end {
-                    // Nothing ends here: the row is kept only where it was asked for.
-                    if let Some(piece) = pieces.last_mut() {
-                        if piece.times.last() == Some(&t) && !settings.times.contains(&t) {
-                            forget_last(piece);
-                        }
-                    }
-                    continue;
-                }
-            }
-            if let Stop::Halted {
-                t,
-                reason: HaltReason::Custom(index),
-            } = stop
-            {
-                if let Some(what) = watched.get(index as usize) {
-                    // The last accepted state lies a little before a mass is lost.
-                    let lost = flow
-                        .lost_mass((t, None), &y)
-                        .filter(|(own, _)| *own == index as usize);
-                    let t = lost.map_or(t, |(_, t)| t);
-                    let ending = stop::vanished(what, t, &self.constraint_names());
-                    return Ok((pieces, End::Vanished(ending)));
-                }
-            }
-            let singular = !matches!(
-                stop,
-                Stop::Finished | Stop::Interrupted { .. } | Stop::Event { .. }
-            );
-            let at = match stop {
-                Stop::Singular { t, .. } => Some(t),
-                Stop::Divergence { singularity, .. } => Some(singularity),
-                _ => None,
-            };
-            if let Some((index, t)) = flow.lost_mass((t, at), &y).filter(|_| singular) {
-                let ending = stop::vanished(&watched[index], t, &self.numeric.constraints);
-                return Ok((pieces, End::Vanished(ending)));
-            }
-            return Ok((pieces, End::Stopped(stop, t, y)));
-        }
+    ) -> Result<(Vec<Solution>, usize, End), RunError> {
+        let mut course = Course::new(watched, (self.start.t, y0), watcher.interrupt);
+        while course.advance((self, &mut *flow), settings, (&mut *looking, &mut *watcher))? {}
+        Ok(course.finish())
     }
 
     /// Integrates equations on a jet, for constraints of order two and more and for characteristics of the user.
@@ -360,8 +289,8 @@ impl Subject<'_> {
         }
         let (watched, flow_names) = (flow.watch.quantities.clone(), flow.own_names());
         let mut looking = self.looking(settings, &flow_names)?;
-        let (pieces, end) =
-            self.watched(&mut flow, &watched, y0, settings, (&mut looking, watcher))?;
+        let (pieces, watched, end) =
+            self.watched(&mut flow, watched, y0, settings, (&mut looking, watcher))?;
         let constraints: Vec<String> = self.constraint_names();
         let ending = match end {
             End::Vanished(ending) | End::Happened(ending) => ending,
@@ -383,7 +312,7 @@ impl Subject<'_> {
             name,
             layout,
             settings,
-            (pieces, watched.len()),
+            (pieces, watched),
             ending,
             (None, followed.as_ref()),
         ))
@@ -396,7 +325,7 @@ impl Subject<'_> {
     }
 
     /// Names of the constraints by row of the terms.
-    fn constraint_names(&self) -> Vec<String> {
+    pub(crate) fn constraint_names(&self) -> Vec<String> {
         let rows = self.terms.constraint_index.iter();
         rows.map(|&l| self.system.constraints[l].name.clone())
             .collect()
@@ -427,8 +356,8 @@ impl Subject<'_> {
         let y0 = flow.start(self.start)?;
         let (watched, flow_names) = (flow.watch.quantities.clone(), flow.own_names());
         let mut looking = self.looking(settings, &flow_names)?;
-        let (pieces, end) =
-            self.watched(&mut flow, &watched, y0, settings, (&mut looking, watcher))?;
+        let (pieces, watched, end) =
+            self.watched(&mut flow, watched, y0, settings, (&mut looking, watcher))?;
         let ending = match end {
             End::Vanished(ending) | End::Happened(ending) => ending,
             End::Stopped(stop, ..) => {
@@ -451,7 +380,7 @@ impl Subject<'_> {
             name,
             layout,
             settings,
-            (pieces, watched.len()),
+            (pieces, watched),
             ending,
             (None, followed.as_ref()),
         ))
@@ -517,12 +446,12 @@ impl Subject<'_> {
         Ok(Some(follow))
     }
 
-    fn options<'o>(
+    pub(crate) fn options<'o>(
         &self,
         settings: &RunSettings,
         t: f64,
         absolute: Vec<bool>,
-        watcher: &'o mut Watcher<'_>,
+        interrupt: Option<&'o AtomicBool>,
     ) -> Result<Options<'o>, RunError> {
         let forward = settings.t_end >= self.start.t;
         let times = settings
@@ -552,10 +481,7 @@ impl Subject<'_> {
         options.record_last = true;
         options.step_limit = settings.max_steps;
         options.stiffness = StiffnessPolicy::StopAfter(50_000);
-        options.interrupt = watcher.interrupt;
-        if let Some(report) = &mut watcher.progress {
-            options.progress = Some(&mut **report);
-        }
+        options.interrupt = interrupt;
         Ok(options)
     }
 
@@ -620,23 +546,6 @@ impl Subject<'_> {
     }
 }
 
-/// Drops the rows after time t.
-fn keep_until(solution: &mut Solution, t: f64) {
-    while solution
-        .times
-        .last()
-        .is_some_and(|&last| (last - t) * (solution.t - t).signum() > 0.0)
-    {
-        forget_last(solution);
-    }
-}
-
-fn forget_last(solution: &mut Solution) {
-    solution.times.pop();
-    let rows = solution.times.len() * solution.width;
-    solution.rows.truncate(rows);
-}
-
 fn add(total: &mut Statistics, part: &Statistics) {
     total.steps += part.steps;
     total.rejected += part.rejected;
@@ -654,8 +563,7 @@ impl Subject<'_> {
         let mut flow = MultiplierFlow::new(
             self.numeric.clone(),
             self.start,
-            settings.state,
-            false,
+            self.variables(settings),
             watch,
         );
         let y0 = flow.pack(&self.start.q, &self.start.v);

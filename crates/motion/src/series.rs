@@ -2,7 +2,7 @@
 
 use crate::functions::{failure, FunctionsError};
 use crate::numeric::Binding;
-use chetaev_compile::{Lowering, Program, Taylor, TaylorWorkspace};
+use chetaev_compile::{Abreast, Lowering, Program, Taylor, TaylorWorkspace, ABREAST};
 use chetaev_integrate::EvaluationFailure;
 use chetaev_symbolic::{Expr, Graph, Symbol};
 
@@ -39,6 +39,27 @@ pub(crate) struct RateSeries {
     parameters: Vec<f64>,
     /// t and the state.
     inputs: Vec<f64>,
+    ahead: Ahead,
+}
+
+/// A series that was made before it is asked for, together with those of other motions.
+#[derive(Clone, Debug, Default)]
+struct Ahead {
+    /// t and the state.
+    inputs: Vec<f64>,
+    order: usize,
+    /// Orders 1 and higher, behind those of order 0.
+    coefficients: Vec<f64>,
+    is_wanted: bool,
+    is_known: bool,
+}
+
+impl Ahead {
+    /// Whether it is the series of that order there.
+    fn is(&self, inputs: &[f64], order: usize) -> bool {
+        let mut pairs = self.inputs.iter().zip(inputs);
+        self.is_known && self.order == order && pairs.all(|(a, b)| a.to_bits() == b.to_bits())
+    }
 }
 
 impl RateSeries {
@@ -68,6 +89,7 @@ impl RateSeries {
         let mut series = RateSeries {
             workspace: taylor.workspace(0),
             inputs: vec![0.0; program.variables.len()],
+            ahead: Ahead::default(),
             taylor,
             parameters,
         };
@@ -82,6 +104,7 @@ impl RateSeries {
     pub(crate) fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
         self.parameters.clear();
         self.parameters.extend_from_slice(values);
+        self.ahead = Ahead::default();
         Ok(self.taylor.prepare(values, &mut self.workspace)?)
     }
 
@@ -107,9 +130,97 @@ impl RateSeries {
         self.inputs[0] = t;
         self.inputs[1..].copy_from_slice(z);
         let coefficients = &mut coefficients[..(order + 1) * z.len()];
+        if self.ahead.is(&self.inputs, order) {
+            coefficients.copy_from_slice(&self.ahead.coefficients[..coefficients.len()]);
+            coefficients[..z.len()].copy_from_slice(z);
+            return Ok(());
+        }
         let workspace = &mut self.workspace;
         self.taylor
             .expand(&self.inputs, order, workspace, coefficients)
             .map_err(failure)
+    }
+}
+
+impl RateSeries {
+    /// Says that the series of this order through (t, z) will be asked for next.
+    pub(crate) fn announce(&mut self, t: f64, z: &[f64], order: usize) {
+        let ahead = &mut self.ahead;
+        ahead.inputs.clear();
+        ahead.inputs.push(t);
+        ahead.inputs.extend_from_slice(z);
+        ahead.order = order;
+        ahead.coefficients.resize((order + 1) * z.len(), 0.0);
+        (ahead.is_wanted, ahead.is_known) = (true, false);
+    }
+}
+
+/// Makes series of several motions at once, each with the bits that it has alone.
+#[derive(Clone, Debug)]
+pub(crate) struct SideBySide {
+    taylor: Taylor,
+    abreast: Abreast,
+    /// The parameters set for each place.
+    parameters: [Option<Vec<f64>>; ABREAST],
+}
+
+impl SideBySide {
+    /// For motions whose series are those of `series`; `None` where there is no machine code for several.
+    pub(crate) fn of(series: &RateSeries) -> Option<SideBySide> {
+        Some(SideBySide {
+            abreast: series.taylor.abreast()?,
+            taylor: series.taylor.clone(),
+            parameters: Default::default(),
+        })
+    }
+
+    /// Makes the series that were announced. What cannot be made here is made when it is asked for, with its failure.
+    pub(crate) fn make<'s>(&mut self, motions: impl Iterator<Item = Option<&'s mut RateSeries>>) {
+        let mut wanted: [Option<&mut RateSeries>; ABREAST] = Default::default();
+        for (lane, motion) in motions.enumerate().take(ABREAST) {
+            wanted[lane] = motion.filter(|own| {
+                own.ahead.is_wanted
+                    && own.taylor.is_same_code(&self.taylor)
+                    && own.ahead.order <= Taylor::most()
+            });
+            if let Some(own) = &mut wanted[lane] {
+                own.ahead.is_wanted = false;
+                if !self.prepare(lane, &own.parameters) {
+                    wanted[lane] = None;
+                }
+            }
+        }
+        let order = wanted.iter().flatten().map(|own| own.ahead.order).max();
+        // One alone is as quick by itself.
+        let Some(order) = order.filter(|_| wanted.iter().flatten().count() > 1) else {
+            return;
+        };
+        let mut inputs = [None; ABREAST];
+        for (input, own) in inputs.iter_mut().zip(&wanted) {
+            *input = own.as_ref().map(|own| &own.ahead.inputs[..]);
+        }
+        let Ok(outcome) = self.taylor.expand_abreast(inputs, order, &mut self.abreast) else {
+            return;
+        };
+        for (lane, own) in wanted.into_iter().enumerate() {
+            if let Some(RateSeries { ahead, .. }) = own.filter(|_| outcome[lane].is_ok()) {
+                let (order, to) = (ahead.order, &mut ahead.coefficients);
+                let read = self.taylor.coefficients(lane, order, &self.abreast, to);
+                ahead.is_known = read.is_ok();
+            }
+        }
+    }
+
+    /// Sets the parameters of a place where they are others; false where they cannot be.
+    fn prepare(&mut self, lane: usize, parameters: &[f64]) -> bool {
+        let set = &mut self.parameters[lane];
+        if set.as_deref() == Some(parameters) {
+            return true;
+        }
+        let done = self
+            .taylor
+            .prepare_abreast(lane, parameters, &mut self.abreast);
+        *set = done.is_ok().then(|| parameters.to_vec());
+        done.is_ok()
     }
 }

@@ -8,6 +8,9 @@ use std::f64::consts::TAU;
 /// What 2π is beyond its double.
 const TAU_LOW: f64 = 2.449_293_598_294_706_4e-16;
 
+/// Less than half a turn.
+const HALF: f64 = 3.0;
+
 /// Which coordinates are angles of this kind.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Turns(Vec<bool>);
@@ -33,22 +36,26 @@ impl Turns {
     }
 
     /// The state y + carry without whole turns of its angles, to the rounding of an angle of one turn.
-    fn reduced(&self, y: &[f64], carry: &[f64]) -> Vec<f64> {
-        let mut reduced = y.to_vec();
-        for ((y, carry), _) in reduced
-            .iter_mut()
-            .zip(carry)
-            .zip(&self.0)
-            .filter(|(_, &is)| is)
-        {
-            let turns = (*y / TAU).round();
-            if turns != 0.0 {
-                let high = turns * TAU;
-                let low = turns.mul_add(TAU, -high);
-                *y = (*y - high) - (low + turns * TAU_LOW - carry);
-            }
-        }
+    pub(crate) fn reduced(&self, y: &[f64], carry: &[f64]) -> Vec<f64> {
+        let mut reduced = Vec::with_capacity(y.len());
+        self.reduce(y, carry, &mut reduced);
         reduced
+    }
+
+    /// The same into `reduced`.
+    pub(crate) fn reduce(&self, y: &[f64], carry: &[f64], reduced: &mut Vec<f64>) {
+        reduced.clear();
+        reduced.extend_from_slice(y);
+        for i in 0..self.0.len().min(y.len()) {
+            // Within half a turn nothing is left out.
+            if !self.0[i] || y[i].abs() < HALF {
+                continue;
+            }
+            let turns = (y[i] / TAU).round();
+            let high = turns * TAU;
+            let low = turns.mul_add(TAU, -high);
+            reduced[i] = (y[i] - high) - (low + turns * TAU_LOW - carry[i]);
+        }
     }
 
     /// Writes the state as coefficients of order 0, and gives the state in which a series is expanded: without whole turns,

@@ -175,7 +175,7 @@ impl Watch {
 
     /// Takes the values at (t, q, v) into account as ordinary ones.
     pub fn record(&mut self, t: f64, q: &[f64], v: &[f64]) {
-        if self.functions.evaluate(t, &[q, v]).is_ok() {
+        if !self.quantities.is_empty() && self.functions.evaluate(t, &[q, v]).is_ok() {
             for (reference, &value) in self.reference.iter_mut().zip(self.functions.group(0)) {
                 *reference = reference.max(value.abs());
             }

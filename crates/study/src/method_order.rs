@@ -250,7 +250,7 @@ impl Laboratory<'_> {
             let fixed = RunSettings {
                 t_end: end,
                 times: vec![end],
-                state: StateKind::Full,
+                state: Some(StateKind::Full),
                 ..self.settings.clone()
             };
             let subject = Subject {

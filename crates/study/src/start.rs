@@ -336,10 +336,10 @@ pub(crate) fn settings(
     }
     settings.times = output_times(model, &values, t_start, t_end)?;
     settings.max_steps = simulation.max_steps.unwrap_or(settings.max_steps);
-    settings.state = match simulation.state {
-        Some(ModelState::Full) => StateKind::Full,
-        _ => StateKind::Reduced,
-    };
+    settings.state = simulation.state.map(|state| match state {
+        ModelState::Full => StateKind::Full,
+        ModelState::Reduced => StateKind::Reduced,
+    });
     settings.project = simulation.project.unwrap_or(true);
     settings.own = own_values(model, system)?;
     settings.events = model.events.iter().map(event).collect();

@@ -48,6 +48,15 @@ static MACHINES: AtomicU64 = AtomicU64::new(0);
 impl Machine {
     /// Compiles the body; `None` where code cannot be made or placed, or this processor cannot run it.
     pub(crate) fn new(program: &Program, width: Width) -> Option<Machine> {
+        Machine::with_stride(program, width, translate::stride(width))
+    }
+
+    /// The same for four states whose numbers lie side by side, one [`Four`] after the other.
+    pub(crate) fn of_four(program: &Program) -> Option<Machine> {
+        Machine::with_stride(program, Width::Four, size_of::<Four>() as i32)
+    }
+
+    fn with_stride(program: &Program, width: Width, bytes: i32) -> Option<Machine> {
         if !super::is_available() {
             return None;
         }
@@ -55,8 +64,8 @@ impl Machine {
             code,
             pivots,
             copied,
-        } = translate::translate(program, width);
-        let stride = translate::stride(width) as usize / 8;
+        } = translate::translate(program, width, bytes);
+        let stride = bytes as usize / 8;
         let reach = |count: usize| match count {
             0 => 0,
             _ => (count - 1) * stride + width.lanes(),
@@ -176,6 +185,23 @@ impl Machine {
             )
         })
     }
+}
+
+/// A number of each of four states.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C, align(32))]
+pub(crate) struct Four(pub(crate) [f64; SIDE_BY_SIDE]);
+
+/// The numbers of all states, one after the other.
+pub(crate) fn flat(fours: &[Four]) -> &[f64] {
+    // SAFETY: `Four` is an array of that many numbers, whose size is a multiple of its alignment.
+    unsafe { std::slice::from_raw_parts(fours.as_ptr().cast(), fours.len() * SIDE_BY_SIDE) }
+}
+
+/// The numbers of all states, one after the other.
+pub(crate) fn flat_mut(fours: &mut [Four]) -> &mut [f64] {
+    // SAFETY: as above, and the borrow is passed on.
+    unsafe { std::slice::from_raw_parts_mut(fours.as_mut_ptr().cast(), fours.len() * SIDE_BY_SIDE) }
 }
 
 /// The numbers of lanes, one after the other.

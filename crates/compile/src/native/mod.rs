@@ -93,25 +93,35 @@ impl Native {
 
 /// Gives the frames the factors of matrices that the prologue has factorized.
 fn copy_factors<W: Word>(machine: &Machine, state: &State<W>, frames: &mut Frames) {
+    for l in 0..W::LANES {
+        copy_factors_of(machine, (state, l), frames, l);
+    }
+}
+
+/// The same for state l of `state`, which is number `to` of those that the machine takes.
+pub(crate) fn copy_factors_of<W: Word>(
+    machine: &Machine,
+    (state, l): (&State<W>, usize),
+    frames: &mut Frames,
+    to: usize,
+) {
     let lanes = frames.lanes;
+    let (run, lane) = (to / lanes, to % lanes);
     for &(matrix, cells) in machine.copied() {
         let factored = &state.factored[matrix];
         let (size, stride) = (factored.size(), dense::stride(factored.size()));
-        for l in 0..W::LANES {
-            let (run, lane) = (l / lanes, l % lanes);
-            let Some(frame) = frames.frame(run) else {
-                continue;
-            };
-            let mut write = |cell: usize, value: f64| {
-                let offset = cells + 8 * (cell * lanes + lane) as i32;
-                frame.write(offset, std::iter::once(value));
-            };
-            for (i, value) in factored.factors(l).enumerate() {
-                write(i / size * stride + i % size, value);
-            }
-            for (i, other) in dense::exchanges(&factored.rows(l)).into_iter().enumerate() {
-                write(size * stride + size + i, other as f64);
-            }
+        let Some(frame) = frames.frame(run) else {
+            continue;
+        };
+        let mut write = |cell: usize, value: f64| {
+            let offset = cells + 8 * (cell * lanes + lane) as i32;
+            frame.write(offset, std::iter::once(value));
+        };
+        for (i, value) in factored.factors(l).enumerate() {
+            write(i / size * stride + i % size, value);
+        }
+        for (i, other) in dense::exchanges(&factored.rows(l)).into_iter().enumerate() {
+            write(size * stride + size + i, other as f64);
         }
     }
 }

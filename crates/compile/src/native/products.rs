@@ -8,6 +8,7 @@
 //! straight-line code. Four sums share the additions across a register at their ends.
 #![allow(unsafe_code)] // Vectors are loaded through pointers, whose bounds are compared once for all sums.
 
+use super::machine::Four;
 use std::arch::x86_64::{
     _mm256_add_pd, _mm256_blend_pd, _mm256_fmadd_pd, _mm256_hadd_pd, _mm256_loadu_pd,
     _mm256_permute2f128_pd, _mm256_permute4x64_pd, _mm256_setzero_pd, _mm256_storeu_pd,
@@ -80,6 +81,62 @@ impl Products {
         }
     }
 
+    /// The same for four states side by side; each has the bits that it has alone.
+    pub(crate) fn sum_four(&self, j: usize, series: &[Four], sums: &mut [Four]) {
+        let fits = series.len() >= self.series * STRIDE
+            && series.len() >= STRIDE
+            && sums.len() >= self.len()
+            && (1..=MOST).contains(&j)
+            && super::is_available();
+        if fits {
+            // SAFETY: the processor has the instructions; every series begins at a multiple of the stride below the length
+            // of the slice, and of each the numbers from ZERO + 1 to ZERO + j − 1 < STRIDE are read; as many sums are written
+            // as there are.
+            unsafe { self.run_four(j, series, sums) }
+        }
+    }
+
+    /// The sums in four parts as those of a single state: part k has the terms of orders 1 + k + 4 v.
+    ///
+    /// # Safety
+    /// As in [`Products::sum_four`].
+    #[target_feature(enable = "avx2,fma")]
+    #[allow(clippy::needless_range_loop)]
+    unsafe fn run_four(&self, j: usize, series: &[Four], sums: &mut [Four]) {
+        let (from, to) = (
+            series.as_ptr().cast::<f64>(),
+            sums.as_mut_ptr().cast::<f64>(),
+        );
+        let (whole, rest) = ((j - 1) / 4, (j - 1) % 4);
+        for (number, pair) in self.list.as_flattened().iter().enumerate() {
+            let [a, b] = *pair;
+            let mut parts = [_mm256_setzero_pd(); 4];
+            // SAFETY: within the series and the sums, as `sum_four` says; four numbers each.
+            unsafe {
+                let mut a = from.add(4 * (a as usize + ZERO + 1));
+                let mut b = from.add(4 * (b as usize + ZERO + j - 1));
+                for _ in 0..whole {
+                    for k in 0..4 {
+                        let (x, y) = (_mm256_loadu_pd(a.add(4 * k)), _mm256_loadu_pd(b.sub(4 * k)));
+                        parts[k] = _mm256_fmadd_pd(x, y, parts[k]);
+                    }
+                    (a, b) = (a.add(16), b.sub(16));
+                }
+                for k in 0..3 {
+                    if k < rest {
+                        let (x, y) = (_mm256_loadu_pd(a.add(4 * k)), _mm256_loadu_pd(b.sub(4 * k)));
+                        parts[k] = _mm256_fmadd_pd(x, y, parts[k]);
+                    }
+                }
+                let (low, high) = (
+                    _mm256_add_pd(parts[0], parts[1]),
+                    _mm256_add_pd(parts[2], parts[3]),
+                );
+                _mm256_storeu_pd(to.add(4 * number), _mm256_add_pd(low, high));
+            }
+        }
+    }
+
     /// The sums over C vectors.
     ///
     /// # Safety
@@ -146,6 +203,37 @@ mod tests {
                 let term = |i| coefficient(a as usize, i) * coefficient(b as usize, j - i);
                 let expected: f64 = (1..j).map(term).sum();
                 assert_eq!(found, expected, "order {j}, series {a} and {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn four_states_have_the_bits_of_each() {
+        if !super::super::is_available() {
+            return;
+        }
+        let count = 3;
+        let products = Products::of(&[[0, 1], [1, 1], [2, 0]]);
+        let value = |k: usize| (0.37 * k as f64).sin() * 10f64.powi((k % 7) as i32 - 3);
+        for j in 1..=MOST {
+            let mut side_by_side = vec![Four::default(); count * STRIDE];
+            let mut sums = [Four([f64::NAN; 4]); 4];
+            let mut alone = vec![vec![0.0; count * STRIDE]; 4];
+            for (l, alone) in alone.iter_mut().enumerate() {
+                for s in 0..count {
+                    for i in 1..j {
+                        let place = s * STRIDE + ZERO + i;
+                        alone[place] = value(7 * l + 131 * s + 17 * i);
+                        side_by_side[place].0[l] = alone[place];
+                    }
+                }
+            }
+            products.sum_four(j, &side_by_side, &mut sums);
+            for (l, alone) in alone.iter().enumerate() {
+                let mut expected = [f64::NAN; 4];
+                products.sum(j, alone, &mut expected);
+                let found = sums.map(|sum| sum.0[l].to_bits());
+                assert_eq!(found, expected.map(f64::to_bits), "order {j}, state {l}");
             }
         }
     }

@@ -22,10 +22,12 @@ pub(crate) struct Translated {
     pub(crate) copied: Vec<(usize, i32)>,
 }
 
-/// Translates the body for one state, or for states side by side.
-pub(crate) fn translate(program: &Program, width: Width) -> Translated {
+/// Translates the body for one state, or for states side by side,
+/// whose numbers are `stride` bytes apart.
+pub(crate) fn translate(program: &Program, width: Width, stride: i32) -> Translated {
     let mut translator = Translator {
         program,
+        stride,
         builder: Builder::new(width),
         now: vec![None; program.layout.len()],
         factored: vec![None; program.matrices.len()],
@@ -46,7 +48,7 @@ pub(crate) fn translate(program: &Program, width: Width) -> Translated {
     }
 }
 
-/// Bytes from one number of a state to the next.
+/// Bytes from one number of a state to the next, in blocks of all lanes where there are several.
 pub(crate) fn stride(width: Width) -> i32 {
     match width {
         Width::One => 8,
@@ -56,6 +58,7 @@ pub(crate) fn stride(width: Width) -> i32 {
 
 struct Translator<'p> {
     program: &'p Program,
+    stride: i32,
     builder: Builder,
     /// By register: its present value.
     now: Vec<Option<Value>>,
@@ -114,7 +117,7 @@ impl Translator<'_> {
 
     fn output(&mut self, register: Register, slot: usize) {
         let value = self.read(register);
-        let offset = slot as i32 * stride(self.builder.width);
+        let offset = slot as i32 * self.stride;
         let to = super::code::Place {
             base: Base::Outputs,
             offset,
@@ -130,7 +133,7 @@ impl Translator<'_> {
         }
         let layout = &self.program.layout;
         let variables = layout.variable_range();
-        let stride = stride(self.builder.width);
+        let stride = self.stride;
         let value = match self.program.constants.get(index) {
             Some(constant) => self.builder.constant(constant.value),
             None if variables.contains(&index) => {

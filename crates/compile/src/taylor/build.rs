@@ -35,6 +35,12 @@ impl Recurrences {
         Builder::filled(single).finish()
     }
 
+    /// Whether no value of order 0 is computed by other means than instructions, and no series may fail to exist.
+    #[cfg_attr(not(all(unix, target_arch = "x86_64")), allow(dead_code))]
+    pub(super) fn is_seeded(&self) -> bool {
+        self.auxiliaries.is_empty() && self.conditions.is_empty()
+    }
+
     /// Values of order 0 that no instruction computes, and whether all series exist.
     pub(super) fn seed(&self, zero: &mut [f64]) -> Result<(), EvaluateFailure> {
         for &(out, auxiliary, a, b) in &self.auxiliaries {

@@ -12,6 +12,8 @@
 
 #![allow(clippy::needless_range_loop)]
 
+use super::abreast::FourCode;
+pub(super) use super::abreast::FourRunning;
 use super::build::{Plan, Recurrences};
 use super::writer::{self, inverses, Derived, Layout, Written, SCALARS};
 use super::zero::{self, Zero};
@@ -24,7 +26,7 @@ use crate::native::products::{Products, MOST, STRIDE, ZERO};
 use crate::native::Native;
 use crate::schedule::Single;
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Systems up to this size are solved by the inverse of their matrix.
 const LARGEST: usize = 24;
@@ -33,20 +35,23 @@ const LARGEST: usize = 24;
 #[derive(Clone, Debug)]
 pub(super) struct Recurring {
     /// Order 0.
-    zero: Arc<Native>,
+    pub(super) zero: Arc<Native>,
     /// The registers that order 0 writes, after those of constants, parameters and variables and of the prologue.
-    body: Range<usize>,
+    pub(super) body: Range<usize>,
     machine: Arc<Machine>,
-    products: Products,
-    derived: Vec<Derived>,
-    layout: Layout,
+    pub(super) products: Products,
+    pub(super) derived: Vec<Derived>,
+    pub(super) layout: Layout,
     /// Registers of the variables.
-    given: Range<usize>,
+    pub(super) given: Range<usize>,
     /// By variable and by output: the number of the series.
-    variables: Vec<u32>,
+    pub(super) variables: Vec<u32>,
     outputs: Vec<u32>,
     /// By output: its register.
-    registers: Vec<u32>,
+    pub(super) registers: Vec<u32>,
+    /// The program, of which the code for four motions side by side is made when first asked for.
+    source: Arc<Single>,
+    four: Arc<OnceLock<Option<FourCode>>>,
 }
 
 /// Storage for one expansion at a time.
@@ -82,7 +87,7 @@ impl Recurring {
             derived,
             slots,
             layout,
-        } = writer::write(plan, &variables, outputs);
+        } = writer::write(plan, &variables, outputs, Width::One);
         let products = Products::of(&pairs);
         if products.len() > layout.scalars - layout.sums {
             return None;
@@ -100,7 +105,24 @@ impl Recurring {
             variables: variables.map(|r| slots.plain[r]).collect(),
             outputs: outputs.iter().map(|&r| slots.plain[r as usize]).collect(),
             registers: outputs.to_vec(),
+            source: Arc::new(single.clone()),
+            four: Arc::default(),
         })
+    }
+
+    /// The code for four motions side by side; `None` where it cannot be made.
+    pub(super) fn four(&self) -> Option<&FourCode> {
+        let make = || {
+            let plan = &Plan::of(&self.source);
+            let code = writer::write(plan, &self.given, &self.registers, Width::Four).code;
+            FourCode::of(code, self.zero.program(), self.layout)
+        };
+        self.four.get_or_init(make).as_ref()
+    }
+
+    /// Whether this is a copy of the other, or the other of this.
+    pub(super) fn is_same(&self, other: &Recurring) -> bool {
+        Arc::ptr_eq(&self.machine, &other.machine)
     }
 
     /// The highest order that has room.
@@ -173,7 +195,7 @@ impl Recurring {
         recurrences.seed(zero)?;
         let derived = &mut rest[self.layout.derived - self.layout.registers..];
         for (to, derived) in derived.iter_mut().zip(&self.derived) {
-            *to = derived.value(zero);
+            [*to] = derived.of([zero[derived.register() as usize]]);
         }
         at.copy_from_slice(variables);
         *is_known = true;
@@ -252,15 +274,25 @@ impl Recurring {
         }
         let m = own.len();
         coefficients[..m].copy_from_slice(&variables[1..]);
-        // Zero where all are finite: what is not spreads to all values that are computed of it.
-        let mut trace = 0.0;
         for k in 0..m {
             let series = &running.series[at(own[k], 0)..=at(own[k], order)];
             let column = &mut coefficients[k..];
             for j in 1..=order {
                 column[j * m] = series[j];
-                trace += 0.0 * series[j];
             }
+        }
+        // Zero where all are finite: what is not spreads to all values that are computed of it. Side by side, so that no
+        // addition waits for the one before.
+        let (blocks, rest) = coefficients.as_chunks::<8>();
+        let mut traces = [0.0; 8];
+        for block in blocks {
+            for i in 0..8 {
+                traces[i] += 0.0 * block[i];
+            }
+        }
+        let mut trace = 0.0;
+        for x in traces.iter().chain(rest) {
+            trace += 0.0 * x;
         }
         running.is_stained = trace != 0.0;
         Ok(())

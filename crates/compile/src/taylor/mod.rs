@@ -18,6 +18,8 @@
 //! within 64 units in the last place of the largest coefficient that a series of the radius found can have, for each order
 //! (`tests/series.rs` of the workspace). Nothing is allocated after the workspace is made.
 
+#[cfg(all(unix, target_arch = "x86_64"))]
+mod abreast;
 mod build;
 mod functions;
 #[cfg(all(unix, target_arch = "x86_64"))]
@@ -40,7 +42,7 @@ use crate::program::{Layout, Program};
 use crate::schedule;
 use crate::verify::VerifyError;
 use build::Recurrences;
-use machine::{Recurring, Running};
+use machine::{FourRunning, Recurring, Running};
 
 /// The Taylor recurrences of a program.
 ///
@@ -70,6 +72,15 @@ pub struct Taylor {
     outputs: Vec<u32>,
     /// Machine code for orders above 0, where there is any.
     machine: Option<Recurring>,
+}
+
+/// How many motions go side by side.
+pub const ABREAST: usize = 4;
+
+/// Storage for the series of four motions side by side, each with its own parameters.
+#[derive(Clone, Debug)]
+pub struct Abreast {
+    running: FourRunning,
 }
 
 /// Storage for series, one for each thread.
@@ -327,6 +338,83 @@ impl Taylor {
             }
         }
         Ok(())
+    }
+
+    /// Storage for four motions side by side; `None` where there is no machine code for them.
+    pub fn abreast(&self) -> Option<Abreast> {
+        let running = self.machine.as_ref()?.running_four(self)?;
+        Some(Abreast { running })
+    }
+
+    /// Sets the parameters of motion `lane` of four; needed for each before its first series.
+    ///
+    /// # Errors
+    /// As [`prepare`](Taylor::prepare); [`EvaluateFailure::NotPrepared`] where the storage is of another program.
+    pub fn prepare_abreast(
+        &self,
+        lane: usize,
+        parameters: &[f64],
+        abreast: &mut Abreast,
+    ) -> Result<(), EvaluateFailure> {
+        match &self.machine {
+            Some(machine) if lane < ABREAST => {
+                machine.prepare_four((self, lane), parameters, &mut abreast.running)
+            }
+            _ => Err(EvaluateFailure::NotPrepared),
+        }
+    }
+
+    /// The series of up to four motions, as [`expand`](Taylor::expand) makes those of one, with the same bits; what became of
+    /// each. They are read by [`coefficients`](Taylor::coefficients).
+    ///
+    /// # Errors
+    /// What all have in common: a wrong length, or an order beyond [`Taylor::most`].
+    pub fn expand_abreast(
+        &self,
+        motions: [Option<&[f64]>; ABREAST],
+        order: usize,
+        abreast: &mut Abreast,
+    ) -> Result<[Result<(), EvaluateFailure>; ABREAST], EvaluateFailure> {
+        match &self.machine {
+            Some(machine) => machine.expand_four(self, motions, order, &mut abreast.running),
+            None => Err(EvaluateFailure::NotPrepared),
+        }
+    }
+
+    /// Writes orders 1 to `order` of motion `lane` of the last [`expand_abreast`](Taylor::expand_abreast) into `coefficients`,
+    /// behind those of order 0.
+    ///
+    /// # Errors
+    /// [`EvaluateFailure::Length`].
+    pub fn coefficients(
+        &self,
+        lane: usize,
+        order: usize,
+        abreast: &Abreast,
+        coefficients: &mut [f64],
+    ) -> Result<(), EvaluateFailure> {
+        let needed = (order + 1) * self.outputs.len();
+        check_length("coefficients", needed, coefficients.len())?;
+        match &self.machine {
+            Some(machine) if lane < ABREAST && order <= Recurring::most() => {
+                machine.coefficients_of(lane, order, &abreast.running, coefficients);
+                Ok(())
+            }
+            _ => Err(EvaluateFailure::NotPrepared),
+        }
+    }
+
+    /// Whether the other runs the same machine code, as copies of one do.
+    pub fn is_same_code(&self, other: &Taylor) -> bool {
+        match (&self.machine, &other.machine) {
+            (Some(machine), Some(other)) => machine.is_same(other),
+            _ => false,
+        }
+    }
+
+    /// The highest order of [`expand_abreast`](Taylor::expand_abreast).
+    pub fn most() -> usize {
+        Recurring::most()
     }
 
     /// Number of outputs of all groups together.

@@ -1,6 +1,7 @@
 //! Where there is no machine code: no value of these types exists.
 
 use super::build::Recurrences;
+use super::{Taylor, ABREAST};
 use crate::evaluate::EvaluateFailure;
 use crate::schedule::Single;
 
@@ -10,8 +11,42 @@ pub(super) enum Recurring {}
 #[derive(Clone, Debug)]
 pub(super) enum Running {}
 
+#[derive(Clone, Debug)]
+pub(super) enum FourRunning {}
+
 #[allow(clippy::unused_self)]
 impl Recurring {
+    pub(super) fn running_four(&self, _: &Taylor) -> Option<FourRunning> {
+        match *self {}
+    }
+
+    pub(super) fn prepare_four(
+        &self,
+        _: (&Taylor, usize),
+        _: &[f64],
+        _: &mut FourRunning,
+    ) -> Result<(), EvaluateFailure> {
+        match *self {}
+    }
+
+    pub(super) fn expand_four(
+        &self,
+        _: &Taylor,
+        _: [Option<&[f64]>; ABREAST],
+        _: usize,
+        _: &mut FourRunning,
+    ) -> Result<[Result<(), EvaluateFailure>; ABREAST], EvaluateFailure> {
+        match *self {}
+    }
+
+    pub(super) fn coefficients_of(&self, _: usize, _: usize, _: &FourRunning, _: &mut [f64]) {
+        match *self {}
+    }
+
+    pub(super) fn is_same(&self, _: &Recurring) -> bool {
+        match *self {}
+    }
+
     pub(super) fn of(_: &Single, _: &[u32]) -> Option<Recurring> {
         None
     }

@@ -36,12 +36,27 @@ pub(super) enum Derived {
 }
 
 impl Derived {
-    pub(super) fn value(self, zero: &[f64]) -> f64 {
+    /// The register of x.
+    #[inline]
+    pub(super) fn register(self) -> u32 {
         match self {
-            Derived::Reciprocal(register) => 1.0 / zero[register as usize],
-            Derived::Half(register) => 0.5 / zero[register as usize],
-            Derived::Sign(register) => zero[register as usize].signum(),
+            Derived::Reciprocal(register) | Derived::Half(register) | Derived::Sign(register) => {
+                register
+            }
         }
+    }
+
+    /// The numbers that belong to those of x, for several motions.
+    #[inline]
+    pub(super) fn of<const N: usize>(self, mut x: [f64; N]) -> [f64; N] {
+        for x in &mut x {
+            *x = match self {
+                Derived::Reciprocal(_) => 1.0 / *x,
+                Derived::Half(_) => 0.5 / *x,
+                Derived::Sign(_) => x.signum(),
+            };
+        }
+        x
     }
 }
 
@@ -69,6 +84,8 @@ pub(super) struct Slots {
 struct Writer<'p> {
     plan: &'p Plan,
     builder: Builder,
+    /// Bytes of a number of each state.
+    number: i32,
     slots: Slots,
     layout: Layout,
     now: Vec<Option<Value>>,
@@ -92,8 +109,13 @@ pub(super) struct Written {
 
 /// The code of a plan whose variables and outputs are the registers given; where there are as many outputs as variables but
 /// the first, they are taken for the rates of the others.
-pub(super) fn write(plan: &Plan, variables: &Range<usize>, outputs: &[u32]) -> Written {
-    let mut writer = Writer::new(plan, variables.clone(), outputs);
+pub(super) fn write(
+    plan: &Plan,
+    variables: &Range<usize>,
+    outputs: &[u32],
+    width: Width,
+) -> Written {
+    let mut writer = Writer::new(plan, variables.clone(), outputs, width);
     writer.variables(variables);
     for planned in &plan.planned {
         writer.recurrence(planned.kind, &planned.recurrence);
@@ -112,7 +134,7 @@ pub(super) fn write(plan: &Plan, variables: &Range<usize>, outputs: &[u32]) -> W
 }
 
 impl<'p> Writer<'p> {
-    fn new(plan: &'p Plan, variables: Range<usize>, outputs: &[u32]) -> Writer<'p> {
+    fn new(plan: &'p Plan, variables: Range<usize>, outputs: &[u32], width: Width) -> Writer<'p> {
         let mut slots = Slots {
             plain: vec![0; plan.registers],
             weighted: vec![0; plan.registers],
@@ -140,9 +162,12 @@ impl<'p> Writer<'p> {
         }
         let inverses = inverses(plan);
         let layout = layout(plan, &inverses);
-        let mut builder = Builder::new(Width::One);
-        let scalars = [0, 1, 2].map(|i| builder.at(Base::File, 8 * (layout.scalars + i) as i32));
+        let mut builder = Builder::new(width);
+        let number = 8 * width.lanes() as i32;
+        let scalars =
+            [0, 1, 2].map(|i| builder.at(Base::File, number * (layout.scalars + i) as i32));
         Writer {
+            number,
             now: vec![None; plan.registers],
             zero: vec![None; plan.registers],
             pairs: Vec::new(),
@@ -157,17 +182,17 @@ impl<'p> Writer<'p> {
         }
     }
 
-    fn place(slot: u32, beyond: usize) -> Place {
+    fn place(&self, slot: u32, beyond: usize) -> Place {
         Place {
             base: Base::Outputs,
-            offset: 8 * (slot as usize * STRIDE + ZERO + beyond) as i32,
+            offset: self.number * (slot as usize * STRIDE + ZERO + beyond) as i32,
         }
     }
 
     /// The order j of the variables is in their series.
     fn variables(&mut self, variables: &Range<usize>) {
         for register in variables.clone() {
-            let Place { base, offset } = Self::place(self.slots.plain[register], 0);
+            let Place { base, offset } = self.place(self.slots.plain[register], 0);
             let value = self.builder.at(base, offset);
             self.now[register] = Some(value);
             self.weigh(register, value);
@@ -179,7 +204,8 @@ impl<'p> Writer<'p> {
         let slot = self.slots.weighted[register];
         if slot > 0 {
             let weighted = self.builder.mul(value, self.scalars[1]);
-            self.builder.store(weighted, Self::place(slot, 0));
+            let place = self.place(slot, 0);
+            self.builder.store(weighted, place);
         }
     }
 
@@ -189,7 +215,8 @@ impl<'p> Writer<'p> {
         let Some(value) = value else { return };
         let slot = self.slots.plain[register];
         if slot > 0 {
-            self.builder.store(value, Self::place(slot, 0));
+            let place = self.place(slot, 0);
+            self.builder.store(value, place);
         }
         self.weigh(register, value);
     }
@@ -202,7 +229,7 @@ impl<'p> Writer<'p> {
         for (variable, &output) in variables.clone().skip(1).zip(outputs) {
             if let Some(rate) = self.now[output as usize] {
                 let next = self.builder.mul(rate, self.scalars[2]);
-                let place = Self::place(self.slots.plain[variable], 1);
+                let place = self.place(self.slots.plain[variable], 1);
                 self.builder.store(next, place);
             }
         }
@@ -214,9 +241,9 @@ impl<'p> Writer<'p> {
 
     /// A value of order 0.
     fn zero(&mut self, register: u32) -> Value {
-        let builder = &mut self.builder;
+        let (builder, number) = (&mut self.builder, self.number);
         let zero = &mut self.zero[register as usize];
-        *zero.get_or_insert_with(|| builder.at(Base::File, 8 * register as i32))
+        *zero.get_or_insert_with(|| builder.at(Base::File, number * register as i32))
     }
 
     fn derived(&mut self, derived: Derived) -> Value {
@@ -225,7 +252,7 @@ impl<'p> Writer<'p> {
             self.derived.push(derived);
             self.derived.len() - 1
         });
-        let offset = 8 * (self.layout.derived + index) as i32;
+        let offset = self.number * (self.layout.derived + index) as i32;
         self.builder.at(Base::File, offset)
     }
 
@@ -235,7 +262,7 @@ impl<'p> Writer<'p> {
         if let Some(&value) = self.sums.get(&key) {
             return value;
         }
-        let offset = 8 * (self.layout.sums + self.pairs.len()) as i32;
+        let offset = self.number * (self.layout.sums + self.pairs.len()) as i32;
         self.pairs.push(key);
         let value = self.builder.at(Base::File, offset);
         self.sums.insert(key, value);
@@ -463,7 +490,7 @@ impl<'p> Writer<'p> {
             // Two sums that do not wait for each other.
             let mut totals = [None; 2];
             for (k, &rhs) in rhs.iter().enumerate().filter(|(_, rhs)| rhs.is_some()) {
-                let offset = 8 * (first + i * size + k) as i32;
+                let offset = self.number * (first + i * size + k) as i32;
                 let entry = self.builder.at(Base::File, offset);
                 totals[k % 2] = self.scale_add(rhs, entry, totals[k % 2]);
             }

@@ -61,6 +61,47 @@ fn order_for(tolerance: f64) -> usize {
     (order.max(0.0) as usize).clamp(LEAST, MOST)
 }
 
+/// Components whose sums are formed side by side, in registers.
+const BLOCK: usize = 4;
+
+/// Σ_{j≥1} x_[j] h^j and its derivative of N components from `first` on; the rows are the coefficients of the orders from 1 on.
+#[inline(always)]
+fn horner<const N: usize>(rows: &[f64], n: usize, first: usize, h: f64) -> ([f64; N], [f64; N]) {
+    let (mut sum, mut slope) = ([0.0; N], [0.0; N]);
+    for row in rows.chunks_exact(n).rev() {
+        let own = &row[first..first + N];
+        for i in 0..N {
+            slope[i] = sum[i] + h * slope[i];
+            sum[i] = own[i] + h * sum[i];
+        }
+    }
+    for i in 0..N {
+        slope[i] = sum[i] + h * slope[i];
+        sum[i] *= h;
+    }
+    (sum, slope)
+}
+
+/// The first number that is not finite.
+fn not_finite(numbers: &[f64]) -> Option<usize> {
+    // Zero where all are finite; side by side, so that no addition waits for the one before.
+    let (blocks, rest) = numbers.as_chunks::<8>();
+    let mut traces = [0.0; 8];
+    for block in blocks {
+        for i in 0..8 {
+            traces[i] += 0.0 * block[i];
+        }
+    }
+    let mut trace = 0.0;
+    for x in traces.iter().chain(rest) {
+        trace += 0.0 * x;
+    }
+    match trace == 0.0 {
+        true => None,
+        false => numbers.iter().position(|x| !x.is_finite()),
+    }
+}
+
 impl Method for TaylorMethod {
     fn card(&self) -> &MethodCard {
         &self.card
@@ -89,6 +130,7 @@ impl Method for TaylorMethod {
             radius: 0.0,
             worst: 0,
             is_fresh: false,
+            is_weighed: false,
             end: vec![0.0; 2 * n],
             increment: vec![0.0; n],
             slope: vec![0.0; n],
@@ -119,6 +161,8 @@ struct Expansion {
     worst: usize,
     /// Whether the coefficients are those of the present start.
     is_fresh: bool,
+    /// Whether the weights are those of the state at which the next expansion is made.
+    is_weighed: bool,
     /// State and derivative at the end of the step.
     end: Vec<f64>,
     increment: Vec<f64>,
@@ -137,13 +181,15 @@ impl Expansion {
 
     fn expand(&mut self, system: &mut dyn System, from: &State) -> Result<(), EvaluationFailure> {
         self.is_fresh = false;
-        self.weigh(&from.y);
+        if !std::mem::take(&mut self.is_weighed) {
+            self.weigh(&from.y);
+        }
         let filled = (self.order + 1) * self.n;
         let coefficients = &mut self.coefficients[..filled];
         self.evaluations += 1;
         let state = (&from.y[..], &from.carry[..]);
         system.expand(from.t.high, state, self.order, coefficients)?;
-        if let Some(place) = coefficients.iter().position(|c| !c.is_finite()) {
+        if let Some(place) = not_finite(coefficients) {
             // Close to a pole the high coefficients overflow while the step is still well determined by the others.
             let known = (place / self.n).saturating_sub(1);
             if known < LEAST {
@@ -194,8 +240,9 @@ impl Expansion {
             if norm == 0.0 {
                 continue;
             }
-            let allowed: f64 = if seen == 0 { (-2.0f64).exp() } else { 1.0 };
-            let step = (allowed / norm).powf(1.0 / j as f64);
+            // The logarithm of the step.
+            let allowed = if seen == 0 { -2.0 } else { 0.0 };
+            let step = (allowed - norm.ln()) / j as f64;
             if step < self.radius {
                 (self.radius, self.worst) = (step, worst);
             }
@@ -204,27 +251,24 @@ impl Expansion {
                 break;
             }
         }
-        self.radius *= (-0.7 / (p as f64 - 1.0)).exp();
+        self.radius = (self.radius - 0.7 / (p as f64 - 1.0)).exp();
     }
 
     /// Σ_{j≥1} x_[j] h^j and its derivative, by Horner's scheme for both at once.
     fn sum(&mut self, h: f64) {
         let n = self.n;
-        let (increment, slope) = (&mut self.increment[..n], &mut self.slope[..n]);
-        increment.fill(0.0);
-        slope.fill(0.0);
-        for coefficients in self.coefficients[n..(self.order + 1) * n]
-            .chunks_exact(n.max(1))
-            .rev()
-        {
-            for i in 0..n {
-                slope[i] = increment[i] + h * slope[i];
-                increment[i] = coefficients[i] + h * increment[i];
-            }
+        let rows = &self.coefficients[n..(self.order + 1) * n];
+        let mut first = 0;
+        while first + BLOCK <= n {
+            let (sum, slope) = horner::<BLOCK>(rows, n, first, h);
+            self.increment[first..first + BLOCK].copy_from_slice(&sum);
+            self.slope[first..first + BLOCK].copy_from_slice(&slope);
+            first += BLOCK;
         }
-        for i in 0..n {
-            slope[i] = increment[i] + h * slope[i];
-            increment[i] *= h;
+        while first < n {
+            let ([sum], [slope]) = horner::<1>(rows, n, first, h);
+            (self.increment[first], self.slope[first]) = (sum, slope);
+            first += 1;
         }
     }
 
@@ -275,6 +319,15 @@ impl Stepper for Expansion {
 
     fn restart(&mut self, system: &mut dyn System, from: &State) -> Result<(), EvaluationFailure> {
         self.expand(system, from)
+    }
+
+    fn next_expansion(&mut self, from: &State, is_changed: bool) -> Option<usize> {
+        if self.is_fresh && !is_changed {
+            return None;
+        }
+        self.weigh(&from.y);
+        self.is_weighed = true;
+        Some(self.order)
     }
 
     fn attempt(

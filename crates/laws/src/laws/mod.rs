@@ -17,6 +17,7 @@ mod power;
 mod precise;
 mod principles;
 mod reduced;
+mod regular;
 mod rewrite;
 mod series;
 mod sets;
@@ -198,7 +199,7 @@ pub(crate) const CLAIMS: &[&[&dyn Claim]] = &[
 /// A law: a trial on the subject, or `None` where there is nothing to try.
 type Law = fn(&Subject<'_>) -> Option<Trial>;
 
-const LAWS: [Law; 11] = [
+const LAWS: [Law; 12] = [
     power::balance,
     masses::balance,
     masses::thrust_alone,
@@ -210,6 +211,7 @@ const LAWS: [Law; 11] = [
     reduced::momenta_of_full,
     frames::without_brackets,
     exterior::identities,
+    regular::accelerations,
 ];
 
 /// Tries the laws of systems that state an integral.
@@ -286,6 +288,18 @@ mod tests {
                 }
             });
         }
+    }
+
+    #[test]
+    fn accelerations_without_multipliers_are_compared() {
+        let unspoilt = |_: &mut Subject<'_>| {};
+        spoilt(Family::Chaplygin, unspoilt, |subject| {
+            assert!(regular::accelerations(subject).unwrap().holds());
+        });
+        spoilt(Family::Chaplygin, shift, |subject| {
+            let trial = regular::accelerations(subject).unwrap();
+            assert_eq!(trial.verdict.word(), "refuted");
+        });
     }
 
     #[test]

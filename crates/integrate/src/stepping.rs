@@ -1,6 +1,7 @@
 //! The loop of a run: attempt, locate events, record, commit, call the hooks.
 //!
-//! Inside, an early end is `Err(Stop)`, so that `?` leads out of the loop; [`Run::run_to_end`] turns it into a value.
+//! The system and the events are handed in at every call, so that several runs may go on in turns. Inside, an early end is
+//! `Err(Stop)`, so that `?` leads out of the loop; [`Stepping::advance`] keeps it.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
@@ -21,10 +22,26 @@ use crate::stiffness::{Detector, StiffnessPolicy};
 /// Failed attempts are repeated with a step shorter by this factor.
 const RETRY: f64 = 0.25;
 
-/// One run at work. All storage is made before the first step; later only rows, events and notes grow.
-pub(crate) struct Run<'r, 'e, 'o> {
-    system: &'r mut dyn System,
-    events: &'r mut [Event<'e>],
+/// A series that a run asks its system for ([`System::expand`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expansion<'s> {
+    /// The time.
+    pub t: f64,
+    /// The state, rounded.
+    pub y: &'s [f64],
+    /// What the rounding leaves out.
+    pub carry: &'s [f64],
+    /// The highest order.
+    pub order: usize,
+}
+
+/// One run at work, step by step, always of the same system and events. All storage is made before the first step; later only
+/// rows, events and notes grow.
+pub struct Stepping<'o> {
+    /// Why the run ended, once it has; `None` as well before the method was started.
+    stop: Option<Stop>,
+    begun: bool,
+    has_events: bool,
     options: Options<'o>,
     schedule: Schedule,
     span: (f64, f64),
@@ -58,12 +75,21 @@ pub(crate) struct Run<'r, 'e, 'o> {
 const CREEPING_STEPS: u64 = 100_000;
 const CREEPING: f64 = 1e-6;
 
-impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
-    pub(crate) fn new(
-        system: &'r mut dyn System,
+impl std::fmt::Debug for Stepping<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Stepping")
+            .field("now", &self.now)
+            .field("stop", &self.stop)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'o> Stepping<'o> {
+    pub(crate) fn checked(
+        system: &dyn System,
         span: (f64, f64),
         y0: &[f64],
-        events: &'r mut [Event<'e>],
+        events: &mut [Event<'_>],
         options: Options<'o>,
         schedule: Schedule,
     ) -> Self {
@@ -73,7 +99,10 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
         for event in events.iter_mut() {
             event.count = 0;
         }
-        Run {
+        Stepping {
+            stop: None,
+            begun: false,
+            has_events: !events.is_empty(),
             direction: if span.1 < span.0 { -1.0 } else { 1.0 },
             stepper: method.stepper(n, &options.settings()),
             locator: Locator::new(n, events.len(), &options),
@@ -104,42 +133,72 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
                 statistics: Statistics::default(),
                 trajectory: options.keep_trajectory.then(|| Trajectory::new(n)),
             },
-            system,
-            events,
             options,
             schedule,
             span,
         }
     }
 
-    /// Runs to the end, whatever it is.
-    pub(crate) fn run_to_end(mut self) -> Solution {
-        let mut outcome = self.begin();
-        while outcome.is_ok() {
-            outcome = self.advance();
+    /// Prepares the method at the first call, and makes one accepted step at every later one; false when the run has ended.
+    pub fn advance(&mut self, system: &mut dyn System, events: &mut [Event<'_>]) -> bool {
+        if self.stop.is_none() {
+            let outcome = match std::mem::replace(&mut self.begun, true) {
+                false => self.begin(system),
+                true => self.step(system, events),
+            };
+            self.stop = outcome.err();
         }
-        let stop = outcome.err().unwrap_or(Stop::Finished);
-        self.finish(stop)
+        self.stop.is_none()
+    }
+
+    /// The solution as far as the run has come; an interruption where it has not ended.
+    pub fn finish(mut self, system: &mut dyn System) -> Solution {
+        let t = self.now.t.high;
+        let stop = self.stop.take().unwrap_or(Stop::Interrupted { t });
+        self.close(system, stop)
+    }
+
+    /// How far the run has come.
+    pub fn progress(&self) -> Progress {
+        Progress {
+            t: self.now.t.high,
+            t_start: self.span.0,
+            t_end: self.span.1,
+            steps: self.solution.statistics.steps,
+        }
+    }
+
+    /// The expansion that the next call of [`advance`](Stepping::advance) asks the system for first, where it is known that
+    /// one is.
+    pub fn next_expansion(&mut self) -> Option<Expansion<'_>> {
+        if self.stop.is_some() {
+            return None;
+        }
+        let order = self.stepper.next_expansion(&self.now, self.changed)?;
+        Some(Expansion {
+            t: self.now.t.high,
+            y: &self.now.y,
+            carry: &self.now.carry,
+            order,
+        })
     }
 
     /// Records the initial state and prepares the method.
-    fn begin(&mut self) -> Result<(), Stop> {
+    fn begin(&mut self, system: &mut dyn System) -> Result<(), Stop> {
         if self.schedule.with_first() {
-            self.record_state(false)?;
+            self.record_state(system, false)?;
         } else {
-            self.record_scheduled_here()?;
+            self.record_scheduled_here(system)?;
         }
         let span = (self.span.1 - self.span.0).abs();
         if span == 0.0 {
             return Err(Stop::Finished);
         }
         let first = loop {
-            let start = self
-                .stepper
-                .start(self.system, &self.now, self.direction, span);
+            let start = self.stepper.start(system, &self.now, self.direction, span);
             match start {
                 Ok(first) => break first,
-                Err(failure) if self.repivot(&failure)? => self.changed = false,
+                Err(failure) if self.repivot(system, &failure)? => self.changed = false,
                 Err(failure) => return Err(self.failed_at_state(failure)),
             }
         };
@@ -152,20 +211,20 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
     }
 
     /// Makes one accepted step.
-    fn advance(&mut self) -> Result<(), Stop> {
+    fn step(&mut self, system: &mut dyn System, events: &mut [Event<'_>]) -> Result<(), Stop> {
         self.check_limits()?;
         if self.changed {
             self.changed = false;
-            if let Err(failure) = self.stepper.restart(self.system, &self.now) {
+            if let Err(failure) = self.stepper.restart(system, &self.now) {
                 return Err(self.failed_at_state(failure));
             }
         }
-        let attempt = self.attempt_until_accepted()?;
-        let ended_by = self.locate_events()?;
-        self.record_inside()?;
+        let attempt = self.attempt_until_accepted(system)?;
+        let ended_by = self.locate_events(system, events)?;
+        self.record_inside(system)?;
         self.commit(&attempt, ended_by.is_some());
-        self.call_accepted_hook(ended_by)?;
-        self.record_end()?;
+        self.call_accepted_hook(system, ended_by)?;
+        self.record_end(system)?;
         if let Some(stop) = ended_by {
             return Err(stop);
         }
@@ -176,18 +235,12 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
     }
 
     fn check_limits(&mut self) -> Result<(), Stop> {
-        let t = self.now.t.high;
-        let steps = self.solution.statistics.steps;
+        let progress = self.progress();
+        let Progress { t, steps, .. } = progress;
         let raised = self
             .options
             .interrupt
             .is_some_and(|flag| flag.load(Ordering::Relaxed));
-        let progress = Progress {
-            t,
-            t_start: self.span.0,
-            t_end: self.span.1,
-            steps,
-        };
         let broken = match &mut self.options.progress {
             Some(callback) if steps > 0 => callback(progress) == ControlFlow::Break(()),
             _ => false,
@@ -246,15 +299,12 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
         Ok((h, false))
     }
 
-    fn attempt_until_accepted(&mut self) -> Result<Attempt, Stop> {
+    fn attempt_until_accepted(&mut self, system: &mut dyn System) -> Result<Attempt, Stop> {
         loop {
             let (h, last) = self.choose_step()?;
             self.dense_ready = false;
-            match self
-                .stepper
-                .attempt(self.system, &self.now, h, &mut self.next)
-            {
-                Err(failure) => self.recover(h, failure)?,
+            match self.stepper.attempt(system, &self.now, h, &mut self.next) {
+                Err(failure) => self.recover(system, h, failure)?,
                 Ok(attempt) if !attempt.accepted => {
                     self.solution.statistics.rejected += 1;
                     self.collapse.rejected(attempt.worst);
@@ -264,9 +314,9 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
                     if last && attempt.h == h {
                         self.next.t = Time::exact(self.span.1);
                     }
-                    match self.prepare_dense() {
+                    match self.prepare_dense(system) {
                         Ok(()) => return Ok(attempt),
-                        Err(failure) => self.recover(h, failure)?,
+                        Err(failure) => self.recover(system, h, failure)?,
                     }
                 }
             }
@@ -274,29 +324,34 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
     }
 
     /// Makes the polynomial of the step if anybody will ask for it.
-    fn prepare_dense(&mut self) -> Result<(), EvaluationFailure> {
+    fn prepare_dense(&mut self, system: &mut dyn System) -> Result<(), EvaluationFailure> {
         let inside = self
             .schedule
             .next()
             .is_some_and(|s| (self.next.t.high - s) * self.direction > 0.0);
-        if inside || self.options.keep_trajectory || !self.events.is_empty() {
+        if inside || self.options.keep_trajectory || self.has_events {
             self.stepper
-                .dense(self.system, &self.now, &self.next, &mut self.dense)?;
+                .dense(system, &self.now, &self.next, &mut self.dense)?;
             self.dense_ready = true;
         }
         Ok(())
     }
 
     /// After a failed evaluation inside a step of length h: another chart at its start, or a shorter step.
-    fn recover(&mut self, h: f64, failure: EvaluationFailure) -> Result<(), Stop> {
+    fn recover(
+        &mut self,
+        system: &mut dyn System,
+        h: f64,
+        failure: EvaluationFailure,
+    ) -> Result<(), Stop> {
         self.solution.statistics.failed += 1;
         self.stepper.failed();
         self.collapse.failed(failure);
-        if self.repivot(&failure)? {
+        if self.repivot(system, &failure)? {
             self.changed = false;
             return self
                 .stepper
-                .restart(self.system, &self.now)
+                .restart(system, &self.now)
                 .map_err(|failure| self.failed_at_state(failure));
         }
         if matches!(self.options.step, StepSize::Fixed(_)) {
@@ -307,7 +362,11 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
     }
 
     /// Asks the system for another chart, at most once per starting point; says whether anything was changed.
-    fn repivot(&mut self, failure: &EvaluationFailure) -> Result<bool, Stop> {
+    fn repivot(
+        &mut self,
+        system: &mut dyn System,
+        failure: &EvaluationFailure,
+    ) -> Result<bool, Stop> {
         let curable = matches!(
             failure,
             EvaluationFailure::PivotDegraded { .. } | EvaluationFailure::Singular { .. }
@@ -317,7 +376,7 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
         }
         self.repivoted = true;
         self.before_hook.copy_from_slice(&self.now.y);
-        let control = self.system.repivot(self.now.t.high, &mut self.now.y);
+        let control = system.repivot(self.now.t.high, &mut self.now.y);
         self.apply(control)?;
         Ok(self.changed)
     }
@@ -332,13 +391,17 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
     }
 
     /// Finds the events of the step. A terminal one cuts the step: `next` is then the state at the event.
-    fn locate_events(&mut self) -> Result<Option<Stop>, Stop> {
-        if self.events.is_empty() {
+    fn locate_events(
+        &mut self,
+        system: &mut dyn System,
+        events: &mut [Event<'_>],
+    ) -> Result<Option<Stop>, Stop> {
+        if events.is_empty() {
             return Ok(None);
         }
         self.locator.locate(
-            self.system,
-            self.events,
+            system,
+            events,
             (&self.now, &mut self.next, &self.dense),
             self.span.1,
             &mut self.solution,
@@ -346,14 +409,14 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
     }
 
     /// Records the scheduled times strictly inside the step.
-    fn record_inside(&mut self) -> Result<(), Stop> {
+    fn record_inside(&mut self, system: &mut dyn System) -> Result<(), Stop> {
         while let Some(s) = self.schedule.next() {
             if (self.next.t.high - s) * self.direction <= 0.0 || !self.dense_ready {
                 break;
             }
             let mut point = std::mem::take(&mut self.point);
             self.dense.at(s, &mut point);
-            let outcome = self.record(s, &point);
+            let outcome = self.record(system, s, &point);
             self.point = point;
             outcome?;
             self.schedule.advance();
@@ -380,9 +443,13 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
         }
     }
 
-    fn call_accepted_hook(&mut self, ended_by: Option<Stop>) -> Result<(), Stop> {
+    fn call_accepted_hook(
+        &mut self,
+        system: &mut dyn System,
+        ended_by: Option<Stop>,
+    ) -> Result<(), Stop> {
         self.before_hook.copy_from_slice(&self.now.y);
-        let control = self.system.accepted(self.now.t.high, &mut self.now.y);
+        let control = system.accepted(self.now.t.high, &mut self.now.y);
         match self.apply(control) {
             // A terminal event at the same state takes precedence over the hook.
             Err(_) if ended_by.is_some() => Ok(()),
@@ -413,37 +480,37 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
     }
 
     /// Records the end of a step where it was asked for.
-    fn record_end(&mut self) -> Result<(), Stop> {
+    fn record_end(&mut self, system: &mut dyn System) -> Result<(), Stop> {
         if self.schedule.every_step() {
-            self.record_state(false)
+            self.record_state(system, false)
         } else {
-            self.record_scheduled_here()
+            self.record_scheduled_here(system)
         }
     }
 
     /// Records the present state once for each scheduled time that equals the present one.
-    fn record_scheduled_here(&mut self) -> Result<(), Stop> {
+    fn record_scheduled_here(&mut self, system: &mut dyn System) -> Result<(), Stop> {
         while self.schedule.next() == Some(self.now.t.high) {
-            self.record_state(false)?;
+            self.record_state(system, false)?;
             self.schedule.advance();
         }
         Ok(())
     }
 
-    fn record_state(&mut self, unless_recorded: bool) -> Result<(), Stop> {
+    fn record_state(&mut self, system: &mut dyn System, unless_recorded: bool) -> Result<(), Stop> {
         if unless_recorded && self.solution.times.last() == Some(&self.now.t.high) {
             return Ok(());
         }
         let y = std::mem::take(&mut self.now.y);
-        let outcome = self.record(self.now.t.high, &y);
+        let outcome = self.record(system, self.now.t.high, &y);
         self.now.y = y;
         outcome
     }
 
-    fn record(&mut self, t: f64, y: &[f64]) -> Result<(), Stop> {
+    fn record(&mut self, system: &mut dyn System, t: f64, y: &[f64]) -> Result<(), Stop> {
         let start = self.solution.rows.len();
         self.solution.rows.resize(start + self.solution.width, 0.0);
-        let outcome = self.system.output(t, y, &mut self.solution.rows[start..]);
+        let outcome = system.output(t, y, &mut self.solution.rows[start..]);
         match outcome {
             Ok(()) => {
                 self.solution.times.push(t);
@@ -485,15 +552,15 @@ impl<'r, 'e, 'o> Run<'r, 'e, 'o> {
         }
     }
 
-    fn finish(mut self, stop: Stop) -> Solution {
+    fn close(mut self, system: &mut dyn System, stop: Stop) -> Solution {
         let early = self.options.record_last && stop != Stop::Finished;
         if self.schedule.with_last() || early {
             // The output may fail where the run failed; the state itself is kept in any case.
-            let _ = self.record_state(true);
+            let _ = self.record_state(system, true);
         }
         let statistics = &mut self.solution.statistics;
         statistics.evaluations = self.stepper.evaluations() + self.locator.evaluations();
-        statistics.factorizations = self.system.factorizations() - self.factorizations_before;
+        statistics.factorizations = system.factorizations() - self.factorizations_before;
         self.solution.t = self.now.t.high;
         self.solution.state.copy_from_slice(&self.now.y);
         self.solution.stop = stop;

@@ -1,0 +1,192 @@
+//! Common factors of the terms of sums, taken out before expressions are lowered: `a b x + a c` becomes `a (b x + c)`.
+//!
+//! Greedy, the scheme of Horner for several variables (Ceberio and Kreinovich 2004): the base that most terms have as a
+//! factor is taken out with the least of its exponents, then the same is done within the bracket and with the terms left.
+//! Values change by rounding alone.
+
+use chetaev_symbolic::substitute::SolveCache;
+use chetaev_symbolic::{rational, Expr, Graph, Node, Rational};
+use rustc_hash::FxHashMap;
+use std::collections::BinaryHeap;
+
+/// A term: its coefficient, and its factors as bases with exponents.
+#[derive(Clone, Debug)]
+struct Term {
+    coefficient: Rational,
+    factors: Vec<(Expr, Rational)>,
+}
+
+/// A base, and whether its exponents are positive.
+type Kind = (Expr, bool);
+
+impl Term {
+    /// `scale · e`
+    fn of(graph: &Graph, e: Expr, scale: &Rational) -> Term {
+        let (coefficient, factors) = match graph.node(e) {
+            Node::Product {
+                coefficient,
+                factors,
+            } => (coefficient * scale, factors.to_vec()),
+            _ => (scale.clone(), vec![e]),
+        };
+        let factors = factors.into_iter().map(|f| base_and_exponent(graph, f));
+        Term {
+            coefficient,
+            factors: factors.collect(),
+        }
+    }
+
+    fn kinds(&self) -> impl Iterator<Item = Kind> + '_ {
+        let kind = |(base, exponent): &(Expr, Rational)| (*base, !rational::is_negative(exponent));
+        self.factors.iter().map(kind)
+    }
+
+    fn exponent(&self, base: Expr) -> Option<&Rational> {
+        let found = self.factors.iter().find(|factor| factor.0 == base);
+        found.map(|factor| &factor.1)
+    }
+
+    fn divide(&mut self, base: Expr, exponent: &Rational) {
+        for own in self.factors.iter_mut().filter(|own| own.0 == base) {
+            own.1 = &own.1 - exponent;
+        }
+        self.factors.retain(|own| !own.1.is_zero());
+    }
+
+    fn expression(&self, graph: &Graph) -> Expr {
+        let power =
+            |(base, exponent): &(Expr, Rational)| graph.pow(*base, graph.number(exponent.clone()));
+        let factors: Vec<Expr> = self.factors.iter().map(power).collect();
+        graph.scale(&self.coefficient, graph.mul(&factors))
+    }
+}
+
+fn base_and_exponent(graph: &Graph, e: Expr) -> (Expr, Rational) {
+    if let Node::Power { base, exponent } = graph.node(e) {
+        if let Some(number) = graph.as_number(*exponent) {
+            return (*base, number.clone());
+        }
+    }
+    (e, rational::integer(1))
+}
+
+/// Graphs with more nodes are left as they are: there it takes longer to look for factors than they save.
+const LARGEST: usize = 20_000;
+
+/// The expressions with the common factors of all sums below them taken out.
+pub(crate) fn factored(graph: &Graph, roots: &[Expr]) -> Vec<Expr> {
+    let nodes = graph.reachable(roots);
+    if nodes.len() > LARGEST {
+        return roots.to_vec();
+    }
+    let mut image: FxHashMap<Expr, Expr> = FxHashMap::default();
+    let mut solved = SolveCache::default();
+    for e in nodes {
+        let mut child = |c: Expr| image.get(&c).copied().unwrap_or(c);
+        let own = graph.rebuild(e, &mut child, &mut solved);
+        let own = match graph.node(own) {
+            Node::Sum { constant, terms } => sum(graph, constant, terms),
+            _ => own,
+        };
+        if own != e {
+            image.insert(e, own);
+        }
+    }
+    let of = |e: &Expr| image.get(e).copied().unwrap_or(*e);
+    roots.iter().map(of).collect()
+}
+
+fn sum(graph: &Graph, constant: &Rational, terms: &[(Expr, Rational)]) -> Expr {
+    let terms = terms.iter().map(|(e, scale)| Term::of(graph, *e, scale));
+    let nested = nested(graph, terms.collect());
+    graph.add(&[nested, graph.number(constant.clone())])
+}
+
+fn nested(graph: &Graph, mut terms: Vec<Term>) -> Expr {
+    let mut counts = Counts::of(&terms);
+    let mut parts = Vec::new();
+    while let Some(kind) = counts.most_frequent() {
+        let (inner, rest) =
+            (terms.into_iter()).partition(|term| term.kinds().any(|own| own == kind));
+        terms = rest;
+        counts.forget(&inner);
+        parts.push(bracket(graph, kind.0, inner));
+    }
+    parts.extend(terms.iter().map(|term| term.expression(graph)));
+    graph.add(&parts)
+}
+
+/// Terms that all have powers of a base, of one sign, with the least power before a bracket.
+fn bracket(graph: &Graph, base: Expr, mut terms: Vec<Term>) -> Expr {
+    let exponents = terms.iter().filter_map(|term| term.exponent(base));
+    let Some(least) = exponents.min_by_key(|x| rational::abs(x)).cloned() else {
+        return graph.zero();
+    };
+    for term in &mut terms {
+        term.divide(base, &least);
+    }
+    let power = graph.pow(base, graph.number(least));
+    graph.mul(&[power, nested(graph, terms)])
+}
+
+/// In how many terms each kind of factor occurs.
+struct Counts {
+    now: FxHashMap<Kind, usize>,
+    /// With counts as they once were.
+    heap: BinaryHeap<(usize, Kind)>,
+}
+
+impl Counts {
+    fn of(terms: &[Term]) -> Counts {
+        let mut now: FxHashMap<Kind, usize> = FxHashMap::default();
+        for kind in terms.iter().flat_map(Term::kinds) {
+            *now.entry(kind).or_default() += 1;
+        }
+        let several = now.iter().filter(|(_, &count)| count > 1);
+        let heap = several.map(|(&kind, &count)| (count, kind)).collect();
+        Counts { now, heap }
+    }
+
+    fn forget(&mut self, terms: &[Term]) {
+        for kind in terms.iter().flat_map(Term::kinds) {
+            if let Some(count) = self.now.get_mut(&kind) {
+                *count = count.saturating_sub(1);
+            }
+        }
+    }
+
+    /// The kind that most terms have, two at least; among equals the one whose base was made last.
+    fn most_frequent(&mut self) -> Option<Kind> {
+        while let Some((count, kind)) = self.heap.pop() {
+            let now = self.now.get(&kind).copied().unwrap_or(0);
+            if now == count {
+                return Some(kind);
+            }
+            if now > 1 {
+                self.heap.push((now, kind));
+            }
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn common_factors_are_taken_out() {
+        let g = Graph::new();
+        let [a, b, c, x] = ["a", "b", "c", "x"].map(|name| g.symbol(name, 0));
+        let root = g.pow(x, g.number(rational::ratio(-1, 2).unwrap()));
+        // a b x^(-1/2) + 2 a c x^(-3/2) + b
+        let terms = [
+            g.mul(&[a, b, root]),
+            g.mul(&[g.integer(2), a, c, root, g.powi(x, -1)]),
+            b,
+        ];
+        let found = factored(&g, &[g.add(&terms)])[0];
+        let bracket = g.add(&[b, g.mul(&[g.integer(2), c, g.powi(x, -1)])]);
+        assert_eq!(found, g.add(&[g.mul(&[a, root, bracket]), b]));
+    }
+}

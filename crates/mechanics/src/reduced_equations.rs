@@ -1,0 +1,317 @@
+//! The equations of motion made short, to be computed: `M P' = b` in independent quasi-velocities P.
+//!
+//! The kinetic energy is taken as it is written, a quadratic form `½ Σ C_kl e_k e_l` of linear forms e of the velocities.
+//! With `E = ∂e/∂P` on the constraints, `M = Eᵀ C E` and, with P' = 0 in the derivatives D,
+//! `b_σ = R_σ − Σ E_kσ D(C_kl e_l) − Σ C_kl e_l ε_kσ + ½ Σ ∂C_kl/∂π_σ e_k e_l`, where
+//! `ε_kσ = Σ_i B_iσ (D ∂e_k/∂v_i − ∂e_k/∂q_i)` vanishes where e is a rate (Gibbs 1879, Appell 1900; for quasi-velocities
+//! Hamel 1904). R collects the forces and what is left of the Lagrangian. Nothing is expanded: a body costs what its
+//! velocities cost.
+//!
+//! Coordinates that occur in M and b although these do not depend on them, as the heading of a body on a plane without
+//! a preferred direction, are ignorable there, and a number is put in their place.
+
+use crate::characteristics::Characteristics;
+use crate::linear::dot;
+use crate::quadratic_forms::{in_linear_forms, terms_of_degree};
+use crate::regular::regular;
+use crate::system::System;
+use crate::terms::{freeze_accelerations, MotionTerms};
+use chetaev_symbolic::simplify::{simplify_all, Options};
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::{decide_zero, ZeroTest};
+use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
+
+/// The accelerations as functions of (t, q, v) on the constraints of `rows`, by quasi-velocities without singular places
+/// ([`regular`]); `None` where none are found.
+pub fn accelerations(system: &System, terms: &MotionTerms, rows: &[usize]) -> Option<Vec<Expr>> {
+    let g = &system.graph;
+    let c = regular(system, terms, rows)?;
+    let own = ReducedEquations::new(system, &c);
+    let own = own.unwrap_or_else(|| ReducedEquations::of_terms(system, terms, &c));
+    let rates = own.without_ignorable(system).shortened(system).rates(g)?;
+    let of_rates = c
+        .parameters
+        .iter()
+        .zip(&rates)
+        .map(|(p, &rate)| (p.rate, rate));
+    let accelerations = g.substitute_all(&c.accelerations, &of_rates.collect::<Vec<_>>());
+    let of_speeds = c.parameters.iter().map(|p| (p.value, p.definition));
+    let of_speeds: Vec<(Expr, Expr)> = of_speeds.filter(|(speed, own)| speed != own).collect();
+    Some(g.substitute_all(&accelerations, &of_speeds))
+}
+
+/// `M P' = b`.
+#[derive(Clone, Debug)]
+pub struct ReducedEquations {
+    /// M, k × k.
+    pub mass: Vec<Vec<Expr>>,
+    /// b, length k.
+    pub force: Vec<Expr>,
+}
+
+impl ReducedEquations {
+    /// From the kinetic energy as it is written; `None` where it is no such form with constant C.
+    pub fn new(system: &System, c: &Characteristics) -> Option<ReducedEquations> {
+        let g = &system.graph;
+        let (kinetic, rest) = terms_of_degree(system, system.lagrangian, 2);
+        let forms = Forms::of(system, c, kinetic)?;
+        let k = c.k();
+        let mut mass = vec![vec![g.zero(); k]; k];
+        for s in 0..k {
+            for t in 0..=s {
+                let terms = forms.weights.iter();
+                let terms =
+                    terms.map(|&(c, i, j)| g.mul(&[c, forms.slope[i][s], forms.slope[j][t]]));
+                mass[s][t] = g.add(&terms.collect::<Vec<_>>());
+                mass[t][s] = mass[s][t];
+            }
+        }
+        let applied = applied(system, c, rest);
+        let inertia = forms.inertia(system, c);
+        let force = applied.iter().zip(&inertia);
+        let force = force
+            .map(|(&applied, &inertia)| g.sub(applied, inertia))
+            .collect();
+        Some(ReducedEquations { mass, force })
+    }
+
+    /// From the terms of the multiplier form: `Bᵀ W B` and `Bᵀ (b − W a*)`.
+    pub fn of_terms(system: &System, terms: &MotionTerms, c: &Characteristics) -> ReducedEquations {
+        let g = &system.graph;
+        let columns: Vec<Vec<Expr>> = (0..c.k()).map(|s| c.column(s)).collect();
+        let on = |es: &[Expr]| c.restrict(system, es);
+        let rows: Vec<Vec<Expr>> = terms.mass_matrix.iter().map(|row| on(row)).collect();
+        let times = |v: &[Expr]| -> Vec<Expr> { rows.iter().map(|row| dot(g, row, v)).collect() };
+        let mass = |column: &Vec<Expr>| c.contract(system, &times(column));
+        let inertia = times(&c.acceleration_offset);
+        let left = on(&terms.force).into_iter().zip(inertia);
+        let left: Vec<Expr> = left.map(|(force, inertia)| g.sub(force, inertia)).collect();
+        ReducedEquations {
+            mass: columns.iter().map(mass).collect(),
+            force: c.contract(system, &left),
+        }
+    }
+
+    /// P', as one linear system.
+    pub fn rates(&self, g: &Graph) -> Option<Vec<Expr>> {
+        match self.force[..] {
+            [] => Some(Vec::new()),
+            _ => g.solve(&self.mass.concat(), &self.force).ok(),
+        }
+    }
+
+    /// The same with numbers for the coordinates on which it does not depend.
+    #[must_use]
+    pub fn without_ignorable(&self, system: &System) -> ReducedEquations {
+        let g = &system.graph;
+        let mut own = self.clone();
+        for c in &system.coordinates {
+            let all = own.entries();
+            if !g.any_contains_any(&all, &[c.q_symbol]) {
+                continue;
+            }
+            let at_zero = g.substitute_all(&all, &[(c.q, g.zero())]);
+            let differences: Vec<Expr> = all
+                .iter()
+                .zip(&at_zero)
+                .map(|(&a, &b)| g.sub(a, b))
+                .collect();
+            if vanish(system, &differences) {
+                own = own.with(&at_zero);
+            }
+        }
+        own
+    }
+
+    /// The same with shorter entries, where it is short enough for that to be worth its time.
+    #[must_use]
+    pub fn shortened(&self, system: &System) -> ReducedEquations {
+        let g = &system.graph;
+        let entries = self.entries();
+        let size = |es: &[Expr]| g.reachable(es).len();
+        if size(&entries) > SHORT {
+            return self.clone();
+        }
+        let shorter = simplify_all(g, &entries, &Options::default());
+        match size(&shorter) < size(&entries) {
+            true => self.with(&shorter),
+            false => self.clone(),
+        }
+    }
+
+    /// M by rows, then b.
+    pub fn entries(&self) -> Vec<Expr> {
+        [self.mass.concat(), self.force.clone()].concat()
+    }
+
+    fn with(&self, entries: &[Expr]) -> ReducedEquations {
+        let k = self.force.len();
+        ReducedEquations {
+            mass: entries[..k * k]
+                .chunks(k.max(1))
+                .map(<[Expr]>::to_vec)
+                .collect(),
+            force: entries[k * k..].to_vec(),
+        }
+    }
+}
+
+/// Larger equations are not simplified.
+const SHORT: usize = 300;
+
+/// Linear forms of the velocities on the constraints.
+struct Forms {
+    /// The entries of C that do not vanish, with their places.
+    weights: Vec<(Expr, usize, usize)>,
+    /// e.
+    value: Vec<Expr>,
+    /// E, a row for each form.
+    slope: Vec<Vec<Expr>>,
+    /// ė with P' = 0.
+    frozen: Vec<Expr>,
+    /// ε, a row for each form.
+    turn: Vec<Vec<Expr>>,
+}
+
+impl Forms {
+    /// `None` where C contains velocities.
+    fn of(system: &System, c: &Characteristics, kinetic: Expr) -> Option<Forms> {
+        let g = &system.graph;
+        let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
+        let (written, variables, forms) = in_linear_forms(g, kinetic, &velocities)?;
+        let symbols: Vec<Symbol> = variables.iter().filter_map(|&e| g.as_symbol(e)).collect();
+        let matrix = g.jacobian(&g.gradient(written, &symbols), &symbols);
+        let moving = [&symbols[..], &system.velocity_symbols()].concat();
+        if g.any_contains_any(&matrix.concat(), &moving) {
+            return None;
+        }
+        let n = forms.len();
+        let entries = matrix.concat().into_iter().enumerate();
+        let weights = entries.filter(|(_, c)| !g.is_zero(*c));
+        let value = c.restrict(system, &forms);
+        Some(Forms {
+            weights: weights.map(|(at, c)| (c, at / n, at % n)).collect(),
+            slope: c.by_parameters(system, &value),
+            frozen: c.frozen_derivative(system, &value),
+            turn: turns(system, c, &forms),
+            value,
+        })
+    }
+
+    /// What of the inertia does not contain P': `Σ E_kσ D(C_kl e_l) + Σ C_kl e_l ε_kσ − ½ Σ ∂C_kl/∂π_σ e_k e_l`.
+    fn inertia(&self, system: &System, c: &Characteristics) -> Vec<Expr> {
+        let g = &system.graph;
+        let entries: Vec<Expr> = self.weights.iter().map(|own| own.0).collect();
+        let rates = c.frozen_derivative(system, &entries);
+        let by_position = c.by_quasi_coordinates(system, &entries);
+        let half = g.div(g.one(), g.integer(2));
+        let of = |s: usize| {
+            let terms = self
+                .weights
+                .iter()
+                .enumerate()
+                .map(|(at, &(weight, i, j))| {
+                    let rate = [
+                        g.mul(&[rates[at], self.value[j]]),
+                        g.mul(&[weight, self.frozen[j]]),
+                    ];
+                    let along = g.mul(&[self.slope[i][s], g.add(&rate)]);
+                    let turning = g.mul(&[weight, self.value[j], self.turn[i][s]]);
+                    let change = g.mul(&[half, by_position[at][s], self.value[i], self.value[j]]);
+                    g.add(&[along, turning, g.neg(change)])
+                });
+            g.add(&terms.collect::<Vec<_>>())
+        };
+        (0..c.k()).map(of).collect()
+    }
+}
+
+/// ε of forms in the velocities.
+fn turns(system: &System, c: &Characteristics, forms: &[Expr]) -> Vec<Vec<Expr>> {
+    let g = &system.graph;
+    forms
+        .iter()
+        .map(|&form| {
+            let slopes = g.gradient(form, &system.velocity_symbols());
+            let rates = freeze_accelerations(system, &slopes);
+            let by_position = g.gradient(form, &system.coordinate_symbols());
+            let own: Vec<Expr> = rates
+                .iter()
+                .zip(&by_position)
+                .map(|(&a, &b)| g.sub(a, b))
+                .collect();
+            let own: Vec<Expr> = own
+                .iter()
+                .map(|&e| {
+                    if !g.is_zero(e) && vanish(system, &[e]) {
+                        g.zero()
+                    } else {
+                        e
+                    }
+                })
+                .collect();
+            c.contract(system, &c.restrict(system, &own))
+        })
+        .collect()
+}
+
+/// Whether expressions are proved to vanish, modularly.
+fn vanish(system: &System, es: &[Expr]) -> bool {
+    let none = Assumptions::new();
+    let test = ZeroTest::everywhere(es, &none);
+    let options = chetaev_symbolic::zero::Options {
+        exact: false,
+        refute: false,
+        ..test.options
+    };
+    let test = ZeroTest { options, ..test };
+    matches!(decide_zero(&system.graph, &test), Verdict::Proved(_))
+}
+
+/// R: the forces, and what a part of the Lagrangian contributes, along the characteristics.
+fn applied(system: &System, c: &Characteristics, part: Expr) -> Vec<Expr> {
+    let g = &system.graph;
+    let momenta = g.gradient(part, &system.velocity_symbols());
+    let drift = freeze_accelerations(system, &momenta);
+    let by_position = g.gradient(part, &system.coordinate_symbols());
+    let all: Vec<Expr> = (0..system.n())
+        .map(|i| g.add(&[by_position[i], system.forces[i], g.neg(drift[i])]))
+        .collect();
+    c.contract(system, &c.restrict(system, &all))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::SystemParts;
+    use std::sync::Arc;
+
+    /// A wheel that rolls upright, x' = ψ' cos φ, y' = ψ' sin φ, with unit mass, inertia and radius: whatever the heading φ, it
+    /// has the inertia 2 against rolling, and nothing accelerates it.
+    #[test]
+    fn the_heading_of_a_wheel_is_ignorable() {
+        let g = Arc::new(Graph::new());
+        let [vx, vy, turn, roll] = ["x", "y", "phi", "psi"].map(|name| g.symbol(name, 1));
+        let phi = g.symbol("phi", 0);
+        let squares = [vx, vy, turn, roll].map(|v| g.powi(v, 2));
+        let rolls = |v: Expr, along: Expr| g.sub(v, g.mul(&[roll, along]));
+        let parts = SystemParts {
+            coordinates: ["x", "y", "phi", "psi"].map(String::from).to_vec(),
+            lagrangian: Some(g.div(g.add(&squares), g.integer(2))),
+            constraints: vec![
+                ("along".into(), rolls(vx, g.cos(phi))),
+                ("across".into(), rolls(vy, g.sin(phi))),
+            ],
+            ..SystemParts::default()
+        };
+        let system = System::new(g.clone(), parts).unwrap();
+        let terms = MotionTerms::new(&system);
+        let c = regular(&system, &terms, &[0, 1]).unwrap();
+        let own = ReducedEquations::new(&system, &c).unwrap();
+        let stated = ReducedEquations::of_terms(&system, &terms, &c);
+        for found in [own, stated].map(|own| own.without_ignorable(&system)) {
+            assert_eq!(found.mass, [[g.one(), g.zero()], [g.zero(), g.integer(2)]]);
+            assert_eq!(found.force, [g.zero(), g.zero()]);
+        }
+    }
+}
