@@ -314,7 +314,7 @@ fn about(cx: &Context<'_>, reduced: &Reduced, many: usize) -> String {
         false => ", what the constraints fix among these",
     };
     let time = match reduced.timed {
-        true => ", the time among them",
+        true => " (the time is one of them)",
         false => "",
     };
     format!(
