@@ -1,10 +1,10 @@
 //! `distribution.growth`: the growth vector of the admissible velocities, and what can be reached.
 
-use crate::flag::{horizontal, Flag, Obstacle};
+use crate::flag::{horizontal, Directed, Flag, Obstacle};
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::words::counted;
-use chetaev_symbolic::Verdict;
+use chetaev_symbolic::{Expr, Verdict};
 
 /// `distribution.growth`.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +24,7 @@ impl Claim for Growth {
     }
 
     fn explanation(&self) -> &'static str {
-        "The displacements that the constraints admit at one time form the distribution D¹; brackets of its fields with those found before add directions, step by step. The ranks are the growth vector, (2, 3) for a knife edge. Where they reach the number of coordinates, every configuration near another one can be reached by an admissible path (Chow 1939, Rashevskii 1938), and the system is controllable as far as kinematics go; where they stop before, as many functions of the position keep their values as ranks are missing, and these are among the first integrals. The claim is refuted then; a system without constraints generates everything at the first step."
+        "The displacements that the constraints admit at one time form the distribution D¹; brackets of its fields with those found before add directions, step by step. The ranks are the growth vector, (2, 3) for a knife edge. Where they reach the number of coordinates, every configuration near another one can be reached by an admissible path (Chow 1939, Rashevskii 1938), and the system is controllable as far as kinematics go; where they stop before, as many functions of the position keep their values as ranks are missing, and these are among the first integrals. The claim is refuted then. Where the constraints contain the time, or velocities that nobody chooses, such a function need not be one of the motion, as the displacements of another time lead off its values: then the fields are taken on space and time, with the field of what happens by itself, ∂/∂t and the velocities at which the independent ones vanish. Where their brackets generate every direction there, the places that can be reached at a time fill an open set and no function of position and time keeps its value. A system without constraints generates everything at the first step."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -46,33 +46,67 @@ impl Claim for Growth {
             Ok(chart) => chart,
             Err(problem) => return Verdict::undecided(problem.to_string()).into(),
         };
-        let fields = match horizontal(cx.system, &chart) {
-            Ok((fields, _)) => fields,
+        let (fields, drift) = match horizontal(cx.system, &chart) {
+            Ok(found) => found,
             Err(why) => return Verdict::not_applicable("model.constraints-linear", why).into(),
         };
-        match Flag::of(cx, &fields, false, false) {
-            Ok(flag) => reached(cx, flag).into(),
+        let mut flag = Flag::of(cx, &fields, false, false);
+        let stops = |flag: &Flag| flag.growth.last() < Some(&cx.system.n());
+        let drifts =
+            matches!(&flag, Ok(flag) if stops(flag)) && moves_by_itself(cx, &fields, &drift);
+        if drifts {
+            let all = [&fields[..], &[drift]].concat();
+            flag = Flag::of(cx, &all, true, false);
+        }
+        match flag {
+            Ok(flag) => reached(cx, flag, drifts).into(),
             Err(Obstacle::Undecided(tried)) => Verdict::undecided(tried).into(),
             Err(Obstacle::Contradiction(verdict)) => (*verdict).into(),
         }
     }
 }
 
-fn reached(cx: &Context<'_>, flag: Flag) -> Verdict {
+/// Whether something moves at rest of the independent velocities, or the admissible displacements change with the time.
+fn moves_by_itself(cx: &Context<'_>, fields: &[Directed], drift: &Directed) -> bool {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let timed = |&e: &Expr| system.is_rheonomic(e);
+    drift.place.iter().any(|&e| !g.is_zero(e))
+        || fields.iter().any(|field| field.place.iter().any(timed))
+}
+
+fn reached(cx: &Context<'_>, flag: Flag, drifts: bool) -> Verdict {
     let n = cx.system.n();
     let rank = flag.growth.last().copied().unwrap_or(0);
     let growth: Vec<String> = flag.growth.iter().map(usize::to_string).collect();
-    let growth = format!("the growth vector is ({})", growth.join(", "));
-    let missing = n - rank;
-    let sentence = match missing {
-        0 => format!("{growth}: every configuration nearby can be reached"),
+    let fields = match drifts {
+        true => " of the fields on space and time, with the one of what happens by itself,",
+        false => "",
+    };
+    let growth = format!("the growth vector{fields} is ({})", growth.join(", "));
+    let missing = n + usize::from(drifts) - rank;
+    let sentence = match (missing, drifts) {
+        (0, false) => format!("{growth}: every configuration nearby can be reached"),
+        (0, true) => {
+            format!("{growth}: the configurations that can be reached at a time fill an open set")
+        }
         _ => {
+            let of = match drifts {
+                true => "of position and time",
+                false => "of the position",
+            };
             let kept = counted(
                 missing,
-                "function of the position keeps its value",
-                "functions of the position keep their values",
+                &format!("function {of} keeps its value"),
+                &format!("functions {of} keep their values"),
             );
-            format!("{growth} with {n} coordinates: at each time {kept} under all admissible displacements")
+            match drifts {
+                true => {
+                    format!("{growth} with {n} coordinates: {kept} under all admissible motions")
+                }
+                false => format!(
+                    "{growth} with {n} coordinates: {kept} under all admissible displacements"
+                ),
+            }
         }
     };
     match (flag.verdict, missing) {

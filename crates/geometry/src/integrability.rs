@@ -223,6 +223,10 @@ impl Claim for ConstraintsIntegrable {
         Group::Model
     }
 
+    fn speaks_of_motions(&self) -> bool {
+        true
+    }
+
     fn title(&self) -> &'static str {
         "The constraints are integrable"
     }

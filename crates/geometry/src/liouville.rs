@@ -1,10 +1,9 @@
 //! `liouville.integrable`: enough first integrals and an invariant measure for integration by quadratures (Euler, Jacobi).
 //!
 //! A motion of m variables with m - 2 independent integrals and an invariant measure is integrated by quadratures (Jacobi's last
-//! multiplier); m - 1 integrals need no measure. Coordinates on which no rates of others depend are left out first
-//! (Routh's ignorable coordinates, also where their momenta are no integrals, as for rolling bodies); they follow by quadratures at
-//! the end. The measure of the motion is one of the rest only where their own rates do not depend on them either, as the divergences
-//! are then the same. Masses with a law of their own are variables like the coordinates.
+//! multiplier); m - 1 integrals need no measure. Coordinates on which neither the rates of the others nor their own depend are
+//! left out first (Routh's ignorable coordinates, also where their momenta are no integrals, as for rolling bodies); they
+//! follow by quadratures at the end. Masses with a law of their own are variables like the coordinates.
 
 use crate::measure::{free_of, measure};
 use crate::noether::found::found;
@@ -15,7 +14,7 @@ use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::words::counted;
 use chetaev_mechanics::Characteristics;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::{Expr, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Function, Node, Symbol, Verdict};
 
 /// `liouville.integrable`.
 #[derive(Clone, Copy, Debug)]
@@ -32,8 +31,6 @@ pub struct Reduced {
     pub variables: usize,
     /// Whether the time is one of them.
     pub timed: bool,
-    /// Whether the rates of what is left out do not depend on it themselves: then the divergence of the rest is that of the motion.
-    pub keeps_divergence: bool,
     chart: Characteristics,
 }
 
@@ -63,9 +60,8 @@ impl Reduced {
             let rest: Vec<usize> = (0..moving.len()).filter(kept).collect();
             let next = rest.iter().copied().find(|&i| {
                 let s = moving[i].0;
-                let others = rest.iter().filter(|&&j| j != i);
-                rates.iter().all(|&e| free(e, s))
-                    && others.into_iter().all(|&j| free(moving[j].1, s))
+                // Its own rate too: y' = y^2 + x asks for a Riccati equation, not for a quadrature.
+                rates.iter().all(|&e| free(e, s)) && rest.iter().all(|&j| free(moving[j].1, s))
             });
             match next {
                 Some(i) => ignorable.push(i),
@@ -84,13 +80,13 @@ impl Reduced {
         all.extend(rest.map(|i| moving[i].1));
         let is_state = |s: Symbol| moving.iter().any(|(own, _)| *own == s);
         let timed = g.as_symbol(g.symbol("t", 0)).is_some_and(|t| {
-            let own = g.symbols_in(&all);
-            own.into_iter()
-                .any(|s| s == t || (system.prescribed_rate(s).is_some() && !is_state(s)))
+            let own = g.symbols_in(&all).into_iter();
+            let mut prescribed =
+                own.filter(|&s| s != t && system.prescribed_rate(s).is_some() && !is_state(s));
+            prescribed.next().is_some() || !all.iter().all(|&e| free(e, t))
         });
         Ok(Reduced {
             variables: moving.len() - ignorable.len() + chart.k() + usize::from(timed),
-            keeps_divergence: ignorable.iter().all(|&i| free(moving[i].1, moving[i].0)),
             ignorable,
             constant,
             timed,
@@ -111,11 +107,19 @@ fn variable<'a>(cx: &Context<'a>, place: usize) -> (&'a str, Symbol) {
     }
 }
 
-/// Whether an expression does not depend on a symbol, by its form or by its derivative.
+/// Whether an expression does not depend on a symbol, by its form or by its derivative; what jumps with it depends on it,
+/// although its derivative vanishes almost everywhere.
 fn is_free(cx: &Context<'_>, e: Expr, s: Symbol) -> bool {
     let (system, g) = (cx.system, &cx.system.graph);
     if !g.contains_any(e, &[s]) {
         return true;
+    }
+    let jumps = |e: &Expr| match g.node(*e) {
+        Node::Apply { function, .. } => *function == Function::Sign && g.contains_any(*e, &[s]),
+        _ => false,
+    };
+    if g.reachable(&[e]).iter().any(jumps) {
+        return false;
     }
     let slope = g.diff(e, s);
     let manifold = chetaev_mechanics::Manifold::default();
@@ -162,8 +166,25 @@ impl Claim for Liouville {
 }
 
 fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
-    let (system, g) = (cx.system, &cx.system.graph);
     let reduced = Reduced::of(cx)?;
+    let verdict = counted_for(cx, &reduced)?;
+    if reduced.timed || matches!(verdict, Verdict::Proved(_)) {
+        return Ok(verdict);
+    }
+    // Integrals and a density that contain the time are those of a motion with one variable more.
+    let extended = Reduced {
+        timed: true,
+        variables: reduced.variables + 1,
+        ..reduced
+    };
+    Ok(match counted_for(cx, &extended)? {
+        Verdict::Proved(proof) => Verdict::Proved(proof),
+        _ => verdict,
+    })
+}
+
+fn counted_for(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
+    let (system, g) = (cx.system, &cx.system.graph);
     let found = found(cx);
     let found = found.as_ref().as_ref().map_err(Clone::clone)?;
     let mut excluded: Vec<Symbol> = reduced
@@ -180,9 +201,12 @@ fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
     values.extend(found.integrals.iter().map(|i| i.value));
     let values = reduced.chart.restrict(system, &values);
     let free = values.iter().filter(|&&e| counts(e)).count();
-    let many = invariant(cx, &reduced, &values).unwrap_or(0).max(free);
+    let many = invariant(cx, reduced, &values)
+        .unwrap_or(0)
+        .max(free)
+        .max(reduced.constant.len());
     let m = reduced.variables;
-    let about = about(cx, &reduced, many);
+    let about = about(cx, reduced, many);
     if many + 1 >= m {
         let detail = match many {
             0 => format!("{about}; a single variable needs neither integrals nor a measure"),
@@ -193,16 +217,10 @@ fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
     }
     let measure = measure(cx);
     let measure = measure.as_ref().as_ref().map_err(Clone::clone)?;
-    // A density without a formula may contain what is left out: then another one is asked for.
-    let exists = matches!(&measure.verdict, Verdict::Proved(_));
-    let reduced_exists = || match reduced.ignorable.is_empty() {
-        true => Ok(true),
-        false => free_of(cx, &reduced.ignorable).map(|v| matches!(v, Verdict::Proved(_))),
-    };
+    // A density without a formula may contain what is left out: then another one is asked for, which is a quadrature.
     let usable = match measure.density {
-        _ if !reduced.keeps_divergence => false,
-        Some(density) if counts(density) => true,
-        _ => exists && reduced_exists()?,
+        Some(density) if counts(density) => matches!(&measure.verdict, Verdict::Proved(_)),
+        _ => matches!(free_of(cx, &reduced.ignorable)?, Verdict::Proved(_)),
     };
     let missing = m - 2 - many.min(m - 2);
     Ok(match (missing, usable) {
@@ -324,8 +342,12 @@ fn about(cx: &Context<'_>, reduced: &Reduced, many: usize) -> String {
         true => "",
         false => ", what the constraints fix among these",
     };
+    let time = match reduced.timed {
+        true => " (the time is one of them)",
+        false => "",
+    };
     format!(
-        "the motion has {}{left_out}{constant}, with {found} of them{fixed}",
+        "the motion has {}{time}{left_out}{constant}, with {found} of them{fixed}",
         counted(reduced.variables, "variable", "variables"),
     )
 }

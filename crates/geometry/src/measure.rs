@@ -120,12 +120,20 @@ fn without_formula(cx: &Context<'_>, flow: &Flow<'_>) -> Verdict {
     verdict
 }
 
-/// Whether a density exists that does not contain some of the coordinates.
+/// Whether a density exists that does not contain some of the coordinates, and follows by a quadrature: the admissible fields and
+/// their brackets have to give the derivatives of its logarithm in all directions.
 ///
 /// # Errors
 /// A sentence that says why the motion is not known.
 pub fn free_of(cx: &Context<'_>, coordinates: &[usize]) -> Result<Verdict, String> {
-    Ok(by_brackets(cx, &Flow::of(cx)?, coordinates))
+    let flow = Flow::of(cx)?;
+    let full = cx.system.n() + usize::from(!flow.autonomous);
+    Ok(match flag(cx, &flow, coordinates) {
+        Ok(Some(flag)) if flag.fields.len() == full => exists(flag),
+        Ok(Some(_)) => Verdict::undecided("the brackets do not determine the density"),
+        Ok(None) => not_affine(cx, &flow),
+        Err(verdict) => *verdict,
+    })
 }
 
 /// Whether a density exists, without its formula; free of the coordinates with these indices.
@@ -233,7 +241,9 @@ fn not_affine(cx: &Context<'_>, flow: &Flow<'_>) -> Verdict {
         .prover
         .identity(cx.system, &[flow.divergence], manifold, on);
     match zero {
-        Verdict::Proved(_) => zero,
+        Verdict::Proved(_) => {
+            zero.prefixed("dq dη is invariant, N = 1, as the divergence of the motion vanishes")
+        }
         _ => Verdict::undecided(
             "the constraints are not affine in the velocities; no density was found among the functions of the coordinates that occur and their products with powers of the roots that contain velocities"
         ),
@@ -307,7 +317,11 @@ impl Claim for InvariantMeasure {
             true => ("N dq dη", String::new()),
             false => ("N dq dη dM", format!(" and M = ({})", masses.join(", "))),
         };
-        let with = format!("with η = ({}){with}", measure.velocities.join(", "));
+        let all = match cx.system.fixed_functions().is_empty() {
+            true => "",
+            false => " and dq that of all coordinates, without the holonomic constraints, whose derivatives alone are imposed",
+        };
+        let with = format!("with η = ({}){with}{all}", measure.velocities.join(", "));
         let mut formulas = Vec::new();
         let mut verdict = measure.verdict.clone();
         if let Some(density) = measure.density {

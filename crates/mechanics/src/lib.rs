@@ -4,6 +4,7 @@ pub mod card;
 pub mod characteristics;
 pub mod choice;
 pub mod claims;
+pub mod components;
 pub mod constraint;
 pub mod curvature;
 pub mod equations;

@@ -1,6 +1,7 @@
 //! Which constraints are independent, and which velocities to solve them for.
 
 use crate::characteristics::CharacteristicsError;
+use crate::components;
 use crate::sample;
 use crate::system::System;
 use crate::terms::MotionTerms;
@@ -22,6 +23,9 @@ impl Selection {
         (0..n).filter(|i| !self.dependent.contains(i)).collect()
     }
 }
+
+/// What it costs to solve for a velocity that does not occur in every factor of a constraint: more than a root.
+const LOSES_COMPONENTS: usize = 200_000;
 
 /// Chooses independent rows and dependent velocities: those the user wants independent stay so where possible, then
 /// pivots that are numbers are preferred to parameters, parameters to functions of the state.
@@ -48,14 +52,19 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
         .graph
         .evaluate_f64(&terms.jacobian.concat(), &|s| point.get(&s).copied())
         .unwrap_or_else(|_| vec![f64::NAN; n * r]);
-    let cost: Vec<Vec<usize>> = terms
-        .jacobian
-        .iter()
+    let cost: Vec<Vec<usize>> = (0..r)
         .map(|row| {
-            let highest = |j: usize| Some(terms.jets[j].v_symbol);
-            (0..n)
-                .map(|j| cost_of(system, row[j], j, highest(j)))
-                .collect()
+            let factors = components::factors_of(system, terms, row);
+            let lacks = |v: Symbol| move |&factor: &Expr| !system.graph.contains_any(factor, &[v]);
+            let cost = |j: usize| {
+                let highest = terms.jets[j].v_symbol;
+                let lost = match factors.iter().any(lacks(highest)) {
+                    true => LOSES_COMPONENTS,
+                    false => 0,
+                };
+                lost + cost_of(system, terms.jacobian[row][j], j, Some(highest))
+            };
+            (0..n).map(cost).collect()
         })
         .collect();
     Ok(eliminate(values, cost, n))

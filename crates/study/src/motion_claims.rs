@@ -394,15 +394,51 @@ impl Claim for IntegralDrift {
         if let Some(found) = found_along(cx) {
             if let Some(followed) = found.0.iter().find(named) {
                 let what = words_of_found(cx, followed);
-                return followed_verdict(&evidence, followed, &what).into();
+                let verdict = no_value(followed, &what)
+                    .unwrap_or_else(|| followed_verdict(&evidence, followed, &what));
+                return on_its_component(cx, followed, verdict).into();
             }
         }
         match evidence.integrals.iter().find(named) {
             Some(followed) => {
-                followed_verdict(&evidence, followed, &format!("`{}`", followed.name)).into()
+                let what = format!("`{}`", followed.name);
+                no_value(followed, &what)
+                    .unwrap_or_else(|| followed_verdict(&evidence, followed, &what))
+                    .into()
             }
             None => Verdict::undecided("no such integral is stated").into(),
         }
+    }
+}
+
+/// Where an integral has no value, as x'/y' at y' = 0, there is nothing to keep.
+fn no_value(followed: &Followed, what: &str) -> Option<Verdict> {
+    let starts = followed.values.first().is_some_and(|x| x.is_finite());
+    match (starts, followed.drift.value.is_finite()) {
+        (true, true) => None,
+        (false, _) => Some(Verdict::not_applicable(
+            "the integral has a value at the start",
+            format!("{what} has no finite value at the start"),
+        )),
+        (true, false) => Some(Verdict::not_applicable(
+            "the integral has a value along the motion",
+            format!("{what} has no finite value at t = {:.6}", followed.drift.t),
+        )),
+    }
+}
+
+/// A found integral that is one on a component of the constraints need not be one of a motion on another.
+fn on_its_component(cx: &Context<'_>, followed: &Followed, verdict: Verdict) -> Verdict {
+    let claim = format!("noether.integral#{}", followed.name);
+    match (&verdict, &cx.finding(&claim).verdict) {
+        (Verdict::Refuted(found), Verdict::Conditional { condition, .. }) => {
+            let detail = format!(
+                "`{claim}` is conditional: it holds where {condition}, and this motion is elsewhere ({})",
+                found.detail
+            );
+            Verdict::not_applicable(claim, detail)
+        }
+        _ => verdict,
     }
 }
 

@@ -136,6 +136,14 @@ impl MotionEvidence {
     }
 }
 
+impl MotionEvidence {
+    /// Takes the difference of the two formulations from another run of the first, or says that there is none.
+    pub(crate) fn compare_with(&mut self, first: Option<&Run>) {
+        let both = first.zip(self.comparison.as_ref());
+        self.disagreement = both.map(|(first, other)| difference(first, other));
+    }
+}
+
 /// First integrals that a search found, along a run.
 #[derive(Clone, Debug)]
 pub struct FoundIntegrals(pub Vec<Followed>);

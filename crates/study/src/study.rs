@@ -324,16 +324,28 @@ fn compute(
         events: Vec::new(),
         ..settings.clone()
     };
+    // Equations are compared, and so by runs that no projection leads to kept integrals.
+    let unprojected = RunSettings {
+        keep: Vec::new(),
+        ..reached.clone()
+    };
     let comparison = match check_applies(&cx, other.card()) {
         Ok(()) => integrate(
             &subject,
             other,
-            &reached,
+            &unprojected,
             "integrating the other form",
             hooks,
         )
         .ok(),
         Err(_) => None,
+    };
+    let plain = match (&comparison, settings.keep.is_empty()) {
+        (Some(_), false) => {
+            let what = "integrating without projection";
+            integrate(&subject, formulation, &unprojected, what, hooks).ok()
+        }
+        _ => None,
     };
     let finer = if options.global_error && !run.ending.interrupted {
         let tolerance = (settings.tolerance / 10.0).max(1.3 * sharpest(&settings.method));
@@ -357,6 +369,9 @@ fn compute(
     let orders = crate::method_order::observed_order(&subject, &settings, &run, hooks);
     let mut evidence =
         MotionEvidence::new(model, &subject, run, comparison, finer, orders, &settings)?;
+    if !settings.keep.is_empty() {
+        evidence.compare_with(plain.as_ref());
+    }
     let is_witness = |c: &&dyn Claim| c.id().starts_with("witness");
     let mut witnesses = known.claims().iter().filter(|c| is_witness(c));
     if prepared.terms.order == 1 && witnesses.any(|c| options.claims.wants_claim(*c)) {

@@ -36,11 +36,9 @@ pub(super) fn around(cx: &Context<'_>, flow: &Flow<'_>, local: Verdict) -> Verdi
     );
     match turned(cx, flow, &angles) {
         Some(verdict) => verdict,
+        // On the states as they are, turns and all, the claim is not decided then.
         None => match local {
-            Verdict::Proved(mut proof) => {
-                proof.detail = format!("{}; {open}", proof.detail);
-                Verdict::Proved(proof)
-            }
+            Verdict::Proved(proof) => Verdict::undecided(format!("{}; {open}", proof.detail)),
             other => other,
         },
     }
@@ -95,24 +93,50 @@ fn returns(cx: &Context<'_>, e: Expr, angle: usize) -> bool {
     !g.contains_any(g.substitute(e, &replaced), &[symbol])
 }
 
-/// A verdict where ln N changes by a constant along an angle.
+/// Averages over so many parts of a turn are formed: of a function that returns they have its mean, and they are constants
+/// for sums of sines of few multiples of the angle.
+const PARTS: [i64; 4] = [1, 3, 4, 12];
+
+/// A constant that is the mean of a function over a turn of an angle.
+fn mean(cx: &Context<'_>, slope: Expr, angle: usize) -> Option<Expr> {
+    let (g, own) = (&cx.system.graph, cx.system.coordinates[angle].q);
+    if excluded::is_constant(cx, slope) {
+        return Some(slope);
+    }
+    if !returns(cx, slope, angle) {
+        return None;
+    }
+    PARTS.into_iter().find_map(|parts| {
+        let share = g.div(g.one(), g.integer(parts));
+        let turned = (0..parts).map(|k| {
+            let by = g.mul(&[g.integer(2 * k), share, g.pi()]);
+            g.substitute(slope, &[(own, g.add(&[own, by]))])
+        });
+        let mean = g.mul(&[share, g.add(&turned.collect::<Vec<_>>())]);
+        excluded::is_constant(cx, mean).then_some(mean)
+    })
+}
+
+/// A verdict where ln N changes over a turn of an angle.
 fn turned(cx: &Context<'_>, flow: &Flow<'_>, angles: &[usize]) -> Option<Verdict> {
     let found = flag(cx, flow, &[]).ok()??;
     let slopes = slopes(cx, flow, &found)?;
     angles.iter().find_map(|&j| {
-        if !excluded::is_constant(cx, slopes[j]) {
-            return None;
-        }
+        let mean = mean(cx, slopes[j], j)?;
         let on = "in the coordinates";
         let verdict = cx
             .prover
-            .identity(cx.system, &[slopes[j]], &Manifold::default(), on);
+            .identity(cx.system, &[mean], &Manifold::default(), on);
         let Verdict::Refuted(mut refuted) = verdict else {
             return None;
         };
         let name = &cx.system.coordinates[j].name;
+        let slope = match mean == slopes[j] {
+            true => "a constant slope",
+            false => "a slope with a mean",
+        };
         let what = format!(
-            "near every place a density of the coordinates exists, but its logarithm has a constant slope that is not zero along the angle {name}, and so does not return after a turn"
+            "near every place a density of the coordinates exists, but its logarithm has {slope} that is not zero along the angle {name}, and so does not return after a turn"
         );
         Some(match excluded::fields_at_rest(cx, flow).is_some() {
             true => {

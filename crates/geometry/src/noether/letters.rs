@@ -54,6 +54,7 @@ impl Letters {
         roots.extend(velocities.iter().map(|l| l.value));
         let mut found = Occurring::in_roots(system, &roots);
         found.roots_of_measure(cx);
+        found.divisors(cx);
         Letters {
             velocities,
             known: known(cx),

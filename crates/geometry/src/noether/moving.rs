@@ -3,9 +3,11 @@
 //! With the forces `F_a = m_a r_a''` on the particles, reactions among them, `K = Σ m r'`, `H_A = Σ (r - r_A) × m r'`:
 //! `d/dt (K·e) = K·e' + F·e` (18a) and `d/dt (H_A·e) = K·(r_A' × e) + H_A·e' + M_A·e` (18), for any e and A that are functions of the
 //! state. Directions e are searched among the axes, the directions that turn with an angle, and those from particle to particle;
-//! points A among the origin, the particles and the centre of mass.
+//! points A among the origin, the particles, the centre of mass, and all points at rest.
 
+use super::ansatz::Ansatz;
 use super::motion::{draw_with_points, Motion};
+use super::shown::readable;
 use chetaev_mechanics::{mass, particles, Context};
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::{Expr, Function, Graph, Node};
@@ -183,6 +185,43 @@ impl<'a> Swarm<'a> {
         found
     }
 
+    /// A point at rest about which the moment along a fixed direction is kept, where it is not the origin: for points A at rest
+    /// (18) is `(Σ r × F)·e = A·(F × e)`, linear in A.
+    fn at_rest(
+        &self,
+        cx: &Context<'_>,
+        motion: &Motion<'_>,
+        e: &Named<Vector>,
+    ) -> Option<Named<Vector>> {
+        let g = self.g;
+        let moves = |s| motion.moves(s);
+        if !e.value.iter().all(|&x| g.is_free_of(x, &moves)) {
+            return None;
+        }
+        let own = self.positions.iter().zip(&self.forces);
+        let moment = self.sum(own.map(|(r, f)| cross(g, r, f)));
+        let force = self.sum(self.forces.iter().copied());
+        let across = cross(g, &force, &e.value);
+        let used: Vec<usize> = (0..3).filter(|&i| !g.is_zero(across[i])).collect();
+        let mut columns: Vec<Vec<Expr>> = used.iter().map(|&i| vec![across[i]]).collect();
+        columns.push(vec![dot(g, &moment, &e.value)]);
+        let seed = cx.prover.points_seed();
+        let ansatz = Ansatz::new(motion, &columns, &motion.manifold, &[], seed).ok()?;
+        let found = ansatz.with_last()?;
+        let (&last, others) = found.split_last()?;
+        let mut value = [g.zero(); 3];
+        for (&i, &c) in used.iter().zip(others) {
+            value[i] = readable(g, g.neg(g.div(c, last)));
+        }
+        let texts: Vec<String> = (0..self.dimension(motion))
+            .map(|i| g.text(value[i]))
+            .collect();
+        value.iter().any(|&x| !g.is_zero(x)).then(|| Named {
+            words: format!("the point ({})", texts.join(", ")),
+            value,
+        })
+    }
+
     /// K·e with the left side of (18a).
     fn along(&self, motion: &Motion<'_>, e: Named<Vector>) -> Kept {
         let g = self.g;
@@ -278,10 +317,14 @@ pub fn axes(cx: &Context<'_>) -> Result<Searched, String> {
     let swarm = Swarm::of(&motion);
     let (axes, points) = (swarm.axes(&motion), swarm.points());
     let pairs = axes.iter().flat_map(|e| points.iter().map(move |a| (e, a)));
-    let candidates = pairs
+    let mut candidates: Vec<Kept> = pairs
         .take(CANDIDATES)
         .map(|(e, a)| swarm.about(&motion, e, a))
         .collect();
+    for e in &axes {
+        let point = swarm.at_rest(cx, &motion, e);
+        candidates.extend(point.map(|a| swarm.about(&motion, e, &a)));
+    }
     kept(cx, &motion, candidates)
 }
 

@@ -28,6 +28,10 @@ const LENGTH: u64 = 100;
 pub(super) struct Occurring<'a> {
     system: &'a System,
     angles: Vec<Expr>,
+    /// Arguments of hyperbolic functions.
+    hyperbolic: Vec<Expr>,
+    /// Tangents, circular and hyperbolic, and logarithms.
+    others: Vec<Expr>,
     roots: Vec<Expr>,
     /// Roots of the factors of the determinant of the mass matrix.
     measure: Vec<Expr>,
@@ -41,6 +45,8 @@ impl<'a> Occurring<'a> {
         let mut found = Occurring {
             system,
             angles: Vec::new(),
+            hyperbolic: Vec::new(),
+            others: Vec::new(),
             roots: Vec::new(),
             measure: Vec::new(),
             exponentials: Vec::new(),
@@ -53,8 +59,20 @@ impl<'a> Occurring<'a> {
                     arguments,
                 } => match (function, &**arguments) {
                     (function, &[angle]) if function.is_circular() && found.is_of_place(angle) => {
+                        if matches!(function, Function::Tan | Function::Cot) {
+                            insert(&mut found.others, e);
+                        }
                         found.angle(angle)
                     }
+                    (Function::Sinh | Function::Cosh | Function::Tanh, &[x])
+                        if found.is_of_place(x) =>
+                    {
+                        if matches!(function, Function::Tanh) {
+                            insert(&mut found.others, e);
+                        }
+                        insert(&mut found.hyperbolic, x)
+                    }
+                    (Function::Log, &[x]) if found.is_of_place(x) => insert(&mut found.others, e),
                     (Function::Exp, &[x]) if found.is_of_place(x) => {
                         insert(&mut found.exponentials, e)
                     }
@@ -83,6 +101,8 @@ impl<'a> Occurring<'a> {
         let g = &self.system.graph;
         for list in [
             &mut self.angles,
+            &mut self.hyperbolic,
+            &mut self.others,
             &mut self.roots,
             &mut self.exponentials,
             &mut self.reciprocals,
@@ -155,6 +175,23 @@ impl<'a> Occurring<'a> {
         }
     }
 
+    /// Coordinates by which the constraints divide when they are solved, as x in `x z' = z x'` of z/x = c.
+    pub(super) fn divisors(&mut self, cx: &Context<'_>) {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let chart = Characteristics::independent_velocities(system, cx.terms, cx.selection);
+        let Ok(chart) = chart else { return };
+        for e in g.reachable(&chart.velocities) {
+            let Node::Power { base, exponent } = g.node(e) else {
+                continue;
+            };
+            let divides = g.as_integer(*exponent).is_some_and(|n| n < 0);
+            let is_coordinate = system.coordinates.iter().any(|c| c.q == *base);
+            if divides && is_coordinate && !self.angles.contains(base) {
+                insert(&mut self.reciprocals, *base);
+            }
+        }
+    }
+
     /// Whether a factor vanishes where all angles are multiples of a right angle, as 1 - cos θ does, half of sin² θ: such
     /// factors come in pairs whose product is a square.
     fn vanishes_at_a_corner(&self, factor: Expr) -> bool {
@@ -198,11 +235,19 @@ impl<'a> Occurring<'a> {
                 letter(g.cos(angle), (0, 1), 1),
             ]
         };
-        let plain_weight = if self.angles.is_empty() { 1 } else { 2 };
+        let plain_weight = match self.angles.is_empty() && self.hyperbolic.is_empty() {
+            true => 1,
+            false => 2,
+        };
         let mut all: Vec<CoefficientLetter> = Vec::new();
         self.angles
             .iter()
             .for_each(|&angle| all.extend(circle(angle)));
+        for &x in &self.hyperbolic {
+            let value = |function| g.apply(function, &[x]);
+            all.push(letter(value(Function::Sinh), (0, 9), 1));
+            all.push(letter(value(Function::Cosh), (0, 1), 1));
+        }
         let first_turning = all.len();
         for c in &self.system.coordinates {
             if self.system.angles.contains(&c.name) && !self.angles.contains(&c.q) {
@@ -213,13 +258,19 @@ impl<'a> Occurring<'a> {
         for &root in self.roots.iter().chain(&self.measure) {
             all.push(letter(root, (-1, 1), 1));
         }
+        let moves = |s: Symbol| g.symbol_name(s) == "t" || self.system.moves(g.symbol_name(s));
         for &e in &self.system.search_functions {
-            if !all.iter().any(|own| own.letter.value == e) {
+            // A constant says nothing, and the powers of zero have no values.
+            let is_constant = g.is_free_of(e, &moves);
+            if !is_constant && !all.iter().any(|own| own.letter.value == e) {
                 all.push(letter(e, (-1, 2), 1));
             }
         }
         for &e in &self.exponentials {
             all.push(letter(e, (-2, 2), 1));
+        }
+        for &e in &self.others {
+            all.push(letter(e, (0, 2), 1));
         }
         for c in &self.system.coordinates {
             match self.angles.contains(&c.q) {
@@ -285,7 +336,8 @@ impl<'a> Occurring<'a> {
 
     /// Coordinates that occur nowhere, where others occur in sines and the model gives no unit of an angle.
     fn perhaps_angles(&self) -> Vec<Expr> {
-        if self.angles.is_empty() || !self.system.angles.is_empty() {
+        let turns = !(self.angles.is_empty() && self.hyperbolic.is_empty());
+        if !turns || !self.system.angles.is_empty() {
             return Vec::new();
         }
         self.absent().map(|c| c.q).collect()

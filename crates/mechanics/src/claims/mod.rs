@@ -16,6 +16,7 @@ mod roots;
 
 use crate::card::Card;
 use crate::characteristics::{self, Selection};
+use crate::components;
 use crate::formulations::DeriveError;
 use crate::prover::Prover;
 use crate::redundancy::LeftOut;
@@ -145,6 +146,11 @@ pub trait Claim: Sync {
         1
     }
 
+    /// Whether it is about states that satisfy the constraints, so that it holds on those components of them that were looked at.
+    fn speaks_of_motions(&self) -> bool {
+        !matches!(self.group(), Group::Model | Group::Motion)
+    }
+
     /// Decides the claim; its hypotheses hold.
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding;
 }
@@ -231,6 +237,9 @@ pub struct Context<'a> {
     out_of_time: AtomicBool,
     stated: Option<Stated<'a>>,
 }
+
+/// The components of the constraints that the chart covers, where it leaves out others.
+struct Covered(Option<String>);
 
 /// Claims that are decided for the parameters stated to be zero, and the context of that system.
 #[derive(Clone, Copy)]
@@ -378,11 +387,46 @@ impl<'a> Context<'a> {
         let finding = match (self.for_zeros(claim, full), self.obstacle(claim, subject)) {
             (Some(finding), _) => finding,
             (None, Some(verdict)) => verdict.into(),
-            (None, None) => claim.decide(self, subject),
+            (None, None) => self.on_components(claim, claim.decide(self, subject)),
         };
         lock(&self.in_progress).retain(|name| name != full);
         let finding = Arc::new(finding);
         lock(&self.decided).insert(full.to_string(), finding.clone());
+        finding
+    }
+
+    /// What is proved of the motions in a chart of some components of the constraints is proved of these alone.
+    fn on_components(&self, claim: &dyn Claim, mut finding: Finding) -> Finding {
+        if !claim.speaks_of_motions() {
+            return finding;
+        }
+        let covered =
+            self.shared(|cx| Covered(components::covered(cx.system, cx.terms, cx.selection)));
+        let Some(covered) = &covered.0 else {
+            return finding;
+        };
+        let sentence = format!(
+            "of the components of the constraints only {covered} was looked at, as no one velocity can be solved for on all"
+        );
+        finding.verdict = match finding.verdict {
+            Verdict::Proved(proof) => Verdict::Conditional {
+                condition: covered.clone(),
+                proof,
+                counterexample: None,
+            },
+            Verdict::Conditional {
+                condition,
+                proof,
+                counterexample,
+            } => Verdict::Conditional {
+                condition: format!("{condition}, where {covered}"),
+                proof,
+                counterexample,
+            },
+            Verdict::NotApplicable { .. } => return finding,
+            other => other,
+        };
+        finding.verdict.prefix(&sentence);
         finding
     }
 

@@ -11,7 +11,7 @@ use super::assumptions::{as_pi_number, Assumptions};
 use super::enclose::EncloseError;
 use super::newton::System;
 use crate::graph::Graph;
-use crate::node::{Expr, Symbol};
+use crate::node::{Expr, Node, Symbol};
 use crate::number::ball::{self, Ball, BallError, Precision};
 use crate::number::random::Random;
 use crate::rational::{self, Rational};
@@ -57,6 +57,9 @@ const MOST_PRECISIONS: u32 = 6;
 const ENOUGH: usize = 400;
 /// Bits times nodes of one evaluation.
 const MOST_BITS: usize = 600_000_000;
+/// Bits of one evaluation in which functions other than roots occur: their series cost the square of them, and
+/// `exp` of a large number in a residual that cancels would ask for as many bits as the number is large.
+const MOST_BITS_OF_SERIES: usize = 24_000;
 /// Evaluating less than this many nodes at every precision is cheap; beyond it fewer points are tried.
 const CHEAP: usize = 20_000;
 /// For less than this many nodes more points cost nothing that is noticed.
@@ -170,8 +173,8 @@ struct Hunt<'a> {
     /// Made where it is needed.
     approach: OnceCell<Option<Approach<'a>>>,
     random: Random,
-    /// Nodes evaluated at each point.
-    nodes: usize,
+    /// At most so many bits are used at a point.
+    most_bits: usize,
 }
 
 impl<'a> Hunt<'a> {
@@ -191,14 +194,22 @@ impl<'a> Hunt<'a> {
         let eliminated = |symbol: &Symbol| claim.solved.iter().any(|(s, _)| s == symbol);
         let mut independent = graph.symbols_in(&roots);
         independent.retain(|symbol| !dependent(symbol) && !eliminated(symbol));
+        let nodes = graph.reachable(claim.residuals);
+        let has_series = nodes
+            .iter()
+            .any(|&e| matches!(graph.node(e), Node::Apply { .. }));
+        let of_series = match has_series {
+            true => MOST_BITS_OF_SERIES,
+            false => usize::MAX,
+        };
         Self {
             graph,
             claim,
             independent,
+            most_bits: of_series.min(MOST_BITS / nodes.len().max(1)),
             system: System::new(graph, claim.constraints),
             approach: OnceCell::new(),
             random: Random::stream(seed, 0xc0de),
-            nodes: graph.reachable(claim.residuals).len(),
         }
     }
 
@@ -251,7 +262,7 @@ impl<'a> Hunt<'a> {
                 Err(EncloseError::Ball(BallError::Uncertain(_))) => {}
                 Err(_) => break,
             }
-            if wanted.saturating_mul(self.nodes) > MOST_BITS {
+            if wanted > self.most_bits {
                 break;
             }
             bits = wanted;

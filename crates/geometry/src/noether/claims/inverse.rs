@@ -1,5 +1,6 @@
 //! `noether.inverse#NAME`: an integral that the model states is one, and its generator.
 
+use super::parts::{parts, Part};
 use super::{generator_formulas, on_manifold, requirements};
 use crate::noether::embedded::Embedded;
 use crate::noether::generator::Generator;
@@ -30,7 +31,7 @@ impl Claim for Inverse {
         "A function G stated under [integrals] keeps its value along every motion: X̄G = 0 on the constraint manifold. If so, the inverse of \
          Noether's theorem gives its field: χ = -W̄⁻¹ ∂G, here with δ = 0, and the gauge g = G + p χ; the Killing-type equations are \
          proved for them. `conditional` says that it is one for parameters as the model defines them by others, not for \
-         independent ones, or for the values that it states, or as long as the function does not jump, or on the part of the states that the model states with `on`, which is proved to be invariant; `refuted` comes with an admissible state at which the rate of G is not zero."
+         independent ones, or for the values that it states, or as long as the function does not jump, or on the part of the states that the model states with `on`, which is proved to be invariant, or on one component of constraints that are products; `refuted` comes with an admissible state at which the rate of G is not zero."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -62,12 +63,22 @@ impl Claim for Inverse {
             },
             other => match on_part(cx, &motion, subject, *value) {
                 Some(verdict) => verdict,
-                None => by_definitions(cx, &motion, *value)
+                None => match by_definitions(cx, &motion, *value)
                     .or_else(|| by_values(cx, &motion, *value))
-                    .unwrap_or(other),
+                {
+                    Some(verdict) => verdict,
+                    None => match on_positions(cx, &motion, *value) {
+                        // Its field is one of the motion on the positions only, which the embedded equations do not know.
+                        Some(verdict) => return verdict.into(),
+                        None => other,
+                    },
+                },
             },
         };
-        if matches!(verdict, Verdict::Conditional { .. }) {
+        if matches!(
+            verdict,
+            Verdict::Conditional { .. } | Verdict::NotApplicable { .. }
+        ) {
             return verdict.into();
         }
         if !matches!(verdict, Verdict::Proved(_)) {
@@ -90,58 +101,28 @@ fn on_part(
     name: Option<&str>,
     value: Expr,
 ) -> Option<Verdict> {
-    let (system, g) = (cx.system, &cx.system.graph);
-    let own: Vec<_> = system
-        .integral_conditions
-        .iter()
+    let g = &cx.system.graph;
+    let stated = cx.system.integral_conditions.iter();
+    let own: Vec<_> = stated
         .filter(|(integral, ..)| Some(integral.as_str()) == name)
         .collect();
     if own.is_empty() {
         return None;
     }
-    let mut pairs: Vec<(Expr, Expr)> = Vec::new();
-    let mut watched = vec![value];
-    for (_, left, right, text) in &own {
-        let given = |e: Expr, by: Expr| {
-            let symbol = g.as_symbol(e).filter(|&s| motion.moves(s))?;
-            (!g.contains_any(by, &[symbol])).then_some((e, by))
-        };
-        match given(*left, *right).or_else(|| given(*right, *left)) {
-            Some(pair) => pairs.push(pair),
-            None => {
-                let tried = format!("`{text}` gives no coordinate or velocity by the others");
-                return Some(Verdict::undecided(tried));
-            }
-        }
-        watched.push(g.sub(*left, *right));
-    }
-    let steps = pairs.len() + system.definitions.len();
-    let all: Vec<(Expr, Expr)> = pairs.iter().chain(&system.definitions).copied().collect();
-    let there = |e: Expr| (0..steps).fold(e, |e, _| g.substitute(e, &all));
-    let rates: Vec<Expr> = motion
-        .derivatives(&watched)
-        .into_iter()
-        .map(there)
-        .collect();
-    let solved = motion.manifold.solved.iter();
-    let given = |e: Expr| pairs.iter().any(|&(symbol, _)| symbol == e);
-    let manifold = Manifold {
-        solved: solved
-            .filter(|&&(s, _)| !given(g.symbol_expr(s)))
-            .map(|&(s, e)| (s, there(e)))
-            .collect(),
-        implicit: motion
-            .manifold
-            .implicit
-            .iter()
-            .map(|&(f, s)| (there(f), s))
-            .collect(),
-    };
-    let on = "on this part of the constraint manifold";
+    let conditions: Vec<Expr> = own.iter().map(|(_, l, r, _)| g.sub(*l, *r)).collect();
     let texts: Vec<&str> = own.iter().map(|(.., text)| text.as_str()).collect();
     let condition = texts.join(", ");
-    Some(match cx.prover.identity(system, &rates, &manifold, on) {
-        Verdict::Proved(mut proof) => {
+    let watched = [&[value], &conditions[..]].concat();
+    let verdict = match on_all_parts(cx, motion, &watched, &conditions) {
+        Ok(verdict) => verdict,
+        Err(why) => return Some(Verdict::undecided(why)),
+    };
+    Some(match verdict {
+        None => Verdict::not_applicable(
+            format!("there are states with {condition}"),
+            format!("no admissible state at which the constraints are regular satisfies {condition}"),
+        ),
+        Some(Verdict::Proved(mut proof)) => {
             proof.detail = format!(
                 "motions that begin with {condition} stay there, and X̄G = 0 on them; {}",
                 proof.detail
@@ -152,10 +133,76 @@ fn on_part(
                 counterexample: None,
             }
         }
-        other => other.prefixed(
+        Some(other) => other.prefixed(
             "whether states as stated with `on` stay such, and the rate of the function vanishes there",
         ),
     })
+}
+
+/// The verdict on the states that satisfy the holonomic constraints, not only their derivatives.
+fn on_positions(cx: &Context<'_>, motion: &Motion<'_>, value: Expr) -> Option<Verdict> {
+    if cx.system.fixed_functions().is_empty() {
+        return None;
+    }
+    let verdict = on_all_parts(cx, motion, &[value], &[]).ok()??;
+    Some(match verdict {
+        Verdict::Proved(proof) => Verdict::Proved(proof)
+            .prefixed("X̄G = 0 on motions that satisfy the holonomic constraints themselves, not only their derivatives"),
+        other => other.prefixed("whether the rate of the function vanishes on motions"),
+    })
+}
+
+/// Whether the rates of functions vanish on all parts of the states with these conditions; `None` where there is no part.
+fn on_all_parts(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    watched: &[Expr],
+    conditions: &[Expr],
+) -> Result<Option<Verdict>, String> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let resolved = |e: Expr| {
+        let definitions = &system.definitions;
+        (0..definitions.len()).fold(e, |e, _| g.substitute(e, definitions))
+    };
+    let rates: Vec<Expr> = motion
+        .derivatives(watched)
+        .into_iter()
+        .map(resolved)
+        .collect();
+    let on = match conditions.is_empty() {
+        true => "on the constraint manifold with the holonomic constraints themselves",
+        false => "on this part of the constraint manifold",
+    };
+    let decided: Vec<(Part, Verdict)> = parts(cx, motion, conditions, &resolved)?
+        .into_iter()
+        .map(|part| {
+            let verdict = cx.prover.identity(system, &rates, &part.manifold, on);
+            (part, verdict)
+        })
+        .collect();
+    let holds = |(_, verdict): &&(Part, Verdict)| matches!(verdict, Verdict::Proved(_));
+    let proved: Vec<&(Part, Verdict)> = decided.iter().filter(holds).collect();
+    let refuted = decided.iter().find_map(|(_, verdict)| match verdict {
+        Verdict::Refuted(found) => Some(found.clone()),
+        _ => None,
+    });
+    let some = proved.iter().find_map(|(_, verdict)| match verdict {
+        Verdict::Proved(proof) => Some(proof.clone()),
+        _ => None,
+    });
+    // With conditions it is the whole of what is stated that has to stay such.
+    if let (Some(proof), Some(found), true) = (some, refuted, conditions.is_empty()) {
+        let places: Vec<String> = proved.iter().map(|(p, _)| p.chosen.join(", ")).collect();
+        return Ok(Some(Verdict::Conditional {
+            condition: places.join(" or "),
+            proof,
+            counterexample: Some(found),
+        }));
+    }
+    Ok(decided
+        .into_iter()
+        .map(|(_, verdict)| verdict)
+        .reduce(Verdict::and))
 }
 
 /// The verdict on a function that says nothing of the motion, or that jumps where it is not smooth.
@@ -225,8 +272,23 @@ fn by_values(cx: &Context<'_>, motion: &Motion<'_>, value: Expr) -> Option<Verdi
     let values: Vec<(Expr, Expr)> = stated
         .filter(|(_, value)| g.symbols_in(&[*value]).is_empty())
         .collect();
-    for_parameters(cx, motion, value, &values, 1, "states")
+    let mut found = for_parameters(cx, motion, value, &values, 1, "states")?;
+    // The condition names no more than it takes.
+    let mut needed = values;
+    let mut place = 0;
+    while needed.len() <= MOST_VALUES && place < needed.len() {
+        let mut fewer = needed.clone();
+        fewer.remove(place);
+        match for_parameters(cx, motion, value, &fewer, 1, "states") {
+            Some(verdict) => (found, needed) = (verdict, fewer),
+            None => place += 1,
+        }
+    }
+    Some(found)
 }
+
+/// Of more parameters it is not asked which values are needed.
+const MOST_VALUES: usize = 12;
 
 /// The verdict where it holds once parameters are replaced, which is done so many times.
 fn for_parameters(

@@ -7,6 +7,7 @@ mod integral;
 mod inverse;
 mod killing;
 mod moving;
+mod parts;
 mod reduced;
 mod structure;
 

@@ -77,7 +77,11 @@ fn integral(cx: &Context<'_>, symmetry: &Symmetry) -> Finding {
     let on = "on the constraint manifold";
     let kept = cx.prover.identity(system, &rates, &motion.manifold, on);
     let shown: Vec<String> = values.iter().map(|&e| g.text(readable(g, e))).collect();
-    let shown = shown.join(", ");
+    let of_holonomic = match system.fixed_functions().is_empty() {
+        true => "",
+        false => " (f the derivative of a holonomic constraint)",
+    };
+    let shown = format!("{}{of_holonomic}", shown.join(", "));
     let (extension, verdict) = match &symmetry.extension {
         Ok(found) => found,
         Err(searched) => {
