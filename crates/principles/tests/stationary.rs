@@ -263,3 +263,51 @@ fn tied_multipliers_have_no_constants_of_their_own() {
         method.verdict.detail()
     );
 }
+
+/// θ A = 0 at rest whatever the position, where nothing else asks for a position: z' = y x' with L + y z' has
+/// θ = z' + y, so θ A = (z' + y)(y', −x'), which vanishes at rest for every y. By hand: λ = 0 at rest, so that rest is a motion.
+#[test]
+fn rest_satisfies_suslovs_condition() {
+    let gyroscopic = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2) + y z'",
+        &[("c", "z' - y x'")],
+    );
+    let found = finding(&system(&gyroscopic), SUSLOV);
+    let Verdict::Conditional { condition, .. } = &found.verdict else {
+        panic!("{}: {}", found.verdict.word(), found.verdict.detail())
+    };
+    assert!(
+        condition.contains("x' = 0 and y' = 0"),
+        "{condition}: {}",
+        found.verdict.detail()
+    );
+}
+
+/// For z'² = x'² + y'² with a weight along x the motions with y' = 0 are stationary, which is not found: no sentence may say that none is.
+#[test]
+fn almost_none_is_not_none() {
+    let cone = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2) - x",
+        &[("c", "z'^2 - x'^2 - y'^2")],
+    );
+    let system = system(&cone);
+    for id in [STATIONARY, "hamilton-jacobi.applicable", "action.lagrange"] {
+        let found = finding(&system, id);
+        let detail = found.verdict.detail();
+        assert!(
+            found.verdict.word() != "refuted" || detail.contains("almost no motion"),
+            "{id}: {detail}"
+        );
+        assert!(!detail.contains("does not hold"), "{id}: {detail}");
+        assert!(!detail.contains("does not apply"), "{id}: {detail}");
+    }
+    let rest = text("x y", "1/2 (x'^2 + y'^2)", &[("c", "y' - t x'")]);
+    let found = finding(&common::system(&rest), "hamilton-jacobi.applicable");
+    assert!(
+        found.verdict.detail().contains("no motion but rest"),
+        "{}",
+        found.verdict.detail()
+    );
+}

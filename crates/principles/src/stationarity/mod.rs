@@ -17,5 +17,6 @@ mod suslov;
 pub(crate) use closed_form::{short as by_sines, zero_of};
 pub use closure::{Closure, Condition};
 pub use sets::{StationarySet, StationarySets};
+pub(crate) use stationary::NoneBut;
 pub use stationary::Stationary;
 pub use suslov::StationarySuslov;

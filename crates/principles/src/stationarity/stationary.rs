@@ -34,8 +34,8 @@ impl Claim for Stationary {
          Curves that make the action stationary solve the equations of the constrained extremum for L + Σ κ f with multipliers \
          κ(t). A motion with the reactions λ is among them exactly where κ exists with (a) Σ κ E[f]·δq = 0 for every virtual δq and (b) κ' = ρ − λ, \
          where Σ κ E[f] = Σ ρ ∂f/∂v. These linear conditions are differentiated along the motion until nothing new comes; then \
-         they hold for every motion (`proved`, with κ), for motions on an invariant subset given by equations (`conditional`), or for none \
-         (`refuted`; rest is named apart). Example: a particle z' = y x' has E[f]·δq = y' δx − x' δy, so (a) \
+         they hold for every motion (`proved`, with κ), for motions on an invariant subset given by equations (`conditional`), or for no such \
+         subset that was found (`refuted`: for no motion, for none but rest, or for almost none, where others were not followed; the sentence says which). Example: a particle z' = y x' has E[f]·δq = y' δx − x' δy, so (a) \
          demands κ = 0 unless x' = y' = 0, and then (b) demands λ = x' y'/(1 + y²) = 0: only motions with x' = 0 or y' = 0 are stationary. \
          A rolling disc, which is not integrable either, has κ = (−m x', −m y') for every motion. κ = 0 alone would need all \
          reactions to vanish. Parameters are taken as general."
@@ -143,22 +143,20 @@ fn multipliers(cx: &Context<'_>, closure: &Closure) -> (String, Vec<Formula>) {
 fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Finding {
     let found = sets::found(cx, motion);
     let found = &found.0;
-    let (rest, moving): (Vec<&Leaf>, Vec<&Leaf>) =
-        found.leaves.iter().partition(|leaf| leaf.at_rest);
     let open = not_followed(found);
-    if moving.is_empty() {
-        let sentence = match (rest.is_empty(), open.is_empty()) {
-            (true, true) => "no motion makes the action stationary among admissible curves".to_string(),
-            (false, true) => format!(
+    let all = moving_first(found);
+    if all.first().is_none_or(|leaf| leaf.at_rest) {
+        let sentence = match NoneBut::of(found) {
+            NoneBut::Nothing => "no motion makes the action stationary among admissible curves".to_string(),
+            NoneBut::Rest => format!(
                 "no motion makes the action stationary among admissible curves, except rest where {}",
-                alternatives(&rest)
+                alternatives(&all)
             ),
-            _ => ALMOST_NONE.into(),
+            NoneBut::Open => ALMOST_NONE.into(),
         };
         refuted.prefix(&format!("{sentence}{open}"));
         return refuted.into();
     }
-    let all: Vec<&Leaf> = moving.into_iter().chain(rest).collect();
     let legend = legend(cx, motion);
     let stated = format!("{}{legend}", alternatives(&all));
     let condition = format!("{stated}{open}");
@@ -171,6 +169,41 @@ fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Findin
         only(found)
     ));
     Finding { verdict, formulas }
+}
+
+/// The sets, those of rest last.
+pub(super) fn moving_first(found: &Found) -> Vec<&Leaf> {
+    let (rest, moving): (Vec<&Leaf>, Vec<&Leaf>) =
+        found.leaves.iter().partition(|leaf| leaf.at_rest);
+    moving.into_iter().chain(rest).collect()
+}
+
+/// What a refutation of `hamilton.stationary` leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NoneBut {
+    /// No motion is stationary.
+    Nothing,
+    /// None but rest.
+    Rest,
+    /// Almost none; others were not followed.
+    Open,
+}
+
+impl NoneBut {
+    /// For sets without one that moves.
+    fn of(found: &Found) -> NoneBut {
+        match (found.leaves.is_empty(), found.open.is_empty()) {
+            (true, true) => NoneBut::Nothing,
+            (false, true) => NoneBut::Rest,
+            _ => NoneBut::Open,
+        }
+    }
+
+    /// For the context's system, where the verdict is `refuted`.
+    pub(crate) fn refuted(cx: &Context<'_>) -> NoneBut {
+        cx.known::<sets::Sets>()
+            .map_or(NoneBut::Open, |sets| NoneBut::of(&sets.0))
+    }
 }
 
 /// Sets that the zero test does not confirm are no longer among those found.
