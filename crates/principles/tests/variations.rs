@@ -190,3 +190,22 @@ fn states_at_which_every_varied_curve_is_admissible() {
         found.verdict.detail()
     );
 }
+
+/// (z' − y x')(z' − x') = 0 has the integrable component z' = x': the sentence says on which component δf vanishes.
+#[test]
+fn a_product_of_constraints_names_its_component() {
+    let product = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2)",
+        &[("c", "(z' - y x') (z' - x')")],
+    );
+    for id in ["variation.hoelder", "hamilton.stationary-suslov"] {
+        let found = finding(&system(&product), id);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "conditional", "{id}: {detail}");
+        assert!(
+            detail.contains("on the component x' - z' = 0"),
+            "{id}: {detail}"
+        );
+    }
+}

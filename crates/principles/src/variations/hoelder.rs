@@ -183,10 +183,15 @@ fn for_some_displacements(
         _ => all.into_iter().map(bracketed).collect(),
     });
     let (condition, sentence) = match equations {
-        Some(equations) => (
-            listed(&equations),
-            format!("varied curves violate the constraints, except for displacements with {}", listed(&equations)),
-        ),
+        Some(equations) => {
+            let equations = listed(&equations);
+            let of = match equations.contains(" or ") {
+                true => "for displacements, or at states, with",
+                false => "for displacements with",
+            };
+            let sentence = format!("varied curves violate the constraints, except {of} {equations}");
+            (equations, sentence)
+        }
         None => (
             format!("on {} of {k} dimensions of virtual displacements, those with Σ E[f] δq = 0", k - rank.maximum),
             format!("varied curves violate the constraints, except for {} of {k} dimensions of virtual displacements", k - rank.maximum),
