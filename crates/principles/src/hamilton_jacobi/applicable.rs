@@ -5,7 +5,7 @@ use super::complete::verified;
 use super::elementary::elementary;
 use super::extremum::Extremum;
 use super::separation;
-use crate::stationarity::{Closure, NoneBut};
+use crate::stationarity::{free_constant, Closure, NoneBut};
 use crate::words::{formula, readable};
 use chetaev_mechanics::claims::formulation::{basis, derive, manifold, REFERENCE};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
@@ -189,10 +189,16 @@ pub(super) fn multipliers(cx: &Context<'_>) -> Option<Vec<Expr>> {
 }
 
 /// `π = p + Σ κ ∂f/∂v` as functions of the state, with the κ of the motions, length n; `None` where κ is not known for all of them.
+/// Free constants of κ(0), which belong to every motion with any value, are zero.
 pub fn momenta_on_motions(cx: &Context<'_>) -> Option<Vec<Expr>> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let kappa = multipliers(cx)?;
-    let jacobian = basis(cx).jacobian();
+    let basis = basis(cx);
+    let constants = basis.constraint_names().into_iter();
+    let constants: Vec<(Expr, Expr)> = constants
+        .map(|name| (free_constant(system, g, name), g.zero()))
+        .collect();
+    let kappa = g.substitute_all(&multipliers(cx)?, &constants);
+    let jacobian = basis.jacobian();
     let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
     let with = |(i, p): (usize, Expr)| {
         let reaction =
