@@ -246,6 +246,8 @@ pub(super) fn alternatives(leaves: &[&Leaf]) -> String {
 
 /// Longer conditions of cases that were not followed are not printed.
 const FOLLOWED: usize = 120;
+/// At most so many are.
+const NAMED: usize = 6;
 
 /// "only " where every case was followed.
 pub(super) fn only(found: &Found) -> &'static str {
@@ -278,15 +280,22 @@ pub(super) fn not_followed(found: &Found) -> String {
         true => "perhaps also",
         false => "whether it is so elsewhere is open,",
     };
-    let is_short = |text: &String| text.chars().count() < FOLLOWED;
-    match found.open.as_slice() {
-        [] => String::new(),
-        [_] | [_, _] if found.open.iter().all(is_short) => format!(
+    let is_short = |text: &&String| text.chars().count() < FOLLOWED;
+    let (short, long): (Vec<&String>, Vec<&String>) = found.open.iter().partition(is_short);
+    let named: Vec<&str> = short.iter().take(NAMED).map(|text| text.as_str()).collect();
+    let others = long.len() + short.len() - named.len();
+    match (named.as_slice(), others) {
+        ([], 0) => String::new(),
+        ([], 1) => format!("; {perhaps} in one case, too long to be followed"),
+        ([], many) => format!("; {perhaps} in {many} cases, too long to be followed"),
+        (named, 0) => format!(
             "; {perhaps} in cases that were not followed: {}",
-            found.open.join("; ")
+            named.join(", or ")
         ),
-        [_] => format!("; {perhaps} in one case, too long to be followed"),
-        many => format!("; {perhaps} in {} cases that were not followed", many.len()),
+        (named, others) => format!(
+            "; {perhaps} in cases that were not followed: {}, and in {others} more, too long or too many to be written",
+            named.join(", or ")
+        ),
     }
 }
 
