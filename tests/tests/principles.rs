@@ -432,6 +432,56 @@ fn quadratures_along_motions() {
     assert_eq!(word, "not-applicable");
 }
 
+/// Roots that are no momenta as they are written: with a negative mass the positive root belongs to the negative momentum. A free constant of
+/// κ(0) stands in no number. With a term linear in the velocity the roots are no opposites, and meet where the momentum does not vanish.
+#[test]
+fn quadratures_by_the_right_root() {
+    let models = [
+        r#"L = "-(q'^2 - q^2)/2""#,
+        r#"L = "-q'^2/2 - q""#,
+        r#"L = "q'^2/2 + q q' - q""#,
+    ];
+    for lagrangian in models {
+        for start in ["1", "-1"] {
+            let stated = format!(
+                "coordinates = [\"q\"]\n[lagrangian]\n{lagrangian}\n[initial]\nq = 1\n\"q'\" = {start}\n[simulation]\nt_end = 2\noutput = 200\n"
+            );
+            met(&stated);
+        }
+    }
+    let stated = "coordinates = [\"x\", \"y\"]\nconstraints = [\"y' = x x'\"]\n[lagrangian]\nL = \"(x'^2 + y'^2)/2 - x^2/2\"\n\
+                  [initial]\nx = 1\n[simulation]\nt_end = 6\noutput = 300\n";
+    let model = load("test.toml", stated, &NoFiles, &[]).model;
+    let words = ["witness.hamilton-jacobi", "motion.constraint-drift"];
+    let study = studied(model.expect("a model"), &words, |_| ());
+    let (word, told) = detail(&study, "witness.hamilton-jacobi#separated");
+    assert_ne!(word, "refuted", "{told}");
+    assert!(!told.contains("compiled"), "{told}");
+}
+
+/// The quadratures of a model meet its motion.
+#[track_caller]
+fn met(stated: &str) {
+    let model = load("test.toml", stated, &NoFiles, &[]).model;
+    let words = ["witness.hamilton-jacobi", "motion.constraint-drift"];
+    let study = studied(model.expect("a model"), &words, |_| ());
+    let (word, told) = detail(&study, "witness.hamilton-jacobi#separated");
+    assert_eq!(word, "numerical", "{stated}: {told}");
+}
+
+/// As many constraints as coordinates: nothing can be varied, and no quotient of zeros is a number.
+#[test]
+fn nothing_varies_where_nothing_is_free() {
+    let stated = "coordinates = [\"x\", \"y\"]\nconstraints = [\"y' = x'\", \"x' = 1\"]\n[lagrangian]\nL = \"(x'^2 + y'^2)/2\"\n[simulation]\nt_end = 5\n";
+    let model = load("test.toml", stated, &NoFiles, &[]).model;
+    let study = studied(model.expect("a model"), &WITNESS, |_| ());
+    for form in Form::ALL {
+        let (word, told) = detail(&study, &format!("witness.first-variation#{}", form.word()));
+        assert_eq!(word, "proved", "{told}");
+    }
+    assert_eq!(detail(&study, "witness.stationary").0, "proved");
+}
+
 /// All forms have a witness, and words of their own.
 #[test]
 fn forms_have_words() {

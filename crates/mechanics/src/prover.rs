@@ -91,6 +91,22 @@ impl Prover {
                 proof.on = located(&proof.on, on, system);
                 Verdict::Proved(proof)
             }
+            // A constraint that is a product: claims put their sentence before this one.
+            Verdict::Conditional {
+                condition,
+                proof,
+                counterexample,
+            } => Verdict::Conditional {
+                proof: Proof {
+                    detail: format!(
+                        "it vanishes on the component {condition} alone; {}",
+                        proof.detail
+                    ),
+                    ..proof
+                },
+                condition,
+                counterexample,
+            },
             other => other,
         }
     }

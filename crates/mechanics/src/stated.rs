@@ -1,48 +1,85 @@
-//! The system for the parameters that a model states to be zero.
+//! The system for the parameters that a model states to be zero, and with the laws of controls that it states.
 //!
 //! Claims are decided for arbitrary parameters, so that one verdict holds for a family of systems. A parameter that is stated to
 //! be zero is an exception: a plane without slope, a drift switched off. What a model with it says is asked about that system.
+//! So it is with a control: z' = u x' with u = 2 is integrable, although with most u(t) it is not.
 
 use crate::constraint::Constraint;
 use crate::system::{System, Thrust};
 use chetaev_symbolic::Expr;
 
+/// Derivatives of a control up to this order may occur in a model.
+const HIGHEST: u32 = 8;
+
 impl System {
-    /// Pairs (parameter, 0) of the parameters that the model states to be zero and that occur in L, the forces or the constraints.
-    pub fn stated_zeros(&self) -> Vec<(Expr, Expr)> {
+    /// Pairs (parameter, 0) of the parameters that the model states to be zero, and (control, law), of those that occur in L, the forces or the
+    /// constraints.
+    pub fn stated_values(&self) -> Vec<(Expr, Expr)> {
         let g = &self.graph;
         let mut all = vec![self.lagrangian];
         all.extend(self.forces.iter().chain(&self.reactive_forces));
         all.extend(self.constraints.iter().map(|c| c.stated));
         let occurring = g.reachable(&all);
-        let mut zeros = self.parameter_values();
-        zeros.retain(|(parameter, value)| g.is_zero(*value) && occurring.contains(parameter));
-        zeros
+        let mut values = self.parameter_values();
+        values.retain(|(parameter, value)| g.is_zero(*value) && occurring.contains(parameter));
+        for control in &self.controls {
+            let orders = (0..=HIGHEST).map(|order| g.symbol(&control.name, order));
+            if let (Some(law), true) = (
+                control.law,
+                orders.into_iter().any(|u| occurring.contains(&u)),
+            ) {
+                values.push((g.symbol(&control.name, 0), law));
+            }
+        }
+        values
     }
 
-    /// The system with these parameters zero. `None` where there are none, where it is no system then, or where masses vary.
-    pub fn for_stated_zeros(&self) -> Option<System> {
-        let zeros = self.stated_zeros();
+    /// The system with these values put in. `None` where there are none, where it is no system then, or where masses vary.
+    pub fn for_stated_values(&self) -> Option<System> {
+        let values = self.stated_values();
         let thrust = |p: &crate::system::Particle| !matches!(p.thrust, Thrust::Isotropic);
         let vary = !self.masses.is_empty() || self.particles.iter().any(thrust);
-        if zeros.is_empty() || vary {
+        if values.is_empty() || vary {
             return None;
         }
+        let values = self.with_rates(values);
         let g = self.graph.clone();
         let mut system = self.clone();
         for e in system.expressions() {
-            *e = g.substitute(*e, &zeros);
+            *e = g.substitute(*e, &values);
         }
         let stated = std::mem::take(&mut system.constraints);
         for constraint in stated {
-            let value = g.substitute(constraint.stated, &zeros);
+            let value = g.substitute(constraint.stated, &values);
             let classified = Constraint::classify(&system, constraint.name, value).ok()?;
             system.constraints.push(classified);
         }
         system
             .assumptions
             .retain(|a| !g.symbols_in(&[a.left, a.right]).is_empty());
+        system.controls.retain(|control| control.law.is_none());
         Some(system)
+    }
+
+    /// Values of symbols with those of the derivatives of controls. Laws contain the time and parameters alone, some of which are zero.
+    fn with_rates(&self, values: Vec<(Expr, Expr)>) -> Vec<(Expr, Expr)> {
+        let g = &self.graph;
+        let (mut all, laws): (Vec<_>, Vec<_>) =
+            values.into_iter().partition(|(_, value)| g.is_zero(*value));
+        // A law that is zero has derivatives too.
+        let controls = self.controls.iter().filter_map(|c| Some((&c.name, c.law?)));
+        let is_stated = |e: Expr| laws.iter().chain(&all).any(|&(own, _)| own == e);
+        let mut rates = Vec::new();
+        for (name, law) in controls.filter(|(name, _)| is_stated(g.symbol(name, 0))) {
+            let mut value = g.substitute(law, &all);
+            for order in 0..=HIGHEST {
+                rates.push((g.symbol(name, order), value));
+                value = self.time_derivative(value);
+            }
+        }
+        all.retain(|(own, _)| !rates.iter().any(|(known, _)| known == own));
+        all.extend(rates);
+        all
     }
 
     /// Everything in which parameters may occur, but for the constraints.

@@ -14,14 +14,15 @@
 //! N is then searched as a product of powers of the factors that occur in the denominators of φ_s and in det G, times the exponential
 //! of a polynomial in the coordinates.
 
+mod powers;
+
+use self::powers::integrated;
 use crate::words::{formula, listed, readable};
 use chetaev_mechanics::claims::formulation::{basis, derive, REFERENCE};
 use chetaev_mechanics::claims::{once_where, Claim, Context, Finding, Formula, Group};
-use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::formulations::{ignorable, DeriveError};
 use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::{Characteristics, Manifold};
-use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{simplify, Expr, Graph, Symbol, Verdict};
@@ -48,7 +49,7 @@ impl Claim for Multiplier {
          for L* in (q, dq/dτ). Two independent velocities: exactly where ∂ln N/∂q₁ = Σ B₂ c, ∂ln N/∂q₂ = −Σ B₁ c, with the curvature c = ∂a₁/∂q₂ − ∂a₂/∂q₁ \
          and the momenta θ = B₁ P₁ + B₂ P₂ of the dependent velocities. k > 2 of them: the gyroscopic terms Σ S v v must be φ_s Σ v P − P_s Σ v φ, φ = ln N, as in the φ-simple systems of García-Naranjo; the trace of that gives φ_s, \
          the rest is a condition more. `refuted`: that condition fails, or the mixed derivatives disagree, at a position, so there is no multiplier in this form; other momenta or other times are not refuted by it. \
-         `proved`: they hold; N is stated where it is a product of powers of the factors that occur and of the exponential of a polynomial in the coordinates, else it is a quadrature. Then N^(k−1) det G is the density of an \
+         `proved`: they hold; N is stated where it is found as a product of powers of the factors that occur and of the exponential of a polynomial in the coordinates, on a real branch and with where it is positive, else it is a quadrature. Then N^(k−1) det G is the density of an \
          invariant measure in (q, v), and δ∫(T + U) N dt = 0 with ∫N dt fixed. It is another property than stationary action: a skate has the multiplier cos φ \
          in x and φ, a particle z' = y x' has 1/√(1 + y²), and loses it when a further coordinate moves freely beside it. \
          Example: for z' = y x' the momentum of z is θ = y P₁/(1 + y²) and c = 1, so ∂ln N/∂x = 0, ∂ln N/∂y = −y/(1 + y²): \
@@ -85,9 +86,6 @@ impl Claim for Multiplier {
         Reduced::new(cx).map_or_else(Finding::from, |reduced| reduced.decide(cx))
     }
 }
-
-/// Polynomials of a higher degree are not looked for in ln N.
-const DEGREE: i64 = 8;
 
 /// More independent velocities are too many for determinants in closed form.
 const VELOCITIES: usize = 5;
@@ -224,12 +222,13 @@ impl Reduced {
     fn multiplier(&self, cx: &Context<'_>, closed: Verdict) -> Finding {
         let g = &cx.system.graph;
         let mut formulas = self.stated(cx);
-        let Some(reducer) = self.integrated(cx) else {
+        let Some(found) = integrated(cx, &self.form, self.determinant, &self.coordinates) else {
             let mut verdict = closed;
-            verdict.prefix("the mixed derivatives of ln N agree, so N exists near every position, by a quadrature; it is no product of powers of the factors that occur and of the exponential of a polynomial in the coordinates",
+            verdict.prefix("the mixed derivatives of ln N agree, so N exists near every position where they are defined, by a quadrature; as a product of powers of the factors that were found and of the exponential of a polynomial in the coordinates it could not be written",
             );
             return Finding { verdict, formulas };
         };
+        let reducer = found.value;
         let mut verdict = closed.and(self.confirmed(cx, reducer));
         let shown = readable(cx, reducer).unwrap_or(reducer);
         let names: Vec<String> = self.coordinates.iter().map(|&q| g.symbol_text(q)).collect();
@@ -238,8 +237,9 @@ impl Reduced {
             k => format!("^{}", k - 1),
         };
         verdict.prefix(&format!(
-                "dτ = N dt with N = {} makes the equations of motion in {} Hamilton's, and N{power} det G is the density of an invariant measure",
+                "dτ = N dt with N = {}{} makes the equations of motion in {} Hamilton's, and N{power} det G is the density of an invariant measure",
                 g.text(shown),
+                positive(&found.conditions),
                 listed(&names)
             ),
         );
@@ -252,103 +252,6 @@ impl Reduced {
             measure,
         ));
         Finding { verdict, formulas }
-    }
-
-    /// N as a product of powers of the factors that occur, and of the exponential of a polynomial in the coordinates.
-    fn integrated(&self, cx: &Context<'_>) -> Option<Expr> {
-        let g = &cx.system.graph;
-        let mut candidates: Vec<Expr> = Vec::new();
-        for &e in self.form.iter().chain([&self.determinant]) {
-            let e = crate::stationarity::by_sines(g, e);
-            let parts = factored(g, e).map(|f| f.factors).unwrap_or_default();
-            for (factor, _) in parts {
-                if g.contains_any(factor, &self.coordinates) && !candidates.contains(&factor) {
-                    candidates.push(factor);
-                }
-            }
-        }
-        let mut rest = self.form.clone();
-        let mut powers = Vec::new();
-        for &factor in &candidates {
-            if rest.iter().all(|&e| g.is_zero(e)) {
-                break;
-            }
-            let exponent = self.exponent(cx, &rest, factor);
-            let Some(exponent) = exponent else {
-                continue;
-            };
-            let less = |s: usize| {
-                let slope = g.div(g.diff(factor, self.coordinates[s]), factor);
-                let left = g.sub(rest[s], g.mul(&[exponent, slope]));
-                crate::stationarity::by_sines(g, left)
-            };
-            rest = (0..self.k()).map(less).collect();
-            powers.push(g.pow(factor, exponent));
-        }
-        powers.push(g.exp(self.potential(cx, &rest)?));
-        Some(g.mul(&powers))
-    }
-
-    /// The polynomial of which a closed form is the differential, `∫₀¹ Σ q_s form_s(τ q) dτ`; `None` where the form is no polynomial.
-    fn potential(&self, cx: &Context<'_>, form: &[Expr]) -> Option<Expr> {
-        let g = &cx.system.graph;
-        let has_poles = |e: Expr| {
-            let factors = factored(g, e).map(|parts| parts.factors);
-            factors.is_none_or(|list| {
-                let below = list.iter().filter(|(_, power)| *power < 0);
-                below
-                    .into_iter()
-                    .any(|(f, _)| g.contains_any(*f, &self.coordinates))
-            })
-        };
-        if form.iter().any(|&e| has_poles(e)) {
-            return None;
-        }
-        let name = unused_name(cx.system, "tau");
-        let (tau, own) = (g.symbol(&name, 0), g.intern_symbol(&name, 0));
-        let at: Vec<Expr> = self.coordinates.iter().map(|&q| g.symbol_expr(q)).collect();
-        let scaled: Vec<(Expr, Expr)> = at.iter().map(|&q| (q, g.mul(&[tau, q]))).collect();
-        let simple = |e: Expr| crate::stationarity::by_sines(g, e);
-        // The Taylor coefficients in τ: a polynomial has so many that do not vanish.
-        let mut derivative = simple(dot(g, &at, &g.substitute_all(form, &scaled)));
-        let mut terms = Vec::new();
-        let mut factorial = 1;
-        for order in 0..=DEGREE {
-            if g.is_zero(derivative) {
-                return Some(g.add(&terms));
-            }
-            let value = g.substitute(derivative, &[(tau, g.zero())]);
-            terms.push(g.div(value, g.integer(factorial * (order + 1))));
-            factorial *= order + 1;
-            derivative = simple(g.diff(derivative, own));
-        }
-        None
-    }
-
-    /// The exponent of a factor in N: the residue of what is left where the factor vanishes, or the ratio of what is left to
-    /// d ln(factor) where that is constant.
-    fn exponent(&self, cx: &Context<'_>, rest: &[Expr], factor: Expr) -> Option<Expr> {
-        let g = &cx.system.graph;
-        let is_constant = |e: Expr| !g.contains_any(e, &self.coordinates) && !g.is_zero(e);
-        (0..self.k()).find_map(|s| {
-            let slope = g.diff(factor, self.coordinates[s]);
-            if g.is_zero(slope) {
-                return None;
-            }
-            let ratio = g.div(g.mul(&[rest[s], factor]), slope);
-            let ratio = crate::stationarity::by_sines(g, ratio);
-            if is_constant(ratio) {
-                return Some(ratio);
-            }
-            let zero = [crate::stationarity::zero_of(g, factor, &self.coordinates)?];
-            let has_pole = factored(g, ratio)?
-                .factors
-                .iter()
-                .any(|&(pole, n)| n < 0 && g.is_zero(g.substitute(pole, &zero)));
-            let residue = (!has_pole).then(|| g.substitute(ratio, &zero))?;
-            let residue = crate::stationarity::by_sines(g, residue);
-            is_constant(residue).then_some(residue)
-        })
     }
 
     /// `N^(k−1) det G`: dq dp of the tau-momenta p = N G v, over N.
@@ -415,6 +318,17 @@ impl Reduced {
                 g.sub(rate, g.add(&[slope, g.mul(&[g.diff(reducer, q), work])]))
             })
             .collect()
+    }
+}
+
+/// Where N is positive, in words.
+fn positive(conditions: &[String]) -> String {
+    match conditions {
+        [] => String::new(),
+        some => format!(
+            ", where {} (N > 0 is needed, and N is unique up to a constant factor: for a factor of the other sign its opposite serves),",
+            listed(some)
+        ),
     }
 }
 

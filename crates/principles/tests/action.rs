@@ -363,3 +363,13 @@ fn multipliers_of_the_parameter() {
     let same = g.sub(object.value, expr(g, "(w_x/w_t) (w_y/w_t)/(1 + y^2)"));
     assert_eq!(verdict(on_set(same)).word(), "refuted");
 }
+
+/// ½ (x' + y')² has a singular ∂²L/∂v∂v that no coordinate shows by itself: no H, and the rest is decided as with a mass that is zero.
+#[test]
+fn parametric_form_with_a_singular_mass_matrix() {
+    let singular = text("x y z", "1/2 (x' + y')^2 + z'^2/2", &[("c", "y' - x'")]);
+    let found = finding(&system(&singular), "action.parametric");
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "proved", "{detail}");
+    assert!(detail.contains("more than one relation"), "{detail}");
+}

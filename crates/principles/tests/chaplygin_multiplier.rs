@@ -212,3 +212,58 @@ fn three_velocities_without_a_multiplier() {
         assert!(detail.contains("gyroscopic"), "{detail}");
     }
 }
+
+/// N as it is printed, at a position: a real positive number there, and the conditions that are said.
+#[track_caller]
+fn assert_positive(stated: &Text, at: &[(&str, f64)], says: &str) {
+    let system = system(stated);
+    let found = finding(&system, ID);
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "proved", "{detail}");
+    assert!(detail.contains(says), "{detail}");
+    let caption = "the reducing multiplier N";
+    let shown = found.formulas.iter().find(|f| f.caption == caption);
+    let g = &system.graph;
+    let value = |s| {
+        let name = g.symbol_text(s);
+        at.iter().find(|(own, _)| *own == name).map(|(_, x)| *x)
+    };
+    let number = g.evaluate_f64(&[shown.unwrap().right], &value).unwrap()[0];
+    assert!(number > 0.0, "{number}: {detail}");
+}
+
+/// By (27), with z' = a(y) x' and L = (x'² + y'² + ε z'²)/2: ∂ln N/∂y = −ε a a'/(1 + ε a²), N = |1 + ε a²|^(−1/2). At y = 0, where a model
+/// without initial data begins, it must be real.
+#[test]
+fn real_branches() {
+    let sine = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2)",
+        &[("c", "z' - sin(y) x'")],
+    );
+    assert_multiplier(&sine, "1/sqrt(1 + sin(y)^2)");
+    assert_positive(&sine, &[("y", 0.0)], "N = 1/sqrt(1 + sin(y)^2) makes");
+    let root = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2)",
+        &[("c", "z' - sqrt(1 - y^2) x'")],
+    );
+    assert_positive(&root, &[("y", 0.0)], "where 2 - y^2 > 0");
+    let indefinite = text("x y z", "1/2 (x'^2 + y'^2 - z'^2)", &[("c", "z' - y x'")]);
+    assert_positive(&indefinite, &[("y", 0.0)], "> 0");
+    // N = y/√(1 + y²) has a zero, and is needed positive.
+    let inverse = text("x y z", "1/2 (x'^2 + y'^2 + z'^2)", &[("c", "z' - x'/y")]);
+    assert_positive(&inverse, &[("y", 1.0)], "where y ≠ 0");
+}
+
+/// a' = x'/(1 − y): a = 1/(1 − y), 1 + a² = (y² − 2y + 2)/(1 − y)², so N = (y − 1)/√(y² − 2y + 2) by the formula above. The denominator of
+/// ∂ln N/∂y is the product (y − 1)(y² − 2y + 2), which is not given in factors.
+#[test]
+fn products_of_factors_in_one_denominator() {
+    let inverse = text(
+        "x y a",
+        "1/2 (x'^2 + y'^2 + a'^2)",
+        &[("c", "a' - x'/(1 - y)")],
+    );
+    assert_multiplier(&inverse, "(y - 1)/sqrt(y^2 - 2 y + 2)");
+}

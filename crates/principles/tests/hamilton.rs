@@ -226,3 +226,24 @@ fn kerner() {
     let found = finding(&system(&CONE), "hamilton.kerner");
     assert_eq!(found.verdict.word(), "not-applicable");
 }
+
+/// A constraint on positions leaves one position less: the pendulum x² + y² = 1 has an angle and its rate. The sphere of a redundant pair
+/// counts once.
+#[test]
+fn constants_of_held_positions() {
+    let plane = "1/2 (x'^2 + y'^2) - y";
+    let once = text("x y", plane, &[("c", "x^2 + y^2 - 1")]);
+    let twice = text(
+        "x y",
+        plane,
+        &[("c", "x^2 + y^2 - 1"), ("d", "2 x^2 + 2 y^2 - 2")],
+    );
+    for stated in [&once, &twice] {
+        let found = finding(&system(stated), "hamilton.constants");
+        let detail = found.verdict.detail();
+        assert!(
+            detail.contains("2 constants: 1 position, 1 velocity"),
+            "{detail}"
+        );
+    }
+}

@@ -350,3 +350,45 @@ fn elementary_quadratures() {
 fn system_of_degree_four() -> System {
     system(&text("x", "1/2 x'^2 - x^4", &[]))
 }
+
+/// Where a constraint holds a coordinate, H₁ may contain it and not its momentum: ½ X'² + x² y = E cannot hold for all y. And H₁ free of
+/// such a coordinate separates, with quadratures for the others; a momentum that occurs linearly is found from a linear equation.
+#[test]
+fn coordinates_without_their_momenta() {
+    const SEPARATED: &str = "hamilton-jacobi.applicable#separated";
+    let held = text("x y", "1/2 (x'^2 + y'^2) - x^2 y", &[("c", "y'")]);
+    let two = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2)",
+        &[("c", "z' - y x'"), ("h", "y'")],
+    );
+    for stated in [&held, &two] {
+        let found = finding(&system(stated), SEPARATED);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "refuted", "{detail}");
+        assert!(detail.contains("contains y and not π_y"), "{detail}");
+    }
+    let free = text("x y", "1/2 (x'^2 + y'^2)", &[("c", "y'")]);
+    let product = text("x y", "x' y' - x", &[]);
+    let factor = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2)",
+        &[("c", "(1 + x^2) (z' - y x')")],
+    );
+    for stated in [&free, &product, &factor] {
+        let found = finding(&system(stated), SEPARATED);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "proved", "{detail}");
+        assert!(!detail.contains("not even"), "{detail}");
+    }
+    // π_x π_y + x = E: π_x = (E − x)/α_y.
+    let product = system(&product);
+    let g = &product.graph;
+    with_context(&product, |cx| {
+        let integral = separated(cx, &Extremum::new(cx).unwrap()).unwrap();
+        let (i, found) = integral.quadratures[0];
+        assert_eq!(product.coordinates[i].name, "x");
+        let difference = g.sub(found, expr(g, "(E - x)/alpha_y"));
+        assert_eq!(word(&product, difference), "proved", "{}", g.text(found));
+    });
+}

@@ -1,4 +1,5 @@
-//! Parameters that a model states to be zero are zero for the claims on the principles; all others are arbitrary.
+//! Parameters that a model states to be zero are zero for the claims on the principles, and controls have the laws that it states; all
+//! other parameters are arbitrary.
 
 #![allow(clippy::unwrap_used)] // a panic is how a test fails
 
@@ -30,7 +31,7 @@ fn finding(system: &System, id: &str) -> Arc<Finding> {
         chetaev_principles::CLAIMS,
     ]);
     let prepared = Prepared::new(system).unwrap();
-    let zero = system.for_stated_zeros();
+    let zero = system.for_stated_values();
     let zero = zero.map(|system| (Prepared::new(&system).unwrap(), system));
     let zero = zero.as_ref().map(|(of, system)| {
         Context::new(
@@ -44,7 +45,7 @@ fn finding(system: &System, id: &str) -> Arc<Finding> {
     let (terms, selection) = (&prepared.terms, &prepared.selection);
     let mut cx = Context::new(system, terms, selection, &registry, Prover::default());
     if let Some(zero) = &zero {
-        cx = cx.for_stated_zeros(chetaev_principles::CLAIMS, zero);
+        cx = cx.for_stated_values(chetaev_principles::CLAIMS, zero);
     }
     cx.finding(id)
 }
@@ -87,5 +88,74 @@ fn a_skate_on_a_plane_without_slope() {
             panic!("{}", found.verdict.detail())
         };
         assert!(stated.starts_with(condition), "{stated}");
+    }
+}
+
+/// z' = u x': integrable and stationary for u = 2, z = 2 x, and for no other law but constants; z' = u y x' with u = 2 is z' = 2 y x'. A weight −u x with
+/// u = 0 does no work, although u x' is the power of most.
+#[test]
+fn controls_have_the_laws_stated() {
+    let controlled = |lagrangian: &str, f: &str, law: &str| {
+        let graph = Arc::new(Graph::new());
+        let parts = SystemParts {
+            name: "test".into(),
+            coordinates: ["x", "y", "z"].map(String::from).to_vec(),
+            lagrangian: Some(expr(&graph, lagrangian)),
+            constraints: vec![("c".into(), expr(&graph, f))],
+            controls: vec![("u".into(), Some(expr(&graph, law)))],
+            ..SystemParts::default()
+        };
+        System::new(graph, parts).unwrap()
+    };
+    let particle = "1/2 (x'^2 + y'^2 + z'^2)";
+    let weight = "1/2 (x'^2 + y'^2 + z'^2) - u x";
+    for (system, id, word, says) in [
+        (
+            controlled(particle, "z' - u x'", "2"),
+            "hamilton.stationary",
+            "proved",
+            "for u = 2, as",
+        ),
+        (
+            controlled(particle, "z' - u x'", "2"),
+            "variation.hoelder",
+            "proved",
+            "for u = 2, as",
+        ),
+        (
+            controlled(particle, "z' - u x'", "t"),
+            "variation.hoelder",
+            "conditional",
+            "for u = t, as",
+        ),
+        (
+            controlled(particle, "z' - u y x'", "2"),
+            "hamilton.stationary",
+            "conditional",
+            "only where x' = 0 or y' = 0",
+        ),
+        (
+            controlled(particle, "z' - u' y x'", "2 t"),
+            "hamilton.stationary",
+            "conditional",
+            "only where x' = 0 or y' = 0",
+        ),
+        (
+            controlled(weight, "z' - y x'", "0"),
+            "energy.integral",
+            "proved",
+            "for u = 0, as",
+        ),
+        (
+            controlled(weight, "z' - y x'", "t"),
+            "energy.integral",
+            "refuted",
+            "for u = t, as",
+        ),
+    ] {
+        let found = finding(&system, id);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), word, "{id}: {detail}");
+        assert!(detail.contains(says), "{id}: {detail}");
     }
 }

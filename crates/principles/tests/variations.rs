@@ -167,3 +167,45 @@ fn no_constraints() {
     let found = finding(&free, "variation.hoelder");
     assert!(matches!(found.verdict, Verdict::Proved(_)));
 }
+
+/// z' = y² x' has δf = 2 y (y' δx − x' δy): zero for δx : δy = x' : y', and for every displacement where y = 0. z' = cos y x' likewise where
+/// sin y = 0.
+#[test]
+fn states_at_which_every_varied_curve_is_admissible() {
+    for (constraint, factor) in [
+        ("z' - y^2 x'", " or y = 0"),
+        ("z' - cos(y) x'", " or sin(y) = 0"),
+    ] {
+        let constraints: &'static [(&str, &str)] = Box::leak(Box::new([("c", constraint)]));
+        let stated = text("x y z", "1/2 (x'^2 + y'^2 + z'^2)", constraints);
+        let found = finding(&system(&stated), "variation.hoelder");
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "conditional", "{detail}");
+        assert!(detail.contains(factor), "{detail}");
+    }
+    let found = finding(&system(&PARTICLE), "variation.hoelder");
+    assert!(
+        !found.verdict.detail().contains(" or "),
+        "{}",
+        found.verdict.detail()
+    );
+}
+
+/// (z' − y x')(z' − x') = 0 has the integrable component z' = x': the sentence says on which component δf vanishes.
+#[test]
+fn a_product_of_constraints_names_its_component() {
+    let product = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2)",
+        &[("c", "(z' - y x') (z' - x')")],
+    );
+    for id in ["variation.hoelder", "hamilton.stationary-suslov"] {
+        let found = finding(&system(&product), id);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "conditional", "{id}: {detail}");
+        assert!(
+            detail.contains("on the component x' - z' = 0"),
+            "{id}: {detail}"
+        );
+    }
+}

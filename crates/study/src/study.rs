@@ -511,7 +511,7 @@ fn decide(
     if let Some(seed) = options.seed {
         prover.seed = seed;
     }
-    let zero = system.for_stated_zeros();
+    let zero = system.for_stated_values();
     let zero = zero.and_then(|system| Some((Prepared::new(&system).ok()?, system)));
     let zero = zero.as_ref().map(|(prepared, system)| {
         let (terms, selection) = (&prepared.terms, &prepared.selection);
@@ -519,7 +519,7 @@ fn decide(
     });
     let mut cx = Context::new(system, &prepared.terms, &prepared.selection, &known, prover);
     if let Some(zero) = &zero {
-        cx = cx.for_stated_zeros(chetaev_principles::CLAIMS, zero);
+        cx = cx.for_stated_values(chetaev_principles::CLAIMS, zero);
     }
     if let Some(motion) = motion {
         cx = cx.with(Arc::clone(&motion.evidence));

@@ -306,10 +306,10 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Decides these claims for the system with the parameters that the model states to be zero, whose context is given; their
+    /// Decides these claims for the system with the parameters zero and the laws of controls that the model states, whose context is given; their
     /// verdicts say so.
     #[must_use]
-    pub fn for_stated_zeros(
+    pub fn for_stated_values(
         mut self,
         claims: &'a [&'static dyn Claim],
         context: &'a Context<'a>,
@@ -384,7 +384,7 @@ impl<'a> Context<'a> {
             return Arc::new(verdict.into());
         }
         lock(&self.in_progress).push(full.to_string());
-        let finding = match (self.for_zeros(claim, full), self.obstacle(claim, subject)) {
+        let finding = match (self.for_values(claim, full), self.obstacle(claim, subject)) {
             (Some(finding), _) => finding,
             (None, Some(verdict)) => verdict.into(),
             (None, None) => self.on_components(claim, claim.decide(self, subject)),
@@ -430,20 +430,20 @@ impl<'a> Context<'a> {
         finding
     }
 
-    /// The finding for the parameters stated to be zero, where the claim is decided for them.
-    fn for_zeros(&self, claim: &dyn Claim, full: &str) -> Option<Finding> {
+    /// The finding for the values that the model states, where the claim is decided for them.
+    fn for_values(&self, claim: &dyn Claim, full: &str) -> Option<Finding> {
         let stated = self.stated?;
         if !stated.claims.iter().any(|c| c.id() == claim.id()) {
             return None;
         }
         let g = &self.system.graph;
-        let zeros = self.system.stated_zeros();
-        let zeros: Vec<String> = zeros
+        let values = self.system.stated_values();
+        let values: Vec<String> = values
             .iter()
-            .map(|&(parameter, _)| format!("{} = 0", g.text(parameter)))
+            .map(|&(symbol, value)| format!("{} = {}", g.text(symbol), g.text(value)))
             .collect();
         let mut finding = Finding::clone(&stated.context.finding(full));
-        let sentence = format!("for {}, as the model states it", zeros.join(" and "));
+        let sentence = format!("for {}, as the model states it", values.join(" and "));
         finding.verdict.prefix(&sentence);
         Some(finding)
     }

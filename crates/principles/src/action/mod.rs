@@ -14,6 +14,7 @@ pub use jacobi::Jacobi;
 pub use lagrange::Lagrange;
 pub use parametric::Parametric;
 
+use crate::stationarity::NoneBut;
 use crate::variations::delta_name;
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::equations::unused_name;
@@ -116,9 +117,17 @@ fn as_stationary(cx: &Context<'_>, which: &str) -> String {
         Verdict::Conditional { condition, .. } => format!(
             "{which} is one of stationary action among admissible curves exactly where Hamilton's is (`{id}`): {condition}"
         ),
-        Verdict::Refuted(_) => {
-            format!("as stationary action among admissible curves {which} does not hold, as Hamilton's does not (`{id}`)")
-        }
+        Verdict::Refuted(_) => match NoneBut::refuted(cx) {
+            NoneBut::Nothing => format!(
+                "{which} is one of stationary action among admissible curves for no motion, as Hamilton's is for none (`{id}`)"
+            ),
+            NoneBut::Rest => format!(
+                "{which} is one of stationary action among admissible curves for no motion but rest, as Hamilton's (`{id}`)"
+            ),
+            NoneBut::Open => format!(
+                "{which} is one of stationary action among admissible curves for almost no motion, as Hamilton's; the others were not followed (`{id}`)"
+            ),
+        },
         other => format!(
             "where {which} is one of stationary action is open, as `{id}` is {}",
             other.word()

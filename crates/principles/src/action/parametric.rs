@@ -114,7 +114,7 @@ fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
     } else {
         in_phase_space(cx, &extended, &mut story)?;
     }
-    passage(cx, &extended, &mut story)?;
+    passage(cx, &extended, &mut story, without_hamiltonian)?;
     let on = "for all curves in τ and all μ";
     let free = Manifold::default();
     let identities = cx.prover.identity(cx.system, &story.residuals, &free, on);
@@ -270,7 +270,12 @@ fn in_phase_space(
 }
 
 /// Λ without the cyclic t, Lagrange's integrand; with t' by H = h, Jacobi's; and K for it.
-fn passage(cx: &Context<'_>, extended: &Extended, story: &mut Story) -> Result<(), DeriveError> {
+fn passage(
+    cx: &Context<'_>,
+    extended: &Extended,
+    story: &mut Story,
+    without_hamiltonian: bool,
+) -> Result<(), DeriveError> {
     let (system, g) = (cx.system, &cx.system.graph);
     let jacobi = formulation("jacobi").map(|f| f.card());
     if let Some(obstacle) = jacobi.and_then(|card| cx.obstacle_of(card)) {
@@ -310,8 +315,9 @@ fn passage(cx: &Context<'_>, extended: &Extended, story: &mut Story) -> Result<(
         g.sub(at_energy, integrand),
         "with t' by H = h it is that of Jacobi's",
     );
-    let legendre = Legendre::new(system);
-    if let Some(legendre) = legendre.ok().filter(|l| l.is_explicit) {
+    // Where ∂²L/∂v∂v is singular there is no H(q, p), whatever form the solution for v takes.
+    let legendre = Legendre::new(system).ok().filter(|_| !without_hamiltonian);
+    if let Some(legendre) = legendre.filter(|l| l.is_explicit) {
         let by_path = g.gradient(integrand, &extended.symbols[..rates.len()]);
         let pairs: Vec<(Expr, Expr)> = legendre
             .momenta

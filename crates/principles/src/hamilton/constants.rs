@@ -1,9 +1,11 @@
 //! `hamilton.constants`: how many constants the motion has, and how many the constrained extremum.
 
+use chetaev_mechanics::claims::formulation::manifold;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_mechanics::words::counted;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::Verdict;
+use chetaev_symbolic::{Expr, Verdict};
 
 /// `hamilton.constants`.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +28,7 @@ impl Claim for Constants {
         "A motion is determined by n positions and n − r admissible velocities. An extremal of the action under the constraints \
          needs beside them the initial values of its r multipliers κ, so its equations have 2n constants (where the matrix \
          [[L_vv + Σ κ f_vv, f_vᵀ], [f_v, 0]] is regular). The two systems are different systems wherever r > 0; whether every motion is an \
-         extremal for some κ is hamilton.stationary. r counts independent constraints. \
+         extremal for some κ is hamilton.stationary. r counts independent constraints; one that holds positions themselves, x² + y² = 1, leaves one position less to both. \
          Example: a skate has n = 3, r = 1 and 5 constants: x, y, φ, its speed and its rate of turning; the \
          extremum has 6, with κ(0). A rolling disc with n = 4, r = 2 has 6, the extremum 8."
     }
@@ -37,6 +39,14 @@ impl Claim for Constants {
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         let (n, r) = (cx.system.n(), cx.selection.rows.len());
+        let held = match held_positions(cx) {
+            Ok(held) => held,
+            Err(open) => {
+                return open
+                    .prefixed("how many positions the constraints leave")
+                    .into()
+            }
+        };
         let masses = cx.system.masses.len();
         let beside = match masses {
             0 => String::new(),
@@ -44,8 +54,8 @@ impl Claim for Constants {
         };
         let own = format!(
             "the motion has {} constants: {}, {}{beside}",
-            2 * n - r + masses,
-            counted(n, "position", "positions"),
+            2 * n - r - held + masses,
+            counted(n - held, "position", "positions"),
             counted(n - r, "velocity", "velocities"),
         );
         let regular = cx.finding("model.constrained-extremum-regular");
@@ -53,7 +63,7 @@ impl Claim for Constants {
             (_, 0) => "; there are no constraints, and the extremum is the motion".to_string(),
             (Verdict::Proved(_), _) => format!(
                 "; the constrained extremum has {}, with {} κ(0)",
-                2 * n + masses,
+                2 * n - held + masses,
                 counted(r, "initial multiplier", "initial multipliers")
             ),
             (Verdict::Refuted(_), _) => {
@@ -72,5 +82,27 @@ impl Claim for Constants {
         }
         verdict.prefix(&format!("{own}{extremum}"));
         verdict.into()
+    }
+}
+
+/// How many positions are held by constraints on positions: the rank of their gradients.
+fn held_positions(cx: &Context<'_>) -> Result<usize, Box<Verdict>> {
+    let rows: Vec<Vec<Expr>> = (0..cx.terms.jacobian.len())
+        .filter(|&row| {
+            let constraint = &cx.system.constraints[cx.terms.constraint_index[row]];
+            constraint.kind == ConstraintKind::Holonomic
+        })
+        .map(|row| cx.terms.jacobian[row].clone())
+        .collect();
+    if rows.is_empty() {
+        return Ok(0);
+    }
+    match cx.prover.rank(cx.system, &rows, &manifold(cx)) {
+        Ok(rank) if rank.minimum == rank.maximum => Ok(rank.maximum),
+        Ok(_) => {
+            let tried = "constraints on positions have different ranks on their components";
+            Err(Box::new(Verdict::undecided(tried)))
+        }
+        Err(open) => Err(open),
     }
 }

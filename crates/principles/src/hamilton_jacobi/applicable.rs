@@ -5,7 +5,7 @@ use super::complete::verified;
 use super::elementary::elementary;
 use super::extremum::Extremum;
 use super::separation;
-use crate::stationarity::Closure;
+use crate::stationarity::{free_constant, Closure, NoneBut};
 use crate::words::{formula, readable};
 use chetaev_mechanics::claims::formulation::{basis, derive, manifold, REFERENCE};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
@@ -115,9 +115,11 @@ fn applicable(cx: &Context<'_>) -> Result<Finding, DeriveError> {
         Verdict::Conditional { .. } => {
             "the method integrates those motions alone that make the action stationary; the other characteristics of S_t + H₁(q, S_q, t) = 0 are no motions"
         }
-        Verdict::Refuted(_) => {
-            "the method does not apply: the characteristics of S_t + H₁(q, S_q, t) = 0 are no motions"
-        }
+        Verdict::Refuted(_) => match NoneBut::refuted(cx) {
+            NoneBut::Nothing => "the method integrates no motion: the characteristics of S_t + H₁(q, S_q, t) = 0 are no motions",
+            NoneBut::Rest => "the method integrates no motion but rest: the other characteristics of S_t + H₁(q, S_q, t) = 0 are no motions",
+            NoneBut::Open => "the method integrates almost no motion: almost no motion is a characteristic of S_t + H₁(q, S_q, t) = 0; the others were not followed",
+        },
         _ => "whether the characteristics of S_t + H₁(q, S_q, t) = 0 are motions",
     };
     verdict.prefix(sentence);
@@ -187,10 +189,16 @@ pub(super) fn multipliers(cx: &Context<'_>) -> Option<Vec<Expr>> {
 }
 
 /// `π = p + Σ κ ∂f/∂v` as functions of the state, with the κ of the motions, length n; `None` where κ is not known for all of them.
+/// Free constants of κ(0), which belong to every motion with any value, are zero.
 pub fn momenta_on_motions(cx: &Context<'_>) -> Option<Vec<Expr>> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let kappa = multipliers(cx)?;
-    let jacobian = basis(cx).jacobian();
+    let basis = basis(cx);
+    let constants = basis.constraint_names().into_iter();
+    let constants: Vec<(Expr, Expr)> = constants
+        .map(|name| (free_constant(system, g, name), g.zero()))
+        .collect();
+    let kappa = g.substitute_all(&multipliers(cx)?, &constants);
+    let jacobian = basis.jacobian();
     let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
     let with = |(i, p): (usize, Expr)| {
         let reaction =

@@ -1,6 +1,10 @@
 //! Separation of variables in the coordinates given: the conditions of Levi-Civita (1904) on H₁, and a complete integral by
 //! quadratures.
 //!
+//! The conditions are divided by Hⁱ Hʲ where they are derived. Where Hⁱ = ∂H₁/∂π_i vanishes identically, as it does for a coordinate that
+//! a constraint holds, `H₁(q, S_q) = E` differentiated by q_i leaves H_i = 0, for the open set of π that a complete integral reaches: then H₁
+//! must not contain q_i at all.
+//!
 //! Where the conditions hold `dπ_i = −(H_i/Hⁱ) dq_i` is integrable, and along a line on which q_i alone changes H₁ is constant. So π_i,
 //! a function of q_i and constants, is the root of `H₁(c, q_i; π°, π_i) = E` with the other coordinates at any values c and their momenta
 //! π° there: no Stäckel matrix is needed. Constants are E, the momenta of cyclic coordinates, and of the others the squares of
@@ -48,12 +52,14 @@ pub fn levi_civita(cx: &Context<'_>, extremum: &Extremum) -> Vec<Expr> {
 
 pub(super) fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
     let g = &cx.system.graph;
-    let Some(extremum) = Extremum::new(cx) else {
+    let Some(mut extremum) = Extremum::new(cx) else {
         return Ok(no_closed_form(cx).into());
     };
     if g.reachable(&[extremum.hamiltonian]).len() > LARGEST {
         return Ok(Verdict::undecided("H₁ is too large for the conditions of Levi-Civita").into());
     }
+    // A factor that cancels would leave coordinates in H₁ that it does not depend on.
+    extremum.hamiltonian = short(cx, extremum.hamiltonian);
     if essential(cx, &extremum).len() <= 1 {
         if let Some(integral) = separated(cx, &extremum) {
             let what = "H₁ depends on one coordinate at most; separated by that, S is";
@@ -63,8 +69,11 @@ pub(super) fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
             }
         }
     }
-    let conditions = levi_civita(cx, &extremum);
     let on = "for all q and π";
+    if let Some(refuted) = without_momentum(cx, &extremum, on) {
+        return Ok(refuted.into());
+    }
+    let conditions = levi_civita(cx, &extremum);
     let named: Vec<(String, Expr)> = conditions
         .iter()
         .map(|&e| ("an expression of Levi-Civita".to_string(), e))
@@ -83,9 +92,12 @@ pub(super) fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
     if !matches!(verdict, Verdict::Proved(_)) {
         return Ok(verdict.into());
     }
-    let Some(integral) = separated(cx, &extremum) else {
-        verdict.prefix("the quadratures are not written: H₁ is not even in the momenta of the coordinates it contains");
-        return Ok(verdict.into());
+    let integral = match quadratures(cx, &extremum) {
+        Ok(integral) => integral,
+        Err(why) => {
+            verdict.prefix(&format!("the quadratures are not written: {why}"));
+            return Ok(verdict.into());
+        }
     };
     let what = "the conditions of Levi-Civita hold; separated in these coordinates S is";
     let found = checked(cx, &extremum, &integral, what)?;
@@ -110,6 +122,32 @@ pub(super) fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
     Ok(verdict.into())
 }
 
+/// That a coordinate occurs in H₁ without its momentum, so that no S of the form separates.
+fn without_momentum(cx: &Context<'_>, extremum: &Extremum, on: &str) -> Option<Verdict> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let identity = |named: &[(String, Expr)]| cx.prover.named_identity(system, named, &free(), on);
+    let alone = system.coordinates.iter().enumerate().find_map(|(i, c)| {
+        let slope = g.diff(extremum.hamiltonian, c.q_symbol);
+        let speed = g.diff(extremum.hamiltonian, extremum.symbols[i]);
+        let absent = identity(&[("∂H₁/∂π".into(), speed)]);
+        let contains = || identity(&[(format!("∂H₁/∂{}", c.name), slope)]);
+        if !matches!(absent, Verdict::Proved(_)) {
+            return None;
+        }
+        Some((&c.name, contains())).filter(|(_, v)| !matches!(v, Verdict::Proved(_)))
+    });
+    let (name, mut verdict) = alone?;
+    let sentence = match &verdict {
+        Verdict::Refuted(_) => format!(
+            "S_t + H₁ = 0 does not separate in these coordinates: H₁ contains {name} and not π_{name}, so that H₁(q, S_q) = E with \
+             S = −E t + Σ S_i(q_i) cannot hold for all {name}; it may in other coordinates"
+        ),
+        _ => format!("whether H₁, which does not contain π_{name}, contains {name}"),
+    };
+    verdict.prefix(&sentence);
+    Some(verdict)
+}
+
 /// The coordinates that occur in H₁.
 fn essential(cx: &Context<'_>, extremum: &Extremum) -> Vec<usize> {
     let coordinates = cx.system.coordinate_symbols();
@@ -123,16 +161,24 @@ fn essential(cx: &Context<'_>, extremum: &Extremum) -> Vec<usize> {
 
 /// The complete integral `S = −E t + Σ α q + Σ ∫π_i dq_i`: α for the coordinates that are cyclic in H₁, a quadrature for each of the
 /// others. Where these are two or more, H₁ must be even in their momenta, and S is one only under the conditions of Levi-Civita.
+/// `None` where H₁ gives no quadratures of this form.
 pub fn separated(cx: &Context<'_>, extremum: &Extremum) -> Option<CompleteIntegral> {
+    quadratures(cx, extremum).ok()
+}
+
+/// [`separated`], or what prevents it, in words.
+fn quadratures(cx: &Context<'_>, extremum: &Extremum) -> Result<CompleteIntegral, &'static str> {
     let (system, g) = (cx.system, &cx.system.graph);
     let time = g.intern_symbol("t", 0);
     if system.is_rheonomic(extremum.hamiltonian) {
-        return None;
+        return Err("H₁ contains the time");
     }
     let mut own = essential(cx, extremum);
     if own.is_empty() {
-        // Where every coordinate is cyclic, the last one gives its constant to E.
-        own.push(system.n() - 1);
+        // Where every coordinate is cyclic, the last one whose momentum occurs gives its constant to E.
+        let occurs = |&i: &usize| g.contains_any(extremum.hamiltonian, &[extremum.symbols[i]]);
+        let last = (0..system.n()).rev().find(occurs);
+        own.push(last.ok_or("H₁ contains no momentum")?);
     }
     let named = |name: &str| g.intern_symbol(&unused_name(system, name), 0);
     let energy = named("E");
@@ -149,7 +195,11 @@ pub fn separated(cx: &Context<'_>, extremum: &Extremum) -> Option<CompleteIntegr
         parts.push(g.mul(&[momenta[i], c.q]));
     }
     let quadratures = match own.as_slice() {
-        [only] => vec![(*only, momentum(cx, extremum, *only, &momenta, energy)?)],
+        [only] => {
+            let root = momentum(cx, extremum, *only, &momenta, energy);
+            let why = "H₁ = E is no quadratic equation for the momentum of the one coordinate that H₁ contains";
+            vec![(*only, root.ok_or(why)?)]
+        }
         several => {
             let squares = several[1..].iter();
             let squares: Vec<Symbol> = squares
@@ -157,10 +207,13 @@ pub fn separated(cx: &Context<'_>, extremum: &Extremum) -> Option<CompleteIntegr
                 .collect();
             constants.extend(&squares);
             let of = extremum.at(cx, extremum.hamiltonian, &momenta);
-            Squares::new(cx, extremum, several, of)?.momenta(cx, energy, &squares)?
+            let momenta = Squares::new(cx, extremum, several, of)?.momenta(cx, energy, &squares);
+            momenta.ok_or(
+                "a momentum from H₁ = E at fixed other coordinates is not seen to be free of these",
+            )?
         }
     };
-    Some(CompleteIntegral {
+    Ok(CompleteIntegral {
         action: g.add(&parts),
         constants,
         quadratures,
@@ -178,7 +231,12 @@ struct Squares {
 }
 
 impl Squares {
-    fn new(cx: &Context<'_>, extremum: &Extremum, own: &[usize], of: Expr) -> Option<Squares> {
+    fn new(
+        cx: &Context<'_>,
+        extremum: &Extremum,
+        own: &[usize],
+        of: Expr,
+    ) -> Result<Squares, &'static str> {
         let g = &cx.system.graph;
         let zero: Vec<(Expr, Expr)> = own
             .iter()
@@ -191,14 +249,18 @@ impl Squares {
             let factor = short(cx, g.diff(slope, symbol));
             let momentum = extremum.momenta[own[place]];
             let odd = short(cx, g.sub(slope, g.mul(&[factor, momentum])));
-            if g.contains_any(factor, &symbols) || g.is_zero(factor) || !g.is_zero(odd) {
-                return None;
+            if g.contains_any(factor, &symbols) || !g.is_zero(odd) {
+                return Err("H₁ is not even in the momenta of the coordinates it contains");
+            }
+            if g.is_zero(factor) {
+                return Err("H₁ contains a coordinate without the square of its momentum");
             }
             factors.push(factor);
         }
         let rest = short(cx, g.substitute(of, &zero));
-        let base = regular_point(cx, own, &factors, rest)?;
-        Some(Squares {
+        let base = regular_point(cx, own, &factors, rest);
+        let base = base.ok_or("no simple position was found at which H₁ is regular")?;
+        Ok(Squares {
             own: own.to_vec(),
             rest,
             factors,
@@ -313,7 +375,7 @@ fn angles(g: &Graph, es: &[Expr]) -> Vec<Symbol> {
     g.symbols_in(&arguments).into_iter().collect()
 }
 
-/// π of the one coordinate from `H₁ = E`, a quadratic equation, with the positive root.
+/// π of the one coordinate from `H₁ = E`: a quadratic equation, with the positive root, or a linear one.
 fn momentum(
     cx: &Context<'_>,
     extremum: &Extremum,
@@ -328,11 +390,15 @@ fn momentum(
     let zero = [(extremum.momenta[own], g.zero())];
     let slope = g.diff(of, symbol);
     let curvature = g.diff(slope, symbol);
-    if g.contains_any(curvature, &[symbol]) || g.is_zero(curvature) {
+    let curvature = short(cx, curvature);
+    if g.contains_any(curvature, &[symbol]) {
         return None;
     }
     let (rest, slope) = (g.substitute(of, &zero), g.substitute(slope, &zero));
-    let (rest, slope, curvature) = (short(cx, rest), short(cx, slope), short(cx, curvature));
+    let (rest, slope) = (short(cx, rest), short(cx, slope));
+    if g.is_zero(curvature) {
+        return (!g.is_zero(slope)).then(|| g.neg(g.div(rest, slope)));
+    }
     // ½ c π² + b π + a = 0.
     let radicand = g.sub(
         g.mul(&[slope, slope]),

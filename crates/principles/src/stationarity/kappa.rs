@@ -4,7 +4,8 @@ use super::motion::Motion;
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::equations::unused_name;
-use chetaev_symbolic::{simplify, Expr, Node};
+use chetaev_mechanics::System;
+use chetaev_symbolic::{simplify, Expr, Graph, Node};
 
 /// κ of one constraint with its constant of integration.
 #[derive(Clone, Copy, Debug)]
@@ -22,8 +23,7 @@ pub(crate) fn integrated(cx: &Context<'_>, motion: &Motion, l: usize) -> Option<
         return None;
     }
     let rate = g.neg(motion.multipliers[l]);
-    let name = basis(cx).constraint_names()[l].to_owned();
-    let constant = g.symbol(&unused_name(system, &format!("const_{name}")), 0);
+    let constant = free_constant(system, g, basis(cx).constraint_names()[l]);
     if g.is_zero(rate) {
         return Some(Integrated { value: constant });
     }
@@ -49,6 +49,11 @@ pub(crate) fn integrated(cx: &Context<'_>, motion: &Motion, l: usize) -> Option<
     (!g.contains_any(rest, &moving)).then(|| Integrated {
         value: simple(value),
     })
+}
+
+/// The constant of integration of κ of a constraint.
+pub(crate) fn free_constant(system: &System, g: &Graph, constraint: &str) -> Expr {
+    g.symbol(&unused_name(system, &format!("const_{constraint}")), 0)
 }
 
 /// Functions whose rates may be proportional to λ.

@@ -16,6 +16,8 @@ mod suslov;
 
 pub(crate) use closed_form::{short as by_sines, zero_of};
 pub use closure::{Closure, Condition};
+pub(crate) use kappa::free_constant;
 pub use sets::{StationarySet, StationarySets};
+pub(crate) use stationary::NoneBut;
 pub use stationary::Stationary;
 pub use suslov::StationarySuslov;

@@ -34,8 +34,8 @@ impl Claim for Stationary {
          Curves that make the action stationary solve the equations of the constrained extremum for L + Σ κ f with multipliers \
          κ(t). A motion with the reactions λ is among them exactly where κ exists with (a) Σ κ E[f]·δq = 0 for every virtual δq and (b) κ' = ρ − λ, \
          where Σ κ E[f] = Σ ρ ∂f/∂v. These linear conditions are differentiated along the motion until nothing new comes; then \
-         they hold for every motion (`proved`, with κ), for motions on an invariant subset given by equations (`conditional`), or for none \
-         (`refuted`; rest is named apart). Example: a particle z' = y x' has E[f]·δq = y' δx − x' δy, so (a) \
+         they hold for every motion (`proved`, with κ), for motions on an invariant subset given by equations (`conditional`), or for no such \
+         subset that was found (`refuted`: for no motion, for none but rest, or for almost none, where others were not followed; the sentence says which). Example: a particle z' = y x' has E[f]·δq = y' δx − x' δy, so (a) \
          demands κ = 0 unless x' = y' = 0, and then (b) demands λ = x' y'/(1 + y²) = 0: only motions with x' = 0 or y' = 0 are stationary. \
          A rolling disc, which is not integrable either, has κ = (−m x', −m y') for every motion. κ = 0 alone would need all \
          reactions to vanish. Parameters are taken as general; particular values with more such motions are named where they were found."
@@ -143,27 +143,25 @@ fn multipliers(cx: &Context<'_>, closure: &Closure) -> (String, Vec<Formula>) {
 fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Finding {
     let found = sets::found(cx, motion);
     let found = &found.0;
-    let (rest, moving): (Vec<&Leaf>, Vec<&Leaf>) =
-        found.leaves.iter().partition(|leaf| leaf.at_rest);
     let open = not_followed(found);
-    if moving.is_empty() {
-        let sentence = match (rest.is_empty(), open.is_empty()) {
-            (true, true) => format!(
+    let all = moving_first(found);
+    if all.first().is_none_or(|leaf| leaf.at_rest) {
+        let sentence = match NoneBut::of(found) {
+            NoneBut::Nothing => format!(
                 "no motion makes the action stationary among admissible curves{}",
                 for_general(found)
             ),
-            (false, true) => format!(
+            NoneBut::Rest => format!(
                 "no motion makes the action stationary among admissible curves{}, except rest where {}",
                 for_general(found),
-                alternatives(&rest)
+                alternatives(&all)
             ),
-            _ => ALMOST_NONE.into(),
+            NoneBut::Open => ALMOST_NONE.into(),
         };
         let particular = particular(cx, found);
         refuted.prefix(&format!("{sentence}{particular}{open}"));
         return refuted.into();
     }
-    let all: Vec<&Leaf> = moving.into_iter().chain(rest).collect();
     let legend = legend(cx, motion);
     let stated = format!("{}{legend}", alternatives(&all));
     let condition = format!("{stated}{open}");
@@ -197,6 +195,41 @@ fn particular(cx: &Context<'_>, found: &Found) -> String {
         sentence.push_str(&format!("; where {own}, {more}"));
     }
     sentence
+}
+
+/// The sets, those of rest last.
+pub(super) fn moving_first(found: &Found) -> Vec<&Leaf> {
+    let (rest, moving): (Vec<&Leaf>, Vec<&Leaf>) =
+        found.leaves.iter().partition(|leaf| leaf.at_rest);
+    moving.into_iter().chain(rest).collect()
+}
+
+/// What a refutation of `hamilton.stationary` leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NoneBut {
+    /// No motion is stationary.
+    Nothing,
+    /// None but rest.
+    Rest,
+    /// Almost none; others were not followed.
+    Open,
+}
+
+impl NoneBut {
+    /// For sets without one that moves.
+    fn of(found: &Found) -> NoneBut {
+        match (found.leaves.is_empty(), found.open.is_empty()) {
+            (true, true) => NoneBut::Nothing,
+            (false, true) => NoneBut::Rest,
+            _ => NoneBut::Open,
+        }
+    }
+
+    /// For the context's system, where the verdict is `refuted`.
+    pub(crate) fn refuted(cx: &Context<'_>) -> NoneBut {
+        cx.known::<sets::Sets>()
+            .map_or(NoneBut::Open, |sets| NoneBut::of(&sets.0))
+    }
 }
 
 /// Sets that the zero test does not confirm are no longer among those found.
@@ -245,6 +278,8 @@ pub(super) fn alternatives(leaves: &[&Leaf]) -> String {
 
 /// Longer conditions of cases that were not followed are not printed.
 const FOLLOWED: usize = 120;
+/// At most so many are.
+const NAMED: usize = 6;
 
 /// "only " where every case was followed.
 pub(super) fn only(found: &Found) -> &'static str {
@@ -286,15 +321,22 @@ pub(super) fn not_followed(found: &Found) -> String {
         true => "perhaps also",
         false => "whether it is so elsewhere is open,",
     };
-    let is_short = |text: &String| text.chars().count() < FOLLOWED;
-    match found.open.as_slice() {
-        [] => String::new(),
-        [_] | [_, _] if found.open.iter().all(is_short) => format!(
+    let is_short = |text: &&String| text.chars().count() < FOLLOWED;
+    let (short, long): (Vec<&String>, Vec<&String>) = found.open.iter().partition(is_short);
+    let named: Vec<&str> = short.iter().take(NAMED).map(|text| text.as_str()).collect();
+    let others = long.len() + short.len() - named.len();
+    match (named.as_slice(), others) {
+        ([], 0) => String::new(),
+        ([], 1) => format!("; {perhaps} in one case, too long to be followed"),
+        ([], many) => format!("; {perhaps} in {many} cases, too long to be followed"),
+        (named, 0) => format!(
             "; {perhaps} in cases that were not followed: {}",
-            found.open.join("; ")
+            named.join(", or ")
         ),
-        [_] => format!("; {perhaps} in one case, too long to be followed"),
-        many => format!("; {perhaps} in {} cases that were not followed", many.len()),
+        (named, others) => format!(
+            "; {perhaps} in cases that were not followed: {}, and in {others} more, too long or too many to be written",
+            named.join(", or ")
+        ),
     }
 }
 

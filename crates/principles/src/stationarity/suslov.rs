@@ -1,9 +1,10 @@
 //! `hamilton.stationary-suslov`: whether Suslov's form is `∫δL dt = 0`.
 
-use super::cases::{where_zero, Leaf};
+use super::cases::where_zero;
 use super::motion::Motion;
 use super::stationary::{
-    alternatives, legend, not_followed, only, place, requirements, set_aside_unconfirmed,
+    alternatives, legend, moving_first, not_followed, only, place, requirements,
+    set_aside_unconfirmed,
 };
 use crate::variations::Displacements;
 use crate::words::{conditional, formula};
@@ -34,7 +35,7 @@ impl Claim for StationarySuslov {
          all s, with the momenta θ of the dependent velocities and the curvature coefficients A of the constraints. It is the condition of \
          stationarity with κ = −θ; for Chaplygin systems it suffices, for others also ∂L*/∂q_d = 0 along the motion is \
          needed, so it neither implies hamilton.stationary in general nor follows from it; and it depends on which velocities are called dependent. `proved`: identically, or on all motions; `conditional`: \
-         on the motions stated. Example: for a rolling disc θ A vanishes although A does not; for z' = y x' it is y x' (y', −x'). \
+         on the motions stated, rest among them; `refuted`: on no motion that was found but rest. Example: for a rolling disc θ A vanishes although A does not; for z' = y x' it is y x' (y', −x'). \
          At y = x' = y' = 1 that is (1, −1), so this motion does not satisfy the condition."
     }
 
@@ -126,15 +127,21 @@ fn on_subsets(
     let mut found = where_zero(cx, motion, &terms);
     set_aside_unconfirmed(cx, motion, &mut found);
     let open = not_followed(&found);
-    let moving: Vec<&Leaf> = found.leaves.iter().filter(|leaf| !leaf.at_rest).collect();
-    if moving.is_empty() {
-        refuted.prefix(&format!("Σ θ A does not vanish on every motion{open}"));
+    let all = moving_first(&found);
+    if all.first().is_none_or(|leaf| leaf.at_rest) {
+        let rest = match all.as_slice() {
+            [] => String::new(),
+            rest => format!("; it does at rest where {}", alternatives(rest)),
+        };
+        refuted.prefix(&format!(
+            "Σ θ A does not vanish on every motion{rest}{open}"
+        ));
         return Finding {
             verdict: refuted,
             formulas,
         };
     }
-    let stated = format!("{}{}", alternatives(&moving), legend(cx, motion));
+    let stated = format!("{}{}", alternatives(&all), legend(cx, motion));
     let condition = format!("{stated}{open}");
     let how = "the terms were differentiated along the motion in every case, exactly";
     let proof = Proof::exact(place(cx, motion), how);

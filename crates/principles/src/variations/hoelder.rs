@@ -6,8 +6,10 @@ use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::{once_where, Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::linear::dot;
+use chetaev_mechanics::prover::assumptions;
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Verdict};
 
 /// `variation.hoelder`.
@@ -34,7 +36,7 @@ impl Claim for Hoelder {
          coefficients A = D(∂φ/∂v) − ∂φ/∂q − (∂φ/∂q_d)(∂φ/∂v). `proved`: δf = 0 for all virtual displacements at all \
          states and accelerations; so it is where the constraints are integrable. `conditional`: on the motions only, which \
          happens for constraints nonlinear in the velocities, or for some virtual displacements only, whose equations are \
-         stated. `refuted`: for no displacement but zero. Example: a skate, f = x' sin φ − y' cos φ. Turn it by δφ while it moves with the speed \
+         stated, with the states at which δf vanishes for all. `refuted`: for no displacement but zero. Example: a skate, f = x' sin φ − y' cos φ. Turn it by δφ while it moves with the speed \
          u along its blade, and let the blade's displacement δs grow with time along its direction: δf = u δφ − φ' δs. Unless these are in the \
          ratio of the actual velocities, the varied path is none a skate can take. \
          With u = 2 and φ' = 1 that is δf = 2 δφ − δs, zero for δs = 2 δφ only."
@@ -173,17 +175,23 @@ fn for_some_displacements(
         refuted.prefix(sentence);
         return refuted.into();
     }
-    let equations: Option<Vec<String>> = rank
-        .pivots
-        .rows
-        .iter()
-        .map(|&row| equation(cx, d, &rows[row]))
-        .collect();
+    let equations = rank.pivots.rows.iter();
+    let equations: Option<Vec<String>> =
+        equations.map(|&row| equation(cx, d, &rows[row])).collect();
+    let equations = equations.map(|all| match all.len() {
+        1 => all,
+        _ => all.into_iter().map(bracketed).collect(),
+    });
     let (condition, sentence) = match equations {
-        Some(equations) => (
-            listed(&equations),
-            format!("varied curves violate the constraints, except for displacements with {}", listed(&equations)),
-        ),
+        Some(equations) => {
+            let equations = listed(&equations);
+            let of = match equations.contains(" or ") {
+                true => "for displacements, or at states, with",
+                false => "for displacements with",
+            };
+            let sentence = format!("varied curves violate the constraints, except {of} {equations}");
+            (equations, sentence)
+        }
         None => (
             format!("on {} of {k} dimensions of virtual displacements, those with Σ E[f] δq = 0", k - rank.maximum),
             format!("varied curves violate the constraints, except for {} of {k} dimensions of virtual displacements", k - rank.maximum),
@@ -201,15 +209,39 @@ fn for_some_displacements(
     verdict.into()
 }
 
-/// `Σ_s c_s δ_s = 0` without common factors; `None` where it is too long to be read.
+/// "(a = 0 or b = 0)" among others.
+fn bracketed(equation: String) -> String {
+    match equation.contains(" or ") {
+        true => format!("({equation})"),
+        false => equation,
+    }
+}
+
+/// `Σ_s c_s δ_s = 0` without common factors, and where these vanish, "delta_x = 0 or y = 0"; `None` where it is too long to be read.
 fn equation(cx: &Context<'_>, d: &Displacements<'_>, row: &[Expr]) -> Option<String> {
-    let g = &cx.system.graph;
+    let (system, g) = (cx.system, &cx.system.graph);
     let form = readable(cx, dot(g, row, &d.free))?;
-    let without = match factors(g, form, &d.symbols())?.as_slice() {
-        [(factor, 1)] => readable(cx, *factor)?,
+    let displacements = d.symbols();
+    let mut symbols = displacements.clone();
+    symbols.extend(system.coordinate_symbols());
+    symbols.extend(system.velocity_symbols());
+    let (own, common): (Vec<Expr>, Vec<Expr>) = factors(g, form, &symbols)?
+        .into_iter()
+        .map(|(factor, _)| factor)
+        .partition(|&factor| g.contains_any(factor, &displacements));
+    let without = match own.as_slice() {
+        [factor] => readable(cx, *factor)?,
         _ => form,
     };
-    Some(format!("{} = 0", g.text(without)))
+    let stated = assumptions(system);
+    let vanishes = |&e: &Expr| {
+        let signs = [e, g.neg(e)].map(|e| known_sign(g, e, &stated));
+        !signs.iter().any(|sign| sign.is_positive())
+    };
+    let common = common.into_iter().filter(vanishes);
+    let all = std::iter::once(without).chain(common.filter_map(|e| readable(cx, e)));
+    let all: Vec<String> = all.map(|e| format!("{} = 0", g.text(e))).collect();
+    Some(all.join(" or "))
 }
 
 /// δf, and the A^l_s that do not vanish.

@@ -5,7 +5,7 @@ use super::{evidence, first, linear, neighbours};
 use crate::motion_claims::of_another_system;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::words::counted;
-use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue};
+use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue, Proof};
 use chetaev_symbolic::Verdict;
 
 /// The claims of this module.
@@ -82,6 +82,16 @@ pub(super) fn refuted(quantity: &str, t: f64, value: f64, detail: String) -> Ver
     })
 }
 
+/// Whether the constraints leave no velocity free: then every variation with fixed ends vanishes, and quotients of integrals are noise.
+fn is_fixed(cx: &Context<'_>) -> bool {
+    cx.system.n() == cx.selection.rows.len()
+}
+
+fn nothing_varies(what: &str) -> Verdict {
+    let detail = format!("as many independent constraints as coordinates: there are no {what} but zero, and every first variation vanishes");
+    Verdict::Proved(Proof::structural("for every motion", detail))
+}
+
 /// `witness.first-variation#FORM`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WitnessOfForms;
@@ -128,6 +138,9 @@ impl Claim for WitnessOfForms {
         let Some(form) = form else {
             return Verdict::undecided("there is no such form").into();
         };
+        if is_fixed(cx) {
+            return nothing_varies("virtual displacements").into();
+        }
         match first::of(cx, form) {
             Ok(found) => of_form(&found).into(),
             Err(why) => Verdict::undecided(why).into(),
@@ -202,6 +215,9 @@ impl Claim for WitnessOfAction {
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         if let Some(other) = elsewhere(cx) {
             return other;
+        }
+        if is_fixed(cx) {
+            return nothing_varies("admissible neighbours with the same ends").into();
         }
         match neighbours::of(cx) {
             Ok(found) => of_action(cx, &found).into(),

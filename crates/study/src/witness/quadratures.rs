@@ -2,7 +2,7 @@
 //!
 //! The constants α are taken from the state where the stretch begins. Then `∂S/∂α_j = ∂action/∂α_j + Σ_e ∫ ∂g_e/∂α_j dq_e` is formed by
 //! Gauss's quadrature over each coordinate between its values at the rows; nothing but positions and times enters. A momentum
-//! that is the negative root is taken with its sign; a stretch ends before any of them vanishes, since ∂g/∂α has poles there.
+//! that is the other root than that written is taken by it; a stretch ends before any of them vanishes, since ∂g/∂α has poles there.
 
 use super::algebra::solved;
 use super::evidence;
@@ -11,7 +11,7 @@ use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::system::CompleteIntegral;
 use chetaev_mechanics::Context;
 use chetaev_principles::hamilton_jacobi::{momenta_on_motions, separated, verified, Extremum};
-use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Graph, Node, Symbol, Verdict};
 
 /// More coordinates are too many.
 pub(super) const COORDINATES: usize = 8;
@@ -86,12 +86,34 @@ pub(super) fn of(cx: &Context<'_>, subject: &str) -> Result<Quadratures, Unmet> 
     comparison.compare(&stretch).map_err(Unmet::Failed)
 }
 
+/// A root of a quadratic equation with the other sign of its square roots in which constants occur.
+fn opposite_root(g: &Graph, e: Expr, constants: &[Symbol]) -> Expr {
+    let half = g.div(g.one(), g.integer(2));
+    let is_root =
+        |e: &Expr| matches!(g.node(*e), Node::Power { exponent, .. } if *exponent == half);
+    let all = g.reachable(&[e]).into_iter().filter(is_root);
+    let roots = all.filter(|&root| g.contains_any(root, constants));
+    let negated: Vec<(Expr, Expr)> = roots.map(|root| (root, g.neg(root))).collect();
+    g.substitute(e, &negated)
+}
+
+/// What vanishes where a momentum is one of two roots `a ± b`, polynomial in what b² is: `b² − (momentum − a)²`.
+fn either_root(g: &Graph, [root, other]: [Expr; 2], momentum: Expr) -> Expr {
+    if root == other {
+        return g.sub(root, momentum);
+    }
+    let half = |e: Expr| g.div(e, g.integer(2));
+    let (middle, apart) = (half(g.add(&[root, other])), half(g.sub(root, other)));
+    let off = g.sub(momentum, middle);
+    g.sub(g.mul(&[apart, apart]), g.mul(&[off, off]))
+}
+
 struct Comparison<'b> {
     g: &'b Graph,
     integral: &'b CompleteIntegral,
     samples: Samples,
-    /// The coordinates of the quadratures, their symbols, and the integrands.
-    own: Vec<(usize, Symbol, Expr)>,
+    /// The coordinates of the quadratures, their symbols, and the integrands: both roots of the equation for a momentum.
+    own: Vec<(usize, Symbol, [Expr; 2])>,
     parameters: Vec<(Symbol, f64)>,
     coordinates: Vec<Symbol>,
     time: Symbol,
@@ -119,7 +141,10 @@ impl<'b> Comparison<'b> {
             integral,
             samples,
             own: own
-                .map(|&(i, e)| (i, system.coordinates[i].q_symbol, e))
+                .map(|&(i, e)| {
+                    let other = opposite_root(g, e, &integral.constants);
+                    (i, system.coordinates[i].q_symbol, [e, other])
+                })
                 .collect(),
             parameters: evidence.binding.parameters.clone(),
             coordinates: system.coordinate_symbols(),
@@ -134,15 +159,16 @@ impl<'b> Comparison<'b> {
 
     fn compare(&self, stretch: &Stretch) -> Result<Quadratures, String> {
         let constants = self.constants(stretch)?;
-        let stride = (stretch.last - stretch.first).div_ceil(MOST);
-        let rows: Vec<usize> = (stretch.first..=stretch.last).step_by(stride).collect();
+        let (first, last) = self.between_meetings(stretch, &constants)?;
+        let roots = self.roots(first, &constants)?;
+        let stride = (last - first).div_ceil(MOST);
+        let rows: Vec<usize> = (first..=last).step_by(stride).collect();
         let outside = self
             .g
             .gradient(self.integral.action, &self.integral.constants);
-        let integrands: Vec<Vec<Expr>> = self
-            .own
+        let integrands: Vec<Vec<Expr>> = roots
             .iter()
-            .map(|&(_, _, e)| self.g.gradient(e, &self.integral.constants))
+            .map(|&e| self.g.gradient(e, &self.integral.constants))
             .collect();
         let start = self.at_row(&outside, rows[0], &constants)?;
         let count = constants.len();
@@ -152,7 +178,7 @@ impl<'b> Comparison<'b> {
             for (place, integrand) in integrands.iter().enumerate() {
                 let part = self.between(integrand, place, (pair[0], pair[1]), &constants)?;
                 for (j, value) in part.into_iter().enumerate() {
-                    sums[j] += stretch.signs[place] * value;
+                    sums[j] += value;
                     sizes[j] += value.abs();
                 }
             }
@@ -175,6 +201,55 @@ impl<'b> Comparison<'b> {
             rows: rows.len() as u32,
             interval: (times[rows[0]], times[rows[rows.len() - 1]]),
         })
+    }
+
+    /// The longest part of a stretch on which no two roots for a momentum meet. Where they are opposites they do so where it vanishes.
+    fn between_meetings(
+        &self,
+        stretch: &Stretch,
+        constants: &[f64],
+    ) -> Result<(usize, usize), String> {
+        let g = self.g;
+        let middles = self.own.iter().filter_map(|&(i, symbol, [root, other])| {
+            let middle = g.div(g.add(&[root, other]), g.integer(2));
+            let outside = g.diff(self.integral.action, symbol);
+            (root != other && !g.is_zero(middle)).then(|| (i, g.add(&[outside, middle])))
+        });
+        let middles: Vec<(usize, Expr)> = middles.collect();
+        let (mut first, mut last) = (stretch.first, stretch.last);
+        for (i, middle) in middles {
+            let off = |row: usize| -> Result<f64, String> {
+                Ok(self.samples.at(1, row)[i] - self.at_row(&[middle], row, constants)?[0])
+            };
+            let offs: Vec<f64> = (first..=last).map(off).collect::<Result<_, _>>()?;
+            let largest = offs.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+            let is_same = |a: &f64, b: &f64| {
+                a.signum() == b.signum() && a.abs().min(b.abs()) > TURNING * largest
+            };
+            let runs = offs.chunk_by(is_same).scan(first, |at, run| {
+                let start = *at;
+                *at += run.len();
+                Some((start, start + run.len() - 1))
+            });
+            let longest = runs.max_by_key(|(start, end)| end - start);
+            (first, last) = longest.unwrap_or((first, first));
+        }
+        match last - first >= FEWEST {
+            true => Ok((first, last)),
+            false => Err("the two roots for a momentum meet at most rows of the motion".into()),
+        }
+    }
+
+    /// The roots that are the momenta at a row. The one written need not be: with `L = −q'²/2` it is negative.
+    fn roots(&self, row: usize, constants: &[f64]) -> Result<Vec<Expr>, String> {
+        let of = |&(i, symbol, [root, other]): &(usize, Symbol, [Expr; 2])| {
+            let outside = self.g.diff(self.integral.action, symbol);
+            let values = self.at_row(&[root, other, outside], row, constants)?;
+            let momentum = self.samples.at(1, row)[i] - values[2];
+            let is_first = (momentum - values[0]).abs() <= (momentum - values[1]).abs();
+            Ok(if is_first { root } else { other })
+        };
+        self.own.iter().map(of).collect()
     }
 
     /// The longest stretch on which no momentum that is found by a quadrature comes near zero.
@@ -283,7 +358,7 @@ impl<'b> Comparison<'b> {
         Ok(sums)
     }
 
-    /// The constants that give the momenta at the first row: `g_e² = (π_e − ∂action/∂q_e)²`, and `∂action/∂q = π` for the others, by
+    /// The constants that give the momenta at the first row: one of the roots g_e is `π_e − ∂action/∂q_e`, and `∂action/∂q = π` for the others, by
     /// steps of Gauss and Newton. Those that motions fix stay at their values.
     fn constants(&self, stretch: &Stretch) -> Result<Vec<f64>, String> {
         let (g, row) = (self.g, stretch.first);
@@ -293,9 +368,7 @@ impl<'b> Comparison<'b> {
             .map(|i| {
                 let left = g.sub(g.symbol_expr(self.momenta[i]), slopes[i]);
                 let own = self.own.iter().find(|(own, _, _)| *own == i);
-                own.map_or(left, |&(_, _, e)| {
-                    g.sub(g.mul(&[e, e]), g.mul(&[left, left]))
-                })
+                own.map_or(left, |&(_, _, roots)| either_root(g, roots, left))
             })
             .collect();
         let fixed: Vec<(Expr, Expr)> = self
