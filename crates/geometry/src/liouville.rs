@@ -218,16 +218,24 @@ fn counted_for(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
     let measure = measure(cx);
     let measure = measure.as_ref().as_ref().map_err(Clone::clone)?;
     // A density without a formula may contain what is left out: then another one is asked for, which is a quadrature.
-    let usable = match measure.density {
-        Some(density) if counts(density) => matches!(&measure.verdict, Verdict::Proved(_)),
-        _ => matches!(free_of(cx, &reduced.ignorable)?, Verdict::Proved(_)),
+    // Quadratures go from place to place, so a density near each serves, also where none returns to its values on a circle.
+    let (evidence, kept) = match measure.density {
+        Some(density) if counts(density) => (
+            measure.verdict.clone(),
+            "the measure of `measure.invariant` is kept",
+        ),
+        _ => (
+            free_of(cx, &reduced.ignorable)?,
+            "a measure near every place is kept, whose density is a quadrature",
+        ),
     };
+    let usable = matches!(evidence, Verdict::Proved(_));
     let missing = m - 2 - many.min(m - 2);
     Ok(match (missing, usable) {
         (0, true) => {
-            let detail = format!("{about}; the measure of `measure.invariant` is kept");
+            let detail = format!("{about}; {kept}");
             let on = "where the integrals are independent";
-            Verdict::Proved(Proof::exact(on, detail)).and(measure.verdict.clone())
+            Verdict::Proved(Proof::exact(on, detail)).and(evidence)
         }
         (0, false) => Verdict::undecided(format!(
             "{about}; an invariant measure of the reduced motion is missing (`measure.invariant`)"
