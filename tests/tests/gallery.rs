@@ -235,6 +235,12 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
         "liouville.integrable",
         "missing; the invariant measure is known",
     ),
+    // Near the pole of its angles the sphere's motion has a spike, which the rows of the quadrature resolve badly.
+    (
+        "sphere-on-turntable/model.toml",
+        "witness.stationary",
+        "too small to be told from zero",
+    ),
     // Neither enough integrals nor a measure in the families searched.
     (
         "rattleback/model.toml",

@@ -5,8 +5,8 @@
 //! Values change by rounding alone.
 
 use chetaev_symbolic::substitute::SolveCache;
-use chetaev_symbolic::{rational, Expr, Graph, Node, Rational};
-use rustc_hash::FxHashMap;
+use chetaev_symbolic::{rational, Expr, Graph, Node, Rational, Symbol};
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BinaryHeap;
 
 /// A term: its coefficient, and its factors as bases with exponents.
@@ -73,51 +73,115 @@ fn base_and_exponent(graph: &Graph, e: Expr) -> (Expr, Rational) {
 /// Graphs with more nodes are left as they are: there it takes longer to look for factors than they save.
 const LARGEST: usize = 20_000;
 
-/// The expressions with the common factors of all sums below them taken out.
-pub(crate) fn factored(graph: &Graph, roots: &[Expr]) -> Vec<Expr> {
+/// The expressions with the common factors of all sums below them taken out, where that costs no operation.
+pub(crate) fn factored(
+    graph: &Graph,
+    roots: &[Expr],
+    is_variable: &dyn Fn(Symbol) -> bool,
+) -> Vec<Expr> {
     let nodes = graph.reachable(roots);
     if nodes.len() > LARGEST {
         return roots.to_vec();
     }
     let mut image: FxHashMap<Expr, Expr> = FxHashMap::default();
     let mut solved = SolveCache::default();
+    let mut moving: FxHashSet<Expr> = FxHashSet::default();
     for e in nodes {
+        let mut own = graph.as_symbol(e).is_some_and(is_variable);
+        (graph.node(e)).for_each_child(|child| own |= moving.contains(&child));
         let mut child = |c: Expr| image.get(&c).copied().unwrap_or(c);
-        let own = graph.rebuild(e, &mut child, &mut solved);
-        let own = match graph.node(own) {
-            Node::Sum { constant, terms } => sum(graph, constant, terms),
-            _ => own,
+        let rebuilt = graph.rebuild(e, &mut child, &mut solved);
+        let found = match graph.node(rebuilt) {
+            Node::Sum { constant, terms } => sum(graph, constant, terms, &|e| moving.contains(&e)),
+            _ => rebuilt,
         };
-        if own != e {
-            image.insert(e, own);
+        if own {
+            moving.extend([e, found]);
+        }
+        if found != e {
+            image.insert(e, found);
         }
     }
     let of = |e: &Expr| image.get(e).copied().unwrap_or(*e);
     roots.iter().map(of).collect()
 }
 
-fn sum(graph: &Graph, constant: &Rational, terms: &[(Expr, Rational)]) -> Expr {
+fn sum(
+    graph: &Graph,
+    constant: &Rational,
+    terms: &[(Expr, Rational)],
+    moves: &dyn Fn(Expr) -> bool,
+) -> Expr {
     let terms = terms.iter().map(|(e, scale)| Term::of(graph, *e, scale));
-    let nested = nested(graph, terms.collect());
+    let nested = nested(graph, terms.collect(), moves);
     graph.add(&[nested, graph.number(constant.clone())])
 }
 
-fn nested(graph: &Graph, mut terms: Vec<Term>) -> Expr {
+fn nested(graph: &Graph, mut terms: Vec<Term>, moves: &dyn Fn(Expr) -> bool) -> Expr {
     let mut counts = Counts::of(&terms);
     let mut parts = Vec::new();
     while let Some(kind) = counts.most_frequent() {
-        let (inner, rest) =
-            (terms.into_iter()).partition(|term| term.kinds().any(|own| own == kind));
+        let has = |term: &Term| term.kinds().any(|own| own == kind);
+        if saved(&terms, kind, moves) < 0 {
+            continue;
+        }
+        let (inner, rest) = terms.into_iter().partition(has);
         terms = rest;
         counts.forget(&inner);
-        parts.push(bracket(graph, kind.0, inner));
+        parts.push(bracket(graph, kind.0, inner, moves));
     }
     parts.extend(terms.iter().map(|term| term.expression(graph)));
     graph.add(&parts)
 }
 
+/// How many operations are saved where a factor is taken out.
+fn saved(terms: &[Term], kind: Kind, moves: &dyn Fn(Expr) -> bool) -> isize {
+    let has = |term: &&Term| term.kinds().any(|own| own == kind);
+    let (own, rest): (Vec<&Term>, Vec<&Term>) = terms.iter().partition(has);
+    let shapes = |terms: &[&Term], without: Option<Expr>| -> Vec<Shape> {
+        let shapes = terms.iter().map(|term| Shape::of(term, without, moves));
+        shapes.collect()
+    };
+    let (whole, inner) = (shapes(&own, None), shapes(&own, Some(kind.0)));
+    let starts = |shapes: &[Shape]| shapes.iter().any(Shape::starts);
+    let started = starts(&whole) && !starts(&shapes(&rest, None));
+    let before = Shape::costs(&whole) - isize::from(started);
+    let has_constant = inner.iter().any(|shape| shape.changing == 0);
+    let after = Shape::costs(&inner) + isize::from(has_constant) - isize::from(starts(&inner)) + 1;
+    before - after
+}
+
+/// How many factors of a term change, and whether it has others.
+struct Shape {
+    changing: isize,
+    has_constant: bool,
+}
+
+impl Shape {
+    fn of(term: &Term, without: Option<Expr>, moves: &dyn Fn(Expr) -> bool) -> Shape {
+        let factors = term.factors.iter().filter(|own| Some(own.0) != without);
+        let (changing, constant): (Vec<_>, Vec<_>) = factors.partition(|own| moves(own.0));
+        Shape {
+            changing: changing.len() as isize,
+            has_constant: !constant.is_empty() || !rational::abs(&term.coefficient).is_one(),
+        }
+    }
+
+    /// Whether a sum may start with the term without an operation.
+    fn starts(&self) -> bool {
+        self.changing == 0 || self.changing == 1 && !self.has_constant
+    }
+
+    /// The products of all terms, the last of each fused with a sum, and a sum for each that is none; constants cost nothing.
+    fn costs(shapes: &[Shape]) -> isize {
+        let changing = shapes.iter().filter(|shape| shape.changing > 0);
+        let cost = |own: &Shape| (own.changing + isize::from(own.has_constant) - 1).max(1);
+        changing.map(cost).sum()
+    }
+}
+
 /// Terms that all have powers of a base, of one sign, with the least power before a bracket.
-fn bracket(graph: &Graph, base: Expr, mut terms: Vec<Term>) -> Expr {
+fn bracket(graph: &Graph, base: Expr, mut terms: Vec<Term>, moves: &dyn Fn(Expr) -> bool) -> Expr {
     let exponents = terms.iter().filter_map(|term| term.exponent(base));
     let Some(least) = exponents.min_by_key(|x| rational::abs(x)).cloned() else {
         return graph.zero();
@@ -126,7 +190,7 @@ fn bracket(graph: &Graph, base: Expr, mut terms: Vec<Term>) -> Expr {
         term.divide(base, &least);
     }
     let power = graph.pow(base, graph.number(least));
-    graph.mul(&[power, nested(graph, terms)])
+    graph.mul(&[power, nested(graph, terms, moves)])
 }
 
 /// In how many terms each kind of factor occurs.
@@ -185,8 +249,17 @@ mod tests {
             g.mul(&[g.integer(2), a, c, root, g.powi(x, -1)]),
             b,
         ];
-        let found = factored(&g, &[g.add(&terms)])[0];
+        let found = factored(&g, &[g.add(&terms)], &|_| true)[0];
         let bracket = g.add(&[b, g.mul(&[g.integer(2), c, g.powi(x, -1)])]);
         assert_eq!(found, g.add(&[g.mul(&[a, root, bracket]), b]));
+        // x y − y z − 2 x + z takes three fused operations as it stands, and more with brackets.
+        let plain = [
+            g.mul(&[x, a]),
+            g.neg(g.mul(&[a, b])),
+            g.scale(&rational::integer(-2), x),
+            b,
+        ];
+        let plain = g.add(&plain);
+        assert_eq!(factored(&g, &[plain], &|_| true), [plain]);
     }
 }

@@ -123,7 +123,8 @@ impl<'g> Lowering<'g> {
         let lists = self.groups.iter().map(|(_, values)| values);
         let lists = lists.chain(self.names.iter().map(|(_, values)| values));
         let all: Vec<Expr> = lists.chain([&self.definite]).flatten().copied().collect();
-        let mut all = horner::factored(self.graph, &all).into_iter();
+        let is_variable = |s: Symbol| self.variables.contains(&s);
+        let mut all = horner::factored(self.graph, &all, &is_variable).into_iter();
         let mut factored = self.clone();
         let lists = factored.groups.iter_mut().map(|(_, values)| values);
         let lists = lists.chain(factored.names.iter_mut().map(|(_, values)| values));

@@ -50,10 +50,15 @@ pub struct ReducedEquations {
 }
 
 impl ReducedEquations {
-    /// From the kinetic energy as it is written; `None` where it is no such form with constant C.
+    /// From the kinetic energy as it is written; `None` where it is no such form beside what is linear in the velocities.
     pub fn new(system: &System, c: &Characteristics) -> Option<ReducedEquations> {
         let g = &system.graph;
         let (kinetic, rest) = terms_of_degree(system, system.lagrangian, 2);
+        // What is left may be linear in the velocities, and has no inertia then.
+        let momenta = g.gradient(rest, &system.velocity_symbols());
+        if g.any_contains_any(&momenta, &system.velocity_symbols()) {
+            return None;
+        }
         let forms = Forms::of(system, c, kinetic)?;
         let k = c.k();
         let mut mass = vec![vec![g.zero(); k]; k];

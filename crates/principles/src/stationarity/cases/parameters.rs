@@ -29,11 +29,16 @@ impl Search<'_, '_> {
         let g = self.g;
         let mut parameters = g.symbols_in(&[e]);
         let time = g.intern_symbol("t", 0);
-        parameters.retain(|s| !self.state.contains(s) && *s != time);
+        // A control is no parameter: it takes its values at single times.
+        let system = self.cx.system;
+        let moves =
+            |s: Symbol| self.state.contains(&s) || s == time || system.prescribed_rate(s).is_some();
+        let (moving, fixed): (Vec<Symbol>, Vec<Symbol>) =
+            parameters.into_iter().partition(|&s| moves(s));
+        parameters = fixed;
         if parameters.is_empty() {
             return;
         }
-        let moving: Vec<Symbol> = self.state.iter().copied().chain([time]).collect();
         let list = factors(g, e, &parameters).unwrap_or_default();
         let mut regular = self.regular.borrow_mut();
         for (factor, _) in list {
