@@ -12,6 +12,7 @@
 
 use crate::characteristics::Characteristics;
 use crate::linear::dot;
+use crate::mass;
 use crate::quadratic_forms::{in_linear_forms, terms_of_degree};
 use crate::regular::regular;
 use crate::system::System;
@@ -26,8 +27,12 @@ use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 pub fn accelerations(system: &System, terms: &MotionTerms, rows: &[usize]) -> Option<Vec<Expr>> {
     let g = &system.graph;
     let c = regular(system, terms, rows)?;
-    let own = ReducedEquations::new(system, &c);
-    let own = own.unwrap_or_else(|| ReducedEquations::of_terms(system, terms, &c));
+    // Where a mass contains velocities the equations are not those of the Lagrangian.
+    let of_lagrangian = mass::with_velocity(system).is_none();
+    let own = of_lagrangian.then(|| ReducedEquations::new(system, &c));
+    let own = own
+        .flatten()
+        .unwrap_or_else(|| ReducedEquations::of_terms(system, terms, &c));
     let rates = own.without_ignorable(system).shortened(system).rates(g)?;
     let of_rates = c
         .parameters
@@ -50,7 +55,7 @@ pub struct ReducedEquations {
 }
 
 impl ReducedEquations {
-    /// From the kinetic energy as it is written; `None` where it is no such form beside what is linear in the velocities.
+    /// From the Lagrangian with the kinetic energy as it is written; `None` where that is no such form beside what is linear in the velocities.
     pub fn new(system: &System, c: &Characteristics) -> Option<ReducedEquations> {
         let g = &system.graph;
         let (kinetic, rest) = terms_of_degree(system, system.lagrangian, 2);
