@@ -66,16 +66,16 @@ impl ReducedEquations {
         }
         let forms = Forms::of(system, c, kinetic)?;
         let k = c.k();
-        let mut mass = vec![vec![g.zero(); k]; k];
-        for s in 0..k {
-            for t in 0..=s {
-                let terms = forms.weights.iter();
-                let terms =
-                    terms.map(|&(c, i, j)| g.mul(&[c, forms.slope[i][s], forms.slope[j][t]]));
-                mass[s][t] = g.add(&terms.collect::<Vec<_>>());
-                mass[t][s] = mass[s][t];
-            }
-        }
+        let entry = |s: usize, t: usize| {
+            let terms = forms.weights.iter();
+            let terms = terms.map(|&(c, i, j)| g.mul(&[c, forms.slope[i][s], forms.slope[j][t]]));
+            g.add(&terms.collect::<Vec<_>>())
+        };
+        let lower: Vec<Vec<Expr>> = (0..k)
+            .map(|s| (0..=s).map(|t| entry(s, t)).collect())
+            .collect();
+        let row = |s: usize| (0..k).map(|t| lower[s.max(t)][s.min(t)]).collect();
+        let mass = (0..k).map(row).collect();
         let applied = applied(system, c, rest);
         let inertia = forms.inertia(system, c);
         let force = applied.iter().zip(&inertia);

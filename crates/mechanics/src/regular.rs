@@ -23,7 +23,7 @@ const LARGEST: usize = 40;
 /// `None` where none are found in this way.
 pub fn regular(system: &System, terms: &MotionTerms, rows: &[usize]) -> Option<Characteristics> {
     let is_affine = rows.iter().all(|&row| terms.affine[row]);
-    if terms.order != 1 || !is_affine || system.n() > LARGEST || system.masses.len() > 0 {
+    if terms.order != 1 || !is_affine || system.n() > LARGEST || !system.masses.is_empty() {
         return None;
     }
     let is_holonomic = |&row: &usize| {
