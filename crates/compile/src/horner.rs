@@ -252,14 +252,8 @@ mod tests {
         let found = factored(&g, &[g.add(&terms)], &|_| true)[0];
         let bracket = g.add(&[b, g.mul(&[g.integer(2), c, g.powi(x, -1)])]);
         assert_eq!(found, g.add(&[g.mul(&[a, root, bracket]), b]));
-        // x y − y z − 2 x + z takes three fused operations as it stands, and more with brackets.
-        let plain = [
-            g.mul(&[x, a]),
-            g.neg(g.mul(&[a, b])),
-            g.scale(&rational::integer(-2), x),
-            b,
-        ];
-        let plain = g.add(&plain);
+        // One fused operation as it stands, two with a bracket.
+        let plain = g.add(&[g.mul(&[x, a]), a]);
         assert_eq!(factored(&g, &[plain], &|_| true), [plain]);
     }
 }
