@@ -92,12 +92,16 @@ impl ReducedEquations {
         let on = |es: &[Expr]| c.restrict(system, es);
         let rows: Vec<Vec<Expr>> = terms.mass_matrix.iter().map(|row| on(row)).collect();
         let times = |v: &[Expr]| -> Vec<Expr> { rows.iter().map(|row| dot(g, row, v)).collect() };
-        let mass = |column: &Vec<Expr>| c.contract(system, &times(column));
+        let along = |column: &Vec<Expr>| c.contract(system, &times(column));
+        let mass: Vec<Vec<Expr>> = columns.iter().map(along).collect();
         let inertia = times(&c.acceleration_offset);
         let left = on(&terms.force).into_iter().zip(inertia);
         let left: Vec<Expr> = left.map(|(force, inertia)| g.sub(force, inertia)).collect();
         ReducedEquations {
-            mass: columns.iter().map(mass).collect(),
+            // M is not symmetric where a mass contains velocities.
+            mass: (0..c.k())
+                .map(|s| mass.iter().map(|own| own[s]).collect())
+                .collect(),
             force: c.contract(system, &left),
         }
     }

@@ -520,7 +520,9 @@ impl Claim for FormulationsAgree {
             );
             return Verdict::undecided(tried).into();
         }
-        let allowed = bound(evidence.tolerance, 1.0).max(100.0 * error).min(LOST);
+        let allowed =
+            bound(evidence.tolerance, 1.0).max(100.0 * error) * growth(&evidence.run, gap.t);
+        let allowed = allowed.min(LOST);
         let what = format!(
             "difference of `{}` and `{}`",
             evidence.run.formulation, other.formulation
@@ -533,6 +535,19 @@ impl Claim for FormulationsAgree {
             evidence.tolerance,
         )
         .into()
+    }
+}
+
+/// Where a run ends early, at a singular state, what it computes depends on the time left: an error of the time counts by its
+/// share in that.
+fn growth(run: &Run, t: f64) -> f64 {
+    let (Some(first), false) = (run.times.first(), run.ending.finished) else {
+        return 1.0;
+    };
+    let (span, left) = ((run.t - first).abs(), (run.t - t).abs());
+    match left > 0.0 {
+        true => span / left,
+        false => 1.0,
     }
 }
 
