@@ -117,7 +117,7 @@ const GALLERY: &[Expected] = &[
         "without a measure",
     ),
     // A linear equation for the speed with coefficients that depend on the time: its density is free of the place.
-    ("sand-cart", "liouville.integrable", "proved", "the measure"),
+    ("sand-cart", "liouville.integrable", "proved", "a measure"),
     // Chaplygin 1903: integrable by Euler's and Jacobi's theorem.
     (
         "chaplygin-sphere",
