@@ -79,14 +79,7 @@ pub(crate) fn is_convex_in_one_form(system: &System) -> bool {
 pub(crate) fn terms_of_degree(system: &System, e: Expr, degree_asked: u32) -> (Expr, Expr) {
     let g = &system.graph;
     let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
-    let mut degrees: FxHashMap<Expr, Option<u32>> = FxHashMap::default();
-    for child in g.reachable(&[e]) {
-        let own = match velocities.contains(&child) {
-            true => Some(1),
-            false => degree(g, child, &degrees),
-        };
-        degrees.insert(child, own);
-    }
+    let degrees = degrees(g, e, &velocities);
     let is_asked = |e: Expr| degrees.get(&e).copied().flatten() == Some(degree_asked);
     if is_asked(e) {
         return (e, g.zero());
@@ -110,18 +103,12 @@ pub(crate) fn in_linear_forms(
     kinetic: Expr,
     velocities: &[Expr],
 ) -> Option<(Expr, Vec<Expr>, Vec<Expr>)> {
-    let mut degrees: FxHashMap<Expr, Option<u32>> = FxHashMap::default();
-    let mut forms = Vec::new();
-    for e in g.reachable(&[kinetic]) {
-        let degree = match velocities.contains(&e) {
-            true => Some(1),
-            false => degree(g, e, &degrees),
-        };
-        degrees.insert(e, degree);
-        if degree == Some(1) && matches!(g.node(e), Node::Sum { .. }) {
-            forms.push(e);
-        }
-    }
+    let degrees = degrees(g, kinetic, velocities);
+    let is_form =
+        |e: &Expr| degrees.get(e) == Some(&Some(1)) && matches!(g.node(*e), Node::Sum { .. });
+    let forms: Vec<Expr> = (g.reachable(&[kinetic]).into_iter())
+        .filter(is_form)
+        .collect();
     if degrees.get(&kinetic) != Some(&Some(2)) {
         return None;
     }
@@ -134,6 +121,19 @@ pub(crate) fn in_linear_forms(
     let all = all.chain(velocities.iter().map(|&v| (v, v)));
     let (symbols, forms) = all.filter(|(e, _)| occurring.contains(e)).unzip();
     Some((written, symbols, forms))
+}
+
+/// The degrees of an expression and of all that it is made of.
+fn degrees(g: &Graph, e: Expr, velocities: &[Expr]) -> FxHashMap<Expr, Option<u32>> {
+    let mut degrees: FxHashMap<Expr, Option<u32>> = FxHashMap::default();
+    for e in g.reachable(&[e]) {
+        let own = match velocities.contains(&e) {
+            true => Some(1),
+            false => degree(g, e, &degrees),
+        };
+        degrees.insert(e, own);
+    }
+    degrees
 }
 
 /// The degree of a homogeneous polynomial in the velocities; `None` for anything else.

@@ -16,7 +16,7 @@ use crate::mass;
 use crate::quadratic_forms::{in_linear_forms, terms_of_degree};
 use crate::regular::regular;
 use crate::system::System;
-use crate::terms::{freeze_accelerations, MotionTerms};
+use crate::terms::{force, freeze_accelerations, MotionTerms};
 use chetaev_symbolic::simplify::{simplify_all, Options};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::{decide_zero, ZeroTest};
@@ -76,7 +76,7 @@ impl ReducedEquations {
             .collect();
         let row = |s: usize| (0..k).map(|t| lower[s.max(t)][s.min(t)]).collect();
         let mass = (0..k).map(row).collect();
-        let applied = applied(system, c, rest);
+        let applied = c.contract(system, &c.restrict(system, &force(system, rest, &momenta)));
         let inertia = forms.inertia(system, c);
         let force = applied.iter().zip(&inertia);
         let force = force
@@ -280,18 +280,6 @@ fn vanish(system: &System, es: &[Expr]) -> bool {
     };
     let test = ZeroTest { options, ..test };
     matches!(decide_zero(&system.graph, &test), Verdict::Proved(_))
-}
-
-/// R: the forces, and what a part of the Lagrangian contributes, along the characteristics.
-fn applied(system: &System, c: &Characteristics, part: Expr) -> Vec<Expr> {
-    let g = &system.graph;
-    let momenta = g.gradient(part, &system.velocity_symbols());
-    let drift = freeze_accelerations(system, &momenta);
-    let by_position = g.gradient(part, &system.coordinate_symbols());
-    let all: Vec<Expr> = (0..system.n())
-        .map(|i| g.add(&[by_position[i], system.forces[i], g.neg(drift[i])]))
-        .collect();
-    c.contract(system, &c.restrict(system, &all))
 }
 
 #[cfg(test)]

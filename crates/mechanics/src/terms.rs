@@ -77,14 +77,19 @@ fn of_lagrangian(system: &System) -> (Vec<Vec<Expr>>, Vec<Expr>) {
     let g = &system.graph;
     let velocities = system.velocity_symbols();
     let momenta: Vec<Expr> = g.gradient(system.lagrangian, &velocities);
-    let drift = freeze_accelerations(system, &momenta);
-    let force = g
-        .gradient(system.lagrangian, &system.coordinate_symbols())
+    let force = force(system, system.lagrangian, &momenta);
+    (g.jacobian(&momenta, &velocities), force)
+}
+
+/// b of a part of the Lagrangian with these momenta, and of the forces.
+pub(crate) fn force(system: &System, part: Expr, momenta: &[Expr]) -> Vec<Expr> {
+    let g = &system.graph;
+    let drift = freeze_accelerations(system, momenta);
+    g.gradient(part, &system.coordinate_symbols())
         .into_iter()
         .enumerate()
         .map(|(i, slope)| g.add(&[slope, system.forces[i], g.neg(drift[i])]))
-        .collect();
-    (g.jacobian(&momenta, &velocities), force)
+        .collect()
 }
 
 /// `M_eff` and b from the particle law, which is linear in the accelerations.
