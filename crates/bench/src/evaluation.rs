@@ -8,6 +8,7 @@ use chetaev::compile::{
     backend, Backend, BlockEvaluator, Evaluator, Lanes, Lowering, Workspace, LANES,
 };
 use chetaev::integrate::System as Flow;
+use chetaev::mechanics::reduced_equations::reduced;
 use chetaev::mechanics::Equations;
 use chetaev::motion::accelerations::Accelerations;
 use chetaev::motion::functions::Functions;
@@ -19,6 +20,9 @@ use serde_json::{json, Value};
 
 /// The right-hand side of the product's own flow.
 pub const FLOW: &str = "flow";
+
+/// The equations behind the flow: rates in quasi-velocities without singular places.
+pub const REDUCED: &str = "reduced";
 
 /// From the text to the first accelerations by compiled code, everything anew each time.
 ///
@@ -54,9 +58,9 @@ fn first(
 ) -> Result<(Vec<f64>, f64), String> {
     if variant != FLOW {
         let prepared = Prepared::new(source, state)?;
-        let equations = prepared.equations(variant)?;
+        let form = Form::of(&prepared, variant)?;
         let derived = clock.seconds().0;
-        let mut program = Program::new(&prepared, &equations)?;
+        let mut program = Program::new(&prepared, &form)?;
         return Ok((program.accelerations(state)?, derived));
     }
     // The flow's functions are compiled where the terms are made, so that both are one part.
@@ -91,8 +95,8 @@ pub fn right_hand_side(question: &Question) -> Result<Ready, String> {
     match question.variant.as_str() {
         FLOW => of_flow(question, prepared),
         name => {
-            let equations = prepared.equations(name)?;
-            of_program(question, &Program::new(&prepared, &equations)?)
+            let form = Form::of(&prepared, name)?;
+            of_program(question, &Program::new(&prepared, &form)?)
         }
     }
 }
@@ -165,6 +169,53 @@ fn of_program(question: &Question, program: &Program) -> Result<Ready, String> {
     })
 }
 
+/// A form of the equations of motion, as functions of (t, q, variables).
+struct Form {
+    /// The variables, each with its value as a function of (t, q, v).
+    variables: Vec<(Symbol, Expr)>,
+    /// The rates of the coordinates.
+    velocities: Vec<Expr>,
+    /// The rates of the variables.
+    rates: Vec<Expr>,
+    /// q''.
+    accelerations: Vec<Expr>,
+}
+
+impl Form {
+    fn of(prepared: &Prepared, name: &str) -> Result<Form, String> {
+        match name {
+            REDUCED => Form::reduced(prepared),
+            _ => Ok(Form::of_formulation(prepared, &prepared.equations(name)?)),
+        }
+    }
+
+    fn of_formulation(prepared: &Prepared, equations: &Equations) -> Form {
+        let zero = prepared.system.graph.zero();
+        let variables = equations.variables.iter();
+        Form {
+            variables: variables
+                .map(|x| (x.symbol, x.definition.unwrap_or(zero)))
+                .collect(),
+            velocities: equations.velocities.clone(),
+            rates: equations.rates(),
+            accelerations: equations.accelerations.clone(),
+        }
+    }
+
+    fn reduced(prepared: &Prepared) -> Result<Form, String> {
+        let rows = &prepared.selection.rows;
+        let found = reduced(&prepared.system, &prepared.terms, rows);
+        let found = found.ok_or("no quasi-velocities without singular places were found")?;
+        let speeds = found.characteristics.parameters.iter();
+        Ok(Form {
+            variables: speeds.map(|p| (p.symbol, p.definition)).collect(),
+            velocities: found.characteristics.velocities,
+            rates: found.rates,
+            accelerations: found.accelerations,
+        })
+    }
+}
+
 /// Equations as native code.
 #[derive(Clone)]
 struct Program {
@@ -179,13 +230,12 @@ struct Program {
 }
 
 impl Program {
-    fn new(prepared: &Prepared, equations: &Equations) -> Result<Program, String> {
+    fn new(prepared: &Prepared, form: &Form) -> Result<Program, String> {
         let (g, binding) = (&prepared.system.graph, &prepared.binding);
         let mut variables: Vec<Symbol> = vec![g.intern_symbol("t", 0)];
         variables.extend(prepared.system.coordinate_symbols());
-        variables.extend(equations.variables.iter().map(|x| x.symbol));
-        let mut rates = equations.velocities.clone();
-        rates.extend(equations.rates());
+        variables.extend(form.variables.iter().map(|x| x.0));
+        let rates = [&form.velocities[..], &form.rates].concat();
         let (symbols, parameters): (Vec<Symbol>, Vec<f64>) =
             binding.parameters.iter().copied().unzip();
         let program = Lowering::new(g)
@@ -194,12 +244,8 @@ impl Program {
             .output("rates", &rates)
             .lower()
             .map_err(words)?;
-        let definitions: Vec<Expr> = equations
-            .variables
-            .iter()
-            .map(|x| x.definition.unwrap_or(g.zero()))
-            .collect();
-        let accelerations = [("accelerations", equations.accelerations.clone())];
+        let definitions: Vec<Expr> = form.variables.iter().map(|x| x.1).collect();
+        let accelerations = [("accelerations", form.accelerations.clone())];
         let definitions = [("variables", definitions)];
         Ok(Program {
             n: prepared.numeric.n,

@@ -22,9 +22,19 @@ use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::{decide_zero, ZeroTest};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 
-/// The accelerations as functions of (t, q, v) on the constraints of `rows`, by quasi-velocities without singular places
-/// ([`regular`]); `None` where none are found.
-pub fn accelerations(system: &System, terms: &MotionTerms, rows: &[usize]) -> Option<Vec<Expr>> {
+/// The motion in quasi-velocities without singular places.
+#[derive(Clone, Debug)]
+pub struct Reduced {
+    /// The quasi-velocities P.
+    pub characteristics: Characteristics,
+    /// P' as functions of (t, q, P).
+    pub rates: Vec<Expr>,
+    /// q'' as functions of (t, q, P).
+    pub accelerations: Vec<Expr>,
+}
+
+/// The motion on the constraints of `rows` in quasi-velocities without singular places ([`regular`]); `None` where none are found.
+pub fn reduced(system: &System, terms: &MotionTerms, rows: &[usize]) -> Option<Reduced> {
     let g = &system.graph;
     let c = regular(system, terms, rows)?;
     // Where a mass contains velocities the equations are not those of the Lagrangian.
@@ -34,15 +44,31 @@ pub fn accelerations(system: &System, terms: &MotionTerms, rows: &[usize]) -> Op
         .flatten()
         .unwrap_or_else(|| ReducedEquations::of_terms(system, terms, &c));
     let rates = own.without_ignorable(system).shortened(system).rates(g)?;
-    let of_rates = c
+    let of_rates: Vec<(Expr, Expr)> = c
         .parameters
         .iter()
         .zip(&rates)
-        .map(|(p, &rate)| (p.rate, rate));
-    let accelerations = g.substitute_all(&c.accelerations, &of_rates.collect::<Vec<_>>());
-    let of_speeds = c.parameters.iter().map(|p| (p.value, p.definition));
+        .map(|(p, &rate)| (p.rate, rate))
+        .collect();
+    Some(Reduced {
+        accelerations: g.substitute_all(&c.accelerations, &of_rates),
+        rates,
+        characteristics: c,
+    })
+}
+
+/// The accelerations as functions of (t, q, v) on the constraints of `rows`, by quasi-velocities without singular places; `None`
+/// where none are found.
+pub fn accelerations(system: &System, terms: &MotionTerms, rows: &[usize]) -> Option<Vec<Expr>> {
+    let found = reduced(system, terms, rows)?;
+    let of_speeds = found.characteristics.parameters.iter();
+    let of_speeds = of_speeds.map(|p| (p.value, p.definition));
     let of_speeds: Vec<(Expr, Expr)> = of_speeds.filter(|(speed, own)| speed != own).collect();
-    Some(g.substitute_all(&accelerations, &of_speeds))
+    Some(
+        system
+            .graph
+            .substitute_all(&found.accelerations, &of_speeds),
+    )
 }
 
 /// `M P' = b`.

@@ -142,6 +142,7 @@ fn derivations(extent: Extent) -> Vec<Item> {
 
 /// Our forms of which the right-hand side is measured.
 const FORMS: &[(&str, &str)] = &[
+    ("reduced", "reduced batch"),
     ("kane", "kane batch"),
     ("boltzmann-hamel", "boltzmann-hamel batch"),
     ("voronets", "voronets batch"),
