@@ -15,8 +15,14 @@ use crate::native::assembler::Width;
 use crate::native::code::Code;
 use crate::native::copy_factors_of;
 use crate::native::machine::{flat, flat_mut, Data, Four, Machine};
+use crate::native::polynomials::{are_finite, horner};
 use crate::native::products::{STRIDE, ZERO};
 use crate::program::Program;
+
+/// The coefficients of orders 1 to `order` of a series.
+fn row(series: &[Four], slot: u32, order: usize) -> &[Four] {
+    &series[slot as usize * STRIDE + ZERO + 1..][..order]
+}
 
 /// Machine code for four motions.
 #[derive(Debug)]
@@ -51,6 +57,10 @@ pub(super) struct FourRunning {
     /// Values of order 0 of one motion.
     single: Vec<f64>,
     zero: Vec<f64>,
+    /// What became of order 0 at `inputs`, where it is known, and which places have a motion there.
+    begun: Option<([bool; ABREAST], [Result<(), EvaluateFailure>; ABREAST])>,
+    /// By variable but the first: what its series gives at a place, and the slope there.
+    ends: Vec<[Four; 2]>,
 }
 
 impl Recurring {
@@ -70,6 +80,8 @@ impl Recurring {
             frames: [four.zero.frames(), four.orders.frames()],
             single: vec![0.0; values],
             zero: vec![0.0; self.layout.registers],
+            begun: None,
+            ends: vec![[Four::default(); 2]; self.registers.len()],
         })
     }
 
@@ -81,6 +93,7 @@ impl Recurring {
         running: &mut FourRunning,
     ) -> Result<(), EvaluateFailure> {
         let four = self.four().ok_or(EvaluateFailure::NotPrepared)?;
+        running.begun = None;
         let (workspace, zero) = &mut running.alone[lane];
         taylor.prepare(parameters, workspace)?;
         let known = &workspace.state.file[..self.body.start];
@@ -102,17 +115,40 @@ impl Recurring {
         motions: [Option<&[f64]>; ABREAST],
         running: &mut FourRunning,
     ) -> Result<[Result<(), EvaluateFailure>; ABREAST], EvaluateFailure> {
-        let four = self.four().ok_or(EvaluateFailure::NotPrepared)?;
-        let mut outcome = motions.map(|_| Ok(()));
         // Places without a motion follow one that there is.
         let Some(first) = motions.iter().flatten().next() else {
-            return Ok(outcome);
+            return Ok([Ok(()); ABREAST]);
         };
+        let mut is_known = true;
         for (lane, motion) in motions.iter().enumerate() {
             for (four, &value) in running.inputs.iter_mut().zip(motion.unwrap_or(first)) {
+                is_known &= four.0[lane].to_bits() == value.to_bits();
                 four.0[lane] = value;
             }
         }
+        // The ends of steps are asked for again as the starts of the next.
+        let here = motions.map(|motion| motion.is_some());
+        let covers = |there: &[bool; ABREAST]| (0..ABREAST).all(|lane| there[lane] | !here[lane]);
+        if let Some((there, outcome)) = running.begun.take() {
+            if is_known && covers(&there) {
+                running.begun = Some((there, outcome));
+                return Ok(outcome);
+            }
+        }
+        let outcome = self.begin_four(taylor, motions, running)?;
+        running.begun = Some((here, outcome));
+        Ok(outcome)
+    }
+
+    /// The same at the inputs written.
+    fn begin_four(
+        &self,
+        taylor: &Taylor,
+        motions: [Option<&[f64]>; ABREAST],
+        running: &mut FourRunning,
+    ) -> Result<[Result<(), EvaluateFailure>; ABREAST], EvaluateFailure> {
+        let four = self.four().ok_or(EvaluateFailure::NotPrepared)?;
+        let mut outcome = motions.map(|_| Ok(()));
         let data = Data {
             variables: flat(&running.inputs),
             file: flat(&running.prologue),
@@ -174,11 +210,7 @@ impl Recurring {
         order: usize,
         running: &mut FourRunning,
     ) -> Result<[Result<(), EvaluateFailure>; ABREAST], EvaluateFailure> {
-        let count = self.given.len();
-        check_length("outputs", count, self.registers.len() + 1)?;
-        for motion in motions.iter().flatten() {
-            check_length("variables", count, motion.len())?;
-        }
+        self.check(motions)?;
         if order > Recurring::most() {
             return Err(EvaluateFailure::NotPrepared);
         }
@@ -207,6 +239,66 @@ impl Recurring {
             done.ok_or(EvaluateFailure::NotPrepared)?;
         }
         Ok(outcome)
+    }
+
+    fn check(&self, motions: [Option<&[f64]>; ABREAST]) -> Result<(), EvaluateFailure> {
+        let count = self.given.len();
+        check_length("outputs", count, self.registers.len() + 1)?;
+        let mut motions = motions.iter().flatten();
+        motions.try_for_each(|motion| check_length("variables", count, motion.len()))
+    }
+
+    /// The rates of the variables but the first, of all motions; they are read by [`Recurring::rates_of`].
+    pub(super) fn rates_four(
+        &self,
+        taylor: &Taylor,
+        motions: [Option<&[f64]>; ABREAST],
+        running: &mut FourRunning,
+    ) -> Result<[Result<(), EvaluateFailure>; ABREAST], EvaluateFailure> {
+        self.check(motions)?;
+        self.start_four(taylor, motions, running)
+    }
+
+    /// The rates of motion `lane` after [`Recurring::rates_four`].
+    pub(super) fn rates_of(&self, lane: usize, running: &FourRunning, rates: &mut [f64]) {
+        for (rate, &register) in rates.iter_mut().zip(&self.registers) {
+            *rate = running.file[register as usize].0[lane % ABREAST];
+        }
+    }
+
+    /// Which motions have finite coefficients up to `order`.
+    pub(super) fn finite_four(&self, order: usize, running: &FourRunning) -> [bool; ABREAST] {
+        let rows = self.variables[1..].iter();
+        are_finite(rows.map(|&slot| row(&running.series, slot, order)))
+    }
+
+    /// Sums the series at h of each motion.
+    pub(super) fn sum_four(&self, order: usize, h: [f64; ABREAST], running: &mut FourRunning) {
+        let FourRunning { series, ends, .. } = running;
+        let own = &self.variables[1..];
+        let rows = (own.len(), |k: usize| row(series, own[k], order));
+        horner(rows, Four(h), |k, sum, slope| ends[k] = [sum, slope]);
+    }
+
+    /// What [`Recurring::sum_four`] found for motion `lane`: sums without order 0, and slopes.
+    pub(super) fn ends_of(
+        &self,
+        lane: usize,
+        running: &FourRunning,
+        (sums, slopes): (&mut [f64], &mut [f64]),
+    ) {
+        let lane = lane % ABREAST;
+        let ends = sums.iter_mut().zip(slopes).zip(&running.ends);
+        for ((sum, slope), [own_sum, own_slope]) in ends {
+            (*sum, *slope) = (own_sum.0[lane], own_slope.0[lane]);
+        }
+    }
+
+    /// Writes the coefficients of one order of the variables but the first of motion `lane`.
+    pub(super) fn order_of(&self, lane: usize, j: usize, running: &FourRunning, to: &mut [f64]) {
+        for (to, &slot) in to.iter_mut().zip(&self.variables[1..]) {
+            *to = running.series[slot as usize * STRIDE + ZERO + j].0[lane % ABREAST];
+        }
     }
 
     /// Writes the orders 1 to `order` of the variables but the first of motion `lane`, one order after the other, behind those
