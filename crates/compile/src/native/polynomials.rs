@@ -1,7 +1,10 @@
 //! Polynomials of four states side by side: their values and slopes, and whether their coefficients are finite.
-#![allow(unsafe_code)] // Code for more instructions than every processor has is called where they are known to be there.
+#![allow(unsafe_code)] // Instructions that not every processor has are used where they are known to be there.
 
 use super::machine::Four;
+use std::arch::x86_64::{
+    __m256d, _mm256_add_pd, _mm256_loadu_pd, _mm256_mul_pd, _mm256_setzero_pd, _mm256_storeu_pd,
+};
 
 /// Polynomials at a time, so that one sum does not wait for the other.
 const BLOCK: usize = 4;
@@ -33,32 +36,43 @@ pub(crate) fn horner<'s>(
 fn block(rows: [&[Four]; BLOCK], h: Four) -> ([Four; BLOCK], [Four; BLOCK]) {
     let order = rows.iter().fold(usize::MAX, |m, row| m.min(row.len()));
     let rows = rows.map(|row| &row[..order]);
-    let (mut sum, mut slope) = ([Four::default(); BLOCK], [Four::default(); BLOCK]);
+    let h = packed(&h);
+    let (mut sum, mut slope) = ([_mm256_setzero_pd(); BLOCK], [_mm256_setzero_pd(); BLOCK]);
     for j in (0..order).rev() {
         for i in 0..BLOCK {
             slope[i] = sum_product(sum[i], h, slope[i]);
-            sum[i] = sum_product(rows[i][j], h, sum[i]);
+            sum[i] = sum_product(packed(&rows[i][j]), h, sum[i]);
         }
     }
+    let (mut sums, mut slopes) = ([Four::default(); BLOCK], [Four::default(); BLOCK]);
     for i in 0..BLOCK {
-        slope[i] = sum_product(sum[i], h, slope[i]);
-        for l in 0..4 {
-            sum[i].0[l] *= h.0[l];
-        }
+        slopes[i] = unpacked(sum_product(sum[i], h, slope[i]));
+        sums[i] = unpacked(_mm256_mul_pd(sum[i], h));
     }
-    (sum, slope)
+    (sums, slopes)
 }
 
 /// a + b c, the product rounded.
 #[target_feature(enable = "avx2")]
 #[inline]
-#[allow(clippy::needless_range_loop)]
-fn sum_product(a: Four, b: Four, c: Four) -> Four {
-    let mut sum = a;
-    for l in 0..4 {
-        sum.0[l] = a.0[l] + b.0[l] * c.0[l];
-    }
-    sum
+fn sum_product(a: __m256d, b: __m256d, c: __m256d) -> __m256d {
+    _mm256_add_pd(a, _mm256_mul_pd(b, c))
+}
+
+#[target_feature(enable = "avx2")]
+#[inline]
+fn packed(four: &Four) -> __m256d {
+    // SAFETY: four numbers.
+    unsafe { _mm256_loadu_pd(four.0.as_ptr()) }
+}
+
+#[target_feature(enable = "avx2")]
+#[inline]
+fn unpacked(vector: __m256d) -> Four {
+    let mut four = Four::default();
+    // SAFETY: four numbers.
+    unsafe { _mm256_storeu_pd(four.0.as_mut_ptr(), vector) };
+    four
 }
 
 /// Which states have finite numbers only in all rows; none where the processor lacks the instructions.
@@ -77,20 +91,22 @@ pub(crate) fn are_finite<'s>(rows: impl Iterator<Item = &'s [Four]>) -> [bool; 4
 #[target_feature(enable = "avx2")]
 #[allow(clippy::needless_range_loop)]
 fn traced(row: &[Four], trace: Four) -> Four {
-    let (pairs, rest) = row.as_chunks::<2>();
-    let (mut even, mut odd) = (trace, Four::default());
-    let zero = Four::default();
-    for [a, b] in pairs {
-        even = sum_product(even, zero, *a);
-        odd = sum_product(odd, zero, *b);
+    let zero = _mm256_setzero_pd();
+    let mut traces = [packed(&trace), zero, zero, zero];
+    let (quads, rest) = row.as_chunks::<4>();
+    for quad in quads {
+        for i in 0..4 {
+            traces[i] = sum_product(traces[i], zero, packed(&quad[i]));
+        }
     }
-    for a in rest {
-        even = sum_product(even, zero, *a);
+    for i in 0..rest.len() {
+        traces[i] = sum_product(traces[i], zero, packed(&rest[i]));
     }
-    for l in 0..4 {
-        even.0[l] += odd.0[l];
-    }
-    even
+    let (low, high) = (
+        _mm256_add_pd(traces[0], traces[1]),
+        _mm256_add_pd(traces[2], traces[3]),
+    );
+    unpacked(_mm256_add_pd(low, high))
 }
 
 #[cfg(test)]

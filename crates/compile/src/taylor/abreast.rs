@@ -121,9 +121,10 @@ impl Recurring {
         };
         let mut is_known = true;
         for (lane, motion) in motions.iter().enumerate() {
-            for (four, &value) in running.inputs.iter_mut().zip(motion.unwrap_or(first)) {
-                is_known &= four.0[lane].to_bits() == value.to_bits();
-                four.0[lane] = value;
+            let (inputs, motion) = (&mut running.inputs[..], motion.unwrap_or(first));
+            for i in 0..inputs.len().min(motion.len()) {
+                is_known &= inputs[i].0[lane].to_bits() == motion[i].to_bits();
+                inputs[i].0[lane] = motion[i];
             }
         }
         // The ends of steps are asked for again as the starts of the next.
@@ -261,8 +262,8 @@ impl Recurring {
 
     /// The rates of motion `lane` after [`Recurring::rates_four`].
     pub(super) fn rates_of(&self, lane: usize, running: &FourRunning, rates: &mut [f64]) {
-        for (rate, &register) in rates.iter_mut().zip(&self.registers) {
-            *rate = running.file[register as usize].0[lane % ABREAST];
+        for k in 0..rates.len().min(self.registers.len()) {
+            rates[k] = running.file[self.registers[k] as usize].0[lane % ABREAST];
         }
     }
 
@@ -288,16 +289,17 @@ impl Recurring {
         (sums, slopes): (&mut [f64], &mut [f64]),
     ) {
         let lane = lane % ABREAST;
-        let ends = sums.iter_mut().zip(slopes).zip(&running.ends);
-        for ((sum, slope), [own_sum, own_slope]) in ends {
-            (*sum, *slope) = (own_sum.0[lane], own_slope.0[lane]);
+        for k in 0..sums.len().min(slopes.len()).min(running.ends.len()) {
+            let [sum, slope] = &running.ends[k];
+            (sums[k], slopes[k]) = (sum.0[lane], slope.0[lane]);
         }
     }
 
     /// Writes the coefficients of one order of the variables but the first of motion `lane`.
     pub(super) fn order_of(&self, lane: usize, j: usize, running: &FourRunning, to: &mut [f64]) {
-        for (to, &slot) in to.iter_mut().zip(&self.variables[1..]) {
-            *to = running.series[slot as usize * STRIDE + ZERO + j].0[lane % ABREAST];
+        let own = &self.variables[1..];
+        for k in 0..to.len().min(own.len()) {
+            to[k] = running.series[own[k] as usize * STRIDE + ZERO + j].0[lane % ABREAST];
         }
     }
 
