@@ -181,7 +181,7 @@ impl SideBySide {
         }
     }
 
-    /// Makes the series that the next steps ask for, and says which of them lie side by side.
+    /// Makes the series that the next steps ask for, and says of which of them steps can be made side by side.
     fn expand(&mut self, lanes: &mut [Option<Lane<'_, '_>>; ABREAST]) -> [bool; ABREAST] {
         let nowhere = [false; ABREAST];
         let mut motions: [Option<&mut RateSeries>; ABREAST] = Default::default();

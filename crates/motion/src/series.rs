@@ -149,8 +149,8 @@ impl RateSeries {
 }
 
 impl RateSeries {
-    /// Says that the series of this order through (t, z) will be asked for next, or what the end of the step needs of it where
-    /// it is not wanted as a whole; that of order 1 gives the rates at this end.
+    /// Says that the series of this order through (t, z) will be asked for next, or only what the end of the step needs of it
+    /// where it is not wanted as a whole. That of order 1 gives the rates at this end.
     pub(crate) fn announce(&mut self, t: f64, z: &[f64], (order, is_whole): (usize, bool)) {
         let ahead = if order == 1 {
             &mut self.end
@@ -193,8 +193,8 @@ impl SideBySide {
         })
     }
 
-    /// Makes the series that were announced, and says which of them lie here because they are not wanted as a whole. What
-    /// cannot be made here is made when it is asked for, with its failure.
+    /// Makes the series that were announced, and says which of them lie here, so that steps may be made of them; they are copied
+    /// where they are wanted as a whole. What cannot be made here is made when it is asked for, with its failure.
     pub(crate) fn make<'s>(
         &mut self,
         motions: impl Iterator<Item = Option<&'s mut RateSeries>>,
@@ -230,8 +230,8 @@ impl SideBySide {
         self.order = order;
         for (lane, own) in wanted.into_iter().enumerate() {
             if let Some(RateSeries { ahead, .. }) = own.filter(|_| outcome[lane].is_ok()) {
-                lie_here[lane] = !ahead.is_whole && are_finite[lane] && ahead.order == order;
-                if lie_here[lane] {
+                lie_here[lane] = are_finite[lane] && ahead.order == order;
+                if lie_here[lane] && !ahead.is_whole {
                     continue;
                 }
                 let (order, to) = (ahead.order, &mut ahead.coefficients);

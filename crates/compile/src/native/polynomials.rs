@@ -129,8 +129,8 @@ mod tests {
         let h = [2.0, -1.0, 0.5, 0.0];
         let mut seen = 0;
         horner((rows.len(), |k| &rows[k][..]), Four(h), |k, sum, slope| {
-            for l in 0..4 {
-                let (x, scale) = (h[l], ((l + 1) * (k + 1)) as f64);
+            for (l, &x) in h.iter().enumerate() {
+                let scale = ((l + 1) * (k + 1)) as f64;
                 assert_eq!(sum.0[l], scale * (x + 2.0 * x * x + 3.0 * x * x * x));
                 assert_eq!(slope.0[l], scale * (1.0 + 4.0 * x + 9.0 * x * x));
             }

@@ -19,6 +19,9 @@ use crate::native::polynomials::{are_finite, horner};
 use crate::native::products::{STRIDE, ZERO};
 use crate::program::Program;
 
+/// What became of each motion.
+type Outcomes = [Result<(), EvaluateFailure>; ABREAST];
+
 /// The coefficients of orders 1 to `order` of a series.
 fn row(series: &[Four], slot: u32, order: usize) -> &[Four] {
     &series[slot as usize * STRIDE + ZERO + 1..][..order]
@@ -58,7 +61,7 @@ pub(super) struct FourRunning {
     single: Vec<f64>,
     zero: Vec<f64>,
     /// What became of order 0 at `inputs`, where it is known, and which places have a motion there.
-    begun: Option<([bool; ABREAST], [Result<(), EvaluateFailure>; ABREAST])>,
+    begun: Option<([bool; ABREAST], Outcomes)>,
     /// By variable but the first: what its series gives at a place, and the slope there.
     ends: Vec<[Four; 2]>,
 }
@@ -114,7 +117,7 @@ impl Recurring {
         taylor: &Taylor,
         motions: [Option<&[f64]>; ABREAST],
         running: &mut FourRunning,
-    ) -> Result<[Result<(), EvaluateFailure>; ABREAST], EvaluateFailure> {
+    ) -> Result<Outcomes, EvaluateFailure> {
         // Places without a motion follow one that there is.
         let Some(first) = motions.iter().flatten().next() else {
             return Ok([Ok(()); ABREAST]);
@@ -147,7 +150,7 @@ impl Recurring {
         taylor: &Taylor,
         motions: [Option<&[f64]>; ABREAST],
         running: &mut FourRunning,
-    ) -> Result<[Result<(), EvaluateFailure>; ABREAST], EvaluateFailure> {
+    ) -> Result<Outcomes, EvaluateFailure> {
         let four = self.four().ok_or(EvaluateFailure::NotPrepared)?;
         let mut outcome = motions.map(|_| Ok(()));
         let data = Data {
@@ -185,12 +188,7 @@ impl Recurring {
     }
 
     /// Values of order 0 that no instruction computes, one motion after the other.
-    fn seed_four(
-        &self,
-        taylor: &Taylor,
-        running: &mut FourRunning,
-        outcome: &mut [Result<(), EvaluateFailure>; ABREAST],
-    ) {
+    fn seed_four(&self, taylor: &Taylor, running: &mut FourRunning, outcome: &mut Outcomes) {
         for (lane, outcome) in outcome.iter_mut().enumerate() {
             for (one, four) in running.zero.iter_mut().zip(&running.file) {
                 *one = four.0[lane];
@@ -210,7 +208,7 @@ impl Recurring {
         motions: [Option<&[f64]>; ABREAST],
         order: usize,
         running: &mut FourRunning,
-    ) -> Result<[Result<(), EvaluateFailure>; ABREAST], EvaluateFailure> {
+    ) -> Result<Outcomes, EvaluateFailure> {
         self.check(motions)?;
         if order > Recurring::most() {
             return Err(EvaluateFailure::NotPrepared);
@@ -255,7 +253,7 @@ impl Recurring {
         taylor: &Taylor,
         motions: [Option<&[f64]>; ABREAST],
         running: &mut FourRunning,
-    ) -> Result<[Result<(), EvaluateFailure>; ABREAST], EvaluateFailure> {
+    ) -> Result<Outcomes, EvaluateFailure> {
         self.check(motions)?;
         self.start_four(taylor, motions, running)
     }

@@ -316,7 +316,7 @@ impl Expansion {
         self.evaluations += 1;
         system.expand(to.t.high, (&to.y, &to.carry), 1, &mut self.end)?;
         let rates = &self.end[n..];
-        if let Some(component) = rates.iter().position(|rate| !rate.is_finite()) {
+        if let Some(component) = not_finite(rates) {
             return Err(EvaluationFailure::NotFinite { component });
         }
         let fastest = rates.iter().fold(0.0, |m: f64, rate| m.max(rate.abs()));
@@ -412,7 +412,7 @@ impl Stepper for Expansion {
             self.sum(h);
             to.advance(self.compensated, from, h, &self.increment);
         }
-        if let Some(component) = to.y.iter().position(|y| !y.is_finite()) {
+        if let Some(component) = not_finite(&to.y) {
             return Err(EvaluationFailure::NotFinite { component });
         }
         let mut attempt = Attempt {
