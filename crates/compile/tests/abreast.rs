@@ -109,7 +109,12 @@ fn ends_of_steps_and_rates_have_the_bits_of_each() {
     let mut abreast = taylor.abreast().unwrap();
     let steps = [0.1, -0.02, 1e-5, 0.0];
     for round in 0..3 {
-        let motions = [0, 1, 2, 3].map(|lane| MOTIONS[lane + usize::from(lane + round == 4)]);
+        // Another parameter at the same states, and then another state.
+        let motions = [0, 1, 2, 3].map(|lane| {
+            let (mut parameters, state) = MOTIONS[lane + usize::from(lane + round == 5)];
+            parameters[0] += if round > 0 { 0.25 } else { 0.0 };
+            (parameters, state)
+        });
         for (lane, motion) in motions.iter().enumerate() {
             let prepared = taylor.prepare_abreast(lane, &motion.0, &mut abreast);
             prepared.unwrap();

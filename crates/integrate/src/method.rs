@@ -155,7 +155,7 @@ pub trait Stepper {
     }
 
     /// Takes what the series taken before gives at the end of a step of length `h`, the length that the next attempt has: the
-    /// increment Σ_{j≥1} x_[j] h^j and its derivative, by Horner's scheme for both at once, a product rounded before it is added.
+    /// increment `Σ_{j≥1} x_[j] h^j` and its derivative, by Horner's scheme for both at once, a product rounded before it is added.
     /// Writes the end into `to`, which that attempt finds there.
     fn take_end(&mut self, (from, to): (&State, &mut State), h: f64, end: (&[f64], &[f64])) {
         let _ = (from, to, h, end);
