@@ -87,6 +87,80 @@ fn side_by_side(
         .collect()
 }
 
+/// Increments and slopes at h, by Horner's scheme, from coefficients of four variables of orders 1 and higher.
+fn ends(coefficients: &[u64], h: f64) -> Vec<u64> {
+    let value = |j: usize, k: usize| f64::from_bits(coefficients[4 * (j - 1) + k]);
+    let end = |k: usize| {
+        let (mut sum, mut slope) = (0.0, 0.0);
+        for j in (1..=ORDER).rev() {
+            (sum, slope) = (value(j, k) + h * sum, sum + h * slope);
+        }
+        [h * sum, sum + h * slope]
+    };
+    let both = [0, 1, 2, 3].map(end);
+    bits(&[both.map(|end| end[0]), both.map(|end| end[1])].concat())
+}
+
+/// What a step needs is that of the coefficients of each motion, and rates are those of order 1 of a motion alone, also when
+/// they are asked for again, with other parameters or another motion beside.
+#[test]
+fn ends_of_steps_and_rates_have_the_bits_of_each() {
+    let Some(taylor) = taylor() else { return };
+    let mut abreast = taylor.abreast().unwrap();
+    let steps = [0.1, -0.02, 1e-5, 0.0];
+    for round in 0..3 {
+        // Another parameter at the same states, and then another state.
+        let motions = [0, 1, 2, 3].map(|lane| {
+            let (mut parameters, state) = MOTIONS[lane + usize::from(lane + round == 5)];
+            parameters[0] += if round > 0 { 0.25 } else { 0.0 };
+            (parameters, state)
+        });
+        for (lane, motion) in motions.iter().enumerate() {
+            let prepared = taylor.prepare_abreast(lane, &motion.0, &mut abreast);
+            prepared.unwrap();
+        }
+        let states = [0, 1, 2, 3].map(|lane| Some(&motions[lane].1[..]));
+        let rates = taylor.rates_abreast(states, &mut abreast).unwrap();
+        assert_eq!(rates, [Ok(()); ABREAST]);
+        let made = taylor.expand_abreast(states, ORDER, &mut abreast);
+        assert_eq!(made, Ok([Ok(()); ABREAST]));
+        taylor.sum_abreast(ORDER, steps, &mut abreast).unwrap();
+        assert_eq!(taylor.are_finite(ORDER, &abreast), [true; ABREAST]);
+        for lane in 0..ABREAST {
+            let coefficients = alone(&taylor, motions[lane]);
+            let (mut rates, mut found) = ([0.0; 4], [0.0; 8]);
+            taylor.rates(lane, &abreast, &mut rates);
+            assert_eq!(bits(&rates), coefficients[..4], "{lane}");
+            let (sums, slopes) = found.split_at_mut(4);
+            taylor.ends(lane, &abreast, (sums, slopes));
+            assert_eq!(bits(&found), ends(&coefficients, steps[lane]), "{lane}");
+            for j in [1, ORDER] {
+                let place = (lane, j);
+                let read = taylor.coefficients_of_order(place, &abreast, &mut rates);
+                assert_eq!(read, Ok(()));
+                assert_eq!(bits(&rates), coefficients[4 * (j - 1)..4 * j]);
+            }
+        }
+    }
+    let missing = taylor.coefficients_of_order((0, 0), &abreast, &mut [0.0; 4]);
+    assert_eq!(missing, Err(EvaluateFailure::NotPrepared));
+}
+
+/// A doubt about a motion is cleared up although another one was at the same state before, whose doubt nobody asked about.
+#[test]
+fn a_place_that_was_empty_is_not_taken_for_known() {
+    let Some(taylor) = taylor() else { return };
+    let mut abreast = taylor.abreast().unwrap();
+    let pole = ([2.0, 3.0], [0.0, 0.0, 1.0, 1.0, 1.0]);
+    for lane in 0..ABREAST {
+        taylor.prepare_abreast(lane, &pole.0, &mut abreast).unwrap();
+    }
+    let state = Some(&pole.1[..]);
+    let mut outcome = |motions| taylor.rates_abreast(motions, &mut abreast).unwrap();
+    assert!(outcome([state, None, None, None])[0].is_err());
+    assert!(outcome([state; ABREAST]).iter().all(Result::is_err));
+}
+
 fn taylor() -> Option<Taylor> {
     let taylor = Taylor::new(&program()).unwrap();
     taylor.abreast().map(|_| taylor)

@@ -143,6 +143,24 @@ pub trait Stepper {
         None
     }
 
+    /// Takes that expansion, which was made elsewhere: `row` writes the coefficients of an order j ≥ 1, all of which are finite.
+    /// The next attempt has the bits that it has otherwise.
+    fn take_series(&mut self, row: &dyn Fn(usize, &mut [f64])) {
+        let _ = row;
+    }
+
+    /// The signed length that an attempt of length `h` has at first.
+    fn limited(&self, h: f64) -> f64 {
+        h
+    }
+
+    /// Takes what the series taken before gives at the end of a step of length `h`, the length that the next attempt has: the
+    /// increment `Σ_{j≥1} x_[j] h^j` and its derivative, by Horner's scheme for both at once, a product rounded before it is added.
+    /// Writes the end into `to`, which that attempt finds there.
+    fn take_end(&mut self, (from, to): (&State, &mut State), h: f64, end: (&[f64], &[f64])) {
+        let _ = (from, to, h, end);
+    }
+
     /// Attempts a step of signed length at most `h` from `from` and writes its end into `to`.
     ///
     /// # Errors

@@ -33,6 +33,8 @@ pub struct Expansion<'s> {
     pub carry: &'s [f64],
     /// The highest order.
     pub order: usize,
+    /// Whether all its coefficients will be asked for, and not only what the end of the step needs.
+    pub is_whole: bool,
 }
 
 /// One run at work, step by step, always of the same system and events. All storage is made before the first step; later only
@@ -180,7 +182,32 @@ impl<'o> Stepping<'o> {
             y: &self.now.y,
             carry: &self.now.carry,
             order,
+            is_whole: self.has_events || self.options.keep_trajectory || self.dense_ready,
         })
+    }
+
+    /// Takes the expansion announced by [`next_expansion`](Stepping::next_expansion), which was made elsewhere: `row` writes the
+    /// coefficients of an order j ≥ 1, all of which are finite. The signed length of the step that comes next, where there is one.
+    ///
+    /// What is taken has to be what the system would give, to the bit; then so is the run.
+    pub fn take_series(&mut self, row: &dyn Fn(usize, &mut [f64])) -> Option<f64> {
+        self.stepper.take_series(row);
+        let (h, _) = self.choose_step().ok()?;
+        Some(self.stepper.limited(h))
+    }
+
+    /// Takes what that series gives at the end of the step of length `h`: the increment of the state and the derivative. The
+    /// expansion of order 1, at that end, which is asked for next.
+    pub fn take_end(&mut self, h: f64, increment: &[f64], slope: &[f64]) -> Expansion<'_> {
+        let states = (&self.now, &mut self.next);
+        self.stepper.take_end(states, h, (increment, slope));
+        Expansion {
+            t: self.next.t.high,
+            y: &self.next.y,
+            carry: &self.next.carry,
+            order: 1,
+            is_whole: true,
+        }
     }
 
     /// Records the initial state and prepares the method.
@@ -524,8 +551,9 @@ impl<'o> Stepping<'o> {
     }
 
     fn watch_stiffness(&mut self, attempt: &Attempt) -> Result<(), Stop> {
-        if self.options.stiffness == StiffnessPolicy::Off || !self.detector.step(attempt.stiffness)
-        {
+        // Without an estimate no step was ever beyond the bound.
+        let is_off = self.options.stiffness == StiffnessPolicy::Off;
+        if is_off || attempt.stiffness.is_none() || !self.detector.step(attempt.stiffness) {
             return Ok(());
         }
         let t = self.now.t.high;

@@ -51,6 +51,11 @@ impl<'o> Course<'o> {
         self.stepping.as_mut()?.next_expansion()
     }
 
+    /// The integration on the way.
+    pub(crate) fn stepping(&mut self) -> Option<&mut Stepping<'o>> {
+        self.stepping.as_mut()
+    }
+
     /// Makes one step, or begins a piece; false when the run has ended.
     ///
     /// # Errors

@@ -23,6 +23,13 @@ impl Extreme {
     }
 }
 
+/// Takes one value of each into account; over indices, since it is done at every step.
+fn record(extremes: &mut [Extreme], values: &[f64], t: f64) {
+    for i in 0..extremes.len().min(values.len()) {
+        extremes[i].record(values[i], t);
+    }
+}
+
 /// Drift of every constraint row and of every holonomic constraint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drift {
@@ -47,12 +54,8 @@ impl Drift {
     /// Records the residuals of the last evaluation.
     pub fn record(&mut self, system: &NumericSystem, t: f64) {
         self.steps += 1;
-        for (extreme, &f) in self.velocity.iter_mut().zip(system.residual()) {
-            extreme.record(f, t);
-        }
-        for (extreme, &phi) in self.position.iter_mut().zip(system.position_residual()) {
-            extreme.record(phi, t);
-        }
+        record(&mut self.velocity, system.residual(), t);
+        record(&mut self.position, system.position_residual(), t);
     }
 
     /// The largest of all.

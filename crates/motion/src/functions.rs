@@ -105,20 +105,22 @@ impl Functions {
     /// When a value is not finite or a linear system is singular.
     #[allow(clippy::needless_range_loop)]
     pub fn evaluate(&mut self, t: f64, pieces: &[&[f64]]) -> Result<(), EvaluationFailure> {
-        let mut is_same = self.inputs[0].to_bits() == t.to_bits();
+        let mut difference = self.inputs[0].to_bits() ^ t.to_bits();
         self.inputs[0] = t;
         let mut next = 1;
         for piece in pieces {
             let own = &mut self.inputs[next..];
-            // Over indices: done several times in a step.
-            for i in 0..piece.len().min(own.len()) {
-                is_same &= own[i].to_bits() == piece[i].to_bits();
+            let count = piece.len().min(own.len());
+            let (own, piece) = (&mut own[..count], &piece[..count]);
+            // Over indices and without a branch: done several times in a step.
+            for i in 0..count {
+                difference |= own[i].to_bits() ^ piece[i].to_bits();
                 own[i] = piece[i];
             }
-            next = (next + piece.len()).min(self.inputs.len());
+            next += count;
         }
         match self.known {
-            Some(known) if is_same => known,
+            Some(known) if difference == 0 => known,
             _ => {
                 let found = self.compute();
                 self.known = Some(found);
@@ -132,16 +134,20 @@ impl Functions {
         self.backend
             .evaluate(&self.inputs, &mut self.workspace, &mut self.computed)
             .map_err(failure)?;
-        let mut infinite = None;
-        for i in 0..self.places.len() {
-            let (place, value) = (self.places[i], self.computed[i]);
+        let mut trace = 0.0;
+        for (&place, &value) in self.places.iter().zip(&self.computed) {
             self.outputs[place] = value;
-            if !value.is_finite() {
-                infinite = infinite.or(Some(place));
-            }
+            trace += 0.0 * value;
         }
+        // Zero where all are finite: what is not spreads.
+        let infinite = match trace == 0.0 {
+            true => None,
+            false => self.computed.iter().position(|value| !value.is_finite()),
+        };
         match infinite {
-            Some(component) => Err(EvaluationFailure::NotFinite { component }),
+            Some(i) => Err(EvaluationFailure::NotFinite {
+                component: self.places[i],
+            }),
             None => Ok(()),
         }
     }

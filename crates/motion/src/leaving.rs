@@ -38,10 +38,12 @@ impl Anchor {
     /// The row whose velocity constraint at the state last evaluated lies apart from the anchor.
     pub(crate) fn left(&self, system: &NumericSystem, v: &[f64]) -> Option<usize> {
         let size = largest(v).max(SMALL * self.speed) + NONE;
+        let (jacobian, residual) = (system.jacobian(), system.residual());
         let apart = |row: usize, n: usize| {
-            let gradient = norm(&system.jacobian()[row * n..(row + 1) * n]);
-            let jump = (system.residual()[row] - self.residual[row]).abs();
-            jump > JUMP * gradient * size
+            let gradient = &jacobian[row * n..(row + 1) * n];
+            let jump = (residual[row] - self.residual[row]).abs();
+            // The largest entry says it mostly, without a root.
+            jump > JUMP * largest(gradient) * size && jump > JUMP * norm(gradient) * size
         };
         (0..self.residual.len().min(system.r)).find(|&row| apart(row, system.n))
     }

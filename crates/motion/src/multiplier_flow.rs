@@ -321,7 +321,8 @@ impl MultiplierFlow {
 
     fn quality(&self) -> f64 {
         let (system, n) = (&self.system, self.system.n);
-        let weight = |i: usize| system.mass()[i * n + i];
+        let mass = system.mass();
+        let weight = |i: usize| mass[i * n + i];
         chart::quality(&self.chart, system.jacobian(), n, weight)
     }
 
@@ -542,10 +543,16 @@ impl MultiplierFlow {
                 let mut reduced = std::mem::take(&mut self.reduced);
                 let turns = &self.system.turns;
                 turns.reduce(asked.y, asked.carry, &mut reduced);
-                self.series().ok()?.announce(asked.t, &reduced, asked.order);
+                let series = self.series().ok()?;
+                series.announce(asked.t, &reduced, (asked.order, asked.is_whole));
                 self.reduced = reduced;
             }
         }
+        self.announced()
+    }
+
+    /// The series that were announced.
+    pub(crate) fn announced(&mut self) -> Option<&mut RateSeries> {
         self.series.as_mut().map(|(_, series)| series)
     }
 

@@ -36,7 +36,8 @@ impl Projection {
         }
     }
 
-    /// Moves (q, v) at time t; true when they changed. Nothing is moved where the equations have no value.
+    /// Moves (q, v), the state at which the system was last evaluated at time t; true when they changed. Nothing is moved where the
+    /// equations have no value.
     pub(crate) fn apply(
         self,
         system: &mut NumericSystem,
@@ -48,7 +49,7 @@ impl Projection {
             return false;
         };
         let positions = positions(system, t, (q, v), bound);
-        velocities(system, t, (q, v), bound) || positions
+        velocities(system, t, (q, v), (bound, positions)) || positions
     }
 }
 
@@ -77,12 +78,13 @@ fn positions(
     changed
 }
 
-/// Newton on the velocity constraints, which takes one step where they are affine.
+/// Newton on the velocity constraints, which takes one step where they are affine. They are evaluated first where the positions
+/// have moved.
 fn velocities(
     system: &mut NumericSystem,
     t: f64,
     (q, v): (&[f64], &mut [f64]),
-    bound: f64,
+    (bound, mut has_moved): (f64, bool),
 ) -> bool {
     let directing = q.iter().zip(&system.directing).filter(|(_, &is)| is);
     let rounded = ROUNDED * directing.fold(1.0, |m: f64, (q, _)| m.max(q.abs()));
@@ -90,10 +92,11 @@ fn velocities(
     let (n, mut changed) = (system.n, false);
     let most = if system.is_affine() { 1 } else { MOST };
     for _ in 0..most {
-        let known = system.evaluate(t, q, v);
-        if known.is_err() || is_small(system.residual(), v, bound) {
+        let is_unknown = has_moved && system.evaluate(t, q, v).is_err();
+        if is_unknown || is_small(system.residual(), v, bound) {
             break;
         }
+        has_moved = true;
         let (jacobian, residual) = (system.jacobian(), system.residual());
         let step = least_step(jacobian, residual, n, &all(n), &system.metric());
         v.iter_mut().zip(&step).for_each(|(v, dv)| *v -= dv);

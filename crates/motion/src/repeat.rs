@@ -151,7 +151,10 @@ impl Subject<'_> {
     }
 }
 
-/// Makes the Taylor series of several runs at once. A run has the same bits with it and without.
+/// A run and what is compiled for it.
+type Lane<'s, 'o> = (&'s mut RouthCourse<'o>, &'s mut CompiledRouth);
+
+/// Makes the Taylor series of several runs at once, and what the ends of their steps need of them. A run has the same bits with it and without.
 #[derive(Clone, Debug, Default)]
 pub struct SideBySide {
     own: Option<series::SideBySide>,
@@ -160,7 +163,7 @@ pub struct SideBySide {
 }
 
 impl SideBySide {
-    /// Makes the series that the next steps of these runs ask for; places without a run are `None`.
+    /// Makes what the next steps of these runs ask for; places without a run are `None`.
     pub fn look_ahead<'s, 'o: 's>(
         &mut self,
         runs: impl Iterator<Item = Option<(&'s mut RouthCourse<'o>, &'s mut CompiledRouth)>>,
@@ -168,24 +171,71 @@ impl SideBySide {
         if self.is_impossible {
             return;
         }
+        let mut lanes: [Option<Lane<'_, '_>>; ABREAST] = Default::default();
+        for (lane, run) in lanes.iter_mut().zip(runs) {
+            *lane = run;
+        }
+        let lie_here = self.expand(&mut lanes);
+        if let Some(own) = &mut self.own {
+            finish_steps(own, &mut lanes, lie_here);
+        }
+    }
+
+    /// Makes the series that the next steps ask for, and says of which of them steps can be made side by side.
+    fn expand(&mut self, lanes: &mut [Option<Lane<'_, '_>>; ABREAST]) -> [bool; ABREAST] {
+        let nowhere = [false; ABREAST];
         let mut motions: [Option<&mut RateSeries>; ABREAST] = Default::default();
-        for (motion, run) in motions.iter_mut().zip(runs) {
-            *motion = run.and_then(|(course, compiled)| {
+        for (motion, lane) in motions.iter_mut().zip(lanes) {
+            *motion = lane.as_mut().and_then(|(course, compiled)| {
                 let asked = course.0.next_expansion();
                 compiled.flow.announce(asked)
             });
         }
         if self.own.is_none() {
             let Some(first) = motions.iter().flatten().next() else {
-                return;
+                return nowhere;
             };
             self.own = series::SideBySide::of(first);
             self.is_impossible = self.own.is_none();
         }
-        if let Some(own) = &mut self.own {
-            own.make(motions.into_iter());
+        match &mut self.own {
+            Some(own) => own.make(motions.into_iter()),
+            None => nowhere,
         }
     }
+}
+
+/// The steps of those runs whose series lie side by side: how long they are, where they end, and the rates there.
+fn finish_steps(
+    own: &mut series::SideBySide,
+    lanes: &mut [Option<Lane<'_, '_>>; ABREAST],
+    lie_here: [bool; ABREAST],
+) {
+    let mut steps = [None; ABREAST];
+    for (number, lane) in lanes.iter_mut().enumerate() {
+        let lane = lane.as_mut().filter(|_| lie_here[number]);
+        let stepping = lane.and_then(|(course, _)| course.0.stepping());
+        steps[number] = stepping
+            .and_then(|stepping| stepping.take_series(&|order, to| own.row(number, order, to)));
+    }
+    if steps.iter().all(Option::is_none) {
+        return;
+    }
+    own.sum(steps.map(|step| step.unwrap_or(0.0)));
+    for (number, lane) in lanes.iter_mut().enumerate() {
+        let (Some(h), Some((course, compiled))) = (steps[number], lane) else {
+            continue;
+        };
+        if let Some(stepping) = course.0.stepping() {
+            let (increments, slopes) = own.end(number);
+            let end = stepping.take_end(h, increments, slopes);
+            compiled.flow.announce(Some(end));
+        }
+    }
+    own.rates(lanes.iter_mut().map(|lane| match lane {
+        Some((_, compiled)) => compiled.flow.announced(),
+        None => None,
+    }));
 }
 
 /// A run of Routh's equations on the way.

@@ -40,6 +40,8 @@ pub(crate) struct RateSeries {
     /// t and the state.
     inputs: Vec<f64>,
     ahead: Ahead,
+    /// The rates at the end of the step.
+    end: Ahead,
 }
 
 /// A series that was made before it is asked for, together with those of other motions.
@@ -50,6 +52,8 @@ struct Ahead {
     order: usize,
     /// Orders 1 and higher, behind those of order 0.
     coefficients: Vec<f64>,
+    /// Whether its coefficients will be asked for.
+    is_whole: bool,
     is_wanted: bool,
     is_known: bool,
 }
@@ -90,6 +94,7 @@ impl RateSeries {
             workspace: taylor.workspace(0),
             inputs: vec![0.0; program.variables.len()],
             ahead: Ahead::default(),
+            end: Ahead::default(),
             taylor,
             parameters,
         };
@@ -104,7 +109,7 @@ impl RateSeries {
     pub(crate) fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
         self.parameters.clear();
         self.parameters.extend_from_slice(values);
-        self.ahead = Ahead::default();
+        (self.ahead, self.end) = (Ahead::default(), Ahead::default());
         Ok(self.taylor.prepare(values, &mut self.workspace)?)
     }
 
@@ -130,8 +135,9 @@ impl RateSeries {
         self.inputs[0] = t;
         self.inputs[1..].copy_from_slice(z);
         let coefficients = &mut coefficients[..(order + 1) * z.len()];
-        if self.ahead.is(&self.inputs, order) {
-            coefficients.copy_from_slice(&self.ahead.coefficients[..coefficients.len()]);
+        let ahead = if order == 1 { &self.end } else { &self.ahead };
+        if ahead.is(&self.inputs, order) {
+            coefficients.copy_from_slice(&ahead.coefficients[..coefficients.len()]);
             coefficients[..z.len()].copy_from_slice(z);
             return Ok(());
         }
@@ -143,13 +149,18 @@ impl RateSeries {
 }
 
 impl RateSeries {
-    /// Says that the series of this order through (t, z) will be asked for next.
-    pub(crate) fn announce(&mut self, t: f64, z: &[f64], order: usize) {
-        let ahead = &mut self.ahead;
+    /// Says that the series of this order through (t, z) will be asked for next, or only what the end of the step needs of it
+    /// where it is not wanted as a whole. That of order 1 gives the rates at this end.
+    pub(crate) fn announce(&mut self, t: f64, z: &[f64], (order, is_whole): (usize, bool)) {
+        let ahead = if order == 1 {
+            &mut self.end
+        } else {
+            &mut self.ahead
+        };
         ahead.inputs.clear();
         ahead.inputs.push(t);
         ahead.inputs.extend_from_slice(z);
-        ahead.order = order;
+        (ahead.order, ahead.is_whole) = (order, is_whole);
         ahead.coefficients.resize((order + 1) * z.len(), 0.0);
         (ahead.is_wanted, ahead.is_known) = (true, false);
     }
@@ -162,6 +173,11 @@ pub(crate) struct SideBySide {
     abreast: Abreast,
     /// The parameters set for each place.
     parameters: [Option<Vec<f64>>; ABREAST],
+    /// The order of the series made last.
+    order: usize,
+    /// What a step of one motion adds, and its derivative at the end.
+    increments: Vec<f64>,
+    slopes: Vec<f64>,
 }
 
 impl SideBySide {
@@ -171,11 +187,19 @@ impl SideBySide {
             abreast: series.taylor.abreast()?,
             taylor: series.taylor.clone(),
             parameters: Default::default(),
+            order: 0,
+            increments: vec![0.0; series.taylor.output_count()],
+            slopes: vec![0.0; series.taylor.output_count()],
         })
     }
 
-    /// Makes the series that were announced. What cannot be made here is made when it is asked for, with its failure.
-    pub(crate) fn make<'s>(&mut self, motions: impl Iterator<Item = Option<&'s mut RateSeries>>) {
+    /// Makes the series that were announced, and says which of them lie here, so that steps may be made of them; they are copied
+    /// where they are wanted as a whole. What cannot be made here is made when it is asked for, with its failure.
+    pub(crate) fn make<'s>(
+        &mut self,
+        motions: impl Iterator<Item = Option<&'s mut RateSeries>>,
+    ) -> [bool; ABREAST] {
+        let mut lie_here = [false; ABREAST];
         let mut wanted: [Option<&mut RateSeries>; ABREAST] = Default::default();
         for (lane, motion) in motions.enumerate().take(ABREAST) {
             wanted[lane] = motion.filter(|own| {
@@ -193,20 +217,76 @@ impl SideBySide {
         let order = wanted.iter().flatten().map(|own| own.ahead.order).max();
         // One alone is as quick by itself.
         let Some(order) = order.filter(|_| wanted.iter().flatten().count() > 1) else {
-            return;
+            return lie_here;
         };
         let mut inputs = [None; ABREAST];
         for (input, own) in inputs.iter_mut().zip(&wanted) {
             *input = own.as_ref().map(|own| &own.ahead.inputs[..]);
         }
         let Ok(outcome) = self.taylor.expand_abreast(inputs, order, &mut self.abreast) else {
-            return;
+            return lie_here;
         };
+        let are_finite = self.taylor.are_finite(order, &self.abreast);
+        self.order = order;
         for (lane, own) in wanted.into_iter().enumerate() {
             if let Some(RateSeries { ahead, .. }) = own.filter(|_| outcome[lane].is_ok()) {
+                lie_here[lane] = are_finite[lane] && ahead.order == order;
+                if lie_here[lane] && !ahead.is_whole {
+                    continue;
+                }
                 let (order, to) = (ahead.order, &mut ahead.coefficients);
                 let read = self.taylor.coefficients(lane, order, &self.abreast, to);
                 ahead.is_known = read.is_ok();
+            }
+        }
+        lie_here
+    }
+
+    /// Writes the coefficients of one order of the series of a place, at least 1.
+    pub(crate) fn row(&self, lane: usize, order: usize, to: &mut [f64]) {
+        let place = (lane, order);
+        let written = self.taylor.coefficients_of_order(place, &self.abreast, to);
+        if written.is_err() {
+            to.fill(f64::NAN);
+        }
+    }
+
+    /// Sums the series that lie here at the ends of steps of these lengths.
+    pub(crate) fn sum(&mut self, h: [f64; ABREAST]) {
+        let order = self.order;
+        // The order is one of a series that was made.
+        let _ = self.taylor.sum_abreast(order, h, &mut self.abreast);
+    }
+
+    /// What [`sum`](SideBySide::sum) found at a place: the increments, and the derivatives.
+    pub(crate) fn end(&mut self, lane: usize) -> (&[f64], &[f64]) {
+        let to = (&mut self.increments[..], &mut self.slopes[..]);
+        self.taylor.ends(lane, &self.abreast, to);
+        (&self.increments, &self.slopes)
+    }
+
+    /// Computes the rates that were announced at the ends of steps.
+    pub(crate) fn rates<'s>(&mut self, motions: impl Iterator<Item = Option<&'s mut RateSeries>>) {
+        let mut wanted: [Option<&mut Ahead>; ABREAST] = Default::default();
+        for (wanted, motion) in wanted.iter_mut().zip(motions) {
+            *wanted = motion.map(|own| &mut own.end).filter(|end| end.is_wanted);
+            if let Some(end) = wanted {
+                end.is_wanted = false;
+            }
+        }
+        let mut inputs = [None; ABREAST];
+        for (input, own) in inputs.iter_mut().zip(&wanted) {
+            *input = own.as_ref().map(|own| &own.inputs[..]);
+        }
+        let Ok(outcome) = self.taylor.rates_abreast(inputs, &mut self.abreast) else {
+            return;
+        };
+        for (lane, own) in wanted.into_iter().enumerate() {
+            if let Some(end) = own.filter(|_| outcome[lane].is_ok()) {
+                let rates = end.inputs.len() - 1;
+                let to = &mut end.coefficients[rates..];
+                self.taylor.rates(lane, &self.abreast, to);
+                end.is_known = true;
             }
         }
     }

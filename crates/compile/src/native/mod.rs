@@ -22,6 +22,7 @@ mod kernels;
 mod linear;
 pub(crate) mod machine;
 mod memory;
+pub(crate) mod polynomials;
 pub(crate) mod products;
 mod registers;
 mod translate;

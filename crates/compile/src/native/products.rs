@@ -92,47 +92,77 @@ impl Products {
             // SAFETY: the processor has the instructions; every series begins at a multiple of the stride below the length
             // of the slice, and of each the numbers from ZERO + 1 to ZERO + j − 1 < STRIDE are read; as many sums are written
             // as there are.
-            unsafe { self.run_four(j, series, sums) }
+            unsafe {
+                match j {
+                    2 => self.run_four::<1>(series, sums),
+                    3 => self.run_four::<2>(series, sums),
+                    4 => self.run_four::<3>(series, sums),
+                    5 => self.run_four::<4>(series, sums),
+                    6 => self.run_four::<5>(series, sums),
+                    7 => self.run_four::<6>(series, sums),
+                    8 => self.run_four::<7>(series, sums),
+                    9 => self.run_four::<8>(series, sums),
+                    10 => self.run_four::<9>(series, sums),
+                    11 => self.run_four::<10>(series, sums),
+                    12 => self.run_four::<11>(series, sums),
+                    13 => self.run_four::<12>(series, sums),
+                    14 => self.run_four::<13>(series, sums),
+                    15 => self.run_four::<14>(series, sums),
+                    16 => self.run_four::<15>(series, sums),
+                    17 => self.run_four::<16>(series, sums),
+                    18 => self.run_four::<17>(series, sums),
+                    19 => self.run_four::<18>(series, sums),
+                    20 => self.run_four::<19>(series, sums),
+                    21 => self.run_four::<20>(series, sums),
+                    22 => self.run_four::<21>(series, sums),
+                    23 => self.run_four::<22>(series, sums),
+                    24 => self.run_four::<23>(series, sums),
+                    _ => self.run_four_terms(j - 1, series, sums),
+                }
+            }
         }
     }
 
-    /// The sums in four parts as those of a single state: part k has the terms of orders 1 + k + 4 v.
+    /// Sums of T products.
     ///
     /// # Safety
-    /// As in [`Products::sum_four`].
+    /// As in [`Products::sum_four`], for order T + 1.
     #[target_feature(enable = "avx2,fma")]
+    unsafe fn run_four<const T: usize>(&self, series: &[Four], sums: &mut [Four]) {
+        // SAFETY: as the caller says.
+        unsafe { self.run_four_terms(T, series, sums) }
+    }
+
+    /// The sums in four parts as those of a single state: part k has the terms of orders 1 + k + 4 v. Where the number of terms is
+    /// known when this is compiled, nothing is left of the loops over them.
+    ///
+    /// # Safety
+    /// As in [`Products::sum_four`], for one order more than there are terms.
+    #[target_feature(enable = "avx2,fma")]
+    #[inline]
     #[allow(clippy::needless_range_loop)]
-    unsafe fn run_four(&self, j: usize, series: &[Four], sums: &mut [Four]) {
-        let (from, to) = (
+    unsafe fn run_four_terms(&self, terms: usize, series: &[Four], sums: &mut [Four]) {
+        let (from, mut to) = (
             series.as_ptr().cast::<f64>(),
             sums.as_mut_ptr().cast::<f64>(),
         );
-        let (whole, rest) = ((j - 1) / 4, (j - 1) % 4);
-        for (number, pair) in self.list.as_flattened().iter().enumerate() {
+        for pair in self.list.as_flattened() {
             let [a, b] = *pair;
             let mut parts = [_mm256_setzero_pd(); 4];
             // SAFETY: within the series and the sums, as `sum_four` says; four numbers each.
             unsafe {
-                let mut a = from.add(4 * (a as usize + ZERO + 1));
-                let mut b = from.add(4 * (b as usize + ZERO + j - 1));
-                for _ in 0..whole {
-                    for k in 0..4 {
-                        let (x, y) = (_mm256_loadu_pd(a.add(4 * k)), _mm256_loadu_pd(b.sub(4 * k)));
-                        parts[k] = _mm256_fmadd_pd(x, y, parts[k]);
-                    }
-                    (a, b) = (a.add(16), b.sub(16));
-                }
-                for k in 0..3 {
-                    if k < rest {
-                        let (x, y) = (_mm256_loadu_pd(a.add(4 * k)), _mm256_loadu_pd(b.sub(4 * k)));
-                        parts[k] = _mm256_fmadd_pd(x, y, parts[k]);
-                    }
+                let a = from.add(4 * (a as usize + ZERO + 1));
+                let b = from.add(4 * (b as usize + ZERO + terms));
+                for i in 0..terms {
+                    let (x, y) = (_mm256_loadu_pd(a.add(4 * i)), _mm256_loadu_pd(b.sub(4 * i)));
+                    parts[i % 4] = _mm256_fmadd_pd(x, y, parts[i % 4]);
                 }
                 let (low, high) = (
                     _mm256_add_pd(parts[0], parts[1]),
                     _mm256_add_pd(parts[2], parts[3]),
                 );
-                _mm256_storeu_pd(to.add(4 * number), _mm256_add_pd(low, high));
+                _mm256_storeu_pd(to, _mm256_add_pd(low, high));
+                to = to.add(4);
             }
         }
     }

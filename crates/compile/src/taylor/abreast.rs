@@ -15,8 +15,17 @@ use crate::native::assembler::Width;
 use crate::native::code::Code;
 use crate::native::copy_factors_of;
 use crate::native::machine::{flat, flat_mut, Data, Four, Machine};
+use crate::native::polynomials::{are_finite, horner};
 use crate::native::products::{STRIDE, ZERO};
 use crate::program::Program;
+
+/// What became of each motion.
+type Outcomes = [Result<(), EvaluateFailure>; ABREAST];
+
+/// The coefficients of orders 1 to `order` of a series.
+fn row(series: &[Four], slot: u32, order: usize) -> &[Four] {
+    &series[slot as usize * STRIDE + ZERO + 1..][..order]
+}
 
 /// Machine code for four motions.
 #[derive(Debug)]
@@ -51,6 +60,10 @@ pub(super) struct FourRunning {
     /// Values of order 0 of one motion.
     single: Vec<f64>,
     zero: Vec<f64>,
+    /// What became of order 0 at `inputs`, where it is known, and which places have a motion there.
+    begun: Option<([bool; ABREAST], Outcomes)>,
+    /// By variable but the first: what its series gives at a place, and the slope there.
+    ends: Vec<[Four; 2]>,
 }
 
 impl Recurring {
@@ -70,6 +83,8 @@ impl Recurring {
             frames: [four.zero.frames(), four.orders.frames()],
             single: vec![0.0; values],
             zero: vec![0.0; self.layout.registers],
+            begun: None,
+            ends: vec![[Four::default(); 2]; self.registers.len()],
         })
     }
 
@@ -81,6 +96,7 @@ impl Recurring {
         running: &mut FourRunning,
     ) -> Result<(), EvaluateFailure> {
         let four = self.four().ok_or(EvaluateFailure::NotPrepared)?;
+        running.begun = None;
         let (workspace, zero) = &mut running.alone[lane];
         taylor.prepare(parameters, workspace)?;
         let known = &workspace.state.file[..self.body.start];
@@ -101,18 +117,42 @@ impl Recurring {
         taylor: &Taylor,
         motions: [Option<&[f64]>; ABREAST],
         running: &mut FourRunning,
-    ) -> Result<[Result<(), EvaluateFailure>; ABREAST], EvaluateFailure> {
-        let four = self.four().ok_or(EvaluateFailure::NotPrepared)?;
-        let mut outcome = motions.map(|_| Ok(()));
+    ) -> Result<Outcomes, EvaluateFailure> {
         // Places without a motion follow one that there is.
         let Some(first) = motions.iter().flatten().next() else {
-            return Ok(outcome);
+            return Ok([Ok(()); ABREAST]);
         };
+        let mut is_known = true;
         for (lane, motion) in motions.iter().enumerate() {
-            for (four, &value) in running.inputs.iter_mut().zip(motion.unwrap_or(first)) {
-                four.0[lane] = value;
+            let (inputs, motion) = (&mut running.inputs[..], motion.unwrap_or(first));
+            for i in 0..inputs.len().min(motion.len()) {
+                is_known &= inputs[i].0[lane].to_bits() == motion[i].to_bits();
+                inputs[i].0[lane] = motion[i];
             }
         }
+        // The ends of steps are asked for again as the starts of the next.
+        let here = motions.map(|motion| motion.is_some());
+        let covers = |there: &[bool; ABREAST]| (0..ABREAST).all(|lane| there[lane] | !here[lane]);
+        if let Some((there, outcome)) = running.begun.take() {
+            if is_known && covers(&there) {
+                running.begun = Some((there, outcome));
+                return Ok(outcome);
+            }
+        }
+        let outcome = self.begin_four(taylor, motions, running)?;
+        running.begun = Some((here, outcome));
+        Ok(outcome)
+    }
+
+    /// The same at the inputs written.
+    fn begin_four(
+        &self,
+        taylor: &Taylor,
+        motions: [Option<&[f64]>; ABREAST],
+        running: &mut FourRunning,
+    ) -> Result<Outcomes, EvaluateFailure> {
+        let four = self.four().ok_or(EvaluateFailure::NotPrepared)?;
+        let mut outcome = motions.map(|_| Ok(()));
         let data = Data {
             variables: flat(&running.inputs),
             file: flat(&running.prologue),
@@ -148,12 +188,7 @@ impl Recurring {
     }
 
     /// Values of order 0 that no instruction computes, one motion after the other.
-    fn seed_four(
-        &self,
-        taylor: &Taylor,
-        running: &mut FourRunning,
-        outcome: &mut [Result<(), EvaluateFailure>; ABREAST],
-    ) {
+    fn seed_four(&self, taylor: &Taylor, running: &mut FourRunning, outcome: &mut Outcomes) {
         for (lane, outcome) in outcome.iter_mut().enumerate() {
             for (one, four) in running.zero.iter_mut().zip(&running.file) {
                 *one = four.0[lane];
@@ -173,12 +208,8 @@ impl Recurring {
         motions: [Option<&[f64]>; ABREAST],
         order: usize,
         running: &mut FourRunning,
-    ) -> Result<[Result<(), EvaluateFailure>; ABREAST], EvaluateFailure> {
-        let count = self.given.len();
-        check_length("outputs", count, self.registers.len() + 1)?;
-        for motion in motions.iter().flatten() {
-            check_length("variables", count, motion.len())?;
-        }
+    ) -> Result<Outcomes, EvaluateFailure> {
+        self.check(motions)?;
         if order > Recurring::most() {
             return Err(EvaluateFailure::NotPrepared);
         }
@@ -207,6 +238,67 @@ impl Recurring {
             done.ok_or(EvaluateFailure::NotPrepared)?;
         }
         Ok(outcome)
+    }
+
+    fn check(&self, motions: [Option<&[f64]>; ABREAST]) -> Result<(), EvaluateFailure> {
+        let count = self.given.len();
+        check_length("outputs", count, self.registers.len() + 1)?;
+        let mut motions = motions.iter().flatten();
+        motions.try_for_each(|motion| check_length("variables", count, motion.len()))
+    }
+
+    /// The rates of the variables but the first, of all motions; they are read by [`Recurring::rates_of`].
+    pub(super) fn rates_four(
+        &self,
+        taylor: &Taylor,
+        motions: [Option<&[f64]>; ABREAST],
+        running: &mut FourRunning,
+    ) -> Result<Outcomes, EvaluateFailure> {
+        self.check(motions)?;
+        self.start_four(taylor, motions, running)
+    }
+
+    /// The rates of motion `lane` after [`Recurring::rates_four`].
+    pub(super) fn rates_of(&self, lane: usize, running: &FourRunning, rates: &mut [f64]) {
+        for k in 0..rates.len().min(self.registers.len()) {
+            rates[k] = running.file[self.registers[k] as usize].0[lane % ABREAST];
+        }
+    }
+
+    /// Which motions have finite coefficients up to `order`.
+    pub(super) fn finite_four(&self, order: usize, running: &FourRunning) -> [bool; ABREAST] {
+        let rows = self.variables[1..].iter();
+        are_finite(rows.map(|&slot| row(&running.series, slot, order)))
+    }
+
+    /// Sums the series at h of each motion.
+    pub(super) fn sum_four(&self, order: usize, h: [f64; ABREAST], running: &mut FourRunning) {
+        let FourRunning { series, ends, .. } = running;
+        let own = &self.variables[1..];
+        let rows = (own.len(), |k: usize| row(series, own[k], order));
+        horner(rows, Four(h), |k, sum, slope| ends[k] = [sum, slope]);
+    }
+
+    /// What [`Recurring::sum_four`] found for motion `lane`: sums without order 0, and slopes.
+    pub(super) fn ends_of(
+        &self,
+        lane: usize,
+        running: &FourRunning,
+        (sums, slopes): (&mut [f64], &mut [f64]),
+    ) {
+        let lane = lane % ABREAST;
+        for k in 0..sums.len().min(slopes.len()).min(running.ends.len()) {
+            let [sum, slope] = &running.ends[k];
+            (sums[k], slopes[k]) = (sum.0[lane], slope.0[lane]);
+        }
+    }
+
+    /// Writes the coefficients of one order of the variables but the first of motion `lane`.
+    pub(super) fn order_of(&self, lane: usize, j: usize, running: &FourRunning, to: &mut [f64]) {
+        let own = &self.variables[1..];
+        for k in 0..to.len().min(own.len()) {
+            to[k] = running.series[own[k] as usize * STRIDE + ZERO + j].0[lane % ABREAST];
+        }
     }
 
     /// Writes the orders 1 to `order` of the variables but the first of motion `lane`, one order after the other, behind those

@@ -28,6 +28,7 @@ mod machine;
 #[path = "no_machine.rs"]
 mod machine;
 mod recurrence;
+mod side;
 mod solve;
 #[cfg(all(unix, target_arch = "x86_64"))]
 mod writer;

@@ -43,6 +43,35 @@ impl Recurring {
         match *self {}
     }
 
+    pub(super) fn rates_four(
+        &self,
+        _: &Taylor,
+        _: [Option<&[f64]>; ABREAST],
+        _: &mut FourRunning,
+    ) -> Result<[Result<(), EvaluateFailure>; ABREAST], EvaluateFailure> {
+        match *self {}
+    }
+
+    pub(super) fn rates_of(&self, _: usize, _: &FourRunning, _: &mut [f64]) {
+        match *self {}
+    }
+
+    pub(super) fn finite_four(&self, _: usize, _: &FourRunning) -> [bool; ABREAST] {
+        match *self {}
+    }
+
+    pub(super) fn sum_four(&self, _: usize, _: [f64; ABREAST], _: &mut FourRunning) {
+        match *self {}
+    }
+
+    pub(super) fn ends_of(&self, _: usize, _: &FourRunning, _: (&mut [f64], &mut [f64])) {
+        match *self {}
+    }
+
+    pub(super) fn order_of(&self, _: usize, _: usize, _: &FourRunning, _: &mut [f64]) {
+        match *self {}
+    }
+
     pub(super) fn is_same(&self, _: &Recurring) -> bool {
         match *self {}
     }

@@ -131,6 +131,9 @@ impl Method for TaylorMethod {
             worst: 0,
             is_fresh: false,
             is_weighed: false,
+            is_taken: false,
+            has_coefficients: false,
+            end_at: None,
             end: vec![0.0; 2 * n],
             increment: vec![0.0; n],
             slope: vec![0.0; n],
@@ -163,6 +166,12 @@ struct Expansion {
     is_fresh: bool,
     /// Whether the weights are those of the state at which the next expansion is made.
     is_weighed: bool,
+    /// Whether the series of the next attempt was taken from elsewhere.
+    is_taken: bool,
+    /// Whether the coefficients of the present start are here, and not elsewhere.
+    has_coefficients: bool,
+    /// The length for which increment and slope were taken from elsewhere.
+    end_at: Option<f64>,
     /// State and derivative at the end of the step.
     end: Vec<f64>,
     increment: Vec<f64>,
@@ -175,20 +184,14 @@ struct Expansion {
 }
 
 impl Expansion {
-    fn coefficient(&self, j: usize) -> &[f64] {
-        &self.coefficients[j * self.n..(j + 1) * self.n]
-    }
-
     fn expand(&mut self, system: &mut dyn System, from: &State) -> Result<(), EvaluationFailure> {
-        self.is_fresh = false;
+        (self.is_fresh, self.is_taken, self.end_at) = (false, false, None);
         if !std::mem::take(&mut self.is_weighed) {
             self.weigh(&from.y);
         }
-        let filled = (self.order + 1) * self.n;
-        let coefficients = &mut self.coefficients[..filled];
         self.evaluations += 1;
-        let state = (&from.y[..], &from.carry[..]);
-        system.expand(from.t.high, state, self.order, coefficients)?;
+        self.fetch(system, from)?;
+        let coefficients = &self.coefficients[..(self.order + 1) * self.n];
         if let Some(place) = not_finite(coefficients) {
             // Close to a pole the high coefficients overflow while the step is still well determined by the others.
             let known = (place / self.n).saturating_sub(1);
@@ -201,6 +204,27 @@ impl Expansion {
         self.choose_radius();
         self.is_fresh = true;
         Ok(())
+    }
+
+    /// Asks for the coefficients.
+    fn fetch(&mut self, system: &mut dyn System, from: &State) -> Result<(), EvaluationFailure> {
+        let coefficients = &mut self.coefficients[..(self.order + 1) * self.n];
+        let state = (&from.y[..], &from.carry[..]);
+        system.expand(from.t.high, state, self.order, coefficients)?;
+        self.has_coefficients = true;
+        Ok(())
+    }
+
+    /// The same where the expansion was taken from elsewhere and more is needed than the end of the step. It counts once.
+    fn fetch_missing(
+        &mut self,
+        system: &mut dyn System,
+        from: &State,
+    ) -> Result<(), EvaluationFailure> {
+        match self.has_coefficients {
+            true => Ok(()),
+            false => self.fetch(system, from),
+        }
     }
 
     /// Tolerated errors, and the order that the strictest of them asks for.
@@ -222,15 +246,24 @@ impl Expansion {
         self.order = self.asked;
     }
 
+    /// The radius by the coefficients that are here.
+    fn choose_radius(&mut self) {
+        let coefficients = std::mem::take(&mut self.coefficients);
+        let n = self.n;
+        self.choose_radius_by(&|j, row| row.copy_from_slice(&coefficients[j * n..(j + 1) * n]));
+        self.coefficients = coefficients;
+    }
+
     /// The step at which the last two terms that do not vanish are negligible. Parity may null every second one; a
     /// solution all of whose upper half vanishes is a polynomial.
-    fn choose_radius(&mut self) {
+    fn choose_radius_by(&mut self, write_row: &dyn Fn(usize, &mut [f64])) {
         let p = self.order;
         self.radius = f64::INFINITY;
         let mut seen = 0;
         for j in (p / 2 + 1..=p).rev() {
             let (mut norm, mut worst): (f64, usize) = (0.0, 0);
-            let row = self.coefficient(j);
+            let row = &mut self.end[..self.n];
+            write_row(j, row);
             for i in 0..self.n {
                 let (c, w) = (row[i].abs(), self.weights[i]);
                 if c > norm * w {
@@ -283,7 +316,7 @@ impl Expansion {
         self.evaluations += 1;
         system.expand(to.t.high, (&to.y, &to.carry), 1, &mut self.end)?;
         let rates = &self.end[n..];
-        if let Some(component) = rates.iter().position(|rate| !rate.is_finite()) {
+        if let Some(component) = not_finite(rates) {
             return Err(EvaluationFailure::NotFinite { component });
         }
         let fastest = rates.iter().fold(0.0, |m: f64, rate| m.max(rate.abs()));
@@ -318,7 +351,11 @@ impl Stepper for Expansion {
     }
 
     fn restart(&mut self, system: &mut dyn System, from: &State) -> Result<(), EvaluationFailure> {
-        self.expand(system, from)
+        // A series taken from elsewhere is that of the state as it was changed.
+        match std::mem::take(&mut self.is_taken) {
+            true => Ok(()),
+            false => self.expand(system, from),
+        }
     }
 
     fn next_expansion(&mut self, from: &State, is_changed: bool) -> Option<usize> {
@@ -328,6 +365,33 @@ impl Stepper for Expansion {
         self.weigh(&from.y);
         self.is_weighed = true;
         Some(self.order)
+    }
+
+    fn take_series(&mut self, row: &dyn Fn(usize, &mut [f64])) {
+        self.evaluations += 1;
+        self.choose_radius_by(row);
+        (self.is_weighed, self.has_coefficients, self.end_at) = (false, false, None);
+        (self.is_fresh, self.is_taken) = (true, true);
+    }
+
+    fn limited(&self, h: f64) -> f64 {
+        let size = match self.fixed {
+            true => h.abs(),
+            false => h.abs().min(self.radius),
+        };
+        size.copysign(h)
+    }
+
+    fn take_end(
+        &mut self,
+        (from, to): (&State, &mut State),
+        h: f64,
+        (increment, slope): (&[f64], &[f64]),
+    ) {
+        self.increment.copy_from_slice(increment);
+        self.slope.copy_from_slice(slope);
+        to.advance(self.compensated, from, h, &self.increment);
+        self.end_at = Some(h);
     }
 
     fn attempt(
@@ -340,15 +404,15 @@ impl Stepper for Expansion {
         if !self.is_fresh {
             self.expand(system, from)?;
         }
-        let size = match self.fixed {
-            true => h.abs(),
-            false => h.abs().min(self.radius),
-        };
-        let h = size.copysign(h);
+        self.is_taken = false;
+        let h = self.limited(h);
         self.h = h;
-        self.sum(h);
-        to.advance(self.compensated, from, h, &self.increment);
-        if let Some(component) = to.y.iter().position(|y| !y.is_finite()) {
+        if self.end_at.take() != Some(h) {
+            self.fetch_missing(system, from)?;
+            self.sum(h);
+            to.advance(self.compensated, from, h, &self.increment);
+        }
+        if let Some(component) = not_finite(&to.y) {
             return Err(EvaluationFailure::NotFinite { component });
         }
         let mut attempt = Attempt {
@@ -378,11 +442,12 @@ impl Stepper for Expansion {
 
     fn dense(
         &mut self,
-        _system: &mut dyn System,
+        system: &mut dyn System,
         from: &State,
         _to: &State,
         dense: &mut DenseStep,
     ) -> Result<(), EvaluationFailure> {
+        self.fetch_missing(system, from)?;
         let filled = (self.order + 1) * self.n;
         dense.start = from.t;
         dense.h = self.h;
