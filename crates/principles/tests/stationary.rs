@@ -367,3 +367,56 @@ fn open_cases_are_named() {
         "{detail}"
     );
 }
+
+/// On the cone z'² = x'² + y'² with V = x motions along ± the slope alone are stationary, as for z' = √(x'² + y'²), where it is
+/// y' = 0: a constraint that stays implicit in z' has both signs of z'.
+#[test]
+fn a_cone_that_stays_implicit() {
+    let lagrangian = "1/2 (x'^2 + y'^2 + z'^2) - x";
+    let stated = text("x y z", lagrangian, &[("c", "z'^2 - x'^2 - y'^2")]);
+    let both = "y' = 0 and z' = x', or y' = 0 and z' = -x'";
+    assert_condition(&stated, STATIONARY, both);
+    assert_condition(&stated, SUSLOV, both);
+}
+
+/// What is said on a component of a product, and of exp(z' − y x') = 1, is what is said of z' = y x' itself.
+#[test]
+fn components_have_their_own_answer() {
+    let lagrangian = "1/2 (x'^2 + y'^2 + z'^2)";
+    let at = |name: &str| match name {
+        "y" => Some(2.0),
+        "x'" => Some(3.0),
+        "z'" => Some(6.0),
+        _ => None,
+    };
+    let own = finding(&system(&PARTICLE), STATIONARY);
+    for (f, one_of_several) in [
+        ("z'^2 - y^2 x'^2", true),
+        ("(z' - x') (z' - y x')", true),
+        ("exp(z' - y x') - 1", false),
+    ] {
+        let constraints = [("c", f)];
+        let stated = Text {
+            coordinates: "x y z",
+            lagrangian,
+            forces: &[],
+            constraints: Box::leak(Box::new(constraints)),
+        };
+        let whole = system(&stated);
+        let g = &whole.graph;
+        let on = whole.on_component(|list| {
+            let value = |s: chetaev_symbolic::Symbol| at(&g.symbol_text(s));
+            g.evaluate_f64(list, &value).ok()
+        });
+        let on = on.unwrap();
+        assert_eq!(on.condition.is_some(), one_of_several, "{f}");
+        let found = finding(&on.system, STATIONARY);
+        let (Verdict::Conditional { condition: a, .. }, Verdict::Conditional { condition: b, .. }) =
+            (&found.verdict, &own.verdict)
+        else {
+            panic!("{f}: {}", found.verdict.detail())
+        };
+        assert_eq!(a, b, "{f}");
+    }
+    assert!(system(&PARTICLE).on_component(|_| None).is_none());
+}

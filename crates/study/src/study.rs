@@ -19,12 +19,14 @@ use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::Selection;
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::claims::full_id;
+use chetaev_mechanics::components::OnComponent;
 use chetaev_mechanics::formulations::{Maggi, Routh};
 use chetaev_mechanics::{
-    formulation, Claim, Context, Finding, Formulation, Group, Prepared, Prover, System,
+    formulation, Claim, Context, Finding, Formulation, Group, Prepared, Prover, Registry, System,
     FORMULATIONS,
 };
 use chetaev_model::model::Model;
+use chetaev_motion::observe::Observer;
 use chetaev_motion::run::equal_times;
 use chetaev_motion::{Binding, ConsistentState, Run, RunError, RunSettings, Subject, Watcher};
 use chetaev_symbolic::{Expr, Verdict};
@@ -495,6 +497,42 @@ pub(crate) fn known_formulations() -> String {
     names.join(", ")
 }
 
+/// A system with its terms, where it has any.
+fn prepared_system(system: Option<System>) -> Option<(Prepared, System)> {
+    let system = system?;
+    Some((Prepared::new(&system).ok()?, system))
+}
+
+fn context_of<'a>(
+    system: &'a System,
+    prepared: &'a Prepared,
+    known: &'a Registry,
+    prover: &Prover,
+) -> Context<'a> {
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    Context::new(system, terms, selection, known, prover.clone())
+}
+
+/// Claims on the principles are decided on the component.
+fn narrowed<'a>(cx: Context<'a>, on: Option<&'a (Context<'a>, &OnComponent)>) -> Context<'a> {
+    match on {
+        Some((of, on)) => cx.on_component(chetaev_principles::CLAIMS, of, on),
+        None => cx,
+    }
+}
+
+/// Values of functions of the state where the motion starts.
+fn at_start(
+    system: &System,
+    prepared: &Prepared,
+    motion: &Motion,
+    functions: &[Expr],
+) -> Option<Vec<f64>> {
+    let (run, binding) = (&motion.evidence.run, &motion.binding);
+    let observer = Observer::new(system, &prepared.terms, binding, functions);
+    Some(observer.ok()?.at(*run.times.first()?, run.row(0)))
+}
+
 fn decide(
     model: &Model,
     system: &System,
@@ -511,16 +549,21 @@ fn decide(
     if let Some(seed) = options.seed {
         prover.seed = seed;
     }
-    let zero = system.for_stated_values();
-    let zero = zero.and_then(|system| Some((Prepared::new(&system).ok()?, system)));
-    let zero = zero.as_ref().map(|(prepared, system)| {
-        let (terms, selection) = (&prepared.terms, &prepared.selection);
-        Context::new(system, terms, selection, &known, prover.clone())
+    let stated = prepared_system(system.for_stated_values());
+    let narrow = stated.as_ref().map_or(system, |(_, system)| system);
+    let component = narrow.on_component(|list| at_start(system, prepared, motion?, list));
+    let component = component.and_then(|on| Some((Prepared::new(&on.system).ok()?, on)));
+    let on = component
+        .as_ref()
+        .map(|(prepared, on)| (context_of(&on.system, prepared, &known, &prover), on));
+    let stated = stated.as_ref().map(|(prepared, system)| {
+        narrowed(context_of(system, prepared, &known, &prover), on.as_ref())
     });
-    let mut cx = Context::new(system, &prepared.terms, &prepared.selection, &known, prover);
-    if let Some(zero) = &zero {
-        cx = cx.for_stated_values(chetaev_principles::CLAIMS, zero);
-    }
+    let cx = context_of(system, prepared, &known, &prover);
+    let mut cx = match &stated {
+        Some(stated) => cx.for_stated_values(chetaev_principles::CLAIMS, stated),
+        None => narrowed(cx, on.as_ref()),
+    };
     if let Some(motion) = motion {
         cx = cx.with(Arc::clone(&motion.evidence));
     }

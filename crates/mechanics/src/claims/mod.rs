@@ -16,7 +16,7 @@ mod roots;
 
 use crate::card::Card;
 use crate::characteristics::{self, Selection};
-use crate::components;
+use crate::components::{self, OnComponent};
 use crate::formulations::DeriveError;
 use crate::prover::Prover;
 use crate::redundancy::LeftOut;
@@ -235,17 +235,21 @@ pub struct Context<'a> {
     extensions: BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>,
     shared: Mutex<BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>>,
     out_of_time: AtomicBool,
-    stated: Option<Stated<'a>>,
+    instead: Option<Instead<'a>>,
 }
 
 /// The components of the constraints that the chart covers, where it leaves out others.
 struct Covered(Option<String>);
 
-/// Claims that are decided for the parameters stated to be zero, and the context of that system.
-#[derive(Clone, Copy)]
-struct Stated<'a> {
+/// Claims that are decided for another system in the place of the context's, and the context of that system.
+#[derive(Clone)]
+struct Instead<'a> {
     claims: &'a [&'static dyn Claim],
     context: &'a Context<'a>,
+    /// What the other system is.
+    sentence: String,
+    /// The component of the constraints that it is on, where there are others.
+    component: Option<String>,
 }
 
 impl std::fmt::Debug for Context<'_> {
@@ -266,6 +270,27 @@ pub fn once_where(holds: bool) -> Vec<Option<String>> {
 fn stating(verdict: Verdict, what: &str) -> Verdict {
     match verdict {
         Verdict::Proved(_) => verdict.prefixed(what),
+        other => other,
+    }
+}
+
+/// What is known of a component of the constraints, said of all motions.
+fn on_component(verdict: Verdict, component: &str) -> Verdict {
+    match verdict {
+        Verdict::Proved(proof) => Verdict::Conditional {
+            condition: component.to_string(),
+            proof,
+            counterexample: None,
+        },
+        Verdict::Conditional {
+            condition,
+            proof,
+            counterexample,
+        } => Verdict::Conditional {
+            condition: format!("{condition}, where {component}"),
+            proof,
+            counterexample,
+        },
         other => other,
     }
 }
@@ -302,7 +327,7 @@ impl<'a> Context<'a> {
             extensions: BTreeMap::new(),
             shared: Mutex::default(),
             out_of_time: AtomicBool::new(false),
-            stated: None,
+            instead: None,
         }
     }
 
@@ -314,7 +339,36 @@ impl<'a> Context<'a> {
         claims: &'a [&'static dyn Claim],
         context: &'a Context<'a>,
     ) -> Context<'a> {
-        self.stated = Some(Stated { claims, context });
+        let g = &self.system.graph;
+        let values = self.system.stated_values();
+        let values: Vec<String> = values
+            .iter()
+            .map(|&(symbol, value)| format!("{} = {}", g.text(symbol), g.text(value)))
+            .collect();
+        self.instead = Some(Instead {
+            claims,
+            context,
+            sentence: format!("for {}, as the model states it", values.join(" and ")),
+            component: None,
+        });
+        self
+    }
+
+    /// Decides these claims for one component of constraints that are products, whose context is given; what is proved there is
+    /// `conditional`.
+    #[must_use]
+    pub fn on_component(
+        mut self,
+        claims: &'a [&'static dyn Claim],
+        context: &'a Context<'a>,
+        on: &OnComponent,
+    ) -> Context<'a> {
+        self.instead = Some(Instead {
+            claims,
+            context,
+            sentence: on.sentence.clone(),
+            component: on.condition.clone(),
+        });
         self
     }
 
@@ -351,8 +405,8 @@ impl<'a> Context<'a> {
     /// Says that the time for claims is spent: what takes long is not begun any more.
     pub fn spend_time(&self) {
         self.out_of_time.store(true, Ordering::Relaxed);
-        if let Some(stated) = &self.stated {
-            stated.context.spend_time();
+        if let Some(instead) = &self.instead {
+            instead.context.spend_time();
         }
     }
 
@@ -384,7 +438,10 @@ impl<'a> Context<'a> {
             return Arc::new(verdict.into());
         }
         lock(&self.in_progress).push(full.to_string());
-        let finding = match (self.for_values(claim, full), self.obstacle(claim, subject)) {
+        let finding = match (
+            self.of_other_system(claim, full),
+            self.obstacle(claim, subject),
+        ) {
             (Some(finding), _) => finding,
             (None, Some(verdict)) => verdict.into(),
             (None, None) => self.on_components(claim, claim.decide(self, subject)),
@@ -408,43 +465,24 @@ impl<'a> Context<'a> {
         let sentence = format!(
             "of the components of the constraints only {covered} was looked at, as no one velocity can be solved for on all"
         );
-        finding.verdict = match finding.verdict {
-            Verdict::Proved(proof) => Verdict::Conditional {
-                condition: covered.clone(),
-                proof,
-                counterexample: None,
-            },
-            Verdict::Conditional {
-                condition,
-                proof,
-                counterexample,
-            } => Verdict::Conditional {
-                condition: format!("{condition}, where {covered}"),
-                proof,
-                counterexample,
-            },
-            Verdict::NotApplicable { .. } => return finding,
-            other => other,
-        };
-        finding.verdict.prefix(&sentence);
+        finding.verdict = on_component(finding.verdict, covered);
+        if !matches!(finding.verdict, Verdict::NotApplicable { .. }) {
+            finding.verdict.prefix(&sentence);
+        }
         finding
     }
 
-    /// The finding for the values that the model states, where the claim is decided for them.
-    fn for_values(&self, claim: &dyn Claim, full: &str) -> Option<Finding> {
-        let stated = self.stated?;
-        if !stated.claims.iter().any(|c| c.id() == claim.id()) {
+    /// The finding for the system in the place of this one, where the claim is decided for it.
+    fn of_other_system(&self, claim: &dyn Claim, full: &str) -> Option<Finding> {
+        let instead = self.instead.as_ref()?;
+        if !instead.claims.iter().any(|c| c.id() == claim.id()) {
             return None;
         }
-        let g = &self.system.graph;
-        let values = self.system.stated_values();
-        let values: Vec<String> = values
-            .iter()
-            .map(|&(symbol, value)| format!("{} = {}", g.text(symbol), g.text(value)))
-            .collect();
-        let mut finding = Finding::clone(&stated.context.finding(full));
-        let sentence = format!("for {}, as the model states it", values.join(" and "));
-        finding.verdict.prefix(&sentence);
+        let mut finding = Finding::clone(&instead.context.finding(full));
+        if let Some(component) = &instead.component {
+            finding.verdict = on_component(finding.verdict, component);
+        }
+        finding.verdict.prefix(&instead.sentence);
         Some(finding)
     }
 

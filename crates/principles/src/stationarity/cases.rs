@@ -114,27 +114,20 @@ pub(crate) fn with_multipliers(cx: &Context<'_>, motion: &Motion) -> Found {
         rows: rows.collect(),
         ..Case::default()
     };
-    let mut found = Search::new(cx, motion, true).run(vec![case.clone()]);
+    let mut found = Search::new(cx, motion, true).on_constraints(case.clone(), &[]);
     found.special = parameters::special(cx, motion, &found, |at| {
         let case = Case {
             solved: vec![at],
             ..case.clone()
         };
-        Search::new(cx, motion, true).run(vec![case])
+        Search::new(cx, motion, true).on_constraints(case, &[])
     });
     found
 }
 
 /// The motions along which functions of the state vanish.
 pub(crate) fn where_zero(cx: &Context<'_>, motion: &Motion, functions: &[Expr]) -> Found {
-    let search = Search::new(cx, motion, false);
-    let mut found = Found::default();
-    let cases = search.require_all(&mut found, Case::default(), functions);
-    let rest = search.run(cases);
-    found.leaves.extend(rest.leaves);
-    found.open.extend(rest.open);
-    found.regular = rest.regular;
-    found
+    Search::new(cx, motion, false).on_constraints(Case::default(), functions)
 }
 
 /// What one step with a case gives.
@@ -169,8 +162,15 @@ impl<'a, 'b> Search<'a, 'b> {
         }
     }
 
-    fn run(&self, mut queue: Vec<Case>) -> Found {
+    /// The cases in which the constraints that stay implicit hold and functions vanish, followed.
+    fn on_constraints(&self, case: Case, functions: &[Expr]) -> Found {
         let mut found = Found::default();
+        let all = [&self.motion.implicit, functions].concat();
+        let cases = self.require_all(&mut found, case, &all);
+        self.run(cases, found)
+    }
+
+    fn run(&self, mut queue: Vec<Case>, mut found: Found) -> Found {
         for _ in 0..CASES {
             let Some(case) = queue.pop() else {
                 break;
@@ -459,7 +459,13 @@ impl<'a, 'b> Search<'a, 'b> {
             let angle = case.angles.iter().find(|angle| angle.symbol == symbol);
             Leaf::written(g, angle, symbol, value)
         });
-        let implicit = case.implicit.iter();
+        // What holds on all states needs no mention.
+        let holds = |e: &Expr| {
+            let ratio = |f: &Expr| short(g, g.div(*e, *f));
+            let mut all = self.motion.implicit.iter();
+            all.any(|f| g.as_number(ratio(f)).is_some())
+        };
+        let implicit = case.implicit.iter().filter(|(e, _)| !holds(e));
         let implicit = implicit.map(|(e, _)| format!("{} = 0", g.text(*e)));
         pairs.chain(implicit).collect()
     }

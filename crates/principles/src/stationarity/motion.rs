@@ -1,4 +1,5 @@
 //! The motion in closed form: rates of the state, and what (12) and (13) need along it, as expressions without linear solves.
+//! Dependent velocities that stay implicit are symbols of the state, tied to the others by the constraints.
 
 use super::closed_form::{closed, gram, short, zero_of};
 use super::closure::Flow;
@@ -41,6 +42,8 @@ pub(crate) struct Motion {
     pub(crate) poles: Vec<Expr>,
     /// Where the speeds do not describe all admissible velocities, in words.
     pub(crate) gaps: Vec<String>,
+    /// Constraints that stay implicit: they vanish on all states.
+    pub(crate) implicit: Vec<Expr>,
     /// Velocities and speeds of the chart as functions of the state.
     replaced: Vec<(Expr, Expr)>,
 }
@@ -64,9 +67,6 @@ impl Motion {
         };
         let flow = Flow::new(cx).map_err(|p| underived(&p))?;
         let chart = basis(cx).characteristics().map_err(|p| underived(&p))?;
-        if !chart.manifold.implicit.is_empty() {
-            return Err("the dependent velocities stay implicit functions of the others".into());
-        }
         let mut builder = Builder { cx, flow, chart };
         builder.check_size()?;
         builder.choose_speeds();
@@ -160,6 +160,7 @@ impl Builder<'_, '_> {
             legend: self.legend(&scaled, &velocities),
             poles: Vec::new(),
             gaps: self.gaps(&scaled, &velocities),
+            implicit: self.implicit().map(|&(f, _)| f).collect(),
             replaced,
         };
         self.add_rates(&mut motion, &velocities, &scaled)?;
@@ -189,7 +190,8 @@ impl Builder<'_, '_> {
     /// Independent velocities whose speeds describe all admissible velocities, where those of the system do not.
     fn choose_speeds(&mut self) {
         let own = self.chart.clone();
-        if !own.frame.is_natural(self.cx.system) || self.has_no_gaps() {
+        let is_implicit = self.implicit().next().is_some();
+        if !own.frame.is_natural(self.cx.system) || is_implicit || self.has_no_gaps() {
             return;
         }
         let rows = &self.cx.selection.rows;
@@ -209,6 +211,11 @@ impl Builder<'_, '_> {
             }
         }
         self.chart = own;
+    }
+
+    /// Constraints that stay implicit, each with its dependent velocity.
+    fn implicit(&self) -> impl Iterator<Item = &(Expr, Symbol)> {
+        self.chart.manifold.implicit.iter()
     }
 
     fn has_no_gaps(&self) -> bool {
@@ -272,7 +279,7 @@ impl Builder<'_, '_> {
         let (system, g) = (self.cx.system, &self.cx.system.graph);
         let k = self.chart.k();
         let none = || (0..k).map(|_| None).collect();
-        if !self.chart.frame.is_natural(system) {
+        if !self.chart.frame.is_natural(system) || self.implicit().next().is_some() {
             return Ok(none());
         }
         let factors: Vec<Option<Expr>> = (0..k).map(|s| self.poles(s)).collect();
@@ -438,6 +445,12 @@ impl Builder<'_, '_> {
             motion.speeds.push(symbol);
             motion.rates.push((symbol, rate));
         }
+        for &(_, dependent) in self.implicit() {
+            let own = accelerations.iter().find(|(s, _)| *s == dependent);
+            let &(_, rate) = own.ok_or("the quasi-velocities stay implicit")?;
+            let rate = motion.closed(g, rate)?;
+            motion.rates.push((dependent, rate));
+        }
         for mass in &system.masses {
             motion
                 .rates
@@ -449,14 +462,7 @@ impl Builder<'_, '_> {
     /// (12), Φ and λ.
     fn add_conditions(&self, motion: &mut Motion, scaled: &[Option<Scaled>]) -> Result<(), String> {
         let g = &self.cx.system.graph;
-        let k = self.chart.k();
-        for (s, scaled) in (0..k).zip(scaled) {
-            let mut column = self.chart.column(s);
-            if let Some(scaled) = scaled {
-                for entry in &mut column {
-                    *entry = g.mul(&[*entry, scaled.factor]);
-                }
-            }
+        for column in self.displacements(scaled) {
             let rows = self.flow.euler.iter();
             let row = rows.map(|euler| motion.closed(g, dot(g, euler, &column)));
             let row = row.collect::<Result<_, _>>()?;
@@ -472,6 +478,30 @@ impl Builder<'_, '_> {
             .map(|row| row.into_iter().map(|e| motion.closed(g, e)).collect())
             .collect::<Result<_, _>>()?;
         Ok(())
+    }
+
+    /// Virtual displacements that span all, wherever the motion is regular: the columns of B, or of the projection
+    /// `1 − Jᵀ (J Jᵀ)⁻¹ J` where dependent velocities stay implicit, since B has poles where ∂f/∂v vanishes for one of them.
+    fn displacements(&self, scaled: &[Option<Scaled>]) -> Vec<Vec<Expr>> {
+        let g = &self.cx.system.graph;
+        if self.implicit().next().is_none() {
+            let columns = (0..self.chart.k()).zip(scaled).map(|(s, scaled)| {
+                let factor = scaled.as_ref().map_or(g.one(), |scaled| scaled.factor);
+                let column = self.chart.column(s).into_iter();
+                column.map(|entry| g.mul(&[entry, factor])).collect()
+            });
+            return columns.collect();
+        }
+        let jacobian = basis(self.cx).jacobian();
+        let (n, gram) = (self.cx.system.n(), gram(g, &jacobian));
+        let unit = |i: usize, j: usize| if i == j { g.one() } else { g.zero() };
+        let column = |j: usize| -> Option<Vec<Expr>> {
+            let right: Vec<Expr> = jacobian.iter().map(|row| row[j]).collect();
+            let weights = g.solve(&gram, &right).ok()?;
+            let along = |i: usize| dot(g, &weights, jacobian.iter().map(|row| &row[i]));
+            Some((0..n).map(|i| g.sub(unit(i, j), along(i))).collect())
+        };
+        (0..n).filter_map(column).collect()
     }
 
     /// Φ: `Σ_m ∂f^m/∂vⁱ Φ_ml = E_i[f^l]`, solved on the dependent velocities where that has no pole, else by `(J Jᵀ)⁻¹ J`.

@@ -396,12 +396,19 @@ fn of_index(found: &linear::Conjugate, where_: &str) -> Verdict {
         (Err(t), _) => format!(
             "F_vv is not positive on the null space of ∂f/∂v at t = {t:.6}: the action is no minimum, however short the interval"
         ),
+        (Ok(()), []) if found.at_end => format!(
+            "the end {to:.6} is the first conjugate time from {from:.6} on, to the accuracy of the run: the action is a weak minimum on any shorter interval, and degenerate on this one"
+        ),
         (Ok(()), []) => format!("no conjugate time from {from:.6} to {to:.6}: the action is a weak minimum, its index 0"),
         (Ok(()), times) => {
             let shown: Vec<String> = times.iter().take(5).map(|t| format!("{t:.6}")).collect();
             let more = if times.len() > 5 { ", …" } else { "" };
+            let end = match found.at_end {
+                true => ", which is one more, to the accuracy of the run",
+                false => "",
+            };
             format!(
-                "conjugate times {}{more}: the action is a weak minimum up to the first, and has the index {} at the end",
+                "conjugate times {}{more}: the action is a weak minimum up to the first, and has the index {} at the end{end}",
                 shown.join(", "),
                 times.len()
             )

@@ -3,7 +3,7 @@
 
 use super::algebra::{determinant, gram, null_space, solved};
 use super::samples::{Samples, LEAST};
-use super::zeros::zeros;
+use super::zeros::{ends_at_zero, zeros};
 use chetaev_mechanics::claims::formulation::{basis, derive, REFERENCE};
 use chetaev_mechanics::formulations::kappa_symbols;
 use chetaev_mechanics::Context;
@@ -37,8 +37,10 @@ pub struct Reach {
 pub struct Conjugate {
     /// Whether `B^T F_vv B` is positive definite along the motion; if not, where it fails.
     pub legendre: Result<(), f64>,
-    /// Conjugate times after the start, in order.
+    /// Conjugate times after the start and before the end, in order.
     pub times: Vec<f64>,
+    /// Whether the end is one, to the accuracy of the values.
+    pub at_end: bool,
     /// The interval.
     pub interval: (f64, f64),
 }
@@ -323,6 +325,7 @@ fn followed(
     let mut found = Conjugate {
         legendre: Ok(()),
         times: Vec::new(),
+        at_end: false,
         interval: (t0, t1),
     };
     let mut determinants: Vec<(f64, f64)> = Vec::new();
@@ -344,7 +347,12 @@ fn followed(
         largest = largest.max(volume(states, n));
     }
     // Near the start all η are small, and the sign of their determinant is rounding.
-    found.times = zeros(&determinants[EARLY.min(determinants.len())..], n);
+    let later = &determinants[EARLY.min(determinants.len())..];
+    found.times = zeros(later, n);
+    found.at_end = ends_at_zero(later);
+    if found.at_end {
+        found.times.retain(|t| t1 - t > h / 2.0);
+    }
     Ok((found, largest))
 }
 

@@ -2,6 +2,8 @@
 
 /// A least value below this part of those beside it is zero.
 const TOUCHES: f64 = 0.02;
+/// A last value below this part of the largest is zero.
+const AT_END: f64 = 1e-7;
 /// Points of the polynomial by which a function is replaced near a zero.
 const POINTS: usize = 11;
 /// Steps of bisection.
@@ -31,6 +33,14 @@ pub(super) fn zeros(values: &[(f64, f64)], n: usize) -> Vec<f64> {
         found.extend(std::iter::repeat_n(t, times.min(n.max(least))));
     }
     found
+}
+
+/// Whether a function ends at a zero, as far as its values can tell.
+pub(super) fn ends_at_zero(values: &[(f64, f64)]) -> bool {
+    let largest = values.iter().fold(0.0_f64, |m, (_, x)| m.max(x.abs()));
+    values
+        .last()
+        .is_some_and(|(_, x)| x.abs() < AT_END * largest)
 }
 
 /// |value| grows like the power of the distance that the multiplicity says; a crossing has an odd one, a touch an even one.
@@ -116,7 +126,7 @@ fn interpolated(points: &[(f64, f64)]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::zeros;
+    use super::{ends_at_zero, zeros};
 
     fn sampled(f: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
         (0..400)
@@ -139,6 +149,14 @@ mod tests {
         near(&zeros(&sampled(|t| t.sin().powi(2)), 3), &[pi; 2], 1e-11);
         near(&zeros(&sampled(|t| t.sin().powi(3)), 3), &[pi; 3], 1e-9);
         near(&zeros(&sampled(|t| t.sin().powi(2) + 0.1), 3), &[], 0.0);
+    }
+
+    #[test]
+    fn a_zero_at_the_end() {
+        let end = 0.2 + 399.0 * 0.01;
+        assert!(ends_at_zero(&sampled(|t| (t - end).sin())));
+        assert!(ends_at_zero(&sampled(|t| (t - end).powi(2))));
+        assert!(!ends_at_zero(&sampled(|t| (t - end - 1e-3).sin())));
     }
 
     /// Without symmetry about the zero: e^t (t − √2)^m, and m limited to n.
