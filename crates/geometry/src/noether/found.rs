@@ -132,11 +132,12 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
     candidates.sort_by_key(|c| c.order);
     let (mut integrals, dependent, open) = chosen(cx, motion, &table, &candidates);
     let momenta = momenta(cx, motion, letters, &mut integrals);
+    let special = special(cx, motion, letters, &integrals)?;
     Ok(Found {
         families: searched,
         momenta,
         integrals,
-        special: special(cx, &table, letters),
+        special,
         dependent,
         open,
     })
