@@ -232,7 +232,7 @@ pub(super) fn special(
 }
 
 /// What there is more of at special values.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Specials {
     /// The values that add something.
     pub found: Vec<Special>,
