@@ -219,10 +219,15 @@ fn counted_for(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
     let measure = measure.as_ref().as_ref().map_err(Clone::clone)?;
     // A density without a formula may contain what is left out: then another one is asked for, which is a quadrature.
     // Quadratures go from place to place, so a density near each serves, also where none returns to its values on a circle.
-    let (evidence, kept) = match measure.density {
-        Some(density) if counts(density) => (
+    let (evidence, kept) = match (measure.density, &measure.with_time) {
+        (Some(density), _) if counts(density) => (
             measure.verdict.clone(),
             "the measure of `measure.invariant` is kept",
+        ),
+        // A density that changes with the time is one where the time is a variable.
+        (None, Some((density, proof))) if reduced.timed && counts(*density) => (
+            proof.clone(),
+            "the measure N dt dq dη of `measure.invariant` is kept",
         ),
         _ => (
             free_of(cx, &reduced.ignorable)?,

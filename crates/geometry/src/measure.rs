@@ -33,6 +33,9 @@ pub struct InvariantMeasure;
 pub struct Measure {
     /// The density N, where it has a formula in the family.
     pub density: Option<Expr>,
+    /// A density N(t, q) of `N dt dq dη`, for a motion free of the time that keeps one with the time although none without was found,
+    /// with its proof.
+    pub with_time: Option<(Expr, Verdict)>,
     /// Whether there is one, with evidence.
     pub verdict: Verdict,
     /// The divergence of X̄.
@@ -64,6 +67,7 @@ pub fn measure(cx: &Context<'_>) -> Arc<Result<Measure, String>> {
 fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
     let known = |density, verdict, words| Measure {
         density,
+        with_time: None,
         verdict,
         divergence: Some(flow.divergence),
         velocities: flow
@@ -90,11 +94,16 @@ fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
     if let Some((density, verdict)) = flow.with_roots(cx) {
         return known(Some(density), verdict, WORDS[0]);
     }
-    known(None, without_formula(cx, flow), WORDS[0])
+    let with_time = flow.density_in_time(cx);
+    let text = with_time.as_ref().map(|(n, _)| cx.system.graph.text(*n));
+    Measure {
+        with_time,
+        ..known(None, without_formula(cx, flow, text), WORDS[0])
+    }
 }
 
-/// The verdict where no formula was found.
-fn without_formula(cx: &Context<'_>, flow: &Flow<'_>) -> Verdict {
+/// The verdict where no formula was found, but perhaps one `with_time`.
+fn without_formula(cx: &Context<'_>, flow: &Flow<'_>, with_time: Option<String>) -> Verdict {
     let by_brackets = by_brackets(cx, flow, &[]);
     if matches!(by_brackets, Verdict::Proved(_)) {
         return angles::around(cx, flow, by_brackets);
@@ -106,8 +115,7 @@ fn without_formula(cx: &Context<'_>, flow: &Flow<'_>) -> Verdict {
         )),
         other => other,
     });
-    if let Some(density) = flow.density_in_time(cx) {
-        let text = cx.system.graph.text(density);
+    if let Some(text) = with_time {
         let more = format!(
             "; N dt dq dη is kept for N = {text}, which changes with the time, and so is no measure on the states of a motion free of it"
         );

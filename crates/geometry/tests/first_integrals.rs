@@ -213,8 +213,13 @@ fn special_values_of_parameters() {
     let general = system("phi theta psi", TOP, &[]);
     let family = Family::over(&letters(&general, &OMEGA), &[], 2);
     with(&general, |cx, motion| {
-        let table = Table::new(motion, &family.letters, 7).unwrap();
         let g = &general.graph;
+        // For all moments of inertia: energy, and the square of the moment of momentum, of which those at special values are roots.
+        let usual = [1, 2].map(|power| {
+            let square = |i: usize| format!("I{}^{power}*({})^2", i + 1, OMEGA[i]);
+            expr(g, &[0, 1, 2].map(square).join(" + "))
+        });
+        let table = Table::beside(motion, &family.letters, 7, &usual).unwrap();
         let symbol = |name: &str| g.intern_symbol(name, 0);
         let tie = |parameter: &str, other: &str| Tie::Equal(symbol(parameter), symbol(other));
         let ties = [tie("I2", "I1"), tie("I3", "I1")];
@@ -357,4 +362,31 @@ fn critical_values_of_parameters() {
         (2, 1),
         "x' (x y' - y x') + a^2 x^2 y",
     );
+}
+
+/// What a special value adds is no function of what there is anyhow. On a surface of constant curvature there are three linear integrals,
+/// which in the plane, a = 0, are x', y' and x y' - y x'; only the place at time zero is new. The skate drifting with b has
+/// x' cos φ + y' sin φ - b φ for all b; with b = 0 only φ at time zero is new. With the drift a t of z' - y x' the
+/// quotient of sqrt(1 + y²) x' y' + a sqrt(1 + y²) and y' is simpler where a = 0.
+#[test]
+fn special_values_add_what_is_new() {
+    let new = |system: &System| -> Vec<String> {
+        common::with_context(system, |cx| {
+            let found = chetaev_geometry::noether::found::found(cx);
+            let found = found.as_ref().as_ref().unwrap();
+            let specials = found.special.found.iter();
+            let integrals = specials.flat_map(|special| special.integrals.clone());
+            integrals.map(|e| system.graph.text(e)).collect()
+        })
+    };
+    let curved = system("x y", "(x'^2 + y'^2)/(1 + a*(x^2 + y^2))^2/2", &[]);
+    assert_eq!(new(&curved), ["t x' - x"]);
+    let skate = system(
+        "x y phi",
+        "(m*(x'^2 + y'^2) + J*phi'^2)/2",
+        &[("f", "y'*cos(phi) - x'*sin(phi) - b")],
+    );
+    assert_eq!(new(&skate), ["t phi' - phi"]);
+    let drifting = system("x y z", PARTICLE, &[("c", "z' - y x' - a t")]);
+    assert_eq!(new(&drifting), ["x' sqrt(1 + y^2)"]);
 }

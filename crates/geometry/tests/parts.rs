@@ -9,6 +9,7 @@
 
 mod common;
 
+use chetaev_mechanics::system::Parameter;
 use chetaev_mechanics::System;
 use chetaev_symbolic::Verdict;
 use common::{expr, finding, system};
@@ -184,4 +185,27 @@ fn constraints_that_are_not_defined_refute_nothing() {
     );
     let blade = stating(blade, &[("x", &["phi = pi/2", "phi' = 0"])]);
     expect(&blade, &["undecided"]);
+}
+
+/// Two springs and a coupling: `d/dt (x y' - y x') = (a - b) x y + c (y² - x²)`; the integral of frequencies 1 : 2 is one
+/// where b = 4 a and c = 0. The condition names no values where a ratio suffices.
+#[test]
+fn conditions_are_ratios_where_these_suffice() {
+    let conditions = |b: &str, integral: &str| {
+        let lagrangian = "(x'^2 + y'^2 - a*x^2 - b*y^2)/2 - c*x*y";
+        let mut own = stating(system("x y", lagrangian, &[]), &[(integral, &[])]);
+        let g = own.graph.clone();
+        for (name, value) in [("a", "1"), ("b", b), ("c", "0")] {
+            own.parameters.push(Parameter {
+                name: name.into(),
+                expr: expr(&g, name),
+                value: Some(expr(&g, value)),
+            });
+        }
+        word(&own, "noether.inverse#0")
+    };
+    let found = conditions("1", "x*y' - y*x'");
+    assert_eq!(found, ("conditional", "b = a, c = 0".into()));
+    let found = conditions("4", "x'*(x*y' - y*x') + a*x^2*y");
+    assert_eq!(found, ("conditional", "b = 4 a, c = 0".into()));
 }

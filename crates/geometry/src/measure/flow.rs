@@ -116,7 +116,8 @@ impl<'a> Flow<'a> {
     }
 
     /// A density that contains the time, for a motion free of it, where functions of the time occur or are stated.
-    pub(super) fn density_in_time(&self, cx: &Context<'_>) -> Option<Expr> {
+    /// With its proof.
+    pub(super) fn density_in_time(&self, cx: &Context<'_>) -> Option<(Expr, Verdict)> {
         let (system, g) = (cx.system, &cx.system.graph);
         let time = g.symbol("t", 0);
         let letters = self.letters(cx, false);
@@ -132,7 +133,7 @@ impl<'a> Flow<'a> {
         let verdict = cx
             .prover
             .identity(system, &defect, &self.chart.manifold, on);
-        matches!(verdict, Verdict::Proved(_)).then_some(density)
+        matches!(verdict, Verdict::Proved(_)).then_some((density, verdict))
     }
 
     fn density_in(&self, cx: &Context<'_>, letters: &[CoefficientLetter]) -> Option<Expr> {

@@ -1,6 +1,6 @@
 //! Which integrals of families are functions of others, by their derivatives and values modulo p.
 
-use super::family::Family;
+use super::family::{Family, Member};
 use super::search::{At, Table, SURPLUS};
 use chetaev_symbolic::number::modular_matrix::null_space;
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
@@ -36,6 +36,45 @@ impl Table<'_> {
         let pivots = null_space(field, columns.len(), rows.collect()).pivots;
         let own = pivots.into_iter().filter_map(|i| i.checked_sub(self.fixed));
         Some(own.collect())
+    }
+
+    /// Which of the candidates are, at a draw, functionally independent of those before them and of the known functions that are of no
+    /// higher degree in the velocities: new ones, or simpler ones than known.
+    pub(super) fn new_or_simpler(
+        &self,
+        draw: &Draw,
+        candidates: &[(&Family, &[(usize, Residue)])],
+    ) -> Option<Vec<usize>> {
+        let mut random = Random::stream(self.seed, 1 << 20);
+        let at = self.at(draw, &mut random)?;
+        let known = at.gradients[self.letters.len() * self.directions..]
+            .chunks(self.directions.max(1))
+            .enumerate()
+            .map(|(i, column)| ((!self.linear[i], 0), None, column.to_vec()));
+        let own = candidates.iter().enumerate().map(|(i, (family, vector))| {
+            let is_linear = vector
+                .iter()
+                .all(|&(m, _)| self.is_linear(&family.members[m]));
+            let column = self.gradient(&draw.field, &at, family, vector);
+            ((!is_linear, 1), Some(i), column)
+        });
+        let mut columns: Vec<_> = known.chain(own).collect();
+        columns.sort_by_key(|(order, ..)| *order);
+        let rows = (0..self.directions).flat_map(|d| columns.iter().map(move |(.., c)| c[d]));
+        let pivots = null_space(&draw.field, columns.len(), rows.collect()).pivots;
+        Some(pivots.into_iter().filter_map(|i| columns[i].1).collect())
+    }
+
+    /// Whether a member is at most linear in the velocities.
+    fn is_linear(&self, member: &Member) -> bool {
+        let system = self.motion.system;
+        let velocities = system.velocity_symbols();
+        let moving = member.iter().filter(|(letter, _)| {
+            let value = self.letters[*letter].value;
+            system.graph.contains_any(value, &velocities)
+        });
+        let exponents: Vec<i8> = moving.map(|&(_, exponent)| exponent).collect();
+        exponents.is_empty() || exponents == [1]
     }
 
     /// How many of the candidates are new functions, constants aside, beside the first of them at the places `independent`: as

@@ -37,8 +37,10 @@ pub struct Table<'a> {
     /// Parameters and constant functions of them.
     pub(super) parameters: Vec<Expr>,
     pub(super) directions: usize,
-    /// How many functions of the place the constraints fix.
+    /// How many functions what is found is told apart from: those of the place that the constraints fix, and others that are known.
     pub(super) fixed: usize,
+    /// Which of these are at most linear in the velocities.
+    pub(super) linear: Vec<bool>,
     pub(super) seed: u64,
 }
 
@@ -89,6 +91,19 @@ impl<'a> Table<'a> {
     /// # Errors
     /// A sentence that says why they cannot be evaluated.
     pub fn new(motion: &'a Motion<'a>, letters: &[Letter], seed: u64) -> Result<Table<'a>, String> {
+        Table::beside(motion, letters, seed, &[])
+    }
+
+    /// The same, for what is independent of further functions of (t, q, v) that are `known`.
+    ///
+    /// # Errors
+    /// A sentence that says why they cannot be evaluated.
+    pub fn beside(
+        motion: &'a Motion<'a>,
+        letters: &[Letter],
+        seed: u64,
+        known: &[Expr],
+    ) -> Result<Table<'a>, String> {
         let values: Vec<Expr> = letters.iter().map(|l| l.value).collect();
         let rates = motion.derivatives(&values);
         let gradients = motion.gradients(&values);
@@ -97,12 +112,16 @@ impl<'a> Table<'a> {
         let parameters = constants(motion, &motion.manifold, &outputs);
         outputs.extend(&parameters);
         outputs.extend(gradients.concat());
-        let fixed = motion.gradients(&motion.system.fixed_functions());
+        let mut fixed = motion.system.fixed_functions();
+        fixed.extend(known);
+        let linear = fixed.iter().map(|&e| is_linear(motion, e)).collect();
+        let fixed = motion.gradients(&fixed);
         outputs.extend(fixed.concat());
         Ok(Table {
             points: motion.points(&outputs)?,
             directions: gradients.first().map_or(0, Vec::len),
             fixed: fixed.len(),
+            linear,
             letters: letters.to_vec(),
             parameters,
             motion,
@@ -306,6 +325,16 @@ impl<'a> Table<'a> {
             .flat_map(|row| row.iter().zip(first).map(|(&a, &b)| field.sub(a, b)));
         Some(null_space(field, vectors.len(), differences.collect()))
     }
+}
+
+/// Whether a function is at most linear in the velocities, by its form.
+fn is_linear(motion: &Motion<'_>, e: Expr) -> bool {
+    let g = &motion.system.graph;
+    let velocities = motion.system.velocity_symbols();
+    let slopes = velocities.iter().map(|&v| g.diff(e, v));
+    slopes
+        .into_iter()
+        .all(|slope| !g.contains_any(slope, &velocities))
 }
 
 /// The degree of a member in the letters.

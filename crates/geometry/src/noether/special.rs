@@ -2,7 +2,8 @@
 
 use super::family::Family;
 use super::letters::Letters;
-use super::search::{Table, Vector};
+use super::motion::Motion;
+use super::search::{Integral, Table};
 use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{Context, Manifold};
 use chetaev_symbolic::number::prime_field::Residue;
@@ -76,8 +77,8 @@ impl Tie {
 pub struct Special {
     /// The special value.
     pub tie: Tie,
-    /// The further integrals, as they are shown, none of them a function of simpler ones; of those that exist for all values
-    /// some may be functions of them.
+    /// The further or simpler integrals, as they are shown, none of them a function of simpler ones and of those of no higher degree
+    /// that exist for all values, as these are at the special value.
     pub integrals: Vec<Expr>,
 }
 
@@ -133,8 +134,6 @@ impl Table<'_> {
         let Some((general, _)) = self.vectors(family) else {
             return Vec::new();
         };
-        let leading = |v: &Vector| v.last().map(|&(member, _)| member);
-        let usual: Vec<Option<usize>> = general.iter().map(leading).collect();
         let mut found: Vec<Special> = Vec::new();
         for tie in ties {
             let Some((draw, mut random)) = self.draw(0) else {
@@ -151,10 +150,9 @@ impl Table<'_> {
             }
             let candidates: Vec<(&Family, &[(usize, Residue)])> =
                 vectors.iter().map(|v| (family, &v[..])).collect();
-            let independent = self.independent_at(&draw, &candidates).unwrap_or_default();
+            let independent = self.new_or_simpler(&draw, &candidates).unwrap_or_default();
             let integrals: Vec<Expr> = independent
                 .iter()
-                .filter(|&&i| !usual.contains(&leading(&vectors[i])))
                 .filter_map(|&i| self.proved_on(cx, family, &vectors[i], tie))
                 .collect();
             if !integrals.is_empty() {
@@ -210,7 +208,18 @@ const SMALL: (usize, usize) = (130, 36);
 
 /// Further integrals in small families where two parameters are equal, or one is zero that is not assumed otherwise, and for the
 /// values that the model states.
-pub(super) fn special(cx: &Context<'_>, table: &Table<'_>, letters: &Letters) -> Specials {
+/// They are told apart from the `integrals` for all values.
+///
+/// # Errors
+/// A sentence that says why they cannot be evaluated.
+pub(super) fn special(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    letters: &Letters,
+    integrals: &[Integral],
+) -> Result<Specials, String> {
+    let known: Vec<Expr> = integrals.iter().map(|i| i.value).collect();
+    let table = &Table::beside(motion, &letters.all(), cx.prover.points_seed(), &known)?;
     let parameters = table.free_parameters();
     let ties = ties(cx, &parameters);
     let mut found = special_at(cx, table, letters, &parameters, &ties);
@@ -219,11 +228,11 @@ pub(super) fn special(cx: &Context<'_>, table: &Table<'_>, letters: &Letters) ->
     parameters.sort_by_key(|&s| g.symbol_name(s).to_owned());
     let (further, critical) = critical(cx, table, letters, &parameters, &ties);
     found.extend(further);
-    Specials { found, critical }
+    Ok(Specials { found, critical })
 }
 
 /// What there is more of at special values.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Specials {
     /// The values that add something.
     pub found: Vec<Special>,
@@ -338,6 +347,7 @@ fn ties(cx: &Context<'_>, parameters: &[Symbol]) -> Vec<Tie> {
         Tie::Zero(s) => is_stated(cx, tie) || !is_assumed(cx, g.symbol_expr(*s)),
         _ => true,
     }));
+    ties.retain(|tie| is_stated(cx, tie) || is_admitted(cx, tie));
     ties.sort_by_key(|tie| !is_stated(cx, tie));
     ties.truncate(SMALL.1);
     ties

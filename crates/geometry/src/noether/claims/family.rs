@@ -142,7 +142,7 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
     let special = match special.is_empty() {
         true => String::new(),
         false => format!(
-            "; looked at where parameters are equal or zero or as stated{critical}, there are more {}",
+            "; looked at where parameters are equal or zero or as stated{critical}, there are further or simpler ones {}",
             special.join("; ")
         ),
     };

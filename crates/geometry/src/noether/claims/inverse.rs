@@ -284,7 +284,24 @@ fn by_values(cx: &Context<'_>, motion: &Motion<'_>, value: Expr) -> Option<Verdi
             None => place += 1,
         }
     }
-    Some(found)
+    let proportional = (0..needed.len()).filter(|_| needed.len() <= MOST_VALUES);
+    let by_ratio = proportional
+        .filter_map(|base| multiples(g, &needed, base))
+        .find_map(|given| for_parameters(cx, motion, value, &given, 1, "states"));
+    Some(by_ratio.unwrap_or(found))
+}
+
+/// The values stated, those that do not vanish as multiples of one of them, which itself is left free.
+fn multiples(g: &Graph, values: &[(Expr, Expr)], base: usize) -> Option<Vec<(Expr, Expr)>> {
+    let (own, unit) = values[base];
+    let number = |e: Expr| g.as_number(e).is_some() && !g.is_zero(e);
+    let others = values.iter().enumerate().filter(|(i, _)| *i != base);
+    let tied = others.map(|(_, &(parameter, value))| match number(value) {
+        true => (parameter, g.mul(&[g.div(value, unit), own])),
+        false => (parameter, value),
+    });
+    let tied: Vec<(Expr, Expr)> = tied.collect();
+    (number(unit) && !tied.is_empty()).then_some(tied)
 }
 
 /// Of more parameters it is not asked which values are needed.
