@@ -280,6 +280,23 @@ fn automatic_families() {
     );
 }
 
+/// The Lane-Emden equation of index five, x'' + 2 x'/t + x^5 = 0, keeps t³ x'²/2 + t² x x'/2 + t³ x⁶/6 (by
+/// Noether's theorem for the scaling t -> s t, x -> x/√s): its family has to grow as far as t³ x⁶, and says how far it has grown.
+#[test]
+fn families_grow_with_the_budget() {
+    let star = system("x", "t^2 (x'^2/2 - x^6/6)", &[]);
+    let finding = common::finding(&star, "noether.family");
+    let found = with(&star, |cx, _| chetaev_geometry::noether::found::found(cx));
+    let integrals = &found.as_ref().as_ref().unwrap().integrals;
+    assert_eq!(integrals.len(), 1, "{:?}", finding.verdict);
+    let wanted = "t^3 x'^2/2 + t^2 x x'/2 + t^3 x^6/6";
+    assert!(is_multiple(&star, &integrals[0], wanted));
+    let detail = finding.verdict.detail();
+    let weights = detail.split("weight up to ").skip(1);
+    let weights = weights.filter_map(|rest| rest.split(' ').next()?.parse::<u32>().ok());
+    assert!(weights.max() >= Some(12), "{detail}");
+}
+
 /// A homogeneous sphere that rolls keeps the velocity of its centre and its spin about the vertical.
 #[test]
 fn rolling_sphere() {
