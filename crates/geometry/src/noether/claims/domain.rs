@@ -11,9 +11,10 @@ use chetaev_symbolic::{Expr, Function, Graph, Node, Verdict};
 /// So many states are drawn.
 const STATES: u64 = 24;
 
-/// An expression that has to be positive, or not negative.
+/// An expression that has to be positive, or not negative, for a part of a function to have a value.
 #[derive(Clone, Copy, Debug)]
 struct Demand {
+    part: Expr,
     e: Expr,
     strict: bool,
 }
@@ -41,11 +42,14 @@ pub(super) fn nowhere(cx: &Context<'_>, value: Expr) -> Option<Verdict> {
     let failing: Vec<String> = one
         .or_else(two)?
         .iter()
-        .map(|d| format!("{} {} 0", g.text(d.e), if d.strict { ">" } else { ">=" }))
+        .map(|d| {
+            let relation = if d.strict { ">" } else { ">=" };
+            format!("{} needs {} {relation} 0", g.text(d.part), g.text(d.e))
+        })
         .collect();
     Some(Verdict::not_applicable(
         "the function has a real value at some admissible state",
-        format!("it needs {}, which holds nowhere", failing.join(" and ")),
+        format!("{}, which holds nowhere", failing.join(" and ")),
     ))
 }
 
@@ -82,7 +86,7 @@ pub(super) fn undefined_at_samples(cx: &Context<'_>, value: Expr) -> Option<Verd
 fn demands(g: &Graph, value: Expr) -> Vec<Demand> {
     let mut found = Vec::new();
     for part in g.reachable(&[value]) {
-        let mut demand = |e: Expr, strict: bool| found.push(Demand { e, strict });
+        let mut demand = |e: Expr, strict: bool| found.push(Demand { part, e, strict });
         let beside = |sign: i64, x: Expr| g.add(&[g.one(), g.mul(&[g.integer(sign), x])]);
         match g.node(part) {
             Node::Power { base, exponent } => match g.as_number(*exponent) {
