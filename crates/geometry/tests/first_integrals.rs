@@ -6,9 +6,9 @@ mod common;
 
 use chetaev_geometry::noether::family::{Family, Letter};
 use chetaev_geometry::noether::search::{exhaust, Exhausted, Integral, Table};
-use chetaev_geometry::noether::special::{Term, Tie};
+use chetaev_geometry::noether::special::{Special, Term, Tie};
 use chetaev_mechanics::System;
-use chetaev_symbolic::{Rational, Verdict};
+use chetaev_symbolic::{Expr, Rational, Verdict};
 use common::{expr, system, with_motion as with};
 
 fn letters(system: &System, texts: &[&str]) -> Vec<Letter> {
@@ -280,6 +280,23 @@ fn automatic_families() {
     );
 }
 
+/// The Lane-Emden equation of index five, x'' + 2 x'/t + x^5 = 0, keeps t³ x'²/2 + t² x x'/2 + t³ x⁶/6 (by
+/// Noether's theorem for the scaling t -> s t, x -> x/√s): its family has to grow as far as t³ x⁶, and says how far it has grown.
+#[test]
+fn families_grow_with_the_budget() {
+    let star = system("x", "t^2 (x'^2/2 - x^6/6)", &[]);
+    let finding = common::finding(&star, "noether.family");
+    let found = with(&star, |cx, _| chetaev_geometry::noether::found::found(cx));
+    let integrals = &found.as_ref().as_ref().unwrap().integrals;
+    assert_eq!(integrals.len(), 1, "{:?}", finding.verdict);
+    let wanted = "t^3 x'^2/2 + t^2 x x'/2 + t^3 x^6/6";
+    assert!(is_multiple(&star, &integrals[0], wanted));
+    let detail = finding.verdict.detail();
+    let weights = detail.split("weight up to ").skip(1);
+    let weights = weights.filter_map(|rest| rest.split(' ').next()?.parse::<u32>().ok());
+    assert!(weights.max() >= Some(12), "{detail}");
+}
+
 /// A homogeneous sphere that rolls keeps the velocity of its centre and its spin about the vertical.
 #[test]
 fn rolling_sphere() {
@@ -362,6 +379,40 @@ fn critical_values_of_parameters() {
         (2, 1),
         "x' (x y' - y x') + a^2 x^2 y",
     );
+}
+
+/// Special values that need two conditions: Hénon's and Heiles' potential separates in x + y and x - y where both frequencies are
+/// equal and C = -D (Aizawa and Saito, J. Phys. Soc. Japan 32, 1972), which neither does alone.
+#[test]
+fn critical_values_beside_an_equality() {
+    let text = "(x'^2 + y'^2)/2 - (A x^2 + B y^2)/2 - D x^2 y + C y^3/3";
+    let top = system("x y", text, &[]);
+    let found = with(&top, |cx, _| chetaev_geometry::noether::found::found(cx));
+    let found = found.as_ref().as_ref().unwrap();
+    let g = &top.graph;
+    let at: Vec<(Expr, Expr)> = [("C", "-D"), ("B", "A"), ("A", "2/7"), ("D", "3/5")]
+        .map(|(name, value)| (expr(g, name), expr(g, value)))
+        .to_vec();
+    let replaced = |e: Expr| g.substitute(g.substitute(e, &at), &at);
+    let here = |special: &&Special| {
+        let pairs = special.tie.pairs(g);
+        let holds = |&(a, b): &(Expr, Expr)| g.is_zero(replaced(g.sub(a, b)));
+        pairs.len() == 2 && pairs.iter().all(holds)
+    };
+    let own: Vec<&Special> = found.special.found.iter().filter(here).collect();
+    let [special] = own[..] else {
+        panic!("{:?}", found.special.found);
+    };
+    let [integral] = special.integrals[..] else {
+        panic!("{special:?}");
+    };
+    let wanted = expr(g, "x' y' + A x y + D (x y^2 + x^3/3)");
+    let es = [replaced(integral), replaced(wanted)];
+    let ratio = |seed: u64| {
+        let values = common::values(g, &es, &common::anywhere(g, &es, seed));
+        values[0] / values[1]
+    };
+    assert!((2..6).all(|seed| (ratio(seed) / ratio(1) - 1.0).abs() < 1e-9));
 }
 
 /// What a special value adds is no function of what there is anyhow. On a surface of constant curvature there are three linear integrals,

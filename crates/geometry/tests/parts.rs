@@ -9,7 +9,7 @@
 
 mod common;
 
-use chetaev_mechanics::system::Parameter;
+use chetaev_mechanics::system::{Assumption, Parameter, Relation};
 use chetaev_mechanics::System;
 use chetaev_symbolic::Verdict;
 use common::{expr, finding, system};
@@ -208,4 +208,41 @@ fn conditions_are_ratios_where_these_suffice() {
     assert_eq!(found, ("conditional", "b = a, c = 0".into()));
     let found = conditions("4", "x'*(x*y' - y*x') + a*x^2*y");
     assert_eq!(found, ("conditional", "b = 4 a, c = 0".into()));
+}
+
+/// A function without real values keeps none; by the signs of its arguments, also of two together, as log v - log(-v), and by what
+/// the model assumes of a parameter. What has values somewhere is decided as before, and √(v - 100), which has some but at no state
+/// that is drawn, is left open.
+#[test]
+fn functions_that_are_defined_nowhere() {
+    let mut free = stating(
+        system("x y", "(x'^2 + y'^2)/2 + a", &[]),
+        &[
+            ("log(x') - log(-x')", &[]),
+            ("log(-x'^2)", &[]),
+            ("asin(2)", &[]),
+            ("acos(x'^2 + 5)", &[]),
+            ("sqrt(-a x'^2 - 1)", &[]),
+            ("atanh(x') + acosh(x' - 1)", &[]),
+            ("log(x') - log(-y')", &[]),
+            ("asin(x') + acosh(1 + x'^2)", &[]),
+            ("log(-x)", &[]),
+            ("sqrt(x' - 100)", &[]),
+        ],
+    );
+    let nowhere = ["not-applicable"; 5];
+    let rest = ["not-applicable", "proved", "proved", "refuted", "undecided"];
+    let zero = free.graph.zero();
+    free.assumptions.push(Assumption {
+        left: zero,
+        relation: Relation::Less,
+        right: expr(&free.graph, "a"),
+        text: "a > 0".into(),
+    });
+    expect(&free, &[&nowhere[..], &rest[..]].concat());
+    let (_, why) = word(&free, "noether.inverse#0");
+    assert!(
+        why.contains("log(x') needs x' > 0") && why.contains("log(-x') needs -x' > 0"),
+        "{why}"
+    );
 }

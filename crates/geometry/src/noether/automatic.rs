@@ -1,6 +1,6 @@
 //! The families that are chosen for a system, as large as the budget allows.
 
-use super::family::Family;
+use super::family::{Family, ANY};
 use super::letters::{Letters, Polar};
 use chetaev_mechanics::Context;
 use chetaev_symbolic::Expr;
@@ -12,8 +12,39 @@ const MEMBERS: [usize; 3] = [620, 400, 700];
 /// The most members of a family with multiples of a polar angle.
 const WAVES: usize = 520;
 
-/// Families do not grow beyond this weight of the coefficients.
-pub(super) const WEIGHT: u32 = 6;
+/// No letter counts more: a family that so many weights leave as it is has all its members.
+const HEAVIEST: u32 = 3;
+
+/// The largest weight for which a list that grows with it has at most so many entries, with that list; `None` where it has more from
+/// the first weight on. What limits it is the work that the list will cost, counted by its entries, so that the result is the same on
+/// every machine.
+pub(super) fn grown<T>(
+    most: usize,
+    first: u32,
+    make: impl Fn(u32) -> T,
+    size: impl Fn(&T) -> usize,
+) -> Option<(u32, T)> {
+    let mut largest = None;
+    let mut same = 0;
+    for weight in first.. {
+        let next = make(weight);
+        if size(&next) > most || same > HEAVIEST {
+            break;
+        }
+        let before = largest.as_ref().map(|(_, list)| size(list));
+        same = if before == Some(size(&next)) {
+            same + 1
+        } else {
+            0
+        };
+        largest = Some((weight, next));
+    }
+    largest
+}
+
+fn members(family: &Family) -> usize {
+    family.members.len()
+}
 
 /// The largest families within the budget: polynomials of degree one and two in the velocities, and quotients.
 pub(super) fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
@@ -25,19 +56,17 @@ pub(super) fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
                 (_, 0..=4) => MEMBERS[1],
                 _ => MEMBERS[2],
             };
-            let mut weight = 0;
-            let mut largest = letters.polynomials(degree, 0);
-            if largest.members.len() > 2 * most {
+            let grown = grown(
+                most,
+                0,
+                |weight| letters.polynomials(degree, weight),
+                members,
+            );
+            let smallest = || Some((0, letters.polynomials(degree, 0)));
+            let fits = |(_, family): &(u32, Family)| family.members.len() <= 2 * most;
+            let Some((weight, mut largest)) = grown.or_else(smallest).filter(fits) else {
                 return letters.known_only();
-            }
-            while weight < WEIGHT {
-                let next = letters.polynomials(degree, weight + 1);
-                if next.members.len() > most {
-                    break;
-                }
-                weight += 1;
-                largest = next;
-            }
+            };
             largest.words = words(cx, letters, degree, weight);
             largest
         })
@@ -55,7 +84,8 @@ pub(super) fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
 /// Which powers of a letter are formed, where not all of them. A cosine stands with its first power only because of the sine.
 fn powers((least, most): (i8, i8)) -> String {
     match (least, most) {
-        (0, 1 | 9) => String::new(),
+        (0, 1 | ANY) => String::new(),
+        (least, ANY) => format!(" to the powers from {least} on"),
         (least, most) => format!(" to the powers {least} to {most}"),
     }
 }
@@ -63,10 +93,13 @@ fn powers((least, most): (i8, i8)) -> String {
 /// The family with sines and cosines of coordinates that may be angles.
 fn turned(cx: &Context<'_>, letters: &Letters) -> Option<Family> {
     let g = &cx.system.graph;
-    let families = (1..=WEIGHT).map_while(|weight| Some((weight, letters.turned(weight)?)));
-    let (weight, mut family) = families
-        .take_while(|(_, family)| family.members.len() <= MEMBERS[0])
-        .last()?;
+    letters.turned(1)?;
+    let make = |weight| {
+        letters
+            .turned(weight)
+            .unwrap_or_else(|| letters.known_only())
+    };
+    let (weight, mut family) = grown(MEMBERS[0], 1, make, members)?;
     let places = 0..letters.coefficients.len();
     let used = places.filter(|&i| letters.is_turned(i));
     let names: Vec<String> = used
@@ -84,14 +117,8 @@ fn turned(cx: &Context<'_>, letters: &Letters) -> Option<Family> {
 /// The family with sines and cosines of multiples of a polar angle.
 fn waves(cx: &Context<'_>, letters: &Letters, polar: &Polar) -> Family {
     let g = &cx.system.graph;
-    let (mut weight, mut family) = (0, letters.waves(cx.system, polar, 0));
-    while weight < WEIGHT {
-        let next = letters.waves(cx.system, polar, weight + 1);
-        if next.members.len() > WAVES {
-            break;
-        }
-        (weight, family) = (weight + 1, next);
-    }
+    let make = |weight| letters.waves(cx.system, polar, weight);
+    let (weight, mut family) = grown(WAVES, 0, make, members).unwrap_or_else(|| (0, make(0)));
     let list = |es: Vec<Expr>| {
         es.iter()
             .map(|&e| g.text(e))

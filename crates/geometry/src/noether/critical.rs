@@ -29,11 +29,12 @@ const POWER: i8 = 2;
 type Product = (Vec<(Symbol, i8)>, Residue);
 
 impl Table<'_> {
-    /// Candidates for values of a parameter where the family contains more integrals, in terms of the others; `None` where they were
+    /// Candidates for values of a parameter where the family contains more integrals, in terms of the others, while a `tie` holds; `None` where they were
     /// not found within the work left, counted in multiplications.
     pub(super) fn critical(
         &self,
         family: &Family,
+        tie: Option<&Tie>,
         parameter: Symbol,
         others: &[Symbol],
         work: &mut u64,
@@ -41,12 +42,17 @@ impl Table<'_> {
         if !self.points.are_rational() {
             return None;
         }
-        let (draw, mut random) = self.draw(0)?;
+        let drawn = |number: usize| {
+            let (draw, random) = self.draw(number)?;
+            let draw = tie.map_or(Some(draw.clone()), |tie| self.tied(&draw, tie))?;
+            Some((draw, random))
+        };
+        let (draw, mut random) = drawn(0)?;
         let all = &family.members[1..];
         let rows = self.rows(&draw, &mut random, all, all.len() + SURPLUS)?;
         let pivots = null_space(&draw.field, all.len(), rows).pivots;
         let members: Vec<Member> = pivots.into_iter().map(|i| all[i].clone()).collect();
-        let (draw, random) = self.draw(1)?;
+        let (draw, random) = drawn(1)?;
         let numerator = self.numerator(&draw, &random, &members, parameter, work)?;
         let mut random = Random::stream(self.seed, 1 << 24);
         let found = roots(&draw.field, &numerator, &mut random);

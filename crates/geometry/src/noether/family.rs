@@ -118,6 +118,9 @@ pub fn product(a: &Member, b: &Member) -> Member {
         .collect()
 }
 
+/// The greatest exponent of a letter of which all powers are formed that the weight admits.
+pub const ANY: i8 = i8::MAX;
+
 /// A letter of the coefficients with the powers that are formed of it.
 #[derive(Clone, Debug)]
 pub struct CoefficientLetter {
@@ -135,7 +138,9 @@ pub fn coefficients(letters: &[CoefficientLetter], first: usize, most: u32) -> V
     for (number, letter) in letters.iter().enumerate() {
         let mut more = Vec::new();
         for (weight, member) in &found {
-            for exponent in letter.exponents.0..=letter.exponents.1 {
+            let most_factors = i8::try_from((most - weight) / letter.weight.max(1)).unwrap_or(ANY);
+            let (least, greatest) = letter.exponents;
+            for exponent in least.max(-most_factors)..=greatest.min(most_factors) {
                 let heavier = weight + letter.weight * u32::from(exponent.unsigned_abs());
                 if exponent != 0 && heavier <= most {
                     more.push((heavier, product(member, &vec![(first + number, exponent)])));

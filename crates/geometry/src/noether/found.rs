@@ -1,6 +1,6 @@
 //! The first integrals of a system in the families that are chosen for it, computed once for all claims about them.
 
-use super::automatic::{families, WEIGHT};
+use super::automatic::{families, grown};
 use super::embedded::Embedded;
 use super::family::{Family, Member};
 use super::killing::solutions;
@@ -198,10 +198,8 @@ fn momenta(
 ) -> Option<Momenta> {
     let n = Embedded::of(cx).ok()?;
     let most = COMPONENTS / n.k().max(1);
-    let (weight, functions) = (0..=WEIGHT)
-        .map(|weight| (weight, letters.functions(cx.system, weight)))
-        .take_while(|(_, functions)| functions.len() <= most)
-        .last()?;
+    let make = |weight| letters.functions(cx.system, weight);
+    let (weight, functions) = grown(most, 0, make, Vec::len)?;
     let found = solutions(cx, &n, &functions, &[]).ok()?;
     for solution in &found {
         let mut all: Vec<Expr> = cx.system.fixed_functions();

@@ -1,7 +1,7 @@
 //! What occurs in a system: angles, roots, exponentials, reciprocals, the roots of what divides accelerations, and the functions of
 //! (t, q) that are letters because of them.
 
-use super::family::{CoefficientLetter, Letter};
+use super::family::{CoefficientLetter, Letter, ANY};
 use super::letters::{Letters, Polar};
 use chetaev_mechanics::system::Coordinate;
 use chetaev_mechanics::{sample, Characteristics, Context, System};
@@ -231,7 +231,7 @@ impl<'a> Occurring<'a> {
         };
         let circle = |angle: Expr| {
             [
-                letter(g.sin(angle), (0, 9), 1),
+                letter(g.sin(angle), (0, ANY), 1),
                 letter(g.cos(angle), (0, 1), 1),
             ]
         };
@@ -245,7 +245,7 @@ impl<'a> Occurring<'a> {
             .for_each(|&angle| all.extend(circle(angle)));
         for &x in &self.hyperbolic {
             let value = |function| g.apply(function, &[x]);
-            all.push(letter(value(Function::Sinh), (0, 9), 1));
+            all.push(letter(value(Function::Sinh), (0, ANY), 1));
             all.push(letter(value(Function::Cosh), (0, 1), 1));
         }
         let first_turning = all.len();
@@ -275,19 +275,19 @@ impl<'a> Occurring<'a> {
         for c in &self.system.coordinates {
             match self.angles.contains(&c.q) {
                 true => all.push(letter(c.q, (0, 1), 3)),
-                false => all.push(letter(c.q, (0, 9), plain_weight)),
+                false => all.push(letter(c.q, (0, ANY), plain_weight)),
             }
         }
         for &e in &self.reciprocals {
-            all.push(letter(g.powi(e, -1), (0, 9), 1));
+            all.push(letter(g.powi(e, -1), (0, ANY), 1));
         }
         for mass in &self.system.masses {
-            all.push(letter(mass.expr, (-1, 9), 1));
+            all.push(letter(mass.expr, (-1, ANY), 1));
         }
         for mass in self.varying_masses() {
             all.push(letter(g.apply(Function::Log, &[mass]), (0, 1), LOGARITHM));
         }
-        all.push(letter(g.symbol("t", 0), (0, 9), 2));
+        all.push(letter(g.symbol("t", 0), (0, ANY), 2));
         let usual = all.len();
         self.perhaps_angles()
             .into_iter()

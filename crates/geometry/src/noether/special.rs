@@ -21,6 +21,8 @@ pub enum Tie {
     Values(Vec<(Symbol, Rational)>),
     /// A parameter is a sum of products of powers of others.
     Is(Symbol, Vec<Term>),
+    /// Both; neither contains what the other gives.
+    Both(Box<Tie>, Box<Tie>),
 }
 
 /// A rational multiple of a product of powers of parameters.
@@ -68,6 +70,7 @@ impl Tie {
                 let terms: Vec<Expr> = terms.iter().map(|t| t.expression(g)).collect();
                 vec![(g.symbol_expr(*parameter), g.add(&terms))]
             }
+            Tie::Both(a, b) => [a.pairs(g), b.pairs(g)].concat(),
         }
     }
 }
@@ -113,6 +116,7 @@ impl Table<'_> {
                 }
                 vec![(*parameter, sum)]
             }
+            Tie::Both(a, b) => [self.values(draw, a)?, self.values(draw, b)?].concat(),
         })
     }
 
@@ -145,7 +149,11 @@ impl Table<'_> {
             let Some((vectors, _)) = self.vectors_at(family, &draw, &mut random) else {
                 continue;
             };
-            if vectors.len() <= general.len() {
+            let without = match tie {
+                Tie::Both(first, _) => self.dimension_at(family, first).unwrap_or(usize::MAX),
+                _ => general.len(),
+            };
+            if vectors.len() <= without {
                 continue;
             }
             let candidates: Vec<(&Family, &[(usize, Residue)])> =
@@ -163,6 +171,13 @@ impl Table<'_> {
             }
         }
         found
+    }
+
+    /// How many integrals a family contains at a special value.
+    fn dimension_at(&self, family: &Family, tie: &Tie) -> Option<usize> {
+        let (draw, mut random) = self.draw(0)?;
+        let (vectors, _) = self.vectors_at(family, &self.tied(&draw, tie)?, &mut random)?;
+        Some(vectors.len())
     }
 
     /// An integral at a special value, lifted and proved there.
@@ -226,7 +241,7 @@ pub(super) fn special(
     let g = &cx.system.graph;
     let mut parameters = parameters;
     parameters.sort_by_key(|&s| g.symbol_name(s).to_owned());
-    let (further, critical) = critical(cx, table, letters, &parameters, &ties);
+    let (further, critical) = critical(cx, table, letters, &parameters, (&ties, &found));
     found.extend(further);
     Ok(Specials { found, critical })
 }
@@ -236,8 +251,19 @@ pub(super) fn special(
 pub struct Specials {
     /// The values that add something.
     pub found: Vec<Special>,
-    /// The parameters of which all special values were looked for, and among how many functions.
-    pub critical: (Vec<Symbol>, usize),
+    /// Of what all simple special values were looked for.
+    pub critical: Critical,
+}
+
+/// What the search for all simple special values was made for.
+#[derive(Clone, Debug, Default)]
+pub struct Critical {
+    /// The parameters whose values were looked for, one at a time.
+    pub parameters: Vec<Symbol>,
+    /// Whether those were too that need the equality of two further parameters.
+    pub equal: bool,
+    /// Among how many functions integrals were searched.
+    pub functions: usize,
 }
 
 /// The most members of a family whose equations are looked at as functions of a parameter.
@@ -252,8 +278,8 @@ fn critical(
     table: &Table<'_>,
     letters: &Letters,
     parameters: &[Symbol],
-    known: &[Tie],
-) -> (Vec<Special>, (Vec<Symbol>, usize)) {
+    (known, at): (&[Tie], &[Special]),
+) -> (Vec<Special>, Critical) {
     let letters = letters.without_time(cx.system);
     let families = (0..=4).map(|weight| letters.polynomials(2, weight));
     let family = families
@@ -262,28 +288,82 @@ fn critical(
     let Some(family) = family else {
         return Default::default();
     };
-    let (mut work, mut looked) = (WORK, Vec::new());
-    let mut ties: Vec<Tie> = Vec::new();
-    for &parameter in parameters {
-        let others: Vec<Symbol> = parameters
-            .iter()
-            .copied()
-            .filter(|&s| s != parameter)
-            .collect();
-        let Some(found) = table.critical(&family, parameter, &others, &mut work) else {
-            continue;
+    let mut search = CriticalSearch {
+        cx,
+        table,
+        family: &family,
+        parameters,
+        work: WORK,
+        known: known.to_vec(),
+        ties: Vec::new(),
+    };
+    let mut looked = parameters.to_vec();
+    looked.retain(|&parameter| search.looked_at(None, parameter));
+    let mut found = table.special(cx, &family, &search.ties);
+    // Two conditions at once: an equality that adds nothing by itself, and a value of another parameter.
+    let alone = search.ties.len();
+    let mut pairs: Vec<Tie> = known.to_vec();
+    pairs.retain(|tie| matches!(tie, Tie::Equal(..)) && !at.iter().any(|s| s.tie == *tie));
+    let all = pairs.iter().all(|pair| search.looked_beside(pair));
+    found.extend(table.special(cx, &family, &search.ties[alone..]));
+    let critical = Critical {
+        equal: all && !pairs.is_empty() && parameters.len() > 2,
+        functions: family.members.len() - 1,
+        parameters: looked,
+    };
+    (found, critical)
+}
+
+/// A search for special values of one parameter each.
+struct CriticalSearch<'s, 'a> {
+    cx: &'s Context<'a>,
+    table: &'s Table<'s>,
+    family: &'s Family,
+    parameters: &'s [Symbol],
+    /// The multiplications that are left.
+    work: u64,
+    known: Vec<Tie>,
+    /// What was found.
+    ties: Vec<Tie>,
+}
+
+impl CriticalSearch<'_, '_> {
+    /// Looks at all parameters that do not occur in an equality while this holds; whether the work sufficed.
+    fn looked_beside(&mut self, pair: &Tie) -> bool {
+        let Tie::Equal(a, b) = pair else {
+            return true;
         };
-        looked.push(parameter);
+        let others = self.parameters.iter().filter(|s| ![a, b].contains(s));
+        others
+            .into_iter()
+            .all(|&parameter| self.looked_at(Some(pair), parameter))
+    }
+
+    /// Looks at one parameter, while a tie holds; whether the work sufficed.
+    fn looked_at(&mut self, first: Option<&Tie>, parameter: Symbol) -> bool {
+        let tied = |s: Symbol| matches!(first, Some(Tie::Equal(a, _)) if *a == s);
+        let others = self.parameters.iter().copied();
+        let others: Vec<Symbol> = others.filter(|&s| s != parameter && !tied(s)).collect();
+        let table = self.table;
+        let Some(found) = table.critical(self.family, first, parameter, &others, &mut self.work)
+        else {
+            return false;
+        };
         for tie in found {
-            let tied = table.draw(0).and_then(|(draw, _)| table.tied(&draw, &tie));
-            let is_known = |draw: &Draw| known.iter().chain(&ties).any(|t| table.holds(draw, t));
-            if tied.is_some_and(|draw| !is_known(&draw)) && is_admitted(cx, &tie) {
-                ties.push(tie);
+            let tie = match first {
+                Some(first) => Tie::Both(Box::new(first.clone()), Box::new(tie)),
+                None => tie,
+            };
+            let draw = table.draw(0).and_then(|(draw, _)| table.tied(&draw, &tie));
+            let mut known = self.known.iter().chain(&self.ties);
+            let is_new =
+                draw.is_some_and(|draw| !known.any(|t| Some(t) != first && table.holds(&draw, t)));
+            if is_new && is_admitted(self.cx, &tie) {
+                self.ties.push(tie);
             }
         }
+        true
     }
-    let size = family.members.len() - 1;
-    (table.special(cx, &family, &ties), (looked, size))
 }
 
 /// Whether what the model assumes of parameters alone does not exclude a special value, all others as the model states them.
@@ -367,6 +447,7 @@ pub(crate) fn is_stated(cx: &Context<'_>, tie: &Tie) -> bool {
         Tie::Equal(a, b) => stated(cx, *a).is_some_and(|value| stated(cx, *b) == Some(value)),
         Tie::Zero(s) => stated(cx, *s).is_some_and(|value| value == Rational::ZERO),
         Tie::Values(_) => true,
+        Tie::Both(a, b) => is_stated(cx, a) && is_stated(cx, b),
         Tie::Is(parameter, _) => {
             let (system, g) = (cx.system, &cx.system.graph);
             let pairs = tie.pairs(g);

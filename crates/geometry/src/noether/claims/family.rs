@@ -124,8 +124,10 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
         )
     }));
     let special: Vec<String> = found.special.found.iter().map(|s| special(cx, s)).collect();
-    let (parameters, size) = &found.special.critical;
-    let names: Vec<&str> = parameters
+    let looked = &found.special.critical;
+    let size = looked.functions;
+    let names: Vec<&str> = looked
+        .parameters
         .iter()
         .map(|&s| cx.system.graph.symbol_name(s))
         .collect();
@@ -139,10 +141,14 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
             all.join(", ")
         ),
     };
+    let beside = match looked.equal {
+        true => ", or so where two others are equal",
+        false => "",
+    };
     let special = match special.is_empty() {
         true => String::new(),
         false => format!(
-            "; looked at where parameters are equal or zero or as stated{critical}, there are further or simpler ones {}",
+            "; looked at where parameters are equal or zero or as stated{critical}{beside}, there are further or simpler ones {}",
             special.join("; ")
         ),
     };

@@ -1,5 +1,6 @@
 //! `noether.inverse#NAME`: an integral that the model states is one, and its generator.
 
+use super::domain::{nowhere, undefined_at_samples};
 use super::parts::{parts, Part};
 use super::{generator_formulas, on_manifold, requirements};
 use crate::noether::embedded::Embedded;
@@ -31,7 +32,8 @@ impl Claim for Inverse {
         "A function G stated under [integrals] keeps its value along every motion: X̄G = 0 on the constraint manifold. If so, the inverse of \
          Noether's theorem gives its field: χ = -W̄⁻¹ ∂G, here with δ = 0, and the gauge g = G + p χ; the Killing-type equations are \
          proved for them. `conditional` says that it is one for parameters as the model defines them by others, not for \
-         independent ones, or for the values that it states, or as long as the function does not jump, or on the part of the states that the model states with `on`, which is proved to be invariant, or on one component of constraints that are products; `refuted` comes with an admissible state at which the rate of G is not zero."
+         independent ones, or for the values that it states, or as long as the function does not jump, or on the part of the states that the model states with `on`, which is proved to be invariant, or on one component of constraints that are products; `refuted` comes with an admissible state at which the rate of G is not zero; \
+         `not-applicable` says that G has no real value at any state."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -51,6 +53,9 @@ impl Claim for Inverse {
         if let Some(foreign) = beside_state(cx, *value) {
             let detail = format!("`{foreign}` occurs in it, which is not of (t, q, v)");
             return Verdict::not_applicable("the function is one of the state", detail).into();
+        }
+        if let Some(verdict) = nowhere(cx, *value).or_else(|| undefined_at_samples(cx, *value)) {
+            return verdict.into();
         }
         let motion = match Motion::of(cx) {
             Ok(motion) => motion,

@@ -1,6 +1,7 @@
 //! The claims about first integrals (claims.md §6), one file each.
 
 mod contraction;
+mod domain;
 mod embedded;
 mod family;
 mod integral;
