@@ -482,6 +482,27 @@ fn nothing_varies_where_nothing_is_free() {
     assert_eq!(detail(&study, "witness.stationary").0, "proved");
 }
 
+/// `(z' − x') (z' − y x') = 0` from a start on the second component is told of that component, also where no motion is computed: there
+/// motions with x' = 0 or y' = 0 are stationary, on the first, which is integrable, all are.
+#[test]
+fn the_component_of_the_start_without_a_motion() {
+    let lagrangian =
+        "coordinates = [\"x\", \"y\", \"z\"]\n[lagrangian]\nL = \"(x'^2 + y'^2 + z'^2)/2\"";
+    let constraint = "[constraints]\nc = \"(z' - x')*(z' - y*x') = 0\"";
+    let start = |z: u32| format!("[initial]\ny = 2\n\"x'\" = 3\n\"y'\" = 1\n\"z'\" = {z}");
+    for (z, word) in [(6, "x' = 0 or y' = 0"), (3, "every motion")] {
+        let text = format!("{lagrangian}\n{constraint}\n{}", start(z));
+        let model = load("product.toml", &text, &NoFiles, &[]).model;
+        let model = model.expect("the model is right");
+        let study = studied(model, &["hamilton.stationary"], |options| {
+            options.motion = false;
+        });
+        assert!(study.motion.is_none());
+        let (_, told) = detail(&study, "hamilton.stationary");
+        assert!(told.contains(word), "z' = {z}: {told}");
+    }
+}
+
 /// All forms have a witness, and words of their own.
 #[test]
 fn forms_have_words() {

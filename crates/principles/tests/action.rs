@@ -284,6 +284,21 @@ fn jacobis_principle() {
     assert!(skate.contains("exactly where Hamilton's is"), "{skate}");
 }
 
+/// z' = a y x' + b x y' is integrable for a = b (A = a − b), so that least action is stationary for every motion there, as Hamilton's is.
+#[test]
+fn particular_parameters_are_those_of_hamilton() {
+    let lagrangian = "1/2 (x'^2 + y'^2 + z'^2)";
+    let stated = text("x y z", lagrangian, &[("c", "z' - a y x' - b x y'")]);
+    for id in ["action.lagrange", "action.jacobi"] {
+        let detail = assert_word(&stated, id, "proved");
+        assert!(detail.contains("exactly where Hamilton's is"), "{detail}");
+        assert!(
+            detail.contains("where b = a, every motion does"),
+            "{detail}"
+        );
+    }
+}
+
 #[test]
 fn parametric_principle() {
     for stated in [&worked::SKATE, &worked::CONE, &worked::PARTICLE, &CHARGE] {

@@ -5,6 +5,7 @@
 mod common;
 
 use chetaev_mechanics::claims::formulation::manifold;
+use chetaev_mechanics::system::Parameter;
 use chetaev_symbolic::Verdict;
 use common::worked::{text, CONE, DISC, INTEGRABLE, LEVEL_SKATE, PARTICLE, SKATE};
 use common::{expr, finding, system, with_context, Text};
@@ -71,6 +72,20 @@ fn particular_parameters() {
         detail.contains("where b = -a, every motion does"),
         "{detail}"
     );
+    // With a = 2 and b = a the motions of the model are all stationary, and the verdict on general a and b says so.
+    let mut own = system(&stated);
+    for name in ["a", "b"] {
+        own.parameters.push(Parameter {
+            name: name.into(),
+            expr: expr(&own.graph, name),
+            value: Some(expr(&own.graph, "2")),
+        });
+    }
+    let found = finding(&own, STATIONARY);
+    let detail = found.verdict.detail();
+    let says = "where b = a, as by the values of the model, every motion does";
+    assert!(detail.contains(says), "{detail}");
+    assert!(detail.contains("where b = -a, every motion"), "{detail}");
 }
 
 /// z' = h x', h = u + 2 sin u, has A = h' = 1 + 2 cos u, which vanishes at angles that are not looked up: u is constant there, so that

@@ -11,7 +11,7 @@ use crate::notices::{
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
 use crate::start::{
-    add_jets, asks_for_motion, check_rank, settings, sharpest, start_of_motion, Start,
+    add_jets, asks_for_motion, check_rank, of_start, settings, sharpest, start_of_motion, Start,
 };
 use crate::witness::{self, Witness};
 use chetaev_geometry::noether::found::found;
@@ -26,7 +26,6 @@ use chetaev_mechanics::{
     FORMULATIONS,
 };
 use chetaev_model::model::Model;
-use chetaev_motion::observe::Observer;
 use chetaev_motion::run::equal_times;
 use chetaev_motion::{Binding, ConsistentState, Run, RunError, RunSettings, Subject, Watcher};
 use chetaev_symbolic::{Expr, Verdict};
@@ -237,6 +236,7 @@ pub fn study(
             "{detail}; Maggi's and Volterra's equations are not derived by them"
         ));
     }
+    let start = numeric.as_ref().ok().map(|numeric| numeric.start.clone());
     let asks = options.claims.wants_group(Group::Motion, known.claims());
     let wants_motion = options.motion && (asks || options.claims.names_witness());
     let motion = match numeric {
@@ -255,8 +255,12 @@ pub fn study(
         notices.extend(integrals_not_kept(&model, motion, &options));
         notices.extend(negative_masses(&system, &prepared, motion));
     }
+    let known_motion = KnownMotion {
+        start: start.as_ref(),
+        motion: motion.as_ref(),
+    };
     let (verdicts, found, witness) =
-        decide(&model, &system, &prepared, motion.as_ref(), &options, hooks);
+        decide(&model, &system, &prepared, known_motion, &options, hooks);
     let mut motion = motion;
     if let Some(motion) = &mut motion {
         motion.found = found.map_or_else(Vec::new, |found| found.0.clone());
@@ -521,23 +525,28 @@ fn narrowed<'a>(cx: Context<'a>, on: Option<&'a (Context<'a>, &OnComponent)>) ->
     }
 }
 
+/// What is known of a motion when claims are decided.
+#[derive(Clone, Copy)]
+struct KnownMotion<'a> {
+    /// Where it starts, computed or not.
+    start: Option<&'a ConsistentState>,
+    /// The motion, where it was computed.
+    motion: Option<&'a Motion>,
+}
+
 /// Values of functions of the state where the motion starts.
-fn at_start(
-    system: &System,
-    prepared: &Prepared,
-    motion: &Motion,
-    functions: &[Expr],
-) -> Option<Vec<f64>> {
-    let (run, binding) = (&motion.evidence.run, &motion.binding);
-    let observer = Observer::new(system, &prepared.terms, binding, functions);
-    Some(observer.ok()?.at(*run.times.first()?, run.row(0)))
+fn at_start(system: &System, start: &ConsistentState, functions: &[Expr]) -> Option<Vec<f64>> {
+    let g = &system.graph;
+    let functions = g.substitute_all(functions, &system.parameter_values());
+    let value = |symbol| of_start(system, symbol, start);
+    g.evaluate_f64(&functions, &value).ok()
 }
 
 fn decide(
     model: &Model,
     system: &System,
     prepared: &Prepared,
-    motion: Option<&Motion>,
+    KnownMotion { start, motion }: KnownMotion<'_>,
     options: &StudyOptions,
     hooks: &mut Hooks<'_>,
 ) -> (Vec<Decided>, Option<Arc<FoundIntegrals>>, Witness) {
@@ -551,7 +560,7 @@ fn decide(
     }
     let stated = prepared_system(system.for_stated_values());
     let narrow = stated.as_ref().map_or(system, |(_, system)| system);
-    let component = narrow.on_component(|list| at_start(system, prepared, motion?, list));
+    let component = narrow.on_component(|list| at_start(system, start?, list));
     let component = component.and_then(|on| Some((Prepared::new(&on.system).ok()?, on)));
     let on = component
         .as_ref()

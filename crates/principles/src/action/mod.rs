@@ -14,7 +14,7 @@ pub use jacobi::Jacobi;
 pub use lagrange::Lagrange;
 pub use parametric::Parametric;
 
-use crate::stationarity::NoneBut;
+use crate::stationarity::{of_parameters, NoneBut};
 use crate::variations::delta_name;
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::equations::unused_name;
@@ -110,22 +110,24 @@ fn as_stationary(cx: &Context<'_>, which: &str) -> String {
         return format!("without constraints {which} is one of stationary action");
     }
     let id = "hamilton.stationary";
-    match &cx.finding(id).verdict {
+    let verdict = &cx.finding(id).verdict;
+    let (general, particular) = of_parameters(cx);
+    match verdict {
         Verdict::Proved(_) => {
             format!("{which} is one of stationary action among admissible curves for every motion, as Hamilton's is (`{id}`)")
         }
         Verdict::Conditional { condition, .. } => format!(
-            "{which} is one of stationary action among admissible curves exactly where Hamilton's is (`{id}`): {condition}"
+            "{which} is one of stationary action among admissible curves exactly where Hamilton's is (`{id}`){general}: {condition}{particular}"
         ),
         Verdict::Refuted(_) => match NoneBut::refuted(cx) {
             NoneBut::Nothing => format!(
-                "{which} is one of stationary action among admissible curves for no motion, as Hamilton's is for none (`{id}`)"
+                "{which} is one of stationary action among admissible curves for no motion{general}, as Hamilton's is for none (`{id}`){particular}"
             ),
             NoneBut::Rest => format!(
-                "{which} is one of stationary action among admissible curves for no motion but rest, as Hamilton's (`{id}`)"
+                "{which} is one of stationary action among admissible curves for no motion but rest{general}, as Hamilton's (`{id}`){particular}"
             ),
             NoneBut::Open => format!(
-                "{which} is one of stationary action among admissible curves for almost no motion, as Hamilton's; the others were not followed (`{id}`)"
+                "{which} is one of stationary action among admissible curves for almost no motion, as Hamilton's; the others were not followed (`{id}`){particular}"
             ),
         },
         other => format!(

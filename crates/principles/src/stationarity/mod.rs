@@ -18,6 +18,6 @@ pub(crate) use closed_form::{short as by_sines, zero_of};
 pub use closure::{Closure, Condition};
 pub(crate) use kappa::free_constant;
 pub use sets::{StationarySet, StationarySets};
-pub(crate) use stationary::NoneBut;
 pub use stationary::Stationary;
+pub(crate) use stationary::{of_parameters, NoneBut};
 pub use suslov::StationarySuslov;

@@ -1,6 +1,7 @@
 //! `hamilton.stationary`: whether Hamilton's principle is one of stationary action.
 
 use super::cases::{confirmed, joined, Found, Leaf};
+use super::closed_form::short;
 use super::kappa::integrated;
 use super::motion::Motion;
 use super::{sets, Closure};
@@ -181,8 +182,15 @@ fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Findin
 fn particular(cx: &Context<'_>, found: &Found) -> String {
     let g = &cx.system.graph;
     let mut sentence = String::new();
+    let stated = cx.system.parameter_values();
     for ((parameter, value), leaves) in &found.special.found {
         let own = format!("{} = {}", g.text(*parameter), g.text(*value));
+        // Verdicts are those of all values, and a reader wants to know that his own are particular ones.
+        let residual = g.substitute(g.sub(*parameter, *value), &stated);
+        let by_model = match g.is_zero(short(g, residual)) {
+            true => ", as by the values of the model",
+            false => "",
+        };
         let mut sets: Vec<Leaf> = leaves.clone();
         for leaf in &mut sets {
             leaf.equations.retain(|equation| *equation != own);
@@ -192,9 +200,18 @@ fn particular(cx: &Context<'_>, found: &Found) -> String {
             true => "every motion does".to_string(),
             false => format!("also those do where {}", alternatives(&sets)),
         };
-        sentence.push_str(&format!("; where {own}, {more}"));
+        sentence.push_str(&format!("; where {own}{by_model}, {more}"));
     }
     sentence
+}
+
+/// Of which parameters the verdict of `hamilton.stationary` is said, and what particular ones change: parts of a sentence, empty
+/// where every motion is stationary, or nothing is left open.
+pub(crate) fn of_parameters(cx: &Context<'_>) -> (&'static str, String) {
+    match cx.known::<sets::Sets>() {
+        Some(sets) => (for_general(&sets.0), particular(cx, &sets.0)),
+        None => ("", String::new()),
+    }
 }
 
 /// The sets, those of rest last.
