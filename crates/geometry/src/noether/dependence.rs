@@ -7,7 +7,21 @@ use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::zero::points::Draw;
 
+/// Which columns are independent of those before them: the pivots of the matrix with these columns.
+fn independent_columns(field: &PrimeField, columns: &[Vec<Residue>]) -> Vec<usize> {
+    let height = columns.first().map_or(0, Vec::len);
+    let rows = (0..height).flat_map(|d| columns.iter().map(move |column| column[d]));
+    null_space(field, columns.len(), rows.collect()).pivots
+}
+
 impl Table<'_> {
+    /// The derivatives along N of the known functions, a column each.
+    fn known_columns(&self, at: &At) -> Vec<Vec<Residue>> {
+        let known =
+            at.gradients[self.letters.len() * self.directions..].chunks(self.directions.max(1));
+        known.map(<[Residue]>::to_vec).collect()
+    }
+
     /// Which of the candidates are functionally independent of those before them: the rank of their derivatives along N, at a
     /// point of the first draw.
     pub fn independent(&self, candidates: &[(&Family, &[(usize, Residue)])]) -> Option<Vec<usize>> {
@@ -24,16 +38,13 @@ impl Table<'_> {
         let mut random = Random::stream(self.seed, 1 << 20);
         let field = &draw.field;
         let at = self.at(draw, &mut random)?;
-        let letters = self.letters.len();
-        let fixed = at.gradients[letters * self.directions..].chunks(self.directions.max(1));
-        let mut columns: Vec<Vec<Residue>> = fixed.map(<[Residue]>::to_vec).collect();
+        let mut columns = self.known_columns(&at);
         columns.extend(
             candidates
                 .iter()
                 .map(|(family, vector)| self.gradient(field, &at, family, vector)),
         );
-        let rows = (0..self.directions).flat_map(|d| columns.iter().map(move |column| column[d]));
-        let pivots = null_space(field, columns.len(), rows.collect()).pivots;
+        let pivots = independent_columns(field, &columns);
         let own = pivots.into_iter().filter_map(|i| i.checked_sub(self.fixed));
         Some(own.collect())
     }
@@ -47,10 +58,8 @@ impl Table<'_> {
     ) -> Option<Vec<usize>> {
         let mut random = Random::stream(self.seed, 1 << 20);
         let at = self.at(draw, &mut random)?;
-        let known = at.gradients[self.letters.len() * self.directions..]
-            .chunks(self.directions.max(1))
-            .enumerate()
-            .map(|(i, column)| ((!self.linear[i], 0), None, column.to_vec()));
+        let known = self.known_columns(&at).into_iter().enumerate();
+        let known = known.map(|(i, column)| ((!self.linear[i], 0), None, column));
         let own = candidates.iter().enumerate().map(|(i, (family, vector))| {
             let is_linear = vector
                 .iter()
@@ -58,11 +67,14 @@ impl Table<'_> {
             let column = self.gradient(&draw.field, &at, family, vector);
             ((!is_linear, 1), Some(i), column)
         });
-        let mut columns: Vec<_> = known.chain(own).collect();
-        columns.sort_by_key(|(order, ..)| *order);
-        let rows = (0..self.directions).flat_map(|d| columns.iter().map(move |(.., c)| c[d]));
-        let pivots = null_space(&draw.field, columns.len(), rows.collect()).pivots;
-        Some(pivots.into_iter().filter_map(|i| columns[i].1).collect())
+        let mut all: Vec<_> = known.chain(own).collect();
+        all.sort_by_key(|(order, ..)| *order);
+        let (places, columns): (Vec<Option<usize>>, Vec<Vec<Residue>>) = all
+            .into_iter()
+            .map(|(_, place, column)| (place, column))
+            .unzip();
+        let pivots = independent_columns(&draw.field, &columns);
+        Some(pivots.into_iter().filter_map(|i| places[i]).collect())
     }
 
     /// Whether a member is at most linear in the velocities.
