@@ -660,6 +660,13 @@ impl System {
             .collect()
     }
 
+    /// A function with the parameters that others define replaced by their definitions.
+    pub fn with_definitions(&self, e: Expr) -> Expr {
+        // A definition may contain parameters with definitions of their own.
+        let all = 0..self.definitions.len();
+        all.fold(e, |e, _| self.graph.substitute(e, &self.definitions))
+    }
+
     /// The value of a parameter when it is a rational number.
     pub fn parameter_rational(&self, name: &str) -> Option<Rational> {
         let parameter = self.parameters.iter().find(|p| p.name == name)?;

@@ -88,6 +88,44 @@ fn particular_parameters() {
     assert!(detail.contains("where b = -a, every motion"), "{detail}");
 }
 
+/// A body with the masses m and M = m: without them there are no motions to speak of, and with b = k a of a slope the values are
+/// those of k.
+#[test]
+fn parameters_that_others_define() {
+    let massive = text(
+        "x y z",
+        "1/2 m (x'^2 + y'^2) + 1/2 M z'^2",
+        &[("c", "z' - y x'")],
+    );
+    let free = finding(&system(&massive), STATIONARY);
+    // By themselves: the mass M alone needs no reaction.
+    assert!(free
+        .verdict
+        .detail()
+        .contains("where M = 0, every motion does"));
+    let defined = |text: &Text, name: &str, value: &str| {
+        let mut own = system(text);
+        own.definitions = vec![(expr(&own.graph, name), expr(&own.graph, value))];
+        finding(&own, STATIONARY).verdict.detail().to_string()
+    };
+    let detail = defined(&massive, "M", "m");
+    assert!(detail.contains("only where x' = 0 or y' = 0"), "{detail}");
+    assert!(!detail.contains("every motion does"), "{detail}");
+    let slope = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2)",
+        &[("c", "z' - a y x' - b x y'")],
+    );
+    let detail = defined(&slope, "b", "k a");
+    for says in [
+        "where k = 1, every",
+        "where k = -1, every",
+        "where a = 0, every",
+    ] {
+        assert!(detail.contains(says), "{detail}");
+    }
+}
+
 /// z' = h x', h = u + 2 sin u, has A = h' = 1 + 2 cos u, which vanishes at angles that are not looked up: u is constant there, so that
 /// u' = 0, and these motions are among those found.
 #[test]
@@ -180,6 +218,25 @@ fn multipliers_in_closed_form() {
     assert_kappa(&DISC, &disc, "κ is unique");
     let cone = [("kappa_cone", "m sqrt(x'^2 + y'^2)/a + const_cone")];
     assert_kappa(&CONE, &cone, "every κ(0) serves");
+    // On z' = x', w' = z x' with a plane potential: λ_g = 0 and κ_f' = −x' κ_g − λ_f, where λ_f = −m x''; u_w is x'.
+    let chain = text(
+        "x y z w",
+        "1/2 m (x'^2 + y'^2 + (1 + z^2) z'^2)",
+        &[("f", "z' - x'"), ("g", "w' - z x'")],
+    );
+    let both = [
+        ("kappa_f", "const_f - const_g x + m u_w"),
+        ("kappa_g", "const_g"),
+    ];
+    assert_kappa(&chain, &both, "2 constants of κ(0) are free");
+    // The multiplier of μ f is that of f over μ; m x'' = −μ λ.
+    let scaled = text(
+        "x y z",
+        "1/2 m (x'^2 + y'^2 + z'^2) - m g z",
+        &[("c", "exp(y) (z' - x')")],
+    );
+    let kappa = [("kappa_c", "(const_c + m x') exp(-y)")];
+    assert_kappa(&scaled, &kappa, "every κ(0) serves");
     // κ' = −λ with D(κ + m z') = −m g.
     let integrable = [("kappa_c", "-m z' - m g t + const_c")];
     assert_kappa(&INTEGRABLE, &integrable, "every κ(0) serves");

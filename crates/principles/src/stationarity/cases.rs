@@ -117,7 +117,7 @@ pub(crate) fn with_multipliers(cx: &Context<'_>, motion: &Motion) -> Found {
     let mut found = Search::new(cx, motion, true).on_constraints(case.clone(), &[]);
     found.special = parameters::special(cx, motion, &found, |at| {
         let case = Case {
-            solved: vec![at],
+            solved: at,
             ..case.clone()
         };
         Search::new(cx, motion, true).on_constraints(case, &[])

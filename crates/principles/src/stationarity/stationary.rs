@@ -111,14 +111,13 @@ fn multipliers(cx: &Context<'_>, closure: &Closure) -> (String, Vec<Formula>) {
     let motion = motion
         .as_ref()
         .and_then(|motion| motion.as_ref().as_ref().ok());
+    let integrated = motion.map(|motion| integrated(cx, motion));
     let mut formulas = Vec::new();
     let mut known = Vec::new();
     for (l, name) in basis.constraint_names().into_iter().enumerate() {
         let value = match closure.kappa[l] {
             Some(value) => Some(g.substitute(value, &solved)),
-            None => motion
-                .as_ref()
-                .and_then(|m| Some(integrated(cx, m, l)?.value)),
+            None => integrated.as_ref().and_then(|values| values[l]),
         };
         let caption = format!("multiplier κ of `{name}`, along every motion");
         let shown = value.and_then(|value| formula(cx, caption, Some(symbols[l]), value));
@@ -135,9 +134,18 @@ fn multipliers(cx: &Context<'_>, closure: &Closure) -> (String, Vec<Formula>) {
     };
     let values = match known.is_empty() {
         true => String::new(),
-        false => format!("{}; ", known.join(", ")),
+        false => format!("{}{}; ", known.join(", "), speeds(cx, motion, &formulas)),
     };
     (format!("{values}{free}"), formulas)
+}
+
+/// What the speeds are that occur in formulas and that the model does not name.
+fn speeds(cx: &Context<'_>, motion: Option<&Motion>, formulas: &[Formula]) -> String {
+    let g = &cx.system.graph;
+    let values: Vec<Expr> = formulas.iter().map(|f| f.right).collect();
+    let occurring = g.symbols_in(&values);
+    let own = motion.filter(|motion| motion.speeds.iter().any(|s| occurring.contains(s)));
+    own.map_or(String::new(), |motion| legend(cx, motion))
 }
 
 /// The motions for which κ exists although it does not for all.
@@ -183,8 +191,14 @@ fn particular(cx: &Context<'_>, found: &Found) -> String {
     let g = &cx.system.graph;
     let mut sentence = String::new();
     let stated = cx.system.parameter_values();
-    for ((parameter, value), leaves) in &found.special.found {
-        let own = format!("{} = {}", g.text(*parameter), g.text(*value));
+    for (values, leaves) in &found.special.found {
+        let texts: Vec<String> = values
+            .iter()
+            .map(|&(parameter, value)| format!("{} = {}", g.text(parameter), g.text(value)))
+            .collect();
+        let (Some(own), Some((parameter, value))) = (texts.first(), values.first()) else {
+            continue;
+        };
         // Verdicts are those of all values, and a reader wants to know that his own are particular ones.
         let residual = g.substitute(g.sub(*parameter, *value), &stated);
         let by_model = match g.is_zero(short(g, residual)) {
@@ -193,7 +207,7 @@ fn particular(cx: &Context<'_>, found: &Found) -> String {
         };
         let mut sets: Vec<Leaf> = leaves.clone();
         for leaf in &mut sets {
-            leaf.equations.retain(|equation| *equation != own);
+            leaf.equations.retain(|equation| !texts.contains(equation));
         }
         let sets: Vec<&Leaf> = sets.iter().collect();
         let more = match sets.iter().any(|leaf| leaf.equations.is_empty()) {

@@ -164,11 +164,8 @@ fn on_all_parts(
     watched: &[Expr],
     conditions: &[Expr],
 ) -> Result<Option<Verdict>, String> {
-    let (system, g) = (cx.system, &cx.system.graph);
-    let resolved = |e: Expr| {
-        let definitions = &system.definitions;
-        (0..definitions.len()).fold(e, |e, _| g.substitute(e, definitions))
-    };
+    let system = cx.system;
+    let resolved = |e: Expr| system.with_definitions(e);
     let rates: Vec<Expr> = motion
         .derivatives(watched)
         .into_iter()
