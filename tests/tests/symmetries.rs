@@ -153,6 +153,67 @@ force = ["-x (x^2 + y^2)", "-y (x^2 + y^2)"]
     says(&kepler, "noether.moving-direction", "undecided", "none of");
 }
 
+/// A force along the line to the point (2, 3), in the plane, and one along the line to the axis through (2, 3) and across the ground
+/// in space: the moment about that point or axis is kept, and no other.
+#[test]
+fn axes_through_any_point() {
+    let plane = model(
+        r#"
+name = "attracted"
+coordinates = ["x", "y"]
+[particles.planet]
+mass = 5
+position = ["x", "y"]
+force = ["-(x - 2)^3 - (x - 2) (y - 3)^2", "-(y - 3) ((x - 2)^2 + (y - 3)^2)"]
+"#,
+    );
+    says(
+        &plane,
+        "noether.moving-axis#1",
+        "proved",
+        "(x - 2) y' - (y - 3) x'",
+    );
+    says(
+        &plane,
+        "noether.moving-axis#1",
+        "proved",
+        "the point (2, 3)",
+    );
+    assert_eq!(count(&plane, "noether.moving-axis"), 1);
+    let space = model(
+        r#"
+name = "falling past a line"
+coordinates = ["x", "y", "z"]
+[parameters]
+a = 2
+[particles.stone]
+mass = 1
+position = ["x", "y", "z"]
+force = ["-(x - a) z^2", "-y z^2", "-10"]
+"#,
+    );
+    says(
+        &space,
+        "noether.moving-axis#1",
+        "proved",
+        "the point (a, 0, 0)",
+    );
+    assert_eq!(count(&space, "noether.moving-axis"), 1);
+    // With a cross wind there is no such axis.
+    let wind = model(
+        r#"
+name = "in the wind"
+coordinates = ["x", "y"]
+[particles.stone]
+mass = 1
+position = ["x", "y"]
+force = ["-(x - 2) + y^2", "-(y - 3)"]
+"#,
+    );
+    assert_eq!(count(&wind, "noether.moving-axis"), 1);
+    says(&wind, "noether.moving-axis", "undecided", "none of");
+}
+
 /// Steady motions: what is constant there only is an integral on an invariant part of the states.
 #[test]
 fn integrals_on_a_part_of_the_states() {
@@ -235,6 +296,55 @@ fn found_integrals_are_followed_and_kept() {
     let (free, kept) = (largest(false), largest(true));
     assert!(free > 1e-9, "{free}");
     assert!(kept < 1e-13, "{kept}");
+}
+
+/// Keeping the integrals changes the run of Routh's equations and no other: whether the forms agree is asked of free runs.
+#[test]
+fn formulations_agree_with_kept_integrals() {
+    let claims = ["motion.formulations-agree"];
+    for path in ["heavy-top/model.toml", "skate-incline/model.toml"] {
+        let study = studied(&gallery(path), &claims, true);
+        let mut all = study.verdicts.iter();
+        let found = all
+            .find(|d| d.claim == claims[0])
+            .expect("the claim is decided");
+        let verdict = &found.finding.verdict;
+        assert_eq!(verdict.word(), "numerical", "{path}: {}", verdict.detail());
+    }
+}
+
+/// y'/x' and log x' have no value where the motion starts with x' = 0, and nothing of them is followed.
+#[test]
+fn integrals_without_a_value_at_the_start() {
+    let plane = model(
+        r#"
+name = "plane"
+coordinates = ["x", "y"]
+lagrangian = "(x'^2 + y'^2)/2"
+[initial]
+x = 1
+"y'" = 0.5
+[integrals]
+slope = "y'/x'"
+logarithm = "log(x')"
+moment = "x y' - y x'"
+"#,
+    );
+    for keep in [false, true] {
+        let study = studied(&plane, &["motion"], keep);
+        for (name, word) in [
+            ("slope", "not-applicable"),
+            ("logarithm", "not-applicable"),
+            ("moment", "numerical"),
+        ] {
+            let full = format!("motion.integral-drift#{name}");
+            let found = study.verdicts.iter().find(|d| d.full_id() == full);
+            let verdict = &found.expect("the claim is decided").finding.verdict;
+            assert_eq!(verdict.word(), word, "{full}: {}", verdict.detail());
+        }
+        let text = chetaev::study::summary::summary(&study);
+        assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
+    }
 }
 
 /// Nothing is searched where no claim asks for it.

@@ -558,6 +558,10 @@ fn decide(
     if let Some(seed) = options.seed {
         prover.seed = seed;
     }
+    let zeros = prepared_system(system.for_stated_zeros());
+    let zeros = zeros
+        .as_ref()
+        .map(|(prepared, system)| context_of(system, prepared, &known, &prover));
     let stated = prepared_system(system.for_stated_values());
     let narrow = stated.as_ref().map_or(system, |(_, system)| system);
     let component = narrow.on_component(|list| at_start(system, start?, list));
@@ -570,9 +574,15 @@ fn decide(
     });
     let cx = context_of(system, prepared, &known, &prover);
     let mut cx = match &stated {
-        Some(stated) => cx.for_stated_values(chetaev_principles::CLAIMS, stated),
+        Some(stated) => {
+            cx.for_stated_values(chetaev_principles::CLAIMS, &system.stated_values(), stated)
+        }
         None => narrowed(cx, on.as_ref()),
     };
+    if let Some(zeros) = &zeros {
+        let values = system.stated_zeros();
+        cx = cx.for_stated_values(chetaev_geometry::CLAIMS, &values, zeros);
+    }
     if let Some(motion) = motion {
         cx = cx.with(Arc::clone(&motion.evidence));
     }
@@ -588,7 +598,7 @@ fn decide(
         if !options.claims.wants_claim(*claim) {
             continue;
         }
-        for subject in claim.subjects(&cx) {
+        for subject in claim.subjects(cx.deciding(claim.id())) {
             let full = full_id(claim.id(), subject.as_deref());
             let is_decided = verdicts.iter().any(|d: &Decided| d.full_id() == full);
             if is_decided || !options.claims.wants(*claim, &full) {

@@ -207,12 +207,10 @@ fn trajectory(text: &mut String, study: &Study) {
         drifts.push(format!("constraints {constraint:.1e}"));
     }
     drifts.push(format!("energy {:.1e}", evidence.energy.drift.value));
-    drifts.extend(
-        evidence
-            .integrals
-            .iter()
-            .map(|i| format!("integral `{}` {:.1e}", i.name, i.drift.value)),
-    );
+    // What has no value somewhere on the way has no change either; its claim says where.
+    let integrals = evidence.integrals.iter();
+    let known = integrals.filter(|i| i.drift.value.is_finite());
+    drifts.extend(known.map(|i| format!("integral `{}` {:.1e}", i.name, i.drift.value)));
     let _ = writeln!(text, "  largest change: {}", drifts.join(", "));
     let _ = match (evidence.global_error, motion.settings.step) {
         (Some(error), None) => writeln!(

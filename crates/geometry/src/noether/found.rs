@@ -62,7 +62,7 @@ pub struct Momenta {
 struct Candidate<'f> {
     family: &'f Family,
     vector: Vec<(usize, Residue)>,
-    /// Whether it contains the time, then the degree in the velocities of the leading member; a known function goes before others
+    /// Whether it contains the time, then its degree in the velocities; a known function goes before others
     /// of its degree, and what contains neither roots nor reciprocals before what does.
     order: (bool, u32, bool, u8, usize),
     /// Whether no member is of higher degree in the velocities than one.
@@ -77,7 +77,8 @@ pub fn found(cx: &Context<'_>) -> Arc<Result<Found, String>> {
 
 /// The same, where some claim has asked for it already.
 pub fn if_searched(cx: &Context<'_>) -> Option<Arc<Result<Found, String>>> {
-    cx.known::<Result<Found, String>>()
+    let deciding = cx.deciding(super::claims::family::ID);
+    deciding.known::<Result<Found, String>>()
 }
 
 fn search(cx: &Context<'_>) -> Result<Found, String> {
@@ -106,8 +107,10 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
             draws: space.draws,
         });
         for vector in space.integrals {
-            let leading = vector.last().map_or(0, |&(member, _)| member);
-            let degree = letters.degree(&family.members[leading]);
+            let degrees = vector
+                .iter()
+                .map(|&(m, _)| letters.degree(&family.members[m]));
+            let degree = degrees.max().unwrap_or(0);
             let timed = vector
                 .iter()
                 .any(|&(m, _)| letters.is_timed(cx.system, &family.members[m]));
@@ -116,11 +119,8 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
                 .map(|&(m, _)| awkwardness(cx, family, &family.members[m]))
                 .max()
                 .unwrap_or(0);
-            let is_linear = vector
-                .iter()
-                .all(|&(m, _)| letters.degree(&family.members[m]) <= 1);
             candidates.push(Candidate {
-                is_linear,
+                is_linear: degree <= 1,
                 order: (timed, degree, true, awkward, place),
                 family,
                 vector,
