@@ -376,3 +376,70 @@ fn all(width: Width) -> i8 {
         Width::Eight => -1,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::native::code::{Builder, Value};
+    use crate::native::registers::allocate;
+    use iced_x86::{Decoder, DecoderOptions, Mnemonic};
+
+    const VARIABLES: Base = Base::Variables;
+
+    /// What a disassembler reads of code for eight states, in front of its slow paths.
+    fn mnemonics(write: impl FnOnce(&mut Builder, [Value; 3]) -> Value) -> Vec<Mnemonic> {
+        let mut b = Builder::new(Width::Eight);
+        let given = [0, 256, 512].map(|offset| b.at(VARIABLES, offset));
+        let value = write(&mut b, given);
+        let base = Base::Outputs;
+        b.store(value, Place { base, offset: 0 });
+        let steps = allocate(&b.finish(), Width::Eight).steps;
+        let bytes = emit(&steps, Width::Eight).unwrap();
+        let decoder = Decoder::new(64, &bytes, DecoderOptions::NONE);
+        let mnemonics = decoder
+            .into_iter()
+            .map(|instruction| instruction.mnemonic());
+        mnemonics.take_while(|&m| m != Mnemonic::Ret).collect()
+    }
+
+    fn count(mnemonics: &[Mnemonic], mnemonic: Mnemonic) -> usize {
+        mnemonics.iter().filter(|&&m| m == mnemonic).count()
+    }
+
+    #[test]
+    fn a_comparison_is_selected_by_without_being_read_back() {
+        let found = mnemonics(|b, [x, y, z]| {
+            let mask = b.compare(Predicate::Less, x, y);
+            let first = b.blend(x, z, mask);
+            let second = b.blend(y, z, mask);
+            b.add(first, second)
+        });
+        assert_eq!(count(&found, Mnemonic::Vpmovq2m), 0, "{found:?}");
+        assert_eq!(count(&found, Mnemonic::Vblendmpd), 2, "{found:?}");
+    }
+
+    #[test]
+    fn sign_bits_are_read_once_until_a_function_may_have_been_called() {
+        let found = mnemonics(|b, [x, y, z]| {
+            let first = b.blend(x, y, z);
+            let second = b.blend(y, x, z);
+            let product = b.mul(first, second);
+            let [quick] = b.guard(Helper::Log, x, product, [second]);
+            b.blend(product, quick, z)
+        });
+        // z, x for the guard, and z again.
+        assert_eq!(count(&found, Mnemonic::Vpmovq2m), 3, "{found:?}");
+        assert_eq!(count(&found, Mnemonic::Kortestb), 1, "{found:?}");
+    }
+
+    #[test]
+    fn a_mask_is_forgotten_when_its_register_is_written() {
+        let found = mnemonics(|b, [x, y, z]| {
+            let first = b.compare(Predicate::Less, x, y);
+            // The comparison dies here, and its register is taken.
+            let second = b.bits(crate::native::assembler::Bits::Xor, first, z);
+            b.blend(x, y, second)
+        });
+        assert_eq!(count(&found, Mnemonic::Vpmovq2m), 1, "{found:?}");
+    }
+}
