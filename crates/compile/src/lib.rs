@@ -62,7 +62,7 @@ pub use interpret::{BlockWorkspace, Interpreter, Workspace};
 pub use lanes::{Lanes, LANES};
 pub use lower::{LowerError, Lowering};
 #[cfg(all(unix, target_arch = "x86_64"))]
-pub use native::Native;
+pub use native::{Native, Vectors};
 pub use program::Program;
 pub use taylor::{Abreast, Taylor, TaylorWorkspace, ABREAST};
 pub use verify::VerifyError;
