@@ -279,20 +279,6 @@ energy = "cosh(u/c)^2 (u'^2 + c^2 phi'^2)/2 + tanh(u/c)"
 "#,
         2,
     );
-    // Liouville's form: (A(x) + B(y)) times the flat metric, and a potential divided by A + B.
-    contains(
-        r#"
-name = "liouville"
-coordinates = ["x", "y"]
-[define]
-s = "cosh(x)^2 + sinh(y)^2"
-[lagrangian]
-L = "s (x'^2 + y'^2)/2 - (sinh(x) + cosh(y))/s"
-[integrals]
-square = "cosh(x)^2 s (x'^2 + y'^2)/2 + cosh(x)^2 (sinh(x) + cosh(y))/s - s^2 x'^2/2 - sinh(x)"
-"#,
-        2,
-    );
 }
 
 /// The momentum of a rocket on Appell's cone along the vertical, integrated by hand: with v = √(1 + a²) s and m' = -b the equation

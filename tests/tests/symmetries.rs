@@ -342,7 +342,7 @@ moment = "x y' - y x'"
             let verdict = &found.expect("the claim is decided").finding.verdict;
             assert_eq!(verdict.word(), word, "{full}: {}", verdict.detail());
         }
-        let text = chetaev::study::summary::summary(&study);
+        let text = chetaev::study::summary::summary(&study, chetaev::study::summary::Style::Plain);
         assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
     }
 }
