@@ -54,11 +54,49 @@ const PER_ORDER: f64 = 20.0;
 
 /// The order for a relative tolerance.
 fn order_for(tolerance: f64) -> usize {
-    let (logarithm, c) = (-tolerance.ln(), PER_ORDER);
+    order_by(tolerance, PER_ORDER).clamp(LEAST, MOST)
+}
+
+/// The order p of least cost p (p + c) per step for a relative tolerance, without bounds.
+pub(crate) fn order_by(tolerance: f64, c: f64) -> usize {
+    let logarithm = -tolerance.ln();
     let surplus = logarithm - c;
     let order = (1.0 + (surplus + (surplus * surplus + 8.0 * logarithm * c).sqrt()) / 4.0).ceil();
     // A tolerance that is not a number gives the lowest order.
-    (order.max(0.0) as usize).clamp(LEAST, MOST)
+    order.max(0.0) as usize
+}
+
+/// The step at which the last two terms of a series that do not vanish are negligible, and the component that limits it; `size`
+/// gives the magnitudes of coefficients by order and component. Parity may null every second term; a solution all of whose
+/// upper half vanishes is a polynomial.
+pub(crate) fn radius_of(
+    order: usize,
+    weights: &[f64],
+    size: impl Fn(usize, usize) -> f64,
+) -> (f64, usize) {
+    let (mut logarithm, mut limiting, mut seen) = (f64::INFINITY, 0, 0);
+    for j in (order / 2 + 1..=order).rev() {
+        let (mut norm, mut worst): (f64, usize) = (0.0, 0);
+        for (i, &w) in weights.iter().enumerate() {
+            let c = size(j, i);
+            if c > norm * w {
+                (norm, worst) = (c / w, i);
+            }
+        }
+        if norm == 0.0 {
+            continue;
+        }
+        let allowed = if seen == 0 { -2.0 } else { 0.0 };
+        let step = (allowed - norm.ln()) / j as f64;
+        if step < logarithm {
+            (logarithm, limiting) = (step, worst);
+        }
+        seen += 1;
+        if seen == 2 {
+            break;
+        }
+    }
+    ((logarithm - 0.7 / (order as f64 - 1.0)).exp(), limiting)
 }
 
 /// Components whose sums are formed side by side, in registers.
