@@ -364,9 +364,9 @@ fn compute(
     let finer = if options.global_error && !run.ending.interrupted {
         let sharpest = match settings.precise {
             Some(_) => LEAST_TOLERANCE,
-            None => 1.3 * sharpest(&settings.method),
+            None => sharpest(&settings.method),
         };
-        let tolerance = (settings.tolerance / 10.0).max(sharpest);
+        let tolerance = (settings.tolerance / 10.0).max(1.3 * sharpest);
         let finer = RunSettings {
             tolerance,
             absolute_tolerance: tolerance,

@@ -240,7 +240,9 @@ impl<'e> Events<'e> {
             };
             let (a, b) = (pair[0], pair[1]);
             let same = a.1 * b.1 > 0.0 && b.1 * next.1 > 0.0;
-            if !(same && b.1.abs() <= a.1.abs() && b.1.abs() <= next.1.abs()) {
+            let (before, size, after) = (a.1.abs(), b.1.abs(), next.1.abs());
+            // A function that is constant there has no minimum.
+            if !(same && size <= before.min(after) && size < before.max(after)) {
                 continue;
             }
             let least = step.least(index, (a.0, next.0))?;

@@ -29,6 +29,8 @@ pub(super) struct Series {
     /// The component that limits it.
     pub(super) worst: usize,
     rates: Vec<DoubleDouble>,
+    /// Coefficients of one order, in doubles.
+    row: Vec<f64>,
     pub(super) evaluations: u64,
 }
 
@@ -42,6 +44,7 @@ impl Series {
             radius: 0.0,
             worst: 0,
             rates: vec![DoubleDouble::ZERO; 2 * n],
+            row: vec![0.0; n],
             evaluations: 0,
         }
     }
@@ -80,8 +83,13 @@ impl Series {
             self.order = known;
             self.coefficients.truncate((known + 1) * n);
         }
-        let size = |j: usize, i: usize| self.coefficients[j * n + i].high().abs();
-        (self.radius, self.worst) = radius_of(self.order, &self.weights, size);
+        let coefficients = &self.coefficients;
+        let write_row = |j: usize, row: &mut [f64]| {
+            let own = &coefficients[j * n..(j + 1) * n];
+            row.iter_mut().zip(own).for_each(|(x, c)| *x = c.high());
+        };
+        let (order, row) = (self.order, &mut self.row[..]);
+        (self.radius, self.worst) = radius_of(order, &self.weights, row, &write_row);
         Ok(())
     }
 
