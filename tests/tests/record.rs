@@ -64,7 +64,14 @@ fn records() -> Vec<(String, Value)> {
             "maggi",
         ],
         &["--budget", "0"],
-        &["--t-end", "1", "--precision", "double-double", "--claims", "motion"],
+        &[
+            "--t-end",
+            "1",
+            "--precision",
+            "double-double",
+            "--claims",
+            "motion",
+        ],
     ];
     for (i, options) in turns.into_iter().enumerate() {
         let out = folder.join(i.to_string());
