@@ -95,6 +95,9 @@ pub(crate) struct MotionArguments {
     /// dormand-prince-853 (dop853), taylor, tsitouras-5 (tsit5) or runge-kutta-4 (rk4, with --step)
     #[arg(long)]
     pub(crate) method: Option<String>,
+    /// Arithmetic of the motion: double-double has about 31 digits, for tolerances down to 1e-28 with the method taylor
+    #[arg(long, value_enum)]
+    pub(crate) precision: Option<Precision>,
     /// The formulation whose equations are integrated, in its own state; routh when left out
     #[arg(long, value_name = "NAME", value_parser = formulation_names())]
     pub(crate) formulation: Option<String>,
@@ -142,6 +145,15 @@ fn formulation_names() -> Vec<&'static str> {
         .iter()
         .map(|f| f.card().name)
         .collect()
+}
+
+/// Arithmetic of a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Precision {
+    /// About 16 digits
+    Double,
+    /// About 31 digits
+    DoubleDouble,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -179,6 +179,10 @@ fn trajectory(text: &mut String, study: &Study) {
     let evidence = &motion.evidence;
     let run = &evidence.run;
     let _ = writeln!(text, "\ntrajectory");
+    let arithmetic = match motion.settings.precise {
+        Some(_) => " in double-double",
+        None => "",
+    };
     let _ = writeln!(
         text,
         "  t = {} … {}  {} at {}: {} steps ({} rejected), {} evaluations, {} chart changes",
@@ -187,7 +191,7 @@ fn trajectory(text: &mut String, study: &Study) {
         run.method,
         match motion.settings.step {
             Some(h) => format!("step {h}"),
-            None => format!("tolerance {:.0e}", motion.settings.tolerance),
+            None => format!("tolerance {:.0e}{arithmetic}", motion.settings.tolerance),
         },
         run.statistics.steps,
         run.statistics.rejected,
