@@ -73,12 +73,7 @@ fn heading(text: &mut String, study: &Study, style: Style) {
     }
     let _ = writeln!(text, "  freedom       k = {}", independent(study));
     if !study.system.assumptions.is_empty() {
-        let stated: Vec<&str> = study
-            .system
-            .assumptions
-            .iter()
-            .map(|a| a.text.as_str())
-            .collect();
+        let stated = study.system.assumption_texts();
         let _ = writeln!(
             text,
             "  assuming      {}",

@@ -4,7 +4,7 @@ use super::automatic::{families, grown};
 use super::embedded::Embedded;
 use super::family::{Family, Member};
 use super::killing::solutions;
-use super::letters::{Letters, ENERGY};
+use super::letters::{Letters, ENERGY, FIXED};
 use super::motion::Motion;
 use super::search::{Integral, Table};
 use super::shorter::shorter;
@@ -131,6 +131,7 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
     candidates.extend(known(&table, letters, &families));
     candidates.sort_by_key(|c| c.order);
     let (mut integrals, dependent, open) = chosen(cx, motion, &table, &candidates);
+    kept_by_constraints(cx, motion, &mut integrals);
     let momenta = momenta(cx, motion, letters, &mut integrals);
     // Where the integrals cannot be told apart over prime fields nothing is said of special values.
     let special = special(cx, motion, letters, &integrals).unwrap_or_default();
@@ -172,7 +173,11 @@ fn known<'f>(table: &Table<'_>, letters: &Letters, families: &'f [Family]) -> Ve
             continue;
         };
         if let Some(one) = table.rate_vanishes(family, place) {
-            let degree = if name == ENERGY { 2 } else { 1 };
+            let degree = match name.as_str() {
+                ENERGY => 2,
+                _ if name.starts_with(FIXED) => 0,
+                _ => 1,
+            };
             found.push(Candidate {
                 family,
                 vector: vec![(place, one)],
@@ -183,6 +188,46 @@ fn known<'f>(table: &Table<'_>, letters: &Letters, families: &'f [Family]) -> Ve
         }
     }
     found
+}
+
+/// The claim that finds what integrable constraints keep.
+const INTEGRABLE: &str = "model.constraints-integrable#weak";
+
+/// Adds what integrable constraints keep, which need not be in a family: x y² z³ where the logarithms of its factors are combined.
+fn kept_by_constraints(cx: &Context<'_>, motion: &Motion<'_>, integrals: &mut Vec<Integral>) {
+    let kept = cx.finding(INTEGRABLE);
+    for formula in &kept.formulas {
+        let value = formula.right;
+        if !is_new(cx, motion, integrals, value) {
+            continue;
+        }
+        let rate = motion.derivatives(&[value]);
+        let verdict = cx.prover.identity(
+            cx.system,
+            &rate,
+            &motion.manifold,
+            "on the constraint manifold",
+        );
+        if matches!(verdict, Verdict::Proved(_)) {
+            integrals.push(Integral {
+                value,
+                shown: value,
+                verdict,
+                independent: true,
+                name: None,
+            });
+        }
+    }
+}
+
+/// Whether a function is independent of what holonomic constraints fix and of the integrals at hand.
+fn is_new(cx: &Context<'_>, motion: &Motion<'_>, integrals: &[Integral], value: Expr) -> bool {
+    let mut all: Vec<Expr> = cx.system.fixed_functions();
+    all.extend(integrals.iter().map(|i| i.value));
+    all.push(value);
+    motion
+        .independent_functions(&all, cx.prover.points_seed())
+        .is_some_and(|kept| kept.contains(&(all.len() - 1)))
 }
 
 /// The most components of fields of generalized momenta.
@@ -202,12 +247,7 @@ fn momenta(
     let (weight, functions) = grown(most, 0, make, Vec::len)?;
     let found = solutions(cx, &n, &functions, &[]).ok()?;
     for solution in &found {
-        let mut all: Vec<Expr> = cx.system.fixed_functions();
-        all.extend(integrals.iter().map(|i| i.value));
-        all.push(solution.integral);
-        let is_new = motion
-            .independent_functions(&all, cx.prover.points_seed())
-            .is_some_and(|kept| kept.contains(&(all.len() - 1)));
+        let is_new = is_new(cx, motion, integrals, solution.integral);
         if is_new && matches!(solution.verdict, Verdict::Proved(_)) {
             let integral = Integral {
                 value: solution.integral,
