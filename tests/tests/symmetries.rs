@@ -171,7 +171,7 @@ force = ["-(x - 2)^3 - (x - 2) (y - 3)^2", "-(y - 3) ((x - 2)^2 + (y - 3)^2)"]
         &plane,
         "noether.moving-axis#1",
         "proved",
-        "(x - 2) y' - (y - 3) x'",
+        "5 (x - 2) y' - 5 (y - 3) x'",
     );
     says(
         &plane,
@@ -344,6 +344,33 @@ moment = "x y' - y x'"
         }
         let text = chetaev::study::summary::summary(&study, chetaev::study::summary::Style::Plain);
         assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
+    }
+}
+
+/// A parameter that the model states to be zero is put in before anything is asked: z' = k y x' with k = 0 is integrable, and
+/// nothing leads off z = const.
+#[test]
+fn parameters_that_are_stated_zero() {
+    let text = |k: u32| {
+        format!(
+            "name = \"k\"\ncoordinates = [\"x\", \"y\", \"z\"]\n[parameters]\nk = {k}\n[lagrangian]\n\
+             T = \"1/2 (x'^2 + y'^2 + z'^2)\"\n[constraints]\nf = \"z' = k y x'\"\n"
+        )
+    };
+    for (k, integrable, grows) in [(0, "proved", "refuted"), (1, "refuted", "proved")] {
+        let study = studied(&model(&text(k)), &["model", "integrals"], false);
+        for (claim, word) in [
+            ("model.constraints-integrable#weak", integrable),
+            ("distribution.growth", grows),
+            ("noether.integral#1", "proved"),
+        ] {
+            let found = study.verdicts.iter().find(|d| d.full_id() == claim);
+            let verdict = &found.expect("the claim is decided").finding.verdict;
+            let detail = verdict.detail();
+            assert_eq!(verdict.word(), word, "{claim} with k = {k}: {detail}");
+            let says = detail.contains("for k = 0, as the model states it");
+            assert_eq!(says, k == 0, "{claim} with k = {k}: {detail}");
+        }
     }
 }
 
