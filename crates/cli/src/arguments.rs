@@ -71,7 +71,7 @@ pub(crate) struct Study {
     #[arg(long)]
     pub(crate) claims: Option<String>,
     /// Seconds for all claims together
-    #[arg(long, default_value_t = 60.0)]
+    #[arg(long, default_value_t = 60.0, value_parser = seconds)]
     pub(crate) budget: f64,
     #[command(flatten)]
     pub(crate) motion: MotionArguments,
@@ -183,10 +183,10 @@ pub(crate) struct Principles {
     #[arg(long, value_name = "NAME=VALUE", requires = "compare")]
     pub(crate) kappa: Vec<String>,
     /// Folder to write the report of --compare into
-    #[arg(long)]
+    #[arg(long, requires = "compare")]
     pub(crate) out: Option<PathBuf>,
     /// Seconds for all claims together
-    #[arg(long, default_value_t = 60.0)]
+    #[arg(long, default_value_t = 60.0, value_parser = seconds)]
     pub(crate) budget: f64,
     #[command(flatten)]
     pub(crate) motion: MotionArguments,
@@ -268,6 +268,13 @@ pub(crate) struct Sweep {
     /// Print counts as JSON instead of text
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() && seconds >= 0.0 => Ok(seconds),
+        _ => Err("a number of seconds is needed, zero or more".into()),
+    }
 }
 
 fn at_least_one(text: &str) -> Result<usize, String> {
