@@ -64,7 +64,7 @@ impl StationarySets {
 
 /// A set all of whose equations are solved.
 fn set(cx: &Context<'_>, leaf: &Leaf) -> Option<StationarySet> {
-    if !leaf.implicit.is_empty() {
+    if !leaf.implicit.is_empty() || leaf.has_roots() {
         return None;
     }
     let solved = leaf.solved.iter();
