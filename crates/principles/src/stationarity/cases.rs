@@ -102,7 +102,7 @@ impl Leaf {
     }
 
     /// What vanishes on the set.
-    fn vanishing(&self, g: &Graph) -> Vec<Expr> {
+    pub(crate) fn vanishing(&self, g: &Graph) -> Vec<Expr> {
         let cleared = self.cleared.as_ref();
         let is_cleared = |s: Expr| cleared.is_some_and(|cleared| cleared.symbols.contains(&s));
         let solved = self.solved.iter().filter(|(s, _)| !is_cleared(*s));
@@ -144,6 +144,13 @@ pub(crate) struct Found {
     pub(crate) regular: Vec<Expr>,
     /// What more is found where some of these vanish, and those of which that is not known.
     pub(crate) special: Special,
+}
+
+impl Found {
+    /// Whether every case was followed, and no value of a parameter is particular.
+    pub(crate) fn is_complete(&self) -> bool {
+        self.open.is_empty() && !self.special.open && self.special.found.is_empty()
+    }
 }
 
 /// The motions along which κ exists with (12) and (13).
