@@ -6,11 +6,27 @@ use chetaev_mechanics::Context;
 use chetaev_symbolic::Expr;
 
 /// The most members of a family of degree one in the velocities, and of degree two for a system of up to four coordinates and for
-/// a larger one.
+/// a larger one, for the usual work.
 const MEMBERS: [usize; 3] = [620, 400, 700];
 
-/// The most members of a family with multiples of a polar angle.
+/// The same of a family with multiples of a polar angle.
 const WAVES: usize = 520;
+
+/// The same of a family with polynomials in the coordinates as coefficients.
+const PLAIN: usize = 440;
+
+/// The same of a family of the degree that the model asks for.
+const ASKED: usize = 900;
+
+/// No more work than so many times the usual makes families larger.
+const MOST_WORK: f64 = 100.0;
+
+/// So many entries of a list for the work that is allowed: no fewer than for the usual work, and more as its root, since that of linear
+/// algebra grows with the cube of their number and a search usually takes little of its time.
+pub(super) fn allowed(cx: &Context<'_>, usual: usize) -> usize {
+    let times = cx.work().max(1.0).min(MOST_WORK).sqrt();
+    (usual as f64 * times) as usize
+}
 
 /// No letter counts more: a family that so many weights leave as it is has all its members.
 const HEAVIEST: u32 = 3;
@@ -46,31 +62,16 @@ fn members(family: &Family) -> usize {
     family.members.len()
 }
 
-/// The largest families within the budget: polynomials of degree one and two in the velocities, and quotients.
+/// The largest families for the work allowed: polynomials of degree one and two in the velocities, of degree two with polynomials in the
+/// coordinates as coefficients, of the degree that the model asks for, and quotients.
 pub(super) fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
+    let asked = cx.system.search_degree.filter(|&degree| degree > 2);
     let mut families: Vec<Family> = [1, 2]
         .into_iter()
-        .map(|degree| {
-            let most = match (degree, cx.system.n()) {
-                (1, _) => MEMBERS[0],
-                (_, 0..=4) => MEMBERS[1],
-                _ => MEMBERS[2],
-            };
-            let grown = grown(
-                most,
-                0,
-                |weight| letters.polynomials(degree, weight),
-                members,
-            );
-            let smallest = || Some((0, letters.polynomials(degree, 0)));
-            let fits = |(_, family): &(u32, Family)| family.members.len() <= 2 * most;
-            let Some((weight, mut largest)) = grown.or_else(smallest).filter(fits) else {
-                return letters.known_only();
-            };
-            largest.words = words(cx, letters, degree, weight);
-            largest
-        })
+        .chain(asked)
+        .map(|degree| of_degree(cx, letters, degree))
         .collect();
+    families.extend(plain(cx, letters));
     families.extend(turned(cx, letters));
     families.extend(letters.polar.iter().map(|polar| waves(cx, letters, polar)));
     if letters.velocities.len() > 1 {
@@ -79,6 +80,53 @@ pub(super) fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
         families.push(quotients);
     }
     families
+}
+
+/// The largest family of polynomials of a degree in the velocities: with heavier coefficients where there are fewer velocities; where that
+/// is too much, with the same ones everywhere.
+fn of_degree(cx: &Context<'_>, letters: &Letters, degree: u32) -> Family {
+    let most = match (degree, cx.system.n()) {
+        (1, _) => MEMBERS[0],
+        (2, 0..=4) => MEMBERS[1],
+        (2, _) => MEMBERS[2],
+        _ => ASKED,
+    };
+    let most = allowed(cx, most);
+    let steps: &[u32] = if degree > 2 { &[1, 0] } else { &[1] };
+    for &step in steps {
+        let make = |weight| letters.stepped(degree, weight, step);
+        let smallest = || Some((0, make(0)));
+        let fits = |(_, family): &(u32, Family)| family.members.len() <= 2 * most;
+        let grown = grown(most, 0, make, members);
+        if let Some((weight, mut largest)) = grown.or_else(smallest).filter(fits) {
+            largest.words = words(cx, letters, (degree, step), weight);
+            return largest;
+        }
+    }
+    letters.known_only(degree)
+}
+
+/// The family with polynomials in the coordinates as coefficients, where other functions take the place of these in the family of
+/// degree two: integrals as Neumann's and Joachimsthal's, or with the time as those of scaling symmetries.
+fn plain(cx: &Context<'_>, letters: &Letters) -> Option<Family> {
+    let g = &cx.system.graph;
+    letters.plain(cx.system, 0)?;
+    let make = |weight| {
+        let plain = letters.plain(cx.system, weight);
+        plain.unwrap_or_else(|| letters.known_only(2))
+    };
+    let (weight, mut family) = grown(allowed(cx, PLAIN), 0, make, members)?;
+    let list = |names: Vec<String>| names.join(", ");
+    let velocities = letters.velocities.iter().map(|l| g.text(l.shown)).collect();
+    let own = cx.system.coordinates.iter().map(|c| c.name.clone());
+    let known: Vec<&str> = letters.known.iter().map(|(name, _)| &name[..]).collect();
+    family.words = format!(
+        "polynomials of degree up to 2 in the velocities {} with polynomials in {} as coefficients, of degree up to {weight} in the quadratic terms and one more for each velocity less, also times t and t^2 those of up to first degree in velocities and coordinates or second in the coordinates, and {}",
+        list(velocities),
+        list(own.collect()),
+        known.join(", ")
+    );
+    Some(family)
 }
 
 /// Which powers of a letter are formed, where not all of them. A cosine stands with its first power only because of the sine.
@@ -97,9 +145,9 @@ fn turned(cx: &Context<'_>, letters: &Letters) -> Option<Family> {
     let make = |weight| {
         letters
             .turned(weight)
-            .unwrap_or_else(|| letters.known_only())
+            .unwrap_or_else(|| letters.known_only(1))
     };
-    let (weight, mut family) = grown(MEMBERS[0], 1, make, members)?;
+    let (weight, mut family) = grown(allowed(cx, MEMBERS[0]), 1, make, members)?;
     let places = 0..letters.coefficients.len();
     let used = places.filter(|&i| letters.is_turned(i));
     let names: Vec<String> = used
@@ -118,7 +166,8 @@ fn turned(cx: &Context<'_>, letters: &Letters) -> Option<Family> {
 fn waves(cx: &Context<'_>, letters: &Letters, polar: &Polar) -> Family {
     let g = &cx.system.graph;
     let make = |weight| letters.waves(cx.system, polar, weight);
-    let (weight, mut family) = grown(WAVES, 0, make, members).unwrap_or_else(|| (0, make(0)));
+    let grown = grown(allowed(cx, WAVES), 0, make, members);
+    let (weight, mut family) = grown.unwrap_or_else(|| (0, make(0)));
     let list = |es: Vec<Expr>| {
         es.iter()
             .map(|&e| g.text(e))
@@ -149,7 +198,7 @@ fn waves(cx: &Context<'_>, letters: &Letters, polar: &Polar) -> Family {
     family
 }
 
-fn words(cx: &Context<'_>, letters: &Letters, degree: u32, weight: u32) -> String {
+fn words(cx: &Context<'_>, letters: &Letters, (degree, step): (u32, u32), weight: u32) -> String {
     let g = &cx.system.graph;
     let list = |weight: u32| {
         let numbered = letters.coefficients.iter().enumerate();
@@ -167,9 +216,10 @@ fn words(cx: &Context<'_>, letters: &Letters, degree: u32, weight: u32) -> Strin
         .filter(|&w| !list(w).is_empty())
         .map(|w| format!("{} ({w} each)", list(w).join(", ")))
         .collect();
-    let more = match degree {
-        1 => "",
-        _ => " in the quadratic terms and one more for each velocity less",
+    let more = match (degree, step) {
+        (1, _) | (_, 0) => String::new(),
+        (2, _) => " in the quadratic terms and one more for each velocity less".into(),
+        _ => format!(" in the terms of degree {degree} and one more for each velocity less"),
     };
     let known = match degree >= 2 && !letters.known.is_empty() {
         true => {

@@ -153,7 +153,7 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
         ),
     };
     format!(
-        "{many} in the families searched{dependent}{open}{special}; exhausted: {}",
+        "{many} in the families searched{dependent}{open}{special}; exhausted, and larger with a larger time budget: {}",
         families.join("; ")
     )
 }
