@@ -74,7 +74,10 @@ fn proved(cx: &Context<'_>, kept: &Kept) -> Finding {
     let also: Vec<String> = also.map(|(e, a)| words(e, a.as_deref())).collect();
     let also = match also.is_empty() {
         true => String::new(),
-        false => format!(", on the constraints the same up to a constant factor {}", also.join(", ")),
+        false => format!(
+            ", on the constraints the same up to a constant factor {}",
+            also.join(", ")
+        ),
     };
     let trivial = match is_trivial(cx, &motion, kept) {
         true => " (trivial, as it vanishes on the holonomic constraints)",
