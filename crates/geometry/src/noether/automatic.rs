@@ -2,6 +2,7 @@
 
 use super::family::{Family, ANY};
 use super::letters::{Letters, Polar};
+use super::plain;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::Expr;
 
@@ -11,9 +12,6 @@ const MEMBERS: [usize; 3] = [620, 400, 700];
 
 /// The same of a family with multiples of a polar angle.
 const WAVES: usize = 520;
-
-/// The same of a family with polynomials in the coordinates as coefficients.
-const PLAIN: usize = 440;
 
 /// The same of a family of the degree that the model asks for.
 const ASKED: usize = 900;
@@ -58,7 +56,7 @@ pub(super) fn grown<T>(
     largest
 }
 
-fn members(family: &Family) -> usize {
+pub(super) fn members(family: &Family) -> usize {
     family.members.len()
 }
 
@@ -71,7 +69,7 @@ pub(super) fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
         .chain(asked)
         .map(|degree| of_degree(cx, letters, degree))
         .collect();
-    families.extend(plain(cx, letters));
+    families.extend(plain::largest(cx, letters));
     families.extend(turned(cx, letters));
     families.extend(letters.polar.iter().map(|polar| waves(cx, letters, polar)));
     if letters.velocities.len() > 1 {
@@ -104,29 +102,6 @@ fn of_degree(cx: &Context<'_>, letters: &Letters, degree: u32) -> Family {
         }
     }
     letters.known_only(degree)
-}
-
-/// The family with polynomials in the coordinates as coefficients, where other functions take the place of these in the family of
-/// degree two: integrals as Neumann's and Joachimsthal's, or with the time as those of scaling symmetries.
-fn plain(cx: &Context<'_>, letters: &Letters) -> Option<Family> {
-    let g = &cx.system.graph;
-    letters.plain(cx.system, 0)?;
-    let make = |weight| {
-        let plain = letters.plain(cx.system, weight);
-        plain.unwrap_or_else(|| letters.known_only(2))
-    };
-    let (weight, mut family) = grown(allowed(cx, PLAIN), 0, make, members)?;
-    let list = |names: Vec<String>| names.join(", ");
-    let velocities = letters.velocities.iter().map(|l| g.text(l.shown)).collect();
-    let own = cx.system.coordinates.iter().map(|c| c.name.clone());
-    let known: Vec<&str> = letters.known.iter().map(|(name, _)| &name[..]).collect();
-    family.words = format!(
-        "polynomials of degree up to 2 in the velocities {} with polynomials in {} as coefficients, of degree up to {weight} in the quadratic terms and one more for each velocity less, also times t and t^2 those of up to first degree in velocities and coordinates or second in the coordinates, and {}",
-        list(velocities),
-        list(own.collect()),
-        known.join(", ")
-    );
-    Some(family)
 }
 
 /// Which powers of a letter are formed, where not all of them. A cosine stands with its first power only because of the sine.

@@ -1,9 +1,7 @@
 //! The letters of a system, and the families that are made of them (T3 §7): letters of the velocities, and functions of (t, q) for the
 //! coefficients.
 
-use super::family::{
-    coefficients, monomials, product, CoefficientLetter, Family, Letter, Member, ANY,
-};
+use super::family::{coefficients, monomials, product, CoefficientLetter, Family, Letter, Member};
 use super::motion::{draw_with_points, Motion};
 use super::occurring::Occurring;
 use chetaev_mechanics::{Context, Frame, System};
@@ -41,9 +39,6 @@ pub struct Polar {
     /// Places of cos kφ and sin kφ for k up to 2.
     pub places: Vec<usize>,
 }
-
-/// The highest power of the time in integrals of scaling symmetries: `t² E - t G + Σ m q²/2`.
-const TIMES: i8 = 2;
 
 /// The name of the energy among the known functions.
 pub const ENERGY: &str = "the energy";
@@ -236,62 +231,6 @@ impl Letters {
             members,
             words: String::new(),
         }
-    }
-
-    /// Polynomials of degree two in the velocities with polynomials in the coordinates as coefficients: of degree up to `weight` in the
-    /// quadratic terms, and one more for each velocity less; t and t² times terms of first degree in each, or of second in the
-    /// coordinates; the known functions and their products with t and t². `None` where all functions that occur are such
-    /// polynomials, and where there are angles.
-    pub fn plain(&self, system: &System, weight: u32) -> Option<Family> {
-        let (g, count) = (&system.graph, self.velocities.len());
-        let time = g.symbol("t", 0);
-        let mut own = self.coefficients.clone();
-        let mut others = false;
-        for c in &mut own {
-            let is_plain = system.coordinates.iter().any(|q| q.q == c.letter.value);
-            others |= !is_plain && c.letter.value != time && c.exponents != (0, 0);
-            c.exponents = if is_plain { (0, ANY) } else { (0, 0) };
-            c.weight = 1;
-        }
-        let place = self
-            .coefficients
-            .iter()
-            .position(|c| c.letter.value == time)?;
-        if !others || self.circular > 0 {
-            return None;
-        }
-        let mut members: Vec<(u32, Member)> = Vec::new();
-        let terms = |d: u32, most: u32| {
-            let functions = coefficients(&own, count, most);
-            let all = monomials(count, d).into_iter().flat_map(move |monomial| {
-                let with = functions.iter();
-                let products = with.map(|(w, f)| (d + w, product(&monomial, f)));
-                products.collect::<Vec<_>>()
-            });
-            all.collect::<Vec<(u32, Member)>>()
-        };
-        for d in 0..=2 {
-            members.extend(terms(d, weight + 2 - d));
-        }
-        for power in 1..=TIMES {
-            let timed: Member = vec![(count + place, power)];
-            let own = terms(0, 2).into_iter().chain(terms(1, 1));
-            let heavier = 2 * u32::from(power.unsigned_abs());
-            members.extend(own.map(|(w, member)| (w + heavier, product(&member, &timed))));
-        }
-        members.sort_by_key(|(weight, member)| (*weight, self.degree(member)));
-        let mut members: Vec<Member> = members.into_iter().map(|(_, member)| member).collect();
-        let known = count + self.coefficients.len();
-        for power in 0..=TIMES {
-            let timed: Member = vec![(count + place, power)];
-            let timed = if power == 0 { Vec::new() } else { timed };
-            members.extend((0..self.known.len()).map(|i| product(&vec![(known + i, 1)], &timed)));
-        }
-        Some(Family {
-            letters: self.all(),
-            members,
-            words: String::new(),
-        })
     }
 
     /// The known functions alone, for a system too large for polynomials of this degree.
