@@ -22,7 +22,7 @@ const MOST_WORK: f64 = 100.0;
 /// So many entries of a list for the work that is allowed: no fewer than for the usual work, and more as its root, since that of linear
 /// algebra grows with the cube of their number and a search usually takes little of its time.
 pub(super) fn allowed(cx: &Context<'_>, usual: usize) -> usize {
-    let times = cx.work().max(1.0).min(MOST_WORK).sqrt();
+    let times = cx.work().min(MOST_WORK).sqrt();
     (usual as f64 * times) as usize
 }
 

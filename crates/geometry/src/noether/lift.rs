@@ -62,7 +62,7 @@ pub(super) fn entries(source: &mut dyn Source, count: usize) -> Option<Vec<Ratio
             let used = parameters.clone().filter(|&p| !lines[p][entry].is_zero());
             let used: Vec<usize> = used.collect();
             let degrees = used.iter().map(|&p| lines[p][entry]).collect();
-            let mut fit = Fit {
+            let fit = Fit {
                 field,
                 entry,
                 used,
@@ -70,15 +70,9 @@ pub(super) fn entries(source: &mut dyn Source, count: usize) -> Option<Vec<Ratio
             };
             fit.least(source, &mut samples, &meter).or_else(|| {
                 // Where letters are related, as r² (1 + a²) = 1, degrees along a line may not be those of the fraction.
-                let any = |degrees: &mut Degrees| {
-                    std::mem::replace(degrees, Degrees::Any) != Degrees::Any
-                };
-                let is_other = fit
-                    .degrees
-                    .iter_mut()
-                    .fold(false, |other, d| any(d) || other);
-                let again = || fit.least(source, &mut samples, &meter);
-                is_other.then(again).flatten()
+                let is_bounded = fit.degrees.iter().any(|&d| d != Degrees::Any);
+                let any = fit.of_any_degrees();
+                is_bounded.then(|| any.least(source, &mut samples, &meter))?
             })
         })
         .collect()
@@ -197,6 +191,14 @@ struct Fit {
 }
 
 impl Fit {
+    fn of_any_degrees(&self) -> Fit {
+        Fit {
+            used: self.used.clone(),
+            degrees: vec![Degrees::Any; self.used.len()],
+            ..*self
+        }
+    }
+
     /// The fraction, of least degree.
     fn least(
         &self,

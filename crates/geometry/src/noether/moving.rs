@@ -427,7 +427,7 @@ pub(crate) fn masses_are_constant(cx: &Context<'_>) -> bool {
 fn kept(cx: &Context<'_>, motion: &Motion<'_>, candidates: Vec<Kept>) -> Result<Searched, String> {
     let tried = candidates.len();
     let (single, together): (Vec<Kept>, Vec<Kept>) = candidates.into_iter().partition(|c| c.rooted);
-    let mut different: Vec<(Kept, Vec<Residue>)> = Vec::new();
+    let mut different: Vec<WithValues> = Vec::new();
     let (field, found) = kept_together(cx, motion, together)?;
     let is_multiple = |a: &[Residue], b: &[Residue]| {
         let mut pairs = a.iter().zip(b);
@@ -452,12 +452,15 @@ fn kept(cx: &Context<'_>, motion: &Motion<'_>, candidates: Vec<Kept>) -> Result<
     Ok(Searched { kept, tried })
 }
 
+/// What is kept, with its values at some points.
+type WithValues = (Kept, Vec<Residue>);
+
 /// Those of some candidates that are kept, with their values at the same points of a field.
 fn kept_together(
     cx: &Context<'_>,
     motion: &Motion<'_>,
     candidates: Vec<Kept>,
-) -> Result<(PrimeField, Vec<(Kept, Vec<Residue>)>), String> {
+) -> Result<(PrimeField, Vec<WithValues>), String> {
     let outputs: Vec<Expr> = candidates.iter().flat_map(|c| [c.rate, c.value]).collect();
     let points = motion.points(&outputs)?;
     let mut random = Random::stream(cx.prover.points_seed(), 1 << 22);

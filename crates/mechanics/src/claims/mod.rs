@@ -404,14 +404,15 @@ impl<'a> Context<'a> {
         data.and_then(|data| data.downcast::<T>().ok())
     }
 
-    /// Allows searches so many times the usual work.
+    /// Allows searches so many times the usual work, and no less than that.
     #[must_use]
     pub fn allowing(mut self, work: f64) -> Context<'a> {
-        self.work = work;
+        // Also where the number is none.
+        self.work = work.max(1.0);
         self
     }
 
-    /// How much work searches may do, as a multiple of the usual. What they look at depends on this number and not on how fast a
+    /// How much work searches may do, as a multiple of the usual, at least 1. What they look at depends on this number and not on how fast a
     /// machine is, so that the same study says the same everywhere.
     pub fn work(&self) -> f64 {
         self.work
