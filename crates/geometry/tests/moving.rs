@@ -116,12 +116,11 @@ fn what_is_the_same_is_named_once() {
         .filter(|k| k.direction == "the z axis")
         .collect();
     assert_eq!(vertical.len(), 1);
-    let points: Vec<&str> = vertical[0]
-        .also
-        .iter()
-        .filter_map(|(_, point)| point.as_deref())
-        .collect();
-    assert_eq!(points, ["b", "the centre of mass", "the point (x, y, z)"]);
+    // The one that is written shortest stands first: 2 m l² φ'.
+    assert_eq!(vertical[0].point.as_deref(), Some("the centre of mass"));
+    let also = vertical[0].also.iter();
+    let points: Vec<&str> = also.filter_map(|(_, point)| point.as_deref()).collect();
+    assert_eq!(points, ["b", "a", "the point (x, y, z)"]);
     for (j, kept) in found.iter().enumerate() {
         let detail = finding(&rod, &format!("noether.moving-axis#{}", j + 1));
         let is_trivial = detail.verdict.detail().contains("trivial");

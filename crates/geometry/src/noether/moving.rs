@@ -9,9 +9,10 @@
 use super::ansatz::Ansatz;
 use super::motion::{draw_with_points, Motion};
 use super::shown::readable;
-use chetaev_mechanics::{mass, particles, Context};
+use chetaev_mechanics::{mass, particles, Context, System};
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
+use chetaev_symbolic::simplify::length;
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
 
 /// Three components.
@@ -32,6 +33,19 @@ pub struct Kept {
     rooted: bool,
     /// Other directions, and points of axes, for which it is the same up to a constant factor.
     pub also: Vec<(String, Option<String>)>,
+}
+
+impl Kept {
+    /// Names another candidate that is a multiple of this one; the one that is written shorter stands first.
+    fn beside(&mut self, system: &System, mut other: Kept) {
+        let g = &system.graph;
+        let size = |kept: &Kept| length(g, readable(g, kept.value));
+        if size(&other) < size(self) {
+            std::mem::swap(self, &mut other);
+            std::mem::swap(&mut self.also, &mut other.also);
+        }
+        self.also.push((other.direction, other.point));
+    }
 }
 
 /// What the search found.
@@ -438,7 +452,7 @@ fn kept(cx: &Context<'_>, motion: &Motion<'_>, candidates: Vec<Kept>) -> Result<
             .iter_mut()
             .find(|(_, own)| is_multiple(own, &values));
         match same {
-            Some((first, _)) => first.also.push((candidate.direction, candidate.point)),
+            Some((first, _)) => first.beside(motion.system, candidate),
             None => different.push((candidate, values)),
         }
     }
