@@ -192,3 +192,17 @@ fn families_grow_with_the_work() {
         "{sizes:?} {larger:?}"
     );
 }
+
+/// Terms of degree six in ten velocities alone are 5005: none are formed, and the verdict says so.
+#[test]
+fn what_is_too_much_is_said() {
+    let names: Vec<String> = (0..10).map(|i| format!("x{i}")).collect();
+    let kinetic: Vec<String> = names.iter().map(|x| format!("{x}'^2/2")).collect();
+    let lagrangian = format!("{} - {}", kinetic.join(" + "), names.join(" "));
+    let mut many = system(&names.join(" "), &lagrangian, &[]);
+    many.search_degree = Some(6);
+    let finding = common::finding(&many, "noether.family");
+    let said = finding.verdict.detail();
+    let words = "only the energy, as polynomials of degree 6 in the velocities are too many";
+    assert!(said.contains(words), "{said}");
+}

@@ -90,7 +90,12 @@ fn of_degree(cx: &Context<'_>, letters: &Letters, degree: u32) -> Family {
         _ => ASKED,
     };
     let most = allowed(cx, most);
-    let steps: &[u32] = if degree > 2 { &[1, 0] } else { &[1] };
+    // Not even formed where the terms of the highest degree alone are too many.
+    let steps: &[u32] = match degree {
+        0..=2 => &[1],
+        _ if monomials_of_degree(letters.velocities.len(), degree) > 2 * most => &[],
+        _ => &[1, 0],
+    };
     for &step in steps {
         let make = |weight| letters.stepped(degree, weight, step);
         let smallest = || Some((0, make(0)));
@@ -102,6 +107,10 @@ fn of_degree(cx: &Context<'_>, letters: &Letters, degree: u32) -> Family {
         }
     }
     letters.known_only(degree)
+}
+
+fn monomials_of_degree(count: usize, degree: u32) -> usize {
+    (1..=degree as usize).fold(1, |n: usize, i| n.saturating_mul(count + i - 1) / i)
 }
 
 /// Which powers of a letter are formed, where not all of them. A cosine stands with its first power only because of the sine.

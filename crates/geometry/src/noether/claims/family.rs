@@ -154,7 +154,7 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
         ),
     };
     format!(
-        "{many} in the families searched{dependent}{open}{special}; exhausted, and larger with a larger time budget: {}",
+        "{many} in the families searched{dependent}{open}{special}; exhausted, those of polynomials larger with a larger time budget: {}",
         families.join("; ")
     )
 }
