@@ -70,7 +70,7 @@ pub(crate) struct Study {
     /// Groups (model, formulations, motion, principles, integrals) and claim ids, separated by commas
     #[arg(long)]
     pub(crate) claims: Option<String>,
-    /// Seconds for all claims together
+    /// Seconds for all claims together; more than 60 also make searches for integrals look at more
     #[arg(long, default_value_t = 60.0, value_parser = seconds)]
     pub(crate) budget: f64,
     #[command(flatten)]
@@ -185,7 +185,7 @@ pub(crate) struct Principles {
     /// Folder to write the report of --compare into
     #[arg(long, requires = "compare")]
     pub(crate) out: Option<PathBuf>,
-    /// Seconds for all claims together
+    /// Seconds for all claims together; more than 60 also make searches for integrals look at more
     #[arg(long, default_value_t = 60.0, value_parser = seconds)]
     pub(crate) budget: f64,
     #[command(flatten)]

@@ -425,6 +425,8 @@ const MAP: &str = "\
 §8.3 | the skate: blade, fixed direction, incline | here/examples.rs | momenta_of_the_skate
 §8.3 | the search for directions | whole/symmetries.rs | momentum_along_the_blade
 §8.3 | the search for axes | whole/symmetries.rs | two_projectiles
+§8.3 | directions that turn with the time | here/moving.rs | blades_that_are_turned
+§8.3 | unit vectors, the point of contact | here/moving.rs | what_is_the_same_is_named_once
 §8.4 | λ, φ'' = 0, the frame | here/examples.rs | the_sled_in_its_frame
 §8.4 | the extension of the reaction | forms/corrections/zhao.rs | zhao_sled_extension_of_the_reaction
 §8.4 | four linear ones | here/first_integrals.rs | sled_on_the_level

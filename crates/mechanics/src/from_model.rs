@@ -110,6 +110,7 @@ impl System {
                 .map(|c| (c.integral.clone(), c.left, c.right, c.text.clone()))
                 .collect(),
             search_functions: model.search.iter().map(|f| f.value).collect(),
+            search_degree: model.search_degree,
             integrals: model
                 .integrals
                 .iter()

@@ -235,6 +235,8 @@ pub struct SystemParts {
     pub integral_conditions: Vec<(String, Expr, Expr, String)>,
     /// Functions of (t, q) for the families in which integrals are searched, beside those that occur.
     pub search_functions: Vec<Expr>,
+    /// The degree in the velocities up to which integrals are searched, where it is more than usual.
+    pub search_degree: Option<u32>,
     /// Functions that the user expects to be first integrals, as (name, G).
     pub integrals: Vec<(String, Expr)>,
     /// Operators for the variations of velocities.
@@ -354,6 +356,8 @@ pub struct System {
     pub integral_conditions: Vec<(String, Expr, Expr, String)>,
     /// Functions of (t, q) for the families in which integrals are searched, beside those that occur.
     pub search_functions: Vec<Expr>,
+    /// The degree in the velocities up to which integrals are searched, where it is more than usual.
+    pub search_degree: Option<u32>,
     /// Functions that the model states as first integrals, with their names.
     pub integrals: Vec<(String, Expr)>,
     /// Operators for the variations of velocities that the model states.
@@ -463,6 +467,7 @@ impl System {
             angles: parts.angles,
             integral_conditions: parts.integral_conditions,
             search_functions: parts.search_functions,
+            search_degree: parts.search_degree,
             integrals: parts.integrals,
             variations: parts.variations,
             complete_integral: parts.complete_integral,

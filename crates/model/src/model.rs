@@ -87,6 +87,8 @@ pub struct Model {
     pub integral_conditions: Vec<IntegralCondition>,
     /// Functions of (t, q) that may occur in first integrals and invariant measures, beside those that occur in the model.
     pub search: Vec<Definition>,
+    /// The degree in the velocities up to which first integrals are searched, where it is more than usual.
+    pub search_degree: Option<u32>,
     /// How to draw the system.
     pub drawing: Option<Drawing>,
     /// What the author expects to be found.

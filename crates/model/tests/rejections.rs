@@ -181,3 +181,24 @@ fn wrong_particles_and_frames_of_the_gallery() {
         assert!(message.ends_with("1 error"), "{message}");
     }
 }
+
+#[test]
+fn the_degree_of_a_search() {
+    let text = |degree: &str| {
+        let head = "coordinates = [\"x\"]\nlagrangian = \"x'^2/2\"\n[search]\n";
+        format!("{head}degree = {degree}\n")
+    };
+    for degree in ["1", "7", "-3"] {
+        refused(
+            &text(degree),
+            &["`degree` must be a number from 2 to 6", "4:10"],
+        );
+    }
+    refused(&text("2.5"), &["`degree` must be an integer"]);
+    refused(
+        &text("3\ndegre = 3"),
+        &["`degre` is no key of [search]", "did you mean `degree`?"],
+    );
+    let model = read(&text("3")).model.expect("a degree in range");
+    assert_eq!(model.search_degree, Some(3));
+}

@@ -99,6 +99,8 @@ pub struct StudyOptions {
     pub claims: ClaimSelection,
     /// Seconds for all claims together.
     pub budget: f64,
+    /// Seconds for which searches choose what they look at, where it is not the budget: a replay with more time looks at the same.
+    pub searches_for: Option<f64>,
     /// End of the run.
     pub t_end: Option<f64>,
     /// The same with all its digits, for a run in double-double arithmetic; where it is missing, `t_end` is exact.
@@ -132,11 +134,22 @@ pub struct StudyOptions {
     pub extremum: Option<Vec<(String, f64)>>,
 }
 
+/// Seconds for all claims together, where nothing else is asked for.
+const USUAL_BUDGET: f64 = 60.0;
+
+impl StudyOptions {
+    /// How much work searches may do, as a multiple of the usual.
+    pub(crate) fn work(&self) -> f64 {
+        self.searches_for.unwrap_or(self.budget) / USUAL_BUDGET
+    }
+}
+
 impl Default for StudyOptions {
     fn default() -> StudyOptions {
         StudyOptions {
             claims: ClaimSelection::all(),
-            budget: 60.0,
+            budget: USUAL_BUDGET,
+            searches_for: None,
             t_end: None,
             t_end_exact: None,
             tolerance: None,

@@ -540,10 +540,10 @@ fn context_of<'a>(
     system: &'a System,
     prepared: &'a Prepared,
     known: &'a Registry,
-    prover: &Prover,
+    (prover, work): (&Prover, f64),
 ) -> Context<'a> {
     let (terms, selection) = (&prepared.terms, &prepared.selection);
-    Context::new(system, terms, selection, known, prover.clone())
+    Context::new(system, terms, selection, known, prover.clone()).allowing(work)
 }
 
 /// Claims on the principles are decided on the component.
@@ -587,21 +587,22 @@ fn decide(
     if let Some(seed) = options.seed {
         prover.seed = seed;
     }
+    let proving = (&prover, options.work());
     let zeros = prepared_system(system.for_stated_zeros());
     let zeros = zeros
         .as_ref()
-        .map(|(prepared, system)| context_of(system, prepared, &known, &prover));
+        .map(|(prepared, system)| context_of(system, prepared, &known, proving));
     let stated = prepared_system(system.for_stated_values());
     let narrow = stated.as_ref().map_or(system, |(_, system)| system);
     let component = narrow.on_component(|list| at_start(system, start?, list));
     let component = component.and_then(|on| Some((Prepared::new(&on.system).ok()?, on)));
     let on = component
         .as_ref()
-        .map(|(prepared, on)| (context_of(&on.system, prepared, &known, &prover), on));
+        .map(|(prepared, on)| (context_of(&on.system, prepared, &known, proving), on));
     let stated = stated.as_ref().map(|(prepared, system)| {
-        narrowed(context_of(system, prepared, &known, &prover), on.as_ref())
+        narrowed(context_of(system, prepared, &known, proving), on.as_ref())
     });
-    let cx = context_of(system, prepared, &known, &prover);
+    let cx = context_of(system, prepared, &known, proving);
     let mut cx = match &stated {
         Some(stated) => {
             cx.for_stated_values(chetaev_principles::CLAIMS, &system.stated_values(), stated)

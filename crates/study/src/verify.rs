@@ -149,6 +149,7 @@ fn options(record: &Record, seed: Option<u64>, replay: bool) -> StudyOptions {
             words: asked.claims.clone(),
         },
         budget: asked.budget.unwrap_or(60.0).max(60.0) * 2.0,
+        searches_for: Some(asked.budget.unwrap_or(60.0)),
         t_end: interrupted.map(|t| t.t).or(asked.t_end),
         tolerance: asked.tolerance,
         step: asked.step,

@@ -2,15 +2,29 @@
 
 use super::family::{Family, ANY};
 use super::letters::{Letters, Polar};
+use super::plain;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::Expr;
 
 /// The most members of a family of degree one in the velocities, and of degree two for a system of up to four coordinates and for
-/// a larger one.
+/// a larger one, for the usual work.
 const MEMBERS: [usize; 3] = [620, 400, 700];
 
-/// The most members of a family with multiples of a polar angle.
+/// The same of a family with multiples of a polar angle.
 const WAVES: usize = 520;
+
+/// The same of a family of the degree that the model asks for.
+const ASKED: usize = 900;
+
+/// No more work than so many times the usual makes families larger.
+const MOST_WORK: f64 = 100.0;
+
+/// So many entries of a list for the work that is allowed: no fewer than for the usual work, and more as its root, since that of linear
+/// algebra grows with the cube of their number and a search usually takes little of its time.
+pub(super) fn allowed(cx: &Context<'_>, usual: usize) -> usize {
+    let times = cx.work().min(MOST_WORK).sqrt();
+    (usual as f64 * times) as usize
+}
 
 /// No letter counts more: a family that so many weights leave as it is has all its members.
 const HEAVIEST: u32 = 3;
@@ -42,35 +56,20 @@ pub(super) fn grown<T>(
     largest
 }
 
-fn members(family: &Family) -> usize {
+pub(super) fn members(family: &Family) -> usize {
     family.members.len()
 }
 
-/// The largest families within the budget: polynomials of degree one and two in the velocities, and quotients.
+/// The largest families for the work allowed: polynomials of degree one and two in the velocities, of degree two with polynomials in the
+/// coordinates as coefficients, of the degree that the model asks for, and quotients.
 pub(super) fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
+    let asked = cx.system.search_degree.filter(|&degree| degree > 2);
     let mut families: Vec<Family> = [1, 2]
         .into_iter()
-        .map(|degree| {
-            let most = match (degree, cx.system.n()) {
-                (1, _) => MEMBERS[0],
-                (_, 0..=4) => MEMBERS[1],
-                _ => MEMBERS[2],
-            };
-            let grown = grown(
-                most,
-                0,
-                |weight| letters.polynomials(degree, weight),
-                members,
-            );
-            let smallest = || Some((0, letters.polynomials(degree, 0)));
-            let fits = |(_, family): &(u32, Family)| family.members.len() <= 2 * most;
-            let Some((weight, mut largest)) = grown.or_else(smallest).filter(fits) else {
-                return letters.known_only();
-            };
-            largest.words = words(cx, letters, degree, weight);
-            largest
-        })
+        .chain(asked)
+        .map(|degree| of_degree(cx, letters, degree))
         .collect();
+    families.extend(plain::largest(cx, letters));
     families.extend(turned(cx, letters));
     families.extend(letters.polar.iter().map(|polar| waves(cx, letters, polar)));
     if letters.velocities.len() > 1 {
@@ -79,6 +78,39 @@ pub(super) fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
         families.push(quotients);
     }
     families
+}
+
+/// The largest family of polynomials of a degree in the velocities: with heavier coefficients where there are fewer velocities; where that
+/// is too much, with the same ones everywhere.
+fn of_degree(cx: &Context<'_>, letters: &Letters, degree: u32) -> Family {
+    let most = match (degree, cx.system.n()) {
+        (1, _) => MEMBERS[0],
+        (2, 0..=4) => MEMBERS[1],
+        (2, _) => MEMBERS[2],
+        _ => ASKED,
+    };
+    let most = allowed(cx, most);
+    // Not even formed where the terms of the highest degree alone are too many.
+    let steps: &[u32] = match degree {
+        0..=2 => &[1],
+        _ if monomials_of_degree(letters.velocities.len(), degree) > 2 * most => &[],
+        _ => &[1, 0],
+    };
+    for &step in steps {
+        let make = |weight| letters.stepped(degree, weight, step);
+        let smallest = || Some((0, make(0)));
+        let fits = |(_, family): &(u32, Family)| family.members.len() <= 2 * most;
+        let grown = grown(most, 0, make, members);
+        if let Some((weight, mut largest)) = grown.or_else(smallest).filter(fits) {
+            largest.words = words(cx, letters, (degree, step), weight);
+            return largest;
+        }
+    }
+    letters.known_only(degree)
+}
+
+fn monomials_of_degree(count: usize, degree: u32) -> usize {
+    (1..=degree as usize).fold(1, |n: usize, i| n.saturating_mul(count + i - 1) / i)
 }
 
 /// Which powers of a letter are formed, where not all of them. A cosine stands with its first power only because of the sine.
@@ -97,9 +129,9 @@ fn turned(cx: &Context<'_>, letters: &Letters) -> Option<Family> {
     let make = |weight| {
         letters
             .turned(weight)
-            .unwrap_or_else(|| letters.known_only())
+            .unwrap_or_else(|| letters.known_only(1))
     };
-    let (weight, mut family) = grown(MEMBERS[0], 1, make, members)?;
+    let (weight, mut family) = grown(allowed(cx, MEMBERS[0]), 1, make, members)?;
     let places = 0..letters.coefficients.len();
     let used = places.filter(|&i| letters.is_turned(i));
     let names: Vec<String> = used
@@ -118,7 +150,8 @@ fn turned(cx: &Context<'_>, letters: &Letters) -> Option<Family> {
 fn waves(cx: &Context<'_>, letters: &Letters, polar: &Polar) -> Family {
     let g = &cx.system.graph;
     let make = |weight| letters.waves(cx.system, polar, weight);
-    let (weight, mut family) = grown(WAVES, 0, make, members).unwrap_or_else(|| (0, make(0)));
+    let grown = grown(allowed(cx, WAVES), 0, make, members);
+    let (weight, mut family) = grown.unwrap_or_else(|| (0, make(0)));
     let list = |es: Vec<Expr>| {
         es.iter()
             .map(|&e| g.text(e))
@@ -149,7 +182,7 @@ fn waves(cx: &Context<'_>, letters: &Letters, polar: &Polar) -> Family {
     family
 }
 
-fn words(cx: &Context<'_>, letters: &Letters, degree: u32, weight: u32) -> String {
+fn words(cx: &Context<'_>, letters: &Letters, (degree, step): (u32, u32), weight: u32) -> String {
     let g = &cx.system.graph;
     let list = |weight: u32| {
         let numbered = letters.coefficients.iter().enumerate();
@@ -167,9 +200,10 @@ fn words(cx: &Context<'_>, letters: &Letters, degree: u32, weight: u32) -> Strin
         .filter(|&w| !list(w).is_empty())
         .map(|w| format!("{} ({w} each)", list(w).join(", ")))
         .collect();
-    let more = match degree {
-        1 => "",
-        _ => " in the quadratic terms and one more for each velocity less",
+    let more = match (degree, step) {
+        (1, _) | (_, 0) => String::new(),
+        (2, _) => " in the quadratic terms and one more for each velocity less".into(),
+        _ => format!(" in the terms of degree {degree} and one more for each velocity less"),
     };
     let known = match degree >= 2 && !letters.known.is_empty() {
         true => {

@@ -206,11 +206,16 @@ impl Letters {
     /// The polynomials of degree up to `degree` in the velocities whose coefficients have weight up to `weight` in the terms of
     /// that degree, and one more for each degree less; at the end the known functions.
     pub fn polynomials(&self, degree: u32, weight: u32) -> Family {
+        self.stepped(degree, weight, 1)
+    }
+
+    /// The same with coefficients whose weight is `step` more for each degree less.
+    pub fn stepped(&self, degree: u32, weight: u32, step: u32) -> Family {
         let count = self.velocities.len();
         let mut members: Vec<(u32, Member)> = Vec::new();
         for d in 0..=degree {
             // The terms without velocities of an integral linear in these need nothing more than the others.
-            let more = if degree == 1 { 0 } else { degree - d };
+            let more = if degree == 1 { 0 } else { step * (degree - d) };
             let usual = coefficients(&self.usual(), count, weight + more);
             let is_used = |(_, member): &(u32, Member)| degree == 1 || !self.is_turning(member);
             let functions: Vec<(u32, Member)> = usual.into_iter().filter(is_used).collect();
@@ -233,8 +238,8 @@ impl Letters {
         }
     }
 
-    /// The known functions alone, for a system too large for polynomials.
-    pub fn known_only(&self) -> Family {
+    /// The known functions alone, for a system too large for polynomials of this degree.
+    pub fn known_only(&self, degree: u32) -> Family {
         let first = self.velocities.len() + self.coefficients.len();
         let names: Vec<&str> = self.known.iter().map(|(name, _)| name.as_str()).collect();
         let mut members = vec![Vec::new()];
@@ -243,7 +248,7 @@ impl Letters {
             letters: self.all(),
             members,
             words: format!(
-                "only {}, as polynomials in the velocities are too many",
+                "only {}, as polynomials of degree {degree} in the velocities are too many",
                 names.join(", ")
             ),
         }

@@ -1,9 +1,10 @@
 //! From classes modulo a prime to functions of the parameters.
 //!
-//! An entry c of a null vector is a rational function of the parameters, N/D. Its values at random parameters modulo p give the
-//! linear equations `N - c D = 0` for the coefficients of N and D; the least degree at which they have a solution
-//! gives the reduced fraction. Its coefficients are rational numbers, found from their classes. Nothing found here is believed:
-//! the integral built of it is proved or dropped.
+//! An entry c of a null vector is a rational function of the parameters, N/D. Its values where one parameter changes and the others
+//! stay give the degrees of N and D in each; these leave few monomials, so that there may be many parameters. Its values at random
+//! parameters modulo p give the linear equations `N - c D = 0` for the coefficients of N and D; the least degree at which they have a
+//! solution gives the reduced fraction. Its coefficients are rational numbers, found from their classes. Nothing found here is
+//! believed: the integral built of it is proved or dropped.
 
 use chetaev_symbolic::number::modular_matrix::null_space;
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
@@ -40,7 +41,8 @@ pub(super) trait Source {
     fn field(&self) -> PrimeField;
     /// One more sample at random parameters.
     fn sample(&mut self) -> Option<Sample>;
-    /// A sample that differs from the first in the parameter of this number only; `None` where that cannot be arranged.
+    /// A sample that differs from the last one of [`sample`](Source::sample) in the parameter of this number only; `None` where that
+    /// cannot be arranged.
     fn varied(&mut self, parameter: usize) -> Option<Sample>;
 }
 
@@ -48,54 +50,214 @@ pub(super) trait Source {
 pub(super) fn entries(source: &mut dyn Source, count: usize) -> Option<Vec<RationalFunction>> {
     let meter = Meter::new(BUDGET);
     let field = source.field();
-    let mut samples = vec![source.sample()?];
-    let parameters = samples[0].parameters.len();
-    let varied: Vec<Option<Sample>> = (0..parameters).map(|p| source.varied(p)).collect();
+    let first = source.sample()?;
+    let parameters = 0..first.parameters.len();
+    let lines: Vec<Vec<Degrees>> = parameters
+        .clone()
+        .map(|p| line(source, &first, p))
+        .collect();
+    let mut samples = vec![first];
     (0..count)
         .map(|entry| {
-            let used: Vec<usize> = (0..parameters)
-                .filter(|&p| match &varied[p] {
-                    Some(sample) => sample.entries[entry] != samples[0].entries[entry],
-                    None => true,
-                })
-                .collect();
-            let fit = Fit { field, entry, used };
-            (0..=DEGREE).find_map(|degree| fit.of_degree(degree, source, &mut samples, &meter))
+            let used = parameters.clone().filter(|&p| !lines[p][entry].is_zero());
+            let used: Vec<usize> = used.collect();
+            let degrees = used.iter().map(|&p| lines[p][entry]).collect();
+            let fit = Fit {
+                field,
+                entry,
+                used,
+                degrees,
+            };
+            fit.least(source, &mut samples, &meter).or_else(|| {
+                // Where letters are related, as r² (1 + a²) = 1, degrees along a line may not be those of the fraction.
+                let is_bounded = fit.degrees.iter().any(|&d| d != Degrees::Any);
+                let any = fit.of_any_degrees();
+                is_bounded.then(|| any.least(source, &mut samples, &meter))?
+            })
         })
         .collect()
+}
+
+/// The degrees of the numerator and the denominator of a fraction in one parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Degrees {
+    /// These.
+    Are(u32, u32),
+    /// Not known.
+    Any,
+}
+
+impl Degrees {
+    /// Whether the parameter does not occur.
+    fn is_zero(self) -> bool {
+        self == Degrees::Are(0, 0)
+    }
+
+    /// The degree in the numerator, or in the denominator; at most a total degree.
+    fn most(self, is_above: bool, total: u32) -> u32 {
+        match self {
+            Degrees::Are(above, below) => (if is_above { above } else { below }).min(total),
+            Degrees::Any => total,
+        }
+    }
+}
+
+/// The degrees of each entry in one parameter, from the values where that one changes.
+fn line(source: &mut dyn Source, first: &Sample, parameter: usize) -> Vec<Degrees> {
+    let field = source.field();
+    let mut samples = vec![first.clone()];
+    let mut found = vec![Degrees::Any; first.entries.len()];
+    for degree in 0..=DEGREE {
+        let wanted = if degree == 0 {
+            2
+        } else {
+            2 * degree as usize + 3
+        };
+        while samples.len() < wanted {
+            match source.varied(parameter) {
+                Some(sample) => samples.push(sample),
+                None => return found,
+            }
+        }
+        for (entry, degrees) in found.iter_mut().enumerate() {
+            if *degrees == Degrees::Any {
+                *degrees = along(&field, &samples, (parameter, entry), degree);
+            }
+        }
+        if !found.contains(&Degrees::Any) {
+            break;
+        }
+    }
+    found
+}
+
+/// The degrees of an entry as a fraction of degree up to `degree` in one parameter, which is the least possible one.
+fn along(
+    field: &PrimeField,
+    samples: &[Sample],
+    (parameter, entry): (usize, usize),
+    degree: u32,
+) -> Degrees {
+    let value = |s: &Sample| s.entries[entry];
+    if degree == 0 {
+        let is_same = samples.iter().all(|s| value(s) == value(&samples[0]));
+        return if is_same {
+            Degrees::Are(0, 0)
+        } else {
+            Degrees::Any
+        };
+    }
+    let size = degree as usize + 1;
+    let rows = samples.iter().flat_map(|s| {
+        let powers = (0..=degree).map(|e| field.pow(s.parameters[parameter], u64::from(e)));
+        let powers: Vec<Residue> = powers.collect();
+        let negative = field.neg(value(s));
+        let below = powers.iter().map(|&x| field.mul(negative, x));
+        below.chain(powers.clone()).collect::<Vec<Residue>>()
+    });
+    let space = null_space(field, 2 * size, rows.collect());
+    let Some((free, rest)) = space.vectors.first() else {
+        return Degrees::Any;
+    };
+    let places = rest.iter().filter(|(_, c)| !c.is_zero());
+    let places: Vec<usize> = places.map(|&(i, _)| i).chain([*free]).collect();
+    let most = |of: &dyn Fn(usize) -> Option<usize>| {
+        let degrees = places.iter().filter_map(|&i| of(i));
+        degrees.max().unwrap_or(0) as u32
+    };
+    let above = most(&|i| i.checked_sub(size));
+    let below = most(&|i| (i < size).then_some(i));
+    Degrees::Are(above, below)
+}
+
+/// The monomials that a numerator and a denominator may contain.
+struct Monomials {
+    below: Vec<Vec<u32>>,
+    above: Vec<Vec<u32>>,
+}
+
+impl Monomials {
+    fn count(&self) -> usize {
+        self.below.len() + self.above.len()
+    }
 }
 
 struct Fit {
     field: PrimeField,
     entry: usize,
     used: Vec<usize>,
+    /// In each parameter used.
+    degrees: Vec<Degrees>,
 }
 
 impl Fit {
-    fn of_degree(
+    fn of_any_degrees(&self) -> Fit {
+        Fit {
+            used: self.used.clone(),
+            degrees: vec![Degrees::Any; self.used.len()],
+            ..*self
+        }
+    }
+
+    /// The fraction, of least degree.
+    fn least(
         &self,
-        degree: u32,
         source: &mut dyn Source,
         samples: &mut Vec<Sample>,
         meter: &Meter,
     ) -> Option<RationalFunction> {
-        let monomials = exponents(self.used.len(), degree);
-        let unknowns = 2 * monomials.len();
-        if unknowns > UNKNOWNS || (degree > 0 && self.used.is_empty()) {
-            return None;
+        let most = |is_above: bool| {
+            let own = self.degrees.iter();
+            own.map(|d| d.most(is_above, DEGREE)).sum::<u32>()
+        };
+        let last = match self.degrees.contains(&Degrees::Any) {
+            true => DEGREE.min(most(true).max(most(false))),
+            false => most(true).max(most(false)),
+        };
+        for degree in 0..=last {
+            let monomials = self.monomials(degree);
+            if monomials.count() > UNKNOWNS {
+                return None;
+            }
+            let found = self.of_degree(&monomials, source, samples, meter);
+            if found.is_some() {
+                return found;
+            }
         }
+        None
+    }
+
+    fn monomials(&self, degree: u32) -> Monomials {
+        let of = |is_above| {
+            let most = self.degrees.iter().map(|d| d.most(is_above, degree));
+            exponents(&most.collect::<Vec<u32>>(), degree)
+        };
+        Monomials {
+            below: of(false),
+            above: of(true),
+        }
+    }
+
+    fn of_degree(
+        &self,
+        monomials: &Monomials,
+        source: &mut dyn Source,
+        samples: &mut Vec<Sample>,
+        meter: &Meter,
+    ) -> Option<RationalFunction> {
+        let unknowns = monomials.count();
         while samples.len() < unknowns + 3 {
             samples.push(source.sample()?);
         }
         let rows = samples[..unknowns + 3].iter();
-        let matrix: Vec<Residue> = rows.flat_map(|s| self.row(&monomials, s)).collect();
+        let matrix: Vec<Residue> = rows.flat_map(|s| self.row(monomials, s)).collect();
         let space = null_space(&self.field, unknowns, matrix);
-        let values = self.values(&monomials, &samples[0]);
+        let values = self.values(&monomials.below, &samples[0]);
         space.vectors.iter().find_map(|(free, rest)| {
             let mut coefficients = vec![Residue::ZERO; unknowns];
             coefficients[*free] = self.field.one();
             rest.iter().for_each(|&(i, c)| coefficients[i] = c);
-            let (below, above) = coefficients.split_at(monomials.len());
+            let (below, above) = coefficients.split_at(monomials.below.len());
             // Where letters are related, as r² (1 + a²) = 1, a denominator of them may vanish without being zero.
             let terms = below.iter().zip(&values);
             let denominator = terms.fold(Residue::ZERO, |sum, (&c, &value)| {
@@ -103,7 +265,7 @@ impl Fit {
             });
             match denominator.is_zero() {
                 true => None,
-                false => self.fraction(&monomials, above, below, meter),
+                false => self.fraction(monomials, above, below, meter),
             }
         })
     }
@@ -120,23 +282,23 @@ impl Fit {
     }
 
     /// `-c` times the monomials of D, then those of N.
-    fn row(&self, monomials: &[Vec<u32>], sample: &Sample) -> Vec<Residue> {
+    fn row(&self, monomials: &Monomials, sample: &Sample) -> Vec<Residue> {
         let field = &self.field;
-        let values = self.values(monomials, sample);
         let negative = field.neg(sample.entries[self.entry]);
-        let below = values.iter().map(|&v| field.mul(negative, v));
-        below.chain(values.iter().copied()).collect()
+        let below = self.values(&monomials.below, sample);
+        let below = below.into_iter().map(|v| field.mul(negative, v));
+        below.chain(self.values(&monomials.above, sample)).collect()
     }
 
     fn fraction(
         &self,
-        monomials: &[Vec<u32>],
+        monomials: &Monomials,
         above: &[Residue],
         below: &[Residue],
         meter: &Meter,
     ) -> Option<RationalFunction> {
-        let numerator = self.polynomial(monomials, above, meter)?;
-        let denominator = self.polynomial(monomials, below, meter)?;
+        let numerator = self.polynomial(&monomials.above, above, meter)?;
+        let denominator = self.polynomial(&monomials.below, below, meter)?;
         numerator.div(&denominator, meter).ok()?
     }
 
@@ -165,15 +327,15 @@ impl Fit {
     }
 }
 
-/// Exponents of the monomials up to a degree in so many letters.
-fn exponents(letters: usize, degree: u32) -> Vec<Vec<u32>> {
+/// Exponents of the monomials up to a degree, with at most these in each letter.
+fn exponents(most: &[u32], degree: u32) -> Vec<Vec<u32>> {
     let mut found = vec![Vec::new()];
-    for _ in 0..letters {
+    for &most in most {
         found = found
             .into_iter()
             .flat_map(|start: Vec<u32>| {
                 let left = degree - start.iter().sum::<u32>();
-                (0..=left).map(move |e| {
+                (0..=left.min(most)).map(move |e| {
                     let mut next = start.clone();
                     next.push(e);
                     next
@@ -220,4 +382,109 @@ pub(super) fn expression(g: &Graph, polynomial: &Polynomial, letters: &[Expr]) -
         })
         .collect();
     g.add(&terms)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chetaev_symbolic::number::random::Random;
+
+    /// Samples of given functions of the parameters.
+    struct Functions {
+        field: PrimeField,
+        random: Random,
+        last: Vec<Residue>,
+        all: fn(&PrimeField, &[Residue]) -> Vec<Residue>,
+        taken: usize,
+    }
+
+    impl Functions {
+        fn at(&mut self, parameters: Vec<Residue>) -> Option<Sample> {
+            self.taken += 1;
+            Some(Sample {
+                entries: (self.all)(&self.field, &parameters),
+                parameters,
+            })
+        }
+    }
+
+    impl Source for Functions {
+        fn field(&self) -> PrimeField {
+            self.field
+        }
+
+        fn sample(&mut self) -> Option<Sample> {
+            let count = self.last.len();
+            self.last = (0..count)
+                .map(|_| self.field.random(&mut self.random))
+                .collect();
+            self.at(self.last.clone())
+        }
+
+        fn varied(&mut self, parameter: usize) -> Option<Sample> {
+            let mut parameters = self.last.clone();
+            parameters[parameter] = self.field.random(&mut self.random);
+            self.at(parameters)
+        }
+    }
+
+    fn lifted(
+        parameters: usize,
+        all: fn(&PrimeField, &[Residue]) -> Vec<Residue>,
+    ) -> (Vec<RationalFunction>, usize) {
+        let field = PrimeField::new((1 << 61) - 1).expect("a prime");
+        let mut source = Functions {
+            field,
+            random: Random::new(7),
+            last: vec![Residue::ZERO; parameters],
+            all,
+            taken: 0,
+        };
+        let count = (source.all)(&field, &vec![field.one(); parameters]).len();
+        let found = entries(&mut source, count).expect("fractions of moderate degree");
+        (found, source.taken)
+    }
+
+    /// The coefficient of the time for a ball on an incline, `m r² g s/(I + m r²)`, of degrees 5 and 3 in five parameters: 462 monomials
+    /// of this degree and less would be too many.
+    #[test]
+    fn many_parameters() {
+        let (found, taken) = lifted(5, |field, p| {
+            let [m, r, g, s, i] = p else {
+                return Vec::new();
+            };
+            let inertia = field.mul(*m, field.mul(*r, *r));
+            let above = field.mul(inertia, field.mul(*g, *s));
+            let below = field.inv(field.add(*i, inertia));
+            vec![field.mul(above, below.unwrap_or(Residue::ZERO)), *s]
+        });
+        let meter = Meter::new(BUDGET);
+        let term = |exponents: &[u16]| {
+            let monomial = Monomial::from_exponents(exponents);
+            RationalFunction::from(Polynomial::term(monomial, 1.into()))
+        };
+        let inertia = term(&[1, 2]);
+        let below = term(&[0, 0, 0, 0, 1]).add(&inertia, &meter).expect("a sum");
+        let above = term(&[1, 2, 1, 1]);
+        let wanted = above.div(&below, &meter).expect("small");
+        assert_eq!(Some(&found[0]), wanted.as_ref());
+        assert_eq!(found[1], term(&[0, 0, 0, 1]));
+        assert!(taken < 100, "{taken} samples");
+    }
+
+    /// `(a + b)⁵/(a - 2 b)` and a number.
+    #[test]
+    fn powers_and_numbers() {
+        let (found, _) = lifted(2, |field, p| {
+            let [a, b] = p else { return Vec::new() };
+            let below = field.sub(*a, field.add(*b, *b));
+            let below = field.inv(below).unwrap_or(Residue::ZERO);
+            let above = field.pow(field.add(*a, *b), 5);
+            let seven = field.from_i64(7);
+            vec![field.mul(above, below), seven]
+        });
+        assert_eq!(found[0].numerator().terms().len(), 6);
+        assert_eq!(found[0].denominator().terms().len(), 2);
+        assert_eq!(found[1], RationalFunction::constant(&7.into()));
+    }
 }

@@ -17,6 +17,7 @@ mod lifting;
 pub mod motion;
 pub mod moving;
 pub(crate) mod occurring;
+mod plain;
 pub mod reduced;
 pub mod search;
 mod shorter;

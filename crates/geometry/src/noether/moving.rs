@@ -2,15 +2,18 @@
 //!
 //! With the forces `F_a = m_a r_a''` on the particles, reactions among them, `K = Σ m r'`, `H_A = Σ (r - r_A) × m r'`:
 //! `d/dt (K·e) = K·e' + F·e` (18a) and `d/dt (H_A·e) = K·(r_A' × e) + H_A·e' + M_A·e` (18), for any e and A that are functions of the
-//! state. Directions e are searched among the axes, the directions that turn with an angle, and those from particle to particle;
-//! points A among the origin, the particles, the centre of mass, and all points at rest.
+//! state. Directions e are searched among the axes, the directions that turn with an angle that occurs in sines and cosines, as φ or ωt,
+//! and those from particle to particle; points A among the origin, the particles, the centre of mass, the point whose coordinates carry
+//! all particles along, as that of contact of a blade, and all points at rest.
 
 use super::ansatz::Ansatz;
 use super::motion::{draw_with_points, Motion};
 use super::shown::readable;
-use chetaev_mechanics::{mass, particles, Context};
+use chetaev_mechanics::{mass, particles, Context, System};
+use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
-use chetaev_symbolic::{Expr, Function, Graph, Node};
+use chetaev_symbolic::simplify::length;
+use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
 
 /// Three components.
 type Vector = [Expr; 3];
@@ -26,6 +29,23 @@ pub struct Kept {
     pub value: Expr,
     /// The left side of (18a) or (18) on the motion.
     pub rate: Expr,
+    /// Whether its direction contains a root.
+    rooted: bool,
+    /// Other directions, and points of axes, for which it is the same up to a constant factor.
+    pub also: Vec<(String, Option<String>)>,
+}
+
+impl Kept {
+    /// Names another candidate that is a multiple of this one; the one that is written shorter stands first.
+    fn beside(&mut self, system: &System, mut other: Kept) {
+        let g = &system.graph;
+        let size = |kept: &Kept| length(g, readable(g, kept.value));
+        if size(&other) < size(self) {
+            std::mem::swap(self, &mut other);
+            std::mem::swap(&mut self.also, &mut other.also);
+        }
+        self.also.push((other.direction, other.point));
+    }
 }
 
 /// What the search found.
@@ -141,10 +161,9 @@ impl<'a> Swarm<'a> {
         }
         for (b, end) in self.positions.iter().enumerate() {
             for (a, start) in self.positions[..b].iter().enumerate() {
-                found.push(Named {
-                    words: format!("the line from {} to {}", self.names[a], self.names[b]),
-                    value: difference(g, end, start),
-                });
+                let words = format!("the line from {} to {}", self.names[a], self.names[b]);
+                let value = unit(g, &difference(g, end, start));
+                found.extend(value.map(|value| Named { words, value }));
             }
         }
         found
@@ -161,6 +180,35 @@ impl<'a> Swarm<'a> {
             }],
             _ => self.directions(motion),
         }
+    }
+
+    /// The point with those coordinates for which every particle moves along one of the axes as fast as they do.
+    fn carried(&self, motion: &Motion<'_>) -> Option<Named<Vector>> {
+        let (g, system) = (self.g, motion.system);
+        let carries = |symbol: Symbol, axis: usize| {
+            self.positions.iter().all(|r| {
+                let slopes = r.iter().map(|&x| g.diff(x, symbol)).enumerate();
+                let unit = |i| if i == axis { g.one() } else { g.zero() };
+                slopes.into_iter().all(|(i, slope)| slope == unit(i))
+            })
+        };
+        let mut value = [g.zero(); 3];
+        for (axis, component) in value.iter_mut().enumerate() {
+            let mut own = system.coordinates.iter();
+            if let Some(c) = own.find(|c| carries(c.q_symbol, axis)) {
+                *component = c.q;
+            }
+        }
+        let given = value.iter().filter(|&&x| !g.is_zero(x)).count();
+        let texts: Vec<String> = value[..self.dimension(motion)]
+            .iter()
+            .map(|&x| g.text(x))
+            .collect();
+        let is_new = given > 1 && !self.positions.contains(&value);
+        is_new.then(|| Named {
+            words: format!("the point ({})", texts.join(", ")),
+            value,
+        })
     }
 
     fn points(&self) -> Vec<Named<Vector>> {
@@ -233,6 +281,8 @@ impl<'a> Swarm<'a> {
             rate: g.add(&[dot(g, &momentum, &turned), dot(g, &force, &e.value)]),
             direction: e.words,
             point: None,
+            rooted: is_rooted(g, &e.value),
+            also: Vec::new(),
         }
     }
 
@@ -261,6 +311,8 @@ impl<'a> Swarm<'a> {
         Kept {
             direction: e.words.clone(),
             point: Some(a.words.clone()),
+            rooted: is_rooted(g, &e.value),
+            also: Vec::new(),
             value: dot(g, &moment, &e.value),
             rate: g.add(&[
                 dot(g, &momentum, &cross(g, &moved, &e.value)),
@@ -271,12 +323,52 @@ impl<'a> Swarm<'a> {
     }
 }
 
-/// Coordinates whose sine or cosine occurs.
+/// The vector of length one along another, up to its sign; `None` for the vector zero.
+fn unit(g: &Graph, d: &Vector) -> Option<Vector> {
+    let square = readable(g, dot(g, d, d));
+    if g.is_zero(square) {
+        return None;
+    }
+    let length = root_of_square(g, square).unwrap_or_else(|| g.sqrt(square));
+    Some(d.map(|x| g.div(x, length)))
+}
+
+fn is_rooted(g: &Graph, e: &Vector) -> bool {
+    let is_root = |e: Expr| g.as_integer(g.base_exponent(e).1).is_none();
+    g.reachable(e).into_iter().any(is_root)
+}
+
+/// The root of what is written as a square, with one sign or the other.
+fn root_of_square(g: &Graph, e: Expr) -> Option<Expr> {
+    let half = |e: Expr| {
+        let (base, exponent) = g.base_exponent(e);
+        let exponent = g.as_integer(exponent).filter(|n| n % 2 == 0)?;
+        Some(g.powi(base, exponent / 2))
+    };
+    if let Some(number) = g.as_number(e) {
+        return Some(g.sqrt(g.number(number.clone())));
+    }
+    match g.node(e) {
+        Node::Product {
+            coefficient,
+            factors,
+        } => {
+            let halves: Option<Vec<Expr>> = factors.iter().map(|&f| half(f)).collect();
+            let root = g.sqrt(g.number(coefficient.clone()));
+            Some(g.mul(&[&halves?[..], &[root]].concat()))
+        }
+        _ => half(e),
+    }
+}
+
+/// The angles, functions of the place and the time, whose sine or cosine occurs.
 fn angles(motion: &Motion<'_>) -> Vec<Expr> {
     let (system, g) = (motion.system, &motion.system.graph);
     let mut roots = vec![system.lagrangian];
+    roots.extend(&system.forces);
     roots.extend(system.constraints.iter().map(|c| c.f));
     roots.extend(system.particles.iter().flat_map(|p| p.position.clone()));
+    let velocities = system.velocity_symbols();
     let mut found = Vec::new();
     for e in g.reachable(&roots) {
         if let Node::Apply {
@@ -284,8 +376,10 @@ fn angles(motion: &Motion<'_>) -> Vec<Expr> {
             arguments,
         } = g.node(e)
         {
-            let own = system.coordinates.iter().map(|c| c.q);
-            found.extend(own.filter(|q| arguments.contains(q)));
+            let own = arguments.iter().copied();
+            found.extend(own.filter(|&angle| {
+                !g.is_free_of(angle, &|s| motion.moves(s)) && !g.contains_any(angle, &velocities)
+            }));
         }
     }
     found.sort_by(|&a, &b| g.compare(a, b));
@@ -315,7 +409,8 @@ pub fn directions(cx: &Context<'_>) -> Result<Searched, String> {
 pub fn axes(cx: &Context<'_>) -> Result<Searched, String> {
     let motion = Motion::of(cx)?;
     let swarm = Swarm::of(&motion);
-    let (axes, points) = (swarm.axes(&motion), swarm.points());
+    let (axes, mut points) = (swarm.axes(&motion), swarm.points());
+    points.extend(swarm.carried(&motion));
     let pairs = axes.iter().flat_map(|e| points.iter().map(move |a| (e, a)));
     let mut candidates: Vec<Kept> = pairs
         .take(CANDIDATES)
@@ -340,9 +435,46 @@ pub(crate) fn masses_are_constant(cx: &Context<'_>) -> bool {
         && cx.system.particles.iter().all(|p| is_constant(p.mass))
 }
 
-/// The candidates whose rate vanishes at points of the manifold and whose value is not the same at all of them.
+/// The candidates whose rate vanishes at points of the manifold and whose value is not the same at all of them; those that are multiples
+/// of one before them are named beside it. Few points have a square under each of many roots, so directions with roots are looked at one
+/// by one.
 fn kept(cx: &Context<'_>, motion: &Motion<'_>, candidates: Vec<Kept>) -> Result<Searched, String> {
     let tried = candidates.len();
+    let (single, together): (Vec<Kept>, Vec<Kept>) = candidates.into_iter().partition(|c| c.rooted);
+    let mut different: Vec<WithValues> = Vec::new();
+    let (field, found) = kept_together(cx, motion, together)?;
+    let is_multiple = |a: &[Residue], b: &[Residue]| {
+        let mut pairs = a.iter().zip(b);
+        pairs.all(|(&x, &y)| field.mul(x, b[0]) == field.mul(y, a[0]))
+    };
+    for (candidate, values) in found {
+        let same = different
+            .iter_mut()
+            .find(|(_, own)| is_multiple(own, &values));
+        match same {
+            Some((first, _)) => first.beside(motion.system, candidate),
+            None => different.push((candidate, values)),
+        }
+    }
+    let mut kept: Vec<Kept> = different.into_iter().map(|(kept, _)| kept).collect();
+    for candidate in single {
+        // Where there are no points for a direction nothing is said of it.
+        if let Ok((_, found)) = kept_together(cx, motion, vec![candidate]) {
+            kept.extend(found.into_iter().map(|(kept, _)| kept));
+        }
+    }
+    Ok(Searched { kept, tried })
+}
+
+/// What is kept, with its values at some points.
+type WithValues = (Kept, Vec<Residue>);
+
+/// Those of some candidates that are kept, with their values at the same points of a field.
+fn kept_together(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    candidates: Vec<Kept>,
+) -> Result<(PrimeField, Vec<WithValues>), String> {
     let outputs: Vec<Expr> = candidates.iter().flat_map(|c| [c.rate, c.value]).collect();
     let points = motion.points(&outputs)?;
     let mut random = Random::stream(cx.prover.points_seed(), 1 << 22);
@@ -352,14 +484,12 @@ fn kept(cx: &Context<'_>, motion: &Motion<'_>, candidates: Vec<Kept>) -> Result<
     for _ in 0..3 {
         all.push(points.at(&draw, &mut random).ok_or(none)?);
     }
-    let place = |i: usize| {
-        let vanishes = all.iter().all(|at| at[2 * i].is_zero());
-        vanishes && all.iter().any(|at| at[2 * i + 1] != all[0][2 * i + 1])
-    };
     let numbered = candidates.into_iter().enumerate();
-    let kept = numbered.filter(|(i, _)| place(*i)).map(|(_, c)| c);
-    Ok(Searched {
-        kept: kept.collect(),
-        tried,
-    })
+    let kept = numbered.filter_map(|(i, candidate)| {
+        let vanishes = all.iter().all(|at| at[2 * i].is_zero());
+        let values: Vec<Residue> = all.iter().map(|at| at[2 * i + 1]).collect();
+        let moves = values.iter().any(|&value| value != values[0]);
+        (vanishes && moves).then_some((candidate, values))
+    });
+    Ok((draw.field, kept.collect()))
 }

@@ -235,6 +235,7 @@ pub struct Context<'a> {
     extensions: BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>,
     shared: Mutex<BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>>,
     out_of_time: AtomicBool,
+    work: f64,
     instead: Vec<Instead<'a>>,
 }
 
@@ -327,6 +328,7 @@ impl<'a> Context<'a> {
             extensions: BTreeMap::new(),
             shared: Mutex::default(),
             out_of_time: AtomicBool::new(false),
+            work: 1.0,
             instead: Vec::new(),
         }
     }
@@ -400,6 +402,20 @@ impl<'a> Context<'a> {
     pub fn known<T: Any + Send + Sync>(&self) -> Option<Arc<T>> {
         let data = lock(&self.shared).get(&TypeId::of::<T>()).cloned();
         data.and_then(|data| data.downcast::<T>().ok())
+    }
+
+    /// Allows searches so many times the usual work, and no less than that.
+    #[must_use]
+    pub fn allowing(mut self, work: f64) -> Context<'a> {
+        // Also where the number is none.
+        self.work = work.max(1.0);
+        self
+    }
+
+    /// How much work searches may do, as a multiple of the usual, at least 1. What they look at depends on this number and not on how fast a
+    /// machine is, so that the same study says the same everywhere.
+    pub fn work(&self) -> f64 {
+        self.work
     }
 
     /// Says that the time for claims is spent: what takes long is not begun any more.

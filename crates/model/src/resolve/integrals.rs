@@ -12,6 +12,9 @@ use crate::diagnostic::Diagnostic;
 use crate::model::{Definition, IntegralCondition};
 use crate::raw::{Kind, Raw, Table};
 
+/// The degrees in the velocities up to which a model may ask for integrals.
+const SEARCH_DEGREES: std::ops::RangeInclusive<u32> = 2..=6;
+
 impl Resolver {
     pub(crate) fn integrals(&mut self, root: &Table) -> (Vec<Definition>, Vec<IntegralCondition>) {
         let mut integrals: Vec<Definition> = Vec::new();
@@ -106,16 +109,36 @@ impl Resolver {
         }
     }
 
-    /// `[search] functions = ["sqrt(1 + x^2)", …]`.
-    pub(crate) fn search_functions(&mut self, root: &Table) -> Vec<Definition> {
-        let mut functions = Vec::new();
+    /// `[search] functions = ["sqrt(1 + x^2)", …]`, and `degree = 3`.
+    pub(crate) fn search(&mut self, root: &Table) -> (Vec<Definition>, Option<u32>) {
         let Some(table) = self.section(root, "search") else {
-            return functions;
+            return (Vec::new(), None);
         };
-        self.known_keys(table, &["functions"], "of [search]");
-        let Some(raw) = table.get("functions") else {
-            return functions;
-        };
+        self.known_keys(table, &["functions", "degree"], "of [search]");
+        let degree = table.get("degree").and_then(|raw| self.search_degree(raw));
+        let functions = table.get("functions");
+        let functions = functions.map(|raw| self.search_functions(raw));
+        (functions.unwrap_or_default(), degree)
+    }
+
+    /// The degree in the velocities up to which integrals are searched.
+    fn search_degree(&mut self, raw: &Raw) -> Option<u32> {
+        let degree = self.integer(raw, "`degree`")?;
+        let known = u32::try_from(degree).ok();
+        let known = known.filter(|degree| SEARCH_DEGREES.contains(degree));
+        if known.is_none() {
+            let (least, most) = SEARCH_DEGREES.into_inner();
+            let message = format!("`degree` must be a number from {least} to {most}");
+            let diagnostic = Diagnostic::error("out-of-range", raw.place, message);
+            self.push(diagnostic.hint(
+                "it is the degree in the velocities up to which first integrals are searched; up to 2 they always are",
+            ));
+        }
+        known
+    }
+
+    fn search_functions(&mut self, raw: &Raw) -> Vec<Definition> {
+        let mut functions = Vec::new();
         let Kind::Array(items) = &raw.kind else {
             let wanted = "an array of functions such as \"sqrt(1 + x^2)\"";
             self.wrong_kind(raw, "`functions`", wanted);

@@ -176,7 +176,7 @@ impl Resolver {
         let simulation = self.simulation(root);
         let events = self.events(root, &constraints);
         let (integrals, integral_conditions) = self.integrals(root);
-        let search = self.search_functions(root);
+        let (search, search_degree) = self.search(root);
         let variations = self.variations(root);
         let complete_integral = self.complete_integral(root);
         let drawing = self.drawing(root);
@@ -225,6 +225,7 @@ impl Resolver {
             complete_integral,
             integral_conditions,
             search,
+            search_degree,
             drawing,
             expect,
             sizes: std::mem::take(&mut self.sizes),

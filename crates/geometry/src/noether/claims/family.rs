@@ -36,7 +36,8 @@ impl Claim for FamilySearched {
          ones and quasi-velocities too, with functions of the coordinates and the time that occur in the model (sines and cosines of its \
          angles, its roots and exponentials, powers of coordinates, time and masses with a law of their own, logarithms of masses that vary, roots of the factors of the determinant of \
          the mass matrix; in a family of its own sines and cosines of multiples of polar angles that occur nowhere). The \
-         family is as large as the budget allows and is stated. X̄G = 0 on the constraint manifold is a linear system for the \
+         family is as large as the budget allows and is stated; terms of a higher degree in the velocities than two are in it where the \
+         model asks for them by [search] degree. X̄G = 0 on the constraint manifold is a linear system for the \
          coefficients; it is solved at random points of prime fields with random parameters, the coefficients are lifted to functions of \
          the parameters, and every integral is then proved. The dimension counts neither constants nor what vanishes on the \
          constraints. That there are no more is certain except for the stated probability. An integral outside \
@@ -156,7 +157,7 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
         ),
     };
     format!(
-        "{many} in the families searched{dependent}{open}{special}; exhausted: {}",
+        "{many} in the families searched{dependent}{open}{special}; exhausted, those of polynomials larger with a larger time budget: {}",
         families.join("; ")
     )
 }

@@ -1,11 +1,12 @@
 //! `noether.moving-direction#j` and `noether.moving-axis#j`: momenta and moments of momentum that particles keep.
 
+use super::parts::{parts, Part};
 use super::requirements;
 use crate::noether::motion::Motion;
 use crate::noether::moving::{axes, directions, masses_are_constant, Kept, Searched};
 use crate::noether::shown::readable;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
-use chetaev_symbolic::Verdict;
+use chetaev_symbolic::{Expr, Verdict};
 use std::sync::Arc;
 
 /// `noether.moving-direction#j`.
@@ -41,7 +42,7 @@ fn decide(cx: &Context<'_>, searched: &Result<Searched, String>, subject: Option
     match number.checked_sub(1).and_then(|i| searched.kept.get(i)) {
         Some(kept) => proved(cx, kept),
         None => Verdict::undecided(format!(
-            "none of {} candidates is kept: the axes, directions that turn with an angle of the model, and those from particle to particle; points at rest, on particles and at the centre of mass",
+            "none of {} candidates is kept: the axes, directions that turn with an angle of the model or of the time, and those from particle to particle; points at rest, on particles, at the centre of mass and carried along by the coordinates",
             searched.tried
         ))
         .into(),
@@ -60,21 +61,53 @@ fn proved(cx: &Context<'_>, kept: &Kept) -> Finding {
     let on = "on the constraint manifold";
     let verdict = cx.prover.identity(system, &residuals, &motion.manifold, on);
     let shown = readable(g, kept.value);
+    let words = |direction: &str, point: Option<&str>| match point {
+        None => format!("along {direction}"),
+        Some(point) => format!("about {direction} through {point}"),
+    };
     let what = match &kept.point {
-        None => format!("the momentum along {}", kept.direction),
-        Some(point) => format!(
-            "the moment of momentum about {} through {point}",
-            kept.direction
+        None => "the momentum ",
+        Some(_) => "the moment of momentum ",
+    };
+    let what = format!("{what}{}", words(&kept.direction, kept.point.as_deref()));
+    let also = kept.also.iter();
+    let also: Vec<String> = also.map(|(e, a)| words(e, a.as_deref())).collect();
+    let also = match also.is_empty() {
+        true => String::new(),
+        false => format!(
+            ", on the constraints the same up to a constant factor {}",
+            also.join(", ")
         ),
     };
+    let trivial = match is_trivial(cx, &motion, kept) {
+        true => " (trivial, as it vanishes on the holonomic constraints)",
+        false => "",
+    };
+    let sentence = format!("{what} is kept: {}{trivial}{also}", g.text(shown));
     Finding {
-        verdict: verdict.prefixed(&format!("{what} is kept: {}", g.text(shown))),
+        verdict: verdict.prefixed(&sentence),
         formulas: vec![Formula {
             caption: what,
             left: None,
             right: shown,
         }],
     }
+}
+
+/// Whether it vanishes wherever the holonomic constraints hold themselves, not only their derivatives.
+fn is_trivial(cx: &Context<'_>, motion: &Motion<'_>, kept: &Kept) -> bool {
+    if cx.system.fixed_functions().is_empty() {
+        return false;
+    }
+    let resolved = |e: Expr| cx.system.with_definitions(e);
+    let value = [resolved(kept.value)];
+    let vanishes = |part: &Part| {
+        let on = "on the holonomic constraints";
+        let verdict = cx.prover.identity(cx.system, &value, &part.manifold, on);
+        matches!(verdict, Verdict::Proved(_))
+    };
+    let parts = parts(cx, motion, &[], &resolved);
+    parts.is_ok_and(|parts| !parts.is_empty() && parts.iter().all(vanishes))
 }
 
 impl Claim for MovingDirection {
@@ -91,7 +124,7 @@ impl Claim for MovingDirection {
     }
 
     fn explanation(&self) -> &'static str {
-        "The momentum K of particles along a direction e, a function of the state, changes at the rate K·e' + F·e with all forces F on the particles, reactions among them. Where a translation along e is a virtual displacement, reactions do no work on it and active forces suffice; otherwise they are needed, and are taken from the motion. Directions are searched among the axes, those that turn with an angle of the model, and those from particle to particle."
+        "The momentum K of particles along a direction e, a function of the state, changes at the rate K·e' + F·e with all forces F on the particles, reactions among them. Where a translation along e is a virtual displacement, reactions do no work on it and active forces suffice; otherwise they are needed, and are taken from the motion. Directions are searched among the axes, those that turn with an angle whose sine or cosine occurs, of the place, the time or a control, and unit vectors from particle to particle."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -123,7 +156,7 @@ impl Claim for MovingAxis {
     }
 
     fn explanation(&self) -> &'static str {
-        "The moment of momentum of particles about an axis e through a point A, both functions of the state, changes at the rate K·(r_A' × e) + H_A·e' + M_A·e with the moment M_A of all forces, reactions among them. Axes are searched among those of the directions of `noether.moving-direction`, in the plane the one across it; points among the origin, the particles and the centre of mass."
+        "The moment of momentum of particles about an axis e through a point A, both functions of the state, changes at the rate K·(r_A' × e) + H_A·e' + M_A·e with the moment M_A of all forces, reactions among them. Axes are searched among those of the directions of `noether.moving-direction`, in the plane the one across it; points among the origin, the particles, the centre of mass and the point that the coordinates carry along, as that of contact of a blade."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

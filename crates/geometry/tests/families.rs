@@ -1,0 +1,208 @@
+//! Integrals of the literature that the families chosen for a system contain, and how families grow.
+
+#![allow(clippy::unwrap_used)] // a panic is how a test fails
+
+mod common;
+
+use chetaev_geometry::noether::found::{found, Found};
+use chetaev_geometry::noether::motion::Motion;
+use chetaev_mechanics::{Context, System};
+use chetaev_symbolic::{Expr, Verdict};
+use common::{expr, framed, system, with_context, with_motion};
+
+/// The rank of the derivatives of functions along the constraint manifold.
+fn rank(cx: &Context<'_>, motion: &Motion<'_>, functions: &[Expr]) -> usize {
+    let matrix = motion.gradients(functions);
+    let rank = cx.prover.rank(cx.system, &matrix, &motion.manifold);
+    rank.unwrap().maximum
+}
+
+/// So many independent integrals are found; these, which are integrals, are functions of them and of what the constraints fix.
+fn contains(system: &System, count: usize, known: &[&str]) {
+    with_motion(system, |cx, motion| {
+        let g = &system.graph;
+        let found = found(cx);
+        let found: &Found = found.as_ref().as_ref().unwrap();
+        let shown: Vec<String> = found.integrals.iter().map(|i| g.text(i.shown)).collect();
+        assert_eq!((found.integrals.len(), found.open), (count, 0), "{shown:?}");
+        let mut values = system.fixed_functions();
+        values.extend(found.integrals.iter().map(|i| i.value));
+        let own = rank(cx, motion, &values);
+        assert_eq!(own, values.len(), "{shown:?} depend on each other");
+        for text in known {
+            let value = expr(g, text);
+            let verdict = motion.is_integral(cx, value);
+            assert!(matches!(verdict, Verdict::Proved(_)), "{text}: {verdict:?}");
+            values.push(value);
+            assert_eq!(rank(cx, motion, &values), own, "{text} beside {shown:?}");
+            values.pop();
+        }
+    });
+}
+
+/// Neumann 1859, the integral in the form of Uhlenbeck (Moser 1980): `F = x² + (x y' - y x')²/(a - b) + (x z' - z x')²/(a - c)` on the
+/// unit sphere; on one of any radius x² counts r² times.
+#[test]
+fn neumann() {
+    let sphere = system(
+        "x y z",
+        "(x'^2 + y'^2 + z'^2)/2 - (a x^2 + b y^2 + c z^2)/2",
+        &[("sphere", "x^2 + y^2 + z^2 - 1")],
+    );
+    let wanted = "x^2 (x^2 + y^2 + z^2) + (x y' - y x')^2/(a - b) + (x z' - z x')^2/(a - c)";
+    contains(&sphere, 2, &[wanted]);
+}
+
+/// Joachimsthal 1843: along a geodesic of an ellipsoid the product of the squares of the distance of the tangent plane and of the
+/// diameter along the tangent is constant.
+#[test]
+fn joachimsthal() {
+    let ellipsoid = system(
+        "x y z",
+        "(x'^2 + y'^2 + z'^2)/2",
+        &[("ellipsoid", "x^2/a + y^2/b + z^2/c - 1")],
+    );
+    let wanted = "(x^2/a^2 + y^2/b^2 + z^2/c^2) (x'^2/a + y'^2/b + z'^2/c)";
+    contains(&ellipsoid, 2, &[wanted]);
+}
+
+/// Forces as the inverse cubes of distances scale with the time: `2 t E - Σ x x'` and `t² E - t Σ x x' + Σ x²/2` (Calogero 1971).
+#[test]
+fn calogero() {
+    let kinetic = "(x'^2 + y'^2 + z'^2)/2";
+    let potential = "(g/(x - y)^2 + g/(y - z)^2 + g/(z - x)^2)";
+    let three = system("x y z", &format!("{kinetic} - {potential}"), &[]);
+    let energy = format!("({kinetic} + {potential})");
+    let first = format!("2 t {energy} - x x' - y y' - z z'");
+    let second = format!("t^2 {energy} - t (x x' + y y' + z z') + (x^2 + y^2 + z^2)/2");
+    // Six functions of the six data, one of which contains the time; all are reached but the cubic one.
+    contains(
+        &three,
+        5,
+        &[
+            &first,
+            &second,
+            "x' + y' + z'",
+            "t (x' + y' + z') - x - y - z",
+        ],
+    );
+}
+
+/// Hénon 1974 and Flaschka 1974: three particles of Toda's on a circle, `p₁p₂p₃ - p₁ e^(q₂-q₃) - p₂ e^(q₃-q₁) - p₃ e^(q₁-q₂)`; and on a
+/// line. It is of degree three, which is not searched unless the model asks for it.
+#[test]
+fn toda() {
+    let kinetic = "(x'^2 + y'^2 + z'^2)/2 - exp(x - y) - exp(y - z)";
+    let sum = "x' + y' + z'";
+    let mut circle = system("x y z", &format!("{kinetic} - exp(z - x)"), &[]);
+    contains(&circle, 3, &[sum]);
+    circle.search_degree = Some(3);
+    let cubic = "x' y' z' - x' exp(y - z) - y' exp(z - x) - z' exp(x - y)";
+    contains(&circle, 4, &[sum, cubic]);
+    let mut line = system("x y z", kinetic, &[]);
+    line.search_degree = Some(3);
+    contains(&line, 4, &["x' y' z' - x' exp(y - z) - z' exp(x - y)"]);
+}
+
+/// Kowalevski 1889: moments of inertia as 2 : 2 : 1 and the centre of mass in the plane of the equal ones.
+#[test]
+fn kovalevskaya() {
+    let p = "(phi' sin(theta) sin(psi) + theta' cos(psi))";
+    let q = "(phi' sin(theta) cos(psi) - theta' sin(psi))";
+    let r = "(phi' cos(theta) + psi')";
+    let mut top = framed(
+        "phi theta psi",
+        &format!("I (2 {p}^2 + 2 {q}^2 + {r}^2)/2 - c sin(theta) sin(psi)"),
+        &[],
+        &[("p", p), ("q", q), ("r", r)],
+        &[],
+    );
+    top.angles = ["phi", "theta", "psi"].map(String::from).to_vec();
+    top.search_degree = Some(4);
+    let (re, im) = ("c/I sin(theta) sin(psi)", "c/I sin(theta) cos(psi)");
+    let quartic = format!("({p}^2 - {q}^2 - {re})^2 + (2 {p} {q} - {im})^2");
+    contains(&top, 3, &[&quartic]);
+}
+
+/// A homogeneous ball that rolls on an inclined plane, with five parameters: `(I + m r²) x' - m r² g s t` and the energy's part
+/// `(I + m r²) x' y' - m r² g s y`, as y' is constant; the spin about the normal.
+#[test]
+fn ball_on_an_incline() {
+    let turn = "phi'^2 + theta'^2 + psi'^2 + 2 phi' psi' cos(theta)";
+    let ball = system(
+        "x y phi theta psi",
+        &format!("m (x'^2 + y'^2)/2 + I ({turn})/2 + m g s x"),
+        &[
+            (
+                "roll_x",
+                "x' - r (theta' sin(phi) - psi' sin(theta) cos(phi))",
+            ),
+            (
+                "roll_y",
+                "y' + r (theta' cos(phi) + psi' sin(theta) sin(phi))",
+            ),
+        ],
+    );
+    let known = [
+        "y'",
+        "phi' + psi' cos(theta)",
+        "(I + m r^2) x' - m r^2 g s t",
+        "(I + m r^2) x' y' - m r^2 g s y",
+    ];
+    contains(&ball, 5, &known);
+}
+
+/// More work makes families larger, less than usual no smaller: under the force y'' = x⁸ the function x' y' - x⁹/9 is constant as
+/// x' is, and x⁹ is beyond the usual weight.
+#[test]
+fn families_grow_with_the_work() {
+    let pushed = framed("x y", "(x'^2 + y'^2)/2", &[], &[], &[("y", "x^8")]);
+    let g = &pushed.graph;
+    let wanted = expr(g, "x' y' - x^9/9");
+    let searched = |work: f64| {
+        with_context(&pushed, |cx| {
+            let cx = Context::new(
+                cx.system,
+                cx.terms,
+                cx.selection,
+                cx.registry(),
+                cx.prover.clone(),
+            );
+            let cx = cx.allowing(work);
+            let motion = Motion::of(&cx).unwrap();
+            let found = found(&cx);
+            let found = found.as_ref().as_ref().unwrap();
+            let mut values: Vec<Expr> = found.integrals.iter().map(|i| i.value).collect();
+            values.push(wanted);
+            let is_found = rank(&cx, &motion, &values) < values.len();
+            let sizes = found.families.iter().map(|f| f.family.members.len());
+            let finding = cx.finding("noether.family");
+            let said = finding.verdict.detail();
+            assert!(said.contains("larger with a larger time budget"), "{said}");
+            (is_found, sizes.collect::<Vec<usize>>())
+        })
+    };
+    let (usual, sizes) = searched(1.0);
+    assert!(!usual);
+    assert_eq!(searched(0.1).1, sizes);
+    let (more, larger) = searched(2.0);
+    assert!(more);
+    assert!(
+        sizes[..2].iter().zip(&larger).all(|(a, b)| a < b),
+        "{sizes:?} {larger:?}"
+    );
+}
+
+/// Terms of degree six in ten velocities alone are 5005: none are formed, and the verdict says so.
+#[test]
+fn what_is_too_much_is_said() {
+    let names: Vec<String> = (0..10).map(|i| format!("x{i}")).collect();
+    let kinetic: Vec<String> = names.iter().map(|x| format!("{x}'^2/2")).collect();
+    let lagrangian = format!("{} - {}", kinetic.join(" + "), names.join(" "));
+    let mut many = system(&names.join(" "), &lagrangian, &[]);
+    many.search_degree = Some(6);
+    let finding = common::finding(&many, "noether.family");
+    let said = finding.verdict.detail();
+    let words = "only the energy, as polynomials of degree 6 in the velocities are too many";
+    assert!(said.contains(words), "{said}");
+}
