@@ -205,3 +205,63 @@ impl Search<'_, '_> {
         cases.is_empty() && found.open.is_empty()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)] // a panic is how a test fails
+
+    use super::super::{Case, Search};
+    use super::Limit;
+    use crate::stationarity::motion::Motion;
+    use chetaev_mechanics::claims::Context;
+    use chetaev_mechanics::{Prepared, Prover, Registry, System, SystemParts};
+    use chetaev_symbolic::{Expr, Graph};
+    use std::sync::Arc;
+
+    /// The coordinates x, y, z, w with w' = y x', so that x' = s is free.
+    fn with_search(look: impl FnOnce(&Search<'_, '_>, [Expr; 4])) {
+        let g = Arc::new(Graph::new());
+        let v = |name: &str| g.symbol(name, 1);
+        let names = ["x", "y", "z", "w"];
+        let squares = names.map(|name| g.powi(v(name), 2));
+        let product = g.mul(&[g.symbol("y", 0), v("x")]);
+        let parts = SystemParts {
+            coordinates: names.map(String::from).to_vec(),
+            lagrangian: Some(g.add(&squares)),
+            constraints: vec![("c".into(), g.sub(v("w"), product))],
+            ..SystemParts::default()
+        };
+        let system = System::new(Arc::clone(&g), parts).unwrap();
+        let prepared = Prepared::new(&system).unwrap();
+        let registry = Registry::new(&[chetaev_mechanics::claims::CLAIMS, crate::CLAIMS]);
+        let (terms, selection) = (&prepared.terms, &prepared.selection);
+        let cx = Context::new(&system, terms, selection, &registry, Prover::default());
+        let motion = Motion::of(&cx);
+        let motion = motion.as_ref().as_ref().unwrap();
+        let symbols = [v("x"), g.symbol("x", 0), g.symbol("y", 0), g.symbol("z", 0)];
+        look(&Search::new(&cx, motion, false), symbols);
+    }
+
+    /// s = −N/y at y = 0. With N = x it is s y + x = 0, smooth with x = 0 there. With N = 1 there is no such state. With N = x³ and y² for y
+    /// the surface is singular where x = y = 0. On the cone y² = x z, s y + x = 0 is s = −y/z, which is zero where x = y = 0 and z is not: the
+    /// equations hold there for every s, which is no limit.
+    #[test]
+    fn limits_of_a_set_at_its_poles() {
+        with_search(|search, [s, x, y, z]| {
+            let g = search.g;
+            let nowhere = Case::default();
+            let limit = |form: &[Expr]| search.limit(&nowhere, form, y);
+            let line = g.add(&[g.mul(&[s, y]), x]);
+            assert!(matches!(limit(&[line]), Limit::All));
+            let hyperbola = g.add(&[g.mul(&[s, y]), g.one()]);
+            assert!(matches!(limit(&[hyperbola]), Limit::None));
+            let cusp = g.add(&[g.mul(&[s, g.powi(y, 2)]), g.powi(x, 3)]);
+            assert!(matches!(limit(&[cusp]), Limit::Open));
+            let cone = g.sub(g.powi(y, 2), g.mul(&[x, z]));
+            assert!(matches!(limit(&[cone, line]), Limit::Open));
+            // The plane z = x meets the line in a smooth set.
+            let plane = g.sub(z, x);
+            assert!(matches!(limit(&[plane, line]), Limit::All));
+        });
+    }
+}
