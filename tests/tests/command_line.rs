@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 const COMMANDS: &[&str] = &[
     "study",
     "derive",
+    "principles",
     "simulate",
     "sweep",
     "check",
@@ -108,7 +109,7 @@ fn an_expectation_about_a_claim_that_does_not_exist_is_not_met_silently() {
 
 #[test]
 fn usage_errors_exit_with_2() {
-    let cases: [&[&str]; 12] = [
+    let cases: [&[&str]; 15] = [
         &[],
         &["study"],
         &["fly"],
@@ -121,6 +122,9 @@ fn usage_errors_exit_with_2() {
         &["simulate", SKATE, "--formulation", "magic"],
         &["derive", SKATE, "--formulation", "magic"],
         &["explain", "energy.intgral"],
+        &["study", SKATE, "--budget", "nan"],
+        &["principles", SKATE, "--budget", "-1"],
+        &["principles", SKATE, "--out", "elsewhere"],
     ];
     let folder = scratch("usage");
     std::fs::create_dir_all(folder.join("gallery/skate-incline")).expect("a folder");

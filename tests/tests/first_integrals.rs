@@ -246,6 +246,41 @@ across = "phi' y + (x' cos(phi) + y' sin(phi)) cos(phi)"
     );
 }
 
+/// Hyperbolic functions that occur are letters of the families. Two potentials that separate; and the surface of revolution
+/// dx² + cosh² x dy², whose moment is kept on the level and beside a field along it.
+#[test]
+fn hyperbolic_functions() {
+    contains(
+        r#"
+name = "separated"
+coordinates = ["x", "y", "z"]
+[lagrangian]
+L = "(x'^2 + y'^2 + z'^2)/2 - 3 cosh(x)^2 - sinh(2 y)"
+[constraints]
+c = "z' = 2 y' sinh(2 y)"
+[integrals]
+along_x = "x'^2/2 + 3 cosh(x)^2"
+along_y = "y'^2 (1 + 4 sinh(2 y)^2)/2 + sinh(2 y)"
+position = "z - cosh(2 y)"
+"#,
+        3,
+    );
+    contains(
+        r#"
+name = "catenoid"
+coordinates = ["u", "phi"]
+[parameters]
+c = 2
+[lagrangian]
+L = "cosh(u/c)^2 (u'^2 + c^2 phi'^2)/2 - tanh(u/c)"
+[integrals]
+moment = "cosh(u/c)^2 phi'"
+energy = "cosh(u/c)^2 (u'^2 + c^2 phi'^2)/2 + tanh(u/c)"
+"#,
+        2,
+    );
+}
+
 /// The momentum of a rocket on Appell's cone along the vertical, integrated by hand: with v = √(1 + a²) s and m' = -b the equation
 /// (m s)' = -b s - m g a/(1 + a²) + b c/√(1 + a²) has a right side whose integral is known, as a s = z'.
 #[test]

@@ -452,11 +452,68 @@ fn integrals_of_constraints_are_named() {
         ("y' = k y x'", "y exp(-k x)"),
         ("x y' = k y x'", "y x^(-k)"),
         ("x x' + y y' = 0", "x^2 + y^2"),
+        ("3 x y' + 2 y x' = 0", "x^2 y^3"),
+        ("cos(x) y' = 0", "y"),
     ] {
         let (formulas, detail) = found(constraint);
         assert_eq!(formulas, [integral], "{detail}");
         assert!(detail.contains(integral), "{detail}");
     }
+}
+
+/// Where brackets are independent is said: [∂y, ∂x + z y ∂z] = z ∂z, so that nothing leads off the plane z = 0; with y² ∂z (Martinet 1970)
+/// one bracket is 2 y ∂z, and on y = 0 it takes two. tan φ of a skate has its poles, and no zero of the minor sec² φ.
+#[test]
+fn where_brackets_are_independent() {
+    for (constraint, says) in [
+        (
+            "z' = z y x'",
+            "(2, 3) where z ≠ 0 (elsewhere it was not looked at): every",
+        ),
+        (
+            "z' = y^2 x'",
+            "(2, 3) where y ≠ 0 (elsewhere it was not looked at): every",
+        ),
+        ("z' = y x'", "(2, 3): every configuration nearby"),
+        (
+            "x' sin(y) = z' cos(y)",
+            "(2, 3): every configuration nearby",
+        ),
+    ] {
+        let text = format!(
+            "name = \"d\"\ncoordinates = [\"x\", \"y\", \"z\"]\n[lagrangian]\n\
+             T = \"1/2 (x'^2 + y'^2 + z'^2)\"\n[constraints]\nf = \"{constraint}\"\n"
+        );
+        with(&stated(&text), |cx| {
+            let finding = cx.finding("distribution.growth");
+            let detail = finding.verdict.detail();
+            assert!(detail.contains(says), "{constraint}: {detail}");
+        });
+    }
+}
+
+/// What constraints keep counts among the integrals, though it is in no family: with x y² z³ and the energy, and from the plane path
+/// z = 0 of a coordinate that is fixed the coordinate itself.
+#[test]
+fn what_constraints_keep_is_an_integral() {
+    let text = r#"
+name = "kept"
+coordinates = ["x", "y", "z", "phi"]
+assumptions = ["x > 0", "y > 0", "z > 0"]
+[lagrangian]
+T = "1/2 (x'^2 + y'^2 + z'^2 + phi'^2)"
+[constraints]
+f = "x'/x + 2 y'/y + 3 z'/z = 0"
+h = "phi' = 0"
+"#;
+    with(&stated(text), |cx| {
+        let finding = cx.finding("noether.family");
+        let g = &cx.system.graph;
+        let shown: Vec<String> = finding.formulas.iter().map(|f| g.text(f.right)).collect();
+        for integral in ["x y^2 z^3", "phi"] {
+            assert!(shown.iter().any(|text| text == integral), "{shown:?}");
+        }
+    });
 }
 
 /// A mass with a law of its own is a state beside the coordinates: by hand, a drop that gathers fog at rest has `z'' = g - k z'²` and

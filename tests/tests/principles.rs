@@ -243,6 +243,43 @@ fn the_skate_and_the_extremum() {
     assert!(problem.contains("kappa_blade"), "{problem}");
 }
 
+/// A κ(0) that the model states is used where the extremum is computed, and said to be without use elsewhere.
+#[test]
+fn stated_multipliers_have_their_use() {
+    let text = "name = \"k\"\ncoordinates = [\"x\", \"y\", \"z\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2\"\n[constraints]\n\
+                c = \"z' = y x'\"\n[initial]\n\"x'\" = 1\n\"y'\" = 1\nkappa_c = 2\n[simulation]\nt_end = 1\n";
+    for compare in [false, true] {
+        let loaded = load("model.toml", text, &NoFiles, &[]).into_result();
+        let (made_up, _) = loaded.unwrap_or_else(|_| panic!("{text}"));
+        let study = studied(made_up, &["motion.constraint-drift"], |options| {
+            options.extremum = compare.then(Vec::new);
+        });
+        let unused = study.notices.iter().any(|said| said.contains("`kappa_c`"));
+        assert_eq!(unused, !compare, "{:?}", study.notices);
+    }
+}
+
+/// What is conditional has its counterexample on the page, as what is refuted has.
+#[test]
+fn conditional_claims_show_their_counterexample() {
+    let study = studied(
+        model("particle-y-dx", &[]),
+        &["hamilton.stationary"],
+        |_| (),
+    );
+    let found = &study.verdicts[0].finding.verdict;
+    let Verdict::Conditional {
+        counterexample: Some(found),
+        ..
+    } = found
+    else {
+        panic!("{found:?}")
+    };
+    let (low, _) = &found.residual;
+    let html = chetaev::study::page::page(&study, None, &[]);
+    assert!(html.contains(low.as_str()), "{low}");
+}
+
 /// Every motion of the disc is an extremal with the κ found: the curves are one.
 #[test]
 fn the_disc_is_an_extremal() {

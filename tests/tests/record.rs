@@ -50,7 +50,7 @@ fn records() -> Vec<(String, Value)> {
         .collect();
     let folder = scratch("record-options");
     let skate = "gallery/skate-level/model.toml";
-    let turns: [&[&str]; 4] = [
+    let turns: [&[&str]; 5] = [
         &["--set", "W=0.3", "--set", "m = 2/3"],
         &["--claims", "model,energy.integral", "--budget", "5"],
         &[
@@ -64,6 +64,14 @@ fn records() -> Vec<(String, Value)> {
             "maggi",
         ],
         &["--budget", "0"],
+        &[
+            "--t-end",
+            "1",
+            "--precision",
+            "double-double",
+            "--claims",
+            "motion",
+        ],
     ];
     for (i, options) in turns.into_iter().enumerate() {
         let out = folder.join(i.to_string());

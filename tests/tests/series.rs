@@ -1,11 +1,15 @@
-//! Taylor coefficients of the motions of the gallery: machine code and interpreter agree.
+//! The motions of the gallery: machine code and interpreter agree on Taylor coefficients and on rates, and blocks of
+//! states on those of each.
+#![cfg(all(unix, target_arch = "x86_64"))]
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
     reason = "test code fails where it stands"
 )]
 
-use chetaev::compile::Taylor;
+use chetaev::compile::{
+    BlockEvaluator, Evaluator, Interpreter, Lanes, Native, Program, Taylor, Vectors, LANES,
+};
 use chetaev::mechanics::{Prepared, System};
 use chetaev::motion::{chart, Binding, NumericSystem};
 use chetaev_tests::studied::{gallery_path, loaded, model_files};
@@ -17,9 +21,14 @@ const ORDER: usize = 24;
 /// for the rattleback, whose coefficients are the least well conditioned.
 const TIMES: f64 = 8.0;
 
-/// Coefficients of (q, v) at a state without any symmetry: by machine code, by the interpreter, and by the interpreter where
-/// every number of the state is changed by its rounding, up or down.
-fn expansions(file: &str) -> Option<[Vec<f64>; 3]> {
+/// The rates of (q, v) as a function of (t, q, v), the parameters, and a state without any symmetry.
+struct Rates {
+    program: Program,
+    parameters: Vec<f64>,
+    state: Vec<f64>,
+}
+
+fn rates(file: &str) -> Option<Rates> {
     let (model, _) = loaded(&gallery_path(file), &[]).into_result().ok()?;
     let system = System::from_model(&model).ok()?;
     let prepared = Prepared::new(&system).ok()?;
@@ -40,7 +49,21 @@ fn expansions(file: &str) -> Option<[Vec<f64>; 3]> {
     );
     let program = numeric.rates_program(&chart.rows).unwrap();
     let parameters: Vec<f64> = binding.parameters.iter().map(|own| own.1).collect();
-    let state = [&[0.3][..], &q, &v].concat();
+    Some(Rates {
+        program,
+        parameters,
+        state: [&[0.3][..], &q, &v].concat(),
+    })
+}
+
+/// Coefficients of (q, v): by machine code, by the interpreter, and by the interpreter where every number of the state is
+/// changed by its rounding, up or down.
+fn expansions(file: &str) -> Option<[Vec<f64>; 3]> {
+    let Rates {
+        program,
+        parameters,
+        state,
+    } = rates(file)?;
     let changed: Vec<f64> = state
         .iter()
         .zip([1.0, -1.0, -1.0].iter().cycle())
@@ -93,7 +116,6 @@ fn difference(other: &[f64], interpreted: &[f64]) -> f64 {
 }
 
 #[test]
-#[cfg(all(unix, target_arch = "x86_64"))]
 fn back_ends_agree_on_the_series_of_every_model() {
     if !is_x86_feature_detected!("avx2") || !is_x86_feature_detected!("fma") {
         return;
@@ -112,4 +134,98 @@ fn back_ends_agree_on_the_series_of_every_model() {
         );
     }
     assert!(compared >= 20, "{compared} models compared");
+}
+
+/// The rates of one state; `None` where it has none.
+fn alone(evaluator: &dyn Evaluator, rates: &Rates, state: &[f64]) -> Option<Vec<f64>> {
+    let mut workspace = evaluator.workspace();
+    evaluator
+        .prepare(&rates.parameters, &mut workspace)
+        .unwrap();
+    let mut found = vec![0.0; evaluator.program().output_count()];
+    let outcome = evaluator.evaluate(state, &mut workspace, &mut found);
+    outcome.is_ok().then_some(found)
+}
+
+/// The rates of the states of a block.
+fn together(
+    evaluator: &dyn BlockEvaluator,
+    rates: &Rates,
+    states: &[Vec<f64>],
+) -> Vec<Option<Vec<f64>>> {
+    let splat = |&parameter: &f64| Lanes::splat(parameter);
+    let parameters: Vec<Lanes> = rates.parameters.iter().map(splat).collect();
+    let column = |i: usize| Lanes::from_fn(|l| states[l][i]);
+    let variables: Vec<Lanes> = (0..rates.state.len()).map(column).collect();
+    let mut workspace = evaluator.block_workspace();
+    evaluator
+        .prepare_block(&parameters, &mut workspace)
+        .unwrap();
+    let mut found = vec![Lanes::default(); rates.program.output_count()];
+    let groups = rates.program.outputs.len();
+    evaluator
+        .evaluate_block(groups, &variables, &mut workspace, &mut found)
+        .unwrap();
+    let has_failed = |l: usize| workspace.failures().iter().any(|failure| failure.0 == l);
+    let of = |l: usize| found.iter().map(|lanes| lanes.as_slice()[l]).collect();
+    (0..LANES)
+        .map(|l| (!has_failed(l)).then(|| of(l)))
+        .collect()
+}
+
+/// States far enough apart for some angles to lie in other quadrants, every number changed by the same factor.
+fn states(rates: &Rates, factor: f64) -> Vec<Vec<f64>> {
+    let scaled = |by: f64| rates.state.iter().map(|x| x * by).collect();
+    let scale = |l: usize| 1.0 + 0.11 * l as f64;
+    (0..LANES).map(|l| scaled(factor * scale(l))).collect()
+}
+
+/// Compares the rates of a state with those of the interpreter, whose change with the state bounds what rounding may do.
+fn assert_agree(what: &str, found: &[f64], expected: &[f64], nudged: &[Option<&Vec<f64>>]) {
+    let largest = expected.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
+    for (i, (f, e)) in found.iter().zip(expected).enumerate() {
+        let change = |other: &Option<&Vec<f64>>| match other {
+            Some(other) => (other[i] - e).abs(),
+            None => f64::INFINITY,
+        };
+        let change = nudged.iter().map(change).fold(0.0, f64::max);
+        let is_close = (f - e).abs() <= 1e-13 * largest + 10.0 * change;
+        assert!(is_close, "{what}, rate {i}: {f} {e}");
+    }
+}
+
+/// A block by every back end: the states have the bits of each alone, by four and by eight the same, and those of the
+/// interpreter up to rounding.
+#[test]
+fn back_ends_agree_on_the_rates_of_every_model() {
+    let mut compared = 0;
+    for file in model_files() {
+        let Some(rates) = rates(&file) else { continue };
+        let given = states(&rates, 1.0);
+        let interpreter = Interpreter::new(rates.program.clone()).unwrap();
+        let expected = together(&interpreter, &rates, &given);
+        let nudged = [1.0 + 1e-14, 1.0 - 1e-14]
+            .map(|factor| together(&interpreter, &rates, &states(&rates, factor)));
+        for vectors in [Vectors::Avx2, Vectors::Avx512] {
+            let native = Native::with_vectors(rates.program.clone(), vectors).unwrap();
+            let Some(native) = native else { continue };
+            compared += 1;
+            let found = together(&native, &rates, &given);
+            let bits = |x: &[f64]| x.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
+            for l in 0..LANES {
+                let what = format!("{file}: {vectors:?}, state {l}");
+                let single = alone(&native, &rates, &given[l]);
+                let (one, block) = (single.as_deref().map(bits), found[l].as_deref().map(bits));
+                assert_eq!(one, block, "{what}");
+                assert_eq!(found[l].is_some(), expected[l].is_some(), "{what}");
+                if let (Some(found), Some(expected)) = (&found[l], &expected[l]) {
+                    let nudged = nudged.each_ref().map(|block| block[l].as_ref());
+                    assert_agree(&what, found, expected, &nudged);
+                }
+            }
+        }
+    }
+    let all = [Vectors::Avx2, Vectors::Avx512];
+    let widths = all.iter().filter(|vectors| vectors.are_available());
+    assert!(compared >= 20 * widths.count(), "{compared} compared");
 }

@@ -153,6 +153,67 @@ force = ["-x (x^2 + y^2)", "-y (x^2 + y^2)"]
     says(&kepler, "noether.moving-direction", "undecided", "none of");
 }
 
+/// A force along the line to the point (2, 3), in the plane, and one along the line to the axis through (2, 3) and across the ground
+/// in space: the moment about that point or axis is kept, and no other.
+#[test]
+fn axes_through_any_point() {
+    let plane = model(
+        r#"
+name = "attracted"
+coordinates = ["x", "y"]
+[particles.planet]
+mass = 5
+position = ["x", "y"]
+force = ["-(x - 2)^3 - (x - 2) (y - 3)^2", "-(y - 3) ((x - 2)^2 + (y - 3)^2)"]
+"#,
+    );
+    says(
+        &plane,
+        "noether.moving-axis#1",
+        "proved",
+        "5 (x - 2) y' - 5 (y - 3) x'",
+    );
+    says(
+        &plane,
+        "noether.moving-axis#1",
+        "proved",
+        "the point (2, 3)",
+    );
+    assert_eq!(count(&plane, "noether.moving-axis"), 1);
+    let space = model(
+        r#"
+name = "falling past a line"
+coordinates = ["x", "y", "z"]
+[parameters]
+a = 2
+[particles.stone]
+mass = 1
+position = ["x", "y", "z"]
+force = ["-(x - a) z^2", "-y z^2", "-10"]
+"#,
+    );
+    says(
+        &space,
+        "noether.moving-axis#1",
+        "proved",
+        "the point (a, 0, 0)",
+    );
+    assert_eq!(count(&space, "noether.moving-axis"), 1);
+    // With a cross wind there is no such axis.
+    let wind = model(
+        r#"
+name = "in the wind"
+coordinates = ["x", "y"]
+[particles.stone]
+mass = 1
+position = ["x", "y"]
+force = ["-(x - 2) + y^2", "-(y - 3)"]
+"#,
+    );
+    assert_eq!(count(&wind, "noether.moving-axis"), 1);
+    says(&wind, "noether.moving-axis", "undecided", "none of");
+}
+
 /// Steady motions: what is constant there only is an integral on an invariant part of the states.
 #[test]
 fn integrals_on_a_part_of_the_states() {
@@ -235,6 +296,82 @@ fn found_integrals_are_followed_and_kept() {
     let (free, kept) = (largest(false), largest(true));
     assert!(free > 1e-9, "{free}");
     assert!(kept < 1e-13, "{kept}");
+}
+
+/// Keeping the integrals changes the run of Routh's equations and no other: whether the forms agree is asked of free runs.
+#[test]
+fn formulations_agree_with_kept_integrals() {
+    let claims = ["motion.formulations-agree"];
+    for path in ["heavy-top/model.toml", "skate-incline/model.toml"] {
+        let study = studied(&gallery(path), &claims, true);
+        let mut all = study.verdicts.iter();
+        let found = all
+            .find(|d| d.claim == claims[0])
+            .expect("the claim is decided");
+        let verdict = &found.finding.verdict;
+        assert_eq!(verdict.word(), "numerical", "{path}: {}", verdict.detail());
+    }
+}
+
+/// y'/x' and log x' have no value where the motion starts with x' = 0, and nothing of them is followed.
+#[test]
+fn integrals_without_a_value_at_the_start() {
+    let plane = model(
+        r#"
+name = "plane"
+coordinates = ["x", "y"]
+lagrangian = "(x'^2 + y'^2)/2"
+[initial]
+x = 1
+"y'" = 0.5
+[integrals]
+slope = "y'/x'"
+logarithm = "log(x')"
+moment = "x y' - y x'"
+"#,
+    );
+    for keep in [false, true] {
+        let study = studied(&plane, &["motion"], keep);
+        for (name, word) in [
+            ("slope", "not-applicable"),
+            ("logarithm", "not-applicable"),
+            ("moment", "numerical"),
+        ] {
+            let full = format!("motion.integral-drift#{name}");
+            let found = study.verdicts.iter().find(|d| d.full_id() == full);
+            let verdict = &found.expect("the claim is decided").finding.verdict;
+            assert_eq!(verdict.word(), word, "{full}: {}", verdict.detail());
+        }
+        let text = chetaev::study::summary::summary(&study, chetaev::study::summary::Style::Plain);
+        assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
+    }
+}
+
+/// A parameter that the model states to be zero is put in before anything is asked: z' = k y x' with k = 0 is integrable, and
+/// nothing leads off z = const.
+#[test]
+fn parameters_that_are_stated_zero() {
+    let text = |k: u32| {
+        format!(
+            "name = \"k\"\ncoordinates = [\"x\", \"y\", \"z\"]\n[parameters]\nk = {k}\n[lagrangian]\n\
+             T = \"1/2 (x'^2 + y'^2 + z'^2)\"\n[constraints]\nf = \"z' = k y x'\"\n"
+        )
+    };
+    for (k, integrable, grows) in [(0, "proved", "refuted"), (1, "refuted", "proved")] {
+        let study = studied(&model(&text(k)), &["model", "integrals"], false);
+        for (claim, word) in [
+            ("model.constraints-integrable#weak", integrable),
+            ("distribution.growth", grows),
+            ("noether.integral#1", "proved"),
+        ] {
+            let found = study.verdicts.iter().find(|d| d.full_id() == claim);
+            let verdict = &found.expect("the claim is decided").finding.verdict;
+            let detail = verdict.detail();
+            assert_eq!(verdict.word(), word, "{claim} with k = {k}: {detail}");
+            let says = detail.contains("for k = 0, as the model states it");
+            assert_eq!(says, k == 0, "{claim} with k = {k}: {detail}");
+        }
+    }
 }
 
 /// Nothing is searched where no claim asks for it.

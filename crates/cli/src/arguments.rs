@@ -71,7 +71,7 @@ pub(crate) struct Study {
     #[arg(long)]
     pub(crate) claims: Option<String>,
     /// Seconds for all claims together; more than 60 also make searches for integrals look at more
-    #[arg(long, default_value_t = 60.0)]
+    #[arg(long, default_value_t = 60.0, value_parser = seconds)]
     pub(crate) budget: f64,
     #[command(flatten)]
     pub(crate) motion: MotionArguments,
@@ -95,6 +95,9 @@ pub(crate) struct MotionArguments {
     /// dormand-prince-853 (dop853), taylor, tsitouras-5 (tsit5) or runge-kutta-4 (rk4, with --step)
     #[arg(long)]
     pub(crate) method: Option<String>,
+    /// Arithmetic of the motion: double-double has about 31 digits, for tolerances down to 1e-28 with the method taylor
+    #[arg(long, value_enum)]
+    pub(crate) precision: Option<Precision>,
     /// The formulation whose equations are integrated, in its own state; routh when left out
     #[arg(long, value_name = "NAME", value_parser = formulation_names())]
     pub(crate) formulation: Option<String>,
@@ -144,6 +147,15 @@ fn formulation_names() -> Vec<&'static str> {
         .collect()
 }
 
+/// Arithmetic of a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Precision {
+    /// About 16 digits
+    Double,
+    /// About 31 digits
+    DoubleDouble,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Notation {
     Text,
@@ -171,10 +183,10 @@ pub(crate) struct Principles {
     #[arg(long, value_name = "NAME=VALUE", requires = "compare")]
     pub(crate) kappa: Vec<String>,
     /// Folder to write the report of --compare into
-    #[arg(long)]
+    #[arg(long, requires = "compare")]
     pub(crate) out: Option<PathBuf>,
     /// Seconds for all claims together; more than 60 also make searches for integrals look at more
-    #[arg(long, default_value_t = 60.0)]
+    #[arg(long, default_value_t = 60.0, value_parser = seconds)]
     pub(crate) budget: f64,
     #[command(flatten)]
     pub(crate) motion: MotionArguments,
@@ -256,6 +268,13 @@ pub(crate) struct Sweep {
     /// Print counts as JSON instead of text
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() && seconds >= 0.0 => Ok(seconds),
+        _ => Err("a number of seconds is needed, zero or more".into()),
+    }
 }
 
 fn at_least_one(text: &str) -> Result<usize, String> {

@@ -4,11 +4,12 @@ use crate::evaluate::{BlockEvaluator, EvaluateFailure, Evaluator};
 use crate::interpret::{BlockWorkspace, Interpreter, Workspace};
 use crate::lanes::Lanes;
 #[cfg(all(unix, target_arch = "x86_64"))]
-use crate::native::Native;
+use crate::native::{Native, Vectors};
 use crate::program::Program;
 use crate::verify::VerifyError;
 
-/// The environment variable that, set to `interpreter`, turns native code off.
+/// The environment variable that, set to `interpreter`, turns native code off, and, set to `avx2`, keeps it from
+/// wider vectors.
 pub const VARIABLE: &str = "CHETAEV_BACKEND";
 
 /// A program made ready by one of the back ends.
@@ -31,8 +32,15 @@ pub enum Backend {
 /// # Errors
 /// [`VerifyError`] if the program is not well formed; one made by [`Lowering`](crate::Lowering) is.
 pub fn backend(program: Program) -> Result<Backend, VerifyError> {
-    let is_off = std::env::var_os(VARIABLE).is_some_and(|value| value == "interpreter");
-    Backend::choose(program, !is_off)
+    let value = std::env::var_os(VARIABLE);
+    let is = |name: &str| value.as_deref().is_some_and(|value| value == name);
+    #[cfg(all(unix, target_arch = "x86_64"))]
+    if let Some(widest) = Vectors::widest().filter(|_| !is("interpreter")) {
+        let vectors = if is("avx2") { Vectors::Avx2 } else { widest };
+        return Backend::with_vectors(program, vectors);
+    }
+    let _ = is;
+    Backend::interpreter(program)
 }
 
 impl Backend {
@@ -41,25 +49,34 @@ impl Backend {
     /// # Errors
     /// [`VerifyError`] if the program is not well formed.
     pub fn interpreter(program: Program) -> Result<Backend, VerifyError> {
-        Backend::choose(program, false)
+        Ok(Backend::Interpreter(Box::new(Interpreter::new(program)?)))
     }
 
-    /// Native code if the machine has it and `is_native_allowed`, the interpreter otherwise.
-    fn choose(program: Program, is_native_allowed: bool) -> Result<Backend, VerifyError> {
-        #[cfg(all(unix, target_arch = "x86_64"))]
-        if is_native_allowed {
-            program.verify()?;
-            if let Some(native) = Native::of_verified(&program) {
-                return Ok(Backend::Native(Box::new(native)));
-            }
+    /// Native code with these vectors if the machine has them, the interpreter otherwise.
+    ///
+    /// # Errors
+    /// [`VerifyError`] if the program is not well formed.
+    #[cfg(all(unix, target_arch = "x86_64"))]
+    pub fn with_vectors(program: Program, vectors: Vectors) -> Result<Backend, VerifyError> {
+        program.verify()?;
+        match Native::of_verified(&program, vectors) {
+            Some(native) => Ok(Backend::Native(Box::new(native))),
+            None => Backend::interpreter(program),
         }
-        let _ = is_native_allowed;
-        Ok(Backend::Interpreter(Box::new(Interpreter::new(program)?)))
     }
 
     /// Whether machine code runs.
     pub fn is_native(&self) -> bool {
         !matches!(self, Backend::Interpreter(_))
+    }
+
+    /// The vectors that machine code for blocks uses; `None` where none runs.
+    #[cfg(all(unix, target_arch = "x86_64"))]
+    pub fn vectors(&self) -> Option<Vectors> {
+        match self {
+            Backend::Interpreter(_) => None,
+            Backend::Native(native) => Some(native.vectors()),
+        }
     }
 
     fn evaluator(&self) -> &dyn Evaluator {

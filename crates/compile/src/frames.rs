@@ -6,10 +6,11 @@ use crate::factor::range;
 use crate::lanes::LANES;
 use std::sync::Arc;
 
-/// States that machine code for blocks takes at once.
+/// States that machine code takes at once where their numbers lie side by side, four by four.
 pub(crate) const SIDE_BY_SIDE: usize = 4;
 
 const LINE: usize = 8;
+const HALF: usize = LINE / 2;
 
 /// One cache line.
 #[derive(Clone, Copy, Debug)]
@@ -92,7 +93,7 @@ impl Frames {
     /// Keeps the pivots of a run of a block.
     #[inline]
     pub(crate) fn keep(&mut self, run: usize) {
-        let count = self.kept.len() / (LANES / SIDE_BY_SIDE);
+        let count = self.kept.len() / (LANES / self.lanes);
         let frame = if self.frames.len() == 1 { 0 } else { run };
         let Some(frame) = self.frames.get(frame) else {
             return;
@@ -100,11 +101,12 @@ impl Frames {
         let mut kept = &mut self.kept[run * count..];
         for pivots in self.pivots.iter().flatten() {
             let (these, rest) = kept.split_at_mut(pivots.size * self.lanes);
-            // Cells of four are halves of lines.
-            let first = pivots.cells as usize / 8 / SIDE_BY_SIDE;
-            for (cell, to) in (first..).zip(these.chunks_exact_mut(SIDE_BY_SIDE)) {
-                let (halves, _) = frame.lines[cell / 2].0.as_chunks::<SIDE_BY_SIDE>();
-                to.copy_from_slice(&halves[cell % 2]);
+            // Cells of four are halves of lines, and cells of eight are lines.
+            let (to, _) = these.as_chunks_mut::<HALF>();
+            let first = pivots.cells as usize / 8 / HALF;
+            for (half, to) in (first..).zip(to) {
+                let (halves, _) = frame.lines[half / 2].0.as_chunks::<HALF>();
+                *to = halves[half % 2];
             }
             kept = rest;
         }

@@ -10,8 +10,8 @@
 //! parameters, and linear systems stay structured: one factorization per matrix, shared by all right-hand sides.
 //! [`Interpreter`] runs a program through the traits [`Evaluator`] and [`BlockEvaluator`], without allocating;
 //! [`Native`](crate::backend()) does so as machine code where the processor has the instructions. [`backend()`] chooses.
-//! [`Taylor`] computes Taylor coefficients along a motion by the recurrences of the same instructions. Nothing here
-//! knows mechanics.
+//! [`Taylor`] computes Taylor coefficients along a motion by the recurrences of the same instructions. [`PreciseProgram`] and
+//! [`PreciseTaylor`] do so in double-double arithmetic. Nothing here knows mechanics.
 //!
 //! ```
 //! use chetaev_compile::{Evaluator, Interpreter, Lowering};
@@ -39,6 +39,7 @@ mod arithmetic;
 mod backend;
 mod decode;
 mod display;
+pub mod double_double;
 mod emit;
 pub mod evaluate;
 mod factor;
@@ -52,17 +53,19 @@ pub mod lower;
 pub mod native;
 mod pairs;
 pub mod program;
+mod scalar;
 mod schedule;
 pub mod taylor;
 pub mod verify;
 
 pub use backend::{backend, Backend, VARIABLE};
+pub use double_double::PreciseProgram;
 pub use evaluate::{BlockEvaluator, EvaluateFailure, Evaluator};
 pub use interpret::{BlockWorkspace, Interpreter, Workspace};
 pub use lanes::{Lanes, LANES};
 pub use lower::{LowerError, Lowering};
 #[cfg(all(unix, target_arch = "x86_64"))]
-pub use native::Native;
+pub use native::{Native, Vectors};
 pub use program::Program;
-pub use taylor::{Abreast, Taylor, TaylorWorkspace, ABREAST};
+pub use taylor::{Abreast, PreciseTaylor, Taylor, TaylorWorkspace, ABREAST};
 pub use verify::VerifyError;

@@ -2,7 +2,7 @@
 #![cfg(all(unix, target_arch = "x86_64"))]
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // A failure here is a failed test; the errors measured are shown.
 
-use chetaev_compile::{BlockEvaluator, Evaluator, Lanes, Lowering, Native, LANES};
+use chetaev_compile::{BlockEvaluator, Evaluator, Lanes, Lowering, Native, Vectors, LANES};
 use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::{Expr, Function, Graph};
 
@@ -22,8 +22,23 @@ fn function(function: Function) -> Option<Native> {
     native(|g, x| vec![g.apply(function, &[x])])
 }
 
-/// The values at every argument, by blocks and one by one; both are the same.
+/// The values at every argument, by blocks and one by one, with all vectors that this machine has; all are the same.
 fn values(native: &Native, arguments: &[f64]) -> Vec<Vec<f64>> {
+    let program = native.program();
+    let of = |vectors| Native::with_vectors(program.clone(), vectors).unwrap();
+    let all = [Vectors::Avx2, Vectors::Avx512].into_iter().filter_map(of);
+    let found: Vec<_> = all.map(|native| values_of(&native, arguments)).collect();
+    let bits = |values: &[Vec<f64>]| -> Vec<u64> {
+        values.iter().flatten().map(|x| x.to_bits()).collect()
+    };
+    for other in &found[1..] {
+        assert_eq!(bits(&found[0]), bits(other));
+    }
+    found[0].clone()
+}
+
+/// The values at every argument, by blocks and one by one; both are the same.
+fn values_of(native: &Native, arguments: &[f64]) -> Vec<Vec<f64>> {
     let count = native.program().output_count();
     let mut block = native.block_workspace();
     let mut single = native.workspace();

@@ -186,6 +186,20 @@ fn the_interpreter_agrees_with_the_graph() {
     }
 }
 
+/// Native code with all vectors that this machine has.
+#[cfg(all(unix, target_arch = "x86_64"))]
+fn natives(program: &Program) -> Vec<chetaev_compile::Native> {
+    use chetaev_compile::{Native, Vectors};
+    let of = |vectors| Native::with_vectors(program.clone(), vectors).unwrap();
+    let all = [Vectors::Avx2, Vectors::Avx512];
+    all.into_iter().filter_map(of).collect()
+}
+
+#[cfg(not(all(unix, target_arch = "x86_64")))]
+fn natives(_: &Program) -> Vec<Interpreter> {
+    Vec::new()
+}
+
 /// Native code if this machine runs it.
 #[cfg(all(unix, target_arch = "x86_64"))]
 fn native(program: &Program) -> Option<chetaev_compile::Native> {
@@ -240,7 +254,7 @@ fn a_block_computes_bit_for_bit_what_single_states_compute() {
             .positive_definite(&sample.roots[..6])
             .lower()
             .unwrap();
-        if let Some(native) = native(&program) {
+        for native in natives(&program) {
             compare_block_with_states(seed, &sample, &native);
         }
         compare_block_with_states(seed, &sample, &Interpreter::new(program).unwrap());

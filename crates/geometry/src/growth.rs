@@ -3,8 +3,12 @@
 use crate::flag::{horizontal, Directed, Flag, Obstacle};
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::words::counted;
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::factors::factored;
+use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{simplify, Expr, Symbol, Verdict};
 
 /// `distribution.growth`.
 #[derive(Clone, Copy, Debug)]
@@ -74,6 +78,53 @@ fn moves_by_itself(cx: &Context<'_>, fields: &[Directed], drift: &Directed) -> b
         || fields.iter().any(|field| field.place.iter().any(timed))
 }
 
+/// The longest condition that is printed, in signs.
+const SHOWN: u64 = 60;
+/// Of more fields no determinant is formed.
+const MOST: usize = 6;
+
+/// Where the fields that were found are independent, as a part of the sentence: nothing where that is so wherever they are defined.
+/// Where it is not so, further brackets may be.
+fn full_at(cx: &Context<'_>, flag: &Flag, with_time: bool) -> String {
+    let g = &cx.system.graph;
+    let almost = || " at almost every place".to_string();
+    let rows = flag.fields.iter().map(|field| {
+        let time = with_time.then_some(field.time);
+        time.into_iter()
+            .chain(field.place.iter().copied())
+            .collect()
+    });
+    let matrix: Vec<Vec<Expr>> = rows.collect();
+    if matrix.len() > MOST || matrix.iter().any(|row| row.len() != matrix.len()) {
+        return almost();
+    }
+    let minor = simplify::simplify(g, determinant(g, &matrix), &simplify::Options::default());
+    let Some(parts) = factored(g, minor) else {
+        return almost();
+    };
+    let moves = |s: Symbol| cx.system.moves(g.symbol_name(s)) || g.symbol_name(s) == "t";
+    let may_vanish = |&&(factor, power): &&(Expr, i64)| {
+        let is_known = known_sign(g, factor, &assumptions(cx.system)).is_nonzero();
+        power > 0 && !g.is_free_of(factor, &moves) && !is_known
+    };
+    let vanishing = parts.factors.iter().filter(may_vanish);
+    let conditions: Vec<Expr> = vanishing.map(|&(factor, _)| factor).collect();
+    if conditions.iter().any(|&e| simplify::length(g, e) > SHOWN) {
+        return almost();
+    }
+    let texts: Vec<String> = conditions
+        .iter()
+        .map(|&e| format!("{} ≠ 0", g.text(e)))
+        .collect();
+    match texts.is_empty() {
+        true => String::new(),
+        false => format!(
+            " where {} (elsewhere it was not looked at)",
+            texts.join(" and ")
+        ),
+    }
+}
+
 fn reached(cx: &Context<'_>, flag: Flag, drifts: bool) -> Verdict {
     let n = cx.system.n();
     let rank = flag.growth.last().copied().unwrap_or(0);
@@ -83,12 +134,13 @@ fn reached(cx: &Context<'_>, flag: Flag, drifts: bool) -> Verdict {
         false => "",
     };
     let growth = format!("the growth vector{fields} is ({})", growth.join(", "));
+    let full = full_at(cx, &flag, drifts);
     let missing = n + usize::from(drifts) - rank;
     let sentence = match (missing, drifts) {
-        (0, false) => format!("{growth}: every configuration nearby can be reached"),
-        (0, true) => {
-            format!("{growth}: the configurations that can be reached at a time fill an open set")
-        }
+        (0, false) => format!("{growth}{full}: every configuration nearby can be reached"),
+        (0, true) => format!(
+            "{growth}{full}: the configurations that can be reached at a time fill an open set"
+        ),
         _ => {
             let of = match drifts {
                 true => "of position and time",

@@ -223,7 +223,7 @@ fn special_values_of_parameters() {
         let symbol = |name: &str| g.intern_symbol(name, 0);
         let tie = |parameter: &str, other: &str| Tie::Equal(symbol(parameter), symbol(other));
         let ties = [tie("I2", "I1"), tie("I3", "I1")];
-        let special = table.special(cx, &family, &ties);
+        let special = table.special(cx, &family, &ties, &[]);
         assert_eq!(special.len(), 2);
         assert_eq!(special[0].integrals, [expr(g, OMEGA[2])]);
         assert_eq!(special[1].integrals, [expr(g, OMEGA[1])]);
@@ -400,6 +400,11 @@ fn critical_values_beside_an_equality() {
         pairs.len() == 2 && pairs.iter().all(holds)
     };
     let own: Vec<&Special> = found.special.found.iter().filter(here).collect();
+    // The energy is what it is, not a multiple of it.
+    assert!(found
+        .integrals
+        .iter()
+        .any(|i| i.name.is_some() && i.value == top.energy()));
     let [special] = own[..] else {
         panic!("{:?}", found.special.found);
     };
@@ -413,6 +418,45 @@ fn critical_values_beside_an_equality() {
         values[0] / values[1]
     };
     assert!((2..6).all(|seed| (ratio(seed) / ratio(1) - 1.0).abs() < 1e-9));
+}
+
+/// Two equalities at once, each of which adds nothing: x⁴ and y⁴ in x + y and x − y, and Hénon's and Heiles' potential with the other
+/// sign of C.
+#[test]
+fn two_equalities_at_once() {
+    for (potential, wanted) in [
+        (
+            "C x^3 y + D x y^3",
+            "x' y' + 2 B x y + D (x^4 + 6 x^2 y^2 + y^4)/4",
+        ),
+        ("D x^2 y + C y^3/3", "x' y' + 2 B x y + D (x y^2 + x^3/3)"),
+    ] {
+        let text = format!("(x'^2 + y'^2)/2 - A x^2 - B y^2 - ({potential})");
+        let own = system("x y", &text, &[]);
+        let g = &own.graph;
+        let found = with(&own, |cx, _| chetaev_geometry::noether::found::found(cx));
+        let found = found.as_ref().as_ref().unwrap();
+        let equal = [("C", "D"), ("A", "B")];
+        let both = |special: &&Special| {
+            let pairs = special.tie.pairs(g);
+            let (pair, turned) = (|(a, b)| (expr(g, a), expr(g, b)), |(a, b)| (b, a));
+            let is_one = |own| pairs.contains(&pair(own)) || pairs.contains(&turned(pair(own)));
+            pairs.len() == 2 && equal.into_iter().all(is_one)
+        };
+        let pairs: Vec<&Special> = found.special.found.iter().filter(both).collect();
+        let [special] = pairs[..] else {
+            panic!("{:?}", found.special.found);
+        };
+        let [integral] = special.integrals[..] else {
+            panic!("{special:?}");
+        };
+        let es = [integral, expr(g, wanted)];
+        let ratio = |seed: u64| {
+            let values = common::values(g, &es, &common::anywhere(g, &es, seed));
+            values[0] / values[1]
+        };
+        assert!((2..6).all(|seed| (ratio(seed) / ratio(1) - 1.0).abs() < 1e-9));
+    }
 }
 
 /// What a special value adds is no function of what there is anyhow. On a surface of constant curvature there are three linear integrals,
@@ -430,6 +474,13 @@ fn special_values_add_what_is_new() {
             integrals.map(|e| system.graph.text(e)).collect()
         })
     };
+    // Garnier's potential is that of a central force where both frequencies are equal; the energy is there anyhow.
+    let garnier = "(x'^2 + y'^2)/2 - a x^2 - b y^2 - e (x^2 + y^2)^2";
+    let central = new(&system("x y", garnier, &[]));
+    assert!(
+        central.iter().all(|text| text == "x y' - y x'"),
+        "{central:?}"
+    );
     let curved = system("x y", "(x'^2 + y'^2)/(1 + a*(x^2 + y^2))^2/2", &[]);
     assert_eq!(new(&curved), ["t x' - x"]);
     let skate = system(

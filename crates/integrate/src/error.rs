@@ -40,6 +40,12 @@ pub enum IntegrateError {
         /// The least tolerance that is accepted in its place.
         attainable: f64,
     },
+    /// The tolerance is below what double-double arithmetic resolves.
+    #[error("tolerance {requested:e} is below 1e-28, the least in double-double arithmetic")]
+    PreciseToleranceTooSmall {
+        /// The tolerance asked for.
+        requested: f64,
+    },
     /// An initial value is infinite or not a number.
     #[error("initial value {component} is not finite")]
     InitialNotFinite {

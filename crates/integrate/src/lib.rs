@@ -11,6 +11,7 @@
 //! - [`control`]: error norms, tolerances, step-size control;
 //! - [`dense`]: the polynomial of each step; [`event`]: zero crossings located on it;
 //! - [`solution`]: results; [`mod@integrate`]: options and the loop;
+//! - [`double_double`]: the Taylor method with about 31 digits;
 //! - [`mod@global_error`]: a second run at a tenth of the tolerance.
 //!
 //! Everything is deterministic: no clock, no threads, no global state, fixed orders of summation.
@@ -19,6 +20,7 @@ mod collapse;
 pub mod compensated;
 pub mod control;
 pub mod dense;
+pub mod double_double;
 mod error;
 pub mod event;
 pub mod global_error;

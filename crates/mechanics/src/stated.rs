@@ -12,16 +12,26 @@ use chetaev_symbolic::Expr;
 const HIGHEST: u32 = 8;
 
 impl System {
-    /// Pairs (parameter, 0) of the parameters that the model states to be zero, and (control, law), of those that occur in L, the forces or the
-    /// constraints.
-    pub fn stated_values(&self) -> Vec<(Expr, Expr)> {
-        let g = &self.graph;
+    /// Pairs (parameter, 0) of the parameters that the model states to be zero, of those that occur in L, the forces or the constraints.
+    pub fn stated_zeros(&self) -> Vec<(Expr, Expr)> {
+        let (g, occurring) = (&self.graph, self.occurring());
+        let mut values = self.parameter_values();
+        values.retain(|(parameter, value)| g.is_zero(*value) && occurring.contains(parameter));
+        values
+    }
+
+    /// What occurs in L, the forces or the constraints.
+    fn occurring(&self) -> Vec<Expr> {
         let mut all = vec![self.lagrangian];
         all.extend(self.forces.iter().chain(&self.reactive_forces));
         all.extend(self.constraints.iter().map(|c| c.stated));
-        let occurring = g.reachable(&all);
-        let mut values = self.parameter_values();
-        values.retain(|(parameter, value)| g.is_zero(*value) && occurring.contains(parameter));
+        self.graph.reachable(&all)
+    }
+
+    /// [`System::stated_zeros`], and (control, law) of the controls that occur.
+    pub fn stated_values(&self) -> Vec<(Expr, Expr)> {
+        let (g, occurring) = (&self.graph, self.occurring());
+        let mut values = self.stated_zeros();
         for control in &self.controls {
             let orders = (0..=HIGHEST).map(|order| g.symbol(&control.name, order));
             if let (Some(law), true) = (
@@ -34,9 +44,17 @@ impl System {
         values
     }
 
+    /// The system with the parameters put in that are stated to be zero. `None` as for [`System::for_stated_values`].
+    pub fn for_stated_zeros(&self) -> Option<System> {
+        self.for_values(self.stated_zeros())
+    }
+
     /// The system with these values put in. `None` where there are none, where it is no system then, or where masses vary.
     pub fn for_stated_values(&self) -> Option<System> {
-        let values = self.stated_values();
+        self.for_values(self.stated_values())
+    }
+
+    fn for_values(&self, values: Vec<(Expr, Expr)>) -> Option<System> {
         let thrust = |p: &crate::system::Particle| !matches!(p.thrust, Thrust::Isotropic);
         let vary = !self.masses.is_empty() || self.particles.iter().any(thrust);
         if values.is_empty() || vary {
@@ -57,7 +75,8 @@ impl System {
         system
             .assumptions
             .retain(|a| !g.symbols_in(&[a.left, a.right]).is_empty());
-        system.controls.retain(|control| control.law.is_none());
+        let is_put_in = |name: &str| values.iter().any(|&(own, _)| own == g.symbol(name, 0));
+        system.controls.retain(|control| !is_put_in(&control.name));
         Some(system)
     }
 

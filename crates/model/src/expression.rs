@@ -143,6 +143,14 @@ impl Model {
     /// Everything that is wrong with the text, at its place and under the name `label`: unknown names, names without a
     /// value, a value that is not finite.
     pub fn constant_value(&self, label: &str, text: &str) -> Result<f64, Diagnostics> {
+        self.constant(label, text).map(|(_, value)| value)
+    }
+
+    /// The same with the expression itself, free of symbols, before its value.
+    ///
+    /// # Errors
+    /// As [`constant_value`](Model::constant_value).
+    pub fn constant(&self, label: &str, text: &str) -> Result<(Expr, f64), Diagnostics> {
         let value = self.labelled_expression(label, text)?;
         let closed = self.graph.substitute(value, &self.parameter_values());
         let open: Vec<String> = self
@@ -153,7 +161,7 @@ impl Model {
             .collect();
         let message = if open.is_empty() {
             match self.graph.evaluate_f64(&[closed], &|_| None) {
-                Ok(values) if values[0].is_finite() => return Ok(values[0]),
+                Ok(values) if values[0].is_finite() => return Ok((closed, values[0])),
                 _ => "this is not a finite real number".to_owned(),
             }
         } else {

@@ -22,7 +22,7 @@ pub use builder::ModelBuilder;
 pub use chetaev_symbolic::syntax::{Relation, Severity};
 pub use diagnostic::{Diagnostic, Diagnostics, Suggestion};
 pub use load::{load, reload, Loaded};
-pub use model::Model;
+pub use model::{Model, Precision};
 pub use render::{DiagnosticData, PlaceData, RelatedData, Style, SuggestionData};
 pub use source::{Files, LineColumn, NoFiles, Place, Source, SourceId, Sources};
 pub use text::Text;

@@ -436,6 +436,8 @@ pub struct Simulation {
     pub step: Option<Expr>,
     /// Name of the method.
     pub method: Option<String>,
+    /// The arithmetic of the run.
+    pub precision: Option<Precision>,
     /// When to put out the state.
     pub output: Option<Output>,
     /// Most steps.
@@ -457,6 +459,31 @@ pub enum Output {
     Times(Vec<Expr>),
     /// At multiples of this time.
     Step(Expr),
+}
+
+/// The arithmetic of a run.
+#[derive(Copy, Clone, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// Doubles: about 16 digits.
+    Double,
+    /// Sums of two doubles: about 31 digits.
+    DoubleDouble,
+}
+
+impl Precision {
+    /// Every one, with its word in model files and on the command line.
+    pub const WORDS: [(&'static str, Precision); 2] = [
+        ("double", Precision::Double),
+        ("double-double", Precision::DoubleDouble),
+    ];
+
+    /// Its word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Precision::Double => "double",
+            Precision::DoubleDouble => "double-double",
+        }
+    }
 }
 
 /// Which variables are integrated.

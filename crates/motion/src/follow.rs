@@ -18,6 +18,34 @@ pub struct Deviation {
     earlier: Extreme,
 }
 
+impl Deviation {
+    /// Takes a change of the quantity and the size of its terms at a time into account, and whether that state is a new one.
+    pub(crate) fn record(&mut self, change: f64, size: f64, (t, is_new): (f64, bool)) {
+        let known = if change.is_nan() {
+            f64::INFINITY
+        } else {
+            change
+        };
+        if is_new {
+            self.earlier = self.drift;
+        }
+        self.drift.record(known, t);
+        self.scale = self.scale.max(size);
+    }
+
+    /// The deviation over a run; `until_singular` leaves out the last state, at which the equations became singular and the
+    /// quantity may have no value.
+    pub(crate) fn finished(&self, until_singular: bool) -> Deviation {
+        match until_singular {
+            true => Deviation {
+                drift: self.earlier,
+                ..*self
+            },
+            false => *self,
+        }
+    }
+}
+
 /// Quantities in (t, q, v), compiled.
 #[derive(Clone, Debug)]
 pub struct Follow {
@@ -70,16 +98,7 @@ impl Follow {
         quantities: &[Expr],
     ) -> Result<Follow, FunctionsError> {
         let g = &system.graph;
-        let known = |e: &Expr| {
-            let bound = g.substitute(*e, &binding.controls);
-            g.symbols_in(&[bound])
-                .into_iter()
-                .all(|s| variables.contains(&s) || binding.parameters.iter().any(|(p, _)| *p == s))
-        };
-        let values: Vec<Expr> = quantities
-            .iter()
-            .map(|e| if known(e) { *e } else { g.zero() })
-            .collect();
+        let values = known_values(g, binding, variables, quantities);
         let sizes = values.iter().map(|&e| magnitude(g, e)).collect();
         let groups = [("values", values), ("sizes", sizes)];
         Ok(Follow {
@@ -111,14 +130,8 @@ impl Follow {
     /// What became of the quantities; `until_singular` leaves out the last state, at which the equations became singular
     /// and a quantity may have no value.
     pub(crate) fn finish(&self, until_singular: bool) -> Vec<Deviation> {
-        let regular = |deviation: &Deviation| match until_singular {
-            true => Deviation {
-                drift: deviation.earlier,
-                ..*deviation
-            },
-            false => *deviation,
-        };
-        self.deviations.iter().map(regular).collect()
+        let all = self.deviations.iter();
+        all.map(|own| own.finished(until_singular)).collect()
     }
 
     /// Takes the values at (t, q, v) into account.
@@ -133,19 +146,40 @@ impl Follow {
             .zip(self.functions.group(1))
             .zip(values)
         {
-            let change = value - initial;
-            let known = if change.is_nan() {
-                f64::INFINITY
-            } else {
-                change
-            };
-            if is_new {
-                deviation.earlier = deviation.drift;
-            }
-            deviation.drift.record(known, t);
-            deviation.scale = deviation.scale.max(*size);
+            deviation.record(value - initial, *size, (t, is_new));
         }
     }
+}
+
+/// The quantities, with zero for those that contain other symbols than variables and parameters.
+fn known_values(
+    g: &Graph,
+    binding: &Binding,
+    variables: &[Symbol],
+    quantities: &[Expr],
+) -> Vec<Expr> {
+    let known = |e: &Expr| {
+        let bound = g.substitute(*e, &binding.controls);
+        g.symbols_in(&[bound])
+            .into_iter()
+            .all(|s| variables.contains(&s) || binding.parameters.iter().any(|(p, _)| *p == s))
+    };
+    let values = quantities.iter();
+    values
+        .map(|e| if known(e) { *e } else { g.zero() })
+        .collect()
+}
+
+/// The quantities as far as they are known at (t, q, v), then the sizes of their terms.
+pub(crate) fn followed_values(
+    system: &System,
+    binding: &Binding,
+    quantities: &[Expr],
+) -> Vec<Expr> {
+    let g = &system.graph;
+    let values = known_values(g, binding, &binding.variables, quantities);
+    let sizes: Vec<Expr> = values.iter().map(|&e| magnitude(g, e)).collect();
+    [values, sizes].concat()
 }
 
 /// The expression with every term of every sum replaced by its absolute value: the size by which a difference of its values

@@ -1,12 +1,13 @@
 //! Numerical motion of a system: charts, consistent initial data, projection, reactions, drift.
 //!
 //! Knows numbers and systems, nothing of files or reports. [`run::Subject`] integrates one formulation;
-//! [`observe`] evaluates expressions along the rows.
+//! [`observe`] evaluates expressions along the rows; [`double_double`] does both with about 31 digits.
 
 pub mod accelerations;
 pub mod chart;
 mod course;
 pub mod dense;
+pub mod double_double;
 pub mod drift;
 pub mod follow;
 pub mod formulation_flow;
@@ -31,6 +32,7 @@ pub mod stop;
 mod turns;
 pub mod watch;
 
+pub use double_double::{DoubleDouble, Precise, PreciseRows};
 pub use happening::{EventWatched, Happened};
 pub use initial::{consistent_state, ConsistentState, InitialData, InitialError};
 pub use multiplier_flow::StateKind;

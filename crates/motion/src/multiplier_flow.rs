@@ -75,7 +75,7 @@ const UNUSABLE: f64 = 1e-3;
 /// A projection that keeps integrals: time, q, v and the metric; true when it moved them.
 type Way = fn(&mut Keep, f64, &mut [f64], &mut [f64], &[f64]) -> bool;
 /// The rate of a watched quantity that is not near zero: negative as on the way there, so that its minimum is a zero of the rate.
-const AWAY: f64 = -1e-12;
+pub(crate) const AWAY: f64 = -1e-12;
 /// A gradient counts as vanished below this fraction of its largest length so far.
 const VANISHED: f64 = 1e-8;
 

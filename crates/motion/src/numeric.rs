@@ -85,6 +85,19 @@ struct Source {
 }
 
 impl Source {
+    /// The equations for accelerations and multipliers, with these independent rows of J.
+    fn bordered(&self, rows: &[usize]) -> Bordered<'_> {
+        let terms = &self.terms;
+        let jacobian = rows.iter().map(|&row| terms.jacobian[row].clone());
+        Bordered {
+            g: &self.system.graph,
+            mass: terms.mass_matrix.clone(),
+            force: terms.force.clone(),
+            jacobian: jacobian.collect(),
+            rate: rows.iter().map(|&row| terms.constraint_rate[row]).collect(),
+        }
+    }
+
     fn accelerations(&self, rows: &[usize]) -> Option<Vec<Expr>> {
         let make = || reduced_equations::accelerations(&self.system, &self.terms, rows);
         let (known, found) = self.regular.get_or_init(|| (rows.to_vec(), make()));
@@ -275,22 +288,12 @@ impl NumericSystem {
         let Source {
             system,
             binding,
-            terms,
             velocities,
             mass_rates,
             ..
         } = &*self.source;
         let g = &system.graph;
-        let bordered = Bordered {
-            g,
-            mass: terms.mass_matrix.clone(),
-            force: terms.force.clone(),
-            jacobian: rows
-                .iter()
-                .map(|&row| terms.jacobian[row].clone())
-                .collect(),
-            rate: rows.iter().map(|&row| terms.constraint_rate[row]).collect(),
-        };
+        let bordered = self.source.bordered(rows);
         let program = |accelerations: Vec<Expr>| {
             let velocities = velocities.iter().map(|&v| g.symbol_expr(v));
             let rates: Vec<Expr> = velocities
@@ -312,6 +315,22 @@ impl NumericSystem {
             true => eliminated,
             false => stated,
         })
+    }
+
+    /// The accelerations, then the multipliers by constraint row, as functions of (t, q, masses, v); `rows` are independent rows of J,
+    /// and the multipliers of the others are zero.
+    ///
+    /// # Errors
+    /// [`FunctionsError::Singular`].
+    pub(crate) fn reactions(&self, rows: &[usize]) -> Result<Vec<Expr>, FunctionsError> {
+        let mut all = self.source.bordered(rows).unknowns()?;
+        let own = all.split_off(self.n);
+        let zero = self.source.system.graph.zero();
+        all.resize(self.n + self.r, zero);
+        for (&row, multiplier) in rows.iter().zip(own) {
+            all[self.n + row] = multiplier;
+        }
+        Ok(all)
     }
 
     /// The accelerations as compiled functions of (t, q, masses, v), by quasi-velocities without singular places; `None` where none

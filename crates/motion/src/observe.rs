@@ -12,6 +12,24 @@ pub(crate) fn symbol_called(g: &Graph, name: &str) -> Symbol {
     g.intern_symbol(bare, (name.len() - bare.len()) as u32)
 }
 
+/// The time, and what stands in an output row.
+pub(crate) fn variables_of_rows(
+    system: &System,
+    terms: &MotionTerms,
+    binding: &Binding,
+    own: &[String],
+) -> Vec<Symbol> {
+    let g = &system.graph;
+    let mut variables: Vec<Symbol> = binding.variables.clone();
+    variables.extend(system.coordinates.iter().map(|c| c.a_symbol));
+    let rows = terms.constraint_index.iter();
+    variables.extend(
+        rows.map(|&l| g.intern_symbol(&format!("lambda_{}", system.constraints[l].name), 0)),
+    );
+    variables.extend(own.iter().map(|name| symbol_called(g, name)));
+    variables
+}
+
 /// Expressions compiled as functions of an output row.
 #[derive(Clone, Debug)]
 pub struct Observer {
@@ -45,15 +63,7 @@ impl Observer {
         expressions: &[Expr],
     ) -> Result<Observer, FunctionsError> {
         let g = &system.graph;
-        let mut variables: Vec<Symbol> = binding.variables.clone();
-        variables.extend(system.coordinates.iter().map(|c| c.a_symbol));
-        variables.extend(
-            terms
-                .constraint_index
-                .iter()
-                .map(|&l| g.intern_symbol(&format!("lambda_{}", system.constraints[l].name), 0)),
-        );
-        variables.extend(own.iter().map(|name| symbol_called(g, name)));
+        let variables = variables_of_rows(system, terms, binding, own);
         Ok(Observer {
             functions: Functions::new(g, binding, &variables, &[("values", expressions.to_vec())])?,
             count: expressions.len(),

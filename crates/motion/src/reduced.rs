@@ -40,6 +40,13 @@ const LARGEST: usize = 12;
 impl Bordered<'_> {
     /// The accelerations, as they are stated.
     pub(crate) fn solve(&self) -> Result<Vec<Expr>, FunctionsError> {
+        let mut unknowns = self.unknowns()?;
+        unknowns.truncate(self.force.len());
+        Ok(unknowns)
+    }
+
+    /// The accelerations and the multipliers, as they are stated.
+    pub(crate) fn unknowns(&self) -> Result<Vec<Expr>, FunctionsError> {
         let (g, n) = (self.g, self.force.len());
         let size = n + self.rate.len();
         let mut matrix = vec![g.zero(); size * size];
@@ -53,11 +60,8 @@ impl Bordered<'_> {
             }
         }
         let right = [&self.force[..], &self.rate].concat();
-        let mut unknowns = g
-            .solve(&matrix, &right)
-            .map_err(|_| FunctionsError::Singular)?;
-        unknowns.truncate(n);
-        Ok(unknowns)
+        g.solve(&matrix, &right)
+            .map_err(|_| FunctionsError::Singular)
     }
 
     /// The same with all velocities eliminated that can be; `None` where there are none, or the system is large.

@@ -1,6 +1,7 @@
 //! One run: settings, the trajectory as rows (q, v, a, λ), and why it ended, in words.
 
 use crate::course::Course;
+use crate::double_double::{Precise, PreciseRows};
 use crate::follow::{Deviation, Follow};
 use crate::formulation_flow::{FlowError, FormulationFlow};
 use crate::happening::{self, EventWatched, Happened};
@@ -24,6 +25,7 @@ use chetaev_mechanics::{Constraint, ConstraintKind, Formulation, MotionTerms, Se
 use chetaev_symbolic::Expr;
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
+use std::sync::Arc;
 
 /// How a run is made.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +59,8 @@ pub struct RunSettings {
     pub own: Vec<(String, f64)>,
     /// Zeros to be found along the motion.
     pub events: Vec<EventWatched>,
+    /// The numbers of a run in double-double arithmetic, which say more than those above; `None` for a run in doubles.
+    pub precise: Option<Arc<Precise>>,
 }
 
 impl RunSettings {
@@ -76,6 +80,7 @@ impl RunSettings {
             keep: Vec::new(),
             own: Vec::new(),
             events: Vec::new(),
+            precise: None,
         }
     }
 }
@@ -144,6 +149,8 @@ pub struct Run {
     pub ends_between: bool,
     /// Events met, in the order of time along the run.
     pub events: Vec<Happened>,
+    /// Times, rows and events with all their digits; `None` for a run in doubles.
+    pub precise: Option<PreciseRows>,
 }
 
 impl Run {
@@ -182,6 +189,14 @@ pub enum RunError {
     /// The singular set cannot be watched.
     #[error(transparent)]
     Functions(#[from] crate::functions::FunctionsError),
+    /// It is done in double precision only.
+    #[error("double-double arithmetic is not for {what}: {fix}")]
+    NotPrecise {
+        /// What was asked for.
+        what: String,
+        /// What to do instead.
+        fix: &'static str,
+    },
 }
 
 /// A system of first order whose equations become singular where a watched quantity vanishes.
@@ -343,6 +358,9 @@ impl Subject<'_> {
         watcher: &mut Watcher<'_>,
     ) -> Result<Run, RunError> {
         let name = formulation.card().name;
+        if let Some(precise) = &settings.precise {
+            return self.precisely(formulation, (settings, precise), watcher);
+        }
         if self.terms.order > 1 || self.is_parametrized(formulation) {
             return self.on_jets(formulation, settings, watcher);
         }
@@ -530,6 +548,7 @@ impl Subject<'_> {
             followed: followed.map_or(Vec::new(), |f| f.finish(ended_early)),
             ends_between: false,
             events: Vec::new(),
+            precise: None,
         };
         for piece in pieces {
             run.times.extend(&piece.times);

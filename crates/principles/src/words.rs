@@ -47,6 +47,20 @@ pub(crate) fn conditional(condition: String, proof: Proof, refutation: Verdict) 
     }
 }
 
+/// That a sentence is about general functions in the place of controls for which the model states no law, as its end: it holds with
+/// every such function as far as it says what is, not as far as it says that nothing else is. z' = u x' is integrable for u' = 0.
+pub(crate) fn for_general_controls(cx: &Context<'_>) -> String {
+    let free = cx.system.controls.iter().filter(|u| u.law.is_none());
+    let names: Vec<String> = free.map(|u| format!("{}(t)", u.name)).collect();
+    match names.is_empty() {
+        true => String::new(),
+        false => format!(
+            ", for general {} (particular ones, as constant ones, may admit more)",
+            listed(&names)
+        ),
+    }
+}
+
 /// "a", "a and b", "a, b and c".
 pub(crate) fn listed<T: AsRef<str>>(items: &[T]) -> String {
     match items {

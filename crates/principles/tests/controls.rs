@@ -7,7 +7,7 @@ mod common;
 
 use chetaev_mechanics::{System, SystemParts};
 use chetaev_principles::variations::Displacements;
-use chetaev_symbolic::{Expr, Graph};
+use chetaev_symbolic::{Expr, Graph, Verdict};
 use common::{expr, finding, with_context};
 use std::sync::Arc;
 
@@ -136,4 +136,36 @@ fn stationary_motions_with_a_control() {
     word(&held, "hamilton.stationary", "proved");
     let turning = controlled("z' - u (x y' + y x')", &[("u", None)]);
     word(&turning, "variation.hoelder", "conditional");
+}
+
+/// z' = u x' is integrable for u' = 0 and stationary then, and for no other u(t): what is said to be all there is, is so for general u(t).
+/// z' = y x' + u has y'' = 0 for x' = 0 with every u, and more motions for u = 0, which is S4: x' = 0, or y' = 0.
+#[test]
+fn particular_functions_may_admit_more() {
+    const GENERAL: &str = "for general u(t) (particular ones";
+    let turning = controlled("z' - u x'", &[("u", None)]);
+    for (id, expected) in [
+        ("hamilton.stationary", "conditional"),
+        ("hamilton.kerner", "proved"),
+        ("variation.hoelder", "conditional"),
+    ] {
+        let detail = word(&turning, id, expected);
+        assert!(detail.contains(GENERAL), "{id}: {detail}");
+    }
+    let drifting = controlled("z' - y x' - u", &[("u", None)]);
+    let found = finding(&drifting, "hamilton.stationary");
+    let Verdict::Conditional { condition, .. } = &found.verdict else {
+        panic!("{}", found.verdict.detail())
+    };
+    assert!(condition.contains(GENERAL), "{condition}");
+    // What holds with every u(t) is not restricted, nor what is said of a system without controls.
+    let held = controlled("z' - u' x - u x'", &[("u", None)]);
+    let detail = word(&held, "hamilton.stationary", "proved");
+    assert!(!detail.contains("general"), "{detail}");
+    let detail = word(
+        &controlled("z' - y x'", &[]),
+        "hamilton.stationary",
+        "conditional",
+    );
+    assert!(!detail.contains("general u"), "{detail}");
 }

@@ -45,7 +45,7 @@ fn finding(system: &System, id: &str) -> Arc<Finding> {
     let (terms, selection) = (&prepared.terms, &prepared.selection);
     let mut cx = Context::new(system, terms, selection, &registry, Prover::default());
     if let Some(zero) = &zero {
-        cx = cx.for_stated_values(chetaev_principles::CLAIMS, zero);
+        cx = cx.for_stated_values(chetaev_principles::CLAIMS, &system.stated_values(), zero);
     }
     cx.finding(id)
 }

@@ -423,6 +423,167 @@ fn almost_none_is_not_none() {
     );
 }
 
+/// The values that the formulas of a set give a multiplier, each proved along the motions of the set: the symbols there are replaced.
+#[track_caller]
+fn assert_on_set(stated: &Text, set: &str, place: &[(&str, &str)], expected: &[(&str, &str)]) {
+    let system = system(stated);
+    let found = finding(&system, STATIONARY);
+    let g = &system.graph;
+    let there: Vec<_> = place
+        .iter()
+        .map(|(a, b)| (expr(g, a), expr(g, b)))
+        .collect();
+    for (name, value) in expected {
+        let symbol = g.symbol(name, 0);
+        let mut all = found.formulas.iter();
+        let shown = all.find(|f| f.left == Some(symbol) && f.caption.ends_with(set));
+        let captions: Vec<&String> = found.formulas.iter().map(|f| &f.caption).collect();
+        let shown = shown.unwrap_or_else(|| panic!("{set}: {captions:?}"));
+        let difference = g.sub(shown.right, expr(g, value));
+        let difference = [g.substitute(difference, &there)];
+        let verdict = with_context(&system, |cx| {
+            let nowhere = chetaev_mechanics::Manifold::default();
+            cx.prover.identity(&system, &difference, &nowhere, "")
+        });
+        assert_eq!(verdict.word(), "proved", "{name} = {}", g.text(shown.right));
+    }
+}
+
+/// Multipliers that the conditions leave free. z' = y x' with w' = x y': Φ = 0 and (12) is κ_a = κ_b unless x' or y' vanishes, so where
+/// x' = y' and x = y, which are constant velocities, κ' = −λ = −z'' = −y'². On the circle x'² + y'² = c² a fall along y has y'' = 0 and
+/// 2 c λ = g. A skate at rest across the line of fall has λ cos φ = m g.
+#[test]
+fn free_multipliers_on_subsets() {
+    let two = text(
+        "x y z w",
+        "1/2 (x'^2 + y'^2 + z'^2 + w'^2)",
+        &[("a", "z' - y x'"), ("b", "w' - x y'")],
+    );
+    let both = [("kappa_a", "const_b - y y'"), ("kappa_b", "const_b - y y'")];
+    assert_on_set(
+        &two,
+        "where x' = y' and x = y",
+        &[("x'", "y'"), ("x", "y")],
+        &both,
+    );
+    let opposite = [("kappa_a", "const_b + y y'"), ("kappa_b", "const_b + y y'")];
+    let place = [("x'", "-y'"), ("x", "-y")];
+    assert_on_set(&two, "where x' = -y' and x = -y", &place, &opposite);
+    let circle = text(
+        "x y",
+        "1/2 m (x'^2 + y'^2) - m g y",
+        &[("c", "x'^2 + y'^2 - 4")],
+    );
+    // y' t is y, up to a constant.
+    let kappa = [("kappa_c", "const_c - m g y/8")];
+    assert_on_set(&circle, "where y' = 2 and x' = 0", &[], &kappa);
+    let skate = text(
+        "x y phi",
+        "1/2 m (x'^2 + y'^2) + 1/2 J phi'^2 - m g y",
+        &[("c", "y' cos(phi) - x' sin(phi)")],
+    );
+    let kappa = [("kappa_c", "const_c - m g cos(phi) t")];
+    let rest = "where u_x = 0, phi' = 0 and sin(phi) = 0";
+    assert_on_set(&skate, rest, &[], &kappa);
+}
+
+/// An integrable constraint behind a factor, with a potential: E_z[f] = −e^x x', so D(e^x κ) = −e^x λ = −(z'' + g).
+#[test]
+fn multipliers_of_an_integrable_constraint_with_a_factor() {
+    let lagrangian = "1/2 (x'^2 + y'^2 + z'^2) - g z + B (x y' - y x')";
+    let stated = text("x y z", lagrangian, &[("c", "exp(x) (z' - y x' - x y')")]);
+    let kappa = [("kappa_c", "(const_c - z' - g t) exp(-x)")];
+    assert_kappa(&stated, &kappa, "every κ(0) serves");
+}
+
+/// x₁' y₂' = x₂' y₁' is solved for x₁' only where y₂' does not vanish, where motions with x₂' = 0 alone are not stationary: with the gradient
+/// f_v = (y₂', −x₂', −y₁', x₁') the motion y₁'' = −g − λ x₂', y₂'' = −g + λ x₁' has λ v² = g (x₁' − x₂'), and E[f] = −D f_v is parallel to f_v
+/// only where κ = 0, so λ = 0 and x₁' = x₂', whence y₁' = y₂' or x₁' = 0; or where it vanishes, on uniform motions: λ x₁' = g = −λ x₂' with
+/// y₁' = y₂' = 0.
+#[test]
+fn solving_a_constraint_loses_no_velocity() {
+    let lagrangian = "1/2 (x1'^2 + y1'^2 + x2'^2 + y2'^2) - g y1 - g y2";
+    let stated = text("x1 y1 x2 y2", lagrangian, &[("c", "x1' y2' - x2' y1'")]);
+    let expected =
+        "y1' = y2' and x2' = x1', or y1' = 0, x2' = -x1' and y2' = 0, or x2' = 0 and x1' = 0";
+    assert_condition(&stated, STATIONARY, expected);
+    // κ' = −λ = −g/x₁'.
+    let kappa = [("kappa_c", "const_c - g x1/x1'^2")];
+    let uniform = "where y1' = 0, x2' = -x1' and y2' = 0";
+    assert_on_set(&stated, uniform, &[], &kappa);
+    // Suslov's terms, x₂' y₁' (y₂' x₂'' − x₂' y₂'')/y₂'³ and others, belong to x₁' as a function of the others: y₂' ≠ 0.
+    let found = finding(&system(&stated), SUSLOV);
+    let detail = found.verdict.detail();
+    assert!(
+        detail.contains("x2' = 0 and x1' = 0 (with y2' ≠ 0"),
+        "{detail}"
+    );
+    assert!(!detail.contains("y2' = 0"), "{detail}");
+}
+
+/// z' = y ρ with ρ = √(x'² + y'²) and V = g z has λ (1 + y²) = g + y' ρ, and E[f] ∥ (−y', x') demands κ x' = 0. So x' = 0, or κ = 0 with λ = 0,
+/// which the motion keeps: without a reaction x' and y' are constant. The sign of y' is that of the root's equation, not of its square.
+#[test]
+fn an_equation_with_a_root_is_followed() {
+    let lagrangian = "1/2 (x'^2 + y'^2 + z'^2) - g z";
+    let stated = text("x y z", lagrangian, &[("c", "z' - y sqrt(x'^2 + y'^2)")]);
+    let expected = "x' = 0, or y' sqrt(x'^2 + y'^2) + g = 0";
+    let found = finding(&system(&stated), STATIONARY);
+    let Verdict::Conditional { condition, .. } = &found.verdict else {
+        panic!("{}", found.verdict.detail())
+    };
+    let parts = |s: &str| -> Vec<String> {
+        let text = s.replace(", or ", " or ");
+        let mut parts: Vec<String> = text.split(" or ").map(String::from).collect();
+        parts.sort();
+        parts
+    };
+    assert_eq!(parts(condition), parts(expected), "{condition}");
+    assert!(
+        found.verdict.detail().contains("only where"),
+        "{}",
+        found.verdict.detail()
+    );
+    let free = "where y' sqrt(x'^2 + y'^2) + g = 0";
+    assert_on_set(&stated, free, &[], &[("kappa_c", "0")]);
+}
+
+/// The equation of a set is not divided by what its motions pass through. θ A of z' = y x' − x y' is 2 (y x' − x y') (y', −x'), which
+/// vanishes on the straight lines through the origin, of all directions. For f = |v − J q|² − 1 on the plane with v = (x', y'), J q = (y, −x), E[f] is
+/// parallel to f_v where v·(v − J q) = −1, which with f = 0 is y x' − x y' = x² + y² − 2.
+#[test]
+fn sets_are_not_divided_by_what_may_vanish() {
+    let particle = "1/2 (x'^2 + y'^2 + z'^2)";
+    let lines = text("x y z", particle, &[("c", "z' - y x' + x y'")]);
+    assert_condition(&lines, SUSLOV, "y x' - x y' = 0");
+    let wheel = text("x y z", particle, &[("c", "(x' - y)^2 + (y' + x)^2 - 1")]);
+    let rest = "y' = 0, x' = 0 and x^2 - 1 + y^2 = 0";
+    let expected = format!("{rest}, or x y' - y x' + x^2 + y^2 - 2 = 0");
+    assert_condition(&wheel, STATIONARY, &expected);
+}
+
+/// A skate on a turning platform, without slip relative to it, is stationary where it rests on it and keeps across the axis: along the heading
+/// h = ψ + Ω t it is on the axis' perpendicular, x cos h + y sin h = 0, also when cos h = 0.
+#[test]
+fn sets_are_not_divided_by_functions_of_the_time() {
+    let stated = text(
+        "x y psi",
+        "1/2 m (x'^2 + y'^2) + 1/2 J (psi' + Om)^2",
+        &[(
+            "c",
+            "(y' - Om x) cos(psi + Om t) - (x' + Om y) sin(psi + Om t)",
+        )],
+    );
+    let found = finding(&system(&stated), STATIONARY);
+    let Verdict::Conditional { condition, .. } = &found.verdict else {
+        panic!("{}", found.verdict.detail())
+    };
+    let set = "and x cos(Om t + psi) + y sin(Om t + psi) = 0";
+    assert!(condition.contains(set), "{condition}");
+    assert!(!condition.contains('≠'), "{condition}");
+    assert!(found.verdict.detail().contains("only where"), "{condition}");
+}
+
 /// Cases that were not followed are named: z' = y x', w' = z x' leaves two.
 #[test]
 fn open_cases_are_named() {

@@ -160,6 +160,50 @@ fn where_varied_curves_are_admissible() {
     assert_words(&DISC, "conditional", says, curved);
 }
 
+/// The whole condition, of constraints that violate each other's: δf of all of them vanishes. With z' = c₁(x, y) x' and w' = c₂(x, y) x' it
+/// is ∂c/∂y (y' δx − x' δy) for each, so besides the ratio of the velocities only common zeros of both ∂c/∂y count: sine and cosine have none.
+#[test]
+fn constraints_are_kept_together() {
+    let ratio = "delta_x y' - delta_y x' = 0";
+    let and = |more: &str| format!("{ratio}{more}");
+    for (first, second, expected) in [
+        ("cos(y)", "sin(y)", and("")),
+        ("x y", "y", and("")),
+        ("sin(x) y", "cos(x) y", and("")),
+        ("x y^2", "y^2", and(" or y = 0")),
+        ("x y^2", "y^3", and(" or y = 0")),
+        ("x y", "x^2 y", and(" or x = 0")),
+        ("x y", "y^2", and(" or x = 0 and y = 0")),
+    ] {
+        let leak = |c: &str, v: &str| -> &'static str { format!("{v} - ({c}) x'").leak() };
+        let pair = [("a", leak(first, "z'")), ("b", leak(second, "w'"))];
+        let pair: &'static [(&str, &str)] = Box::leak(Box::new(pair));
+        let stated = text("x y z w", "x'^2 + y'^2 + z'^2 + w'^2", pair);
+        assert_hoelder(&stated, &expected);
+    }
+    assert_hoelder(&DISC, "delta_phi theta' - delta_theta phi' = 0");
+    assert_hoelder(&PARTICLE, ratio);
+}
+
+#[track_caller]
+fn assert_hoelder(stated: &Text, expected: &str) {
+    let found = finding(&system(stated), "variation.hoelder");
+    let Verdict::Conditional { condition, .. } = &found.verdict else {
+        panic!("{}: {}", found.verdict.word(), found.verdict.detail())
+    };
+    let detail = found.verdict.detail();
+    let turned = |s: &str| -> Vec<String> {
+        let (ratio, rest) = s.split_once(" = 0").unwrap();
+        let (a, b) = ratio.split_once(" - ").unwrap();
+        vec![
+            format!("{a} - {b} = 0{rest}"),
+            format!("{b} - {a} = 0{rest}"),
+        ]
+    };
+    assert!(turned(expected).contains(condition), "{condition}");
+    assert!(detail.contains(condition), "{detail}");
+}
+
 /// Without constraints there is nothing to violate.
 #[test]
 fn no_constraints() {

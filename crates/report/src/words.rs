@@ -217,7 +217,7 @@ static ENGLISH: Words = Words {
     link_to_claim: "Link to this claim",
     method: "Method",
     computed: "Computed by",
-    on: "Holds on",
+    on: "Where it holds",
     error_bound: "Probability of error",
     samples: "Samples",
     seed: "Seed",

@@ -82,13 +82,30 @@ pub enum StudyError {
         detail: String,
     },
     /// A tolerance out of range.
-    #[error("the tolerance {tolerance:e} is out of range: it must lie between {sharpest:e} (double precision) and 0.1; method `taylor` goes down to 2.3e-16")]
+    #[error("the tolerance {tolerance:e} is out of range: it must lie between {sharpest:e} (double precision) and 0.1; method `taylor` goes down to 2.3e-16, and with `--precision double-double` to 1e-28")]
     Tolerance {
         /// As given.
         tolerance: f64,
         /// The sharpest one of the method.
         sharpest: f64,
     },
+    /// A tolerance out of range in double-double arithmetic.
+    #[error("the tolerance {tolerance:e} is out of range: it must lie between {sharpest:e} (double-double arithmetic) and 0.1")]
+    PreciseTolerance {
+        /// As given.
+        tolerance: f64,
+        /// The sharpest one.
+        sharpest: f64,
+    },
+    /// A method that has no double-double arithmetic.
+    #[error("`{method}` runs in double precision only: double-double arithmetic needs `method = \"taylor\"` in [simulation] or --method taylor")]
+    PrecisionMethod {
+        /// The method.
+        method: String,
+    },
+    /// A sweep in double-double arithmetic.
+    #[error("a sweep runs in double precision only: leave `precision = \"double-double\"` out of [simulation], or pass --precision double; single motions are computed with it by `simulate` and `study`")]
+    PreciseSweep,
     /// A fixed step that is not positive.
     #[error("the fixed step must be a positive number")]
     Step,

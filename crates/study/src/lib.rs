@@ -16,6 +16,7 @@ pub mod options;
 pub mod page;
 mod placed;
 mod plain;
+mod precise;
 pub mod record;
 pub mod registry;
 mod start;

@@ -58,7 +58,14 @@ fn no_motion() -> Finding {
 }
 
 /// A drift against its bound.
-fn drift_verdict(what: &str, drift: &Extreme, bound: f64, samples: u32, tolerance: f64) -> Verdict {
+fn drift_verdict(
+    what: &str,
+    drift: &Extreme,
+    bound: f64,
+    samples: u32,
+    evidence: &MotionEvidence,
+) -> Verdict {
+    let tolerance = evidence.tolerance;
     let sentence = format!(
         "largest drift of {what}: {:.2e} at t = {:.6} over {samples} states, tolerance asked {tolerance:.0e}, bound {bound:.1e}",
         drift.value, drift.t
@@ -67,7 +74,11 @@ fn drift_verdict(what: &str, drift: &Extreme, bound: f64, samples: u32, toleranc
         Verdict::Numerical(Evidence {
             samples,
             region: "along the computed motion".into(),
-            digits: 16,
+            digits: if evidence.run.precise.is_some() {
+                31
+            } else {
+                16
+            },
             residual: drift.value,
             seed: None,
             why_no_proof: sentence,
@@ -88,9 +99,16 @@ fn drift_verdict(what: &str, drift: &Extreme, bound: f64, samples: u32, toleranc
 
 /// Accumulated error may exceed the local tolerance; a thousand times it, on the scale of the quantity, may not. However
 /// loose the tolerance, what changes by more than a thousandth of its size is not kept.
-fn bound(tolerance: f64, scale: f64) -> f64 {
-    (1e3 * tolerance).clamp(1e-11, KEPT) * scale
+fn bound(evidence: &MotionEvidence, scale: f64) -> f64 {
+    let rounding = match evidence.run.precise {
+        Some(_) => 1e-26,
+        None => ROUNDING,
+    };
+    (1e3 * evidence.tolerance).clamp(rounding, KEPT) * scale
 }
+
+/// What long runs in doubles gather of rounding.
+const ROUNDING: f64 = 1e-11;
 
 /// The largest change, relative to the size of its terms, of a quantity that counts as kept.
 const KEPT: f64 = 1e-3;
@@ -249,14 +267,7 @@ impl Claim for ConstraintDrift {
         if let Some(drift) = &evidence.run.drift {
             samples += drift.steps as u32;
         }
-        drift_verdict(
-            "the constraints",
-            &worst,
-            bound,
-            samples,
-            evidence.tolerance,
-        )
-        .into()
+        drift_verdict("the constraints", &worst, bound, samples, &evidence).into()
     }
 }
 
@@ -270,7 +281,7 @@ fn worst_residual(evidence: &MotionEvidence) -> (Extreme, f64) {
                 if let Some(step) = steps.get(i) {
                     worst.record(step.value, step.t);
                 }
-                (worst, bound(evidence.tolerance, followed.scale))
+                (worst, bound(evidence, followed.scale))
             })
             .collect::<Vec<_>>()
     };
@@ -350,8 +361,8 @@ const NO_RATE: f64 = 1e-6;
 fn followed_verdict(evidence: &MotionEvidence, followed: &Followed, what: &str) -> Verdict {
     // Rows, and the ends of all steps.
     let samples = evidence.run.len() as u32 + evidence.run.statistics.steps as u32;
-    let bound = bound(evidence.tolerance, followed.scale);
-    drift_verdict(what, &followed.drift, bound, samples, evidence.tolerance)
+    let bound = bound(evidence, followed.scale);
+    drift_verdict(what, &followed.drift, bound, samples, evidence)
 }
 
 /// `motion.integral-drift#NAME`.
@@ -521,20 +532,14 @@ impl Claim for FormulationsAgree {
             return Verdict::undecided(tried).into();
         }
         let allowed =
-            bound(evidence.tolerance, 1.0).max(100.0 * error) * growth(&evidence.run, gap.t);
+            // The other run is one in doubles.
+            bound(&evidence, 1.0).max(ROUNDING).max(100.0 * error) * growth(&evidence.run, gap.t);
         let allowed = allowed.min(LOST);
         let what = format!(
             "difference of `{}` and `{}`",
             evidence.run.formulation, other.formulation
         );
-        drift_verdict(
-            &what,
-            gap,
-            allowed,
-            evidence.run.len() as u32,
-            evidence.tolerance,
-        )
-        .into()
+        drift_verdict(&what, gap, allowed, evidence.run.len() as u32, &evidence).into()
     }
 }
 
@@ -583,6 +588,10 @@ impl Claim for MethodOrder {
         let Some(evidence) = evidence(cx) else {
             return no_motion();
         };
+        if evidence.run.precise.is_some() {
+            let tried = "the order is measured in double precision, and this motion was computed in double-double";
+            return Verdict::undecided(tried).into();
+        }
         let Some(orders) = &evidence.orders else {
             return Verdict::undecided(
                 "the piece of motion with fixed steps could not be computed",

@@ -9,8 +9,9 @@ use chetaev_motion::drift::Extreme;
 use chetaev_motion::follow::magnitude;
 use chetaev_motion::functions::FunctionsError;
 use chetaev_motion::observe::Observer;
-use chetaev_motion::{Binding, Run, RunError, RunSettings, Subject};
+use chetaev_motion::{double_double, Binding, DoubleDouble, Run, RunError, RunSettings, Subject};
 use chetaev_symbolic::Expr;
+use std::ops::Sub;
 
 /// A quantity followed along the run.
 #[derive(Clone, Debug)]
@@ -21,6 +22,8 @@ pub struct Followed {
     pub expression: Expr,
     /// Values at the rows.
     pub values: Vec<f64>,
+    /// The same with all their digits, of a run in double-double arithmetic.
+    pub precise: Option<Vec<DoubleDouble>>,
     /// Largest deviation from the initial value.
     pub drift: Extreme,
     /// Largest sum of the sizes of its terms along the run: by it deviations are measured.
@@ -188,6 +191,7 @@ fn follow(
     let g = &system.graph;
     let mut expressions: Vec<Expr> = quantities.iter().map(|(_, e)| *e).collect();
     let sizes: Vec<Expr> = expressions.iter().map(|&e| magnitude(g, e)).collect();
+    let precise = double_double::along((system, terms, binding), run, &expressions)?;
     expressions.extend(sizes);
     let mut observer = Observer::with_own(system, terms, binding, &run.own, &expressions)?;
     let mut series = observer.along(run);
@@ -202,26 +206,44 @@ fn follow(
         .zip(series.into_iter().zip(sizes))
         .enumerate()
         .map(|(i, ((name, expression), (values, sizes)))| {
-            let first = values.first().copied().filter(|_| i < constant);
+            let precise = precise.as_ref().map(|all| all[i].clone());
+            let changes = match &precise {
+                Some(values) => changes(values, (i < constant, DoubleDouble::ZERO), |x| x.high()),
+                None => changes(&values, (i < constant, 0.0), |x| x),
+            };
+            let rounded = precise
+                .as_ref()
+                .map(|all| all.iter().map(|x| x.high()).collect());
             Followed {
                 name,
                 expression,
-                drift: deviation(&run.times[..regular], &values, first.unwrap_or(0.0)),
+                drift: deviation(&run.times[..regular], &changes),
                 scale: sizes.iter().fold(0.0, |m: f64, x| m.max(*x)),
-                values,
+                values: rounded.unwrap_or(values),
+                precise,
             }
         });
     Ok(followed.collect())
 }
 
-fn deviation(times: &[f64], values: &[f64], reference: f64) -> Extreme {
+/// Values less the first one, or less zero.
+fn changes<S: Copy + Sub<Output = S>>(
+    values: &[S],
+    (is_constant, zero): (bool, S),
+    rounded: impl Fn(S) -> f64,
+) -> Vec<f64> {
+    let reference = values.first().copied().filter(|_| is_constant);
+    let reference = reference.unwrap_or(zero);
+    values.iter().map(|&x| rounded(x - reference)).collect()
+}
+
+fn deviation(times: &[f64], changes: &[f64]) -> Extreme {
     let mut drift = Extreme::default();
-    for (&t, &value) in times.iter().zip(values) {
-        let deviation = value - reference;
-        let known = if deviation.is_nan() {
+    for (&t, &change) in times.iter().zip(changes) {
+        let known = if change.is_nan() {
             f64::INFINITY
         } else {
-            deviation
+            change
         };
         drift.record(known, t);
     }
@@ -233,10 +255,17 @@ fn difference(a: &Run, b: &Run) -> Extreme {
     let width = a.layout.v().end;
     let rows = a.asked().min(b.asked());
     let mut largest = Extreme::default();
+    let gap = |i: usize, j: usize| match (&a.precise, &b.precise) {
+        (Some(x), Some(y)) => {
+            let place = |run: &Run| j * run.layout.len() + i;
+            (x.rows[place(a)] - y.rows[place(b)]).high()
+        }
+        _ => a.row(j)[i] - b.row(j)[i],
+    };
     for i in 0..width {
         let scale = 1.0 + (0..rows).fold(0.0, |m: f64, j| m.max(a.row(j)[i].abs()));
         for j in (0..rows).filter(|&j| a.times[j] == b.times[j]) {
-            largest.record((a.row(j)[i] - b.row(j)[i]) / scale, a.times[j]);
+            largest.record(gap(i, j) / scale, a.times[j]);
         }
     }
     largest

@@ -29,7 +29,8 @@ pub(crate) fn notices(
         &prepared.selection,
     ));
     if prepared.terms.order == 1 {
-        notices.extend(unused_multipliers(model, formulation));
+        let extremum = formulation == "vakonomic" || options.extremum.is_some();
+        notices.extend(unused_multipliers(model, extremum));
     }
     notices.extend(isotropic(model, system));
     notices.extend(mass_in_potential(model));
@@ -182,9 +183,9 @@ fn mass_in_potential(model: &Model) -> Option<String> {
     ))
 }
 
-/// Initial values of multipliers that the state determines: all of them but those of the constrained extremum, in it.
-fn unused_multipliers(model: &Model, formulation: &str) -> Option<String> {
-    let is_used = |name: &str| formulation == "vakonomic" && name.starts_with("kappa_");
+/// Initial values of multipliers that the state determines: all of them but those of the constrained extremum, where it is computed.
+fn unused_multipliers(model: &Model, extremum: bool) -> Option<String> {
+    let is_used = |name: &str| extremum && name.starts_with("kappa_");
     let names: Vec<String> = model
         .initial
         .extra
@@ -196,9 +197,9 @@ fn unused_multipliers(model: &Model, formulation: &str) -> Option<String> {
         format!(
             "initial values not used: {}; {}",
             names.join(", "),
-            match formulation {
-                "vakonomic" => "the constrained extremum has the multipliers κ of the constraints and no others",
-                _ => "the state determines the multipliers in every formulation but `vakonomic`, which takes κ",
+            match extremum {
+                true => "the constrained extremum has the multipliers κ of the constraints and no others",
+                false => "the state determines the multipliers in every formulation but `vakonomic`, which takes κ",
             }
         )
     })

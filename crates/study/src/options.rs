@@ -2,6 +2,8 @@
 
 use crate::study::Decided;
 use chetaev_mechanics::{Claim, Group};
+use chetaev_model::model::Precision;
+use chetaev_motion::DoubleDouble;
 use std::sync::atomic::AtomicBool;
 
 /// Which claims are wanted.
@@ -101,12 +103,16 @@ pub struct StudyOptions {
     pub searches_for: Option<f64>,
     /// End of the run.
     pub t_end: Option<f64>,
+    /// The same with all its digits, for a run in double-double arithmetic; where it is missing, `t_end` is exact.
+    pub t_end_exact: Option<DoubleDouble>,
     /// Relative tolerance.
     pub tolerance: Option<f64>,
     /// Fixed step, for methods without an error estimate.
     pub step: Option<f64>,
     /// Name of the method.
     pub method: Option<String>,
+    /// The arithmetic of the motion.
+    pub precision: Option<Precision>,
     /// Formulation that is integrated for the trajectory.
     pub formulation: Option<String>,
     /// Whether inadmissible initial data are projected.
@@ -145,9 +151,11 @@ impl Default for StudyOptions {
             budget: USUAL_BUDGET,
             searches_for: None,
             t_end: None,
+            t_end_exact: None,
             tolerance: None,
             step: None,
             method: None,
+            precision: None,
             formulation: None,
             project: false,
             keep_integrals: false,

@@ -2,6 +2,7 @@
 
 use crate::study::{Decided, Motion, Study};
 use chetaev_integrate::EventKind;
+use chetaev_model::model::Precision;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, Proof};
 use chetaev_symbolic::Verdict;
 use serde::{Deserialize, Serialize};
@@ -78,6 +79,9 @@ pub struct OptionsRecord {
     pub step: Option<f64>,
     /// Method, likewise.
     pub method: Option<String>,
+    /// Arithmetic of the motion, likewise: `double` or `double-double`.
+    #[serde(default)]
+    pub precision: Option<String>,
     /// Formulation, likewise.
     pub formulation: Option<String>,
     /// Whether inadmissible initial data were projected.
@@ -89,6 +93,15 @@ pub struct OptionsRecord {
     /// Branch of the motion, where it was given on the command line.
     #[serde(default)]
     pub branch: Option<usize>,
+}
+
+impl OptionsRecord {
+    /// The arithmetic of the motion, where it was asked for.
+    pub fn precision(&self) -> Option<Precision> {
+        let word = self.precision.as_deref()?;
+        let mut known = Precision::WORDS.into_iter();
+        known.find(|(known, _)| *known == word).map(|(_, own)| own)
+    }
 }
 
 /// One verdict.
@@ -172,6 +185,9 @@ pub struct TrajectoryRecord {
     pub method: String,
     /// Relative tolerance.
     pub tolerance: f64,
+    /// Arithmetic: `double` or `double-double`.
+    #[serde(default)]
+    pub precision: String,
     /// Start.
     pub t_start: f64,
     /// End asked for.
@@ -275,6 +291,7 @@ pub fn record(study: &Study, files: &[String]) -> Record {
             tolerance: study.options.tolerance,
             step: study.options.step,
             method: study.options.method.clone(),
+            precision: study.options.precision.map(|own| own.word().into()),
             formulation: study.options.formulation.clone(),
             project: study.options.project,
             keep_integrals: study.options.keep_integrals,
@@ -402,6 +419,10 @@ fn trajectory_record(motion: &Motion, files: &[String]) -> TrajectoryRecord {
         formulation: run.formulation.into(),
         method: run.method.into(),
         tolerance: motion.settings.tolerance,
+        precision: match motion.settings.precise {
+            Some(_) => Precision::DoubleDouble.word().into(),
+            None => Precision::Double.word().into(),
+        },
         t_start: motion.start.t,
         t_end: motion.settings.t_end,
         t: run.t,

@@ -2,6 +2,8 @@
 
 use crate::error::StudyError;
 use crate::options::StudyOptions;
+use crate::precise;
+use chetaev_integrate::double_double::LEAST_TOLERANCE;
 use chetaev_integrate::Direction;
 use chetaev_mechanics::system::{Assumption, Relation};
 use chetaev_mechanics::{Basis, MotionTerms, Prepared, System};
@@ -13,6 +15,7 @@ use chetaev_motion::{
     RunSettings, StateKind,
 };
 use chetaev_symbolic::{rational, Expr, Graph, Symbol};
+use std::sync::Arc;
 
 /// Everything numeric that is known before the run.
 pub(crate) struct Start {
@@ -317,15 +320,31 @@ pub(crate) fn settings(
         .absolute_tolerance
         .as_ref()
         .map_or(settings.tolerance, rational::to_f64);
-    if let Some(method) = options.method.as_ref().or(simulation.method.as_ref()) {
-        settings.method = method_name(method);
+    let is_precise = precise::is_asked(model, options);
+    settings.method = match options.method.as_ref().or(simulation.method.as_ref()) {
+        Some(method) => method_name(method),
+        None if is_precise => "taylor".into(),
+        None => settings.method,
+    };
+    if is_precise && settings.method != "taylor" {
+        let method = settings.method;
+        return Err(StudyError::PrecisionMethod { method });
     }
-    let sharpest = sharpest(&settings.method);
+    let sharpest = match is_precise {
+        true => LEAST_TOLERANCE,
+        false => sharpest(&settings.method),
+    };
     for tolerance in [settings.tolerance, settings.absolute_tolerance] {
         if !(sharpest..=LOOSEST).contains(&tolerance) {
-            return Err(StudyError::Tolerance {
-                tolerance,
-                sharpest,
+            return Err(match is_precise {
+                true => StudyError::PreciseTolerance {
+                    tolerance,
+                    sharpest,
+                },
+                false => StudyError::Tolerance {
+                    tolerance,
+                    sharpest,
+                },
             });
         }
     }
@@ -347,6 +366,10 @@ pub(crate) fn settings(
     settings
         .follow
         .extend(model.integrals.iter().map(|i| i.value));
+    if is_precise {
+        let numbers = precise::precise(model, system, options, &settings)?;
+        settings.precise = Some(Arc::new(numbers));
+    }
     Ok(settings)
 }
 

@@ -15,6 +15,7 @@ use crate::start::{
 };
 use crate::witness::{self, Witness};
 use chetaev_geometry::noether::found::found;
+use chetaev_integrate::double_double::LEAST_TOLERANCE;
 use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::Selection;
 use chetaev_mechanics::claims::formulation::REFERENCE;
@@ -27,7 +28,9 @@ use chetaev_mechanics::{
 };
 use chetaev_model::model::Model;
 use chetaev_motion::run::equal_times;
-use chetaev_motion::{Binding, ConsistentState, Run, RunError, RunSettings, Subject, Watcher};
+use chetaev_motion::{
+    Binding, ConsistentState, Precise, Run, RunError, RunSettings, Subject, Watcher,
+};
 use chetaev_symbolic::{Expr, Verdict};
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
@@ -324,16 +327,21 @@ fn compute(
     let settings = RunSettings { keep, ..settings };
     let run = integrate(&subject, formulation, &settings, "integrating", hooks)?;
     let other: &'static dyn Formulation = if name == REFERENCE { &Maggi } else { &Routh };
+    let along = |numbers: &Arc<Precise>| {
+        let rows = run.precise.as_ref()?;
+        Some(Arc::new(numbers.along(rows)))
+    };
     let reached = RunSettings {
         t_end: last_time(&run, settings.t_end),
         times: run.times.clone(),
         events: Vec::new(),
+        precise: settings.precise.as_ref().and_then(along),
         ..settings.clone()
     };
     // Equations are compared, and so by runs that no projection leads to kept integrals.
     let unprojected = RunSettings {
         keep: Vec::new(),
-        ..reached.clone()
+        ..in_doubles(reached.clone())
     };
     let comparison = match check_applies(&cx, other.card()) {
         Ok(()) => integrate(
@@ -354,7 +362,11 @@ fn compute(
         _ => None,
     };
     let finer = if options.global_error && !run.ending.interrupted {
-        let tolerance = (settings.tolerance / 10.0).max(1.3 * sharpest(&settings.method));
+        let sharpest = match settings.precise {
+            Some(_) => LEAST_TOLERANCE,
+            None => sharpest(&settings.method),
+        };
+        let tolerance = (settings.tolerance / 10.0).max(1.3 * sharpest);
         let finer = RunSettings {
             tolerance,
             absolute_tolerance: tolerance,
@@ -372,7 +384,10 @@ fn compute(
     } else {
         None
     };
-    let orders = crate::method_order::observed_order(&subject, &settings, &run, hooks);
+    let orders = match settings.precise {
+        Some(_) => None,
+        None => crate::method_order::observed_order(&subject, &settings, &run, hooks),
+    };
     let mut evidence =
         MotionEvidence::new(model, &subject, run, comparison, finer, orders, &settings)?;
     if !settings.keep.is_empty() {
@@ -383,10 +398,10 @@ fn compute(
     if prepared.terms.order == 1 && witnesses.any(|c| options.claims.wants_claim(*c)) {
         evidence.dense = dense(&subject, formulation, &evidence.run, &settings, hooks);
     }
-    let beside = options
-        .extremum
-        .as_ref()
-        .map(|given| beside::of(&cx, &subject, &evidence.run, &reached, given, hooks));
+    let beside = options.extremum.as_ref().map(|given| {
+        let reached = in_doubles(reached);
+        beside::of(&cx, &subject, &evidence.run, &reached, given, hooks)
+    });
     Ok(Motion {
         beside,
         start: numeric.start,
@@ -396,6 +411,20 @@ fn compute(
         witness: Witness::default(),
         settings,
     })
+}
+
+/// The same run in doubles, with a tolerance that they can meet; other settings are left as they are.
+fn in_doubles(settings: RunSettings) -> RunSettings {
+    if settings.precise.is_none() {
+        return settings;
+    }
+    let least = 1.3 * sharpest(&settings.method);
+    RunSettings {
+        tolerance: settings.tolerance.max(least),
+        absolute_tolerance: settings.absolute_tolerance.max(least),
+        precise: None,
+        ..settings
+    }
 }
 
 /// Rows of the run for quadratures, and how many of them lie within a step of the method on average.
@@ -420,7 +449,7 @@ fn dense(
     let settings = RunSettings {
         t_end,
         times: equal_times(start, t_end, DENSE_ROWS),
-        ..settings.clone()
+        ..in_doubles(settings.clone())
     };
     let what = "integrating for quadratures";
     integrate(subject, formulation, &settings, what, hooks).ok()
@@ -559,6 +588,10 @@ fn decide(
         prover.seed = seed;
     }
     let proving = (&prover, options.work());
+    let zeros = prepared_system(system.for_stated_zeros());
+    let zeros = zeros
+        .as_ref()
+        .map(|(prepared, system)| context_of(system, prepared, &known, proving));
     let stated = prepared_system(system.for_stated_values());
     let narrow = stated.as_ref().map_or(system, |(_, system)| system);
     let component = narrow.on_component(|list| at_start(system, start?, list));
@@ -571,9 +604,15 @@ fn decide(
     });
     let cx = context_of(system, prepared, &known, proving);
     let mut cx = match &stated {
-        Some(stated) => cx.for_stated_values(chetaev_principles::CLAIMS, stated),
+        Some(stated) => {
+            cx.for_stated_values(chetaev_principles::CLAIMS, &system.stated_values(), stated)
+        }
         None => narrowed(cx, on.as_ref()),
     };
+    if let Some(zeros) = &zeros {
+        let values = system.stated_zeros();
+        cx = cx.for_stated_values(chetaev_geometry::CLAIMS, &values, zeros);
+    }
     if let Some(motion) = motion {
         cx = cx.with(Arc::clone(&motion.evidence));
     }
@@ -589,7 +628,7 @@ fn decide(
         if !options.claims.wants_claim(*claim) {
             continue;
         }
-        for subject in claim.subjects(&cx) {
+        for subject in claim.subjects(cx.deciding(claim.id())) {
             let full = full_id(claim.id(), subject.as_deref());
             let is_decided = verdicts.iter().any(|d: &Decided| d.full_id() == full);
             if is_decided || !options.claims.wants(*claim, &full) {

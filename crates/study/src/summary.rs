@@ -73,12 +73,7 @@ fn heading(text: &mut String, study: &Study, style: Style) {
     }
     let _ = writeln!(text, "  freedom       k = {}", independent(study));
     if !study.system.assumptions.is_empty() {
-        let stated: Vec<&str> = study
-            .system
-            .assumptions
-            .iter()
-            .map(|a| a.text.as_str())
-            .collect();
+        let stated = study.system.assumption_texts();
         let _ = writeln!(
             text,
             "  assuming      {}",
@@ -179,6 +174,10 @@ fn trajectory(text: &mut String, study: &Study) {
     let evidence = &motion.evidence;
     let run = &evidence.run;
     let _ = writeln!(text, "\ntrajectory");
+    let arithmetic = match motion.settings.precise {
+        Some(_) => " in double-double",
+        None => "",
+    };
     let _ = writeln!(
         text,
         "  t = {} … {}  {} at {}: {} steps ({} rejected), {} evaluations, {} chart changes",
@@ -187,7 +186,7 @@ fn trajectory(text: &mut String, study: &Study) {
         run.method,
         match motion.settings.step {
             Some(h) => format!("step {h}"),
-            None => format!("tolerance {:.0e}", motion.settings.tolerance),
+            None => format!("tolerance {:.0e}{arithmetic}", motion.settings.tolerance),
         },
         run.statistics.steps,
         run.statistics.rejected,
@@ -207,12 +206,10 @@ fn trajectory(text: &mut String, study: &Study) {
         drifts.push(format!("constraints {constraint:.1e}"));
     }
     drifts.push(format!("energy {:.1e}", evidence.energy.drift.value));
-    drifts.extend(
-        evidence
-            .integrals
-            .iter()
-            .map(|i| format!("integral `{}` {:.1e}", i.name, i.drift.value)),
-    );
+    // What has no value somewhere on the way has no change either; its claim says where.
+    let integrals = evidence.integrals.iter();
+    let known = integrals.filter(|i| i.drift.value.is_finite());
+    drifts.extend(known.map(|i| format!("integral `{}` {:.1e}", i.name, i.drift.value)));
     let _ = writeln!(text, "  largest change: {}", drifts.join(", "));
     let _ = match (evidence.global_error, motion.settings.step) {
         (Some(error), None) => writeln!(

@@ -1,14 +1,19 @@
 //! The trajectory as CSV and NPZ.
 
+use crate::motion_evidence::Followed;
 use crate::record::zero_word;
 use crate::study::{Motion, Study};
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::formulation;
-use chetaev_motion::Run;
+use chetaev_motion::double_double::decimal;
+use chetaev_motion::{DoubleDouble, PreciseRows, Run};
 use std::fmt::Write as _;
 use std::io::{Cursor, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
+
+/// Decimals of a number of a run in double-double arithmetic.
+const DIGITS: usize = 32;
 
 /// Named columns of equal length, the time first.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,18 +23,17 @@ pub struct Table {
     pub names: Vec<String>,
     /// Columns.
     pub columns: Vec<Vec<f64>>,
+    /// The same with all their digits, of a run in double-double arithmetic; none otherwise.
+    pub precise: Vec<Vec<DoubleDouble>>,
 }
 
 impl Table {
     /// The table of a motion.
     pub fn new(study: &Study, motion: &Motion) -> Table {
         let mut table = Table::of_rows(study, &motion.evidence.run);
-        table.push("energy".into(), motion.evidence.energy.values.clone());
+        table.follow("energy".into(), &motion.evidence.energy);
         for followed in &motion.evidence.integrals {
-            table.push(
-                format!("integral_{}", followed.name),
-                followed.values.clone(),
-            );
+            table.follow(format!("integral_{}", followed.name), followed);
         }
         table
     }
@@ -39,8 +43,19 @@ impl Table {
         let mut table = Table {
             names: vec!["t".into()],
             columns: vec![run.times.clone()],
+            precise: Vec::new(),
         };
-        let column = |i: usize| (0..run.len()).map(|j| run.row(j)[i]).collect::<Vec<f64>>();
+        let precise = run.precise.as_ref();
+        table.precise.extend(precise.map(|own| own.times.clone()));
+        let width = run.layout.len();
+        let column = |i: usize| {
+            let digits = |rows: &PreciseRows| {
+                let places = (0..run.len()).map(|j| rows.rows[j * width + i]);
+                places.collect::<Vec<DoubleDouble>>()
+            };
+            let doubles: Vec<f64> = (0..run.len()).map(|j| run.row(j)[i]).collect();
+            (doubles, precise.map(digits))
+        };
         let coordinates = &study.system.coordinates;
         for (c, i) in coordinates.iter().zip(run.layout.q()) {
             table.push(c.name.clone(), column(i));
@@ -86,43 +101,66 @@ impl Table {
         let happened = Run {
             times: run.events.iter().map(|met| met.t).collect(),
             rows: run.events.iter().flat_map(|met| met.row.clone()).collect(),
+            precise: run.precise.as_ref().map(|own| PreciseRows {
+                times: own.events.iter().map(|(t, _)| *t).collect(),
+                rows: own.events.iter().flat_map(|(_, row)| row.clone()).collect(),
+                ..own.clone()
+            }),
             ..run.clone()
         };
         let table = Table::of_rows(study, &happened);
         let mut text = format!("event,zero,{}\n", table.names.join(","));
         for (j, met) in run.events.iter().enumerate() {
             let _ = write!(text, "{},{}", stated[met.event].name, zero_word(met.kind));
-            for column in &table.columns {
-                let _ = write!(text, ",{}", column[j]);
+            for i in 0..table.columns.len() {
+                text.push(',');
+                table.write(&mut text, (i, j));
             }
             text.push('\n');
         }
         Some(text)
     }
 
-    fn push(&mut self, name: String, column: Vec<f64>) {
+    fn push(&mut self, name: String, (column, precise): (Vec<f64>, Option<Vec<DoubleDouble>>)) {
         self.names.push(name);
         self.columns.push(column);
+        self.precise.extend(precise);
     }
 
-    /// Comma-separated values with a header line; shortest decimals that read back exactly.
+    fn follow(&mut self, name: String, followed: &Followed) {
+        self.push(name, (followed.values.clone(), followed.precise.clone()));
+    }
+
+    /// Writes the number of column i and row j.
+    fn write(&self, text: &mut String, (i, j): (usize, usize)) {
+        match self.precise.get(i) {
+            Some(column) => text.push_str(&decimal(column[j], DIGITS)),
+            // Writing to a string does not fail.
+            None => {
+                let _ = write!(text, "{}", self.columns[i][j]);
+            }
+        }
+    }
+
+    /// Comma-separated values with a header line: shortest decimals that read back exactly, or 32 digits of a run in double-double
+    /// arithmetic.
     pub fn to_csv(&self) -> String {
         let mut text = self.names.join(",");
         text.push('\n');
         for j in 0..self.columns.first().map_or(0, Vec::len) {
-            for (i, column) in self.columns.iter().enumerate() {
+            for i in 0..self.columns.len() {
                 if i > 0 {
                     text.push(',');
                 }
-                // Writing to a string does not fail.
-                let _ = write!(text, "{}", column[j]);
+                self.write(&mut text, (i, j));
             }
             text.push('\n');
         }
         text
     }
 
-    /// A NumPy archive with one array per column; `x'` is stored as `x_d`, `x''` as `x_dd`.
+    /// A NumPy archive with one array per column; `x'` is stored as `x_d`, `x''` as `x_dd`. Of a run in double-double arithmetic
+    /// what the doubles leave out is stored beside them, as `x_low`.
     ///
     /// # Errors
     /// What the archive writer reports.
@@ -135,6 +173,11 @@ impl Table {
         for (name, column) in self.names.iter().zip(&self.columns) {
             archive.start_file(format!("{}.npy", array_name(name)), options)?;
             archive.write_all(&npy(column))?;
+        }
+        for (name, column) in self.names.iter().zip(&self.precise) {
+            let low: Vec<f64> = column.iter().map(|x| x.low()).collect();
+            archive.start_file(format!("{}_low.npy", array_name(name)), options)?;
+            archive.write_all(&npy(&low))?;
         }
         Ok(archive.finish()?.into_inner())
     }

@@ -154,6 +154,7 @@ fn options(record: &Record, seed: Option<u64>, replay: bool) -> StudyOptions {
         tolerance: asked.tolerance,
         step: asked.step,
         method: asked.method.clone(),
+        precision: asked.precision(),
         formulation: asked.formulation.clone(),
         project: asked.project,
         keep_integrals: asked.keep_integrals,

@@ -12,10 +12,11 @@ pub(crate) mod study;
 pub(crate) mod sweep;
 pub(crate) mod verify;
 
-use crate::arguments::MotionArguments;
+use crate::arguments::{self, MotionArguments};
 use crate::progress::ProgressLine;
 use crate::{files, terminal};
-use chetaev::model::Model;
+use chetaev::model::{Model, Precision};
+use chetaev::motion::double_double;
 use chetaev::study::{Hooks, StudyOptions};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -57,12 +58,21 @@ fn options(motion: &MotionArguments, model: &Model) -> Option<StudyOptions> {
         None => Ok(None),
         Some(text) => model.constant_value(flag, text).map(Some),
     };
+    let exact = |flag: &str, text: &Option<String>| match text {
+        None => Ok(None),
+        Some(text) => model.constant(flag, text).map(Some),
+    };
     match (
-        number("--t-end", &motion.t_end),
+        exact("--t-end", &motion.t_end),
         number("--step", &motion.step),
     ) {
         (Ok(t_end), Ok(step)) => Some(StudyOptions {
-            t_end,
+            t_end: t_end.map(|(_, value)| value),
+            t_end_exact: t_end.and_then(|(e, _)| double_double::number(&model.graph, e)),
+            precision: motion.precision.map(|precision| match precision {
+                arguments::Precision::Double => Precision::Double,
+                arguments::Precision::DoubleDouble => Precision::DoubleDouble,
+            }),
             tolerance: motion.tolerance,
             step,
             method: motion.method.clone(),

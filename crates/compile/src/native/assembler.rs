@@ -1,12 +1,14 @@
 //! Encodes the x86-64 instructions that the emitter uses.
 //!
-//! Vector instructions have the VEX form (Intel 64 and IA-32 Architectures Software Developer's Manual, volume 2,
-//! section 2.3): `dst ← op(src1, src2)` with `src2` a register or memory. The tests read every encoding back with a
-//! disassembler that shares nothing with this file.
+//! Vector instructions have the VEX form, or the EVEX form where eight numbers or registers from 16 on take part
+//! (Intel 64 and IA-32 Architectures Software Developer's Manual, volume 2, sections 2.3 and 2.7):
+//! `dst ← op(src1, src2)` with `src2` a register or memory. The tests read every encoding back with a disassembler
+//! that shares nothing with this file.
 
-/// A vector register, ymm0 to ymm15; its low part is the xmm register of the same number.
+/// A vector register: ymm0 to ymm15, or zmm0 to zmm31 in the EVEX form. Its low part is the xmm register of the same
+/// number.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(crate) struct Ymm(pub(crate) u8);
+pub(crate) struct Vector(pub(crate) u8);
 
 /// The general registers in use. All may be overwritten by a callee, so a function that calls nothing saves nothing.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -22,6 +24,10 @@ pub(crate) enum Gpr {
     R11 = 11,
 }
 
+/// A mask register, k1 to k7, with one bit for each number of a vector: k0 selects nothing.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) struct Mask(pub(crate) u8);
+
 /// An address: a register and a displacement.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) struct Address {
@@ -32,7 +38,7 @@ pub(crate) struct Address {
 /// The operand that may be in memory.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Operand {
-    Register(Ymm),
+    Register(Vector),
     Memory(Address),
 }
 
@@ -43,6 +49,8 @@ pub(crate) enum Width {
     One,
     /// Four numbers.
     Four,
+    /// Eight numbers, in the EVEX form.
+    Eight,
 }
 
 impl Width {
@@ -50,6 +58,7 @@ impl Width {
         match self {
             Width::One => 1,
             Width::Four => 4,
+            Width::Eight => 8,
         }
     }
 }
@@ -58,6 +67,7 @@ impl Width {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Prefix {
     P66 = 1,
+    F3 = 2,
     F2 = 3,
 }
 
@@ -85,6 +95,24 @@ const fn opcode(prefix: Prefix, map: Map, w: bool, code: u8) -> Opcode {
         w,
         code,
     }
+}
+
+/// The prefix of instructions on one number, or on whole registers of them.
+fn numbers(width: Width) -> Prefix {
+    match width {
+        Width::One => Prefix::F2,
+        Width::Four | Width::Eight => Prefix::P66,
+    }
+}
+
+/// Bytes of the numbers that an instruction works on.
+fn bytes(width: Width) -> i32 {
+    8 * width.lanes() as i32
+}
+
+/// Bytes of the registers that instructions on whole registers work on.
+fn register_bytes(width: Width) -> i32 {
+    bytes(width).max(16)
 }
 
 /// Instructions on doubles that exist for one number and for a whole register.
@@ -196,31 +224,81 @@ impl Assembler {
         self.bytes.extend_from_slice(&value.to_le_bytes());
     }
 
-    /// ModRM and displacement: `reg`, and a register or an address.
-    fn operands(&mut self, reg: u8, rm: Operand) {
+    /// ModRM and displacement: `reg`, and a register or an address. A short displacement counts in units.
+    fn operands(&mut self, reg: u8, rm: Operand, unit: i32) {
         let reg = (reg & 7) << 3;
         match rm {
-            Operand::Register(Ymm(r)) => self.byte(0xC0 | reg | (r & 7)),
+            Operand::Register(Vector(r)) => self.byte(0xC0 | reg | (r & 7)),
             // None of the base registers is one of those (rsp, r12; rbp, r13) that need another form.
             Operand::Memory(Address { base, offset }) => {
                 let base = base as u8 & 7;
-                if offset == 0 {
-                    self.byte(reg | base);
-                } else if let Ok(short) = i8::try_from(offset) {
-                    self.byte(0x40 | reg | base);
-                    self.byte(short as u8);
-                } else {
-                    self.byte(0x80 | reg | base);
-                    self.long(offset);
+                let short = i8::try_from(offset / unit).ok();
+                match short.filter(|_| offset % unit == 0) {
+                    Some(0) => self.byte(reg | base),
+                    Some(short) => {
+                        self.byte(0x40 | reg | base);
+                        self.byte(short as u8);
+                    }
+                    None => {
+                        self.byte(0x80 | reg | base);
+                        self.long(offset);
+                    }
                 }
             }
         }
     }
 
-    /// A VEX instruction on `reg`, `second` (15 less what is stored, so 0 means none) and `rm`.
+    /// A vector instruction on `reg`, `second` (stored inverted, so 0 means none) and `rm`, of which `read` bytes are
+    /// read or written where it is memory.
+    fn vector(
+        &mut self,
+        (opcode, read): (Opcode, i32),
+        width: Width,
+        reg: u8,
+        second: u8,
+        rm: Operand,
+    ) {
+        let is_high = matches!(rm, Operand::Register(Vector(16..)));
+        if width == Width::Eight || reg >= 16 || second >= 16 || is_high {
+            self.evex((opcode, read), width, (Mask(0), reg), second, rm);
+        } else {
+            self.vex(opcode, width, reg, second, rm);
+        }
+    }
+
+    /// An EVEX instruction on numbers of 64 bits; the mask says which of `reg` are written, or selects.
+    fn evex(
+        &mut self,
+        (opcode, read): (Opcode, i32),
+        width: Width,
+        (mask, reg): (Mask, u8),
+        second: u8,
+        rm: Operand,
+    ) {
+        // The five bits of registers; bit 4 of a register in `rm` is where that of an index would be.
+        let (low, high) = match rm {
+            Operand::Register(Vector(r)) => (r >> 3 & 1, r >> 4),
+            Operand::Memory(address) => (address.base as u8 >> 3, 0),
+        };
+        let inverted = (reg >> 3 & 1) << 7 | high << 6 | low << 5 | (reg >> 4) << 4;
+        self.byte(0x62);
+        self.byte((!inverted & 0xF0) | opcode.map as u8);
+        // W is 1 wherever numbers have 64 bits.
+        self.byte(0x80 | (!second & 15) << 3 | 4 | opcode.prefix as u8);
+        let length = match width {
+            Width::One => 0,
+            Width::Four => 0x20,
+            Width::Eight => 0x40,
+        };
+        self.byte(length | (!second >> 4 & 1) << 3 | mask.0);
+        self.byte(opcode.code);
+        self.operands(reg, rm, read);
+    }
+
+    /// A VEX instruction.
     fn vex(&mut self, opcode: Opcode, width: Width, reg: u8, second: u8, rm: Operand) {
         let base = match rm {
-            Operand::Register(Ymm(r)) => r,
+            Operand::Register(Vector(r)) => r,
             Operand::Memory(address) => address.base as u8,
         };
         let long = if width == Width::Four { 4 } else { 0 };
@@ -237,20 +315,16 @@ impl Assembler {
             self.byte((u8::from(opcode.w) << 7) | tail);
         }
         self.byte(opcode.code);
-        self.operands(reg, rm);
+        self.operands(reg, rm, 1);
     }
 
     /// `dst ← operation(a, b)`; the square root is that of `b`.
-    pub(crate) fn float(&mut self, float: Float, width: Width, dst: Ymm, a: Ymm, b: Operand) {
-        let prefix = match width {
-            Width::One => Prefix::F2,
-            Width::Four => Prefix::P66,
-        };
+    pub(crate) fn float(&mut self, float: Float, width: Width, dst: Vector, a: Vector, b: Operand) {
         // The form for whole registers has no second source.
-        let is_unary = float == Float::Sqrt && width == Width::Four;
+        let is_unary = float == Float::Sqrt && width != Width::One;
         let second = if is_unary { 0 } else { a.0 };
-        let opcode = opcode(prefix, Map::M0F, false, float as u8);
-        self.vex(opcode, width, dst.0, second, b);
+        let opcode = opcode(numbers(width), Map::M0F, false, float as u8);
+        self.vector((opcode, bytes(width)), width, dst.0, second, b);
     }
 
     /// `dst ←` all bits one where the predicate holds, zero elsewhere.
@@ -258,24 +332,25 @@ impl Assembler {
         &mut self,
         predicate: Predicate,
         width: Width,
-        dst: Ymm,
-        a: Ymm,
+        dst: Vector,
+        a: Vector,
         b: Operand,
     ) {
         self.float(Float::Compare, width, dst, a, b);
         self.byte(predicate as u8);
     }
 
-    pub(crate) fn bits(&mut self, bits: Bits, width: Width, dst: Ymm, a: Ymm, b: Operand) {
+    pub(crate) fn bits(&mut self, bits: Bits, width: Width, dst: Vector, a: Vector, b: Operand) {
         let opcode = opcode(Prefix::P66, Map::M0F, false, bits as u8);
-        self.vex(opcode, width, dst.0, a.0, b);
+        self.vector((opcode, register_bytes(width)), width, dst.0, a.0, b);
     }
 
     /// Shifts each integer of 64 bits, filling with zeros.
-    pub(crate) fn shift(&mut self, left: bool, bits: u8, width: Width, dst: Ymm, a: Ymm) {
+    pub(crate) fn shift(&mut self, left: bool, bits: u8, width: Width, dst: Vector, a: Vector) {
         let opcode = opcode(Prefix::P66, Map::M0F, false, 0x73);
         let digit = if left { 6 } else { 2 };
-        self.vex(opcode, width, digit, dst.0, Operand::Register(a));
+        let operand = Operand::Register(a);
+        self.vector((opcode, 1), width, digit, dst.0, operand);
         self.byte(bits);
     }
 
@@ -283,68 +358,114 @@ impl Assembler {
         &mut self,
         (sign, order): (Sign, Order),
         width: Width,
-        first: Ymm,
-        second: Ymm,
+        first: Vector,
+        second: Vector,
         third: Operand,
     ) {
         // The form for one number follows that for a whole register.
         let single = u8::from(width == Width::One);
         let code = order as u8 + sign as u8 + single;
         let opcode = opcode(Prefix::P66, Map::M0F38, true, code);
-        self.vex(opcode, width, first.0, second.0, third);
+        let what = (opcode, bytes(width));
+        self.vector(what, width, first.0, second.0, third);
+    }
+
+    /// The bits of `dst` say where the predicate holds.
+    pub(crate) fn compare_to_mask(
+        &mut self,
+        predicate: Predicate,
+        width: Width,
+        dst: Mask,
+        a: Vector,
+        b: Operand,
+    ) {
+        let opcode = opcode(numbers(width), Map::M0F, false, Float::Compare as u8);
+        let what = (opcode, bytes(width));
+        self.evex(what, width, (Mask(0), dst.0), a.0, b);
+        self.byte(predicate as u8);
+    }
+
+    /// `dst ←` all bits one where those of the mask are one, zero elsewhere.
+    pub(crate) fn spread(&mut self, width: Width, dst: Vector, from: Mask) {
+        let opcode = opcode(Prefix::F3, Map::M0F38, true, 0x38);
+        let operand = Operand::Register(Vector(from.0));
+        self.evex((opcode, 1), width, (Mask(0), dst.0), 0, operand);
+    }
+
+    /// `dst ←` the sign bits of the numbers in a register.
+    pub(crate) fn signs_to_mask(&mut self, width: Width, dst: Mask, from: Vector) {
+        let opcode = opcode(Prefix::F3, Map::M0F38, true, 0x39);
+        let operand = Operand::Register(from);
+        self.evex((opcode, 1), width, (Mask(0), dst.0), 0, operand);
+    }
+
+    /// `dst ← b` where the bit of `mask` is one, `a` elsewhere.
+    pub(crate) fn select(&mut self, width: Width, dst: Vector, a: Vector, b: Operand, mask: Mask) {
+        let opcode = opcode(Prefix::P66, Map::M0F38, true, 0x65);
+        let what = (opcode, register_bytes(width));
+        self.evex(what, width, (mask, dst.0), a.0, b);
+    }
+
+    /// Sets the zero flag if no bit of an eight-bit mask is one.
+    pub(crate) fn test_mask(&mut self, mask: Mask) {
+        let opcode = opcode(Prefix::P66, Map::M0F, false, 0x98);
+        let operand = Operand::Register(Vector(mask.0));
+        self.vex(opcode, Width::One, mask.0, 0, operand);
+    }
+
+    /// The bits of an eight-bit mask.
+    pub(crate) fn move_mask(&mut self, dst: Gpr, from: Mask) {
+        let opcode = opcode(Prefix::P66, Map::M0F, false, 0x93);
+        let operand = Operand::Register(Vector(from.0));
+        self.vex(opcode, Width::One, dst as u8, 0, operand);
     }
 
     /// `dst ← b` where the sign bit of `mask` is set, `a` elsewhere.
-    pub(crate) fn blend(&mut self, width: Width, dst: Ymm, a: Ymm, b: Operand, mask: Ymm) {
+    pub(crate) fn blend(&mut self, width: Width, dst: Vector, a: Vector, b: Operand, mask: Vector) {
         let opcode = opcode(Prefix::P66, Map::M0F3A, false, 0x4B);
         self.vex(opcode, width, dst.0, a.0, b);
         self.byte(mask.0 << 4);
     }
 
     /// `dst ← a` with its upper half replaced by the lower half of `b`.
-    pub(crate) fn join(&mut self, dst: Ymm, a: Ymm, b: Ymm) {
+    pub(crate) fn join(&mut self, dst: Vector, a: Vector, b: Vector) {
         let opcode = opcode(Prefix::P66, Map::M0F3A, false, 0x18);
         self.vex(opcode, Width::Four, dst.0, a.0, Operand::Register(b));
         self.byte(1);
     }
 
     /// The lower half of `dst ←` the upper half of `a`.
-    pub(crate) fn upper_half(&mut self, dst: Ymm, a: Ymm) {
+    pub(crate) fn upper_half(&mut self, dst: Vector, a: Vector) {
         let opcode = opcode(Prefix::P66, Map::M0F3A, false, 0x19);
         self.vex(opcode, Width::Four, a.0, 0, Operand::Register(dst));
         self.byte(1);
     }
 
-    pub(crate) fn load(&mut self, width: Width, dst: Ymm, from: Address) {
-        let opcode = opcode(Self::move_prefix(width), Map::M0F, false, 0x10);
-        self.vex(opcode, width, dst.0, 0, Operand::Memory(from));
+    pub(crate) fn load(&mut self, width: Width, dst: Vector, from: Address) {
+        let opcode = opcode(numbers(width), Map::M0F, false, 0x10);
+        let what = (opcode, bytes(width));
+        self.vector(what, width, dst.0, 0, Operand::Memory(from));
     }
 
-    pub(crate) fn store(&mut self, width: Width, to: Address, from: Ymm) {
-        let opcode = opcode(Self::move_prefix(width), Map::M0F, false, 0x11);
-        self.vex(opcode, width, from.0, 0, Operand::Memory(to));
-    }
-
-    fn move_prefix(width: Width) -> Prefix {
-        match width {
-            Width::One => Prefix::F2,
-            Width::Four => Prefix::P66,
-        }
+    pub(crate) fn store(&mut self, width: Width, to: Address, from: Vector) {
+        let opcode = opcode(numbers(width), Map::M0F, false, 0x11);
+        let what = (opcode, bytes(width));
+        self.vector(what, width, from.0, 0, Operand::Memory(to));
     }
 
     /// Copies a whole register.
-    pub(crate) fn copy(&mut self, width: Width, dst: Ymm, from: Ymm) {
+    pub(crate) fn copy(&mut self, width: Width, dst: Vector, from: Vector) {
         let opcode = opcode(Prefix::P66, Map::M0F, false, 0x28);
-        self.vex(opcode, width, dst.0, 0, Operand::Register(from));
+        self.vector((opcode, 1), width, dst.0, 0, Operand::Register(from));
     }
 
-    /// The sign bits of the numbers in a register.
-    pub(crate) fn signs(&mut self, width: Width, dst: Gpr, from: Ymm) {
+    /// The sign bits of the numbers in a register, up to four.
+    pub(crate) fn signs(&mut self, width: Width, dst: Gpr, from: Vector) {
         let opcode = opcode(Prefix::P66, Map::M0F, false, 0x50);
         self.vex(opcode, width, dst as u8, 0, Operand::Register(from));
     }
 
-    /// Zeroes the upper halves of all registers, which code without VEX needs to run at full speed.
+    /// Zeroes all but the lowest parts of registers 0 to 15, which code without VEX needs to run at full speed.
     pub(crate) fn zero_upper(&mut self) {
         self.bytes.extend_from_slice(&[0xC5, 0xF8, 0x77]);
     }
@@ -500,7 +621,7 @@ mod tests {
     fn operands() -> Vec<(Operand, String, String)> {
         let mut operands = Vec::new();
         for r in 0..16 {
-            let operand = Operand::Register(Ymm(r));
+            let operand = Operand::Register(Vector(r));
             operands.push((operand, format!("xmm{r}"), format!("ymm{r}")));
         }
         for (base, name) in BASES {
@@ -532,15 +653,15 @@ mod tests {
         for (operand, single, whole) in operands() {
             for (float, name) in floats {
                 for (d, a) in [(0, 15), (15, 0), (7, 8), (8, 7)] {
-                    let one = read(|x| x.float(float, Width::One, Ymm(d), Ymm(a), operand));
+                    let one = read(|x| x.float(float, Width::One, Vector(d), Vector(a), operand));
                     assert_eq!(one, format!("{name}sd xmm{d}, xmm{a}, {single}"));
-                    let four = read(|x| x.float(float, Width::Four, Ymm(d), Ymm(a), operand));
+                    let four = read(|x| x.float(float, Width::Four, Vector(d), Vector(a), operand));
                     assert_eq!(four, format!("{name}pd ymm{d}, ymm{a}, {whole}"));
                 }
             }
-            let root = read(|x| x.float(Float::Sqrt, Width::One, Ymm(9), Ymm(3), operand));
+            let root = read(|x| x.float(Float::Sqrt, Width::One, Vector(9), Vector(3), operand));
             assert_eq!(root, format!("vsqrtsd xmm9, xmm3, {single}"));
-            let roots = read(|x| x.float(Float::Sqrt, Width::Four, Ymm(9), Ymm(3), operand));
+            let roots = read(|x| x.float(Float::Sqrt, Width::Four, Vector(9), Vector(3), operand));
             assert_eq!(roots, format!("vsqrtpd ymm9, {whole}"));
         }
     }
@@ -558,16 +679,16 @@ mod tests {
         ];
         for (operand, single, whole) in operands() {
             for (bits, name) in all {
-                let one = read(|x| x.bits(bits, Width::One, Ymm(12), Ymm(5), operand));
+                let one = read(|x| x.bits(bits, Width::One, Vector(12), Vector(5), operand));
                 assert_eq!(one, format!("{name} xmm12, xmm5, {single}"));
-                let four = read(|x| x.bits(bits, Width::Four, Ymm(12), Ymm(5), operand));
+                let four = read(|x| x.bits(bits, Width::Four, Vector(12), Vector(5), operand));
                 assert_eq!(four, format!("{name} ymm12, ymm5, {whole}"));
             }
         }
         for (d, a) in [(1, 2), (9, 2), (2, 9), (10, 11)] {
             let shifts = read(|x| {
-                x.shift(true, 62, Width::One, Ymm(d), Ymm(a));
-                x.shift(false, 52, Width::Four, Ymm(d), Ymm(a));
+                x.shift(true, 62, Width::One, Vector(d), Vector(a));
+                x.shift(false, 52, Width::Four, Vector(d), Vector(a));
             });
             let expected = format!("vpsllq xmm{d}, xmm{a}, 3Eh\nvpsrlq ymm{d}, ymm{a}, 34h");
             assert_eq!(shifts, expected);
@@ -588,9 +709,9 @@ mod tests {
                     (Order::O231, "231"),
                 ] {
                     let what = (sign, order);
-                    let one = read(|x| x.fused(what, Width::One, Ymm(4), Ymm(13), operand));
+                    let one = read(|x| x.fused(what, Width::One, Vector(4), Vector(13), operand));
                     assert_eq!(one, format!("{name}{digits}sd xmm4, xmm13, {single}"));
-                    let four = read(|x| x.fused(what, Width::Four, Ymm(13), Ymm(4), operand));
+                    let four = read(|x| x.fused(what, Width::Four, Vector(13), Vector(4), operand));
                     assert_eq!(four, format!("{name}{digits}pd ymm13, ymm4, {whole}"));
                 }
             }
@@ -605,17 +726,19 @@ mod tests {
                 (Predicate::NotLess, "nlt_us"),
                 (Predicate::NotLessEqual, "nle_us"),
             ] {
-                let one = read(|x| x.compare(predicate, Width::One, Ymm(2), Ymm(14), operand));
+                let one =
+                    read(|x| x.compare(predicate, Width::One, Vector(2), Vector(14), operand));
                 let (head, suffix) = one.split_once(' ').unwrap();
                 assert_eq!(
                     suffix.split(", ").take(3).collect::<Vec<_>>(),
                     ["xmm2", "xmm14", &single]
                 );
                 assert!(head.contains(name.split('_').next().unwrap()), "{one}");
-                let four = read(|x| x.compare(predicate, Width::Four, Ymm(2), Ymm(14), operand));
+                let four =
+                    read(|x| x.compare(predicate, Width::Four, Vector(2), Vector(14), operand));
                 assert!(four.contains(&format!("ymm2, ymm14, {whole}")), "{four}");
             }
-            let blend = read(|x| x.blend(Width::Four, Ymm(1), Ymm(11), operand, Ymm(15)));
+            let blend = read(|x| x.blend(Width::Four, Vector(1), Vector(11), operand, Vector(15)));
             assert_eq!(blend, format!("vblendvpd ymm1, ymm11, {whole}, ymm15"));
         }
     }
@@ -624,10 +747,10 @@ mod tests {
     fn moves_read_back() {
         for (base, name) in BASES {
             let text = read(|x| {
-                x.load(Width::One, Ymm(11), at(base, 8));
-                x.load(Width::Four, Ymm(3), at(base, 256));
-                x.store(Width::One, at(base, 8), Ymm(3));
-                x.store(Width::Four, at(base, 256), Ymm(11));
+                x.load(Width::One, Vector(11), at(base, 8));
+                x.load(Width::Four, Vector(3), at(base, 256));
+                x.store(Width::One, at(base, 8), Vector(3));
+                x.store(Width::Four, at(base, 256), Vector(11));
             });
             let expected = format!(
                 "vmovsd xmm11, [{name}+8]\nvmovupd ymm3, [{name}+100h]\n\
@@ -636,12 +759,12 @@ mod tests {
             assert_eq!(text, expected);
         }
         let text = read(|x| {
-            x.copy(Width::One, Ymm(1), Ymm(12));
-            x.copy(Width::Four, Ymm(12), Ymm(1));
-            x.signs(Width::One, Gpr::Rax, Ymm(9));
-            x.signs(Width::Four, Gpr::Rax, Ymm(1));
-            x.join(Ymm(3), Ymm(10), Ymm(11));
-            x.upper_half(Ymm(10), Ymm(3));
+            x.copy(Width::One, Vector(1), Vector(12));
+            x.copy(Width::Four, Vector(12), Vector(1));
+            x.signs(Width::One, Gpr::Rax, Vector(9));
+            x.signs(Width::Four, Gpr::Rax, Vector(1));
+            x.join(Vector(3), Vector(10), Vector(11));
+            x.upper_half(Vector(10), Vector(3));
             x.zero_upper();
         });
         let expected =
@@ -692,5 +815,191 @@ mod tests {
         let label = open.label();
         open.call(label);
         assert_eq!(open.finish(), None);
+    }
+
+    /// The offset of a short displacement that counts in units, those beyond, and one that is no multiple.
+    const OFFSETS: [(i32, &str, usize); 7] = [
+        (0, "", 0),
+        (64, "+40h", 1),
+        (127 * 64, "+1FC0h", 1),
+        (-128 * 64, "-2000h", 1),
+        (128 * 64, "+2000h", 4),
+        (-129 * 64, "-2040h", 4),
+        (72, "+48h", 4),
+    ];
+
+    /// Operands of eight numbers, how a disassembler writes them, and the bytes of their displacements.
+    fn wide_operands() -> Vec<(Operand, String, usize)> {
+        let registers = (0..32).map(|r| (Operand::Register(Vector(r)), format!("zmm{r}"), 0));
+        let memory = BASES.into_iter().flat_map(|(base, name)| {
+            OFFSETS.map(|(offset, text, length)| {
+                let operand = Operand::Memory(at(base, offset));
+                (operand, format!("[{name}{text}]"), length)
+            })
+        });
+        registers.chain(memory).collect()
+    }
+
+    /// Pairs of registers in which every bit of a number differs once.
+    const PAIRS: [(u8, u8); 6] = [(0, 31), (31, 0), (7, 24), (8, 23), (16, 15), (21, 10)];
+
+    #[test]
+    fn eight_numbers_read_back_with_every_register_and_address() {
+        let floats = [
+            (Float::Add, "vaddpd"),
+            (Float::Mul, "vmulpd"),
+            (Float::Sub, "vsubpd"),
+            (Float::Min, "vminpd"),
+            (Float::Div, "vdivpd"),
+            (Float::Max, "vmaxpd"),
+        ];
+        let all = [
+            (Bits::And, "vandpd"),
+            (Bits::Or, "vorpd"),
+            (Bits::Xor, "vxorpd"),
+            (Bits::AddInteger, "vpaddq"),
+            (Bits::SubInteger, "vpsubq"),
+        ];
+        for (operand, text, _) in wide_operands() {
+            for (d, a) in PAIRS {
+                for (float, name) in floats {
+                    let eight = (Width::Eight, Vector(d), Vector(a));
+                    let line = read(|x| x.float(float, eight.0, eight.1, eight.2, operand));
+                    assert_eq!(line, format!("{name} zmm{d}, zmm{a}, {text}"));
+                }
+                for (bits, name) in all {
+                    let line = read(|x| x.bits(bits, Width::Eight, Vector(d), Vector(a), operand));
+                    assert_eq!(line, format!("{name} zmm{d}, zmm{a}, {text}"));
+                }
+                let root =
+                    read(|x| x.float(Float::Sqrt, Width::Eight, Vector(d), Vector(a), operand));
+                assert_eq!(root, format!("vsqrtpd zmm{d}, {text}"));
+            }
+        }
+    }
+
+    #[test]
+    fn fused_operations_on_eight_numbers_read_back_in_every_order() {
+        for (operand, text, _) in wide_operands() {
+            for (sign, name) in [
+                (Sign::Add, "vfmadd"),
+                (Sign::Sub, "vfmsub"),
+                (Sign::NegatedAdd, "vfnmadd"),
+            ] {
+                for (order, digits) in [
+                    (Order::O132, "132"),
+                    (Order::O213, "213"),
+                    (Order::O231, "231"),
+                ] {
+                    for (first, second) in PAIRS {
+                        let line = read(|x| {
+                            let (first, second) = (Vector(first), Vector(second));
+                            x.fused((sign, order), Width::Eight, first, second, operand);
+                        });
+                        let expected = format!("{name}{digits}pd zmm{first}, zmm{second}, {text}");
+                        assert_eq!(line, expected);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn masks_read_back() {
+        for (operand, text, _) in wide_operands() {
+            for k in 1..8 {
+                for (predicate, name) in [
+                    (Predicate::Less, "lt_oq"),
+                    (Predicate::NotLess, "nlt"),
+                    (Predicate::NotLessEqual, "nle"),
+                ] {
+                    let line = read(|x| {
+                        let a = Vector(20 + k);
+                        x.compare_to_mask(predicate, Width::Eight, Mask(k), a, operand);
+                    });
+                    let expected = format!("vcmp{name}pd k{k}, zmm{}, {text}", 20 + k);
+                    assert_eq!(line, expected);
+                }
+                for (d, a) in PAIRS {
+                    let mask = Mask(k);
+                    let line =
+                        read(|x| x.select(Width::Eight, Vector(d), Vector(a), operand, mask));
+                    // The disassembler writes the mask after what is written.
+                    let expected = format!("vblendmpd zmm{d}{{k{k}}}, zmm{a}, {text}");
+                    assert_eq!(line, expected);
+                }
+            }
+        }
+        for k in 1..8 {
+            for r in [0, 7, 8, 15, 16, 31] {
+                let lines = read(|x| {
+                    x.spread(Width::Eight, Vector(r), Mask(k));
+                    x.signs_to_mask(Width::Eight, Mask(k), Vector(r));
+                    x.test_mask(Mask(k));
+                    x.move_mask(Gpr::Rax, Mask(k));
+                    x.move_mask(Gpr::R9, Mask(k));
+                });
+                let expected = format!(
+                    "vpmovm2q zmm{r}, k{k}\nvpmovq2m k{k}, zmm{r}\nkortestb k{k}, k{k}\n\
+                     kmovb eax, k{k}\nkmovb r9d, k{k}"
+                );
+                assert_eq!(lines, expected);
+            }
+        }
+    }
+
+    #[test]
+    fn moves_and_shifts_of_eight_numbers_read_back() {
+        for (base, name) in BASES {
+            for (offset, text, length) in OFFSETS {
+                for r in [0, 7, 8, 15, 16, 31] {
+                    let mut assembler = Assembler::default();
+                    assembler.load(Width::Eight, Vector(r), at(base, offset));
+                    // Prefix, opcode and operands, and as few bytes for the displacement as there may be.
+                    assert_eq!(assembler.finish().unwrap().len(), 6 + length);
+                    let lines = read(|x| {
+                        x.load(Width::Eight, Vector(r), at(base, offset));
+                        x.store(Width::Eight, at(base, offset), Vector(r));
+                    });
+                    let place = format!("[{name}{text}]");
+                    let expected = format!("vmovupd zmm{r}, {place}\nvmovupd {place}, zmm{r}");
+                    assert_eq!(lines, expected);
+                }
+            }
+        }
+        for (d, a) in PAIRS {
+            let lines = read(|x| {
+                x.copy(Width::Eight, Vector(d), Vector(a));
+                x.shift(true, 62, Width::Eight, Vector(d), Vector(a));
+                x.shift(false, 52, Width::Eight, Vector(d), Vector(a));
+            });
+            let expected = format!(
+                "vmovapd zmm{d}, zmm{a}\nvpsllq zmm{d}, zmm{a}, 3Eh\nvpsrlq zmm{d}, zmm{a}, 34h"
+            );
+            assert_eq!(lines, expected);
+        }
+    }
+
+    #[test]
+    fn narrow_instructions_reach_registers_beyond_the_first_sixteen() {
+        let memory = |offset| Operand::Memory(at(Gpr::Rdi, offset));
+        let lines = read(|x| {
+            x.float(Float::Add, Width::One, Vector(17), Vector(2), memory(24));
+            x.float(Float::Mul, Width::Four, Vector(3), Vector(30), memory(96));
+            let high = Operand::Register(Vector(25));
+            x.fused(
+                (Sign::Add, Order::O231),
+                Width::One,
+                Vector(1),
+                Vector(2),
+                high,
+            );
+            x.bits(Bits::Xor, Width::One, Vector(16), Vector(16), memory(48));
+            x.store(Width::One, at(Gpr::Rcx, 40), Vector(31));
+        });
+        let expected = "vaddsd xmm17, xmm2, [rdi+18h]\nvmulpd ymm3, ymm30, [rdi+60h]\n\
+                        vfmadd231sd xmm1, xmm2, xmm25\nvxorpd xmm16, xmm16, [rdi+30h]\n\
+                        vmovsd [rcx+28h], xmm31";
+        assert_eq!(lines, expected);
     }
 }

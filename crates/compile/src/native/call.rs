@@ -174,6 +174,7 @@ unsafe extern "sysv64" fn factor(cells: *mut f64, detail: u64) -> u64 {
     unsafe {
         match lanes {
             1 => dense::factor::<1>(size, is_definite, cells),
+            8 => dense::factor::<8>(size, is_definite, cells),
             _ => dense::factor::<4>(size, is_definite, cells),
         }
     }
@@ -195,6 +196,7 @@ unsafe extern "sysv64" fn solve(cells: *mut f64, detail: u64) -> u64 {
     unsafe {
         match lanes {
             1 => dense::solve::<1>(size, matrix, x),
+            8 => dense::solve::<8>(size, matrix, x),
             _ => dense::solve::<4>(size, matrix, x),
         }
     }

@@ -5,6 +5,7 @@
 //! registers with everything around them.
 
 use super::assembler::{Bits, Float, Predicate, Sign, Width};
+use super::registers::MOST_REGISTERS;
 use crate::native::call::Helper;
 use std::collections::HashMap;
 
@@ -245,7 +246,7 @@ impl Builder {
 
     /// Sine and cosine; in code for single states the kernel is written last, for several angles at once.
     pub(crate) fn sin_cos(&mut self, argument: Value) -> (Value, Value) {
-        if self.width == Width::Four {
+        if self.width != Width::One {
             return super::kernels::sin_cos(self, argument);
         }
         let (sin, cos) = (self.value(None, None), self.value(None, None));
@@ -479,12 +480,12 @@ pub(crate) const SIGN: u64 = 1 << 63;
 /// The frame begins with the argument, two results and the mask of a guard, whose function is called with all
 /// vector registers saved after them.
 pub(crate) const SCRATCH: i32 = 0;
-/// Bytes of one of the scratch cells.
-pub(crate) const SCRATCH_CELL: i32 = 32;
+/// Bytes of one of the scratch cells, and of a register saved: the widest.
+pub(crate) const SCRATCH_CELL: i32 = 64;
 /// Where vector registers are saved.
 pub(crate) const SAVED: i32 = 4 * SCRATCH_CELL;
 /// The first byte after both.
-pub(crate) const SCRATCH_END: i32 = SAVED + 16 * 32;
+pub(crate) const SCRATCH_END: i32 = SAVED + MOST_REGISTERS as i32 * SCRATCH_CELL;
 
 impl Code {
     /// Removes what no store, call or failure needs.

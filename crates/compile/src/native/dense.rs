@@ -1,4 +1,4 @@
-//! Factorization and solution of systems too large to be written out, for one state or four side by side.
+//! Factorization and solution of systems too large to be written out, for one state, or four or eight side by side.
 //!
 //! The storage is that of the interpreter ([`crate::factor`]): L below the diagonal, reciprocals of the pivots on
 //! it, U = D Lᵀ above it; then the pivots, then for each row the one it was exchanged with. Every entry is
@@ -116,15 +116,16 @@ fn subtract_row<const W: usize>(
     multiplier: &[f64; W],
     pivot_row: &[[f64; W]],
 ) {
-    let mut wide = [0.0; VECTOR];
-    for l in 0..VECTOR {
-        wide[l] = -multiplier[l % W];
+    // Of eight states, every other vector has the upper four.
+    let mut wide = [[0.0; VECTOR]; 2];
+    for l in 0..2 * VECTOR {
+        wide[l / VECTOR][l % VECTOR] = -multiplier[l % W];
     }
     let (row, _) = row.as_flattened_mut().as_chunks_mut::<VECTOR>();
     let (pivot_row, _) = pivot_row.as_flattened().as_chunks::<VECTOR>();
     let (row, pivot_row) = (&mut row[..vectors], &pivot_row[..vectors]);
     for j in 0..vectors {
-        add_product(&mut row[j], &wide, &pivot_row[j]);
+        add_product(&mut row[j], &wide[j % 2], &pivot_row[j]);
     }
 }
 

@@ -57,7 +57,7 @@ impl Machine {
     }
 
     fn with_stride(program: &Program, width: Width, bytes: i32) -> Option<Machine> {
-        if !super::is_available() {
+        if !super::can_run(width) {
             return None;
         }
         let Translated {
@@ -92,7 +92,7 @@ impl Machine {
         file: usize,
         outputs: usize,
     ) -> Option<Machine> {
-        if !super::is_available() {
+        if !super::can_run(width) {
             return None;
         }
         Machine::place(code, width, (0, file, vec![0, outputs]))
@@ -105,7 +105,7 @@ impl Machine {
         width: Width,
         (variables, file, outputs): (usize, usize, Vec<usize>),
     ) -> Option<Machine> {
-        let allocated = registers::allocate(&code);
+        let allocated = registers::allocate(&code, width);
         let bytes = emit::emit(&allocated.steps, width)?;
         Some(Machine {
             pages: Pages::new(&bytes)?,
@@ -129,12 +129,12 @@ impl Machine {
         for &(offset, bits, copies) in &self.initial {
             frame.write(offset, std::iter::repeat_n(f64::from_bits(bits), copies));
         }
+        let lanes = self.width.lanes();
         let runs = match self.width {
             Width::One => 1,
-            Width::Four => LANES / SIDE_BY_SIDE,
+            Width::Four | Width::Eight => LANES / lanes,
         };
         let count = if self.copied.is_empty() { 1 } else { runs };
-        let lanes = self.width.lanes();
         let kept = if runs == 1 {
             0
         } else {
@@ -152,6 +152,11 @@ impl Machine {
     /// Matrices of the prologue whose factors a frame has to have: index, and the byte from which they are.
     pub(crate) fn copied(&self) -> &[(usize, i32)] {
         &self.copied
+    }
+
+    /// How many states it takes at once.
+    pub(crate) fn lanes(&self) -> usize {
+        self.width.lanes()
     }
 
     /// Length of the code.

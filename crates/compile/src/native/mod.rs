@@ -1,12 +1,12 @@
-//! Native code for x86-64 with AVX2 and FMA.
+//! Native code for x86-64 with AVX2 and FMA, or AVX-512.
 //!
 //! ```text
 //! Program ──translate──▶ Code ──registers──▶ Steps ──emit──▶ bytes ──memory──▶ Pages
 //!            │ kernels, linear, gather
 //! ```
 //!
-//! One emitter makes the code for single states and for four states side by side; the same operations in the same
-//! order, so that a state has the same result alone and in a block. The prologue is interpreted: it runs once. A
+//! One emitter makes the code for single states and for four or eight states side by side; the same operations in the
+//! same order, so that a state has the same result alone and in a block. The prologue is interpreted: it runs once. A
 //! state whose pivots leave a doubt is evaluated by the interpreter, so failures are the interpreter's own.
 //!
 //! Values differ from the interpreter's by fused multiply-adds, and by functions, whose greatest errors, measured
@@ -29,7 +29,7 @@ mod translate;
 
 use crate::decode;
 use crate::evaluate::{BlockEvaluator, EvaluateFailure, Evaluator};
-use crate::frames::{Frames, SIDE_BY_SIDE};
+use crate::frames::Frames;
 use crate::interpret::{BlockWorkspace, State, Workspace};
 use crate::lanes::{Lanes, Word, LANES};
 use crate::program::Program;
@@ -50,28 +50,91 @@ pub struct Native {
     single: Machine,
     /// By number of groups: how many outputs they have.
     counts: Vec<usize>,
+    vectors: Vectors,
     /// Made when the first block is evaluated; `None` where it cannot be.
     block: OnceLock<Option<Machine>>,
 }
 
-/// Whether this processor has the instructions that native code uses.
+/// Vector instructions, of which native code for blocks uses the widest.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[non_exhaustive]
+pub enum Vectors {
+    /// AVX2 and FMA: four states at a time.
+    Avx2,
+    /// AVX-512 (F, DQ, BW and VL): eight states at a time.
+    Avx512,
+}
+
+impl Vectors {
+    /// The widest that this processor has; `None` if it has none that native code uses.
+    pub fn widest() -> Option<Vectors> {
+        let all = [Vectors::Avx512, Vectors::Avx2];
+        all.into_iter().find(|vectors| vectors.are_available())
+    }
+
+    /// Whether this processor has them.
+    pub fn are_available(self) -> bool {
+        match self {
+            Vectors::Avx2 => is_available(),
+            Vectors::Avx512 => {
+                is_available()
+                    && is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512bw")
+                    && is_x86_feature_detected!("avx512vl")
+            }
+        }
+    }
+
+    fn width(self) -> Width {
+        match self {
+            Vectors::Avx2 => Width::Four,
+            Vectors::Avx512 => Width::Eight,
+        }
+    }
+}
+
+/// Whether this processor has the instructions that all native code uses.
 pub(crate) fn is_available() -> bool {
     is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
 }
 
+/// Whether this processor has the instructions of code for so many states at a time.
+fn can_run(width: Width) -> bool {
+    match width {
+        Width::One | Width::Four => Vectors::Avx2.are_available(),
+        Width::Eight => Vectors::Avx512.are_available(),
+    }
+}
+
 impl Native {
-    /// Compiles `program`; `None` where native code cannot run: the processor lacks AVX2 or FMA, or the system
+    /// Compiles `program` for the widest vectors of this processor; `None` where native code cannot run: the processor lacks AVX2 or FMA, or the system
     /// refuses pages for it.
     ///
     /// # Errors
     /// [`VerifyError`] if the program is not well formed; one made by [`Lowering`](crate::Lowering) is.
     pub fn new(program: Program) -> Result<Option<Native>, VerifyError> {
         program.verify()?;
-        Ok(Native::of_verified(&program))
+        let widest = Vectors::widest();
+        Ok(widest.and_then(|vectors| Native::of_verified(&program, vectors)))
     }
 
-    pub(crate) fn of_verified(program: &Program) -> Option<Native> {
+    /// The same with these vectors, to compare them; `None` also where the processor lacks them. All give the same
+    /// results.
+    ///
+    /// # Errors
+    /// As [`new`](Native::new).
+    pub fn with_vectors(program: Program, vectors: Vectors) -> Result<Option<Native>, VerifyError> {
+        program.verify()?;
+        Ok(Native::of_verified(&program, vectors))
+    }
+
+    pub(crate) fn of_verified(program: &Program, vectors: Vectors) -> Option<Native> {
+        if !vectors.are_available() {
+            return None;
+        }
         Some(Native {
+            vectors,
             single: Machine::new(program, Width::One)?,
             counts: (0..=program.outputs.len())
                 .map(|groups| program.output_count_of(groups))
@@ -81,13 +144,18 @@ impl Native {
         })
     }
 
+    /// The vectors that code for blocks uses.
+    pub fn vectors(&self) -> Vectors {
+        self.vectors
+    }
+
     /// Bytes of machine code for single states.
     pub fn code_size(&self) -> usize {
         self.single.bytes()
     }
 
     fn block(&self) -> Option<&Machine> {
-        let make = || Machine::new(&self.code.program, Width::Four);
+        let make = || Machine::new(&self.code.program, self.vectors.width());
         self.block.get_or_init(make).as_ref()
     }
 }
@@ -266,8 +334,8 @@ fn run_block(
     let (variables, file) = (numbers(variables), numbers(&state.file));
     let outputs = numbers_mut(outputs);
     let mut failed = 0;
-    for run in 0..LANES / SIDE_BY_SIDE {
-        let first = run * SIDE_BY_SIDE;
+    for run in 0..LANES / machine.lanes() {
+        let first = run * machine.lanes();
         let data = Data {
             variables: variables.get(first..).unwrap_or_default(),
             file: file.get(first..).unwrap_or_default(),

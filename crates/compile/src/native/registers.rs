@@ -1,18 +1,18 @@
-//! Puts the values of straight-line code into the sixteen vector registers.
+//! Puts the values of straight-line code into the vector registers: sixteen, or 32 where states go eight at a time.
 //!
 //! One pass from the first instruction to the last. When no register is free, the value whose next use is farthest
 //! makes room (Belady 1966); a value that is also in memory (a constant, an input, one spilled before) goes for
 //! nothing, so it goes a little earlier than one that has to be stored. A value in memory is loaded only if it is
 //! used again before what it would displace; otherwise the instruction reads it from memory.
 
-use super::assembler::{Bits, Order, Sign, Width, Ymm};
+use super::assembler::{Bits, Order, Sign, Vector, Width};
 use super::call::Helper;
 use super::code::{Base, Code, Op, Operation, Place, Value};
 
 /// Where an operand is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Spot {
-    Register(Ymm),
+    Register(Vector),
     Memory(Place),
 }
 
@@ -21,44 +21,44 @@ pub(crate) enum Spot {
 pub(crate) enum Step {
     Load {
         width: Width,
-        to: Ymm,
+        to: Vector,
         from: Place,
     },
     Copy {
         width: Width,
-        to: Ymm,
-        from: Ymm,
+        to: Vector,
+        from: Vector,
     },
     Store {
         width: Width,
         to: Place,
-        from: Ymm,
+        from: Vector,
     },
     /// An operation with a target of its own.
     Apply {
         operation: Operation,
         width: Width,
-        out: Ymm,
-        a: Ymm,
+        out: Vector,
+        a: Vector,
         b: Spot,
         /// The third operand of a blend.
-        c: Ymm,
+        c: Vector,
     },
     /// A fused multiply-add overwrites its first operand.
     Fused {
         sign: Sign,
         order: Order,
         width: Width,
-        first: Ymm,
-        second: Ymm,
+        first: Vector,
+        second: Vector,
         third: Spot,
     },
     Guard {
         slow: Helper,
         width: Width,
-        bad: Ymm,
-        argument: Ymm,
-        results: [Option<Ymm>; 2],
+        bad: Vector,
+        argument: Vector,
+        results: [Option<Vector>; 2],
     },
     Call {
         helper: Helper,
@@ -66,7 +66,7 @@ pub(crate) enum Step {
     },
     Fail {
         width: Width,
-        bad: Ymm,
+        bad: Vector,
     },
     End,
 }
@@ -78,9 +78,9 @@ pub(crate) struct Allocated {
     pub(crate) frame: i32,
 }
 
-/// Assigns registers to the values of `code`.
-pub(crate) fn allocate(code: &Code) -> Allocated {
-    let mut allocator = Allocator::new(code);
+/// Assigns registers to the values of `code`, which is for so many states at a time.
+pub(crate) fn allocate(code: &Code, width: Width) -> Allocated {
+    let mut allocator = Allocator::new(code, registers(width));
     for (at, op) in code.ops.iter().enumerate() {
         allocator.place(at, op);
     }
@@ -90,7 +90,16 @@ pub(crate) fn allocate(code: &Code) -> Allocated {
     }
 }
 
-const REGISTERS: usize = 16;
+/// How many registers there are for code of a width.
+pub(crate) fn registers(width: Width) -> usize {
+    match width {
+        Width::One | Width::Four => 16,
+        Width::Eight => MOST_REGISTERS,
+    }
+}
+
+/// The most there are.
+pub(crate) const MOST_REGISTERS: usize = 32;
 /// A value that has to be stored is kept until its next use is so many times farther than that of one in memory.
 const STORE_COST: usize = 2;
 const NEVER: u32 = u32::MAX;
@@ -157,38 +166,38 @@ struct Allocator<'c> {
     uses: Uses,
     steps: Vec<Step>,
     /// By register: what it holds.
-    held: [Option<Value>; REGISTERS],
+    held: Vec<Option<Value>>,
     /// By value: its register.
-    register: Vec<Option<Ymm>>,
+    register: Vec<Option<Vector>>,
     /// By value: where it is in memory.
     memory: Vec<Option<Place>>,
-    /// Free places for spilled values, of one number and of four.
-    free: [Vec<Place>; 2],
+    /// Free places for spilled values, by their width.
+    free: [Vec<Place>; 3],
     frame: i32,
     /// Registers that the present instruction needs.
-    locked: [bool; REGISTERS],
+    locked: [bool; MOST_REGISTERS],
     at: usize,
 }
 
 impl<'c> Allocator<'c> {
-    fn new(code: &'c Code) -> Allocator<'c> {
+    fn new(code: &'c Code, registers: usize) -> Allocator<'c> {
         Allocator {
             code,
             uses: Uses::of(code),
             steps: Vec::with_capacity(code.ops.len() * 5 / 4),
-            held: [None; REGISTERS],
+            held: vec![None; registers],
             register: vec![None; code.values.len()],
             memory: code.values.iter().map(|info| info.home).collect(),
-            free: [Vec::new(), Vec::new()],
+            free: [Vec::new(), Vec::new(), Vec::new()],
             frame: code.frame,
-            locked: [false; REGISTERS],
+            locked: [false; MOST_REGISTERS],
             at: 0,
         }
     }
 
     fn place(&mut self, at: usize, op: &Op) {
         self.at = at;
-        self.locked = [false; REGISTERS];
+        self.locked = [false; MOST_REGISTERS];
         match *op {
             Op::Apply {
                 operation: Operation::Fused(sign),
@@ -228,7 +237,7 @@ impl<'c> Allocator<'c> {
     }
 
     /// The register of a value, loaded if need be, and locked.
-    fn read(&mut self, value: Value) -> Ymm {
+    fn read(&mut self, value: Value) -> Vector {
         let register = match self.register[value.index()] {
             Some(register) => register,
             None => {
@@ -242,7 +251,7 @@ impl<'c> Allocator<'c> {
         register
     }
 
-    fn load(&mut self, value: Value, to: Ymm) {
+    fn load(&mut self, value: Value, to: Vector) {
         if let Some(from) = self.memory[value.index()] {
             let width = self.width(value);
             self.steps.push(Step::Load { width, to, from });
@@ -251,7 +260,7 @@ impl<'c> Allocator<'c> {
         }
     }
 
-    fn hold(&mut self, value: Value, register: Ymm) {
+    fn hold(&mut self, value: Value, register: Vector) {
         self.held[register.0 as usize] = Some(value);
         self.register[value.index()] = Some(register);
     }
@@ -265,7 +274,7 @@ impl<'c> Allocator<'c> {
             return Spot::Register(self.read(value));
         };
         let is_readable =
-            width == Width::Four || place.base == Base::Frame || !reads_beyond(operation);
+            width != Width::One || place.base == Base::Frame || !reads_beyond(operation);
         if is_readable && !self.is_worth_loading(value) {
             return Spot::Memory(place);
         }
@@ -279,7 +288,7 @@ impl<'c> Allocator<'c> {
             return false;
         }
         let mut is_worth = false;
-        for r in 0..REGISTERS {
+        for r in 0..self.held.len() {
             match self.held[r] {
                 None => return true,
                 Some(_) if self.locked[r] => {}
@@ -301,12 +310,12 @@ impl<'c> Allocator<'c> {
     }
 
     /// A free register, made free if there is none.
-    fn take(&mut self) -> Ymm {
-        if let Some(r) = (0..REGISTERS).find(|&r| self.held[r].is_none() && !self.locked[r]) {
-            return Ymm(r as u8);
+    fn take(&mut self) -> Vector {
+        if let Some(r) = (0..self.held.len()).find(|&r| self.held[r].is_none() && !self.locked[r]) {
+            return Vector(r as u8);
         }
         let mut best = (0, 0);
-        for r in 0..REGISTERS {
+        for r in 0..self.held.len() {
             let Some(value) = self.held[r] else { continue };
             if self.locked[r] {
                 continue;
@@ -319,7 +328,7 @@ impl<'c> Allocator<'c> {
             }
         }
         self.evict(best.1);
-        Ymm(best.1 as u8)
+        Vector(best.1 as u8)
     }
 
     /// Empties a register; its value goes to memory unless it is there.
@@ -331,7 +340,7 @@ impl<'c> Allocator<'c> {
         if self.memory[value.index()].is_none() && self.uses.next(value) != NEVER {
             let width = self.width(value);
             let to = self.slot(width);
-            let from = Ymm(r as u8);
+            let from = Vector(r as u8);
             self.steps.push(Step::Store { width, to, from });
             self.memory[value.index()] = Some(to);
         }
@@ -352,7 +361,7 @@ impl<'c> Allocator<'c> {
     }
 
     fn spill_all(&mut self) {
-        for r in 0..REGISTERS {
+        for r in 0..self.held.len() {
             self.evict(r);
         }
     }
@@ -385,7 +394,7 @@ impl<'c> Allocator<'c> {
     }
 
     /// Registers of operands that die here, which the result may take.
-    fn dying(&self, value: Value) -> Option<Ymm> {
+    fn dying(&self, value: Value) -> Option<Vector> {
         let register = self.register[value.index()]?;
         (self.next_after(value) == NEVER).then_some(register)
     }
@@ -434,7 +443,7 @@ impl<'c> Allocator<'c> {
     }
 
     /// Passes the operands, then puts the result into `target`.
-    fn define(&mut self, operands: &[Value], out: Value, target: Ymm) {
+    fn define(&mut self, operands: &[Value], out: Value, target: Vector) {
         for &value in operands {
             self.uses.pass(value, self.at);
             if self.uses.next(value) == NEVER {
@@ -512,7 +521,7 @@ impl<'c> Allocator<'c> {
     }
 
     /// A register with the value of an operand, free to be overwritten.
-    fn target(&mut self, value: Value) -> Ymm {
+    fn target(&mut self, value: Value) -> Vector {
         let Some(from) = self.register[value.index()] else {
             let to = self.take();
             self.locked[to.0 as usize] = true;
@@ -646,12 +655,12 @@ mod tests {
 
     /// What instructions on registers store outside of the places for spilled values.
     fn stored_by_steps(code: &Code, steps: &[Step]) -> Vec<(Place, Content)> {
-        let mut registers = [0; REGISTERS];
+        let mut registers = [0; MOST_REGISTERS];
         let mut memory: HashMap<Place, Content> = HashMap::new();
         let mut stored = Vec::new();
         for step in steps {
             let at = |place: Place| memory.get(&place).copied().unwrap_or(of_place(place));
-            let register = |r: Ymm| registers[r.0 as usize];
+            let register = |r: Vector| registers[r.0 as usize];
             let read = |spot: Spot| match spot {
                 Spot::Register(r) => register(r),
                 Spot::Memory(place) => at(place),
@@ -709,7 +718,7 @@ mod tests {
                     }
                 }
                 // Nothing in a register outlives a call.
-                Step::Call { .. } => registers = [0; REGISTERS],
+                Step::Call { .. } => registers = [0; MOST_REGISTERS],
                 Step::Fail { .. } | Step::End => {}
             }
         }
@@ -770,9 +779,9 @@ mod tests {
     #[test]
     fn large_code_that_spills_computes_what_was_written() {
         for seed in 0..30 {
-            for width in [Width::One, Width::Four] {
+            for width in [Width::One, Width::Four, Width::Eight] {
                 let code = sample(seed, 3_000, width);
-                let allocated = allocate(&code);
+                let allocated = allocate(&code, width);
                 let expected = stored_by_code(&code);
                 assert_eq!(
                     stored_by_steps(&code, &allocated.steps),
@@ -792,7 +801,7 @@ mod tests {
     fn places_of_values_no_longer_needed_are_used_again() {
         let frame = |size| {
             let code = sample(5, size, Width::Four);
-            let allocated = allocate(&code);
+            let allocated = allocate(&code, Width::Four);
             allocated.frame - code.frame
         };
         // What is picked at random among all stays alive; most is picked among recent values, and dies.
@@ -815,7 +824,7 @@ mod tests {
         };
         b.store(sum, to);
         let code = b.finish();
-        let allocated = allocate(&code);
+        let allocated = allocate(&code, Width::One);
         assert_eq!((code.frame, allocated.frame), (SCRATCH_END, SCRATCH_END));
         let loads = |step: &&Step| matches!(step, Step::Load { .. });
         assert_eq!(allocated.steps.iter().filter(loads).count(), 2);

@@ -52,7 +52,7 @@ pub(crate) fn translate(program: &Program, width: Width, stride: i32) -> Transla
 pub(crate) fn stride(width: Width) -> i32 {
     match width {
         Width::One => 8,
-        Width::Four => 8 * LANES as i32,
+        Width::Four | Width::Eight => 8 * LANES as i32,
     }
 }
 

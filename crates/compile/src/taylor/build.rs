@@ -3,10 +3,11 @@
 use super::functions::{Auxiliary, Condition, Demand};
 use super::recurrence::{Keep, Kind, Order, Recurrence, KINDS};
 use super::solve::Linear;
-use super::{Series, TaylorWorkspace};
+use super::Series;
 use crate::emit::Origin;
 use crate::evaluate::EvaluateFailure;
 use crate::program::{Binary, Fused, Instruction, Register, Unary};
+use crate::scalar::Scalar;
 use crate::schedule::Single;
 use std::collections::VecDeque;
 
@@ -42,37 +43,37 @@ impl Recurrences {
     }
 
     /// Values of order 0 that no instruction computes, and whether all series exist.
-    pub(super) fn seed(&self, zero: &mut [f64]) -> Result<(), EvaluateFailure> {
+    pub(super) fn seed<S: Scalar>(&self, zero: &mut [S]) -> Result<(), EvaluateFailure> {
         for &(out, auxiliary, a, b) in &self.auxiliaries {
             zero[out as usize] = auxiliary.value(zero[a as usize], zero[b as usize]);
         }
         let mut conditions = self.conditions.iter();
-        conditions.try_for_each(|condition| condition.check(zero[condition.register as usize]))
+        conditions
+            .try_for_each(|condition| condition.check(zero[condition.register as usize].rounded()))
     }
 
     /// Stores order 0 of all series.
-    pub(super) fn keep_all(&self, zero: &[f64], series: &mut Series) {
+    pub(super) fn keep_all<S: Scalar>(&self, zero: &[S], series: &mut Series<S>) {
         for &(register, keep) in &self.kept {
             keep.store(series, 0, zero[register as usize]);
         }
     }
 
-    /// The next order, from that of the variables.
-    pub(super) fn advance(&self, workspace: &mut TaylorWorkspace) {
-        let state = &workspace.state;
-        let mut order = Order {
-            j: workspace.order,
-            zero: &state.file,
-            now: &mut workspace.now,
-            series: &mut workspace.series,
-        };
+    /// The next order, from that of the variables; `solve` takes the number of a matrix factorized at order 0, a right-hand side
+    /// and the place of the solution.
+    pub(super) fn advance<S: Scalar>(
+        &self,
+        mut order: Order<'_, S>,
+        solve: &impl Fn(usize, &[S], &mut [S]),
+        scratch: &mut [S],
+    ) {
         for &(register, keep) in &self.inputs {
             let value = order.now[register as usize];
             keep.store(order.series, order.j, value);
         }
         for &(kind, start, end) in &self.runs {
             if kind == Kind::Solve {
-                self.systems[start].run(&mut order, state, &mut workspace.solution);
+                self.systems[start].run(&mut order, solve, scratch);
             } else {
                 order.run(kind, &self.list[start..end]);
             }

@@ -3,6 +3,7 @@
 use super::build::Builder;
 use super::recurrence::Kind;
 use crate::evaluate::EvaluateFailure;
+use crate::scalar::Scalar;
 use chetaev_symbolic::Function;
 
 /// A value that no instruction computes but a recurrence needs: its order 0.
@@ -31,18 +32,19 @@ pub(super) enum Auxiliary {
 }
 
 impl Auxiliary {
-    pub(super) fn value(self, a: f64, b: f64) -> f64 {
+    pub(super) fn value<S: Scalar>(self, a: S, b: S) -> S {
+        let one = S::of(1.0);
         match self {
-            Auxiliary::Partner(function) => chetaev_symbolic::evaluate::apply(function, a),
-            Auxiliary::OnePlusSquare => 1.0 + a * a,
-            Auxiliary::OneMinusSquare => (1.0 - a) * (1.0 + a),
-            Auxiliary::SquareMinusOne => (a - 1.0) * (a + 1.0),
+            Auxiliary::Partner(function) => S::apply(function, a),
+            Auxiliary::OnePlusSquare => one + a * a,
+            Auxiliary::OneMinusSquare => (one - a) * (one + a),
+            Auxiliary::SquareMinusOne => (a - one) * (a + one),
             Auxiliary::SumOfSquares => a * a + b * b,
             Auxiliary::Square => a * a,
             Auxiliary::Root => a.sqrt(),
-            Auxiliary::Logarithm => a.ln(),
+            Auxiliary::Logarithm => S::apply(Function::Log, a),
             Auxiliary::Product => a * b,
-            Auxiliary::Nothing => 0.0,
+            Auxiliary::Nothing => S::ZERO,
         }
     }
 }

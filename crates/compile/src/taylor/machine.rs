@@ -23,7 +23,7 @@ use crate::interpret::Workspace;
 use crate::native::assembler::Width;
 use crate::native::machine::{Data, Machine};
 use crate::native::products::{Products, MOST, STRIDE, ZERO};
-use crate::native::Native;
+use crate::native::{Native, Vectors};
 use crate::schedule::Single;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -95,7 +95,7 @@ impl Recurring {
         let reach = layout.series - STRIDE + ZERO + 2;
         let machine = Machine::of_code(code, Width::One, layout.file, reach)?;
         Some(Recurring {
-            zero: Arc::new(Native::of_verified(&program)?),
+            zero: Arc::new(Native::of_verified(&program, Vectors::Avx2)?),
             body,
             machine: Arc::new(machine),
             products,

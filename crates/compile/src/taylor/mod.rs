@@ -21,6 +21,7 @@
 #[cfg(all(unix, target_arch = "x86_64"))]
 mod abreast;
 mod build;
+mod double_double;
 mod functions;
 #[cfg(all(unix, target_arch = "x86_64"))]
 mod machine;
@@ -43,7 +44,9 @@ use crate::program::{Layout, Program};
 use crate::schedule;
 use crate::verify::VerifyError;
 use build::Recurrences;
+pub use double_double::PreciseTaylor;
 use machine::{FourRunning, Recurring, Running};
+use recurrence::Order;
 
 /// The Taylor recurrences of a program.
 ///
@@ -101,22 +104,22 @@ pub struct TaylorWorkspace {
 
 /// Series of those values that are convolved: `stride` numbers each.
 #[derive(Clone, Debug)]
-struct Series {
-    values: Vec<f64>,
+struct Series<S = f64> {
+    values: Vec<S>,
     stride: usize,
 }
 
-impl Series {
+impl<S> Series<S> {
     /// Coefficients `from..to` of a series stored forward.
     #[inline(always)]
-    fn forward(&self, slot: u32, from: usize, to: usize) -> &[f64] {
+    fn forward(&self, slot: u32, from: usize, to: usize) -> &[S] {
         let start = slot as usize * self.stride;
         &self.values[start + from..start + to]
     }
 
     /// Coefficients from `high` down to `low` of a series stored in reverse.
     #[inline(always)]
-    fn reverse(&self, slot: u32, high: usize, low: usize) -> &[f64] {
+    fn reverse(&self, slot: u32, high: usize, low: usize) -> &[S] {
         let end = (slot as usize + 1) * self.stride;
         &self.values[end - 1 - high..end - low]
     }
@@ -282,7 +285,18 @@ impl Taylor {
             return machine.advance(workspace.order, variables, running);
         }
         workspace.now[layout.variable_range()].copy_from_slice(variables);
-        self.recurrences.advance(workspace);
+        let state = &workspace.state;
+        let order = Order {
+            j: workspace.order,
+            zero: &state.file,
+            now: &mut workspace.now,
+            series: &mut workspace.series,
+        };
+        let solve = |matrix: usize, b: &[f64], x: &mut [f64]| {
+            state.factored[matrix].solve(|i, _| b[i], x);
+        };
+        self.recurrences
+            .advance(order, &solve, &mut workspace.solution);
         Ok(())
     }
 

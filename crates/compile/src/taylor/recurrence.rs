@@ -14,6 +14,7 @@
 //! ```
 
 use super::Series;
+use crate::scalar::Scalar;
 
 /// What a recurrence does with its operands `[a, b, c, d, e]`; registers are read at the present order (or at order 0
 /// where said), `→x` is a series stored forward, `←x` one stored in reverse, `·x` one multiplied by its orders.
@@ -102,27 +103,27 @@ pub(super) struct Keep {
 impl Keep {
     /// Stores the coefficient of order j.
     #[inline(always)]
-    pub(super) fn store(self, series: &mut Series, j: usize, value: f64) {
+    pub(super) fn store<S: Scalar>(self, series: &mut Series<S>, j: usize, value: S) {
         let stride = series.stride;
         series.values[self.forward as usize * stride + j] = value;
         series.values[(self.reverse as usize + 1) * stride - 1 - j] = value;
-        series.values[self.weighted as usize * stride + j] = j as f64 * value;
+        series.values[self.weighted as usize * stride + j] = S::of(j as f64) * value;
     }
 }
 
 /// Σ a_i b_i, in four interleaved sums.
 #[inline(always)]
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn dot<S: Scalar>(a: &[S], b: &[S]) -> S {
     let (a4, a_rest) = a.as_chunks::<4>();
     let (b4, b_rest) = b.as_chunks::<4>();
-    let mut sums = [0.0; 4];
+    let mut sums = [S::ZERO; 4];
     for (a, b) in a4.iter().zip(b4) {
         for k in 0..4 {
             sums[k] += a[k] * b[k];
         }
     }
-    let mut rest = 0.0;
-    for (a, b) in a_rest.iter().zip(b_rest) {
+    let mut rest = S::ZERO;
+    for (&a, &b) in a_rest.iter().zip(b_rest) {
         rest += a * b;
     }
     (sums[0] + sums[2]) + (sums[1] + sums[3]) + rest
@@ -130,14 +131,14 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// Σ_{i=from..j−from} x_i x_{j−i} from its half: →x ←x are the same series.
 #[inline(always)]
-fn half(series: &Series, (forward, reverse): (u32, u32), j: usize, from: usize) -> f64 {
+fn half<S: Scalar>(series: &Series<S>, (forward, reverse): (u32, u32), j: usize, from: usize) -> S {
     // Pairs i < j − i; the middle one stands alone.
     let end = j.div_ceil(2);
-    let mut sum = 0.0;
+    let mut sum = S::ZERO;
     if end > from {
         let a = series.forward(forward, from, end);
         let b = series.reverse(reverse, j - from, j + 1 - end);
-        sum = 2.0 * dot(a, b);
+        sum = S::of(2.0) * dot(a, b);
     }
     if j.is_multiple_of(2) && j / 2 >= from {
         let middle = series.forward(forward, j / 2, j / 2 + 1)[0];
@@ -147,16 +148,16 @@ fn half(series: &Series, (forward, reverse): (u32, u32), j: usize, from: usize) 
 }
 
 /// What the recurrences of one order read and write.
-pub(super) struct Order<'w> {
+pub(super) struct Order<'w, S = f64> {
     pub(super) j: usize,
     /// Values of order 0, by register.
-    pub(super) zero: &'w [f64],
+    pub(super) zero: &'w [S],
     /// Coefficients of order j, by register.
-    pub(super) now: &'w mut [f64],
-    pub(super) series: &'w mut Series,
+    pub(super) now: &'w mut [S],
+    pub(super) series: &'w mut Series<S>,
 }
 
-impl Order<'_> {
+impl<S: Scalar> Order<'_, S> {
     /// Computes recurrences of one kind, one after the other.
     pub(super) fn run(&mut self, kind: Kind, list: &[Recurrence]) {
         match kind {
@@ -186,21 +187,21 @@ impl Order<'_> {
             Kind::Square => self.each(list, |o, [a, b, ..], _| half(o.series, (a, b), o.j, 0)),
             Kind::DivideConstant => self.each(list, |o, [a, b, ..], _| o.now(a) / o.zero(b)),
             Kind::Signed => self.each(list, |o, [a, b, ..], _| o.now(a) * o.zero(b).signum()),
-            Kind::Clear => self.each(list, |_, _, _| 0.0),
+            Kind::Clear => self.each(list, |_, _, _| S::ZERO),
             _ => self.run_function(kind, list),
         }
     }
 
     /// Those that read lower orders of their own result.
     fn run_function(&mut self, kind: Kind, list: &[Recurrence]) {
-        let per_order = 1.0 / self.j as f64;
+        let per_order = S::of(1.0) / S::of(self.j as f64);
         match kind {
             Kind::Divide => self.each(list, |o, [a, b, _, d, _], keep| {
                 (o.now(a) - o.below(b, keep.reverse)) / o.zero(d)
             }),
             Kind::Root => self.each(list, |o, [a, _, _, d, _], keep| {
                 let sum = half(o.series, (keep.forward, keep.reverse), o.j, 1);
-                (o.now(a) - sum) / (2.0 * o.zero(d))
+                (o.now(a) - sum) / (S::of(2.0) * o.zero(d))
             }),
             Kind::Integral => self.each(list, |o, [a, b, ..], _| o.below(a, b) * per_order),
             Kind::NegIntegral => self.each(list, |o, [a, b, ..], _| -o.below(a, b) * per_order),
@@ -222,7 +223,7 @@ impl Order<'_> {
     }
 
     #[inline(always)]
-    fn each(&mut self, list: &[Recurrence], f: impl Fn(&Self, [u32; 5], Keep) -> f64) {
+    fn each(&mut self, list: &[Recurrence], f: impl Fn(&Self, [u32; 5], Keep) -> S) {
         for recurrence in list {
             let value = f(self, recurrence.operands, recurrence.keep);
             self.now[recurrence.out as usize] = value;
@@ -231,18 +232,18 @@ impl Order<'_> {
     }
 
     #[inline(always)]
-    fn now(&self, register: u32) -> f64 {
+    fn now(&self, register: u32) -> S {
         self.now[register as usize]
     }
 
     #[inline(always)]
-    fn zero(&self, register: u32) -> f64 {
+    fn zero(&self, register: u32) -> S {
         self.zero[register as usize]
     }
 
     /// Σ_{i=0..j} x_i y_{j−i}
     #[inline(always)]
-    fn product(&self, x: u32, y: u32) -> f64 {
+    fn product(&self, x: u32, y: u32) -> S {
         let j = self.j;
         dot(
             self.series.forward(x, 0, j + 1),
@@ -252,7 +253,7 @@ impl Order<'_> {
 
     /// Σ_{i=1..j} x_i y_{j−i}
     #[inline(always)]
-    pub(super) fn below(&self, x: u32, y: u32) -> f64 {
+    pub(super) fn below(&self, x: u32, y: u32) -> S {
         let j = self.j;
         dot(
             self.series.forward(x, 1, j + 1),
@@ -262,10 +263,10 @@ impl Order<'_> {
 
     /// Σ_{i=1..j−1} x_i y_{j−i}
     #[inline(always)]
-    fn inside(&self, x: u32, y: u32) -> f64 {
+    fn inside(&self, x: u32, y: u32) -> S {
         let j = self.j;
         if j < 2 {
-            return 0.0;
+            return S::ZERO;
         }
         dot(
             self.series.forward(x, 1, j),

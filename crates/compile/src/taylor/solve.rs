@@ -1,8 +1,8 @@
 //! The linear system as a primitive: one factorization at order 0, one solution per order above.
 
 use super::recurrence::{Keep, Order};
-use crate::interpret::State;
 use crate::program::Solve;
+use crate::scalar::Scalar;
 
 /// A linear system above order 0.
 #[derive(Clone, Debug)]
@@ -28,8 +28,14 @@ impl Linear {
         }
     }
 
-    /// The coefficients of order j of the unknowns.
-    pub(super) fn run(&self, order: &mut Order<'_>, state: &State<f64>, scratch: &mut [f64]) {
+    /// The coefficients of order j of the unknowns; `solve` takes the number of a matrix, the right-hand side and the place of the
+    /// solution.
+    pub(super) fn run<S: Scalar>(
+        &self,
+        order: &mut Order<'_, S>,
+        solve: &impl Fn(usize, &[S], &mut [S]),
+        scratch: &mut [S],
+    ) {
         let (b, x) = scratch.split_at_mut(self.rhs.len());
         for (b, &register) in b.iter_mut().zip(&self.rhs) {
             *b = order.now[register as usize];
@@ -38,7 +44,7 @@ impl Linear {
             b[row as usize] -= order.below(entry, unknown);
         }
         let x = &mut x[..self.rhs.len()];
-        state.factored[self.matrix].solve(|i, _| b[i], x);
+        solve(self.matrix, b, x);
         for (&(register, keep), &value) in self.out.iter().zip(&*x) {
             order.now[register as usize] = value;
             keep.store(order.series, order.j, value);

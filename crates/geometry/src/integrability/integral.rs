@@ -7,12 +7,13 @@
 use crate::flag::horizontal;
 use crate::noether::ansatz::Ansatz;
 use crate::noether::family::coefficients;
-use crate::noether::letters::Letters;
+use crate::noether::letters::{fixed_coordinates, Letters};
 use crate::noether::motion::Motion;
 use crate::noether::shown::readable;
 use chetaev_mechanics::characteristics::derive_along;
 use chetaev_mechanics::{Characteristics, Context, Manifold};
-use chetaev_symbolic::{Expr, Function, Node, Verdict};
+use chetaev_symbolic::rational::content;
+use chetaev_symbolic::{Expr, Function, Node, Rational, Verdict};
 
 /// The most functions combined, without logarithms.
 const MEMBERS: usize = 90;
@@ -40,7 +41,8 @@ pub(super) fn kept(cx: &Context<'_>) -> Vec<Expr> {
         Ok(motion) if kept.len() < most && !cx.is_out_of_time() => motion,
         _ => return kept,
     };
-    for candidate in candidates(cx, &motion).unwrap_or_default() {
+    let fixed = fixed_coordinates(cx).into_iter().map(|c| c.q);
+    for candidate in fixed.chain(candidates(cx, &motion).unwrap_or_default()) {
         kept.push(candidate);
         let seed = cx.prover.points_seed();
         let independent = motion.independent_functions(&kept, seed);
@@ -180,7 +182,13 @@ fn combined(cx: &Context<'_>, members: &[Member], found: &[Expr]) -> Expr {
     let Some(leading) = leading else {
         return plain(g.one());
     };
-    let by = g.powi(leading, -1);
+    // Whole exponents where that is possible: x y² z³.
+    let ratios: Option<Vec<Rational>> = used()
+        .filter(|(member, _)| matches!(member, Member::Logarithm(_)))
+        .map(|(_, &c)| g.as_number(g.div(c, leading)).cloned())
+        .collect();
+    let unit = ratios.map_or(Rational::ONE, |ratios| content(ratios.iter()));
+    let by = g.div(g.number(Rational::ONE / unit), leading);
     let mut factors = vec![g.exp(plain(by))];
     factors.extend(used().filter_map(|(member, &c)| match *member {
         Member::Logarithm(e) => Some(g.pow(e, g.mul(&[c, by]))),

@@ -1,7 +1,7 @@
 //! Which integrals of families are functions of others, by their derivatives and values modulo p.
 
 use super::family::{Family, Member};
-use super::search::{At, Table, SURPLUS};
+use super::search::{is_linear, At, Table, SURPLUS};
 use chetaev_symbolic::number::modular_matrix::null_space;
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
@@ -85,8 +85,13 @@ impl Table<'_> {
             let value = self.letters[*letter].value;
             system.graph.contains_any(value, &velocities)
         });
-        let exponents: Vec<i8> = moving.map(|&(_, exponent)| exponent).collect();
-        exponents.is_empty() || exponents == [1]
+        let moving: Vec<&(usize, i8)> = moving.collect();
+        match moving[..] {
+            [] => true,
+            // A known function such as the energy is one letter too.
+            [&(letter, 1)] => is_linear(self.motion, self.letters[letter].value),
+            _ => false,
+        }
     }
 
     /// How many of the candidates are new functions, constants aside, beside the first of them at the places `independent`: as

@@ -4,7 +4,7 @@ use super::automatic::{families, grown};
 use super::embedded::Embedded;
 use super::family::{Family, Member};
 use super::killing::solutions;
-use super::letters::{Letters, ENERGY};
+use super::letters::{Letters, ENERGY, FIXED};
 use super::motion::Motion;
 use super::search::{Integral, Table};
 use super::shorter::shorter;
@@ -62,7 +62,7 @@ pub struct Momenta {
 struct Candidate<'f> {
     family: &'f Family,
     vector: Vec<(usize, Residue)>,
-    /// Whether it contains the time, then the degree in the velocities of the leading member; a known function goes before others
+    /// Whether it contains the time, then its degree in the velocities; a known function goes before others
     /// of its degree, and what contains neither roots nor reciprocals before what does.
     order: (bool, u32, bool, u8, usize),
     /// Whether no member is of higher degree in the velocities than one.
@@ -77,7 +77,8 @@ pub fn found(cx: &Context<'_>) -> Arc<Result<Found, String>> {
 
 /// The same, where some claim has asked for it already.
 pub fn if_searched(cx: &Context<'_>) -> Option<Arc<Result<Found, String>>> {
-    cx.known::<Result<Found, String>>()
+    let deciding = cx.deciding(super::claims::family::ID);
+    deciding.known::<Result<Found, String>>()
 }
 
 fn search(cx: &Context<'_>) -> Result<Found, String> {
@@ -106,8 +107,10 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
             draws: space.draws,
         });
         for vector in space.integrals {
-            let leading = vector.last().map_or(0, |&(member, _)| member);
-            let degree = letters.degree(&family.members[leading]);
+            let degrees = vector
+                .iter()
+                .map(|&(m, _)| letters.degree(&family.members[m]));
+            let degree = degrees.max().unwrap_or(0);
             let timed = vector
                 .iter()
                 .any(|&(m, _)| letters.is_timed(cx.system, &family.members[m]));
@@ -116,11 +119,8 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
                 .map(|&(m, _)| awkwardness(cx, family, &family.members[m]))
                 .max()
                 .unwrap_or(0);
-            let is_linear = vector
-                .iter()
-                .all(|&(m, _)| letters.degree(&family.members[m]) <= 1);
             candidates.push(Candidate {
-                is_linear,
+                is_linear: degree <= 1,
                 order: (timed, degree, true, awkward, place),
                 family,
                 vector,
@@ -131,6 +131,7 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
     candidates.extend(known(&table, letters, &families));
     candidates.sort_by_key(|c| c.order);
     let (mut integrals, dependent, open) = chosen(cx, motion, &table, &candidates);
+    kept_by_constraints(cx, motion, &mut integrals);
     let momenta = momenta(cx, motion, letters, &mut integrals);
     // Where the integrals cannot be told apart over prime fields nothing is said of special values.
     let special = special(cx, motion, letters, &integrals).unwrap_or_default();
@@ -172,7 +173,11 @@ fn known<'f>(table: &Table<'_>, letters: &Letters, families: &'f [Family]) -> Ve
             continue;
         };
         if let Some(one) = table.rate_vanishes(family, place) {
-            let degree = if name == ENERGY { 2 } else { 1 };
+            let degree = match name.as_str() {
+                ENERGY => 2,
+                _ if name.starts_with(FIXED) => 0,
+                _ => 1,
+            };
             found.push(Candidate {
                 family,
                 vector: vec![(place, one)],
@@ -183,6 +188,46 @@ fn known<'f>(table: &Table<'_>, letters: &Letters, families: &'f [Family]) -> Ve
         }
     }
     found
+}
+
+/// The claim that finds what integrable constraints keep.
+const INTEGRABLE: &str = "model.constraints-integrable#weak";
+
+/// Adds what integrable constraints keep, which need not be in a family: x y² z³ where the logarithms of its factors are combined.
+fn kept_by_constraints(cx: &Context<'_>, motion: &Motion<'_>, integrals: &mut Vec<Integral>) {
+    let kept = cx.finding(INTEGRABLE);
+    for formula in &kept.formulas {
+        let value = formula.right;
+        if !is_new(cx, motion, integrals, value) {
+            continue;
+        }
+        let rate = motion.derivatives(&[value]);
+        let verdict = cx.prover.identity(
+            cx.system,
+            &rate,
+            &motion.manifold,
+            "on the constraint manifold",
+        );
+        if matches!(verdict, Verdict::Proved(_)) {
+            integrals.push(Integral {
+                value,
+                shown: value,
+                verdict,
+                independent: true,
+                name: None,
+            });
+        }
+    }
+}
+
+/// Whether a function is independent of what holonomic constraints fix and of the integrals at hand.
+fn is_new(cx: &Context<'_>, motion: &Motion<'_>, integrals: &[Integral], value: Expr) -> bool {
+    let mut all: Vec<Expr> = cx.system.fixed_functions();
+    all.extend(integrals.iter().map(|i| i.value));
+    all.push(value);
+    motion
+        .independent_functions(&all, cx.prover.points_seed())
+        .is_some_and(|kept| kept.contains(&(all.len() - 1)))
 }
 
 /// The most components of fields of generalized momenta.
@@ -202,12 +247,7 @@ fn momenta(
     let (weight, functions) = grown(most, 0, make, Vec::len)?;
     let found = solutions(cx, &n, &functions, &[]).ok()?;
     for solution in &found {
-        let mut all: Vec<Expr> = cx.system.fixed_functions();
-        all.extend(integrals.iter().map(|i| i.value));
-        all.push(solution.integral);
-        let is_new = motion
-            .independent_functions(&all, cx.prover.points_seed())
-            .is_some_and(|kept| kept.contains(&(all.len() - 1)));
+        let is_new = is_new(cx, motion, integrals, solution.integral);
         if is_new && matches!(solution.verdict, Verdict::Proved(_)) {
             let integral = Integral {
                 value: solution.integral,

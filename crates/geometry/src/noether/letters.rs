@@ -4,6 +4,8 @@
 use super::family::{coefficients, monomials, product, CoefficientLetter, Family, Letter, Member};
 use super::motion::{draw_with_points, Motion};
 use super::occurring::Occurring;
+use chetaev_mechanics::claims::formulation::manifold;
+use chetaev_mechanics::system::Coordinate;
 use chetaev_mechanics::{Context, Frame, System};
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::{simplify, Expr, Symbol};
@@ -42,6 +44,9 @@ pub struct Polar {
 
 /// The name of the energy among the known functions.
 pub const ENERGY: &str = "the energy";
+
+/// What the names of fixed coordinates among the known functions begin with.
+pub(super) const FIXED: &str = "the coordinate";
 
 impl Letters {
     /// The letters of the context's system.
@@ -343,11 +348,24 @@ fn definitions(system: &System, frame: &Frame) -> Vec<Letter> {
     letters
 }
 
-/// The energy, and the momenta of the coordinates that L does not contain, with their names.
+/// The coordinates whose velocities the constraints forbid.
+pub(crate) fn fixed_coordinates<'a>(cx: &Context<'a>) -> Vec<&'a Coordinate> {
+    let solved = manifold(cx).solved;
+    let is_fixed = |c: &&Coordinate| {
+        let mut own = solved.iter().filter(|(symbol, _)| *symbol == c.v_symbol);
+        own.any(|(_, value)| cx.system.graph.is_zero(*value))
+    };
+    cx.system.coordinates.iter().filter(is_fixed).collect()
+}
+
+/// The energy, the momenta of the coordinates that L does not contain, and the coordinates whose velocities the constraints forbid,
+/// with their names.
 fn known(cx: &Context<'_>) -> Vec<(String, Letter)> {
     let (system, g) = (cx.system, &cx.system.graph);
     let moves = |s: Symbol| g.symbol_name(s) == "t" || system.moves(g.symbol_name(s));
     let mut values = vec![(ENERGY.to_owned(), system.energy())];
+    let fixed = fixed_coordinates(cx).into_iter();
+    values.extend(fixed.map(|c| (format!("{FIXED} {}", c.name), c.q)));
     for c in &system.coordinates {
         if !g.contains_any(system.lagrangian, &[c.q_symbol]) {
             let momentum = g.diff(system.lagrangian, c.v_symbol);

@@ -328,7 +328,7 @@ impl<'a> Table<'a> {
 }
 
 /// Whether a function is at most linear in the velocities, by its form.
-fn is_linear(motion: &Motion<'_>, e: Expr) -> bool {
+pub(super) fn is_linear(motion: &Motion<'_>, e: Expr) -> bool {
     let g = &motion.system.graph;
     let velocities = motion.system.velocity_symbols();
     let slopes = velocities.iter().map(|&v| g.diff(e, v));

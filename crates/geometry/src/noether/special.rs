@@ -134,7 +134,14 @@ impl Table<'_> {
     }
 
     /// What a family has more of at special values of the parameters, each integral proved there.
-    pub fn special(&self, cx: &Context<'_>, family: &Family, ties: &[Tie]) -> Vec<Special> {
+    /// Beside two conditions at once those count too that add something by themselves and follow from both.
+    pub fn special(
+        &self,
+        cx: &Context<'_>,
+        family: &Family,
+        ties: &[Tie],
+        adding: &[Tie],
+    ) -> Vec<Special> {
         let Some((general, _)) = self.vectors(family) else {
             return Vec::new();
         };
@@ -150,7 +157,12 @@ impl Table<'_> {
                 continue;
             };
             let without = match tie {
-                Tie::Both(first, _) => self.dimension_at(family, first).unwrap_or(usize::MAX),
+                Tie::Both(first, second) => {
+                    let follow = adding.iter().filter(|tie| self.holds(&draw, tie));
+                    let all = follow.chain([&**first, &**second]);
+                    let alone = |tie: &Tie| self.dimension_at(family, tie).unwrap_or(usize::MAX);
+                    all.map(alone).max().unwrap_or(usize::MAX)
+                }
                 _ => general.len(),
             };
             if vectors.len() <= without {
@@ -299,13 +311,14 @@ fn critical(
     };
     let mut looked = parameters.to_vec();
     looked.retain(|&parameter| search.looked_at(None, parameter));
-    let mut found = table.special(cx, &family, &search.ties);
+    let mut found = table.special(cx, &family, &search.ties, &[]);
     // Two conditions at once: an equality that adds nothing by itself, and a value of another parameter.
     let alone = search.ties.len();
     let mut pairs: Vec<Tie> = known.to_vec();
     pairs.retain(|tie| matches!(tie, Tie::Equal(..)) && !at.iter().any(|s| s.tie == *tie));
     let all = pairs.iter().all(|pair| search.looked_beside(pair));
-    found.extend(table.special(cx, &family, &search.ties[alone..]));
+    let adding: Vec<Tie> = at.iter().chain(&found).map(|s| s.tie.clone()).collect();
+    found.extend(table.special(cx, &family, &search.ties[alone..], &adding));
     let critical = Critical {
         equal: all && !pairs.is_empty() && parameters.len() > 2,
         functions: family.members.len() - 1,
@@ -355,9 +368,10 @@ impl CriticalSearch<'_, '_> {
                 None => tie,
             };
             let draw = table.draw(0).and_then(|(draw, _)| table.tied(&draw, &tie));
-            let mut known = self.known.iter().chain(&self.ties);
-            let is_new =
-                draw.is_some_and(|draw| !known.any(|t| Some(t) != first && table.holds(&draw, t)));
+            // What adds nothing by itself may add something beside an equality: there only pairs count as known.
+            let counts = |t: &&Tie| first.is_none() || matches!(t, Tie::Both(..));
+            let mut known = self.known.iter().chain(&self.ties).filter(counts);
+            let is_new = draw.is_some_and(|draw| !known.any(|t| table.holds(&draw, t)));
             if is_new && is_admitted(self.cx, &tie) {
                 self.ties.push(tie);
             }
@@ -402,14 +416,14 @@ fn special_at(
     let Some(family) = family else {
         return Vec::new();
     };
-    let mut found = table.special(cx, &family, ties);
+    let mut found = table.special(cx, &family, ties, &[]);
     let values: Vec<(Symbol, Rational)> = parameters
         .iter()
         .filter_map(|&s| Some((s, stated(cx, s)?)))
         .collect();
     let seen = found.iter().any(|special| is_stated(cx, &special.tie));
     if !seen && !values.is_empty() {
-        found.extend(table.special(cx, &family, &[Tie::Values(values)]));
+        found.extend(table.special(cx, &family, &[Tie::Values(values)], &[]));
     }
     found
 }

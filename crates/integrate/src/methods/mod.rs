@@ -12,6 +12,7 @@ pub use dormand_prince_853::DORMAND_PRINCE_853;
 pub use explicit_runge_kutta::{ErrorEstimate, ExplicitRungeKutta, Row, Tableau};
 pub use runge_kutta_4::RUNGE_KUTTA_4;
 pub use taylor::TAYLOR;
+pub(crate) use taylor::{order_by, radius_of};
 pub use tsitouras_5::TSITOURAS_5;
 
 /// Every method, by preference.

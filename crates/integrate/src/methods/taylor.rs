@@ -54,11 +54,52 @@ const PER_ORDER: f64 = 20.0;
 
 /// The order for a relative tolerance.
 fn order_for(tolerance: f64) -> usize {
-    let (logarithm, c) = (-tolerance.ln(), PER_ORDER);
+    order_by(tolerance, PER_ORDER).clamp(LEAST, MOST)
+}
+
+/// The order p of least cost p (p + c) per step for a relative tolerance, without bounds.
+pub(crate) fn order_by(tolerance: f64, c: f64) -> usize {
+    let logarithm = -tolerance.ln();
     let surplus = logarithm - c;
     let order = (1.0 + (surplus + (surplus * surplus + 8.0 * logarithm * c).sqrt()) / 4.0).ceil();
     // A tolerance that is not a number gives the lowest order.
-    (order.max(0.0) as usize).clamp(LEAST, MOST)
+    order.max(0.0) as usize
+}
+
+/// The step at which the last two terms of a series that do not vanish are negligible, and the component that limits it;
+/// `write_row` writes the coefficients of one order into `row`. Parity may null every second term; a solution all of whose upper
+/// half vanishes is a polynomial, and its step infinite.
+pub(crate) fn radius_of(
+    order: usize,
+    weights: &[f64],
+    row: &mut [f64],
+    write_row: &dyn Fn(usize, &mut [f64]),
+) -> (f64, usize) {
+    let (mut radius, mut limiting, mut seen) = (f64::INFINITY, 0, 0);
+    for j in (order / 2 + 1..=order).rev() {
+        let (mut norm, mut worst): (f64, usize) = (0.0, 0);
+        write_row(j, row);
+        for i in 0..weights.len() {
+            let (c, w) = (row[i].abs(), weights[i]);
+            if c > norm * w {
+                (norm, worst) = (c / w, i);
+            }
+        }
+        if norm == 0.0 {
+            continue;
+        }
+        // The logarithm of the step.
+        let allowed = if seen == 0 { -2.0 } else { 0.0 };
+        let step = (allowed - norm.ln()) / j as f64;
+        if step < radius {
+            (radius, limiting) = (step, worst);
+        }
+        seen += 1;
+        if seen == 2 {
+            break;
+        }
+    }
+    ((radius - 0.7 / (order as f64 - 1.0)).exp(), limiting)
 }
 
 /// Components whose sums are formed side by side, in registers.
@@ -254,37 +295,9 @@ impl Expansion {
         self.coefficients = coefficients;
     }
 
-    /// The step at which the last two terms that do not vanish are negligible. Parity may null every second one; a
-    /// solution all of whose upper half vanishes is a polynomial.
     fn choose_radius_by(&mut self, write_row: &dyn Fn(usize, &mut [f64])) {
-        let p = self.order;
-        self.radius = f64::INFINITY;
-        let mut seen = 0;
-        for j in (p / 2 + 1..=p).rev() {
-            let (mut norm, mut worst): (f64, usize) = (0.0, 0);
-            let row = &mut self.end[..self.n];
-            write_row(j, row);
-            for i in 0..self.n {
-                let (c, w) = (row[i].abs(), self.weights[i]);
-                if c > norm * w {
-                    (norm, worst) = (c / w, i);
-                }
-            }
-            if norm == 0.0 {
-                continue;
-            }
-            // The logarithm of the step.
-            let allowed = if seen == 0 { -2.0 } else { 0.0 };
-            let step = (allowed - norm.ln()) / j as f64;
-            if step < self.radius {
-                (self.radius, self.worst) = (step, worst);
-            }
-            seen += 1;
-            if seen == 2 {
-                break;
-            }
-        }
-        self.radius = (self.radius - 0.7 / (p as f64 - 1.0)).exp();
+        let row = &mut self.end[..self.n];
+        (self.radius, self.worst) = radius_of(self.order, &self.weights, row, write_row);
     }
 
     /// Σ_{j≥1} x_[j] h^j and its derivative, by Horner's scheme for both at once.

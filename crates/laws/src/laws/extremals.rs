@@ -37,12 +37,9 @@ pub(super) fn integrated(subject: &Subject<'_>) -> Option<Trial> {
     let states = subject.states.iter().take(STATES);
     // At one state both may be one by chance, as where nothing moves.
     let gap = states.fold(None, |worst: Option<f64>, state| {
-        let multipliers = curves.multipliers(subject, state).into_iter();
-        let gaps = multipliers.filter_map(|kappa| curves.gap(state, &kappa));
-        let nearest = gaps.fold(f64::INFINITY, f64::min);
-        match nearest.is_finite() {
-            true => Some(worst.map_or(nearest, |worst| worst.max(nearest))),
-            false => worst,
+        match curves.nearest_gap(subject, state) {
+            Some(nearest) => Some(worst.map_or(nearest, |worst| worst.max(nearest))),
+            None => worst,
         }
     })?;
     let expected = match gap {
@@ -141,6 +138,13 @@ impl<'a> Curves<'a> {
         let size = motion.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
         let pairs = motion.iter().zip(&extremal);
         Some(pairs.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / size)
+    }
+
+    /// The gap to the nearer of the extremals with κ(0) by the conditions and by the accelerations.
+    pub(super) fn nearest_gap(&self, subject: &Subject<'_>, start: &Point) -> Option<f64> {
+        let multipliers = self.multipliers(subject, start).into_iter();
+        let gaps = multipliers.filter_map(|kappa| self.gap(start, &kappa));
+        gaps.min_by(f64::total_cmp)
     }
 
     /// (q, v) at the end of the motion, or of the extremal with κ(0).

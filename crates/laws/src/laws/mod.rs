@@ -360,6 +360,12 @@ mod tests {
         let mut other = printed.clone();
         other.sets[0].conditions[0].right = g.one();
         assert!(!holds(&other));
+        // Off both sets there is no other; one that is not printed is found.
+        let none_beside = |sets: &StationarySets| sets::off_sets(&subject, sets).unwrap().holds();
+        assert!(printed.complete && none_beside(&printed));
+        let mut missing = printed.clone();
+        missing.vanishing.remove(0);
+        assert!(!none_beside(&missing));
     }
 
     fn particle() -> System {

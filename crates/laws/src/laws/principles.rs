@@ -54,6 +54,7 @@ pub(super) fn all(subject: &Subject<'_>) -> Vec<Trial> {
     if applies(subject, STATIONARY, None) {
         trials.extend(timed(|| extremals::integrated(subject)));
         trials.extend(timed(|| sets::drawn(subject)));
+        trials.extend(timed(|| sets::beside(subject)));
     }
     trials.extend(timed(|| terms_dropped(subject)));
     trials.extend(timed(|| ends_left_open(subject)));

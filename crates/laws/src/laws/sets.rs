@@ -1,5 +1,6 @@
 //! States drawn from the sets that `hamilton.stationary` prints: from there the motion and the extremal with the κ(0) printed are
-//! one curve, both integrated in double precision.
+//! one curve, both integrated in double precision. Where the sets are called the only ones, no motion from elsewhere is an extremal: states
+//! are drawn off the sets, many of their entries zero, so that other sets and what the equations are divided by are met.
 
 use super::extremals::{Curves, ONE, TWO};
 use super::{Expected, Kind, Subject, Trial};
@@ -57,6 +58,87 @@ pub(super) fn from_sets(subject: &Subject<'_>, sets: &StationarySets) -> Option<
         verdict,
         seconds: 0.0,
     })
+}
+
+/// States drawn beside the sets.
+const BESIDE: u64 = 24;
+/// Curves of a motion off the sets that are nearer are one.
+const SAME: f64 = 1e-10;
+/// A state is on a set where what vanishes there is smaller than this.
+const ON: f64 = 1e-9;
+
+/// The trial that motions off the sets are no extremals, where the sets are called the only ones.
+pub(super) fn beside(subject: &Subject<'_>) -> Option<Trial> {
+    if !subject.cx.system.masses.is_empty() {
+        return None;
+    }
+    off_sets(subject, &StationarySets::of(subject.cx)?)
+}
+
+pub(super) fn off_sets(subject: &Subject<'_>, sets: &StationarySets) -> Option<Trial> {
+    if !sets.complete {
+        return None;
+    }
+    let curves = Curves::new(subject)?;
+    let states = (0..BESIDE).filter_map(|draw| off(subject, sets, draw));
+    let gaps = states.filter_map(|state| Some((curves.nearest_gap(subject, &state)?, state)));
+    let (gap, state) = gaps.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    let g = &subject.cx.system.graph;
+    let place = state
+        .iter()
+        .map(|(&s, x)| format!("{} = {x}", g.symbol_text(s)));
+    let mut place: Vec<String> = place.collect();
+    place.sort();
+    let detail = format!("at {} the curves are {gap:.1e} apart", place.join(", "));
+    let verdict = match gap > SAME {
+        true => Verdict::Proved(Proof::structural("at the states drawn", detail)),
+        false => Verdict::Refuted(Counterexample {
+            point: Vec::new(),
+            quantity: "distance of motion and extremal".into(),
+            residual: (format!("{gap:e}"), format!("{gap:e}")),
+            detail,
+        }),
+    };
+    Some(Trial {
+        kind: Kind::Other,
+        law: "motion and extremal are two curves from states off the sets printed",
+        formulation: "",
+        about: String::new(),
+        expected: Expected::Proved,
+        verdict,
+        seconds: 0.0,
+    })
+}
+
+/// An admissible state on none of the sets; `None` where the one drawn is on one.
+fn off(subject: &Subject<'_>, sets: &StationarySets, draw: u64) -> Option<Point> {
+    let system = subject.cx.system;
+    let mut random = Generator::new(subject.seed.wrapping_mul(BESIDE).wrapping_add(draw));
+    let mut point = subject.states.first()?.clone();
+    let coordinates = system.coordinates.iter();
+    for symbol in coordinates
+        .map(|c| c.q_symbol)
+        .chain(sets.speeds.iter().copied())
+    {
+        let value = match random.next_u64() % 3 {
+            0 => 0.0,
+            1 => 0.5,
+            _ => random.between(-1.0, 1.0),
+        };
+        point.insert(symbol, value);
+    }
+    let velocities = at(subject, &sets.velocities, &point)?;
+    let coordinates = system.coordinates.iter();
+    point.extend(coordinates.map(|c| c.v_symbol).zip(velocities));
+    let constraints: Vec<Expr> = system.constraints.iter().map(|c| c.f).collect();
+    let admissible = at(subject, &constraints, &point)?;
+    let is_on = |set: &Vec<Expr>| {
+        // What has no value there is no equation of this state.
+        let values = at(subject, set, &point);
+        values.is_some_and(|values| values.iter().all(|f| f.abs() < ON))
+    };
+    let is_off = !sets.vanishing.iter().any(is_on);
+    (is_off && admissible.iter().all(|f| f.abs() <= ADMISSIBLE)).then_some(point)
 }
 
 /// A state of the set with κ(0); `None` where it is near a pole or not defined.

@@ -236,7 +236,7 @@ pub struct Context<'a> {
     shared: Mutex<BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>>,
     out_of_time: AtomicBool,
     work: f64,
-    instead: Option<Instead<'a>>,
+    instead: Vec<Instead<'a>>,
 }
 
 /// The components of the constraints that the chart covers, where it leaves out others.
@@ -329,25 +329,25 @@ impl<'a> Context<'a> {
             shared: Mutex::default(),
             out_of_time: AtomicBool::new(false),
             work: 1.0,
-            instead: None,
+            instead: Vec::new(),
         }
     }
 
-    /// Decides these claims for the system with the parameters zero and the laws of controls that the model states, whose context is given; their
-    /// verdicts say so.
+    /// Decides these claims for the system with such values that the model states ([`System::stated_values`],
+    /// [`System::stated_zeros`]), whose context is given; their verdicts say so.
     #[must_use]
     pub fn for_stated_values(
         mut self,
         claims: &'a [&'static dyn Claim],
+        values: &[(Expr, Expr)],
         context: &'a Context<'a>,
     ) -> Context<'a> {
         let g = &self.system.graph;
-        let values = self.system.stated_values();
         let values: Vec<String> = values
             .iter()
             .map(|&(symbol, value)| format!("{} = {}", g.text(symbol), g.text(value)))
             .collect();
-        self.instead = Some(Instead {
+        self.instead.push(Instead {
             claims,
             context,
             sentence: format!("for {}, as the model states it", values.join(" and ")),
@@ -365,7 +365,7 @@ impl<'a> Context<'a> {
         context: &'a Context<'a>,
         on: &OnComponent,
     ) -> Context<'a> {
-        self.instead = Some(Instead {
+        self.instead.push(Instead {
             claims,
             context,
             sentence: on.sentence.clone(),
@@ -421,7 +421,7 @@ impl<'a> Context<'a> {
     /// Says that the time for claims is spent: what takes long is not begun any more.
     pub fn spend_time(&self) {
         self.out_of_time.store(true, Ordering::Relaxed);
-        if let Some(instead) = &self.instead {
+        for instead in &self.instead {
             instead.context.spend_time();
         }
     }
@@ -488,12 +488,22 @@ impl<'a> Context<'a> {
         finding
     }
 
+    fn instead_for(&self, id: &str) -> Option<&Instead<'a>> {
+        let decides = |instead: &&Instead<'a>| instead.claims.iter().any(|c| c.id() == id);
+        self.instead.iter().find(decides)
+    }
+
+    /// The context in which a claim is decided: that of another system where such a one takes the place of this one.
+    pub fn deciding(&self, id: &str) -> &Context<'a> {
+        match self.instead_for(id) {
+            Some(instead) => instead.context.deciding(id),
+            None => self,
+        }
+    }
+
     /// The finding for the system in the place of this one, where the claim is decided for it.
     fn of_other_system(&self, claim: &dyn Claim, full: &str) -> Option<Finding> {
-        let instead = self.instead.as_ref()?;
-        if !instead.claims.iter().any(|c| c.id() == claim.id()) {
-            return None;
-        }
+        let instead = self.instead_for(claim.id())?;
         let mut finding = Finding::clone(&instead.context.finding(full));
         if let Some(component) = &instead.component {
             finding.verdict = on_component(finding.verdict, component);

@@ -9,7 +9,7 @@ use super::Resolver;
 use crate::diagnostic::Diagnostic;
 use crate::model::{
     Constraint, Expect, ExpectedStop, ExpectedVerdict, ExtraInitialValue, Initial, InitialValue,
-    Output, Simulation, StateKind,
+    Output, Precision, Simulation, StateKind,
 };
 use crate::raw::{Kind, Raw, Table};
 use crate::text::Text;
@@ -144,6 +144,7 @@ impl Resolver {
             "absolute_tolerance",
             "step",
             "method",
+            "precision",
             "output",
             "max_steps",
             "state",
@@ -157,6 +158,13 @@ impl Resolver {
         self.known_keys(table, KEYS, "of [simulation]");
         simulation.t_start = self.time_value(table.get("t_start"), "the start of the run");
         simulation.t_end = self.time_value(table.get("t_end"), "the end of the run");
+        let words = Precision::WORDS.map(|(word, _)| word);
+        let precision = self.word_of(table, "precision", &words);
+        let precision = precision.and_then(|word| {
+            let mut known = Precision::WORDS.into_iter();
+            known.find(|(known, _)| *known == word)
+        });
+        simulation.precision = precision.map(|(_, precision)| precision);
         simulation.tolerance = self.tolerance(table, "tolerance", "the tolerance");
         simulation.absolute_tolerance =
             self.tolerance(table, "absolute_tolerance", "the absolute tolerance");
@@ -204,14 +212,24 @@ impl Resolver {
         let of_series = table.get("method").is_some_and(|raw| {
             matches!(&raw.kind, Kind::Text(text) if text.content.eq_ignore_ascii_case("taylor"))
         });
-        let sharpest = if of_series { 2.3e-16 } else { 2.3e-14 };
+        let of_precise = table.get("precision").is_some_and(
+            |raw| matches!(&raw.kind, Kind::Text(text) if text.content == "double-double"),
+        );
+        let (sharpest, arithmetic) = match (of_precise, of_series) {
+            (true, _) => (1e-28, "double-double arithmetic"),
+            (false, true) => (2.3e-16, "double precision"),
+            (false, false) => (2.3e-14, "double precision"),
+        };
         if !(sharpest..=0.1).contains(&number) {
             let message = format!(
-                "{what} is out of range: it must lie between {sharpest:e} (double precision) and 0.1"
+                "{what} is out of range: it must lie between {sharpest:e} ({arithmetic}) and 0.1"
             );
             let mut problem = Diagnostic::error("out-of-range", raw.place, message);
-            if !of_series {
-                problem = problem.hint("`method = \"taylor\"` goes down to 2.3e-16");
+            if !of_precise {
+                problem = problem.hint(match of_series {
+                    true => "`precision = \"double-double\"` goes down to 1e-28",
+                    false => "`method = \"taylor\"` goes down to 2.3e-16, with `precision = \"double-double\"` to 1e-28",
+                });
             }
             self.push(problem);
             return None;

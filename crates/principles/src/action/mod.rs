@@ -16,6 +16,7 @@ pub use parametric::Parametric;
 
 use crate::stationarity::{of_parameters, NoneBut};
 use crate::variations::delta_name;
+use crate::words::for_general_controls;
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::linear::dot;
@@ -112,6 +113,7 @@ fn as_stationary(cx: &Context<'_>, which: &str) -> String {
     let id = "hamilton.stationary";
     let verdict = &cx.finding(id).verdict;
     let (general, particular) = of_parameters(cx);
+    let controls = for_general_controls(cx);
     match verdict {
         Verdict::Proved(_) => {
             format!("{which} is one of stationary action among admissible curves for every motion, as Hamilton's is (`{id}`)")
@@ -121,10 +123,10 @@ fn as_stationary(cx: &Context<'_>, which: &str) -> String {
         ),
         Verdict::Refuted(_) => match NoneBut::refuted(cx) {
             NoneBut::Nothing => format!(
-                "{which} is one of stationary action among admissible curves for no motion{general}, as Hamilton's is for none (`{id}`){particular}"
+                "{which} is one of stationary action among admissible curves for no motion{general}{controls}, as Hamilton's is for none (`{id}`){particular}"
             ),
             NoneBut::Rest => format!(
-                "{which} is one of stationary action among admissible curves for no motion but rest{general}, as Hamilton's (`{id}`){particular}"
+                "{which} is one of stationary action among admissible curves for no motion but rest{general}{controls}, as Hamilton's (`{id}`){particular}"
             ),
             NoneBut::Open => format!(
                 "{which} is one of stationary action among admissible curves for almost no motion, as Hamilton's; the others were not followed (`{id}`){particular}"

@@ -1,6 +1,7 @@
 //! `hamilton.kerner`: the motions and the constrained extremum are one system exactly where the constraints are integrable.
 
 use crate::variations::Displacements;
+use crate::words::for_general_controls;
 use chetaev_mechanics::claims::{once_where, Claim, Context, Finding, Group};
 use chetaev_mechanics::words::quoted;
 use chetaev_symbolic::verdict::Proof;
@@ -99,7 +100,8 @@ fn compared(cx: &Context<'_>) -> Verdict {
             );
             proof.detail = format!(
                 "A ≠ 0, the constraints are not integrable, and for some κ(0) the extremals are other curves than the motions; \
-                 each was shown at a state, see variation.hoelder and {SYSTEMS}"
+                 each was shown at a state, see variation.hoelder and {SYSTEMS}{}",
+                for_general_controls(cx)
             );
             Verdict::Proved(proof)
         }

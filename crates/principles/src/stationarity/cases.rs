@@ -7,17 +7,21 @@
 //! looked at apart (`parameters`). Equations that are not solved stay beside the case (`implicit`), or wait (`pending`).
 
 mod angles;
+mod cleared;
 mod confirm;
 mod constants;
 mod factors;
 mod implicit;
 mod parameters;
+mod roots;
 
 pub(crate) use angles::joined;
 pub(crate) use confirm::confirmed;
 pub(crate) use parameters::Special;
 
 use self::angles::Angle;
+use self::cleared::Cleared;
+use self::roots::Root;
 use super::closed_form::short;
 use super::closure::Condition;
 use super::motion::Motion;
@@ -55,6 +59,10 @@ struct Case {
     constant: Vec<Symbol>,
     /// Factors that do not vanish.
     nonzero: Vec<Expr>,
+    /// What vanishes, as it was found.
+    stated: Vec<Expr>,
+    /// Roots that are given by the others.
+    roots: Vec<Root>,
     rows: Vec<Row>,
 }
 
@@ -74,10 +82,45 @@ pub(crate) struct Leaf {
     /// The conditions on κ in echelon form, with their pivots; `None` where no multipliers are asked for.
     rows: Option<Vec<(usize, Row)>>,
     nonzero: Vec<Expr>,
+    /// What stands in the place of equations with poles.
+    cleared: Option<Cleared>,
+    roots: Vec<Root>,
     angles: Vec<Angle>,
 }
 
 impl Leaf {
+    /// What holds on the set, for substitution: values of symbols, and that a sine or cosine is zero where that is true at several angles
+    /// which give the same.
+    pub(crate) fn substitutions(&self, g: &Graph) -> Vec<(Expr, Expr)> {
+        let whole = self.angles.iter().filter(|angle| angle.whole);
+        let whole: Vec<(Expr, Expr)> = whole.map(|a| (a.symbol, a.factor)).collect();
+        let is_whole = |s: Expr| whole.iter().any(|(symbol, _)| *symbol == s);
+        let solved = self.solved.iter().copied().filter(|(s, _)| !is_whole(*s));
+        solved
+            .chain(whole.iter().map(|&(_, factor)| (factor, g.zero())))
+            .collect()
+    }
+
+    /// What vanishes on the set.
+    pub(crate) fn vanishing(&self, g: &Graph) -> Vec<Expr> {
+        let cleared = self.cleared.as_ref();
+        let is_cleared = |s: Expr| cleared.is_some_and(|cleared| cleared.symbols.contains(&s));
+        let solved = self.solved.iter().filter(|(s, _)| !is_cleared(*s));
+        let solved = solved.map(|&(s, value)| g.sub(s, value));
+        let implicit = self.implicit.iter().map(|&(e, _)| e);
+        let others: Vec<Expr> = match cleared {
+            Some(cleared) => cleared.equations.clone(),
+            None => implicit.collect(),
+        };
+        let roots = self.roots.iter().map(|root| root.equation);
+        solved.chain(others).chain(roots).collect()
+    }
+
+    /// Whether the set is given by more than equations: of two roots one has the sign.
+    pub(crate) fn has_roots(&self) -> bool {
+        !self.roots.is_empty()
+    }
+
     /// The conditions on κ, each with the place of the multiplier for which it is solved.
     pub(crate) fn conditions(&self) -> Vec<(usize, Condition)> {
         let condition = |row: &Row| Condition {
@@ -103,6 +146,13 @@ pub(crate) struct Found {
     pub(crate) special: Special,
 }
 
+impl Found {
+    /// Whether every case was followed, and no value of a parameter is particular.
+    pub(crate) fn is_complete(&self) -> bool {
+        self.open.is_empty() && !self.special.open && self.special.found.is_empty()
+    }
+}
+
 /// The motions along which κ exists with (12) and (13).
 pub(crate) fn with_multipliers(cx: &Context<'_>, motion: &Motion) -> Found {
     let zero = cx.system.graph.zero();
@@ -125,9 +175,13 @@ pub(crate) fn with_multipliers(cx: &Context<'_>, motion: &Motion) -> Found {
     found
 }
 
-/// The motions along which functions of the state vanish.
+/// The motions along which functions of the state vanish that are written with the dependent velocities of the system.
 pub(crate) fn where_zero(cx: &Context<'_>, motion: &Motion, functions: &[Expr]) -> Found {
-    Search::new(cx, motion, false).on_constraints(Case::default(), functions)
+    let case = Case {
+        nonzero: motion.dependent_poles.clone(),
+        ..Case::default()
+    };
+    Search::new(cx, motion, false).on_constraints(case, functions)
 }
 
 /// What one step with a case gives.
@@ -216,7 +270,8 @@ impl<'a, 'b> Search<'a, 'b> {
         let restricted = self.g.substitute(e, &case.solved);
         self.spent
             .set(self.spent.get() + simplify::length(self.g, restricted));
-        let e = short(self.g, restricted);
+        let root = |e, root: &Root| short(self.g, root.replaced(self.g, e));
+        let e = case.roots.iter().fold(short(self.g, restricted), root);
         match self.remainder(case, e) {
             rest if self.g.is_zero(rest) => rest,
             _ => e,
@@ -266,7 +321,7 @@ impl<'a, 'b> Search<'a, 'b> {
             .filter(|row| !self.is_zero(row))
             .collect();
         if fresh.is_empty() {
-            return Step::Leaf(Box::new(self.leaf(case, &echelon)));
+            return Step::Leaf(Box::new(self.leaf(found, case, &echelon)));
         }
         case.rows = echelon
             .into_iter()
@@ -388,7 +443,7 @@ impl<'a, 'b> Search<'a, 'b> {
         cases
     }
 
-    fn leaf(&self, case: Case, echelon: &[(usize, Row)]) -> Leaf {
+    fn leaf(&self, found: &mut Found, case: Case, echelon: &[(usize, Row)]) -> Leaf {
         let g = self.g;
         let r = self.motion.multipliers.len();
         let columns: Vec<usize> = echelon.iter().map(|(column, _)| *column).collect();
@@ -405,16 +460,22 @@ impl<'a, 'b> Search<'a, 'b> {
             g.is_zero(self.on(&case, rate))
         });
         let mut leaf = Leaf {
-            equations: self.equations(&case),
+            equations: Vec::new(),
             solved: case.solved.clone(),
             implicit: case.implicit.clone(),
             kappa,
             at_rest,
             rows: self.with_multipliers.then(|| echelon.to_vec()),
             nonzero: Vec::new(),
+            cleared: None,
+            roots: case.roots.clone(),
             angles: case.angles.clone(),
         };
         leaf.nonzero = self.needed(&leaf, &case.nonzero);
+        for text in self.clear(&mut leaf, &case) {
+            self.leave(found, &case, text);
+        }
+        leaf.equations = self.written(&case, leaf.cleared.as_ref());
         leaf
     }
 
@@ -445,8 +506,13 @@ impl<'a, 'b> Search<'a, 'b> {
 
     /// The equations of a case as they are written, speeds first.
     fn equations(&self, case: &Case) -> Vec<String> {
+        self.written(case, None)
+    }
+
+    fn written(&self, case: &Case, cleared: Option<&Cleared>) -> Vec<String> {
         let g = self.g;
         let mut solved = case.solved.clone();
+        solved.retain(|(s, _)| cleared.is_none_or(|cleared| !cleared.symbols.contains(s)));
         solved.sort_by_key(|&(symbol, _)| {
             let is = |s: &Symbol| g.as_symbol(symbol) == Some(*s);
             let speed = self.motion.speeds.iter().position(is);
@@ -465,8 +531,20 @@ impl<'a, 'b> Search<'a, 'b> {
             let mut all = self.motion.implicit.iter();
             all.any(|f| g.as_number(ratio(f)).is_some())
         };
-        let implicit = case.implicit.iter().filter(|(e, _)| !holds(e));
-        let implicit = implicit.map(|(e, _)| format!("{} = 0", g.text(*e)));
+        let implicit: Vec<Expr> = match cleared {
+            Some(cleared) => cleared.equations.clone(),
+            None => case.implicit.iter().map(|&(e, _)| e).collect(),
+        };
+        // The equation of a root says more than its square.
+        let is_square = |e: &Expr| {
+            let ratio = |root: &Root| short(g, g.div(*e, root.squared));
+            let mut roots = case.roots.iter();
+            roots.any(|root| g.as_number(ratio(root)).is_some())
+        };
+        let implicit = implicit.iter().filter(|e| !holds(e) && !is_square(e));
+        let roots = case.roots.iter().map(|root| &root.equation);
+        let implicit = implicit.chain(roots);
+        let implicit = implicit.map(|e| format!("{} = 0", g.text(*e)));
         pairs.chain(implicit).collect()
     }
 
@@ -482,10 +560,10 @@ impl<'a, 'b> Search<'a, 'b> {
                     && (earlier < place || !equal())
             });
             let mut written = leaf.clone();
-            let unequal = leaf
-                .nonzero
-                .iter()
-                .map(|&e| format!("{} ≠ 0", self.g.text(e)));
+            let poles = self.motion.chart_poles.iter();
+            let poles = poles.filter(|e| !leaf.nonzero.contains(e));
+            let unequal = leaf.nonzero.iter().chain(poles);
+            let unequal = unequal.map(|&e| format!("{} ≠ 0", self.g.text(e)));
             written.equations.extend(unequal);
             let repeated = found
                 .leaves
@@ -513,6 +591,7 @@ impl<'a, 'b> Search<'a, 'b> {
         let case = Case {
             solved: small.solved.clone(),
             implicit: small.implicit.clone(),
+            roots: small.roots.clone(),
             ..Case::default()
         };
         self.holds_on(large, &case)
@@ -520,9 +599,7 @@ impl<'a, 'b> Search<'a, 'b> {
 
     /// Whether the equations of a set hold on a case.
     fn holds_on(&self, large: &Leaf, case: &Case) -> bool {
-        let solved = large.solved.iter();
-        let solved = solved.map(|&(symbol, value)| self.g.sub(symbol, value));
-        let mut all = solved.chain(large.implicit.iter().map(|&(e, _)| e));
+        let mut all = large.vanishing(self.g).into_iter();
         all.all(|residual| self.g.is_zero(self.on(case, residual)))
     }
 }

@@ -1,6 +1,8 @@
 //! Multipliers that the conditions leave free, in closed form: `κ' = Φ κ − λ` integrated along the motion.
 
+use super::cases::Leaf;
 use super::closed_form::{closed, short};
+use super::closure::Condition;
 use super::motion::Motion;
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::Context;
@@ -12,16 +14,161 @@ use chetaev_symbolic::{simplify, Expr, Graph, Node, Symbol};
 /// κ of the constraints in closed form along all motions, each with its constant of integration; `None` for those that are not
 /// found.
 pub(crate) fn integrated(cx: &Context<'_>, motion: &Motion) -> Vec<Option<Expr>> {
-    let own = Rates {
-        transport: motion.transport.clone(),
-        multipliers: motion.multipliers.clone(),
-    };
-    let found = own.integrated(cx, motion);
+    along(cx, motion, &Place::anywhere(cx, motion))
+}
+
+/// The same along the motions of a set. Multipliers that the conditions there tie to free ones are given by these.
+pub(crate) fn integrated_on(cx: &Context<'_>, motion: &Motion, leaf: &Leaf) -> Vec<Option<Expr>> {
+    let found = along(cx, motion, &Place::on(cx, motion, leaf));
+    let values: Option<Vec<Expr>> = found.iter().copied().collect();
+    match values.is_none_or(|values| solves(cx, motion, leaf, &values)) {
+        true => found,
+        false => vec![None; found.len()],
+    }
+}
+
+/// Whether κ satisfies (12) and (13) on a set.
+fn solves(cx: &Context<'_>, motion: &Motion, leaf: &Leaf, kappa: &[Expr]) -> bool {
+    let g = &cx.system.graph;
+    let place = Place::on(cx, motion, leaf);
+    let demanded = motion.transport.iter().zip(&motion.multipliers);
+    let rates = kappa.iter().zip(demanded).map(|(&value, (row, &lambda))| {
+        let demanded = g.sub(dot(g, row, kappa), lambda);
+        g.sub(motion.along(cx, value), demanded)
+    });
+    let conditions = motion.conditions.iter().map(|row| dot(g, row, kappa));
+    let mut residuals = rates.chain(conditions);
+    residuals.all(|e| g.is_zero(place.restricted(g, e)))
+}
+
+fn along(cx: &Context<'_>, motion: &Motion, place: &Place) -> Vec<Option<Expr>> {
+    let own = place.rates(cx, motion);
+    let found = place.tied(cx, own.integrated(cx, motion, place));
     if found.iter().all(Option::is_some) {
         return found;
     }
-    let solved = by_slopes(cx, motion).filter(|solved| solved.iter().all(Option::is_some));
+    let solved = by_slopes(cx, motion, place).filter(|solved| solved.iter().all(Option::is_some));
     solved.unwrap_or(found)
+}
+
+/// Where κ is integrated: along all motions, or along those of a set.
+struct Place {
+    /// What holds there, as pairs to be substituted.
+    values: Vec<(Expr, Expr)>,
+    /// The symbols that move, the time among them.
+    moving: Vec<Symbol>,
+    /// Multipliers given by others: κ = right − Σ coefficient κ.
+    tied: Vec<(usize, Condition)>,
+}
+
+impl Place {
+    fn anywhere(cx: &Context<'_>, motion: &Motion) -> Place {
+        let mut moving = motion.state();
+        moving.push(cx.system.graph.intern_symbol("t", 0));
+        Place {
+            values: Vec::new(),
+            moving,
+            tied: Vec::new(),
+        }
+    }
+
+    fn on(cx: &Context<'_>, motion: &Motion, leaf: &Leaf) -> Place {
+        let g = &cx.system.graph;
+        let mut place = Place::anywhere(cx, motion);
+        place.values = leaf.substitutions(g);
+        place.tied = leaf.conditions();
+        let rests = |s: &Symbol| {
+            let rate = motion.rates.iter().find(|(symbol, _)| symbol == s);
+            rate.is_some_and(|&(_, rate)| g.is_zero(place.restricted(g, rate)))
+        };
+        let resting: Vec<Symbol> = place.moving.iter().copied().filter(rests).collect();
+        place.moving.retain(|s| !resting.contains(s));
+        place
+    }
+
+    fn restricted(&self, g: &Graph, e: Expr) -> Expr {
+        short(g, g.substitute(e, &self.values))
+    }
+
+    /// The rates of the multipliers that are free, with what they contain of the others.
+    fn rates(&self, cx: &Context<'_>, motion: &Motion) -> Rates {
+        let g = &cx.system.graph;
+        let r = motion.multipliers.len();
+        let given = |m: usize| self.tied.iter().find(|(l, _)| *l == m);
+        let transport = |row: &Vec<Expr>, l: usize| {
+            let mut parts = Vec::new();
+            for (m, &coefficient) in row.iter().enumerate() {
+                match given(m) {
+                    Some((_, condition)) if l != m => {
+                        let tie = condition.coefficients[l];
+                        parts.push(g.neg(g.mul(&[coefficient, tie])));
+                    }
+                    None if l == m => parts.push(coefficient),
+                    _ => {}
+                }
+            }
+            self.restricted(g, g.add(&parts))
+        };
+        let multiplier = |row: &Vec<Expr>, lambda: Expr| {
+            let known = self.tied.iter();
+            let known = known.map(|(m, condition)| g.neg(g.mul(&[row[*m], condition.right])));
+            let all: Vec<Expr> = std::iter::once(lambda).chain(known).collect();
+            self.restricted(g, g.add(&all))
+        };
+        let rows = motion.transport.iter();
+        let momenta = (0..r).map(|l| self.momentum((cx, motion), l, true));
+        Rates {
+            transport: rows
+                .clone()
+                .map(|row| (0..r).map(|l| transport(row, l)).collect())
+                .collect(),
+            multipliers: rows
+                .zip(&motion.multipliers)
+                .map(|(row, &lambda)| multiplier(row, lambda))
+                .collect(),
+            momenta: momenta.collect(),
+            free: (0..r).filter(|&l| given(l).is_none()).collect(),
+        }
+    }
+
+    /// θ of the dependent velocity of a constraint: the multiplier −κ of Suslov's form, divided by ∂f/∂v for that of f as it is written.
+    fn momentum(
+        &self,
+        (cx, motion): (&Context<'_>, &Motion),
+        l: usize,
+        divided: bool,
+    ) -> Option<Expr> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let d = *cx.selection.dependent.get(l)?;
+        let slope = *basis(cx).jacobian().get(l)?.get(d)?;
+        let slope = self.restricted(g, motion.on_states(g, slope));
+        if g.is_zero(slope) {
+            return None;
+        }
+        let theta = g.diff(system.lagrangian, system.coordinates[d].v_symbol);
+        let theta = self.restricted(g, motion.on_states(g, theta));
+        Some(match divided {
+            true => short(g, g.div(theta, slope)),
+            false => theta,
+        })
+    }
+
+    /// With the multipliers that are given by free ones.
+    fn tied(&self, cx: &Context<'_>, mut found: Vec<Option<Expr>>) -> Vec<Option<Expr>> {
+        let g = &cx.system.graph;
+        for (l, condition) in &self.tied {
+            let others = condition.coefficients.iter().zip(&found).enumerate();
+            let others = others.filter(|(m, (c, _))| m != l && !g.is_zero(**c));
+            let parts = others.map(|(_, (&c, value))| Some(g.neg(g.mul(&[c, (*value)?]))));
+            let parts: Option<Vec<Expr>> = parts.collect();
+            let value = parts.map(|mut parts| {
+                parts.push(condition.right);
+                simple(g, self.restricted(g, g.add(&parts)))
+            });
+            found[*l] = value;
+        }
+        found
+    }
 }
 
 /// Multipliers whose rates are `Φ κ − λ`.
@@ -30,11 +177,15 @@ struct Rates {
     transport: Vec<Vec<Expr>>,
     /// λ.
     multipliers: Vec<Expr>,
+    /// Momenta whose rates may differ by a constant from those of −κ.
+    momenta: Vec<Option<Expr>>,
+    /// The places of the multipliers that are integrated.
+    free: Vec<usize>,
 }
 
 impl Rates {
     /// One multiplier after the other, each once all those are known that its rate contains.
-    fn integrated(&self, cx: &Context<'_>, motion: &Motion) -> Vec<Option<Expr>> {
+    fn integrated(&self, cx: &Context<'_>, motion: &Motion, place: &Place) -> Vec<Option<Expr>> {
         let (system, g) = (cx.system, &cx.system.graph);
         let r = self.multipliers.len();
         let basis = basis(cx);
@@ -42,8 +193,11 @@ impl Rates {
         let constants: Vec<Expr> = names.map(|name| free_constant(system, g, name)).collect();
         let mut known: Vec<Option<Expr>> = vec![None; r];
         let next = |known: &[Option<Expr>]| {
-            let mut unknown = (0..r).filter(|&l| known[l].is_none());
-            unknown.find_map(|l| Some((l, self.one(cx, motion, (known, &constants), l)?)))
+            let mut unknown = self.free.iter().filter(|&&l| known[l].is_none());
+            unknown.find_map(|&l| {
+                let value = self.one((cx, motion, place), (known, &constants), l)?;
+                Some((l, value))
+            })
         };
         while let Some((l, value)) = next(&known) {
             known[l] = Some(value);
@@ -54,8 +208,7 @@ impl Rates {
     /// κ_l, from those that are known and their constants of integration.
     fn one(
         &self,
-        cx: &Context<'_>,
-        motion: &Motion,
+        (cx, motion, place): (&Context<'_>, &Motion, &Place),
         (known, constants): (&[Option<Expr>], &[Expr]),
         l: usize,
     ) -> Option<Expr> {
@@ -74,9 +227,11 @@ impl Rates {
             g.substitute(e, &zeros)
         };
         // The rate is affine in the constants: what belongs to each is integrated by itself.
-        let mut parts = vec![constants[l], antiderivative(cx, motion, l, free(rate))?];
+        let momentum = self.momenta[l];
+        let of = |rate: Expr| antiderivative((cx, motion, place), momentum, rate);
+        let mut parts = vec![constants[l], of(free(rate))?];
         for (&symbol, slope) in symbols.iter().zip(slopes) {
-            let weight = antiderivative(cx, motion, l, free(slope))?;
+            let weight = of(free(slope))?;
             parts.push(g.mul(&[g.symbol_expr(symbol), weight]));
         }
         Some(simple(g, g.add(&parts)))
@@ -85,8 +240,11 @@ impl Rates {
 
 /// κ by the multipliers of f solved for the dependent velocities: `κ̂ = S κ` with `S_ml = ∂f^l/∂v_m` has
 /// `κ̂' = (DS + S Φ) S⁻¹ κ̂ − S λ`, and S Φ = −DS where no f contains a dependent coordinate.
-fn by_slopes(cx: &Context<'_>, motion: &Motion) -> Option<Vec<Option<Expr>>> {
+fn by_slopes(cx: &Context<'_>, motion: &Motion, place: &Place) -> Option<Vec<Option<Expr>>> {
     let g = &cx.system.graph;
+    if !place.tied.is_empty() {
+        return None;
+    }
     let (jacobian, r) = (basis(cx).jacobian(), motion.multipliers.len());
     let dependent = &cx.selection.dependent;
     let slopes: Vec<Vec<Expr>> = dependent
@@ -115,15 +273,19 @@ fn by_slopes(cx: &Context<'_>, motion: &Motion) -> Option<Vec<Option<Expr>>> {
     };
     let entry = |m: usize, l: usize| {
         let parts: Vec<Expr> = (0..r).map(|n| g.mul(&[turned(m, n), back(n, l)])).collect();
-        closed(g, g.add(&parts)).ok()
+        closed(g, g.substitute(g.add(&parts), &place.values)).ok()
     };
     let transport = (0..r).map(|m| (0..r).map(|l| entry(m, l)).collect());
     let multipliers = slopes.iter().map(|row| dot(g, row, &motion.multipliers));
     let solved = Rates {
         transport: transport.collect::<Option<_>>()?,
-        multipliers: multipliers.map(|e| short(g, e)).collect(),
+        multipliers: multipliers.map(|e| place.restricted(g, e)).collect(),
+        momenta: (0..r)
+            .map(|l| place.momentum((cx, motion), l, false))
+            .collect(),
+        free: (0..r).collect(),
     };
-    let known = solved.integrated(cx, motion);
+    let known = solved.integrated(cx, motion, place);
     let value = |l: usize| {
         let mut parts = Vec::new();
         for (m, known) in known.iter().enumerate() {
@@ -131,7 +293,7 @@ fn by_slopes(cx: &Context<'_>, motion: &Motion) -> Option<Vec<Option<Expr>>> {
                 parts.push(g.mul(&[back(l, m), (*known)?]));
             }
         }
-        closed(g, g.add(&parts)).ok()
+        closed(g, g.substitute(g.add(&parts), &place.values)).ok()
     };
     Some((0..r).map(value).collect())
 }
@@ -139,28 +301,32 @@ fn by_slopes(cx: &Context<'_>, motion: &Motion) -> Option<Vec<Option<Expr>>> {
 /// A function whose rate along all motions is the given one: a constant multiple of a function at hand (the roots in the
 /// constraints, the momenta of the dependent velocities, velocities, coordinates and the time), or of `θ` and the time, where
 /// `D(κ + θ) = ∂L/∂q` is constant (T1 (13')).
-fn antiderivative(cx: &Context<'_>, motion: &Motion, l: usize, rate: Expr) -> Option<Expr> {
+fn antiderivative(
+    (cx, motion, place): (&Context<'_>, &Motion, &Place),
+    theta: Option<Expr>,
+    rate: Expr,
+) -> Option<Expr> {
     let g = &cx.system.graph;
     let rate = simple(g, rate);
     if g.is_zero(rate) {
         return Some(g.zero());
     }
-    let mut moving = motion.state();
-    moving.push(g.intern_symbol("t", 0));
-    for candidate in candidates(cx, motion, l) {
-        let moved = simple(g, motion.along(cx, candidate));
+    let moved = |e: Expr| simple(g, place.restricted(g, motion.along(cx, e)));
+    for candidate in candidates(cx, motion, theta) {
+        let candidate = place.restricted(g, candidate);
+        let moved = moved(candidate);
         if g.is_zero(moved) {
             continue;
         }
         let ratio = simple(g, g.div(rate, moved));
-        if !g.contains_any(ratio, &moving) {
+        if !g.contains_any(ratio, &place.moving) {
             return Some(g.mul(&[ratio, candidate]));
         }
     }
-    let theta = momentum(cx, motion, l)?;
-    let rest = simple(g, g.add(&[rate, motion.along(cx, theta)]));
+    let theta = theta?;
+    let rest = simple(g, g.add(&[rate, moved(theta)]));
     let value = g.add(&[g.neg(theta), g.mul(&[rest, g.symbol("t", 0)])]);
-    (!g.contains_any(rest, &moving)).then_some(value)
+    (!g.contains_any(rest, &place.moving)).then_some(value)
 }
 
 fn simple(g: &Graph, e: Expr) -> Expr {
@@ -173,7 +339,7 @@ pub(crate) fn free_constant(system: &System, g: &Graph, constraint: &str) -> Exp
 }
 
 /// Functions whose rates may be proportional to λ.
-fn candidates(cx: &Context<'_>, motion: &Motion, l: usize) -> Vec<Expr> {
+fn candidates(cx: &Context<'_>, motion: &Motion, theta: Option<Expr>) -> Vec<Expr> {
     let (system, g) = (cx.system, &cx.system.graph);
     let mut list: Vec<Expr> = g
         .reachable(&basis(cx).constraints())
@@ -181,22 +347,10 @@ fn candidates(cx: &Context<'_>, motion: &Motion, l: usize) -> Vec<Expr> {
         .filter(|&e| matches!(g.node(e), Node::Power { exponent, .. } if g.as_integer(*exponent).is_none()))
         .map(|e| motion.on_states(g, e))
         .collect();
-    list.extend(momentum(cx, motion, l));
+    list.extend(theta);
     list.extend(motion.speeds.iter().map(|&s| g.symbol_expr(s)));
     list.extend(system.coordinates.iter().map(|c| motion.on_states(g, c.v)));
     list.extend(system.coordinates.iter().map(|c| c.q));
     list.push(g.symbol("t", 0));
     list
-}
-
-/// θ of the dependent velocity of a constraint, divided by ∂f/∂v: the multiplier −κ of Suslov's form.
-fn momentum(cx: &Context<'_>, motion: &Motion, l: usize) -> Option<Expr> {
-    let (system, g) = (cx.system, &cx.system.graph);
-    let d = *cx.selection.dependent.get(l)?;
-    let slope = *basis(cx).jacobian().get(l)?.get(d)?;
-    if g.is_zero(slope) {
-        return None;
-    }
-    let theta = g.diff(system.lagrangian, system.coordinates[d].v_symbol);
-    Some(motion.on_states(g, g.div(theta, slope)))
 }

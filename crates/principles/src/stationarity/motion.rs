@@ -9,8 +9,9 @@ use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::linear::dot;
-use chetaev_mechanics::Characteristics;
-use chetaev_symbolic::factors::factored;
+use chetaev_mechanics::{Characteristics, Manifold};
+use chetaev_symbolic::factors::{factored, factors};
+use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::{simplify, Expr, Graph, Node, Symbol};
 use std::sync::Arc;
 
@@ -42,6 +43,10 @@ pub(crate) struct Motion {
     pub(crate) poles: Vec<Expr>,
     /// Where the speeds do not describe all admissible velocities, in words.
     pub(crate) gaps: Vec<String>,
+    /// Factors by which dependent velocities are divided although the motion need not be singular where they vanish.
+    pub(crate) chart_poles: Vec<Expr>,
+    /// The same of the dependent velocities of the system, also where the states keep all velocities.
+    pub(crate) dependent_poles: Vec<Expr>,
     /// Constraints that stay implicit: they vanish on all states.
     pub(crate) implicit: Vec<Expr>,
     /// Velocities and speeds of the chart as functions of the state.
@@ -70,7 +75,21 @@ impl Motion {
         let mut builder = Builder { cx, flow, chart };
         builder.check_size()?;
         builder.choose_speeds();
-        builder.build()
+        let poles = builder.velocity_poles();
+        if poles.is_empty() {
+            return builder.build();
+        }
+        // The constraints stay equations: they are solved case by case, so that nothing is lost where one solution has a pole.
+        let own = builder.chart.clone();
+        builder.keep_all_velocities();
+        let built = builder.build().or_else(|_| {
+            builder.chart = own;
+            builder.build()
+        });
+        built.map(|motion| Motion {
+            dependent_poles: poles,
+            ..motion
+        })
     }
 
     /// A function of (q, v, t) on the admissible states, simplified.
@@ -136,7 +155,7 @@ struct Scaled {
 }
 
 impl Builder<'_, '_> {
-    fn build(self) -> Closed {
+    fn build(&self) -> Closed {
         let system = self.cx.system;
         let scaled = self.scaled()?;
         let to_speeds = self.to_speeds(&scaled);
@@ -160,6 +179,8 @@ impl Builder<'_, '_> {
             legend: self.legend(&scaled, &velocities),
             poles: Vec::new(),
             gaps: self.gaps(&scaled, &velocities),
+            chart_poles: self.velocity_poles(),
+            dependent_poles: Vec::new(),
             implicit: self.implicit().map(|&(f, _)| f).collect(),
             replaced,
         };
@@ -211,6 +232,39 @@ impl Builder<'_, '_> {
             }
         }
         self.chart = own;
+    }
+
+    /// Factors with velocities that vanish where constraints cannot be solved for the dependent velocities; none where these stay
+    /// symbols of the state.
+    fn velocity_poles(&self) -> Vec<Expr> {
+        let (system, g) = (self.cx.system, &self.cx.system.graph);
+        let jacobian = basis(self.cx).jacobian();
+        let velocities = system.velocity_symbols();
+        let is_implicit = self.implicit().next().is_some();
+        if is_implicit || !g.any_contains_any(&jacobian.concat(), &velocities) {
+            return Vec::new();
+        }
+        let columns = |row: &Vec<Expr>| self.chart.dependent.iter().map(|&d| row[d]).collect();
+        let block: Vec<Vec<Expr>> = jacobian.iter().map(columns).collect();
+        let list = factors(g, determinant(g, &block), &velocities).unwrap_or_default();
+        let list = list.into_iter().map(|(factor, _)| factor);
+        list.filter(|&factor| !self.never_zero(factor)).collect()
+    }
+
+    /// Takes the dependent velocities as symbols of the state, tied to the others by the constraints.
+    fn keep_all_velocities(&mut self) {
+        let coordinates = &self.cx.system.coordinates;
+        if !self.chart.frame.is_natural(self.cx.system) {
+            return;
+        }
+        let constraints = basis(self.cx).constraints().into_iter();
+        let dependent = self.chart.dependent.iter();
+        let dependent = dependent.map(|&d| coordinates[d].v_symbol);
+        self.chart.manifold = Manifold {
+            solved: Vec::new(),
+            implicit: constraints.zip(dependent).collect(),
+        };
+        self.chart.velocities = coordinates.iter().map(|c| c.v).collect();
     }
 
     /// Constraints that stay implicit, each with its dependent velocity.
@@ -343,12 +397,17 @@ impl Builder<'_, '_> {
             .map(|(p, s)| s.as_ref().map_or(p.symbol, |s| s.symbol))
             .collect();
         let matrix = g.jacobian(velocities, &symbols);
-        let mut gaps = Vec::new();
+        let poles = self.velocity_poles().into_iter();
+        let unsolved = |e: Expr| {
+            let text = g.text(e);
+            format!(
+                "{text} = 0, where the constraints were not solved for the dependent velocities"
+            )
+        };
+        let mut gaps: Vec<String> = poles.map(unsolved).collect();
         let coordinates = system.coordinate_symbols();
         for scaled in scaled.iter().flatten() {
-            for (factor, _) in chetaev_symbolic::factors::factors(g, scaled.factor, &coordinates)
-                .unwrap_or_default()
-            {
+            for (factor, _) in factors(g, scaled.factor, &coordinates).unwrap_or_default() {
                 let text = g.text(factor);
                 let regular = zero_of(g, factor, &coordinates).is_some_and(|zero| {
                     let on: Vec<Vec<Expr>> = matrix

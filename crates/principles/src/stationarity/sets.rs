@@ -26,8 +26,12 @@ pub struct StationarySets {
     pub speeds: Vec<Symbol>,
     /// The velocities of the coordinates as functions of the state.
     pub velocities: Vec<Expr>,
-    /// The sets.
+    /// The sets whose equations are all solved.
     pub sets: Vec<StationarySet>,
+    /// Of every set, solved or not, what vanishes on it.
+    pub vanishing: Vec<Vec<Expr>>,
+    /// Whether no other motion makes the action stationary, whatever the parameters are.
+    pub complete: bool,
 }
 
 /// Found once for all that ask.
@@ -57,14 +61,18 @@ impl StationarySets {
         Some(StationarySets {
             speeds: motion.speeds.clone(),
             velocities: coordinates.map(|c| rate(c.q_symbol)).collect(),
-            sets: leaves.filter_map(|leaf| set(cx, leaf)).collect(),
+            sets: leaves.clone().filter_map(|leaf| set(cx, leaf)).collect(),
+            vanishing: leaves
+                .map(|leaf| leaf.vanishing(&cx.system.graph))
+                .collect(),
+            complete: found.0.is_complete(),
         })
     }
 }
 
 /// A set all of whose equations are solved.
 fn set(cx: &Context<'_>, leaf: &Leaf) -> Option<StationarySet> {
-    if !leaf.implicit.is_empty() {
+    if !leaf.implicit.is_empty() || leaf.has_roots() {
         return None;
     }
     let solved = leaf.solved.iter();

@@ -2,10 +2,10 @@
 
 use super::cases::{confirmed, joined, Found, Leaf};
 use super::closed_form::short;
-use super::kappa::integrated;
+use super::kappa::{integrated, integrated_on};
 use super::motion::Motion;
 use super::{sets, Closure};
-use crate::words::{conditional, formula, listed};
+use crate::words::{conditional, for_general_controls, formula, listed};
 use chetaev_mechanics::claims::formulation::{basis, manifold};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::formulations::kappa_symbols;
@@ -158,11 +158,11 @@ fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Findin
         let sentence = match NoneBut::of(found) {
             NoneBut::Nothing => format!(
                 "no motion makes the action stationary among admissible curves{}",
-                for_general(found)
+                general(cx, found)
             ),
             NoneBut::Rest => format!(
                 "no motion makes the action stationary among admissible curves{}, except rest where {}",
-                for_general(found),
+                general(cx, found),
                 alternatives(&all)
             ),
             NoneBut::Open => ALMOST_NONE.into(),
@@ -173,14 +173,18 @@ fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Findin
     }
     let legend = legend(cx, motion);
     let stated = format!("{}{legend}", alternatives(&all));
-    let condition = format!("{stated}{open}");
+    let controls = for_general_controls(cx);
+    let condition = format!("{stated}{controls}{open}");
     let how = "the conditions on κ were differentiated along the motion in every case, exactly";
     let proof = Proof::exact(place(cx, motion), how);
-    let formulas = all.iter().flat_map(|leaf| of_leaf(cx, leaf)).collect();
+    let formulas = all
+        .iter()
+        .flat_map(|leaf| of_leaf(cx, motion, leaf))
+        .collect();
     let mut verdict = conditional(condition, proof, refuted);
     let particular = particular(cx, found);
     verdict.prefix(&format!(
-        "motions make the action stationary {}where {stated}{particular}{open}",
+        "motions make the action stationary {}where {stated}{controls}{particular}{open}",
         only(found)
     ));
     Finding { verdict, formulas }
@@ -284,16 +288,20 @@ pub(super) fn set_aside_unconfirmed(cx: &Context<'_>, motion: &Motion, found: &m
 /// differs from zero, and the ranks of the others are the greatest.
 const ALMOST_NONE: &str = "almost no motion makes the action stationary: those that do pass through a set of states of lower dimension, on which a function vanishes that does not at the point stated";
 
-/// κ on a subset.
-fn of_leaf(cx: &Context<'_>, leaf: &Leaf) -> Vec<Formula> {
+/// κ on a subset: those that the conditions determine, and the others with their constants, where they have a closed form.
+fn of_leaf(cx: &Context<'_>, motion: &Motion, leaf: &Leaf) -> Vec<Formula> {
     let basis = basis(cx);
     let symbols = kappa_symbols(&basis);
     let names = basis.constraint_names().into_iter().zip(symbols);
+    let values = match leaf.kappa.iter().all(Option::is_some) {
+        true => leaf.kappa.clone(),
+        false => integrated_on(cx, motion, leaf),
+    };
     names
-        .zip(&leaf.kappa)
-        .filter_map(|((name, symbol), value)| {
+        .zip(values.iter().zip(&leaf.kappa))
+        .filter_map(|((name, symbol), (value, determined))| {
             let caption = format!("multiplier κ of `{name}` where {}", listed(&leaf.equations));
-            formula(cx, caption, Some(symbol), (*value)?)
+            formula(cx, caption, Some(symbol), determined.or(*value)?)
         })
         .collect()
 }
@@ -319,6 +327,11 @@ pub(super) fn only(found: &Found) -> &'static str {
         (true, false) => "only ",
         (false, _) => "",
     }
+}
+
+/// Of which parameters and controls a sentence is said.
+fn general(cx: &Context<'_>, found: &Found) -> String {
+    format!("{}{}", for_general(found), for_general_controls(cx))
 }
 
 /// Of which parameters a sentence is said, where particular ones were not followed.

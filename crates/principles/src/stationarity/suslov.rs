@@ -7,7 +7,7 @@ use super::stationary::{
     set_aside_unconfirmed,
 };
 use crate::variations::Displacements;
-use crate::words::{conditional, formula};
+use crate::words::{conditional, for_general_controls, formula, listed};
 use chetaev_mechanics::claims::{once_where, Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::formulations::DeriveError;
 use chetaev_symbolic::verdict::Proof;
@@ -126,7 +126,7 @@ fn on_subsets(
     let terms: Vec<Expr> = terms.iter().map(|&e| motion.on_states(g, e)).collect();
     let mut found = where_zero(cx, motion, &terms);
     set_aside_unconfirmed(cx, motion, &mut found);
-    let open = not_followed(&found);
+    let open = format!("{}{}", for_general_controls(cx), not_followed(&found));
     let all = moving_first(&found);
     if all.first().is_none_or(|leaf| leaf.at_rest) {
         let rest = match all.as_slice() {
@@ -141,7 +141,12 @@ fn on_subsets(
             formulas,
         };
     }
-    let stated = format!("{}{}", alternatives(&all), legend(cx, motion));
+    let stated = format!(
+        "{}{}{}",
+        alternatives(&all),
+        legend(cx, motion),
+        with_dependent(cx, motion)
+    );
     let condition = format!("{stated}{open}");
     let how = "the terms were differentiated along the motion in every case, exactly";
     let proof = Proof::exact(place(cx, motion), how);
@@ -151,4 +156,18 @@ fn on_subsets(
         only(&found)
     ));
     Finding { verdict, formulas }
+}
+
+/// Where the terms have no value, as the dependent velocities are divided by zero.
+fn with_dependent(cx: &Context<'_>, motion: &Motion) -> String {
+    let g = &cx.system.graph;
+    let poles = motion.dependent_poles.iter();
+    let poles: Vec<String> = poles.map(|&e| format!("{} ≠ 0", g.text(e))).collect();
+    match poles.is_empty() {
+        true => String::new(),
+        false => format!(
+            " (with {}, as the constraints are solved for the dependent velocities)",
+            listed(&poles)
+        ),
+    }
 }

@@ -1,7 +1,7 @@
 //! `variation.hoelder`: what varied curves do to the constraints.
 
 use super::Displacements;
-use crate::words::{conditional, formula, listed, readable};
+use crate::words::{conditional, for_general_controls, formula, listed, readable};
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::{once_where, Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::formulations::DeriveError;
@@ -172,13 +172,10 @@ fn for_some_displacements(
             1 => "the only virtual displacements, along one direction, violate the constraints: δf = 0 for none but zero",
             _ => "δf = 0 for no virtual displacement but zero, at almost every state",
         };
-        refuted.prefix(sentence);
+        refuted.prefix(&format!("{sentence}{}", for_general_controls(cx)));
         return refuted.into();
     }
-    let equations = rank.pivots.rows.iter();
-    let equations: Option<Vec<String>> =
-        equations.map(|&row| equation(cx, d, &rows[row])).collect();
-    let equations = equations.map(|all| match all.len() {
+    let equations = equations(cx, d, rows).map(|all| match all.len() {
         1 => all,
         _ => all.into_iter().map(bracketed).collect(),
     });
@@ -204,8 +201,9 @@ fn for_some_displacements(
         },
         _ => Proof::exact("at almost every admissible state", "the rank of E[f] B"),
     };
-    let mut verdict = conditional(condition, proof, refuted);
-    verdict.prefix(&sentence);
+    let controls = for_general_controls(cx);
+    let mut verdict = conditional(format!("{condition}{controls}"), proof, refuted);
+    verdict.prefix(&format!("{sentence}{controls}"));
     verdict.into()
 }
 
@@ -217,8 +215,39 @@ fn bracketed(equation: String) -> String {
     }
 }
 
-/// `Σ_s c_s δ_s = 0` without common factors, and where these vanish, "delta_x = 0 or y = 0"; `None` where it is too long to be read.
-fn equation(cx: &Context<'_>, d: &Displacements<'_>, row: &[Expr]) -> Option<String> {
+/// A displacement form without the factors of states, and these: of `row = Π factors · form`, once for each row that has this form.
+struct Direction {
+    form: Expr,
+    factors: Vec<Vec<Expr>>,
+}
+
+/// Where all rows `Σ_s c_s δ_s` vanish, "delta_x = 0 or y = 0" for rows that have a form in common and one of all their factors; `None`
+/// where that is too long to be read.
+fn equations(cx: &Context<'_>, d: &Displacements<'_>, rows: &[Vec<Expr>]) -> Option<Vec<String>> {
+    let g = &cx.system.graph;
+    let mut directions: Vec<Direction> = Vec::new();
+    for row in rows {
+        if row.iter().all(|&e| g.is_zero(e)) {
+            continue;
+        }
+        let (form, factors) = direction(cx, d, row)?;
+        let same = |e: Expr| e == form || e == g.neg(form);
+        match directions.iter_mut().find(|known| same(known.form)) {
+            Some(known) => known.factors.push(factors),
+            None => directions.push(Direction {
+                form,
+                factors: vec![factors],
+            }),
+        }
+    }
+    let equations = directions.into_iter();
+    equations
+        .map(|direction| direction.equation(cx))
+        .collect::<Option<_>>()
+}
+
+/// The form of a row, and the factors by which it vanishes for every displacement.
+fn direction(cx: &Context<'_>, d: &Displacements<'_>, row: &[Expr]) -> Option<(Expr, Vec<Expr>)> {
     let (system, g) = (cx.system, &cx.system.graph);
     let form = readable(cx, dot(g, row, &d.free))?;
     let displacements = d.symbols();
@@ -233,15 +262,44 @@ fn equation(cx: &Context<'_>, d: &Displacements<'_>, row: &[Expr]) -> Option<Str
         [factor] => readable(cx, *factor)?,
         _ => form,
     };
-    let stated = assumptions(system);
-    let vanishes = |&e: &Expr| {
-        let signs = [e, g.neg(e)].map(|e| known_sign(g, e, &stated));
-        !signs.iter().any(|sign| sign.is_positive())
-    };
-    let common = common.into_iter().filter(vanishes);
-    let all = std::iter::once(without).chain(common.filter_map(|e| readable(cx, e)));
-    let all: Vec<String> = all.map(|e| format!("{} = 0", g.text(e))).collect();
-    Some(all.join(" or "))
+    let common = common.into_iter().filter(|&e| may_vanish(cx, e));
+    Some((without, common.collect()))
+}
+
+fn may_vanish(cx: &Context<'_>, e: Expr) -> bool {
+    let (g, stated) = (&cx.system.graph, assumptions(cx.system));
+    let signs = [e, g.neg(e)].map(|e| known_sign(g, e, &stated));
+    !signs.iter().any(|sign| sign.is_positive())
+}
+
+impl Direction {
+    /// A factor of all rows vanishes, or those that the rows do not share all do.
+    fn equation(&self, cx: &Context<'_>) -> Option<String> {
+        let g = &cx.system.graph;
+        let zero = |e: Expr| Some(format!("{} = 0", g.text(readable(cx, e)?)));
+        let (first, others) = self.factors.split_first()?;
+        let in_all = |e: &Expr| others.iter().all(|row| row.contains(e));
+        let shared: Vec<Expr> = first.iter().copied().filter(in_all).collect();
+        let mut all = vec![zero(self.form)?];
+        for &e in &shared {
+            all.extend(zero(e));
+        }
+        let rest = self.factors.iter().map(|row| {
+            let own = row.iter().copied().filter(|e| !shared.contains(e));
+            g.mul(&own.collect::<Vec<Expr>>())
+        });
+        let mut rest: Vec<Expr> = rest.collect();
+        rest.sort_unstable();
+        rest.dedup();
+        let squares: Vec<Expr> = rest.iter().map(|&e| g.powi(e, 2)).collect();
+        let together = readable(cx, g.add(&squares));
+        let can = rest.iter().all(|&e| may_vanish(cx, e));
+        if can && together.is_none_or(|e| may_vanish(cx, e)) {
+            let texts: Option<Vec<String>> = rest.into_iter().map(zero).collect();
+            all.push(listed(&texts?));
+        }
+        Some(all.join(" or "))
+    }
 }
 
 /// δf, and the A^l_s that do not vanish.

@@ -6,6 +6,7 @@ use crate::study::Decided;
 use crate::typeset::Typesetter;
 use chetaev_mechanics::Finding;
 use chetaev_report::data::{Claim, Equation, Verdict as Word};
+use chetaev_symbolic::verdict::Counterexample;
 use chetaev_symbolic::Verdict;
 
 pub(super) fn word(verdict: &str) -> Word {
@@ -76,22 +77,28 @@ fn evidence(claim: &mut Claim, verdict: &Verdict) {
             claim.residual = Some(format!("{:.2e}", evidence.residual));
             claim.seed = evidence.seed;
         }
-        Verdict::Refuted(c) => {
-            let point = chetaev_mechanics::words::point(c, |_| true);
-            let at = if point.is_empty() {
-                String::new()
-            } else {
-                format!("at {point}: ")
-            };
-            claim.counterexample = Some(format!(
-                "{at}{} in [{}, {}]",
-                c.quantity, c.residual.0, c.residual.1
-            ));
-        }
+        Verdict::Refuted(found) => claim.counterexample = Some(counterexample(found)),
         Verdict::NotApplicable { hypothesis, .. } => claim.condition = Some(hypothesis.clone()),
         Verdict::Undecided { .. } => {}
     }
-    if let Verdict::Conditional { condition, .. } = verdict {
+    if let Verdict::Conditional {
+        condition,
+        counterexample: elsewhere,
+        ..
+    } = verdict
+    {
         claim.condition = Some(condition.clone());
+        claim.counterexample = elsewhere.as_ref().map(counterexample);
     }
+}
+
+/// What does not vanish, and where.
+fn counterexample(found: &Counterexample) -> String {
+    let point = chetaev_mechanics::words::point(found, |_| true);
+    let at = match point.is_empty() {
+        true => String::new(),
+        false => format!("at {point}: "),
+    };
+    let (low, high) = &found.residual;
+    format!("{at}{} in [{low}, {high}]", found.quantity)
 }

@@ -250,6 +250,15 @@ fn statistics(motion: &Motion) -> Vec<Fact> {
             None,
         ),
         fact(
+            "Arithmetic",
+            match motion.settings.precise {
+                Some(_) => "double-double (31 digits)".into(),
+                None => "double".into(),
+            },
+            None,
+            None,
+        ),
+        fact(
             "Steps",
             format!("{} accepted, {} rejected", s.steps, s.rejected),
             None,

@@ -118,6 +118,9 @@ impl Sweep {
                 method: settings.method,
             });
         }
+        if settings.precise.is_some() {
+            return Err(StudyError::PreciseSweep);
+        }
         settings.times = times(start.start.t, settings.t_end, options.samples);
         let name = options.study.formulation.as_deref().unwrap_or(REFERENCE);
         let Some(formulation) = formulation(name) else {

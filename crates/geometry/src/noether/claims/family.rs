@@ -12,12 +12,15 @@ use chetaev_symbolic::Verdict;
 #[derive(Clone, Copy, Debug)]
 pub struct FamilySearched;
 
+/// The claim that searches.
+pub(crate) const ID: &str = "noether.family";
+
 /// The bound that a proof needs, as log2.
 const PROOF_LOG2: f64 = -100.0;
 
 impl Claim for FamilySearched {
     fn id(&self) -> &'static str {
-        "noether.family"
+        ID
     }
 
     fn group(&self) -> Group {

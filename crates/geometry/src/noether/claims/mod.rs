@@ -3,7 +3,7 @@
 mod contraction;
 mod domain;
 mod embedded;
-mod family;
+pub(super) mod family;
 mod integral;
 mod inverse;
 mod killing;

@@ -1,5 +1,6 @@
 //! The zero test of what the distinction of cases has found.
 
+use super::roots::Root;
 use super::{Leaf, Row};
 use crate::stationarity::motion::Motion;
 use chetaev_mechanics::claims::Context;
@@ -25,7 +26,10 @@ pub(crate) fn confirmed(cx: &Context<'_>, motion: &Motion, leaf: &Leaf) -> Verdi
     if let Some(rows) = &leaf.rows {
         residuals.extend(of_multipliers(cx, motion, rows));
     }
-    let residuals = g.substitute_all(&residuals, &leaf.solved);
+    let residuals = g.substitute_all(&residuals, &leaf.solved).into_iter();
+    let root = |e, root: &Root| root.replaced(g, e);
+    let residuals = residuals.map(|e| leaf.roots.iter().fold(e, root));
+    let residuals: Vec<Expr> = residuals.collect();
     let on = "on the motions stated";
     let manifold = Manifold {
         solved: Vec::new(),

@@ -36,7 +36,7 @@ impl Search<'_, '_> {
     }
 
     /// The factors in which symbols of the state occur.
-    fn split_factors(&self, e: Expr) -> Option<Vec<Expr>> {
+    pub(super) fn split_factors(&self, e: Expr) -> Option<Vec<Expr>> {
         let list = factors(self.g, e, &self.state)?;
         Some(list.into_iter().map(|(factor, _)| factor).collect())
     }
@@ -105,9 +105,10 @@ impl Search<'_, '_> {
 
     /// The cases in which an expression, which is not zero on the subset, vanishes: none where it has no factor that can.
     pub(super) fn require(&self, found: &mut Found, case: &Case, e: Expr) -> Vec<Case> {
-        let e = self.remainder(case, e);
+        let whole = e;
+        let e = self.remainder(case, whole);
         self.take_as_regular(e);
-        let Some(list) = self.vanishing_factors(case, e) else {
+        let Some(list) = self.factors_modulo(case, whole, e) else {
             if !case.pending.contains(&e) {
                 let mut case = case.clone();
                 case.pending.push(e);
@@ -123,6 +124,30 @@ impl Search<'_, '_> {
         list.into_iter()
             .flat_map(|factor| self.solved(found, case, factor))
             .collect()
+    }
+
+    /// The factors of a remainder modulo the equations that are not solved, or the remainders of the factors where these are shorter:
+    /// a product need not stay one.
+    fn factors_modulo(&self, case: &Case, whole: Expr, rest: Expr) -> Option<Vec<Expr>> {
+        let of_rest = self.vanishing_factors(case, rest);
+        if whole == rest {
+            return of_rest;
+        }
+        let of_whole = || -> Option<Vec<Expr>> {
+            let mut list = Vec::new();
+            for factor in self.vanishing_factors(case, whole)? {
+                for e in self.vanishing_factors(case, self.remainder(case, factor))? {
+                    if !list.contains(&e) {
+                        list.push(e);
+                    }
+                }
+            }
+            Some(list)
+        };
+        let length =
+            |list: &Vec<Expr>| -> u64 { list.iter().map(|&e| simplify::length(self.g, e)).sum() };
+        let both = [of_rest, of_whole()].into_iter().flatten();
+        both.min_by_key(length)
     }
 
     /// The cases in which a factor vanishes.
@@ -168,6 +193,7 @@ impl Search<'_, '_> {
             None => {
                 let cases = self.where_constant(found, case, factor);
                 let cases = cases.or_else(|| self.where_implicit(found, case, factor));
+                let cases = cases.or_else(|| self.where_root(found, case, factor));
                 cases.unwrap_or_else(|| {
                     let text = self.g.text(factor);
                     let and = match self.equations(case).is_empty() {
@@ -188,7 +214,11 @@ impl Search<'_, '_> {
         for (_, known) in &mut case.solved {
             *known = short(self.g, self.g.substitute(*known, &pair));
         }
+        for root in &mut case.roots {
+            root.substitute(self.g, &pair);
+        }
         case.solved.push((symbol, value));
+        case.stated.push(self.g.sub(symbol, value));
         let nonzero = std::mem::take(&mut case.nonzero);
         for e in nonzero {
             let rest = self.on(&case, e);

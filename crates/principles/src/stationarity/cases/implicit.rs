@@ -38,10 +38,19 @@ impl Search<'_, '_> {
         let mut case = case.clone();
         let (polynomial, _) = case.implicit.remove(place);
         let rest = self.on(&case, polynomial);
-        Some(match self.g.is_zero(rest) {
-            true => vec![case],
-            false => self.require(found, &case, rest),
-        })
+        if self.g.is_zero(rest) {
+            return Some(vec![case]);
+        }
+        let mut cases = self.require(found, &case, rest);
+        // It has been stated already, if it is one factor.
+        let known = case.stated.len() + 1;
+        let is_one = self.vanishing_factors(&case, self.remainder(&case, rest));
+        if is_one.is_some_and(|list| list.len() == 1) {
+            for case in cases.iter_mut().filter(|c| c.stated.len() == known) {
+                case.stated.pop();
+            }
+        }
+        Some(cases)
     }
 
     /// The cases in which a polynomial of degree two and more vanishes.
@@ -82,6 +91,7 @@ impl Search<'_, '_> {
         let former = off.implicit.iter().position(|(_, s)| *s == symbol);
         let former = former.map(|place| off.implicit.remove(place).0);
         off.implicit.push((factor, symbol));
+        off.stated.push(factor);
         if off
             .nonzero
             .iter()
