@@ -63,7 +63,7 @@ pub(super) fn from_sets(subject: &Subject<'_>, sets: &StationarySets) -> Option<
 /// States drawn beside the sets.
 const BESIDE: u64 = 24;
 /// Curves of a motion off the sets that are nearer are one.
-const SAME: f64 = 1e-10;
+const SAME: f64 = 1e-11;
 /// A state is on a set where what vanishes there is smaller than this.
 const ON: f64 = 1e-9;
 
@@ -120,10 +120,12 @@ fn off(subject: &Subject<'_>, sets: &StationarySets, draw: u64) -> Option<Point>
         .map(|c| c.q_symbol)
         .chain(sets.speeds.iter().copied())
     {
-        let value = match random.next_u64() % 3 {
+        let value = match random.next_u64() % 4 {
             0 => 0.0,
             1 => 0.5,
-            _ => random.between(-1.0, 1.0),
+            // Small motions deviate by high powers of what is small.
+            2 => random.between(0.4, 1.0),
+            _ => random.between(-1.0, -0.4),
         };
         point.insert(symbol, value);
     }

@@ -101,12 +101,22 @@ impl Leaf {
             .collect()
     }
 
+    /// What vanishes where a symbol has its value, at an angle up to full turns.
+    fn residual(&self, g: &Graph, symbol: Expr, value: Expr) -> Expr {
+        let angle = self.angles.iter().find(|angle| angle.symbol == symbol);
+        match angle.map(|angle| (angle.whole, angle.period, angle.factor)) {
+            Some((true, _, factor)) => factor,
+            Some((false, Some(d), _)) => g.sin(g.div(g.sub(symbol, value), g.integer(2 * d))),
+            _ => g.sub(symbol, value),
+        }
+    }
+
     /// What vanishes on the set.
     pub(crate) fn vanishing(&self, g: &Graph) -> Vec<Expr> {
         let cleared = self.cleared.as_ref();
         let is_cleared = |s: Expr| cleared.is_some_and(|cleared| cleared.symbols.contains(&s));
         let solved = self.solved.iter().filter(|(s, _)| !is_cleared(*s));
-        let solved = solved.map(|&(s, value)| g.sub(s, value));
+        let solved = solved.map(|&(s, value)| self.residual(g, s, value));
         let implicit = self.implicit.iter().map(|&(e, _)| e);
         let others: Vec<Expr> = match cleared {
             Some(cleared) => cleared.equations.clone(),
