@@ -16,7 +16,7 @@ pub(super) fn multipliers(cx: &Context<'_>) -> Result<Vec<Expr>, String> {
     let sets = StationarySets::of(cx).ok_or("the sets of stationary motions are not known")?;
     let own = sets.sets.iter().filter(|set| is_of_velocities(cx, set));
     let mut lies = own.filter(|set| lies_on(cx, set) == Ok(true));
-    let none = "the computed motion lies on none of the sets on which the action is stationary, or the speeds there are not velocities";
+    let none = "the computed motion lies on none of those sets on which the action is stationary that are solved for coordinates and velocities";
     let set = lies.next().ok_or(none)?;
     let (g, r) = (&cx.system.graph, cx.selection.rows.len());
     (0..r)
