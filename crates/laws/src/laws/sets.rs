@@ -40,7 +40,13 @@ pub(super) fn from_sets(subject: &Subject<'_>, sets: &StationarySets) -> Option<
         .collect();
     let place = equations.join(", ");
     let detail = format!("where {place} the curves are {gap:.1e} apart");
-    let verdict = match gap < ONE {
+    let law = "motion and extremal are one curve from the states printed";
+    Some(trial(law, gap < ONE, gap, detail))
+}
+
+/// What the distance of motions and extremals tells of a law on their states.
+fn trial(law: &'static str, holds: bool, gap: f64, detail: String) -> Trial {
+    let verdict = match holds {
         true => Verdict::Proved(Proof::structural("at the states drawn", detail)),
         false => Verdict::Refuted(Counterexample {
             point: Vec::new(),
@@ -49,15 +55,15 @@ pub(super) fn from_sets(subject: &Subject<'_>, sets: &StationarySets) -> Option<
             detail,
         }),
     };
-    Some(Trial {
+    Trial {
         kind: Kind::Other,
-        law: "motion and extremal are one curve from the states printed",
+        law,
         formulation: "",
         about: String::new(),
         expected: Expected::Proved,
         verdict,
         seconds: 0.0,
-    })
+    }
 }
 
 /// States drawn beside the sets.
@@ -90,24 +96,8 @@ pub(super) fn off_sets(subject: &Subject<'_>, sets: &StationarySets) -> Option<T
     let mut place: Vec<String> = place.collect();
     place.sort();
     let detail = format!("at {} the curves are {gap:.1e} apart", place.join(", "));
-    let verdict = match gap > SAME {
-        true => Verdict::Proved(Proof::structural("at the states drawn", detail)),
-        false => Verdict::Refuted(Counterexample {
-            point: Vec::new(),
-            quantity: "distance of motion and extremal".into(),
-            residual: (format!("{gap:e}"), format!("{gap:e}")),
-            detail,
-        }),
-    };
-    Some(Trial {
-        kind: Kind::Other,
-        law: "motion and extremal are two curves from states off the sets printed",
-        formulation: "",
-        about: String::new(),
-        expected: Expected::Proved,
-        verdict,
-        seconds: 0.0,
-    })
+    let law = "motion and extremal are two curves from states off the sets printed";
+    Some(trial(law, gap > SAME, gap, detail))
 }
 
 /// An admissible state on none of the sets; `None` where the one drawn is on one.

@@ -9,6 +9,7 @@ use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::System;
+use chetaev_symbolic::matrix::inverse;
 use chetaev_symbolic::{simplify, Expr, Graph, Node, Symbol};
 
 /// κ of the constraints in closed form along all motions, each with its constant of integration; `None` for those that are not
@@ -245,34 +246,14 @@ fn by_slopes(cx: &Context<'_>, motion: &Motion, place: &Place) -> Option<Vec<Opt
     if !place.tied.is_empty() {
         return None;
     }
-    let (jacobian, r) = (basis(cx).jacobian(), motion.multipliers.len());
-    let dependent = &cx.selection.dependent;
-    let slopes: Vec<Vec<Expr>> = dependent
-        .iter()
-        .map(|&d| {
-            let column = jacobian.iter();
-            column.map(|row| motion.on_states(g, row[d])).collect()
-        })
-        .collect();
-    if slopes.len() != r || slopes.iter().any(|row| row.len() != r) {
-        return None;
-    }
-    let flat = slopes.concat();
-    let unit = |m: usize| -> Vec<Expr> {
-        let entry = |l: usize| if l == m { g.one() } else { g.zero() };
-        (0..r).map(entry).collect()
-    };
-    let columns: Vec<Vec<Expr>> = (0..r)
-        .map(|m| g.solve(&flat, &unit(m)).ok())
-        .collect::<Option<_>>()?;
-    let back = |l: usize, m: usize| columns[m][l];
+    let slopes = slopes(cx, motion)?;
+    let (back, r) = (inverse(g, &slopes).ok()?, slopes.len());
     let turned = |m: usize, l: usize| {
-        let carried = (0..r).map(|n| g.mul(&[slopes[m][n], motion.transport[n][l]]));
-        let carried: Vec<Expr> = carried.collect();
-        g.add(&[motion.along(cx, slopes[m][l]), g.add(&carried)])
+        let column = motion.transport.iter().map(|row| &row[l]);
+        g.add(&[motion.along(cx, slopes[m][l]), dot(g, &slopes[m], column)])
     };
     let entry = |m: usize, l: usize| {
-        let parts: Vec<Expr> = (0..r).map(|n| g.mul(&[turned(m, n), back(n, l)])).collect();
+        let parts: Vec<Expr> = (0..r).map(|n| g.mul(&[turned(m, n), back[n][l]])).collect();
         closed(g, g.substitute(g.add(&parts), &place.values)).ok()
     };
     let transport = (0..r).map(|m| (0..r).map(|l| entry(m, l)).collect());
@@ -286,16 +267,31 @@ fn by_slopes(cx: &Context<'_>, motion: &Motion, place: &Place) -> Option<Vec<Opt
         free: (0..r).collect(),
     };
     let known = solved.integrated(cx, motion, place);
-    let value = |l: usize| {
-        let mut parts = Vec::new();
-        for (m, known) in known.iter().enumerate() {
-            if !g.is_zero(back(l, m)) {
-                parts.push(g.mul(&[back(l, m), (*known)?]));
-            }
-        }
+    let value = |row: &Vec<Expr>| {
+        let used = row
+            .iter()
+            .zip(&known)
+            .filter(|(&weight, _)| !g.is_zero(weight));
+        let parts = used.map(|(&weight, known)| Some(g.mul(&[weight, (*known)?])));
+        let parts: Vec<Expr> = parts.collect::<Option<_>>()?;
         closed(g, g.substitute(g.add(&parts), &place.values)).ok()
     };
-    Some((0..r).map(value).collect())
+    Some(back.iter().map(value).collect())
+}
+
+/// S, row by row; `None` where there are not as many dependent velocities as constraints.
+fn slopes(cx: &Context<'_>, motion: &Motion) -> Option<Vec<Vec<Expr>>> {
+    let (g, jacobian) = (&cx.system.graph, basis(cx).jacobian());
+    let r = motion.multipliers.len();
+    let dependent = &cx.selection.dependent;
+    if dependent.len() != r || jacobian.len() != r {
+        return None;
+    }
+    let row = |&d: &usize| {
+        let column = jacobian.iter();
+        column.map(|row| motion.on_states(g, row[d])).collect()
+    };
+    Some(dependent.iter().map(row).collect())
 }
 
 /// A function whose rate along all motions is the given one: a constant multiple of a function at hand (the roots in the
