@@ -13,5 +13,6 @@ pub mod places;
 pub mod program;
 pub mod rejections;
 pub mod runs;
+pub mod schema;
 pub mod studied;
 pub mod words;

@@ -61,20 +61,23 @@ fn sweep(model: &Model, variations: Variations, options: SweepOptions) -> Sweep 
     with_hooks(|hooks| Sweep::new(model, variations, options, hooks)).expect("a sweep")
 }
 
-/// All outcomes, in order.
+/// All outcomes, in order; `size` trajectories are computed together, then the next ones.
 fn outcomes(sweep: &Sweep, size: u64, threads: usize) -> Vec<Outcome> {
-    let wanted: Vec<u64> = (0..pool::blocks(sweep.count(), size)).collect();
     let mut found: BTreeMap<u64, Outcome> = BTreeMap::new();
     let interrupt = AtomicBool::new(false);
-    pool::run(
-        &*sweep.work(),
-        (size, &wanted, threads),
-        &interrupt,
-        |block| {
-            found.extend(block.range.zip(block.outcomes));
-            ControlFlow::Continue(())
-        },
-    );
+    let work = sweep.work();
+    for first in (0..sweep.count()).step_by(size as usize) {
+        let wanted = first..(first + size).min(sweep.count());
+        pool::run(
+            &*work,
+            (std::slice::from_ref(&wanted), threads),
+            &interrupt,
+            |batch| {
+                found.extend(batch);
+                ControlFlow::Continue(())
+            },
+        );
+    }
     assert_eq!(found.len() as u64, sweep.count());
     found.into_values().collect()
 }
@@ -229,7 +232,7 @@ fn other_formulations_and_orders_have_those_bits_too() {
 const PENDULUM: &str = "name = \"pendulum\"\ncoordinates = [\"theta\"]\nlagrangian = \"l^2 theta'^2/2 + G l cos(theta)\"\n[parameters]\nl = 2\nG = 9.81\n[initial]\ntheta = 0.5\n[simulation]\nt_end = 6\ntolerance = 1e-12\n[events.bottom]\nwhen = \"theta\"\n";
 
 #[test]
-fn threads_and_blocks_do_not_change_a_bit() {
+fn threads_and_companions_do_not_change_a_bit() {
     let model = of_text(PENDULUM, &[]);
     let variations = varied(
         &model,
@@ -254,7 +257,7 @@ fn threads_and_blocks_do_not_change_a_bit() {
 }
 
 /// Their series are made four at a time. Pendulums of different length end at different times at the bottom, one without length
-/// cannot begin: the others do not notice, and a trajectory in a block of its own has no company.
+/// cannot begin: the others do not notice, and a trajectory that is computed by itself has no company.
 #[test]
 fn trajectories_side_by_side_do_not_see_each_other() {
     let text = format!("{PENDULUM}action = \"stop\"\n");
@@ -305,7 +308,7 @@ fn trajectories_side_by_side_do_not_see_each_other() {
     assert!(steps.len() == 21 && steps[0] < steps[20], "{steps:?}");
 }
 
-/// Discs without events: rows lie inside steps, some trajectories end where a disc lies flat, and orders and step sizes differ. Blocks and companions do not change a bit, nor does asking for more rows change the end.
+/// Discs without events: rows lie inside steps, some trajectories end where a disc lies flat, and orders and step sizes differ. Threads and companions do not change a bit, nor does asking for more rows change the end.
 #[test]
 fn discs_side_by_side_have_the_bits_of_each() {
     let model = read("gallery/falling-rolling-disc/model.toml", &[]);
@@ -509,6 +512,42 @@ fn mistakes_are_shown_at_their_place() {
         ),
         (&["--vary", "a=1:2:uniform"], &["--count"]),
         (&["--vary", "a=1:2:5", "--count", "4"], &["--count"]),
+        (
+            &["--vary", "a=1:2:uniform", "--count", "0"],
+            &["--count is 0", "`a`"],
+        ),
+        (
+            &["--vary", "a=1:2:5", "--set", "a=5"],
+            &["`a` is varied", "--set"],
+        ),
+        (
+            &["--vary", "a=1:2:5", "--tolerance", "-1e-5"],
+            &["error: --tolerance -0.00001: ", "out of range"],
+        ),
+        (
+            &["--vary", "a=1:2:5", "--tolerance", "5"],
+            &["error: --tolerance 5: ", "out of range"],
+        ),
+        (
+            &["--vary", "a=1:2:5", "--seed", "-1"],
+            &["invalid value '-1' for '--seed <N>'"],
+        ),
+        (
+            &["--vary", "a=1:2:5", "--method", "eular"],
+            &["error: --method eular: ", "no method `eular`"],
+        ),
+        (
+            &["--vary", "a=1:2:5", "--method", "rk4"],
+            &["error: --method rk4: ", "fixed step"],
+        ),
+        (
+            &["--vary", "a=1:2:5", "--step", "-1"],
+            &["error: --step -1: ", "positive"],
+        ),
+        (
+            &["--vary", "a=1:2:5", "--precision", "double-double"],
+            &["error: --precision double-double: "],
+        ),
         (&[], &["nothing varies"]),
         (
             &["--rows", "no-such-file.csv"],
@@ -663,24 +702,94 @@ fn an_archive_holds_all_columns_and_the_reasons_of_failures() {
         "{}",
         other.err
     );
-    let stopped = run(&[
-        "sweep",
-        text(&model),
-        "--rows",
-        text(&rows),
-        "--stop-on-failure",
-        "--out",
-        text(&folder.join("early")),
-    ]);
-    assert_eq!(stopped.status, Some(3), "{}", stopped.both());
-    assert!(
-        stopped.err.contains("trajectory 1 (m = 1, x' = 2)"),
-        "{}",
-        stopped.err
-    );
+    let early = folder.join("early");
+    let sweep = |more: &[&str]| {
+        let own = ["sweep", text(&model), "--rows", text(&rows)];
+        run(&[&own[..], &["--out", text(&early)], more].concat())
+    };
+    let whole = |again: &str| {
+        let stopped = sweep(&["--stop-on-failure"]);
+        assert_eq!(stopped.status, Some(3), "{again}: {}", stopped.both());
+        let word = "trajectory 1 (m = 1, x' = 2): ";
+        assert!(stopped.err.contains(word), "{again}: {}", stopped.err);
+        assert!(stopped.err.contains("singular"), "{again}: {}", stopped.err);
+    };
+    whole("at first");
+    assert!(!early.join("sweep.npz").exists());
+    whole("where it is stored");
+    assert!(!early.join("sweep.npz").exists());
+    assert_eq!(sweep(&[]).status, Some(0));
+    whole("in a sweep that is complete");
 }
 
-/// A sweep of some seconds in many blocks.
+/// Which threads take trajectories of an ensemble.
+struct Seen<'a>(
+    &'a dyn pool::Work,
+    std::sync::Mutex<Vec<std::thread::ThreadId>>,
+);
+
+struct SeenThread<'a>(&'a Seen<'a>, Box<dyn pool::Worker + 'a>);
+
+impl pool::Work for Seen<'_> {
+    fn worker(&self, most: usize) -> Box<dyn pool::Worker + '_> {
+        Box::new(SeenThread(self, self.0.worker(most)))
+    }
+
+    fn count(&self) -> u64 {
+        self.0.count()
+    }
+}
+
+impl pool::Worker for SeenThread<'_> {
+    fn work(
+        &mut self,
+        next: &dyn Fn() -> Option<u64>,
+        done: &dyn Fn(u64, Outcome),
+        interrupt: &AtomicBool,
+    ) {
+        let SeenThread(seen, worker) = self;
+        let next = || {
+            let own = std::thread::current().id();
+            next().inspect(|_| seen.1.lock().expect("a list").push(own))
+        };
+        worker.work(&next, done, interrupt);
+    }
+}
+
+/// By the method `taylor` a thread has four trajectories under way, if the others have some too.
+#[test]
+fn few_long_trajectories_are_those_of_all_threads() {
+    let model = of_text(PENDULUM, &[]);
+    for method in ["taylor", "dormand-prince-853"] {
+        let study = StudyOptions {
+            t_end: Some(3000.0),
+            method: Some(method.into()),
+            ..StudyOptions::default()
+        };
+        let variations = varied(&model, &["l=1:2:8"], &[], Together::default());
+        let sweep = sweep(&model, variations, SweepOptions { study, samples: 0 });
+        let work = sweep.work();
+        let seen = Seen(&*work, std::sync::Mutex::default());
+        let (nobody, mut found) = (AtomicBool::new(false), 0);
+        let all = 0..8;
+        let wanted = std::slice::from_ref(&all);
+        pool::run(&seen, (wanted, 4), &nobody, |batch| {
+            found += batch.len();
+            ControlFlow::Continue(())
+        });
+        assert_eq!(found, 8);
+        let taken = seen.1.into_inner().expect("a list");
+        let mut threads = Vec::new();
+        for thread in taken {
+            if !threads.contains(&thread) {
+                threads.push(thread);
+            }
+        }
+        assert_eq!(threads.len(), 4, "{method}");
+    }
+}
+
+/// A sweep of some seconds.
 fn long(out: &Path, threads: &str) -> Vec<String> {
     let arguments = [
         "sweep",
@@ -730,7 +839,7 @@ fn a_sweep_that_is_killed_goes_on_and_ends_with_the_same_bits() {
             .spawn()
             .expect("the program starts");
         let lines = kept.iter().filter(|&&b| b == b'\n').count();
-        // Some blocks more, and then a random moment.
+        // Some batches more, and then a random moment.
         let waiting = Instant::now();
         while journal(&out).iter().filter(|&&b| b == b'\n').count() <= lines {
             let is_over =
@@ -751,7 +860,7 @@ fn a_sweep_that_is_killed_goes_on_and_ends_with_the_same_bits() {
         if out.join("sweep.npz").exists() {
             break;
         }
-        // Blocks are on the disk as they end, what was there before still is, and none was computed twice.
+        // Batches are on the disk as they end, what was there before still is, and none was computed twice.
         let now = journal(&out);
         assert!(now.starts_with(&kept), "kill {kills}");
         assert!(now.len() > kept.len() || kills > 1, "kill {kills}");
@@ -767,6 +876,145 @@ fn a_sweep_that_is_killed_goes_on_and_ends_with_the_same_bits() {
     for name in ["sweep.npz", "failures.csv"] {
         let of = |folder: &Path| std::fs::read(folder.join(name)).expect("a result");
         assert!(of(&whole) == of(&out), "{name} differs");
+    }
+}
+
+/// Waits until something holds.
+fn wait_for(what: &str, mut holds: impl FnMut() -> bool) {
+    let waiting = Instant::now();
+    while !holds() {
+        assert!(waiting.elapsed() < Duration::from_secs(60), "{what}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// How many trajectories a journal says are written.
+fn stored(out: &Path) -> u64 {
+    let lines = String::from_utf8(journal(out)).expect("a journal");
+    let counts = lines.lines().filter_map(|line| line.split(' ').next());
+    counts.map(|n| n.parse::<u64>().expect("a number")).sum()
+}
+
+#[test]
+fn a_folder_is_for_one_process_at_a_time() {
+    let out = scratch("sweep-twice").join("out");
+    let list = long(&out, "1");
+    let arguments: Vec<&str> = list.iter().map(String::as_str).collect();
+    let mut first = command(&root(), &arguments)
+        .spawn()
+        .expect("the program starts");
+    wait_for("a batch is written", || stored(&out) > 0);
+    let second = run(&arguments);
+    let still_runs = first.try_wait().expect("a process").is_none();
+    // A killed process holds nothing.
+    first.kill().expect("a process");
+    first.wait().expect("a process");
+    assert!(still_runs, "the first process ended too early");
+    assert_eq!(second.status, Some(2), "{}", second.both());
+    for word in ["another process", text(&out), "--out"] {
+        assert!(second.err.contains(word), "{word}: {}", second.err);
+    }
+    let third = ok(&arguments);
+    assert!(third.err.contains("computed before"), "{}", third.err);
+}
+
+#[test]
+fn bytes_that_change_while_a_sweep_runs_do_not_get_into_its_results() {
+    let folder = scratch("sweep-damaged");
+    let whole = folder.join("whole");
+    let list = long(&whole, "2");
+    ok(&list.iter().map(String::as_str).collect::<Vec<_>>());
+    let out = folder.join("out");
+    let list = long(&out, "1");
+    let arguments: Vec<&str> = list.iter().map(String::as_str).collect();
+    let child = command(&root(), &arguments)
+        .spawn()
+        .expect("the program starts");
+    wait_for("a batch is written", || stored(&out) > 0);
+    let before = journal(&out);
+    let line = String::from_utf8(before).expect("a journal");
+    let count: usize = line
+        .split(' ')
+        .next()
+        .and_then(|n| n.parse().ok())
+        .expect("a number");
+    // A bit of the first number of the first column, behind the numbers of the trajectories.
+    let data = out.join("sweep.data");
+    let flip = || -> std::io::Result<()> {
+        use std::io::{Seek, SeekFrom, Write};
+        let mut options = std::fs::OpenOptions::new();
+        let mut file = options.read(true).write(true).open(&data)?;
+        let mut byte = [0];
+        file.seek(SeekFrom::Start(8 * count as u64))?;
+        file.read_exact(&mut byte)?;
+        file.seek(SeekFrom::Start(8 * count as u64))?;
+        file.write_all(&[byte[0] ^ 1])
+    };
+    flip().expect("a file of data");
+    let finished = child.wait_with_output().expect("a process");
+    let said = String::from_utf8_lossy(&finished.stderr);
+    assert_eq!(finished.status.code(), Some(2), "{said}");
+    assert!(said.contains("damaged") && said.contains("again"), "{said}");
+    assert!(!out.join("sweep.npz").exists());
+    // Only what was damaged is computed again.
+    let again = ok(&arguments);
+    let kept = format!("{} of 4000 trajectories", 4000 - count);
+    assert!(again.err.contains(&kept), "{kept}: {}", again.err);
+    let bytes = |folder: &Path| std::fs::read(folder.join("sweep.npz")).expect("a result");
+    assert!(bytes(&whole) == bytes(&out));
+}
+
+/// Seven short trajectories, and one that does not end as long as anyone waits: what has ended is not lost with it.
+#[cfg(unix)]
+#[test]
+fn what_has_ended_is_kept_while_others_are_under_way() {
+    let folder = scratch("sweep-slow");
+    let model = folder.join("model.toml");
+    let content = PENDULUM.replace(
+        "tolerance = 1e-12",
+        "tolerance = 1e-12\nmax_steps = 1000000000",
+    );
+    let (content, _) = content.split_once("[events").expect("an event");
+    std::fs::write(&model, content).expect("a scratch file");
+    for method in ["taylor", "dormand-prince-853"] {
+        let out = folder.join(method);
+        let ranges = ["--vary", "G=9,1e18,3,4,5,6,7,8", "--threads", "2"];
+        let own = [
+            "sweep",
+            text(&model),
+            "--method",
+            method,
+            "--out",
+            text(&out),
+        ];
+        let arguments = [&own[..], &ranges[..]].concat();
+        let start = || {
+            command(&root(), &arguments)
+                .spawn()
+                .expect("the program starts")
+        };
+        let mut killed = start();
+        wait_for("seven trajectories are written", || stored(&out) == 7);
+        killed.kill().expect("a process");
+        killed.wait().expect("a process");
+        let before = journal(&out);
+        let interrupted = start();
+        // Long enough for the program to listen and to be at work.
+        std::thread::sleep(Duration::from_secs(3));
+        let sent = std::process::Command::new("kill")
+            .args(["-INT", &interrupted.id().to_string()])
+            .status();
+        assert!(sent.expect("kill").success());
+        let finished = interrupted.wait_with_output().expect("a process");
+        let said = String::from_utf8_lossy(&finished.stderr);
+        assert_eq!(finished.status.code(), Some(3), "{method}: {said}");
+        for word in [
+            "7 of 8 trajectories were computed before",
+            "7 of 8 trajectories are kept",
+        ] {
+            assert!(said.contains(word), "{method}: {word}: {said}");
+        }
+        assert_eq!(journal(&out), before, "{method}: nothing is computed twice");
     }
 }
 

@@ -74,8 +74,8 @@ fn integrals_over_motions() {
                 &format!("witness.first-variation#{}", found.form.word()),
             );
             assert_eq!(word, "numerical", "{name}: {told}");
-            assert!(found.residuals[0] < 1e-8, "{name}: {found:?}");
-            let clear = found.residuals.windows(2).filter(|r| r[0] > 1e-9);
+            assert!(found.refined.residuals[0] < 1e-8, "{name}: {found:?}");
+            let clear = found.refined.residuals.windows(2).filter(|r| r[0] > 1e-9);
             for pair in clear {
                 assert!(pair[1] > 16.0 * pair[0], "{name}: {found:?}");
             }
@@ -627,4 +627,23 @@ fn explanations_have_examples() {
             assert!(claim.explanation().contains("Example"), "{}", claim.id());
         }
     }
+}
+
+/// Over an interval without length nothing is compared, and a multiplier has one initial value.
+#[test]
+fn nothing_to_compare_and_too_much_given() {
+    let skate = "gallery/skate-incline/model.toml";
+    let folder = scratch("principles-no-interval");
+    let arguments = ["principles", skate, "--compare", "--t-end", "0", "--out"];
+    let told = run(&[&arguments[..], &[text(&folder)]].concat());
+    let said = unwrapped(&told.out);
+    assert!(
+        said.contains("The interval of time has no length"),
+        "{said}"
+    );
+    assert!(!said.contains("The curves agree"), "{said}");
+    let twice = ["--kappa", "kappa_blade=0.5", "--kappa", "kappa_blade=1"];
+    let told = run(&[&["principles", skate, "--compare"][..], &twice].concat());
+    assert_eq!(told.status, Some(2), "{}", told.both());
+    assert!(told.err.contains("given twice"), "{}", told.both());
 }

@@ -1,53 +1,17 @@
 //! `study.json` follows its schema, the schema is strict, and the page about it explains every field.
 #![allow(clippy::expect_used, reason = "test code fails where it stands")]
 
-use boon::{Compiler, SchemaIndex, Schemas};
 use chetaev_tests::places::{root, scratch};
 use chetaev_tests::program::{run, text};
-use chetaev_tests::studied::{study_gallery, verdicts};
+use chetaev_tests::schema::{schema, Schema};
+use chetaev_tests::studied::verdicts;
 use serde_json::{json, Value};
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
-const LOCATION: &str = "study.schema.json";
-
-struct Schema {
-    schemas: Schemas,
-    index: SchemaIndex,
-}
-
-impl Schema {
-    fn read() -> Schema {
-        let mut schemas = Schemas::new();
-        let mut compiler = Compiler::new();
-        compiler
-            .add_resource(LOCATION, schema())
-            .expect("a resource");
-        let index = compiler
-            .compile(LOCATION, &mut schemas)
-            .unwrap_or_else(|e| panic!("the schema is no schema: {e:#}"));
-        Schema { schemas, index }
-    }
-
-    /// Why a document does not follow the schema.
-    fn problem(&self, document: &Value) -> Option<String> {
-        let result = self.schemas.validate(document, self.index);
-        result.err().map(|e| format!("{e:#}"))
-    }
-}
-
-fn schema() -> Value {
-    let path = root().join("crates/study/schema/study.schema.json");
-    let text = std::fs::read_to_string(path).expect("the schema is in the repository");
-    serde_json::from_str(&text).expect("the schema is JSON")
-}
-
-/// Records with every kind of content: all of the gallery, and some made by options.
+/// Records made by options, with every kind of content; those of the gallery are looked at where it is studied.
 fn records() -> Vec<(String, Value)> {
-    let mut records: Vec<(String, Value)> = study_gallery("record")
-        .into_iter()
-        .map(|study| (study.file.clone(), study.record()))
-        .collect();
+    let mut records: Vec<(String, Value)> = Vec::new();
     let folder = scratch("record-options");
     let skate = "gallery/skate-level/model.toml";
     let turns: [&[&str]; 5] = [

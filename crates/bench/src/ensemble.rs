@@ -59,9 +59,6 @@ impl Members for Discs {
     }
 }
 
-/// Trajectories in one block of a block.
-const BLOCK: u64 = 32;
-
 /// `count` discs to `t_end`; the answer is q at the end of about twenty of them.
 ///
 /// # Errors
@@ -101,12 +98,12 @@ pub fn ensemble(question: &Question) -> Result<Ready, String> {
 
 /// The states at the ends, in order.
 fn ends(work: &Routh<'_, Discs>, count: usize) -> Result<Vec<Vec<f64>>, String> {
-    let blocks: Vec<u64> = (0..(count as u64).div_ceil(BLOCK)).collect();
     let mut ends = vec![Vec::new(); count];
     let mut problem = None;
     let nobody = AtomicBool::new(false);
-    run(work, (BLOCK, &blocks, 1), &nobody, |block| {
-        for (index, outcome) in block.range.zip(block.outcomes) {
+    let all = std::iter::once(0..count as u64).collect::<Vec<_>>();
+    run(work, (&all, 1), &nobody, |batch| {
+        for (index, outcome) in batch {
             if let Some(reason) = outcome.reason {
                 problem = Some(reason);
                 return ControlFlow::Break(());

@@ -71,7 +71,7 @@ pub(crate) struct Study {
     #[arg(long)]
     pub(crate) claims: Option<String>,
     /// Seconds for all claims together; more than 60 also make searches for integrals look at more
-    #[arg(long, default_value_t = 60.0, value_parser = seconds)]
+    #[arg(long, default_value_t = 60.0, allow_hyphen_values = true, value_parser = seconds)]
     pub(crate) budget: f64,
     #[command(flatten)]
     pub(crate) motion: MotionArguments,
@@ -87,7 +87,7 @@ pub(crate) struct MotionArguments {
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub(crate) t_end: Option<String>,
     /// Relative tolerance
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,
     /// Fixed step, an exact expression, required by runge-kutta-4: --step 0.01 --step "pi/400"
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
@@ -108,7 +108,7 @@ pub(crate) struct MotionArguments {
     #[arg(long)]
     pub(crate) keep_integrals: bool,
     /// Which branch of the motion to follow where constraints of order two and more admit several, as they are listed
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub(crate) branch: Option<usize>,
 }
 
@@ -186,7 +186,7 @@ pub(crate) struct Principles {
     #[arg(long, requires = "compare")]
     pub(crate) out: Option<PathBuf>,
     /// Seconds for all claims together; more than 60 also make searches for integrals look at more
-    #[arg(long, default_value_t = 60.0, value_parser = seconds)]
+    #[arg(long, default_value_t = 60.0, allow_hyphen_values = true, value_parser = seconds)]
     pub(crate) budget: f64,
     #[command(flatten)]
     pub(crate) motion: MotionArguments,
@@ -246,16 +246,21 @@ pub(crate) struct Sweep {
     #[arg(long)]
     pub(crate) zip: bool,
     /// How many random values are drawn for ranges that are `uniform`
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub(crate) count: Option<u64>,
     /// What the random values follow from: the same seed, the same values
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        allow_hyphen_values = true
+    )]
     pub(crate) seed: u64,
     /// Keep so many states of each trajectory, at equal intervals with both ends
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     pub(crate) samples: u32,
     /// Threads [default: as many as the machine runs at once]; the results do not depend on them
-    #[arg(long, value_name = "N", value_parser = at_least_one)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = at_least_one)]
     pub(crate) threads: Option<usize>,
     /// End at the first trajectory that ends early or does not begin
     #[arg(long)]

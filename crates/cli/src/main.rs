@@ -3,6 +3,7 @@
 mod arguments;
 mod commands;
 mod files;
+mod lock;
 mod progress;
 mod store;
 mod terminal;

@@ -1,19 +1,21 @@
-//! A sweep on the disk: blocks as they are finished, a journal of them, and at the end one archive.
+//! A sweep on the disk: batches of trajectories as they end, a journal of them, and at the end one archive.
 //!
 //! ```text
+//! sweep.lock      held by the process that computes; empty
 //! sweep.json      what was asked for; another sweep is refused
-//! sweep.data      finished blocks, in the order in which they were finished
-//! sweep.journal   which blocks those are
+//! sweep.data      trajectories that have ended, in the order in which they ended
+//! sweep.journal   which bytes of it those are
 //! failures.csv    the trajectories that ended early or did not begin
 //! sweep.npz       all columns; when it is there and no journal is, the sweep is complete
 //! ```
 
-use chetaev::ensemble::{archive, pool, Columns, Journal, Record};
+use crate::lock;
+use chetaev::ensemble::{archive, Columns, Journal, Outcome, Record};
 use serde_json::{json, Map, Value};
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::fs::{File, OpenOptions};
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -23,32 +25,74 @@ const SYNC: Duration = Duration::from_millis(500);
 
 /// The file that says what was asked for.
 const RECORD: &str = "sweep.json";
+const DATA: &str = "sweep.data";
+const JOURNAL: &str = "sweep.journal";
 /// The results.
 pub(crate) const ARCHIVE: &str = "sweep.npz";
 /// The reasons.
 pub(crate) const FAILURES: &str = "failures.csv";
 
+/// The archive is made of stretches of trajectories of which no column has more than so many numbers, and `failures.csv` of
+/// stretches of so many trajectories: no more is in memory.
+const STRETCH: u64 = 1 << 22;
+
+/// A trajectory that ended early or did not begin, and why.
+pub(crate) type Failure = (u64, String);
+
 /// What a folder holds.
 pub(crate) enum Opened {
-    /// The whole sweep.
-    Complete,
-    /// Some of its blocks, or none.
+    /// The whole sweep; its first failure.
+    Complete(Option<Failure>),
+    /// Some of its trajectories, or none.
     Begun(Box<Store>),
 }
 
 /// How many trajectories ended in which way, by the number of the column `stop`.
 pub(crate) type Stops = BTreeMap<i64, u64>;
 
-/// The blocks of a sweep.
+/// The trajectories of a sweep that have ended.
 pub(crate) struct Store {
     folder: PathBuf,
     columns: Columns,
     count: u64,
-    size: u64,
     data: File,
     journal: File,
     known: Journal,
+    /// For each record the smallest range that holds its trajectories.
+    spans: Vec<Range<u64>>,
+    written: Written,
+    failure: Option<Failure>,
     synced: Instant,
+    /// Released when this ends, or the process does, however it ends.
+    _lock: File,
+}
+
+/// Which trajectories are written: one bit for each.
+#[derive(Default)]
+struct Written {
+    bits: Vec<u64>,
+    number: u64,
+}
+
+impl Written {
+    fn of(count: u64) -> Written {
+        Written {
+            bits: vec![0; count.div_ceil(64) as usize],
+            number: 0,
+        }
+    }
+
+    fn has(&self, index: u64) -> bool {
+        let word = self.bits.get((index / 64) as usize);
+        word.is_some_and(|word| word >> (index % 64) & 1 == 1)
+    }
+
+    fn add(&mut self, index: u64) {
+        if let Some(word) = self.bits.get_mut((index / 64) as usize) {
+            self.number += u64::from(*word >> (index % 64) & 1 == 0);
+            *word |= 1 << (index % 64);
+        }
+    }
 }
 
 /// What a sweep is.
@@ -57,9 +101,8 @@ pub(crate) struct Asked<'a> {
     pub(crate) description: &'a [(&'static str, String)],
     /// Its columns.
     pub(crate) columns: &'a Columns,
-    /// Number of trajectories, and of those in a block.
+    /// Number of trajectories.
     pub(crate) count: u64,
-    pub(crate) size: u64,
     /// What the numbers of the column `stop` mean.
     pub(crate) stops: &'a [(i64, String)],
 }
@@ -79,7 +122,6 @@ impl Asked<'_> {
         let names: Vec<&str> = self.columns.list.iter().map(|c| c.name.as_str()).collect();
         let record = json!({
             "trajectories": self.count,
-            "block": self.size,
             "columns": names,
             "stop": stops,
             "read": format!("numpy.load(\"{ARCHIVE}\")"),
@@ -97,30 +139,20 @@ fn at(path: &Path, what: &str) -> impl Fn(std::io::Error) -> String {
 /// Opens the folder of a sweep, a new one or one in which the same sweep was begun.
 ///
 /// # Errors
-/// Another sweep in the folder, or a file that cannot be read or written.
+/// Another process that computes in the folder, another sweep in it, or a file that cannot be read or written.
 pub(crate) fn open(folder: &Path, asked: &Asked<'_>) -> Result<Opened, String> {
     std::fs::create_dir_all(folder).map_err(at(folder, "made"))?;
     let path = |name: &str| folder.join(name);
-    match std::fs::read_to_string(path(RECORD)) {
-        Ok(text) => compare(folder, &text, asked)?,
-        Err(problem) if problem.kind() == std::io::ErrorKind::NotFound => {
-            if let Some(name) = [ARCHIVE, "sweep.data", "sweep.journal"]
-                .into_iter()
-                .find(|name| path(name).exists())
-            {
-                return Err(format!(
-                    "{} holds {name} but no {RECORD} that says of which sweep: choose another folder with --out, or delete it",
-                    folder.display()
-                ));
-            }
-            replace(&path(RECORD), |file| {
-                file.write_all(asked.record().as_bytes())
-            })?;
-        }
-        Err(problem) => return Err(at(&path(RECORD), "read")(problem)),
+    let is_complete = || path(RECORD).exists() && path(ARCHIVE).exists() && !path(JOURNAL).exists();
+    // What is complete stays as it is, and may lie where nothing can be written.
+    if is_complete() {
+        check_record(folder, asked)?;
+        return Ok(Opened::Complete(first_of_file(&path(FAILURES))));
     }
-    if path(ARCHIVE).exists() && !path("sweep.journal").exists() {
-        return Ok(Opened::Complete);
+    let lock = lock::folder(folder)?;
+    check_record(folder, asked)?;
+    if is_complete() {
+        return Ok(Opened::Complete(first_of_file(&path(FAILURES))));
     }
     let editable = |name: &str| {
         let mut options = OpenOptions::new();
@@ -131,14 +163,47 @@ pub(crate) fn open(folder: &Path, asked: &Asked<'_>) -> Result<Opened, String> {
         folder: folder.to_owned(),
         columns: asked.columns.clone(),
         count: asked.count,
-        size: asked.size,
-        data: editable("sweep.data")?,
-        journal: editable("sweep.journal")?,
+        data: editable(DATA)?,
+        journal: editable(JOURNAL)?,
         known: Journal::default(),
+        spans: Vec::new(),
+        written: Written::of(asked.count),
+        failure: None,
         synced: Instant::now(),
+        _lock: lock,
     };
-    store.take_over().map_err(at(folder, "read"))?;
+    store.take_over()?;
     Ok(Opened::Begun(Box::new(store)))
+}
+
+/// The record in the folder is of this sweep; where there is none, and nothing else, it is written.
+fn check_record(folder: &Path, asked: &Asked<'_>) -> Result<(), String> {
+    let path = |name: &str| folder.join(name);
+    match std::fs::read_to_string(path(RECORD)) {
+        Ok(text) => compare(folder, &text, asked),
+        Err(problem) if problem.kind() == std::io::ErrorKind::NotFound => {
+            let mut names = [ARCHIVE, DATA, JOURNAL].into_iter();
+            if let Some(name) = names.find(|name| path(name).exists()) {
+                return Err(format!(
+                    "{} holds {name} but no {RECORD} that says of which sweep: choose another folder with --out, or delete it",
+                    folder.display()
+                ));
+            }
+            replace(&path(RECORD), |file| {
+                file.write_all(asked.record().as_bytes())
+            })
+        }
+        Err(problem) => Err(at(&path(RECORD), "read")(problem)),
+    }
+}
+
+/// The first failure in `failures.csv`, as [`Store::write_failures`] writes it.
+fn first_of_file(path: &Path) -> Option<Failure> {
+    let file = std::io::BufReader::new(File::open(path).ok()?);
+    let line = std::io::BufRead::lines(file).nth(1)?.ok()?;
+    let (index, reason) = line.split_once(',')?;
+    let reason = reason.strip_prefix('"')?.strip_suffix('"')?;
+    Some((index.parse().ok()?, reason.replace("\"\"", "\"")))
 }
 
 /// The record of the folder and what is asked for are of one sweep.
@@ -181,10 +246,14 @@ fn replace(
         write(&mut file)?;
         file.sync_all()
     });
-    written
+    let replaced = written
         .and_then(|()| std::fs::rename(&partial, path))
-        .and_then(|()| sync_folder(path.parent()))
-        .map_err(at(path, "written"))
+        .and_then(|()| sync_folder(path.parent()));
+    replaced.map_err(|problem| {
+        // What is not whole helps nobody; whether it can be deleted changes nothing.
+        let _ = std::fs::remove_file(&partial);
+        at(path, "written")(problem)
+    })
 }
 
 /// Brings the names in a folder to the disk, where the system can.
@@ -197,31 +266,53 @@ fn sync_folder(folder: Option<&Path>) -> std::io::Result<()> {
 }
 
 impl Store {
-    /// Takes what was written before, up to the first block whose bytes are not those that were written.
-    fn take_over(&mut self) -> std::io::Result<()> {
+    /// Takes what was written before, but for batches whose bytes are not those that were written.
+    fn take_over(&mut self) -> Result<(), String> {
         let mut text = Vec::new();
-        self.journal.read_to_end(&mut text)?;
-        let blocks = pool::blocks(self.count, self.size);
-        let said = Journal::read(blocks, &text);
-        let mut records: Vec<Record> = (0..blocks)
-            .filter_map(|b| said.record(b).copied())
-            .collect();
-        records.sort_by_key(|record| record.offset);
-        let mut whole = String::new();
-        for record in records {
-            let bytes = self.bytes(record.offset, record.length);
-            if bytes.map_or(true, |bytes| {
-                Record::new(record.block, record.offset, &bytes) != record
-            }) {
-                break;
+        let read = self.journal.read_to_end(&mut text);
+        read.map_err(at(&self.folder.join(JOURNAL), "read"))?;
+        let said = Journal::read(&text);
+        for &record in &said.records {
+            let Ok(bytes) = self.batch(&record) else {
+                continue;
+            };
+            let indices = Columns::indices(record.count as usize, &bytes);
+            let is_new = |&index: &u64| index < self.count && !self.written.has(index);
+            if indices.len() as u64 == record.count && indices.iter().all(is_new) {
+                let failures = self.columns.failures(indices.len(), &bytes);
+                self.take(record, &indices, failures);
             }
-            whole += &record.line();
         }
-        self.known = Journal::read(blocks, whole.as_bytes());
-        self.journal.set_len(self.known.whole)?;
-        self.data.set_len(self.known.end)?;
-        self.journal.seek(SeekFrom::End(0))?;
-        Ok(())
+        let is_whole = self.known.records.len() == said.records.len();
+        if !is_whole {
+            let lines: String = self.known.records.iter().map(Record::line).collect();
+            let path = self.folder.join(JOURNAL);
+            replace(&path, |file| file.write_all(lines.as_bytes()))?;
+            let file = OpenOptions::new().read(true).write(true).open(&path);
+            self.journal = file.map_err(at(&path, "opened"))?;
+            self.known.whole = lines.len() as u64;
+        } else {
+            self.known.whole = said.whole;
+        }
+        let cut = (self.journal.set_len(self.known.whole))
+            .and_then(|()| self.data.set_len(self.known.end))
+            .and_then(|()| self.journal.seek(SeekFrom::End(0)));
+        cut.map(|_| ()).map_err(at(&self.folder, "written to"))
+    }
+
+    /// Notes what is written.
+    fn take(&mut self, record: Record, indices: &[u64], failures: Vec<Failure>) {
+        if !self.known.add(record) {
+            return;
+        }
+        let first = indices.iter().min().copied().unwrap_or_default();
+        let last = indices.iter().max().copied().unwrap_or_default();
+        self.spans.push(first..last + 1);
+        for &index in indices {
+            self.written.add(index);
+        }
+        let all = failures.into_iter().chain(self.failure.take());
+        self.failure = all.min_by_key(|(index, _)| *index);
     }
 
     fn bytes(&mut self, offset: u64, length: u64) -> std::io::Result<Vec<u8>> {
@@ -231,23 +322,65 @@ impl Store {
         Ok(bytes)
     }
 
-    /// The blocks that are not written.
-    pub(crate) fn missing(&self) -> Vec<u64> {
-        self.known.missing()
+    /// The bytes of a batch, which are those that were written.
+    fn batch(&mut self, record: &Record) -> std::io::Result<Vec<u8>> {
+        let damaged = || {
+            let end = record.offset.saturating_add(record.length);
+            std::io::Error::other(format!(
+                "bytes {} to {end} of {DATA}, {} trajectories, are damaged: their checksum is not that of what was written; the same \
+                 command computes these trajectories again",
+                record.offset, record.count
+            ))
+        };
+        // Before memory is asked for.
+        if record.offset.saturating_add(record.length) > self.data.metadata()?.len() {
+            return Err(damaged());
+        }
+        let bytes = self.bytes(record.offset, record.length)?;
+        match Record::new(record.count, record.offset, &bytes) == *record {
+            true => Ok(bytes),
+            false => Err(damaged()),
+        }
     }
 
-    /// Writes a finished block, then its line.
-    pub(crate) fn append(&mut self, block: u64, bytes: &[u8]) -> Result<(), String> {
-        let record = Record::new(block, self.known.end, bytes);
-        self.write(record, bytes)
-            .map_err(at(&self.folder, "written to"))
+    /// How many trajectories are written.
+    pub(crate) fn written(&self) -> u64 {
+        self.written.number
+    }
+
+    /// The failure of the lowest number among what is written.
+    pub(crate) fn failure(&self) -> Option<&Failure> {
+        self.failure.as_ref()
+    }
+
+    /// The trajectories that are not written, in ascending ranges.
+    pub(crate) fn missing(&self) -> Vec<Range<u64>> {
+        let mut missing: Vec<Range<u64>> = Vec::new();
+        for index in (0..self.count).filter(|&index| !self.written.has(index)) {
+            match missing.last_mut() {
+                Some(last) if last.end == index => last.end = index + 1,
+                _ => missing.push(index..index + 1),
+            }
+        }
+        missing
+    }
+
+    /// Writes a batch, each trajectory with its values, then its line.
+    pub(crate) fn append(&mut self, rows: &[(u64, Vec<f64>, Outcome)]) -> Result<(), String> {
+        let bytes = self.columns.encode(rows);
+        let record = Record::new(rows.len() as u64, self.known.end, &bytes);
+        self.write(record, &bytes)
+            .map_err(at(&self.folder, "written to"))?;
+        let indices: Vec<u64> = rows.iter().map(|(index, ..)| *index).collect();
+        let failures = self.columns.failures(rows.len(), &bytes);
+        self.take(record, &indices, failures);
+        Ok(())
     }
 
     fn write(&mut self, record: Record, bytes: &[u8]) -> std::io::Result<()> {
         self.data.seek(SeekFrom::Start(record.offset))?;
         self.data.write_all(bytes)?;
         self.journal.write_all(record.line().as_bytes())?;
-        self.known.add(record);
         if self.synced.elapsed() >= SYNC {
             self.sync()?;
         }
@@ -266,74 +399,100 @@ impl Store {
         self.sync().map_err(at(&self.folder, "written to"))
     }
 
-    /// Makes the archive of all blocks, and deletes the blocks.
+    /// Makes the archive of all trajectories, and deletes the batches.
     pub(crate) fn finish(mut self) -> Result<Stops, String> {
         let folder = self.folder.clone();
         self.sync().map_err(at(&folder, "written to"))?;
-        let records = self.known.complete().ok_or("some blocks are missing")?;
+        if self.written.number != self.count {
+            return Err("some trajectories are missing".to_owned());
+        }
         let mut stops = Stops::new();
-        replace(&folder.join(FAILURES), |file| {
-            self.write_failures(&records, file)
-        })?;
+        replace(&folder.join(FAILURES), |file| self.write_failures(file))?;
         replace(&folder.join(ARCHIVE), |file| {
-            self.write_archive(&records, file, &mut stops)
+            self.write_archive(file, &mut stops)?;
+            // After what was read was read: damage does not mend itself.
+            for record in self.known.records.clone() {
+                self.batch(&record)?;
+            }
+            Ok(())
         })?;
         // A sweep without journal is complete: it goes first.
-        for name in ["sweep.journal", "sweep.data"] {
+        for name in [JOURNAL, DATA] {
             let path = folder.join(name);
             std::fs::remove_file(&path).map_err(at(&path, "deleted"))?;
         }
         Ok(stops)
     }
 
-    fn trajectories(&self, block: u64) -> usize {
-        let range = pool::range(block, self.count, self.size);
-        (range.end - range.start) as usize
+    /// The records that hold trajectories of a stretch, perhaps.
+    fn records(&self, stretch: &Range<u64>) -> Vec<Record> {
+        let all = self.known.records.iter().zip(&self.spans);
+        all.filter(|(_, span)| span.start < stretch.end && stretch.start < span.end)
+            .map(|(record, _)| *record)
+            .collect()
     }
 
-    fn write_failures(&mut self, records: &[Record], file: &mut File) -> std::io::Result<()> {
+    fn stretches(&self, length: u64) -> impl Iterator<Item = Range<u64>> {
+        let count = self.count;
+        (0..count.div_ceil(length)).map(move |k| k * length..((k + 1) * length).min(count))
+    }
+
+    fn write_failures(&mut self, file: &mut File) -> std::io::Result<()> {
         let mut file = BufWriter::new(file);
         writeln!(file, "trajectory,reason")?;
-        for record in records {
-            let bytes = self.bytes(record.offset, record.length)?;
-            let count = self.trajectories(record.block);
-            let mut text = String::new();
-            for (index, reason) in self.columns.failures(count, &bytes) {
-                // Writing to a string does not fail.
-                let _ = writeln!(
-                    text,
-                    "{index},\"{}\"",
-                    reason.replace('"', "\"\"").replace('\n', " ")
-                );
+        for stretch in self.stretches(STRETCH) {
+            let mut failures: Vec<Failure> = Vec::new();
+            for record in self.records(&stretch) {
+                let bytes = self.batch(&record)?;
+                let own = self.columns.failures(record.count as usize, &bytes);
+                failures.extend(own.into_iter().filter(|(index, _)| stretch.contains(index)));
             }
-            file.write_all(text.as_bytes())?;
+            failures.sort_by_key(|(index, _)| *index);
+            for (index, reason) in failures {
+                let reason = reason.replace('"', "\"\"").replace('\n', " ");
+                writeln!(file, "{index},\"{reason}\"")?;
+            }
         }
         file.flush()
     }
 
-    fn write_archive(
-        &mut self,
-        records: &[Record],
-        file: &mut File,
-        stops: &mut Stops,
-    ) -> std::io::Result<()> {
-        let columns = self.columns.clone();
-        let (count, blocks) = (self.count, records.len() as u64);
-        let part = |block: u64, column: usize| {
-            let range = columns.range(column, self.trajectories(block));
-            let offset = records[block as usize].offset + range.start as u64;
-            let bytes = self.bytes(offset, (range.end - range.start) as u64)?;
+    fn write_archive(&mut self, file: &mut File, stops: &mut Stops) -> std::io::Result<()> {
+        let (columns, count) = (self.columns.clone(), self.count);
+        let widest = columns.list.iter().map(|c| c.width()).max();
+        let length = (STRETCH / widest.unwrap_or(1).max(1) as u64).max(1);
+        let stretches: Vec<Range<u64>> = self.stretches(length).collect();
+        let part = |stretch: u64, column: usize| {
+            let bytes = self.part(&stretches[stretch as usize], column)?;
             if columns.list[column].name == "stop" {
-                for number in bytes
-                    .chunks_exact(8)
-                    .filter_map(|c| <[u8; 8]>::try_from(c).ok())
-                {
+                let words = bytes.chunks_exact(8);
+                for number in words.filter_map(|c| <[u8; 8]>::try_from(c).ok()) {
                     *stops.entry(i64::from_le_bytes(number)).or_default() += 1;
                 }
             }
             Ok(bytes)
         };
         let target = BufWriter::new(file);
-        archive::write(&columns, (count, blocks), part, target)?.flush()
+        archive::write(&columns, (count, stretches.len() as u64), part, target)?.flush()
+    }
+
+    /// The numbers of a column for a stretch of trajectories, in order.
+    fn part(&mut self, stretch: &Range<u64>, column: usize) -> std::io::Result<Vec<u8>> {
+        let width = 8 * self.columns.list[column].width();
+        let mut bytes = vec![0; (stretch.end - stretch.start) as usize * width];
+        for record in self.records(stretch) {
+            let count = record.count as usize;
+            let indices = self.bytes(record.offset, 8 * record.count)?;
+            let range = self.columns.range(column, count);
+            let offset = record.offset + range.start as u64;
+            let own = self.bytes(offset, (range.end - range.start) as u64)?;
+            let rows = Columns::indices(count, &indices).into_iter();
+            for (index, row) in rows.zip(own.chunks_exact(width)) {
+                if stretch.contains(&index) {
+                    let place = (index - stretch.start) as usize * width;
+                    bytes[place..place + width].copy_from_slice(row);
+                }
+            }
+        }
+        Ok(bytes)
     }
 }

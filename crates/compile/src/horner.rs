@@ -14,6 +14,8 @@ use std::collections::BinaryHeap;
 struct Term {
     coefficient: Rational,
     factors: Vec<(Expr, Rational)>,
+    /// What it was before anything was taken out: this expression with a number before it.
+    whole: Option<(Expr, Rational)>,
 }
 
 /// A base, and whether its exponents are positive.
@@ -22,17 +24,19 @@ type Kind = (Expr, bool);
 impl Term {
     /// `scale · e`
     fn of(graph: &Graph, e: Expr, scale: &Rational) -> Term {
+        let whole = Some((e, scale.clone()));
         let (coefficient, factors) = match graph.node(e) {
             Node::Product {
                 coefficient,
                 factors,
-            } => (coefficient * scale, factors.to_vec()),
+            } => (rational::product(coefficient, scale), factors.to_vec()),
             _ => (scale.clone(), vec![e]),
         };
         let factors = factors.into_iter().map(|f| base_and_exponent(graph, f));
         Term {
             coefficient,
             factors: factors.collect(),
+            whole,
         }
     }
 
@@ -51,9 +55,13 @@ impl Term {
             own.1 = &own.1 - exponent;
         }
         self.factors.retain(|own| !own.1.is_zero());
+        self.whole = None;
     }
 
     fn expression(&self, graph: &Graph) -> Expr {
+        if let Some((e, scale)) = &self.whole {
+            return graph.scale(scale, *e);
+        }
         let power =
             |(base, exponent): &(Expr, Rational)| graph.pow(*base, graph.number(exponent.clone()));
         let factors: Vec<Expr> = self.factors.iter().map(power).collect();
@@ -92,7 +100,10 @@ pub(crate) fn factored(
         let mut child = |c: Expr| image.get(&c).copied().unwrap_or(c);
         let rebuilt = graph.rebuild(e, &mut child, &mut solved);
         let found = match graph.node(rebuilt) {
-            Node::Sum { constant, terms } => sum(graph, constant, terms, &|e| moving.contains(&e)),
+            Node::Sum { constant, terms } => {
+                let moves = |e: Expr| moving.contains(&e);
+                sum(graph, constant, terms, &moves).unwrap_or(rebuilt)
+            }
             _ => rebuilt,
         };
         if own {
@@ -106,18 +117,35 @@ pub(crate) fn factored(
     roots.iter().map(of).collect()
 }
 
+/// The sum with its common factors taken out; `None` where there are none.
 fn sum(
     graph: &Graph,
     constant: &Rational,
     terms: &[(Expr, Rational)],
     moves: &dyn Fn(Expr) -> bool,
-) -> Expr {
-    let terms = terms.iter().map(|(e, scale)| Term::of(graph, *e, scale));
-    let nested = nested(graph, terms.collect(), moves);
-    graph.add(&[nested, graph.number(constant.clone())])
+) -> Option<Expr> {
+    let of = |(e, scale): &(Expr, Rational)| Term::of(graph, *e, scale);
+    let (mut parts, rest) = brackets(graph, terms.iter().map(of).collect(), moves);
+    if parts.is_empty() {
+        return None;
+    }
+    parts.extend(rest.iter().map(|term| term.expression(graph)));
+    parts.push(graph.number(constant.clone()));
+    Some(graph.add(&parts))
 }
 
-fn nested(graph: &Graph, mut terms: Vec<Term>, moves: &dyn Fn(Expr) -> bool) -> Expr {
+fn nested(graph: &Graph, terms: Vec<Term>, moves: &dyn Fn(Expr) -> bool) -> Expr {
+    let (mut parts, rest) = brackets(graph, terms, moves);
+    parts.extend(rest.iter().map(|term| term.expression(graph)));
+    graph.add(&parts)
+}
+
+/// What is taken out of a sum, and the terms that are left.
+fn brackets(
+    graph: &Graph,
+    mut terms: Vec<Term>,
+    moves: &dyn Fn(Expr) -> bool,
+) -> (Vec<Expr>, Vec<Term>) {
     let mut counts = Counts::of(&terms);
     let mut parts = Vec::new();
     while let Some(kind) = counts.most_frequent() {
@@ -130,8 +158,7 @@ fn nested(graph: &Graph, mut terms: Vec<Term>, moves: &dyn Fn(Expr) -> bool) -> 
         counts.forget(&inner);
         parts.push(bracket(graph, kind.0, inner, moves));
     }
-    parts.extend(terms.iter().map(|term| term.expression(graph)));
-    graph.add(&parts)
+    (parts, terms)
 }
 
 /// How many operations are saved where a factor is taken out.

@@ -1,4 +1,4 @@
-//! All columns of an ensemble as one NumPy archive, written column by column: no more than a block is in memory.
+//! All columns of an ensemble as one NumPy archive, written column by column, part by part.
 
 use crate::columns::{Columns, Kind};
 use std::io::{Seek, Write};
@@ -6,7 +6,8 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
 /// Writes an archive (`.npz`) of `count` trajectories into `target`: one array for each column, of `count` numbers or of
-/// `count` × samples. `part` gives the bytes of a column in one block: number of the block, place of the column.
+/// `count` × samples. `part` gives the bytes of a column for one of `parts` stretches of trajectories that follow each other: number of
+/// the stretch, place of the column.
 ///
 /// The same columns give the same bytes: nothing is compressed, and no time is written. Archives beyond four gigabytes are
 /// written as such (ZIP64), which NumPy reads.
@@ -15,7 +16,7 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 /// What `part` or the target reports.
 pub fn write<W: Write + Seek>(
     columns: &Columns,
-    (count, blocks): (u64, u64),
+    (count, parts): (u64, u64),
     mut part: impl FnMut(u64, usize) -> std::io::Result<Vec<u8>>,
     target: W,
 ) -> std::io::Result<W> {
@@ -28,8 +29,8 @@ pub fn write<W: Write + Seek>(
             .large_file(bytes >= u64::from(u32::MAX) - 1024);
         archive.start_file(format!("{}.npy", column.name), options)?;
         archive.write_all(&header(column.kind, count, column.samples))?;
-        for block in 0..blocks {
-            archive.write_all(&part(block, index)?)?;
+        for stretch in 0..parts {
+            archive.write_all(&part(stretch, index)?)?;
         }
     }
     Ok(archive.finish()?)

@@ -1,4 +1,5 @@
-//! Columns of a block as bytes: every number has eight, little-endian; behind them the reasons of failures.
+//! A batch of trajectories as bytes: their numbers, then the columns, every number with eight bytes, little-endian; behind them the
+//! reasons of failures.
 
 use crate::outcome::{Outcome, Shape};
 
@@ -116,11 +117,13 @@ impl Columns {
         self.list.iter().map(Column::width).sum()
     }
 
-    /// A block as bytes: column after column, each of all trajectories; then the failures.
-    pub fn encode(&self, first: u64, rows: &[(Vec<f64>, Outcome)]) -> Vec<u8> {
+    /// A batch as bytes: the numbers of its trajectories; column after column, each of all trajectories; then the failures. A row is
+    /// the number of a trajectory, the values of what varies, and what is kept of it.
+    pub fn encode(&self, rows: &[(u64, Vec<f64>, Outcome)]) -> Vec<u8> {
         let width = self.width();
-        let words: Vec<Vec<u64>> = rows.iter().map(|(v, o)| self.words(v, o)).collect();
-        let mut bytes = Vec::with_capacity(8 * width * rows.len());
+        let words: Vec<Vec<u64>> = rows.iter().map(|(_, v, o)| self.words(v, o)).collect();
+        let mut bytes = Vec::with_capacity(8 * (1 + width) * rows.len());
+        bytes.extend(rows.iter().flat_map(|(index, ..)| index.to_le_bytes()));
         let mut start = 0;
         for column in &self.list {
             let range = start..start + column.width();
@@ -129,9 +132,9 @@ impl Columns {
                 bytes.extend(row[range.clone()].iter().flat_map(|w| w.to_le_bytes()));
             }
         }
-        for (j, (_, outcome)) in rows.iter().enumerate() {
+        for (index, _, outcome) in rows {
             if let Some(reason) = &outcome.reason {
-                bytes.extend((first + j as u64).to_le_bytes());
+                bytes.extend(index.to_le_bytes());
                 bytes.extend((reason.len() as u64).to_le_bytes());
                 bytes.extend(reason.as_bytes());
             }
@@ -167,15 +170,23 @@ impl Columns {
         words
     }
 
-    /// Where the numbers of column `index` lie in a block of `count` trajectories.
+    /// Whose a batch of `count` trajectories is: the numbers at its beginning, in the order of the rows.
+    pub fn indices(count: usize, bytes: &[u8]) -> Vec<u64> {
+        let words = bytes.chunks_exact(8).take(count);
+        words.filter_map(|w| Some(word(w)?.0)).collect()
+    }
+
+    /// Where the numbers of column `index` lie in a batch of `count` trajectories.
     pub fn range(&self, index: usize, count: usize) -> std::ops::Range<usize> {
-        let before: usize = self.list[..index].iter().map(Column::width).sum();
+        let before = 1 + self.list[..index].iter().map(Column::width).sum::<usize>();
         8 * before * count..8 * (before + self.list[index].width()) * count
     }
 
-    /// The failures in a block of `count` trajectories: number and reason.
+    /// The failures in a batch of `count` trajectories: number and reason.
     pub fn failures(&self, count: usize, bytes: &[u8]) -> Vec<(u64, String)> {
-        let mut rest = bytes.get(8 * self.width() * count..).unwrap_or_default();
+        let mut rest = bytes
+            .get(8 * (1 + self.width()) * count..)
+            .unwrap_or_default();
         let mut found = Vec::new();
         while let Some((index, after)) = word(rest) {
             let Some((length, after)) = word(after) else {

@@ -1,24 +1,25 @@
-//! Which blocks were written before a process ended, however it ended.
+//! Which trajectories were written before a process ended, however it ended.
 //!
-//! Blocks are appended to one file, in the order in which they are finished. When the bytes of a block were written, a line is
+//! Batches of trajectories are appended to one file, as they end. When the bytes of a batch were written, a line is
 //! appended to the journal:
 //!
 //! ```text
-//! BLOCK OFFSET LENGTH CHECKSUM CHECK
+//! COUNT OFFSET LENGTH CHECKSUM CHECK
 //! ```
 //!
-//! CHECKSUM is that of the bytes of the block, CHECK that of the line before it. A process killed at any moment leaves a
-//! journal of whole lines, and perhaps a torn last one, which is passed over; bytes behind the last block of a line are
-//! overwritten. So a block counts exactly when its line does, and its bytes were written before the line. Where the machine
+//! COUNT is the number of trajectories in the batch; which they are is said by its bytes ([`crate::Columns::indices`]).
+//! CHECKSUM is that of the bytes of the batch, CHECK that of the line before it. A process killed at any moment leaves a
+//! journal of whole lines, and perhaps a torn last one, which is passed over; bytes behind the last batch of a line are
+//! overwritten. So a batch counts exactly when its line does, and its bytes were written before the line. Where the machine
 //! failed, and not the process, a line may be on the disk whose bytes are not: their checksum tells it.
 
 use std::fmt::Write as _;
 
-/// A block on the disk.
+/// A batch on the disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Record {
-    /// Number of the block.
-    pub block: u64,
+    /// Number of its trajectories.
+    pub count: u64,
     /// Where its bytes begin.
     pub offset: u64,
     /// How many they are.
@@ -27,69 +28,50 @@ pub struct Record {
     pub checksum: u64,
 }
 
-/// The blocks on the disk.
+/// The batches on the disk.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Journal {
-    records: Vec<Option<Record>>,
+    /// In the order in which they were written.
+    pub records: Vec<Record>,
     /// Bytes of the journal that are whole lines.
     pub whole: u64,
-    /// Where the next block is to be written.
+    /// Where the next batch is to be written.
     pub end: u64,
 }
 
 impl Journal {
-    /// A journal of an ensemble of `blocks` blocks, from the text of its file: everything up to the first line that is not
-    /// whole or not possible.
-    pub fn read(blocks: u64, text: &[u8]) -> Journal {
-        let mut journal = Journal {
-            records: vec![None; blocks as usize],
-            ..Journal::default()
-        };
+    /// A journal from the text of its file: everything up to the first line that is not whole or not possible.
+    pub fn read(text: &[u8]) -> Journal {
+        let mut journal = Journal::default();
         let lines = text.split_inclusive(|&byte| byte == b'\n');
         for line in lines {
-            let Some(record) = parse(line) else { break };
-            if record.offset != journal.end || !journal.add(record) {
-                break;
+            match parse(line) {
+                Some(record) if journal.add(record) => journal.whole += line.len() as u64,
+                _ => break,
             }
-            journal.whole += line.len() as u64;
         }
         journal
     }
 
-    /// Takes a block for written; false where there is no such block, or it was written before.
+    /// Takes a batch for written; false where its bytes would lie on those of another, or nowhere.
     pub fn add(&mut self, record: Record) -> bool {
-        match self.records.get_mut(record.block as usize) {
-            Some(place @ None) => {
-                *place = Some(record);
-                self.end = record.offset + record.length;
-                true
-            }
-            _ => false,
+        let Some(end) = record.offset.checked_add(record.length) else {
+            return false;
+        };
+        if record.offset < self.end {
+            return false;
         }
-    }
-
-    /// Where a block is.
-    pub fn record(&self, block: u64) -> Option<&Record> {
-        self.records.get(block as usize)?.as_ref()
-    }
-
-    /// The blocks that are not written.
-    pub fn missing(&self) -> Vec<u64> {
-        let missing = self.records.iter().enumerate().filter(|(_, r)| r.is_none());
-        missing.map(|(block, _)| block as u64).collect()
-    }
-
-    /// All blocks, in order; `None` while some are missing.
-    pub fn complete(&self) -> Option<Vec<Record>> {
-        self.records.iter().copied().collect()
+        self.end = end;
+        self.records.push(record);
+        true
     }
 }
 
 impl Record {
-    /// The record of a block with these bytes.
-    pub fn new(block: u64, offset: u64, bytes: &[u8]) -> Record {
+    /// The record of a batch of `count` trajectories with these bytes.
+    pub fn new(count: u64, offset: u64, bytes: &[u8]) -> Record {
         Record {
-            block,
+            count,
             offset,
             length: bytes.len() as u64,
             checksum: checksum(bytes),
@@ -100,7 +82,7 @@ impl Record {
     pub fn line(&self) -> String {
         let mut line = format!(
             "{} {} {} {:016x}",
-            self.block, self.offset, self.length, self.checksum
+            self.count, self.offset, self.length, self.checksum
         );
         let check = checksum(line.as_bytes());
         // Writing to a string does not fail.
@@ -117,17 +99,17 @@ fn parse(line: &[u8]) -> Option<Record> {
     }
     let mut words = said.split(' ');
     let mut number = || words.next()?.parse().ok();
-    let (block, offset, length) = (number()?, number()?, number()?);
+    let (count, offset, length) = (number()?, number()?, number()?);
     let checksum = u64::from_str_radix(words.next()?, 16).ok()?;
     Some(Record {
-        block,
+        count,
         offset,
         length,
         checksum,
     })
 }
 
-/// A checksum that tells a torn or exchanged block: FNV-1a of 64 bits (Fowler, Noll, Vo) over words of eight bytes, the last
+/// A checksum that tells a torn or exchanged batch: FNV-1a of 64 bits (Fowler, Noll, Vo) over words of eight bytes, the last
 /// filled up with zeros, and the length; each word is mixed by a shift, since a product alone moves bits only upwards.
 pub fn checksum(bytes: &[u8]) -> u64 {
     let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
@@ -168,17 +150,13 @@ mod tests {
     fn a_journal_is_read_up_to_the_line_that_is_torn() {
         let records = three();
         let whole = text(&records);
-        let two = text(&records[..2]).len();
         for cut in 0..=whole.len() {
-            let journal = Journal::read(3, &whole[..cut]);
+            let journal = Journal::read(&whole[..cut]);
             let lines = whole[..cut].iter().filter(|&&b| b == b'\n').count();
-            let written = 3 - journal.missing().len();
-            assert_eq!(written, lines, "{cut}");
+            assert_eq!(journal.records, records[..lines], "{cut}");
             assert_eq!(journal.whole, text(&records[..lines]).len() as u64);
-            assert_eq!(journal.complete().is_some(), lines == 3);
         }
-        assert_eq!(Journal::read(3, &whole[..two]).missing(), [1]);
-        assert_eq!(Journal::read(3, &whole).end, 12);
+        assert_eq!(Journal::read(&whole).end, 12);
     }
 
     #[test]
@@ -187,19 +165,36 @@ mod tests {
         for place in 0..whole.len() {
             let mut changed = whole.clone();
             changed[place] ^= 1;
-            let journal = Journal::read(3, &changed);
-            assert!(journal.complete().is_none(), "{place}");
+            let journal = Journal::read(&changed);
+            assert!(journal.records.len() < 3, "{place}");
         }
     }
 
     #[test]
-    fn a_block_counts_once() {
-        let [first, ..] = three();
-        let again = Record { offset: 3, ..first };
-        let journal = Journal::read(3, &text(&[first, again]));
-        assert_eq!(journal.missing(), [0, 1]);
-        assert_eq!(journal.end, 3);
-        assert!(!Journal::read(1, &[]).add(first));
+    fn batches_do_not_lie_on_each_other() {
+        let [first, second, _] = three();
+        let journal = Journal::read(&text(&[
+            first,
+            Record {
+                offset: 2,
+                ..second
+            },
+        ]));
+        assert_eq!((journal.records, journal.end), (vec![first], 3));
+        // Between them may lie one that was damaged.
+        let journal = Journal::read(&text(&[
+            first,
+            Record {
+                offset: 7,
+                ..second
+            },
+        ]));
+        assert_eq!((journal.records.len(), journal.end), (2, 13));
+        let nowhere = Record {
+            offset: u64::MAX,
+            ..first
+        };
+        assert!(!Journal::default().add(nowhere));
     }
 
     #[test]

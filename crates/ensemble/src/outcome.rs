@@ -105,6 +105,12 @@ impl Outcome {
         }
     }
 
+    /// How many numbers it holds, about.
+    pub(crate) fn numbers(&self) -> usize {
+        let own = 16 + 2 * self.events.len() + self.drift.len();
+        own + self.start.len() + self.end.len() + self.samples.len()
+    }
+
     /// What is kept of a run from `start` with these settings, whose times are those of the samples, or the end alone.
     pub fn of(run: &Run, start: &ConsistentState, settings: &RunSettings, shape: Shape) -> Outcome {
         let state = [&start.q[..], &start.v[..]].concat();

@@ -6,7 +6,6 @@ use chetaev_motion::{
     consistent_state, Binding, CompiledRouth, ConsistentState, InitialData, RouthCourse,
     RunSettings, SideBySide, Subject, Watcher,
 };
-use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
 /// What one trajectory begins with.
@@ -75,13 +74,15 @@ impl<'a, M: Members> Routh<'a, M> {
 }
 
 impl<M: Members> Work for Routh<'_, M> {
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker(&self, most: usize) -> Box<dyn Worker + '_> {
         let mut compiled = self.compiled.clone();
         let place = |compiled| Place {
             compiled,
             is_set: false,
         };
-        let others: Vec<CompiledRouth> = (1..self.places).map(|_| compiled.copy()).collect();
+        let others: Vec<CompiledRouth> = (1..self.places.min(most))
+            .map(|_| compiled.copy())
+            .collect();
         let mut places = vec![place(compiled)];
         places.extend(others.into_iter().map(place));
         Box::new(Thread {
@@ -119,29 +120,27 @@ struct Trajectory<'o> {
 }
 
 impl<M: Members> Worker for Thread<'_, '_, M> {
-    fn block(&mut self, range: Range<u64>, interrupt: &AtomicBool) -> Option<Vec<Outcome>> {
-        let count = (range.end - range.start) as usize;
-        let mut outcomes: Vec<Option<Outcome>> = vec![None; count];
-        let place_of = |index: u64| (index - range.start) as usize;
-        let mut waiting = range.clone();
+    fn work(
+        &mut self,
+        next: &dyn Fn() -> Option<u64>,
+        done: &dyn Fn(u64, Outcome),
+        interrupt: &AtomicBool,
+    ) {
+        let shape = self.ensemble.shape;
         let mut running: Vec<Option<Trajectory<'_>>> = Vec::new();
         running.resize_with(self.places.len(), || None);
         loop {
             for (place, slot) in self.places.iter_mut().zip(&mut running) {
                 while slot.is_none() {
-                    let Some(index) = waiting.next() else { break };
+                    let Some(index) = next() else { break };
                     match place.begin(self.ensemble, index, interrupt) {
                         Ok(trajectory) => *slot = Some(trajectory),
-                        Err(reason) => {
-                            let shape = self.ensemble.shape;
-                            let failed = Outcome::not_started(shape, reason);
-                            outcomes[place_of(index)] = Some(failed);
-                        }
+                        Err(reason) => done(index, Outcome::not_started(shape, reason)),
                     }
                 }
             }
             if running.iter().all(Option::is_none) {
-                return outcomes.into_iter().collect();
+                return;
             }
             let pairs = running.iter_mut().zip(&mut self.places);
             self.side_by_side
@@ -151,18 +150,22 @@ impl<M: Members> Worker for Thread<'_, '_, M> {
                 }));
             for (place, slot) in self.places.iter_mut().zip(&mut running) {
                 let Some(trajectory) = slot else { continue };
-                let outcome = match place.advance(self.ensemble, trajectory, interrupt) {
-                    Ok(true) => continue,
-                    Ok(false) => slot
-                        .take()
-                        .map(|trajectory| place.finish(self.ensemble, trajectory)),
-                    Err(reason) => {
-                        let failed = Outcome::not_started(self.ensemble.shape, reason);
-                        slot.take().map(|own| (own.index, Some(failed)))
-                    }
+                let advanced = place.advance(self.ensemble, trajectory, interrupt);
+                if matches!(advanced, Ok(true)) {
+                    continue;
+                }
+                let Some(trajectory) = slot.take() else {
+                    continue;
                 };
-                if let Some((index, outcome)) = outcome {
-                    outcomes[place_of(index)] = Some(outcome?);
+                let index = trajectory.index;
+                match advanced {
+                    Err(reason) => done(index, Outcome::not_started(shape, reason)),
+                    // What was interrupted has no outcome.
+                    Ok(_) => {
+                        if let Some(outcome) = place.finish(self.ensemble, trajectory) {
+                            done(index, outcome);
+                        }
+                    }
                 }
             }
         }
@@ -217,17 +220,17 @@ impl Place {
         advanced.map_err(|problem| problem.to_string())
     }
 
-    /// What is kept of a trajectory that has ended, with its number; `None` when it was interrupted.
+    /// What is kept of a trajectory that has ended; `None` when it was interrupted.
     fn finish<M: Members>(
         &mut self,
         ensemble: &Routh<'_, M>,
         trajectory: Trajectory<'_>,
-    ) -> (u64, Option<Outcome>) {
+    ) -> Option<Outcome> {
         let Trajectory {
-            index,
             start,
             settings,
             course,
+            ..
         } = trajectory;
         let subject = Subject {
             start: &start,
@@ -235,7 +238,7 @@ impl Place {
         };
         let run = course.finish((&subject, &mut self.compiled), &settings);
         let outcome = Outcome::of(&run, &start, &settings, ensemble.shape);
-        (index, (!run.ending.interrupted).then_some(outcome))
+        (!run.ending.interrupted).then_some(outcome)
     }
 
     /// Sets the parameters of a member.

@@ -269,18 +269,26 @@ impl Claim for ConstraintsIntegrable {
         let subsystems = subsystems(cx, strength);
         let some = integrable || subsystems.as_ref().is_some_and(|(_, some)| *some);
         if some && strength == Strength::Weak {
-            let kept = integral::kept(cx);
-            let texts: Vec<String> = kept.iter().map(|&e| cx.system.graph.text(e)).collect();
-            if !texts.is_empty() {
-                sentence = format!("{sentence}; what they keep: {}", texts.join(", "));
-            }
-            finding
-                .formulas
-                .extend(kept.into_iter().map(|right| Formula {
-                    caption: "a function of the positions that the constraints keep".into(),
+            for kept in integral::kept(cx) {
+                let texts = kept.functions.iter().map(|&e| cx.system.graph.text(e));
+                let texts = texts.collect::<Vec<String>>().join(", ");
+                let place = match &kept.component {
+                    Some(condition) => format!(" on the component {condition}"),
+                    None => String::new(),
+                };
+                sentence = match texts.is_empty() {
+                    true => format!("{sentence}; what they keep{place} was not found among the functions that occur, their logarithms and arctangents"),
+                    false => format!("{sentence}; what they keep{place}: {texts}"),
+                };
+                let caption =
+                    format!("a function of the positions that the constraints keep{place}");
+                let formulas = kept.functions.into_iter().map(|right| Formula {
+                    caption: caption.clone(),
                     left: None,
                     right,
-                }));
+                });
+                finding.formulas.extend(formulas);
+            }
         }
         if let Some((parts, _)) = subsystems {
             sentence = format!("{sentence}; {parts}");

@@ -10,12 +10,13 @@
 //! Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002).
 //!
 //! A contradiction excludes densities of the coordinates only; when no smooth positive density exists at all is the matter of
-//! `excluded`. What is known on formulas is in `formula`.
+//! `excluded`. What is known on formulas is in `formula`, densities that are products of any powers in `products`.
 
 mod angles;
 mod excluded;
 mod flow;
 mod formula;
+mod products;
 
 use crate::flag::{horizontal, Directed, Flag, Obstacle};
 use crate::noether::shown::readable;
@@ -46,11 +47,12 @@ pub struct Measure {
     words: &'static str,
 }
 
-/// Of densities of functions that occur, of `det W̄`, and of its root.
-const WORDS: [&str; 3] = [
+/// Of densities of functions that occur, of `det W̄`, of its root, and of powers of factors.
+const WORDS: [&str; 4] = [
     "",
     ", the determinant of the mass matrix on admissible velocities",
     " with the root of the determinant of the mass matrix on admissible velocities",
+    ", a product of powers of functions that occur and of factors of the determinant of the mass matrix on admissible velocities",
 ];
 
 /// What is known of the invariant measure of the context's system, computed once; a sentence where it cannot be.
@@ -94,21 +96,41 @@ fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
     if let Some((density, verdict)) = flow.with_roots(cx) {
         return known(Some(density), verdict, WORDS[0]);
     }
+    // Products of powers may be singular: none is looked for where a smooth density is excluded.
+    let by_brackets = by_brackets(cx, flow, &[]);
+    let excluded = match by_brackets {
+        Verdict::Proved(_) => None,
+        _ => excluded::excluded(cx, flow),
+    };
+    if excluded.is_none() && !matches!(by_brackets, Verdict::Refuted(_)) {
+        if let Some((density, verdict)) = products::density(cx, flow) {
+            let verdict = angles::returning(cx, flow, density, verdict);
+            return known(Some(density), verdict, WORDS[3]);
+        }
+    }
     let with_time = flow.density_in_time(cx);
     let text = with_time.as_ref().map(|(n, _)| cx.system.graph.text(*n));
     Measure {
         with_time,
-        ..known(None, without_formula(cx, flow, text), WORDS[0])
+        ..known(
+            None,
+            without_formula(cx, flow, (by_brackets, excluded), text),
+            WORDS[0],
+        )
     }
 }
 
 /// The verdict where no formula was found, but perhaps one `with_time`.
-fn without_formula(cx: &Context<'_>, flow: &Flow<'_>, with_time: Option<String>) -> Verdict {
-    let by_brackets = by_brackets(cx, flow, &[]);
+fn without_formula(
+    cx: &Context<'_>,
+    flow: &Flow<'_>,
+    (by_brackets, excluded): (Verdict, Option<Verdict>),
+    with_time: Option<String>,
+) -> Verdict {
     if matches!(by_brackets, Verdict::Proved(_)) {
         return angles::around(cx, flow, by_brackets);
     }
-    let mut verdict = excluded::excluded(cx, flow).unwrap_or_else(|| match by_brackets {
+    let mut verdict = excluded.unwrap_or_else(|| match by_brackets {
         Verdict::Refuted(found) => Verdict::undecided(format!(
             "{}; densities that contain velocities are not excluded",
             found.detail
@@ -302,7 +324,7 @@ impl Claim for InvariantMeasure {
     }
 
     fn explanation(&self) -> &'static str {
-        "On the constraint manifold with coordinates q and independent (quasi-)velocities η, which the verdict names, the measure N dq dη is invariant when X̄ ln N = -div X̄ (N dq dη dM with masses M that have a law of their own). For a motion free of the time N is free of it too, as a density that changes with the time can always be carried along. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). The claim is refuted only where no smooth positive density N(q, η) exists at all, rest included: where the divergence does not vanish at states of rest or on a steady motion that only turns angles; where ln N would change over a turn of an angle; and where rest is admissible, the accelerations have there neither terms without velocities nor linear ones, and the brackets contradict each other: then the terms of its equation that are linear in the velocities are those for N at rest. Where brackets contradict each other otherwise, densities that contain velocities are not excluded, and the claim is undecided."
+        "On the constraint manifold with coordinates q and independent (quasi-)velocities η, which the verdict names, the measure N dq dη is invariant when X̄ ln N = -div X̄ (N dq dη dM with masses M that have a law of their own). For a motion free of the time N is free of it too, as a density that changes with the time can always be carried along. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved; then among products of powers of these and of the factors of det W̄, the determinant of the mass matrix on admissible velocities, whose exponents are solved for. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). The claim is refuted only where no smooth positive density N(q, η) exists at all, rest included: where the divergence does not vanish at states of rest or on a steady motion that only turns angles; where ln N would change over a turn of an angle; and where rest is admissible, the accelerations have there neither terms without velocities nor linear ones, and the brackets contradict each other: then the terms of its equation that are linear in the velocities are those for N at rest. Where brackets contradict each other otherwise, densities that contain velocities are not excluded, and the claim is undecided."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

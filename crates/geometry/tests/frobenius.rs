@@ -521,3 +521,64 @@ fn a_system_without_constraints_is_integrable() {
     let found = finding(&free, "model.constraints-integrable#weak");
     assert_eq!(found.verdict.word(), "proved");
 }
+
+/// What is kept is named where constraints are products, on each component, or functions of exact ones; and arctangents are.
+#[test]
+fn what_constraints_keep_is_named() {
+    let unit = "(x'^2 + y'^2 + z'^2)/2";
+    for (constraint, expected) in [
+        (
+            "(x*x' + y*y')^2 + x*x' + y*y'",
+            &["(x^2 + y^2)/2", "(x^2 + y^2)/2 + t"][..],
+        ),
+        ("exp(x*x' + y*y') - 1", &["x^2 + y^2"]),
+        ("z' - (x*y' - y*x')/(x^2 + y^2)", &["z - atan2(y, x)"]),
+        (
+            "z' - (x*y' - (y - 1)*x')/(x^2 + (y - 1)^2)",
+            &["z - atan2(y - 1, x)"],
+        ),
+        ("z' - x'/(1 + a^2*x^2)", &["a*z - atan(a*x)"]),
+        (
+            "z' - a*x'/(4*x^2 + 9) + y*y'",
+            &["6*z + 3*y^2 - a*atan(2*x/3)"],
+        ),
+        (
+            "z'*(4*x^2 + 9*y^2) - x*y' + y*x'",
+            &["6*z - atan2(3*y, 2*x)"],
+        ),
+    ] {
+        let own = system("x y z", unit, &[("f", constraint)]);
+        let found = finding(&own, "model.constraints-integrable#weak");
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "proved", "{constraint}: {detail}");
+        let g = &own.graph;
+        let kept: Vec<Expr> = found.formulas.iter().map(|f| f.right).collect();
+        assert_eq!(kept.len(), expected.len(), "{constraint}: {detail}");
+        // One is a function of the other where their gradients are parallel: at a few points.
+        for known in expected.iter().map(|text| expr(g, text)) {
+            let parallel = |e: &&Expr| (0..4).all(|seed| crossed(&own, **e, known, seed) < 1e-10);
+            assert!(kept.iter().any(|e| parallel(&e)), "{constraint}: {detail}");
+        }
+    }
+}
+
+/// The largest 2 × 2 minor of the gradients by (t, x, y, z) of two functions somewhere.
+fn crossed(system: &System, a: Expr, b: Expr, seed: u64) -> f64 {
+    let g = &system.graph;
+    let places = ["t", "x", "y", "z"].map(|q| g.intern_symbol(q, 0));
+    let slopes: Vec<Expr> = [a, b]
+        .iter()
+        .flat_map(|&e| places.map(|s| g.diff(e, s)))
+        .collect();
+    let point = anywhere(g, &[&slopes[..], &[a, b]].concat(), seed);
+    let at = values(g, &slopes, &point);
+    let (first, second) = at.split_at(places.len());
+    assert!(first.iter().any(|s| s.abs() > 1e-6) && second.iter().any(|s| s.abs() > 1e-6));
+    let mut largest: f64 = 0.0;
+    for i in 0..places.len() {
+        for j in 0..i {
+            largest = largest.max((first[i] * second[j] - first[j] * second[i]).abs());
+        }
+    }
+    largest
+}

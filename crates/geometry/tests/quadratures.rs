@@ -8,8 +8,10 @@
 
 mod common;
 
+use chetaev_mechanics::system::{Assumption, Relation};
 use chetaev_mechanics::System;
-use common::{finding, framed, system};
+use chetaev_symbolic::Expr;
+use common::{anywhere, expr, finding, framed, system, values};
 
 fn word(system: &System, claim: &str) -> (&'static str, String) {
     let finding = finding(system, claim);
@@ -107,4 +109,90 @@ fn densities_that_change_with_the_time_serve_where_the_time_is_a_variable() {
     let (found, detail) = word(&damped, "liouville.integrable");
     assert_eq!(found, "proved", "{detail}");
     assert!(detail.contains("N dt dq dη"), "{detail}");
+}
+
+/// A dynamically symmetric ball whose mass centre lies on its axis beside its centre rolls on a plane: Routh's sphere, with unit radius and
+/// the mass centre at a distance `a` below. With u = cos θ and the equatorial and axial moments A, C the density in (θ', φ', ψ') is
+/// `F √G sin θ`, F = A + m (1 + a² - 2 a u), G = A C + m (A sin² θ + C (u - a)²) [Routh 1884; Borisov, Mamaev 2002]; det W̄ is
+/// `F G sin² θ`.
+#[test]
+fn rouths_sphere_has_a_measure_of_two_factors() {
+    let kinetic = "(m*((x' - a*(theta'*cos(theta)*sin(phi) + phi'*sin(theta)*cos(phi)))^2 \
+        + (y' + a*(theta'*cos(theta)*cos(phi) - phi'*sin(theta)*sin(phi)))^2 + (a*sin(theta)*theta')^2) \
+        + A*(theta'^2 + phi'^2*sin(theta)^2) + C*(psi' + phi'*cos(theta))^2)/2 + m*g*a*cos(theta)";
+    let mut sphere = system(
+        "x y theta phi psi",
+        kinetic,
+        &[
+            ("rx", "x' - theta'*sin(phi) + psi'*sin(theta)*cos(phi)"),
+            ("ry", "y' + theta'*cos(phi) + psi'*sin(theta)*sin(phi)"),
+        ],
+    );
+    // The sign of the density is that for bodies.
+    for positive in ["m", "A", "C", "sin(theta)"] {
+        let right = expr(&sphere.graph, positive);
+        sphere.assumptions.push(Assumption {
+            left: sphere.graph.zero(),
+            relation: Relation::Less,
+            right,
+            text: format!("{positive} > 0"),
+        });
+    }
+    let found = finding(&sphere, "measure.invariant");
+    assert_eq!(found.verdict.word(), "proved", "{}", found.verdict.detail());
+    let caption = &found.formulas[0].caption;
+    assert!(caption.contains("(theta', phi', psi')"), "{caption}");
+    let known = "(A + m*(1 + a^2 - 2*a*cos(theta)))*sin(theta)^2 \
+        *sqrt(A*C + m*(A*sin(theta)^2 + C*(cos(theta) - a)^2))";
+    is_multiple(&sphere, found.formulas[0].right, known);
+}
+
+/// Asserts that a density is a constant multiple of another, for positive parameters.
+fn is_multiple(system: &System, density: Expr, known: &str) {
+    let g = &system.graph;
+    let known = expr(g, known);
+    let places = ["x", "y", "theta"].map(|q| g.intern_symbol(q, 0));
+    let ratio = |seed: u64| {
+        let mut point = anywhere(g, &[density, known], 1);
+        for (i, &place) in places.iter().enumerate() {
+            point.insert(place, 0.4 + 0.17 * (seed as f64) + 0.1 * i as f64);
+        }
+        let found = values(g, &[density, known], &point);
+        found[0] / found[1]
+    };
+    assert!(ratio(0) > 0.0, "{}", g.text(density));
+    for seed in 1..5 {
+        let error = (ratio(seed) / ratio(0) - 1.0).abs();
+        assert!(error < 1e-12, "{}: {error}", g.text(density));
+    }
+}
+
+/// `q'' = -½ σ_q q'²` for each coordinate keeps exp(σ) dq dq', by its divergence `-Σ σ_q q'`.
+#[test]
+fn exponents_of_products_are_solved_for() {
+    for (first, second, known) in [
+        (
+            "-x'^2*(2*c*x/(3*(1 + c*x^2 + y^2)) - 3*cos(x)/(2*(2 + sin(x))))/2",
+            "-y'^2*(2*y/(3*(1 + c*x^2 + y^2)))/2",
+            "(1 + c*x^2 + y^2)^(1/3)*(2 + sin(x))^(-3/2)",
+        ),
+        (
+            "-x'^2*a*x/(1 + x^2)",
+            "-y'^2*(b*cos(y) + 5*y^4/(7*(y^5 + 2)))/2",
+            "(1 + x^2)^a*exp(b*sin(y))*(y^5 + 2)^(1/7)",
+        ),
+    ] {
+        let forced = framed(
+            "x y",
+            "(x'^2 + y'^2)/2",
+            &[],
+            &[],
+            &[("x", first), ("y", second)],
+        );
+        let found = finding(&forced, "measure.invariant");
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "proved", "{known}: {detail}");
+        assert!(detail.contains("is invariant for N"), "{known}: {detail}");
+        is_multiple(&forced, found.formulas[0].right, known);
+    }
 }

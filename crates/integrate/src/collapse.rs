@@ -60,17 +60,27 @@ impl Collapse {
     }
 
     pub(crate) fn accepted(&mut self, from: &State, to: &State, h: f64) {
+        let changes = to.y.iter().zip(&from.y);
+        self.changed((to.t.high, &to.y), changes.map(|(to, from)| to - from), h);
+    }
+
+    /// The same by the changes of the components over a step of length h to (t, y).
+    pub(crate) fn changed(
+        &mut self,
+        (t, y): (f64, &[f64]),
+        changes: impl Iterator<Item = f64>,
+        h: f64,
+    ) {
         self.failure = None;
-        for i in 0..self.rates.len() {
-            let change = to.y[i] - from.y[i];
+        for (i, change) in changes.enumerate() {
             let rate = change / h;
             self.rates[i] = rate;
             self.variation[i] += change.abs();
             let [_, second, last] = self.marks[i];
             if rate.abs() > MARK * last.rate {
                 let mark = Mark {
-                    t: to.t.high,
-                    y: to.y[i],
+                    t,
+                    y: y[i],
                     rate: rate.abs(),
                 };
                 self.marks[i] = [second, last, mark];

@@ -149,6 +149,36 @@ fn is_noise<E>(
     Ok((a - 2.0 * b + c).abs() > 0.05 * largest)
 }
 
+/// Whether three samples on one side have their least magnitude in the middle, and a parabola through them comes
+/// near zero.
+pub(crate) fn dips(points: &[(f64, f64)], side: f64) -> bool {
+    let [a, b, c] = [points[0].1 * side, points[1].1 * side, points[2].1 * side];
+    let x = [points[0].0, points[1].0, points[2].0];
+    // One comparison is strict, so that two equal samples make one dip and not two.
+    if b < 0.0 || b > a || b >= c || a == 0.0 {
+        return false;
+    }
+    if b == 0.0 {
+        return true;
+    }
+    let left = (b - a) / (x[1] - x[0]);
+    let right = (c - b) / (x[2] - x[1]);
+    let curvature = (right - left) / (x[2] - x[0]);
+    if curvature <= 0.0 {
+        return false;
+    }
+    let slope = left + curvature * (x[1] - x[0]);
+    b - slope * slope / (4.0 * curvature) < 0.5 * b
+}
+
+/// Whether a function with these values at the end of the step and just before it vanishes within `slack` of the
+/// end, which is the end of the run.
+pub(crate) fn ends_on_zero(end: f64, before: f64, slack: f64) -> bool {
+    let fall = before - end;
+    end == 0.0 && before != 0.0
+        || end * before > 0.0 && (end / fall) * NEAR <= slack && end / fall >= 0.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -201,6 +201,33 @@ fn backward_runs_return() {
     }
 }
 
+/// Every method but the Taylor method, whose test is beside its others: there and back again, to the accuracy of the run.
+#[test]
+fn every_method_returns() {
+    for method in plain_methods() {
+        let card = method.card();
+        let options = || match card.adaptive {
+            true => Options::tolerance(1e-10).method(method),
+            false => Options::fixed_step(method, 5e-4),
+        };
+        let (mut system, y0) = kepler();
+        let there = integrate(&mut system, (0.0, 8.0), &y0, &mut [], options()).unwrap();
+        // The largest error of a run forward as long as the way there and back, with as many passes of the pericentre.
+        let on = integrate(&mut system, (0.0, 16.0), &y0, &mut [], options()).unwrap();
+        let error = (0..on.len())
+            .map(|j| distance(on.row(j), &kepler_exact(on.times[j])))
+            .fold(0.0, f64::max);
+        let back = integrate(&mut system, (8.0, 0.0), &there.state, &mut [], options()).unwrap();
+        assert_eq!((back.stop, back.t), (Stop::Finished, 0.0), "{}", card.name);
+        let gap = distance(&back.state, &y0);
+        assert!(
+            error < 1e-6 && gap < 3.0 * error,
+            "{}: {gap:e} back, {error:e} on the way",
+            card.name
+        );
+    }
+}
+
 #[test]
 fn compensation_removes_the_growth_of_rounding() {
     // y = 1000 + sin t, with so many steps that rounding dominates by far.

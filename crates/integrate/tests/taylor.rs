@@ -8,7 +8,7 @@ mod common;
 use chetaev_integrate::methods::{DORMAND_PRINCE_853, TAYLOR};
 use chetaev_integrate::{
     from_fn, global_error, integrate, Direction, EvaluationFailure, Event, EventKind,
-    IntegrateError, Options, Output, Stop, System,
+    IntegrateError, Method, Options, Output, Stop, System,
 };
 use common::{distance, kepler_exact, ECC};
 
@@ -395,6 +395,106 @@ fn a_long_run_drifts_by_rounding_only() {
         "{largest:e} after {} steps",
         run.statistics.steps
     );
+}
+
+/// θ'' = −sin θ without allocations, for runs of many steps.
+struct Pendulum {
+    sin: [f64; 64],
+    cos: [f64; 64],
+}
+
+impl System for Pendulum {
+    fn dimension(&self) -> usize {
+        2
+    }
+
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), EvaluationFailure> {
+        (dy[0], dy[1]) = (y[1], -y[0].sin());
+        Ok(())
+    }
+
+    fn has_series(&self) -> bool {
+        true
+    }
+
+    fn expand(
+        &mut self,
+        _t: f64,
+        (y, carry): (&[f64], &[f64]),
+        order: usize,
+        x: &mut [f64],
+    ) -> Result<(), EvaluationFailure> {
+        (x[0], x[1]) = (y[0], y[1]);
+        // The sine and cosine of the sum of angle and carry.
+        let (sin, cos) = y[0].sin_cos();
+        self.sin[0] = sin + carry[0] * cos;
+        self.cos[0] = cos - carry[0] * sin;
+        for j in 0..order {
+            let share = (j + 1) as f64;
+            x[2 * j + 2] = x[2 * j + 1] / share;
+            x[2 * j + 3] = -self.sin[j] / share;
+            let (mut s, mut c) = (0.0, 0.0);
+            for i in 1..=j + 1 {
+                let rate = i as f64 * x[2 * i];
+                s += rate * self.cos[j + 1 - i];
+                c -= rate * self.sin[j + 1 - i];
+            }
+            (self.sin[j + 1], self.cos[j + 1]) = (s / share, c / share);
+        }
+        Ok(())
+    }
+}
+
+/// A million steps: rounding adds up as a random walk, as √N, and not as N.
+#[test]
+fn a_million_steps_drift_as_a_random_walk() {
+    let energy = |y: &[f64]| 0.5 * y[1] * y[1] - y[0].cos();
+    let mut pendulum = Pendulum {
+        sin: [0.0; 64],
+        cos: [0.0; 64],
+    };
+    let y0 = [0.0, 1.5];
+    // Order 15 with steps of a twentieth of the radius of convergence: (1/20)^15 is below rounding.
+    let mut options = Options::fixed_step(&TAYLOR, 0.1).output(Output::Every(100.0));
+    (options.error.rtol, options.error.atol) = (0.0, 1e-8);
+    assert_eq!(TAYLOR.order(&options.error), 15);
+    let run = integrate(&mut pendulum, (0.0, 1e5), &y0, &mut [], options).unwrap();
+    assert_eq!(run.stop, Stop::Finished);
+    let steps = run.statistics.steps as f64;
+    assert!((steps - 1e6).abs() < 2.0, "{steps}");
+    // A trend of a hundredth of a unit in the last place in each step would be ten times the bound at the end.
+    let mut largest: f64 = 0.0;
+    for j in 1..run.len() {
+        largest = largest.max((energy(run.row(j)) - energy(&y0)).abs());
+        let walked = steps * run.times[j] / run.t;
+        let bound = f64::EPSILON * walked.sqrt();
+        assert!(largest < bound, "{largest:e} after {walked} steps");
+    }
+}
+
+/// With steps and order both fixed the error falls as h^p, for the orders 4, 5, 7 and 10 that these tolerances ask for.
+#[test]
+fn observed_order_of_fixed_steps() {
+    for (tolerance, coarse) in [(0.5, 400), (1e-2, 800), (1e-3, 300), (1e-5, 100)] {
+        let mut order = 0;
+        let errors = [coarse, 2 * coarse].map(|steps: u32| {
+            let (mut system, y0) = kepler();
+            let mut options = Options::fixed_step(&TAYLOR, 3.0 / f64::from(steps));
+            // Tolerances that do not depend on the state give one order for the whole run.
+            (options.error.rtol, options.error.atol) = (0.0, tolerance);
+            order = TAYLOR.order(&options.error);
+            let run = integrate(&mut system, (0.0, 3.0), &y0, &mut [], options).unwrap();
+            assert_eq!(run.statistics.steps, u64::from(steps));
+            let rows = (0..run.len()).map(|j| distance(run.row(j), &kepler_exact(run.times[j])));
+            rows.fold(0.0, f64::max)
+        });
+        let slope = (errors[0] / errors[1]).log2();
+        assert!(errors[1] > 1e-15, "rounding hides the order {order}");
+        assert!(
+            (slope - f64::from(order)).abs() < 0.4,
+            "order {order}: slope {slope} from {errors:?}"
+        );
+    }
 }
 
 #[test]

@@ -3,9 +3,13 @@
 //! A chart that gives a dependent velocity by the others covers the components in whose factor that velocity occurs; where
 //! another factor vanishes, the equation says nothing of it.
 
+mod real_factors;
+
+use self::real_factors::real_factors;
 use crate::constraint::{Constraint, ConstraintKind};
+use crate::prover::assumptions;
 use crate::selection::Selection;
-use crate::system::System;
+use crate::system::{Assumption, Relation, System};
 use crate::terms::MotionTerms;
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::{Expr, Function, Graph, Node, Rational, Symbol};
@@ -57,6 +61,18 @@ pub struct OnComponent {
 /// A factor that is at most so large in units of the model vanishes at the start.
 const VANISHES: f64 = 1e-8;
 
+/// More components are not looked at one by one.
+const COMPONENTS: usize = 8;
+
+/// A constraint for which there are simpler functions, one of which vanishes where it does.
+struct Simpler {
+    row: usize,
+    /// On each component one.
+    equations: Vec<Expr>,
+    /// Where they vanish with it.
+    assumptions: Vec<Assumption>,
+}
+
 impl System {
     /// The system on one component of constraints nonlinear in the velocities that are products, `z'² = y² x'²`: that with the only factor
     /// that vanishes at the start, by the values of factors there where they are known, else with the first. Constraints `F(u) = c`
@@ -69,28 +85,100 @@ impl System {
         &self,
         at_start: impl Fn(&[Expr]) -> Option<Vec<f64>>,
     ) -> Option<OnComponent> {
-        let g = &self.graph;
-        let (mut system, mut sentences, mut conditions) = (self.clone(), Vec::new(), Vec::new());
-        for constraint in &mut system.constraints {
+        let list = self.simpler();
+        let place = |own: &Simpler| match own.equations.as_slice() {
+            [_] => 0,
+            all => chosen(all, at_start(all)),
+        };
+        let places: Vec<usize> = list.iter().map(place).collect();
+        self.with_equations(&list, &places)
+    }
+
+    /// The systems on all components of constraints nonlinear in the velocities that are products or functions of simpler ones, as
+    /// [`on_component`](System::on_component) makes one; none where there are no such constraints, or too many.
+    pub fn components(&self) -> Vec<OnComponent> {
+        let list = self.simpler();
+        let many = list
+            .iter()
+            .map(|own| own.equations.len())
+            .product::<usize>();
+        if list.is_empty() || many > COMPONENTS {
+            return Vec::new();
+        }
+        let places = |number: usize| -> Vec<usize> {
+            let mut rest = number;
+            let digits = list.iter().map(|own| {
+                let digit = rest % own.equations.len();
+                rest /= own.equations.len();
+                digit
+            });
+            digits.collect()
+        };
+        let found = (0..many).map(|number| self.with_equations(&list, &places(number)));
+        found.collect::<Option<Vec<_>>>().unwrap_or_default()
+    }
+
+    /// The constraints nonlinear in the velocities for which there are simpler functions.
+    fn simpler(&self) -> Vec<Simpler> {
+        let (g, known) = (&self.graph, assumptions(self));
+        let mut found = Vec::new();
+        for (row, constraint) in self.constraints.iter().enumerate() {
             if constraint.kind != ConstraintKind::Nonlinear {
                 continue;
             }
-            let simple = unwrapped(g, constraint.f);
-            let list = factors(g, simple, &self.velocity_symbols()).unwrap_or_default();
-            let list: Vec<Expr> = list.into_iter().map(|(factor, _)| factor).collect();
-            let factor = match list.as_slice() {
-                [] | [_] if simple == constraint.f => continue,
-                [] | [_] => simple,
-                list => chosen(list, at_start(list)),
+            let simple = unwrapped(g, constraint.f, &self.velocity_symbols());
+            let real = real_factors(g, simple.function, &self.velocity_symbols(), &known);
+            let same = simple.function == constraint.f;
+            let equations = match real.factors.len() {
+                0 if same => continue,
+                0 => vec![simple.function],
+                _ => real.factors,
             };
-            let name = constraint.name.clone();
-            let text = format!("{} = 0", g.text(factor));
-            sentences.push(match list.len() {
-                0 | 1 => format!("with `{name}` written as {text}"),
-                _ => format!("on the component {text} of `{name}`, the others apart"),
+            // A denominator that is cleared makes nothing simpler where f stays nonlinear.
+            if same && equations.len() == 1 && !self.is_affine(constraint, equations[0]) {
+                continue;
+            }
+            let unequal = real.denominators.into_iter();
+            let unequal = unequal.map(|e| assumption(g, e, Relation::NotEqual, g.zero()));
+            found.push(Simpler {
+                row,
+                equations,
+                assumptions: simple.assumptions.into_iter().chain(unequal).collect(),
             });
-            *constraint = Constraint::classify(self, name, factor).ok()?;
-            conditions.extend((list.len() > 1).then_some(text));
+        }
+        found
+    }
+
+    /// Whether another function in the place of a constraint's is affine in the velocities.
+    fn is_affine(&self, constraint: &Constraint, f: Expr) -> bool {
+        let own = Constraint::classify(self, constraint.name.clone(), f);
+        own.is_ok_and(|own| own.kind != ConstraintKind::Nonlinear)
+    }
+
+    /// The system with one of the simpler functions in the place of each such constraint.
+    fn with_equations(&self, list: &[Simpler], places: &[usize]) -> Option<OnComponent> {
+        let g = &self.graph;
+        let (mut system, mut sentences, mut conditions) = (self.clone(), Vec::new(), Vec::new());
+        for (simpler, &place) in list.iter().zip(places) {
+            let factor = simpler.equations[place];
+            let name = self.constraints[simpler.row].name.clone();
+            let Ok(own) = Constraint::classify(self, name.clone(), factor) else {
+                continue;
+            };
+            let text = format!("{} = 0", g.text(factor));
+            let mut sentence = match simpler.equations.len() {
+                1 => format!("with `{name}` written as {text}"),
+                _ => format!("on the component {text} of `{name}`, the others apart"),
+            };
+            if !simpler.assumptions.is_empty() {
+                let texts = simpler.assumptions.iter().map(|a| a.text.as_str());
+                let texts: Vec<&str> = texts.collect();
+                sentence.push_str(&format!(" where {}", texts.join(" and ")));
+            }
+            sentences.push(sentence);
+            system.assumptions.extend(simpler.assumptions.clone());
+            system.constraints[simpler.row] = own;
+            conditions.extend((simpler.equations.len() > 1).then_some(text));
         }
         (!sentences.is_empty()).then(|| OnComponent {
             system,
@@ -100,25 +188,102 @@ impl System {
     }
 }
 
-/// The factor that vanishes at the start, where only one does, else the first.
-fn chosen(list: &[Expr], values: Option<Vec<f64>>) -> Expr {
+/// `left REL right` as an assumption.
+fn assumption(g: &Graph, left: Expr, relation: Relation, right: Expr) -> Assumption {
+    let sign = match relation {
+        Relation::Less => "<",
+        Relation::LessOrEqual => "≤",
+        Relation::NotEqual => "≠",
+    };
+    Assumption {
+        left,
+        relation,
+        right,
+        text: format!("{} {sign} {}", g.text(left), g.text(right)),
+    }
+}
+
+/// The place of the factor that vanishes at the start, where only one does, else of the first.
+fn chosen(list: &[Expr], values: Option<Vec<f64>>) -> usize {
     let values = values.unwrap_or_default();
     let vanishes = |place: &usize| values.get(*place).is_some_and(|x| x.abs() <= VANISHES);
     let own: Vec<usize> = (0..list.len()).filter(vanishes).collect();
     match own.as_slice() {
-        &[place] => list[place],
-        _ => list[0],
+        &[place] => place,
+        _ => 0,
     }
 }
 
+/// A function that vanishes where another does, with what holds there besides.
+struct Unwrapped {
+    function: Expr,
+    assumptions: Vec<Assumption>,
+}
+
 /// A function that vanishes where another does and its gradient does not: arguments of functions that take no value twice.
-fn unwrapped(g: &Graph, f: Expr) -> Expr {
+fn unwrapped(g: &Graph, f: Expr, velocities: &[Symbol]) -> Unwrapped {
     let mut e = f;
     // Each argument is a smaller expression.
     while let Some(inner) = argument(g, e) {
         e = inner;
     }
-    e
+    solved_for_argument(g, e, velocities).unwrap_or(Unwrapped {
+        function: e,
+        assumptions: Vec::new(),
+    })
+}
+
+/// `u − F⁻¹(w)` of `F(u) − w`, for w free of velocities: `a cos w − b sin w` of `atan2(a, b) − w` with `−π < w < π` and `b cos w + a sin w > 0`,
+/// `u cos w − sin w` of `atan u − w` with `|w| < π/2`.
+fn solved_for_argument(g: &Graph, e: Expr, velocities: &[Symbol]) -> Option<Unwrapped> {
+    let Node::Sum { constant, terms } = g.node(e) else {
+        return None;
+    };
+    let (constant, terms) = (constant.clone(), terms.to_vec());
+    let place = terms
+        .iter()
+        .position(|(term, _)| g.contains_any(*term, velocities))?;
+    let (term, weight) = terms[place].clone();
+    let others = terms.iter().enumerate().filter(|(i, _)| *i != place);
+    let mut parts: Vec<Expr> = others.map(|(_, (e, c))| g.scale(c, *e)).collect();
+    parts.push(g.scale(&constant, g.one()));
+    let w = g.scale(&(-Rational::from(1) / weight), g.add(&parts));
+    if g.contains_any(w, velocities) {
+        return None;
+    }
+    let Node::Apply {
+        function,
+        arguments,
+    } = g.node(term)
+    else {
+        return None;
+    };
+    let (sin, cos) = (g.sin(w), g.cos(w));
+    let less = |a: Expr, b: Expr| assumption(g, a, Relation::Less, b);
+    let within = |bound: Expr| vec![less(g.neg(bound), w), less(w, bound)];
+    let half_turn = || g.div(g.pi(), g.integer(2));
+    let by = |inverse: Function, u: Expr| g.sub(u, g.apply(inverse, &[w]));
+    let (function, assumptions) = match (function, arguments.as_ref()) {
+        (Function::Atan2, &[a, b]) => {
+            let along = g.add(&[g.mul(&[b, cos]), g.mul(&[a, sin])]);
+            let mut assumptions = within(g.pi());
+            assumptions.push(less(g.zero(), along));
+            (g.sub(g.mul(&[a, cos]), g.mul(&[b, sin])), assumptions)
+        }
+        (Function::Atan, &[u]) => (g.sub(g.mul(&[u, cos]), sin), within(half_turn())),
+        (Function::Asin, &[u]) => (g.sub(u, sin), within(half_turn())),
+        (Function::Exp, &[u]) => (by(Function::Log, u), vec![less(g.zero(), w)]),
+        (Function::Log, &[u]) => (by(Function::Exp, u), Vec::new()),
+        (Function::Sinh, &[u]) => (by(Function::Asinh, u), Vec::new()),
+        (Function::Asinh, &[u]) => (by(Function::Sinh, u), Vec::new()),
+        (Function::Tanh, &[u]) => (by(Function::Atanh, u), within(g.one())),
+        (Function::Atanh, &[u]) => (by(Function::Tanh, u), Vec::new()),
+        _ => return None,
+    };
+    Some(Unwrapped {
+        function,
+        assumptions,
+    })
 }
 
 /// `u − F⁻¹(c)` of `F(u) − c`, and `u − w` of `F(u) − F(w)`.

@@ -428,7 +428,10 @@ fn mismatch(place: Place, message: String) -> Diagnostic {
 
 /// The dimension of the derivative of some order.
 fn over_time(kind: Dimension, order: u32) -> Dimension {
-    kind.over(&Dimension::time().power(&Rational::from(order)))
+    match order {
+        0 => kind,
+        _ => kind.over(&Dimension::time().power(&Rational::from(order))),
+    }
 }
 
 fn both<T, U>(a: Option<T>, b: Option<T>, combine: impl FnOnce(T, T) -> U) -> Option<U> {

@@ -4,7 +4,7 @@ use std::fmt;
 
 use chetaev_symbolic::syntax::ast::{Binary, Node, NodeId};
 use chetaev_symbolic::syntax::{self, names, parse_expression, Diagnostic, Span};
-use chetaev_symbolic::Rational;
+use chetaev_symbolic::{rational, Rational};
 
 /// Symbols of the SI base units, in the order of the exponents of a [`Dimension`].
 const BASE: [&str; 7] = ["m", "kg", "s", "A", "K", "mol", "cd"];
@@ -43,7 +43,9 @@ impl Dimension {
     #[must_use]
     pub fn times(&self, other: &Dimension) -> Dimension {
         Dimension {
-            exponents: std::array::from_fn(|i| &self.exponents[i] + &other.exponents[i]),
+            exponents: std::array::from_fn(|i| {
+                rational::sum(&self.exponents[i], &other.exponents[i])
+            }),
         }
     }
 
@@ -51,7 +53,9 @@ impl Dimension {
     #[must_use]
     pub fn over(&self, other: &Dimension) -> Dimension {
         Dimension {
-            exponents: std::array::from_fn(|i| &self.exponents[i] - &other.exponents[i]),
+            exponents: std::array::from_fn(|i| {
+                rational::sum(&self.exponents[i], &-other.exponents[i].clone())
+            }),
         }
     }
 
@@ -59,7 +63,7 @@ impl Dimension {
     #[must_use]
     pub fn power(&self, exponent: &Rational) -> Dimension {
         Dimension {
-            exponents: std::array::from_fn(|i| &self.exponents[i] * exponent),
+            exponents: std::array::from_fn(|i| rational::product(&self.exponents[i], exponent)),
         }
     }
 }

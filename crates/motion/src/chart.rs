@@ -139,14 +139,20 @@ fn least_pivot(
         }
         for k in 0..size {
             let d = chart.dependent[k];
+            if row[d] == 0.0 {
+                block[l * size + k] = 0.0;
+                continue;
+            }
             let own = row[d] * row[d] / heaviness(weight(d));
             let part = if square > 0.0 { own / square } else { own };
             block[l * size + k] = part.sqrt().copysign(row[d]);
         }
     }
-    if let (1, [single]) = (size, &*block) {
+    match *block {
         // Zero for what is not a number.
-        return single.abs().max(0.0);
+        [single] => return single.abs().max(0.0),
+        [a, b, c, d] => return least_of_two([[a, b], [c, d]]),
+        _ => {}
     }
     let (rows, columns) = order.split_at_mut(size);
     rows.iter_mut().enumerate().for_each(|(i, row)| *row = i);
@@ -155,6 +161,16 @@ fn least_pivot(
     match found.rank == size {
         true if size == 0 => 1.0,
         true => found.smallest,
+        false => 0.0,
+    }
+}
+
+/// The smaller pivot of two rows and columns.
+fn least_of_two([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
+    let largest = a.abs().max(b.abs()).max(c.abs()).max(d.abs());
+    let other = (a * d - b * c).abs() / largest;
+    match other > 2.0 * RANK_TOLERANCE * largest {
+        true => other.min(largest),
         false => 0.0,
     }
 }

@@ -401,19 +401,11 @@ impl Search<'_> {
         let Some(direction) = direction else {
             return "some velocity".to_string();
         };
-        let parts: Vec<String> = names
-            .iter()
-            .zip(&direction)
-            .filter(|(_, x)| x.abs() > 1e-9)
-            .map(|(name, x)| {
-                if (x - 1.0).abs() < 1e-9 {
-                    format!("`{name}`")
-                } else {
-                    format!("{x:.3}·`{name}`")
-                }
-            })
-            .collect();
-        parts.join(" + ")
+        let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+        let parts = direction.iter().zip(&names);
+        let parts = parts.filter(|(x, _)| x.abs() > 1e-9);
+        let parts: Vec<(f64, &str)> = parts.map(|(&x, name)| (x, &name[..])).collect();
+        velocities::sum_in_words(&parts)
     }
 
     fn describe(&self, given: &[f64], found: &[f64], prime: &str) -> String {

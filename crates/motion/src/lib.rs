@@ -22,6 +22,7 @@ pub mod multiplier_flow;
 mod nearest;
 pub mod numeric;
 pub mod observe;
+mod positive;
 mod projection;
 mod reduced;
 pub mod repeat;

@@ -146,7 +146,7 @@ impl Subject<'_> {
             Projection::of(settings),
         );
         let y0 = flow.pack(&self.start.q, &self.start.v);
-        let watched = flow.watch.quantities.clone();
+        let watched = flow.watch.wanted();
         RouthCourse(Course::new(watched, (self.start.t, y0), interrupt))
     }
 }

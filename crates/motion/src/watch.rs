@@ -5,6 +5,7 @@
 
 use crate::functions::{Functions, FunctionsError};
 use crate::numeric::Binding;
+use crate::positive::corners;
 use chetaev_integrate::EvaluationFailure;
 use chetaev_mechanics::equations::RegularMatrix;
 use chetaev_mechanics::system::Thrust;
@@ -56,6 +57,10 @@ pub struct Watch {
     functions: Functions,
     reference: Vec<f64>,
     n: usize,
+    /// How many numbers say whether each quantity is positive everywhere ([`corners`]); none where it may vanish.
+    corners: Vec<usize>,
+    /// Whether all are, with the present parameters: then nothing is watched.
+    is_idle: bool,
 }
 
 /// Only the neighbourhood of zero is looked at: values below this fraction of the largest seen.
@@ -99,15 +104,26 @@ impl Watch {
         });
         found.extend(vanishing_parts(system, &terms.constraints));
         found.truncate(MOST);
+        let is_parameter = |s| binding.parameters.iter().any(|own| own.0 == s);
+        let bounds = |value| corners(g, value, &|s| !is_parameter(s)).unwrap_or_default();
+        let bounds: Vec<Vec<Expr>> = found.iter().map(|own| bounds(own.1)).collect();
         let values: Vec<Expr> = found.iter().map(|(_, value)| *value).collect();
         let drift = freeze_accelerations(system, &values);
         let slopes = g.jacobian(&values, &system.velocity_symbols()).concat();
-        let groups = [("value", values), ("drift", drift), ("slope", slopes)];
+        let corners = bounds.iter().map(Vec::len).collect();
+        let groups = [
+            ("value", values),
+            ("drift", drift),
+            ("slope", slopes),
+            ("corner", bounds.concat()),
+        ];
         Ok(Watch {
             reference: vec![0.0; found.len()],
             quantities: found.into_iter().map(|(what, _)| what).collect(),
             functions: Functions::new(g, binding, &binding.variables, &groups)?,
             n: system.n(),
+            corners,
+            is_idle: false,
         })
     }
 
@@ -156,6 +172,8 @@ impl Watch {
             quantities: found.into_iter().map(|(what, _)| what).collect(),
             functions: Functions::new(g, binding, variables, &groups)?,
             n: state.len(),
+            corners: Vec::new(),
+            is_idle: false,
         })
     }
 
@@ -170,12 +188,38 @@ impl Watch {
     /// Forgets the values seen, for a run from (t, q, v).
     pub(crate) fn begin(&mut self, t: f64, q: &[f64], v: &[f64]) {
         self.reference.fill(0.0);
+        self.is_idle = false;
         self.record(t, q, v);
+        self.is_idle = !self.quantities.is_empty() && self.are_positive(t, q, v);
+    }
+
+    /// Whether no quantity comes near zero at any state, with the present parameters.
+    fn are_positive(&mut self, t: f64, q: &[f64], v: &[f64]) -> bool {
+        if self.corners.is_empty() || self.functions.evaluate(t, &[q, v]).is_err() {
+            return false;
+        }
+        let mut rest = self.functions.group(3);
+        self.corners.iter().all(|&count| {
+            let (own, others) = rest.split_at(count);
+            rest = others;
+            let least = own.iter().copied().fold(f64::INFINITY, f64::min);
+            let largest = own.iter().copied().fold(0.0, f64::max);
+            count > 0 && least > ZERO * largest
+        })
+    }
+
+    /// The quantities to be watched in a run, after [`begin`](Watch::begin): none where none can vanish.
+    pub(crate) fn wanted(&self) -> Vec<Watched> {
+        match self.is_idle {
+            true => Vec::new(),
+            false => self.quantities.clone(),
+        }
     }
 
     /// Takes the values at (t, q, v) into account as ordinary ones.
     pub fn record(&mut self, t: f64, q: &[f64], v: &[f64]) {
-        if !self.quantities.is_empty() && self.functions.evaluate(t, &[q, v]).is_ok() {
+        let is_watched = !self.quantities.is_empty() && !self.is_idle;
+        if is_watched && self.functions.evaluate(t, &[q, v]).is_ok() {
             for (reference, &value) in self.reference.iter_mut().zip(self.functions.group(0)) {
                 *reference = reference.max(value.abs());
             }
@@ -184,6 +228,9 @@ impl Watch {
 
     /// The first quantity that is zero at the last recorded state.
     pub fn vanished(&self) -> Option<usize> {
+        if self.is_idle {
+            return None;
+        }
         let values = self.functions.group(0).iter().zip(&self.reference);
         values
             .enumerate()
@@ -355,4 +402,55 @@ fn vanishing_part(system: &System, e: Expr) -> Option<Expr> {
         return Some(*base);
     }
     rational::is_negative(exponent).then(|| g.powi(*base, 2))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
+
+    use super::*;
+    use chetaev_mechanics::SystemParts;
+    use chetaev_symbolic::Graph;
+    use std::sync::Arc;
+
+    /// The watch on a x' sin φ = b y' cos φ, whose gradient is (a sin φ, −b cos φ, 0).
+    fn blade() -> Watch {
+        let g = Arc::new(Graph::new());
+        let [phi, a, b] = ["phi", "a", "b"].map(|name| g.symbol(name, 0));
+        let [vx, vy, w] = ["x", "y", "phi"].map(|name| g.symbol(name, 1));
+        let squares: Vec<Expr> = [vx, vy, w].iter().map(|&v| g.powi(v, 2)).collect();
+        let blade = g.sub(g.mul(&[a, vx, g.sin(phi)]), g.mul(&[b, vy, g.cos(phi)]));
+        let number = |n| Some(g.integer(n));
+        let parts = SystemParts {
+            coordinates: ["x", "y", "phi"].map(String::from).to_vec(),
+            parameters: vec![("a".into(), number(2)), ("b".into(), number(3))],
+            lagrangian: Some(g.div(g.add(&squares), g.integer(2))),
+            constraints: vec![("blade".into(), blade)],
+            ..SystemParts::default()
+        };
+        let system = System::new(g, parts).unwrap();
+        let binding = Binding::new(&system).unwrap();
+        Watch::new(&system, &MotionTerms::new(&system), &binding).unwrap()
+    }
+
+    #[test]
+    fn what_vanishes_nowhere_is_not_watched() {
+        let mut watch = blade();
+        let whole = vec![Watched::Gradient { row: 0 }];
+        assert_eq!(watch.quantities, whole);
+        let (q, v) = ([0.0; 3], [1.0, 0.0, 0.5]);
+        watch.begin(0.0, &q, &v);
+        assert_eq!((watch.wanted(), watch.vanished()), (Vec::new(), None));
+        // Without b the gradient vanishes at φ = 0; a small b is rounding beside a.
+        for b in [0.0, 1e-8] {
+            watch.set_parameters(&[2.0, b]).unwrap();
+            watch.begin(0.0, &[0.0, 0.0, 1.0], &v);
+            assert_eq!((watch.wanted(), watch.vanished()), (whole.clone(), None));
+            watch.record(0.1, &q, &v);
+            assert_eq!(watch.vanished(), Some(0), "b = {b}");
+        }
+        watch.set_parameters(&[2.0, -0.1]).unwrap();
+        watch.begin(0.0, &q, &v);
+        assert_eq!(watch.wanted(), Vec::new());
+    }
 }

@@ -16,7 +16,7 @@
 
 mod powers;
 
-use self::powers::integrated;
+use self::powers::{integrated, Product};
 use crate::words::{formula, listed, readable};
 use chetaev_mechanics::claims::formulation::{basis, derive, REFERENCE};
 use chetaev_mechanics::claims::{once_where, Claim, Context, Finding, Formula, Group};
@@ -26,6 +26,7 @@ use chetaev_mechanics::{Characteristics, Manifold};
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{simplify, Expr, Graph, Symbol, Verdict};
+use std::sync::Arc;
 
 /// `chaplygin.multiplier`.
 #[derive(Clone, Copy, Debug)]
@@ -85,6 +86,44 @@ impl Claim for Multiplier {
         }
         Reduced::new(cx).map_or_else(Finding::from, |reduced| reduced.decide(cx))
     }
+}
+
+/// N where it was written down.
+struct Written(Option<Product>);
+
+/// Chaplygin's multiplier with what it is one of.
+#[derive(Clone, Debug)]
+pub struct Reducer {
+    /// N, up to its sign.
+    pub multiplier: Expr,
+    /// L*, the Lagrangian in the independent coordinates and velocities.
+    pub lagrangian: Expr,
+    /// Which coordinates are independent, length k.
+    pub independent: Vec<usize>,
+    /// Their symbols.
+    pub coordinates: Vec<Symbol>,
+    /// The symbols of their velocities.
+    pub speeds: Vec<Symbol>,
+}
+
+/// The multiplier that `chaplygin.multiplier` states; `None` where it is not written as a product.
+pub fn reducer(cx: &Context<'_>) -> Option<Reducer> {
+    if cx.selection.rows.is_empty() || cx.system.n() < cx.selection.rows.len() + 2 {
+        return None;
+    }
+    let reduced = Reduced::new(cx).ok()?;
+    if reduced.form.is_empty() {
+        return None;
+    }
+    let multiplier = reduced.product(cx).0.as_ref()?.value;
+    let parameters = reduced.chart.parameters.iter();
+    Some(Reducer {
+        multiplier,
+        lagrangian: reduced.chart.restrict(cx.system, &[cx.system.lagrangian])[0],
+        independent: reduced.chart.independent.clone(),
+        coordinates: reduced.coordinates.clone(),
+        speeds: parameters.map(|p| p.symbol).collect(),
+    })
 }
 
 /// More independent velocities are too many for determinants in closed form.
@@ -222,7 +261,8 @@ impl Reduced {
     fn multiplier(&self, cx: &Context<'_>, closed: Verdict) -> Finding {
         let g = &cx.system.graph;
         let mut formulas = self.stated(cx);
-        let Some(found) = integrated(cx, &self.form, self.determinant, &self.coordinates) else {
+        let product = self.product(cx);
+        let Some(found) = &product.0 else {
             let mut verdict = closed;
             verdict.prefix("the mixed derivatives of ln N agree, so N exists near every position where they are defined, by a quadrature; as a product of powers of the factors that were found and of the exponential of a polynomial in the coordinates it could not be written",
             );
@@ -252,6 +292,14 @@ impl Reduced {
             measure,
         ));
         Finding { verdict, formulas }
+    }
+
+    /// N as a product, looked for once.
+    fn product(&self, cx: &Context<'_>) -> Arc<Written> {
+        cx.shared(|cx| {
+            let found = integrated(cx, &self.form, self.determinant, &self.coordinates);
+            Written(found)
+        })
     }
 
     /// `N^(k−1) det G`: dq dp of the tau-momenta p = N G v, over N.

@@ -653,3 +653,169 @@ fn components_have_their_own_answer() {
     }
     assert!(system(&PARTICLE).on_component(|_| None).is_none());
 }
+
+/// What is said of a constraint is said of h f with a factor h that vanishes nowhere, or where f does only: of z' = y x' divided by x', multiplied by
+/// 1 + x'² or by a definite form, cubed, and of a blade whose angle is an arc tangent. Kerner's theorem is about the set, too.
+#[test]
+fn factors_that_change_nothing() {
+    const KERNER: &str = "hamilton.kerner";
+    const MULTIPLIER: &str = "chaplygin.multiplier";
+    let particle = "1/2 (x'^2 + y'^2 + z'^2)";
+    let both = "x' = 0 or y' = 0";
+    for (f, condition, kerner) in [
+        ("(1 + x'^2) (z' - y x')", both, "proved"),
+        ("exp(x') (z' - y x')", both, "proved"),
+        ("z'^3 - y^3 x'^3", both, "proved"),
+        ("8 z'^3 + 27 y^3 x'^3", both, "proved"),
+        ("(z' - y x') (x'^2 + z'^2)", both, "proved"),
+        ("z'/x' - y", "y' = 0", "proved"),
+        ("z'/(y x') - 1", "y' = 0", "proved"),
+        (
+            "atan(z'/x') - y",
+            "y' = 0 (with x' = u_z cos(y), z' = u_z sin(y))",
+            "proved",
+        ),
+    ] {
+        let constraints: &'static [(&str, &str)] = Box::leak(Box::new([("c", f)]));
+        let whole = system(&text("x y z", particle, constraints));
+        let on = whole
+            .on_component(|_| None)
+            .unwrap_or_else(|| panic!("{f}"));
+        assert!(on.condition.is_none(), "{f}: {:?}", on.condition);
+        assert_eq!(finding(&on.system, KERNER).verdict.word(), kerner, "{f}");
+        assert_eq!(
+            finding(&on.system, MULTIPLIER).verdict.word(),
+            "proved",
+            "{f}"
+        );
+        let found = finding(&on.system, STATIONARY);
+        let Verdict::Conditional { condition: own, .. } = &found.verdict else {
+            panic!("{f}: {} {}", found.verdict.word(), found.verdict.detail())
+        };
+        assert_eq!(own, condition, "{f}");
+    }
+    // z' = F(y) with κ = 0 and λ = F' y': y' = 0, whatever F is. No denominator that has a sign is named.
+    for f in [
+        "log(z') - y",
+        "exp(z') - y",
+        "asinh(z') - y",
+        "tanh(z') - y",
+        "asin(z') - y",
+    ] {
+        let constraints: &'static [(&str, &str)] = Box::leak(Box::new([("c", f)]));
+        let whole = system(&text("x y z", particle, constraints));
+        let on = whole
+            .on_component(|_| None)
+            .unwrap_or_else(|| panic!("{f}"));
+        let found = finding(&on.system, STATIONARY);
+        let Verdict::Conditional { condition, .. } = &found.verdict else {
+            panic!("{f}: {}", found.verdict.detail())
+        };
+        assert_eq!(condition, "y' = 0", "{f}");
+    }
+    let over = system(&text("x y z", particle, &[("c", "(z' - y x')/(1 + x'^2)")]));
+    assert!(!over.on_component(|_| None).unwrap().sentence.contains('≠'));
+    // A blade: y' cos z = x' sin z, with the speed u = x' cos z + y' sin z > 0. It is stationary where u z' = 0, here where z' = 0.
+    let blade = system(&text("x y z", particle, &[("c", "atan2(y', x') - z")]));
+    let on = blade.on_component(|_| None).unwrap();
+    assert!(
+        on.sentence.contains("where -pi < z and z < pi and 0 < "),
+        "{}",
+        on.sentence
+    );
+    let found = finding(&on.system, STATIONARY);
+    let Verdict::Conditional {
+        condition,
+        counterexample,
+        ..
+    } = &found.verdict
+    else {
+        panic!("{}", found.verdict.detail())
+    };
+    assert!(condition.starts_with("z' = 0"), "{condition}");
+    let point = &counterexample.as_ref().unwrap().point;
+    let value = |name: &str| -> f64 {
+        let own = point.iter().find(|p| p.name == name).unwrap();
+        let text = own.enclosure.as_ref().map(|e| e.0.clone());
+        text.unwrap_or_else(|| own.exact.as_ref().unwrap().to_string())
+            .split('/')
+            .map(|part| part.parse::<f64>().unwrap())
+            .reduce(|a, b| a / b)
+            .unwrap()
+    };
+    let (x, y, z) = (value("x'"), value("y'"), value("z"));
+    assert!(
+        y.atan2(x) - z < 1e-6 && z - y.atan2(x) < 1e-6,
+        "{x} {y} {z}"
+    );
+    assert_eq!(finding(&on.system, KERNER).verdict.word(), "proved");
+    // Two real factors are two components; x'² + y² z'² + 1 vanishes nowhere.
+    let product = system(&text("x y z", particle, &[("c", "z'^3 - y^2 x'^2 z'")]));
+    assert!(product.on_component(|_| None).unwrap().condition.is_some());
+    // x' = y' = 0 is not on z' = x'.
+    let apart = system(&text(
+        "x y z",
+        particle,
+        &[("c", "(z' - x') (x'^2 + y'^2)")],
+    ));
+    assert!(apart.on_component(|_| None).unwrap().condition.is_some());
+    let quotient = system(&text("x y z", particle, &[("c", "z' - x'^2/y'")]));
+    assert!(quotient.on_component(|_| None).is_none());
+}
+
+/// A refutation says which function would have to vanish, with κ and λ: of S4 with V = 0 κ = 0, λ = x' y'/(1 + y²), and λ y' must vanish, up to its sign.
+#[test]
+fn a_refutation_names_its_condition() {
+    let found = finding(&system(&PARTICLE), STATIONARY);
+    let Verdict::Conditional { counterexample, .. } = &found.verdict else {
+        panic!("{}", found.verdict.detail())
+    };
+    let found = counterexample.as_ref().unwrap();
+    let quantity = &found.quantity;
+    assert!(quantity.starts_with("-x' y'^2/(y^2 + 1), "), "{quantity}");
+    assert!(
+        quantity.contains("kappa_c = 0 and the reaction λ of `c` = x' y'/(y^2 + 1)"),
+        "{quantity}"
+    );
+    let value = |name: &str| {
+        let own = found.point.iter().find(|p| p.name == name).unwrap();
+        own.exact
+            .as_ref()
+            .unwrap()
+            .to_string()
+            .parse::<f64>()
+            .unwrap()
+    };
+    let (x, y, v) = (value("x'"), value("y"), value("y'"));
+    let expected = -x * v * v / (1.0 + y * y);
+    let (low, high): (f64, f64) = (
+        found.residual.0.parse().unwrap(),
+        found.residual.1.parse().unwrap(),
+    );
+    assert!(
+        low - 1e-9 <= expected && expected <= high + 1e-9,
+        "{low} {expected} {high}"
+    );
+}
+
+/// What must not vanish is said once: of y x'² + x y'² = 1 with V = 0 λ is a multiple of x' y' (x' + y').
+#[test]
+fn what_must_not_vanish_is_said_once() {
+    let stated = text("x y", "1/2 (x'^2 + y'^2)", &[("c", "y x'^2 + x y'^2 - 1")]);
+    let found = finding(&system(&stated), STATIONARY);
+    let Verdict::Conditional { condition, .. } = &found.verdict else {
+        panic!("{}", found.verdict.detail())
+    };
+    for set in condition.split(", or ") {
+        let texts: Vec<&str> = set.split(" and ").flat_map(|s| s.split(", ")).collect();
+        let unequal = texts.iter().filter(|s| s.contains('≠'));
+        let mut sorted: Vec<&&str> = unequal.clone().collect();
+        sorted.sort();
+        sorted.dedup();
+        assert_eq!(sorted.len(), unequal.count(), "{condition}");
+    }
+    assert!(
+        condition.contains("y' = -x', x = 1/x'^2 - y and x' ≠ 0"),
+        "{condition}"
+    );
+}

@@ -57,10 +57,10 @@ impl Gap {
 const TOLERANCES: f64 = 1e3;
 
 impl Beside {
-    /// Whether the curves are one, as far as runs of this tolerance can tell.
+    /// Whether the curves are one, as far as runs of this tolerance can tell: without a common time after the start they cannot.
     pub fn agree(&self, tolerance: f64) -> bool {
         let within = |gap: &Gap| gap.largest().1 <= TOLERANCES * tolerance * gap.size.max(1.0);
-        self.gaps.iter().all(within)
+        !self.gaps.is_empty() && self.gaps.iter().all(within)
     }
 }
 
@@ -138,9 +138,12 @@ fn at_start(
     Some(all)
 }
 
-/// The distances at the times that both runs have.
+/// The distances at the times that both runs have; none where they have none after the start.
 fn gaps(cx: &Context<'_>, a: &Run, b: &Run) -> Vec<Gap> {
     let shared = a.asked().min(b.asked());
+    if a.times[..shared].first() == a.times[..shared].last() {
+        return Vec::new();
+    }
     let places = a.layout.q().take(cx.system.n()).enumerate();
     places
         .map(|(coordinate, i)| {

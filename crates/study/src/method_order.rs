@@ -69,8 +69,9 @@ const SHORT: f64 = 1.5;
 /// Errors outside of these bounds are rounding or have no order yet.
 const ROUNDING: f64 = 2e-13;
 const LARGE: f64 = 1e-2;
-/// Most fixed steps spent.
+/// Most fixed steps spent on a system of up to [`SMALL`] coordinates; of larger ones fewer, as a step takes longer.
 const MOST_STEPS: u32 = 4000;
+const SMALL: usize = 8;
 /// Lengths of stretches over that of 24 average steps of the run, in the order tried.
 const LENGTHS: [f64; 12] = [
     1.0, 0.6, 0.36, 1.7, 0.2, 2.8, 0.1, 8.0, 0.05, 0.02, 30.0, 0.005,
@@ -122,6 +123,8 @@ impl Laboratory<'_> {
         let mut places = vec![0, rows / 2, rows / 4, rows * 3 / 4];
         places.dedup();
         let mut best: Option<Orders> = None;
+        let size = self.subject.start.q.len().div_ceil(SMALL).max(1) as u32;
+        let most = MOST_STEPS / (size * size);
         let (mut spent, mut tried) = (0, 0);
         'all: for length in LENGTHS {
             for &place in &places {
@@ -130,7 +133,7 @@ impl Laboratory<'_> {
                 };
                 let room = self.room(start.t);
                 let length = (24.0 * self.average * length).abs().min(room.abs());
-                if length <= 1e-9 * (1.0 + start.t.abs()) || spent >= MOST_STEPS {
+                if length <= 1e-9 * (1.0 + start.t.abs()) || spent >= most {
                     continue;
                 }
                 spent += COUNTS.iter().sum::<u32>() + REFERENCE;

@@ -117,7 +117,7 @@ const KEPT: f64 = 1e-3;
 const LOST: f64 = 1e-2;
 
 macro_rules! describe {
-    ($id:literal, $group:expr, $title:literal, $explanation:literal) => {
+    ($id:expr, $group:expr, $title:literal, $explanation:literal) => {
         fn id(&self) -> &'static str {
             $id
         }
@@ -564,13 +564,16 @@ fn ended_first(first: &Run, later: &Run) -> Finding {
     Verdict::undecided(tried).into()
 }
 
+/// The claim that repeats pieces of the motion, which is asked for only where it is wanted.
+pub(crate) const METHOD_ORDER: &str = "motion.method-order";
+
 /// `motion.method-order`.
 #[derive(Clone, Copy, Debug)]
 pub struct MethodOrder;
 
 impl Claim for MethodOrder {
     describe!(
-        "motion.method-order",
+        METHOD_ORDER,
         Group::Motion,
         "The method shows its order on this model",
         "Pieces of the motion are repeated with fixed steps of decreasing size; the slope of the error against the step, where \

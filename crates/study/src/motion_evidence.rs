@@ -140,6 +140,11 @@ impl MotionEvidence {
 }
 
 impl MotionEvidence {
+    /// The rows for quadratures: those closer than the steps, where there are any.
+    pub fn rows(&self) -> &Run {
+        self.dense.as_ref().unwrap_or(&self.run)
+    }
+
     /// Takes the difference of the two formulations from another run of the first, or says that there is none.
     pub(crate) fn compare_with(&mut self, first: Option<&Run>) {
         let both = first.zip(self.comparison.as_ref());

@@ -71,6 +71,17 @@ pub(crate) fn events_not_followed(model: &Model, motion: &Motion) -> Vec<String>
     said
 }
 
+/// That stability, not accuracy, limited the steps.
+pub(crate) fn stiffness(motion: &Motion) -> Option<String> {
+    let notes = &motion.evidence.run.notes;
+    notes.iter().find_map(|note| match *note {
+        Note::Stiff { t, steps_ahead, .. } => Some(format!(
+            "the problem looks stiff from t = {t:.4} on (about {steps_ahead:.0} more steps); an implicit method would need far fewer"
+        )),
+        _ => None,
+    })
+}
+
 /// Integrals that were to be kept along the run and were not, with the first time.
 pub(crate) fn integrals_not_kept(
     model: &Model,

@@ -4,9 +4,11 @@ use crate::beside::{self, Beside};
 use crate::derivation::check_applies;
 use crate::error::StudyError;
 use crate::expectations::{check_expectations, expected, outcome, unmatched};
+use crate::method_order::observed_order;
+use crate::motion_claims::METHOD_ORDER;
 use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
 use crate::notices::{
-    events_not_followed, integrals_not_kept, left_assumptions, negative_masses, notices,
+    events_not_followed, integrals_not_kept, left_assumptions, negative_masses, notices, stiffness,
 };
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
@@ -255,6 +257,7 @@ pub fn study(
     if let Some(motion) = &motion {
         notices.extend(left_assumptions(&system, &prepared, motion));
         notices.extend(events_not_followed(&model, motion));
+        notices.extend(stiffness(motion));
         notices.extend(integrals_not_kept(&model, motion, &options));
         notices.extend(negative_masses(&system, &prepared, motion));
     }
@@ -384,9 +387,12 @@ fn compute(
     } else {
         None
     };
+    let is_order = |c: &&&dyn Claim| c.id() == METHOD_ORDER;
+    let order = known.claims().iter().find(is_order);
+    let wants_order = order.is_some_and(|c| options.claims.wants_claim(*c));
     let orders = match settings.precise {
-        Some(_) => None,
-        None => crate::method_order::observed_order(&subject, &settings, &run, hooks),
+        None if wants_order => observed_order(&subject, &settings, &run, hooks),
+        _ => None,
     };
     let mut evidence =
         MotionEvidence::new(model, &subject, run, comparison, finer, orders, &settings)?;

@@ -29,20 +29,30 @@ impl Graph {
         terms: &mut Vec<(Expr, Rational)>,
     ) {
         match self.node(e) {
-            Node::Number(value) => *constant += value * scale,
+            Node::Number(value) => {
+                *constant = rational::sum(constant, &rational::product(value, scale));
+            }
             Node::Sum {
                 constant: inner,
                 terms: inner_terms,
             } => {
-                *constant += inner * scale;
-                terms.extend(inner_terms.iter().map(|(t, c)| (*t, c * scale)));
+                *constant = rational::sum(constant, &rational::product(inner, scale));
+                let scaled = |(t, c): &(Expr, Rational)| (*t, rational::product(c, scale));
+                terms.extend(inner_terms.iter().map(scaled));
             }
             Node::Product {
                 coefficient,
                 factors,
             } if !coefficient.is_one() => {
-                let bare = self.product_of(Rational::ONE, factors.to_vec());
-                terms.push((bare, coefficient * scale));
+                // The factors are in order and their bases differ.
+                let bare = match factors[..] {
+                    [only] => only,
+                    _ => self.intern(Node::Product {
+                        coefficient: Rational::ONE,
+                        factors: factors.clone(),
+                    }),
+                };
+                terms.push((bare, rational::product(coefficient, scale)));
             }
             _ => terms.push((e, scale.clone())),
         }
@@ -53,7 +63,7 @@ impl Graph {
         let mut merged: Vec<(Expr, Rational)> = Vec::with_capacity(terms.len());
         for (term, coefficient) in terms {
             match merged.last_mut() {
-                Some(last) if last.0 == term => last.1 += coefficient,
+                Some(last) if last.0 == term => last.1 = rational::sum(&last.1, &coefficient),
                 _ => merged.push((term, coefficient)),
             }
         }
@@ -80,15 +90,16 @@ impl Graph {
             return if self.is_undefined(e) { e } else { self.zero() };
         }
         match self.node(e) {
-            Node::Number(value) => self.number(value * factor),
+            Node::Number(value) => self.number(rational::product(value, factor)),
             Node::Sum { constant, terms } => {
-                let terms = terms.iter().map(|(t, c)| (*t, c * factor)).collect();
-                self.sum_of(constant * factor, terms)
+                let scaled = |(t, c): &(Expr, Rational)| (*t, rational::product(c, factor));
+                let terms = terms.iter().map(scaled).collect();
+                self.sum_of(rational::product(constant, factor), terms)
             }
             Node::Product {
                 coefficient,
                 factors,
-            } => self.product_of(coefficient * factor, factors.to_vec()),
+            } => self.product_of(rational::product(coefficient, factor), factors.to_vec()),
             _ => self.product_of(factor.clone(), vec![e]),
         }
     }
@@ -156,12 +167,12 @@ impl Graph {
         exponentials: &mut Vec<Expr>,
     ) {
         match self.node(e) {
-            Node::Number(value) => *coefficient *= value,
+            Node::Number(value) => *coefficient = rational::product(coefficient, value),
             Node::Product {
                 coefficient: inner,
                 factors,
             } => {
-                *coefficient *= inner;
+                *coefficient = rational::product(coefficient, inner);
                 for &factor in factors.iter() {
                     self.collect_one(factor, powers, exponentials);
                 }
@@ -186,7 +197,7 @@ impl Graph {
         for (base, exponent) in powers.iter_mut() {
             if self.is_one(*exponent) {
                 if let Some((content, primitive)) = self.primitive_sum(*base) {
-                    coefficient *= content;
+                    coefficient = rational::product(&coefficient, &content);
                     *base = primitive;
                 }
             }
@@ -205,12 +216,12 @@ impl Graph {
                 self.pow(base, self.add(&exponents))
             };
             match self.node(power) {
-                Node::Number(value) => coefficient *= value,
+                Node::Number(value) => coefficient = rational::product(&coefficient, value),
                 Node::Product {
                     coefficient: inner,
                     factors: inner_factors,
                 } => {
-                    coefficient *= inner;
+                    coefficient = rational::product(&coefficient, inner);
                     factors.extend(inner_factors.iter().copied());
                     again = true;
                 }
@@ -271,20 +282,27 @@ impl Graph {
         let Node::Sum { constant, terms } = self.node(e) else {
             return None;
         };
-        let mut content = rational::content(
-            terms
-                .iter()
-                .map(|(_, c)| c)
-                .chain(std::iter::once(constant)),
-        );
-        if self.leads_negative(e) {
-            content = -content;
-        }
-        if content.is_one() {
+        let mut content = None;
+        let primitive = self.primitive(e, || {
+            let own = self.signed_content(e, constant, terms);
+            content.insert(own).is_one()
+        });
+        if primitive {
             return None;
         }
+        let content = content.unwrap_or_else(|| self.signed_content(e, constant, terms));
         let inverse = Rational::ONE / &content;
         Some((content, self.scale(&inverse, e)))
+    }
+
+    /// The content of a sum with the sign of its leading coefficient.
+    fn signed_content(&self, e: Expr, constant: &Rational, terms: &[(Expr, Rational)]) -> Rational {
+        let coefficients = terms.iter().map(|(_, c)| c);
+        let content = rational::content(coefficients.chain([constant]));
+        match self.leads_negative(e) {
+            true => -content,
+            false => content,
+        }
     }
 
     /// Whether the leading coefficient is negative; exactly one of `e` and `-e` leads negative unless `e = 0`.

@@ -4,6 +4,7 @@
 use crate::node::{Function, Node};
 use crate::rational::Rational;
 use dashu_base::Sign;
+use dashu_int::Word;
 
 const FIRST: u64 = 0x9e37_79b9_7f4a_7c15;
 const SECOND: u64 = 0xc2b2_ae3d_27d4_eb4f;
@@ -50,10 +51,25 @@ impl Digest {
     }
 
     fn rational(&mut self, value: &Rational) {
-        let (sign, magnitude) = value.numerator().clone().into_parts();
+        let (sign, magnitude) = value.numerator().as_sign_words();
         self.word(u64::from(sign == Sign::Negative));
-        self.bytes(&magnitude.to_le_bytes());
-        self.bytes(&value.denominator().to_le_bytes());
+        self.natural(magnitude);
+        self.natural(value.denominator().as_words());
+    }
+
+    /// A natural number by its words of the machine, the lowest first; its digest depends on its bytes alone.
+    fn natural(&mut self, words: &[Word]) {
+        const SIZE: usize = size_of::<Word>();
+        let Some(highest) = words.last() else {
+            return self.word(0);
+        };
+        let bytes = words.len() * SIZE - highest.leading_zeros() as usize / 8;
+        self.word(bytes as u64);
+        for chunk in words.chunks(8 / SIZE) {
+            let digits = chunk.iter().rev();
+            let join = |sum: u128, &digit: &Word| (sum << Word::BITS) | u128::from(digit);
+            self.word(digits.fold(0, join) as u64);
+        }
     }
 
     pub(crate) fn finish(&self) -> u128 {
@@ -113,4 +129,32 @@ pub(crate) fn of_node(
     };
     node.for_each_child(|c| digest.wide(child(c)));
     digest.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_digested_by_their_bytes() {
+        let values = [
+            "0",
+            "1",
+            "-1/2",
+            "255/256",
+            "-18446744073709551616/3",
+            "340282366920938463463374607431768211456",
+        ];
+        for value in values {
+            let value: Rational = value.parse().expect("a rational");
+            let (sign, magnitude) = value.numerator().clone().into_parts();
+            let mut expected = Digest::new(1);
+            expected.word(u64::from(sign == Sign::Negative));
+            expected.bytes(&magnitude.to_le_bytes());
+            expected.bytes(&value.denominator().to_le_bytes());
+            let mut found = Digest::new(1);
+            found.rational(&value);
+            assert_eq!(found.finish(), expected.finish(), "{value}");
+        }
+    }
 }

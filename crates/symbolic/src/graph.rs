@@ -8,13 +8,15 @@ use crate::node::{Expr, Node, Symbol};
 use crate::rational::{self, Rational};
 use hashbrown::HashTable;
 use std::cmp::Ordering;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 const SHARDS: usize = 16;
 
 struct Stored {
     node: Node,
     digest: u128,
+    /// Whether a sum is its own primitive part, once that has been asked.
+    primitive: OnceLock<bool>,
 }
 
 struct SymbolData {
@@ -29,6 +31,8 @@ pub struct Graph {
     shards: [Mutex<HashTable<u32>>; SHARDS],
     symbols: boxcar::Vec<SymbolData>,
     symbol_table: Mutex<HashTable<u32>>,
+    /// The numbers 0 and 1, which are asked for most.
+    units: [OnceLock<Expr>; 2],
 }
 
 impl Default for Graph {
@@ -56,6 +60,7 @@ impl Graph {
             shards: std::array::from_fn(|_| Mutex::new(HashTable::new())),
             symbols: boxcar::Vec::new(),
             symbol_table: Mutex::new(HashTable::new()),
+            units: [const { OnceLock::new() }; 2],
         }
     }
 
@@ -67,6 +72,11 @@ impl Graph {
     /// The node behind a handle of this graph.
     pub fn node(&self, e: Expr) -> &Node {
         &self.nodes[e.0 as usize].node
+    }
+
+    /// What `decide` says of the node, asked once.
+    pub(crate) fn primitive(&self, e: Expr, decide: impl FnOnce() -> bool) -> bool {
+        *(self.nodes[e.0 as usize].primitive).get_or_init(decide)
     }
 
     /// The structural digest, which orders expressions independently of how and when they were built.
@@ -96,7 +106,11 @@ impl Graph {
         if let Some(&id) = found {
             return Expr(id);
         }
-        let id = self.nodes.push(Stored { node, digest }) as u32;
+        let id = self.nodes.push(Stored {
+            node,
+            digest,
+            primitive: OnceLock::new(),
+        }) as u32;
         table.insert_unique(hash, id, |&id| self.nodes[id as usize].digest as u64);
         Expr(id)
     }
@@ -194,12 +208,12 @@ impl Graph {
 
     /// The number 0.
     pub fn zero(&self) -> Expr {
-        self.integer(0)
+        *self.units[0].get_or_init(|| self.integer(0))
     }
 
     /// The number 1.
     pub fn one(&self) -> Expr {
-        self.integer(1)
+        *self.units[1].get_or_init(|| self.integer(1))
     }
 
     /// The constant π.
@@ -211,18 +225,23 @@ impl Graph {
     ///
     /// Costs time in proportion to the nodes found, without recursion.
     pub fn reachable(&self, roots: &[Expr]) -> Vec<Expr> {
-        let mut seen = rustc_hash::FxHashSet::default();
-        let mut stack: Vec<Expr> = Vec::new();
+        // Children have smaller handles than their parents: one bit for each handle up to the largest root.
+        let Some(largest) = roots.iter().max() else {
+            return Vec::new();
+        };
+        let mut seen = vec![0_u64; largest.index() / 64 + 1];
+        let mut is_new = |e: Expr| {
+            let (word, bit) = (&mut seen[e.index() / 64], 1 << (e.index() % 64));
+            let new = *word & bit == 0;
+            *word |= bit;
+            new
+        };
+        let mut stack: Vec<Expr> = roots.iter().copied().filter(|&e| is_new(e)).collect();
         let mut found = Vec::new();
-        for &root in roots {
-            if seen.insert(root) {
-                stack.push(root);
-            }
-        }
         while let Some(e) = stack.pop() {
             found.push(e);
             self.node(e).for_each_child(|child| {
-                if seen.insert(child) {
+                if is_new(child) {
                     stack.push(child);
                 }
             });

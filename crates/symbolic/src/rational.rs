@@ -22,6 +22,32 @@ pub fn integer(value: i64) -> Rational {
     Rational::from(IBig::from(value))
 }
 
+/// `a b`. Most coefficients are one or integers: there is no common factor to be looked for.
+pub fn product(a: &Rational, b: &Rational) -> Rational {
+    if a.is_one() {
+        b.clone()
+    } else if b.is_one() {
+        a.clone()
+    } else if a.is_int() && b.is_int() {
+        Rational::from(a.numerator() * b.numerator())
+    } else {
+        a * b
+    }
+}
+
+/// `a + b`, as [`product`].
+pub fn sum(a: &Rational, b: &Rational) -> Rational {
+    if a.is_zero() {
+        b.clone()
+    } else if b.is_zero() {
+        a.clone()
+    } else if a.is_int() && b.is_int() {
+        Rational::from(a.numerator() + b.numerator())
+    } else {
+        a + b
+    }
+}
+
 /// Whether `r < 0`.
 pub fn is_negative(r: &Rational) -> bool {
     r.is_negative() && !r.is_zero()
@@ -118,16 +144,20 @@ pub fn content<'a>(values: impl Iterator<Item = &'a Rational>) -> Rational {
     let mut numerator = UBig::ZERO;
     let mut denominator = UBig::ONE;
     for value in values {
-        let magnitude = value.numerator().clone().unsigned_abs();
-        numerator = if numerator.is_zero() {
-            magnitude
-        } else if magnitude.is_zero() {
-            numerator
-        } else {
-            (&numerator).gcd(&magnitude)
-        };
-        let shared = (&denominator).gcd(value.denominator());
-        denominator *= value.denominator() / shared;
+        if !numerator.is_one() {
+            let magnitude = value.numerator().clone().unsigned_abs();
+            numerator = if numerator.is_zero() {
+                magnitude
+            } else if magnitude.is_zero() {
+                numerator
+            } else {
+                (&numerator).gcd(&magnitude)
+            };
+        }
+        if !value.is_int() {
+            let shared = (&denominator).gcd(value.denominator());
+            denominator *= value.denominator() / shared;
+        }
     }
     Rational::from_parts(IBig::from(numerator), denominator)
 }
@@ -146,6 +176,18 @@ mod tests {
         assert_eq!(exact_root(&ratio(9, 4).unwrap(), 2), ratio(3, 2));
         assert_eq!(exact_root(&ratio(2, 1).unwrap(), 2), None);
         assert_eq!(exact_root(&ratio(-8, 1).unwrap(), 3), None);
+    }
+
+    #[test]
+    fn sums_and_products_take_no_short_way_to_another_value() {
+        let values = [(0, 1), (1, 1), (-1, 1), (7, 1), (1, 2), (-7, 6), (6, 35)];
+        let values = values.map(|(n, d)| ratio(n, d).unwrap());
+        for a in &values {
+            for b in &values {
+                assert_eq!(product(a, b), a * b);
+                assert_eq!(sum(a, b), a + b);
+            }
+        }
     }
 
     #[test]

@@ -28,7 +28,7 @@ answers are checked before times count. What is measured already is not measured
 docs/book/benchmark.md with its plots, and the figures in README.md are written from what was measured.
 
   --peers        also the peers; makes a Python environment with pinned versions in the build folder
-  --quick        a few minutes: fewer systems, tolerances, repeats and steps
+  --quick        under an hour: fewer tolerances, repeats and peers of large systems, but all targets
   --only TEXT    items whose name ITEM/SYSTEM/PEER contains TEXT
   --again        measures again what is measured already
   --references   computes all references again

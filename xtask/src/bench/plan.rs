@@ -43,7 +43,7 @@ const fn who(peer: &'static str, form: &'static str, variant: &'static str) -> P
 /// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Extent {
-    /// A few minutes instead of hours.
+    /// Under an hour instead of hours: fewer tolerances and repeats.
     pub(crate) quick: bool,
     /// Others beside us.
     pub(crate) peers: bool,
@@ -106,8 +106,6 @@ const ALL: &[&str] = &[
 ];
 
 fn derivations(extent: Extent) -> Vec<Item> {
-    let quick = &["disc", "bicycle", "snake-4", "snake-32", "snake-128"];
-    let systems = if extent.quick { &quick[..] } else { ALL };
     let of = |&system: &&'static str| {
         let n = links(system);
         let mut list = vec![
@@ -123,8 +121,12 @@ fn derivations(extent: Extent) -> Vec<Item> {
             list.push(who("sympy", "derived", "Kane"));
         }
         if extent.quick {
-            // Minutes of gcc.
-            list.retain(|p| p.peer == "chetaev" || n < 64 && (n < 32 || p.variant != "bordered"));
+            // Minutes of gcc, and of one system of equations after the other.
+            list.retain(|p| match p.peer {
+                "chetaev" => true,
+                "sympy" => n <= 4,
+                _ => n < 64 && (n < 32 || p.variant != "bordered"),
+            });
         }
         Item {
             cap: match (extent.quick, system) {
@@ -137,7 +139,7 @@ fn derivations(extent: Extent) -> Vec<Item> {
             ..item(extent, "derive", system)
         }
     };
-    systems.iter().map(of).collect()
+    ALL.iter().map(of).collect()
 }
 
 /// Our forms of which the right-hand side is measured.
@@ -149,8 +151,6 @@ const FORMS: &[(&str, &str)] = &[
 ];
 
 fn right_hand_sides(extent: Extent) -> Vec<Item> {
-    let quick = &["disc", "rattleback", "bicycle", "snake-8"];
-    let systems = if extent.quick { &quick[..] } else { &ALL[..10] };
     let of = |&system: &&'static str| {
         let mut list = vec![who("chetaev", "text", "flow")];
         for (one, many) in FORMS {
@@ -177,24 +177,32 @@ fn right_hand_sides(extent: Extent) -> Vec<Item> {
             ..item(extent, "rhs", system)
         }
     };
-    systems.iter().map(of).collect()
+    ALL[..10].iter().map(of).collect()
 }
 
 fn trajectories(extent: Extent) -> Vec<Item> {
-    let quick = &["disc", "rattleback", "snake-4"];
-    let systems = if extent.quick { &quick[..] } else { &ALL[..10] };
-    let tolerances: &[f64] = match extent.quick {
-        true => &[1e-15, 1e-9],
-        false => &[
-            1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6,
-        ],
+    let tolerances = |system: &str| -> &[f64] {
+        match (extent.quick, system) {
+            (true, "disc") => &[1e-15, 1e-12, 1e-9, 1e-6],
+            // Those of the targets.
+            (true, _) => &[1e-15, 1e-9],
+            (false, _) => &[
+                1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6,
+            ],
+        }
     };
     let mut items = Vec::new();
-    for &system in systems {
-        for &tolerance in tolerances {
+    for &system in &ALL[..10] {
+        for &tolerance in tolerances(system) {
             items.push(Item {
                 tolerance: Some(tolerance),
                 rounds: if extent.quick { 3 } else { 7 },
+                cap: match (extent.quick, links(system)) {
+                    (true, 0..=4) => 20.0,
+                    // Their peers compile for long.
+                    (true, _) => 60.0,
+                    (false, _) => 120.0,
+                },
                 participants: integrators(extent, system, tolerance),
                 ..item(extent, "trajectory", system)
             });
@@ -234,6 +242,13 @@ fn integrators(extent: Extent, system: &str, tolerance: f64) -> Vec<Participant>
     if !extent.quick && matches!(system, "sleigh" | "disc" | "snake-2") {
         list.push(who("heyoka", "derived", "plain"));
     }
+    if extent.quick && n > 0 {
+        list.retain(|p| match p.variant {
+            "taylor" | "DOP853" | "plain" => true,
+            "compact" => p.form == "hand" || n <= 8,
+            _ => false,
+        });
+    }
     list
 }
 
@@ -256,9 +271,9 @@ fn ensemble(extent: Extent) -> Item {
 fn long_runs(extent: Extent) -> Vec<Item> {
     let of = |system: &'static str| Item {
         tolerance: Some(1e-15),
-        steps: if extent.quick { 20_000 } else { 1_000_000 },
+        steps: 1_000_000,
         rounds: 1,
-        cap: if extent.quick { 30.0 } else { 600.0 },
+        cap: if extent.quick { 120.0 } else { 600.0 },
         participants: vec![
             who("chetaev", "text", "taylor"),
             who("heyoka", "hand", "plain"),

@@ -15,9 +15,10 @@ pub(crate) mod verify;
 use crate::arguments::{self, MotionArguments};
 use crate::progress::ProgressLine;
 use crate::{files, terminal};
+use chetaev::integrate::IntegrateError;
 use chetaev::model::{Model, Precision};
-use chetaev::motion::double_double;
-use chetaev::study::{Hooks, StudyOptions};
+use chetaev::motion::{double_double, RunError};
+use chetaev::study::{diagnostics, Hooks, StudyError, StudyOptions};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Set by Ctrl-C; a run then ends after its present step and keeps what it has.
@@ -88,6 +89,39 @@ fn options(motion: &MotionArguments, model: &Model) -> Option<StudyOptions> {
             }
             None
         }
+    }
+}
+
+/// Prints what is wrong with a study: of an option where it comes from one, else at its place in the model.
+fn refuse(problem: &StudyError, motion: &MotionArguments, read: &files::Read) {
+    match of_option(problem, motion) {
+        Some(option) => error(format!("{option}: {problem}")),
+        None => read.refuse_all(diagnostics(problem, &read.model)),
+    }
+}
+
+/// The option that a problem comes from, with its value.
+fn of_option(problem: &StudyError, motion: &MotionArguments) -> Option<String> {
+    let method = || {
+        motion
+            .method
+            .as_ref()
+            .map(|name| format!("--method {name}"))
+    };
+    let is_precise = motion.precision == Some(arguments::Precision::DoubleDouble);
+    let precision = || is_precise.then(|| "--precision double-double".to_owned());
+    match problem {
+        StudyError::Tolerance { tolerance, .. }
+        | StudyError::PreciseTolerance { tolerance, .. } => {
+            let given = motion.tolerance.filter(|given| given == tolerance);
+            given.map(|given| format!("--tolerance {given}"))
+        }
+        StudyError::Step => motion.step.as_ref().map(|text| format!("--step {text}")),
+        StudyError::StepMissing { .. }
+        | StudyError::Run(RunError::Integrate(IntegrateError::UnknownMethod { .. })) => method(),
+        StudyError::PrecisionMethod { .. } => method().or_else(precision),
+        StudyError::PreciseSweep => precision(),
+        _ => None,
     }
 }
 

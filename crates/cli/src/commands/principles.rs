@@ -1,12 +1,12 @@
 //! `chetaev principles`.
 
 use super::study::write_all;
-use super::{error, options, with_hooks};
+use super::{error, options, refuse, with_hooks};
 use crate::arguments::Principles as Arguments;
 use crate::{files, terminal, INPUT};
 use chetaev::model::Model;
 use chetaev::study::summary::Style;
-use chetaev::study::{diagnostics, record, story, study, ClaimSelection, StudyError, StudyOptions};
+use chetaev::study::{record, story, study, ClaimSelection, StudyError, StudyOptions};
 
 /// What is told, beside the claims of the group.
 const TOLD: [&str; 3] = [
@@ -37,7 +37,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let (study, written) = match result {
         Ok(found) => found,
         Err(problem) => {
-            read.refuse_all(diagnostics(&problem, &read.model));
+            refuse(&problem, &arguments.motion, &read);
             return INPUT;
         }
     };
@@ -67,7 +67,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
 fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
     let options = options(&arguments.motion, model)?;
     let mut words: Vec<String> = TOLD.map(String::from).to_vec();
-    let mut kappa = Vec::new();
+    let mut kappa: Vec<(String, f64)> = Vec::new();
     if arguments.compare {
         words.push("motion.constraint-drift".into());
     }
@@ -85,6 +85,12 @@ fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
             error(format!(
                 "--kappa: `{name}` is no multiplier of the extremum; these are {}",
                 names.join(", ")
+            ));
+            return None;
+        }
+        if kappa.iter().any(|(known, _)| known == name) {
+            error(format!(
+                "--kappa: `{name}` is given twice; it has one initial value"
             ));
             return None;
         }

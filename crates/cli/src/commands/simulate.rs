@@ -1,10 +1,10 @@
 //! `chetaev simulate`.
 
-use super::{error, options, with_hooks};
+use super::{error, options, refuse, with_hooks};
 use crate::arguments::Simulate as Arguments;
 use crate::{files, terminal, INPUT};
 use chetaev::study::table::Table;
-use chetaev::study::{diagnostics, record, study, summary, ClaimSelection, StudyOptions};
+use chetaev::study::{record, study, summary, ClaimSelection, StudyOptions};
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let Some(read) = files::model(&arguments.model) else {
@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let study = match with_hooks(|hooks| study(read.model.clone(), options, hooks)) {
         Ok(study) => study,
         Err(problem) => {
-            read.refuse_all(diagnostics(&problem, &read.model));
+            refuse(&problem, &arguments.motion, &read);
             return INPUT;
         }
     };
@@ -54,7 +54,11 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     if arguments.json {
         let mut names = vec!["trajectory.csv".to_string(), "trajectory.npz".to_string()];
         names.extend(events.map(|_| "events.csv".to_string()));
-        let trajectory = record::record(&study, &names).trajectory;
+        let record = record::record(&study, &names);
+        let mut trajectory = serde_json::json!(record.trajectory);
+        if let Some(fields) = trajectory.as_object_mut() {
+            fields.insert("notices".into(), record.notices.into());
+        }
         terminal::out(&serde_json::to_string_pretty(&trajectory).unwrap_or_default());
         terminal::out("\n");
     } else {

@@ -1,15 +1,14 @@
 //! `chetaev study`.
 
 use super::explain::did_you_mean;
-use super::{error, options, with_hooks};
+use super::{error, options, refuse, with_hooks};
 use crate::arguments::Study as Arguments;
 use crate::{files, terminal, INPUT};
 use chetaev::model::Model;
 use chetaev::study::summary::Style;
 use chetaev::study::table::Table;
 use chetaev::study::{
-    diagnostics, page, record, registry, study, summary, ClaimSelection, Study, StudyError,
-    StudyOptions,
+    page, record, registry, study, summary, ClaimSelection, Study, StudyError, StudyOptions,
 };
 use std::path::{Path, PathBuf};
 
@@ -37,7 +36,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             return INPUT;
         }
         Err(problem) => {
-            read.refuse_all(diagnostics(&problem, &read.model));
+            refuse(&problem, &arguments.motion, &read);
             return INPUT;
         }
     };

@@ -1,21 +1,19 @@
 //! `chetaev sweep`.
 
-use super::{error, listen, options, with_hooks, INTERRUPTED};
+use super::{error, listen, options, refuse, with_hooks, INTERRUPTED};
 use crate::arguments::Sweep as Arguments;
 use crate::files::Read;
 use crate::progress::ProgressLine;
-use crate::store::{self, Asked, Opened, Stops, Store, ARCHIVE, FAILURES};
+use crate::store::{self, Asked, Failure, Opened, Stops, Store, ARCHIVE, FAILURES};
 use crate::{files, terminal, DONE, INPUT, STOPPED};
-use chetaev::ensemble::pool::{self, Block};
+use chetaev::ensemble::pool::{self, Batch};
 use chetaev::model::Diagnostics;
-use chetaev::study::diagnostics;
 use chetaev::study::sweep::together::{Together, Variations};
 use chetaev::study::sweep::vary::{rows, Variation};
 use chetaev::study::sweep::{Sweep, SweepOptions};
 use serde_json::{json, Map, Value};
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::atomic::Ordering;
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let Some(read) = files::model(&arguments.model) else {
@@ -35,7 +33,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let sweep = match made {
         Ok(sweep) => sweep,
         Err(problem) => {
-            read.refuse_all(diagnostics(&problem, &read.model));
+            refuse(&problem, &arguments.motion, &read);
             return INPUT;
         }
     };
@@ -94,7 +92,15 @@ fn variations(arguments: &Arguments, read: &Read) -> Option<Variations> {
         seed: arguments.seed,
     };
     match Variations::new(from_file, ranges, together) {
-        Ok(variations) => Some(variations),
+        Ok(variations) => match set_and_varied(arguments, &variations) {
+            None => Some(variations),
+            Some(name) => {
+                error(format!(
+                    "`{name}` is varied, and --set gives it one value: leave one of the two out"
+                ));
+                None
+            }
+        },
         Err(problem) => {
             error(problem);
             None
@@ -102,52 +108,52 @@ fn variations(arguments: &Arguments, read: &Read) -> Option<Variations> {
     }
 }
 
-/// How many trajectories are a block: enough to write seldom, few enough to lose little.
-fn block_size(count: u64) -> u64 {
-    (count / 200).clamp(8, 512).max(count / 100_000)
+/// A name that varies and has a value by --set, which no trajectory would have.
+fn set_and_varied<'v>(arguments: &Arguments, variations: &'v Variations) -> Option<&'v str> {
+    let set = arguments.model.set.iter();
+    let set: Vec<&str> = set
+        .filter_map(|text| Some(text.split_once('=')?.0.trim()))
+        .collect();
+    let mut names = variations.list().iter().map(|v| v.name.as_str());
+    names.find(|name| set.contains(name))
 }
 
 fn in_folder(arguments: &Arguments, sweep: &Sweep, folder: &Path) -> Result<u8, String> {
-    let (count, size) = (sweep.count(), block_size(sweep.count()));
+    let count = sweep.count();
     let description = sweep.description();
     let stops = stops_in_words(sweep);
     let asked = Asked {
         description: &description,
         columns: sweep.columns(),
         count,
-        size,
         stops: &stops,
     };
     let mut store = match store::open(folder, &asked)? {
-        Opened::Complete => {
-            say(
-                arguments,
-                &format!("{} is complete; nothing was computed", folder.display()),
-            );
-            return Ok(DONE);
+        Opened::Complete(failure) => {
+            let told = format!("{} is complete; nothing was computed", folder.display());
+            say(arguments, &told);
+            let failure = failure.filter(|_| arguments.stop_on_failure);
+            return Ok(failure.map_or(DONE, |failure| failed(sweep, &failure)));
         }
         Opened::Begun(store) => store,
     };
-    let missing = store.missing();
-    let taken = count - missing.iter().map(|&b| length(b, count, size)).sum::<u64>();
+    let taken = store.written();
     if taken > 0 && !arguments.json {
         terminal::err(&format!(
             "{taken} of {count} trajectories were computed before"
         ));
+    }
+    let before = store.failure().filter(|_| arguments.stop_on_failure);
+    if let Some(failure) = before {
+        return Ok(failed(sweep, failure));
     }
     let threads = arguments.threads.unwrap_or_else(|| {
         std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get)
     });
     listen();
     let ended = super::with_progress(|line| {
-        compute(
-            sweep,
-            &mut store,
-            (size, &missing, threads),
-            taken,
-            arguments.stop_on_failure,
-            line,
-        )
+        let with = (threads, arguments.stop_on_failure);
+        compute(sweep, &mut store, with, line)
     });
     match ended {
         Ended::Complete => {
@@ -156,33 +162,28 @@ fn in_folder(arguments: &Arguments, sweep: &Sweep, folder: &Path) -> Result<u8, 
             Ok(DONE)
         }
         Ended::Interrupted => {
-            let left = store
-                .missing()
-                .iter()
-                .map(|&b| length(b, count, size))
-                .sum::<u64>();
+            let kept = store.written();
             store.leave()?;
             terminal::err(&format!(
-                "interrupted; {} of {count} trajectories are kept, and the same command goes on",
-                count - left
+                "interrupted; {kept} of {count} trajectories are kept, and the same command goes on"
             ));
             Ok(STOPPED)
         }
-        Ended::Failed(index, reason) => {
+        Ended::Failed(failure) => {
             store.leave()?;
-            error(format!(
-                "trajectory {index} ({}): {reason}; what was computed is kept",
-                values_in_words(sweep, index)
-            ));
-            Ok(STOPPED)
+            Ok(failed(sweep, &failure))
         }
         Ended::Disk(problem) => Err(problem),
     }
 }
 
-fn length(block: u64, count: u64, size: u64) -> u64 {
-    let range = pool::range(block, count, size);
-    range.end - range.start
+/// Says which trajectory failed, of a sweep that was to end at the first.
+fn failed(sweep: &Sweep, (index, reason): &Failure) -> u8 {
+    error(format!(
+        "trajectory {index} ({}): {reason}; what was computed is kept",
+        values_in_words(sweep, *index)
+    ));
+    STOPPED
 }
 
 /// How the computation ended.
@@ -190,60 +191,48 @@ enum Ended {
     Complete,
     Interrupted,
     /// A trajectory failed and the sweep was to end at the first.
-    Failed(u64, String),
-    /// A block cannot be written.
+    Failed(Failure),
+    /// A batch cannot be written.
     Disk(String),
 }
 
 fn compute(
     sweep: &Sweep,
     store: &mut Store,
-    (size, missing, threads): (u64, &[u64], usize),
-    taken: u64,
-    stop_on_failure: bool,
+    (threads, stop_on_failure): (usize, bool),
     line: &ProgressLine,
 ) -> Ended {
-    let (count, began) = (sweep.count(), line.seconds());
-    let (mut done, mut failures) = (0, 0);
+    let (count, taken, began) = (sweep.count(), store.written(), line.seconds());
+    let mut failures = 0;
     let mut ended = Ended::Complete;
     let work = sweep.work();
+    let missing = store.missing();
     line.show(&format!("computing {count} trajectories"), None);
-    pool::run(
-        &*work,
-        (size, missing, threads),
-        &INTERRUPTED,
-        |block: Block| {
-            let rows: Vec<_> = block
-                .range
-                .clone()
-                .map(|index| sweep.values(index))
-                .zip(block.outcomes)
-                .collect();
-            let bytes = sweep.columns().encode(block.range.start, &rows);
-            if let Err(problem) = store.append(block.number, &bytes) {
-                ended = Ended::Disk(problem);
-                return ControlFlow::Break(());
-            }
-            done += rows.len() as u64;
-            failures += rows.iter().filter(|(_, o)| o.stop.is_failure()).count();
-            let told = match line.is_painted() {
-                true => told((done, taken, count), failures, line.seconds() - began),
-                false => format!("computing {count} trajectories"),
-            };
-            line.show(&told, Some((done + taken) as f64 / count as f64));
-            let failed = rows.iter().position(|(_, o)| o.stop.is_failure());
-            if let Some(at) = failed.filter(|_| stop_on_failure) {
-                let reason = rows[at].1.reason.clone().unwrap_or_default();
-                ended = Ended::Failed(block.range.start + at as u64, reason);
-                return ControlFlow::Break(());
-            }
-            ControlFlow::Continue(())
-        },
-    );
-    match ended {
-        Ended::Complete if INTERRUPTED.load(Ordering::Relaxed) && !store.missing().is_empty() => {
-            Ended::Interrupted
+    let sink = |batch: Batch| {
+        let rows = batch.into_iter();
+        let rows: Vec<_> = rows.map(|(i, o)| (i, sweep.values(i), o)).collect();
+        if let Err(problem) = store.append(&rows) {
+            ended = Ended::Disk(problem);
+            return ControlFlow::Break(());
         }
+        let done = store.written() - taken;
+        failures += rows.iter().filter(|(.., o)| o.stop.is_failure()).count();
+        let told = match line.is_painted() {
+            true => told((done, taken, count), failures, line.seconds() - began),
+            false => format!("computing {count} trajectories"),
+        };
+        line.show(&told, Some((done + taken) as f64 / count as f64));
+        match store.failure().filter(|_| stop_on_failure) {
+            Some(failure) => {
+                ended = Ended::Failed(failure.clone());
+                ControlFlow::Break(())
+            }
+            None => ControlFlow::Continue(()),
+        }
+    };
+    pool::run(&*work, (&missing, threads), &INTERRUPTED, sink);
+    match ended {
+        Ended::Complete if store.written() < count => Ended::Interrupted,
         ended => ended,
     }
 }

@@ -170,6 +170,10 @@ pub(crate) fn solve<const W: usize>(n: usize, cells: &[f64], x: &mut [f64]) {
     // What is known is subtracted from all that is not: many updates at once that do not wait for each other.
     for k in 0..n {
         let known = x[k];
+        // Unit vectors begin with zeros.
+        if known == [0.0; W] {
+            continue;
+        }
         for i in k + 1..n {
             subtract(&mut x[i], &factors[i * width + k], &known);
         }

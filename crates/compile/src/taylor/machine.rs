@@ -83,12 +83,11 @@ impl Recurring {
         let Zero { program, body } = zero::program(single, &inverses(plan));
         let Written {
             code,
-            pairs,
+            products,
             derived,
             slots,
             layout,
         } = writer::write(plan, &variables, outputs, Width::One);
-        let products = Products::of(&pairs);
         if products.len() > layout.scalars - layout.sums {
             return None;
         }
@@ -230,11 +229,10 @@ impl Recurring {
         } = running;
         self.products.sum(j, series, &mut file[self.layout.sums..]);
         let order = j as f64;
-        file[self.layout.scalars..][..SCALARS].copy_from_slice(&[
-            1.0 / order,
-            order,
-            1.0 / (order + 1.0),
-        ]);
+        // As an array: to copy so few numbers would be a call.
+        if let Some(to) = file[self.layout.scalars..].first_chunk_mut::<SCALARS>() {
+            *to = [1.0 / order, order, 1.0 / (order + 1.0)];
+        }
         let data = Data {
             variables: &[],
             file,
@@ -274,12 +272,17 @@ impl Recurring {
         }
         let m = own.len();
         coefficients[..m].copy_from_slice(&variables[1..]);
-        for k in 0..m {
-            let series = &running.series[at(own[k], 0)..=at(own[k], order)];
-            let column = &mut coefficients[k..];
-            for j in 1..=order {
-                column[j * m] = series[j];
-            }
+        let row = |slot: u32| &running.series[at(slot, 1)..][..order];
+        let (fours, rest) = own.as_chunks::<4>();
+        for (i, &slots) in fours.iter().enumerate() {
+            columns(slots.map(row), &mut coefficients[m..], (m, 4 * i));
+        }
+        for (i, &slot) in rest.iter().enumerate() {
+            columns(
+                [row(slot)],
+                &mut coefficients[m..],
+                (m, 4 * fours.len() + i),
+            );
         }
         // Zero where all are finite: what is not spreads to all values that are computed of it. Side by side, so that no
         // addition waits for the one before.
@@ -296,6 +299,21 @@ impl Recurring {
         }
         running.is_stained = trace != 0.0;
         Ok(())
+    }
+}
+
+/// Writes series of one length as columns from the first one given on, into a matrix with so many of them.
+#[inline]
+fn columns<const N: usize>(
+    series: [&[f64]; N],
+    matrix: &mut [f64],
+    (count, first): (usize, usize),
+) {
+    for (j, row) in matrix.chunks_exact_mut(count).enumerate() {
+        let to = &mut row[first..first + N];
+        for i in 0..N {
+            to[i] = series[i][j];
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use super::build::Plan;
 use super::recurrence::{Kind, Recurrence};
 use crate::native::assembler::Width;
 use crate::native::code::{Base, Builder, Code, Op, Place, Value};
-use crate::native::products::{STRIDE, ZERO};
+use crate::native::products::{Products, STRIDE, ZERO};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -92,6 +92,8 @@ struct Writer<'p> {
     zero: Vec<Option<Value>>,
     pairs: Vec<[u32; 2]>,
     sums: HashMap<[u32; 2], Value>,
+    /// Which sum is of which pair, once that is known.
+    places: HashMap<[u32; 2], usize>,
     derived: Vec<Derived>,
     inverses: Vec<(usize, usize)>,
     scalars: [Value; SCALARS],
@@ -100,8 +102,8 @@ struct Writer<'p> {
 /// What was written.
 pub(super) struct Written {
     pub(super) code: Code,
-    /// The series whose products are to be summed, in the order of the sums.
-    pub(super) pairs: Vec<[u32; 2]>,
+    /// The series whose products are to be summed.
+    pub(super) products: Products,
     pub(super) derived: Vec<Derived>,
     pub(super) slots: Slots,
     pub(super) layout: Layout,
@@ -115,18 +117,27 @@ pub(super) fn write(
     outputs: &[u32],
     width: Width,
 ) -> Written {
-    let mut writer = Writer::new(plan, variables.clone(), outputs, width);
-    writer.variables(variables);
-    for planned in &plan.planned {
-        writer.recurrence(planned.kind, &planned.recurrence);
-    }
-    writer.feed(variables, outputs);
+    let written = |places| {
+        let mut writer = Writer::new(plan, variables.clone(), outputs, width);
+        writer.places = places;
+        writer.variables(variables);
+        for planned in &plan.planned {
+            writer.recurrence(planned.kind, &planned.recurrence);
+        }
+        writer.feed(variables, outputs);
+        writer
+    };
+    // Sums are numbered when all of them are known.
+    let pairs = written(HashMap::new()).pairs;
+    let products = Products::of(&pairs);
+    let places = pairs.into_iter().zip(products.places().iter().copied());
+    let mut writer = written(places.collect());
     writer.builder.push(Op::End);
     let mut layout = writer.layout;
     layout.series = (writer.slots.count + 1) * STRIDE;
     Written {
         code: writer.builder.finish(),
-        pairs: writer.pairs,
+        products,
         derived: writer.derived,
         slots: writer.slots,
         layout,
@@ -172,6 +183,7 @@ impl<'p> Writer<'p> {
             zero: vec![None; plan.registers],
             pairs: Vec::new(),
             sums: HashMap::new(),
+            places: HashMap::new(),
             derived: Vec::new(),
             builder,
             slots,
@@ -262,7 +274,8 @@ impl<'p> Writer<'p> {
         if let Some(&value) = self.sums.get(&key) {
             return value;
         }
-        let offset = self.number * (self.layout.sums + self.pairs.len()) as i32;
+        let place = self.places.get(&key).copied().unwrap_or(0);
+        let offset = self.number * (self.layout.sums + place) as i32;
         self.pairs.push(key);
         let value = self.builder.at(Base::File, offset);
         self.sums.insert(key, value);
@@ -500,10 +513,10 @@ impl<'p> Writer<'p> {
     }
 }
 
-/// Where everything is in the file; there are at most as many sums as recurrences need.
+/// Where everything is in the file; there are at most as many sums as recurrences need, and those that fill fours.
 fn layout(plan: &Plan, inverses: &[(usize, usize)]) -> Layout {
     let entries = plan.systems.iter().map(|system| system.entries.len());
-    let sums = 2 * plan.planned.len() + entries.sum::<usize>() + 4;
+    let sums = 2 * plan.planned.len() + entries.sum::<usize>() + 8;
     let derived = 2 * plan.planned.len();
     let mut layout = Layout {
         registers: plan.registers,

@@ -1,6 +1,6 @@
 //! The functions of the positions that integrable constraints keep.
 //!
-//! They are searched among combinations of functions of (t, q) that occur in the model and of logarithms of these. A combination with
+//! They are searched among combinations of functions of (t, q) that occur in the model, of logarithms of these, and of arctangents whose derivatives have their denominators. A combination with
 //! logarithms is shown by its exponential: `ln y - k x` as `y exp(-k x)`, `ln y - k ln x` as `y x^(-k)`. So integrating factors
 //! that are functions of one coordinate, and separable constraints, are covered where their quadratures are in the family.
 
@@ -11,7 +11,8 @@ use crate::noether::letters::{fixed_coordinates, Letters};
 use crate::noether::motion::Motion;
 use crate::noether::shown::readable;
 use chetaev_mechanics::characteristics::derive_along;
-use chetaev_mechanics::{Characteristics, Context, Manifold};
+use chetaev_mechanics::{Characteristics, Context, Manifold, Prepared};
+use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::rational::content;
 use chetaev_symbolic::{Expr, Function, Node, Rational, Verdict};
 
@@ -20,6 +21,15 @@ const MEMBERS: usize = 90;
 
 /// Their highest weight.
 const WEIGHT: u32 = 4;
+
+/// The coefficients of constraints that are larger together, in nodes, are not factored.
+const JACOBIAN: usize = 200;
+
+/// Larger denominators, in nodes, are not compared with those of arctangents.
+const DENOMINATOR: usize = 60;
+
+/// The most factors of coefficients.
+const FACTORS: usize = 20;
 
 /// A function in the combination.
 #[derive(Clone, Copy)]
@@ -33,9 +43,49 @@ enum Member {
 /// So many combinations are looked at for each constraint: functions of those before them are among them.
 const LOOKED_AT: usize = 12;
 
+/// What constraints keep.
+pub(super) struct Kept {
+    /// The equations of a component of constraints that are products, where it is kept there only.
+    pub(super) component: Option<String>,
+    /// Functions of (t, q).
+    pub(super) functions: Vec<Expr>,
+}
+
+/// What the context's constraints keep, on each component where they are products; constraints that are functions of simpler ones
+/// are replaced by these.
+pub(super) fn kept(cx: &Context<'_>) -> Vec<Kept> {
+    let components = cx.system.components();
+    if components.is_empty() {
+        let functions = functions(cx);
+        return vec![Kept {
+            component: None,
+            functions,
+        }];
+    }
+    let on = components.into_iter().map(|on| {
+        let prepared = Prepared::new(&on.system).ok();
+        let functions = prepared.map(|prepared| {
+            let (terms, selection) = (&prepared.terms, &prepared.selection);
+            let own = Context::new(
+                &on.system,
+                terms,
+                selection,
+                cx.registry(),
+                cx.prover.clone(),
+            );
+            functions(&own.allowing(cx.work()))
+        });
+        Kept {
+            component: on.condition,
+            functions: functions.unwrap_or_default(),
+        }
+    });
+    on.collect()
+}
+
 /// Functions of (t, q) that the context's constraints keep, each proved, none a function of those before it: what holonomic
 /// constraints fix, then what is found.
-pub(super) fn kept(cx: &Context<'_>) -> Vec<Expr> {
+fn functions(cx: &Context<'_>) -> Vec<Expr> {
     let (most, mut kept) = (cx.selection.rows.len(), cx.system.fixed_functions());
     let motion = match Motion::of(cx) {
         Ok(motion) if kept.len() < most && !cx.is_out_of_time() => motion,
@@ -142,8 +192,85 @@ fn members(cx: &Context<'_>, motion: &Motion<'_>) -> Option<Vec<Member>> {
             bases.push(base);
         }
     }
+    for factor in coefficient_factors(cx) {
+        if !bases.contains(&factor) {
+            bases.push(factor);
+        }
+    }
+    members.extend(arctangents(cx, &bases).into_iter().map(Member::Plain));
     members.extend(bases.into_iter().map(Member::Logarithm));
     Some(members)
+}
+
+/// Factors of the coefficients of velocities in the constraints: what is solved for one of them is divided by these.
+fn coefficient_factors(cx: &Context<'_>) -> Vec<Expr> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let velocities = system.velocity_symbols();
+    let entries = cx.terms.jacobian.concat();
+    if g.reachable(&entries).len() > JACOBIAN {
+        return Vec::new();
+    }
+    let all = entries.into_iter().filter_map(|e| factored(g, e));
+    let mut found: Vec<Expr> = Vec::new();
+    for (factor, _) in all.flat_map(|e| e.factors) {
+        let is_of_place = !is_free(cx, factor) && !g.contains_any(factor, &velocities);
+        if is_of_place && found.len() < FACTORS && !found.contains(&factor) {
+            found.push(factor);
+        }
+    }
+    found
+}
+
+/// The arctangents whose derivatives have one of these denominators, `a (x - x₀)² + b (y - y₀)²` of two coordinates or
+/// `a (x - x₀)² + b` of one.
+fn arctangents(cx: &Context<'_>, denominators: &[Expr]) -> Vec<Expr> {
+    let g = &cx.system.graph;
+    let coordinates = &cx.system.coordinates;
+    let mut found = Vec::new();
+    let small = |e: &&Expr| g.reachable(&[**e]).len() <= DENOMINATOR;
+    for &denominator in denominators.iter().filter(small) {
+        let squares: Vec<(Expr, Expr)> = coordinates
+            .iter()
+            .filter(|c| g.contains_any(denominator, &[c.q_symbol]))
+            .filter_map(|c| {
+                let slope = g.diff(denominator, c.q_symbol);
+                let twice = readable(g, g.diff(slope, c.q_symbol));
+                let start = g.substitute(slope, &[(c.q, g.zero())]);
+                // a and x - x₀ of a (x - x₀)² + ...
+                let is_square = !g.is_zero(twice) && is_free(cx, twice) && is_free(cx, start);
+                is_square.then(|| {
+                    (
+                        g.div(twice, g.integer(2)),
+                        g.add(&[c.q, g.div(start, twice)]),
+                    )
+                })
+            })
+            .collect();
+        let sum = squares.iter().map(|&(a, u)| g.mul(&[a, g.powi(u, 2)]));
+        let rest = g.sub(denominator, g.add(&sum.collect::<Vec<Expr>>()));
+        let rest = readable(g, rest);
+        let scaled = |(a, u): (Expr, Expr)| g.mul(&[g.sqrt(a), u]);
+        found.extend(match squares[..] {
+            [(a, x), (b, y)] if g.is_zero(rest) && a == b => {
+                Some(g.apply(Function::Atan2, &[y, x]))
+            }
+            [x, y] if g.is_zero(rest) => Some(g.apply(Function::Atan2, &[scaled(y), scaled(x)])),
+            [(a, x)] if is_free(cx, rest) && !g.is_zero(rest) => {
+                let by = g.sqrt(g.div(a, rest));
+                Some(g.apply(Function::Atan, &[g.mul(&[by, x])]))
+            }
+            _ => None,
+        });
+    }
+    found
+}
+
+/// Whether nothing but parameters occurs.
+fn is_free(cx: &Context<'_>, e: Expr) -> bool {
+    let g = &cx.system.graph;
+    g.is_free_of(e, &|s| {
+        g.symbol_name(s) == "t" || cx.system.moves(g.symbol_name(s))
+    })
 }
 
 /// The derivatives of functions of (t, q) along all admissible velocities: one row for each function.

@@ -162,7 +162,7 @@ impl<'a> Flow<'a> {
     }
 
     /// The functions of (t, q) that occur; of q only where densities free of the time are asked for.
-    fn letters(&self, cx: &Context<'_>, timeless: bool) -> Vec<CoefficientLetter> {
+    pub(super) fn letters(&self, cx: &Context<'_>, timeless: bool) -> Vec<CoefficientLetter> {
         let g = &cx.system.graph;
         let time = g.symbol("t", 0);
         let mut letters = Letters::of(cx).coefficients;
@@ -251,7 +251,7 @@ impl<'a> Flow<'a> {
     }
 
     /// Whether densities may contain an expression: the time only where the motion does.
-    fn is_wanted(&self, e: Expr) -> bool {
+    pub(super) fn is_wanted(&self, e: Expr) -> bool {
         let g = &self.motion.system.graph;
         !self.autonomous || !g.contains_any(e, &g.symbols_in(&[g.symbol("t", 0)]))
     }
@@ -312,7 +312,7 @@ impl<'a> Flow<'a> {
     }
 
     /// det Bᵀ W B, of few velocities.
-    fn determinant(&self, cx: &Context<'_>) -> Option<Expr> {
+    pub(super) fn determinant(&self, cx: &Context<'_>) -> Option<Expr> {
         let (system, n, k) = (cx.system, cx.system.n(), self.chart.k());
         if k > DETERMINANT || k == 0 {
             return None;

@@ -33,6 +33,14 @@ pub(super) fn plain(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Expr {
     }
 }
 
+/// The function or its negative, whichever is positive at all sampled states, where one is.
+pub(super) fn positive(cx: &Context<'_>, e: Expr) -> Expr {
+    match signs(cx, e) {
+        Some(false) => cx.system.graph.neg(e),
+        _ => e,
+    }
+}
+
 /// Whether an expression is positive, or negative, at all sampled states.
 fn signs(cx: &Context<'_>, e: Expr) -> Option<bool> {
     let values = values(cx, e);

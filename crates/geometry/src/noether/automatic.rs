@@ -60,9 +60,21 @@ pub(super) fn members(family: &Family) -> usize {
     family.members.len()
 }
 
+/// The most quotients of velocities with coefficients, for the usual work.
+const QUOTIENTS: usize = 60;
+
 /// The largest families for the work allowed: polynomials of degree one and two in the velocities, of degree two with polynomials in the
-/// coordinates as coefficients, of the degree that the model asks for, and quotients.
+/// coordinates as coefficients, of the degree that the model asks for, and quotients. Functions that the model states for the search
+/// take nothing away from these: polynomials of degree one and two with them are families of their own.
 pub(super) fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
+    let mut families = usual_families(cx, &letters.usual_only());
+    if !letters.stated.is_empty() {
+        families.extend([1, 2].map(|degree| of_degree(cx, letters, degree)));
+    }
+    families
+}
+
+fn usual_families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
     let asked = cx.system.search_degree.filter(|&degree| degree > 2);
     let mut families: Vec<Family> = [1, 2]
         .into_iter()
@@ -73,8 +85,15 @@ pub(super) fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
     families.extend(turned(cx, letters));
     families.extend(letters.polar.iter().map(|polar| waves(cx, letters, polar)));
     if letters.velocities.len() > 1 {
-        let mut quotients = letters.quotients();
-        quotients.words = "quotients of two velocities".into();
+        let make = |weight| letters.quotients(cx.system, weight);
+        let grown = grown(allowed(cx, QUOTIENTS), 0, make, members);
+        let (weight, mut quotients) = grown.unwrap_or_else(|| (0, letters.quotients(cx.system, 0)));
+        quotients.words = match weight {
+            0 => "quotients of two velocities".into(),
+            _ => format!(
+                "quotients of two velocities times coefficients free of the time of weight up to {weight}"
+            ),
+        };
         families.push(quotients);
     }
     families

@@ -1,6 +1,6 @@
 //! The first integrals of a system in the families that are chosen for it, computed once for all claims about them.
 
-use super::automatic::{families, grown};
+use super::automatic::{allowed, families, grown};
 use super::embedded::Embedded;
 use super::family::{Family, Member};
 use super::killing::solutions;
@@ -35,8 +35,9 @@ pub struct Searched {
 pub struct Found {
     /// The families, each exhausted.
     pub families: Vec<Searched>,
-    /// The generalized momenta ψ^i p_i that were searched, where these were not too many.
-    pub momenta: Option<Momenta>,
+    /// The generalized momenta ψ^i p_i that were searched, where these were not too many; those with functions that the model states for
+    /// the search stand last.
+    pub momenta: Vec<Momenta>,
     /// Functionally independent first integrals, each proved.
     pub integrals: Vec<Integral>,
     /// Further integrals that are functions of `integrals`, linearly independent ones: products of two of these, and others.
@@ -87,8 +88,11 @@ fn search(cx: &Context<'_>) -> Result<Found, String> {
     }
     let motion = Motion::of(cx)?;
     let letters = Letters::of(cx);
+    // Functions of the model's own may leave no points over a prime field: what is found without them is not lost.
+    let usual = letters.without_stated();
     in_letters(cx, &motion, &letters)
-        .or_else(|_| in_letters(cx, &motion, &letters.without_roots(cx.system)))
+        .or_else(|_| in_letters(cx, &motion, &usual))
+        .or_else(|_| in_letters(cx, &motion, &usual.without_roots(cx.system)))
 }
 
 fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Result<Found, String> {
@@ -132,12 +136,17 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
     candidates.sort_by_key(|c| c.order);
     let (mut integrals, dependent, open) = chosen(cx, motion, &table, &candidates);
     kept_by_constraints(cx, motion, &mut integrals);
-    let momenta = momenta(cx, motion, letters, &mut integrals);
+    let usual = letters.usual_only();
+    let mut all_momenta: Vec<Momenta> = Vec::new();
+    all_momenta.extend(momenta(cx, motion, &usual, &mut integrals));
+    if !letters.stated.is_empty() {
+        all_momenta.extend(momenta(cx, motion, letters, &mut integrals));
+    }
     // Where the integrals cannot be told apart over prime fields nothing is said of special values.
-    let special = special(cx, motion, letters, &integrals).unwrap_or_default();
+    let special = special(cx, motion, &usual, &integrals).unwrap_or_default();
     Ok(Found {
         families: searched,
-        momenta,
+        momenta: all_momenta,
         integrals,
         special,
         dependent,
@@ -230,7 +239,7 @@ fn is_new(cx: &Context<'_>, motion: &Motion<'_>, integrals: &[Integral], value: 
         .is_some_and(|kept| kept.contains(&(all.len() - 1)))
 }
 
-/// The most components of fields of generalized momenta.
+/// The most components of fields of generalized momenta, for the usual work.
 const COMPONENTS: usize = 60;
 
 /// Searches generalized momenta and adds those that are no functions of the integrals found. Their coefficients are the momenta, which
@@ -242,7 +251,7 @@ fn momenta(
     integrals: &mut Vec<Integral>,
 ) -> Option<Momenta> {
     let n = Embedded::of(cx).ok()?;
-    let most = COMPONENTS / n.k().max(1);
+    let most = allowed(cx, COMPONENTS) / n.k().max(1);
     let make = |weight| letters.functions(cx.system, weight);
     let (weight, functions) = grown(most, 0, make, Vec::len)?;
     let found = solutions(cx, &n, &functions, &[]).ok()?;

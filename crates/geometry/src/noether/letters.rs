@@ -8,7 +8,8 @@ use chetaev_mechanics::claims::formulation::manifold;
 use chetaev_mechanics::system::Coordinate;
 use chetaev_mechanics::{Context, Frame, System};
 use chetaev_symbolic::number::random::Random;
-use chetaev_symbolic::{simplify, Expr, Symbol};
+use chetaev_symbolic::{simplify, Expr, Graph, Node, Symbol};
+use std::collections::BTreeMap;
 
 /// The letters of a system.
 #[derive(Clone, Debug)]
@@ -21,6 +22,8 @@ pub struct Letters {
     pub turning: Vec<usize>,
     /// So many of `coefficients` at the beginning are sines and cosines.
     pub(super) circular: usize,
+    /// Places in `coefficients` of functions that the model states for the search and that are no letters otherwise.
+    pub stated: Vec<usize>,
     /// Places at the end of `coefficients` of the sines and cosines of coordinates that occur nowhere and may be angles, where the model
     /// gives no units; they stand in a family of their own.
     pub perhaps_turning: Vec<usize>,
@@ -147,18 +150,44 @@ impl Letters {
     /// The letters without roots, where these leave no points over a prime field.
     #[must_use]
     pub fn without_roots(&self, system: &System) -> Letters {
-        let mut without = self.clone();
-        let before = self.coefficients.len();
-        without.coefficients.retain(|c| {
-            let (_, exponent) = system.graph.base_exponent(c.letter.value);
+        self.retained(|place| {
+            let (_, exponent) = system
+                .graph
+                .base_exponent(self.coefficients[place].letter.value);
             system.graph.as_integer(exponent).is_some()
-        });
-        // Roots stand after the first sines and cosines, and before the last ones.
-        let gone = before - without.coefficients.len();
-        let waves = without.polar.iter_mut().flat_map(|polar| &mut polar.places);
-        let later = without.perhaps_turning.iter_mut().chain(waves);
-        later.for_each(|place| *place -= gone);
+        })
+    }
+
+    /// The letters without the functions that the model states for the search.
+    #[must_use]
+    pub fn without_stated(&self) -> Letters {
+        self.retained(|place| !self.stated.contains(&place))
+    }
+
+    /// The letters of the coefficients at some places, all that are sines and cosines among them, with the others.
+    fn retained(&self, keeps: impl Fn(usize) -> bool) -> Letters {
+        let mut without = self.clone();
+        let mut place = 0..self.coefficients.len();
         without
+            .coefficients
+            .retain(|_| place.next().is_none_or(&keeps));
+        let moved = |place: usize| (0..place).filter(|&i| keeps(i)).count();
+        without.stated.retain(|&place| keeps(place));
+        let waves = without.polar.iter_mut().flat_map(|polar| &mut polar.places);
+        let own = without.perhaps_turning.iter_mut().chain(waves);
+        let own = own.chain(&mut without.stated);
+        own.for_each(|place| *place = moved(*place));
+        without
+    }
+
+    /// The same letters, with no powers of the functions that the model states for the search: the families of a model without them.
+    #[must_use]
+    pub fn usual_only(&self) -> Letters {
+        let mut usual = self.clone();
+        for &place in &self.stated {
+            usual.coefficients[place].exponents = (0, 0);
+        }
+        usual
     }
 
     /// The letters with no powers of those that contain the time.
@@ -254,13 +283,18 @@ impl Letters {
         }
     }
 
-    /// Quotients of two velocities.
-    pub fn quotients(&self) -> Family {
+    /// Quotients of two velocities, times functions of the coordinates of weight up to `weight`; with such functions, these alone too.
+    pub fn quotients(&self, system: &System, weight: u32) -> Family {
         let count = self.velocities.len();
-        let mut members = vec![Vec::new()];
-        for a in 0..count {
-            for b in (0..count).filter(|&b| b != a) {
-                members.push(product(&vec![(a, 1)], &vec![(b, -1)]));
+        let own = self.without_time(system).usual();
+        let functions = coefficients(&own, count, weight);
+        let mut members: Vec<Member> = functions.iter().map(|(_, f)| f.clone()).collect();
+        for (_, function) in &functions {
+            for a in 0..count {
+                for b in (0..count).filter(|&b| b != a) {
+                    let quotient = product(&vec![(a, 1)], &vec![(b, -1)]);
+                    members.push(product(&quotient, function));
+                }
             }
         }
         Family {
@@ -373,11 +407,86 @@ fn known(cx: &Context<'_>) -> Vec<(String, Letter)> {
         }
     }
     values.retain(|(_, value)| !g.is_free_of(*value, &moves));
-    let shown = in_quasi_velocities(cx, &values);
+    let mut shown = in_quasi_velocities(cx, &values);
+    for ((name, _), shown) in values.iter().zip(&mut shown) {
+        if name == ENERGY {
+            *shown = as_stated(cx, *shown);
+        }
+    }
     let letters = values.into_iter().zip(shown);
     letters
         .map(|((name, value), shown)| (name, Letter { value, shown }))
         .collect()
+}
+
+/// The energy as it is shown, or made of the terms of L as these are stated, in the quasi-velocities that the model states where their
+/// definitions occur in it; whichever is shortest.
+fn as_stated(cx: &Context<'_>, shown: Expr) -> Expr {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let terms = termwise_energy(system);
+    let named = match Frame::stated(system, cx.terms, cx.selection) {
+        Some(Ok((frame, _))) => {
+            let own = definitions(system, &frame).into_iter();
+            let pairs: Vec<(Expr, Expr)> = own.map(|l| (l.value, l.shown)).collect();
+            g.substitute(terms, &pairs)
+        }
+        _ => terms,
+    };
+    let all = [shown, terms, named];
+    let shortest = all.into_iter().min_by_key(|&e| simplify::length(g, e));
+    shortest.unwrap_or(shown)
+}
+
+/// `Σ pᵢ vⁱ - L`, term by term: `(d - 1) f` for each term f of L that is homogeneous of degree d in the velocities by its form, so that a
+/// kinetic energy stands there as it is stated.
+fn termwise_energy(system: &System) -> Expr {
+    let g = &system.graph;
+    let terms: Vec<Expr> = match g.node(system.lagrangian) {
+        Node::Sum { terms, constant } => {
+            let own = terms.iter().map(|(e, c)| g.scale(c, *e));
+            own.chain([g.number(constant.clone())]).collect()
+        }
+        _ => vec![system.lagrangian],
+    };
+    let velocities = system.velocity_symbols();
+    let energy = |f: Expr| match degree(g, f, &velocities) {
+        Some(d) => g.mul(&[g.integer(d - 1), f]),
+        None => {
+            let slopes = g.gradient(f, &velocities);
+            let pairs = slopes.into_iter().zip(&system.coordinates);
+            let powers = pairs.map(|(slope, c)| g.mul(&[slope, c.v]));
+            g.add(&powers.chain([g.neg(f)]).collect::<Vec<Expr>>())
+        }
+    };
+    g.add(&terms.into_iter().map(energy).collect::<Vec<Expr>>())
+}
+
+/// The degree in the velocities of what is homogeneous in them by its form.
+fn degree(g: &Graph, e: Expr, velocities: &[Symbol]) -> Option<i64> {
+    if !g.contains_any(e, velocities) {
+        return Some(0);
+    }
+    // Ascending handles are a topological order: what an expression is made of comes before it.
+    let mut known: BTreeMap<Expr, Option<i64>> = BTreeMap::new();
+    for part in g.reachable(&[e]) {
+        let of = |e: &Expr| known.get(e).copied().flatten();
+        let own = match g.node(part) {
+            _ if !g.contains_any(part, velocities) => Some(0),
+            Node::Symbol(_) => Some(1),
+            Node::Product { factors, .. } => factors.iter().map(of).sum::<Option<i64>>(),
+            Node::Power { base, exponent } => {
+                g.as_integer(*exponent).and_then(|n| Some(n * of(base)?))
+            }
+            Node::Sum { terms, constant } => {
+                let first = terms.first().and_then(|(e, _)| of(e));
+                let alike = terms.iter().all(|(e, _)| of(e) == first);
+                first.filter(|&d| alike && (d == 0 || constant.is_zero()))
+            }
+            _ => None,
+        };
+        known.insert(part, own);
+    }
+    known.get(&e).copied().flatten()
 }
 
 /// Larger functions, in nodes, are not rewritten in quasi-velocities.

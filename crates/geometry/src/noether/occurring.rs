@@ -258,14 +258,19 @@ impl<'a> Occurring<'a> {
         for &root in self.roots.iter().chain(&self.measure) {
             all.push(letter(root, (-1, 1), 1));
         }
+        let first_stated = all.len();
         let moves = |s: Symbol| g.symbol_name(s) == "t" || self.system.moves(g.symbol_name(s));
         for &e in &self.system.search_functions {
             // A constant says nothing, and the powers of zero have no values.
             let is_constant = g.is_free_of(e, &moves);
-            if !is_constant && !all.iter().any(|own| own.letter.value == e) {
+            let is_known = all.iter().any(|own| own.letter.value == e)
+                || self.exponentials.contains(&e)
+                || self.others.contains(&e);
+            if !is_constant && !is_known {
                 all.push(letter(e, (-1, 2), 1));
             }
         }
+        let stated = first_stated..all.len();
         for &e in &self.exponentials {
             all.push(letter(e, (-2, 2), 1));
         }
@@ -310,6 +315,7 @@ impl<'a> Occurring<'a> {
             polar,
             turning: (first_turning..circular).collect(),
             circular,
+            stated: stated.collect(),
             perhaps_turning: (usual..turning_end).collect(),
             coefficients: all,
             known: Vec::new(),

@@ -248,14 +248,33 @@ pub(super) fn special(
     let known: Vec<Expr> = integrals.iter().map(|i| i.value).collect();
     let table = &Table::beside(motion, &letters.all(), cx.prover.points_seed(), &known)?;
     let parameters = table.free_parameters();
-    let ties = ties(cx, &parameters);
-    let mut found = special_at(cx, table, letters, &parameters, &ties);
+    if parameters.is_empty() {
+        return Ok(Specials {
+            looked: Looked::Nothing,
+            ..Specials::default()
+        });
+    }
+    let (ties, all) = ties(cx, &parameters);
+    let at = special_at(cx, table, letters, &parameters, &ties);
+    let mut looked = match (&at, all) {
+        (None, _) => Looked::Not,
+        (Some(_), true) => Looked::All,
+        (Some(_), false) => Looked::Some(ties.len()),
+    };
+    let mut found = at.unwrap_or_default();
     let g = &cx.system.graph;
     let mut parameters = parameters;
     parameters.sort_by_key(|&s| g.symbol_name(s).to_owned());
     let (further, critical) = critical(cx, table, letters, &parameters, (&ties, &found));
     found.extend(further);
-    Ok(Specials { found, critical })
+    if looked == Looked::Not && !critical.parameters.is_empty() {
+        looked = Looked::Some(0);
+    }
+    Ok(Specials {
+        found,
+        critical,
+        looked,
+    })
 }
 
 /// What there is more of at special values.
@@ -265,6 +284,22 @@ pub struct Specials {
     pub found: Vec<Special>,
     /// Of what all simple special values were looked for.
     pub critical: Critical,
+    /// Whether parameters that are equal or zero or as stated were looked at.
+    pub looked: Looked,
+}
+
+/// Which special values of parameters were looked at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Looked {
+    /// None, as the families are too large for it, or have no points over prime fields.
+    #[default]
+    Not,
+    /// The motion contains no parameters.
+    Nothing,
+    /// So many of those where two parameters are equal or one is zero.
+    Some(usize),
+    /// All of those.
+    All,
 }
 
 /// What the search for all simple special values was made for.
@@ -398,38 +433,38 @@ fn is_admitted(cx: &Context<'_>, tie: &Tie) -> bool {
     })
 }
 
-/// At the special values listed.
+/// At the special values listed; `None` where the smallest family is too large for it, or nothing is to be looked at.
 fn special_at(
     cx: &Context<'_>,
     table: &Table<'_>,
     letters: &Letters,
     parameters: &[Symbol],
     ties: &[Tie],
-) -> Vec<Special> {
+) -> Option<Vec<Special>> {
     let family = [
         letters.polynomials(2, 1),
         letters.polynomials(2, 0),
         letters.polynomials(1, 0),
     ]
     .into_iter()
-    .find(|family| family.members.len() <= SMALL.0);
-    let Some(family) = family else {
-        return Vec::new();
-    };
+    .find(|family| family.members.len() <= SMALL.0)?;
     let mut found = table.special(cx, &family, ties, &[]);
     let values: Vec<(Symbol, Rational)> = parameters
         .iter()
         .filter_map(|&s| Some((s, stated(cx, s)?)))
         .collect();
+    if ties.is_empty() && values.is_empty() {
+        return None;
+    }
     let seen = found.iter().any(|special| is_stated(cx, &special.tie));
     if !seen && !values.is_empty() {
         found.extend(table.special(cx, &family, &[Tie::Values(values)], &[]));
     }
-    found
+    Some(found)
 }
 
-/// The special values that are looked at, those that the model states first.
-fn ties(cx: &Context<'_>, parameters: &[Symbol]) -> Vec<Tie> {
+/// The special values that are looked at, those that the model states first, and whether these are all.
+fn ties(cx: &Context<'_>, parameters: &[Symbol]) -> (Vec<Tie>, bool) {
     let mut ties: Vec<Tie> = Vec::new();
     for (i, &parameter) in parameters.iter().enumerate() {
         let others = parameters[..i].iter();
@@ -443,8 +478,9 @@ fn ties(cx: &Context<'_>, parameters: &[Symbol]) -> Vec<Tie> {
     }));
     ties.retain(|tie| is_stated(cx, tie) || is_admitted(cx, tie));
     ties.sort_by_key(|tie| !is_stated(cx, tie));
+    let all = ties.len() <= SMALL.1;
     ties.truncate(SMALL.1);
-    ties
+    (ties, all)
 }
 
 /// The value that the model states for a parameter, where it is rational.

@@ -1,10 +1,10 @@
 //! Zeros of switching functions within a step, on its series.
 
 use super::expansion::Series;
-use super::{PreciseEvent, PreciseEventRecord, PreciseSystem};
+use super::{PreciseEvent, PreciseEventRecord, PreciseOptions, PreciseSystem};
 use crate::event::{Direction, EventKind};
 use crate::problem::EvaluationFailure;
-use crate::sampling::{refine, NODES};
+use crate::sampling::{dips, ends_on_zero, refine, NODES};
 use crate::solution::Note;
 use chetaev_double_double::DoubleDouble;
 
@@ -12,16 +12,30 @@ use chetaev_double_double::DoubleDouble;
 const MOST: usize = 220;
 /// Steps of a search for a minimum, each by the golden ratio.
 const MINIMUM: usize = 70;
-/// What of the largest value seen counts as zero at the start of a run, and where a function touches zero.
+/// What of the largest value seen counts as zero at the start of a run.
 const ZERO: f64 = 1e-28;
+/// Accuracy of a run with steps of fixed size, which is not known.
+const FIXED: f64 = 1e-10;
+/// Zeros closer than this many units in the last place of t are one.
+const SAME: f64 = 1e3;
+
+/// What is remembered of one switching function between steps.
+#[derive(Clone, Copy)]
+struct Memory {
+    /// Sign last seen, 0 while it is unknown: a zero at the end of a step is found once whatever the rounding.
+    side: f64,
+    /// Largest magnitude seen.
+    largest: f64,
+    last_zero: Option<DoubleDouble>,
+}
 
 /// The events of a run.
 pub(super) struct Events<'e> {
     stated: &'e [PreciseEvent],
-    /// The largest value of each function seen.
-    largest: Vec<f64>,
+    memories: Vec<Memory>,
     points: Vec<(f64, f64)>,
-    is_first: bool,
+    /// Part of the largest value below which a touch and a crossing cannot be told apart.
+    resolution: f64,
 }
 
 /// A step: where it begins, its length, its series, and storage for a state.
@@ -29,6 +43,8 @@ pub(super) struct Step<'s> {
     pub(super) system: &'s mut dyn PreciseSystem,
     pub(super) t: DoubleDouble,
     pub(super) h: DoubleDouble,
+    /// Whether the span ends with it.
+    pub(super) is_last: bool,
     pub(super) series: &'s Series,
     pub(super) y: &'s mut [DoubleDouble],
     pub(super) slope: &'s mut [DoubleDouble],
@@ -113,32 +129,33 @@ impl Step<'_> {
         Ok(b.0)
     }
 
-    /// Where |value| is least between two places, by the golden section, and the value.
+    /// Where side · value is least between two places, by the golden section, and that least. The values keep their sign: with
+    /// two zeros in between the magnitude has two minima.
     fn least(
         &mut self,
-        index: usize,
+        (index, side): (usize, f64),
         (mut a, mut b): (f64, f64),
     ) -> Result<(f64, f64), EvaluationFailure> {
         const RATIO: f64 = 0.618_033_988_749_894_8;
         let mut best = (a, f64::INFINITY);
-        let mut size = |step: &mut Self, theta: f64| -> Result<f64, EvaluationFailure> {
-            let value = step.value(index, DoubleDouble::from(theta))?.high();
-            if value.abs() < best.1.abs() {
-                best = (theta, value);
+        let mut height = |step: &mut Self, theta: f64| -> Result<f64, EvaluationFailure> {
+            let height = side * step.value(index, DoubleDouble::from(theta))?.high();
+            if height < best.1 {
+                best = (theta, height);
             }
-            Ok(value.abs())
+            Ok(height)
         };
         let (mut c, mut d) = (b - RATIO * (b - a), a + RATIO * (b - a));
-        let (mut at_c, mut at_d) = (size(self, c)?, size(self, d)?);
+        let (mut at_c, mut at_d) = (height(self, c)?, height(self, d)?);
         for _ in 0..MINIMUM {
             if at_c < at_d {
                 (b, d, at_d) = (d, c, at_c);
                 c = b - RATIO * (b - a);
-                at_c = size(self, c)?;
+                at_c = height(self, c)?;
             } else {
                 (a, c, at_c) = (c, d, at_d);
                 d = a + RATIO * (b - a);
-                at_d = size(self, d)?;
+                at_d = height(self, d)?;
             }
         }
         Ok(best)
@@ -146,12 +163,20 @@ impl Step<'_> {
 }
 
 impl<'e> Events<'e> {
-    pub(super) fn new(stated: &'e [PreciseEvent]) -> Events<'e> {
+    pub(super) fn new(stated: &'e [PreciseEvent], options: &PreciseOptions<'_>) -> Events<'e> {
+        let memory = Memory {
+            side: 0.0,
+            largest: 0.0,
+            last_zero: None,
+        };
         Events {
-            largest: vec![0.0; stated.len()],
+            memories: vec![memory; stated.len()],
             points: Vec::new(),
             stated,
-            is_first: true,
+            resolution: match options.step {
+                Some(_) => FIXED,
+                None => 10.0 * options.rtol + 100.0 * DoubleDouble::EPSILON,
+            },
         }
     }
 
@@ -167,6 +192,8 @@ impl<'e> Events<'e> {
             let before = found.len();
             if let Err(failure) = self.of(index, step, &mut found, notes) {
                 found.truncate(before);
+                // What was known of its side is worthless.
+                self.memories[index].side = 0.0;
                 let (t, event) = (step.t.high(), index);
                 let known = |note: &Note| matches!(note, Note::EventUnknown { event: e, .. } if *e == index);
                 if !notes.iter().any(known) {
@@ -174,7 +201,6 @@ impl<'e> Events<'e> {
                 }
             }
         }
-        self.is_first = false;
         found.sort_by(|a, b| a.0.partial_cmp(&b.0).unwrap_or(std::cmp::Ordering::Equal));
         if let Some(last) = found.iter().position(|(_, record)| self.stops(record)) {
             found.truncate(last + 1);
@@ -199,15 +225,11 @@ impl<'e> Events<'e> {
         for (value, node) in nodes.iter_mut().zip(NODES) {
             *value = step.value(index, DoubleDouble::from(node))?.high();
         }
-        let seen = nodes.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        self.largest[index] = self.largest[index].max(seen);
-        let floor = ZERO * self.largest[index];
-        // A zero at the initial time does not count.
-        if self.is_first && nodes[0].abs() <= floor {
-            nodes[0] = 0.0;
-        }
+        let memory = &mut self.memories[index];
+        memory.largest = nodes.iter().fold(memory.largest, |m, v| m.max(v.abs()));
+        let largest = memory.largest;
         let mut points = std::mem::take(&mut self.points);
-        let sampled = refine(&mut points, &nodes, self.largest[index], |theta| {
+        let sampled = refine(&mut points, &nodes, largest, |theta| {
             let value = step.value(index, DoubleDouble::from(theta));
             value.map(DoubleDouble::high)
         });
@@ -218,76 +240,128 @@ impl<'e> Events<'e> {
                 let (t, event) = (step.t.high(), index);
                 notes.push(Note::EventUnresolved { t, event });
             }
-            self.crossings(index, step, &points, found, notes)
+            self.crossings(index, step, &mut points, found, notes)
         });
         self.points = points;
         outcome
     }
 
+    /// Goes through the step place by place, from the side on which the function was last.
     fn crossings(
-        &self,
+        &mut self,
         index: usize,
         step: &mut Step<'_>,
-        points: &[(f64, f64)],
+        points: &mut [(f64, f64)],
         found: &mut Vec<(DoubleDouble, PreciseEventRecord)>,
         notes: &mut Vec<Note>,
     ) -> Result<(), EvaluationFailure> {
-        let floor = ZERO * self.largest[index];
-        for (k, pair) in points.windows(2).enumerate() {
-            self.crossing(index, step, (pair[0], pair[1]), found)?;
-            let Some(&next) = points.get(k + 2) else {
-                continue;
-            };
-            let (a, b) = (pair[0], pair[1]);
-            let same = a.1 * b.1 > 0.0 && b.1 * next.1 > 0.0;
-            let (before, size, after) = (a.1.abs(), b.1.abs(), next.1.abs());
-            // A function that is constant there has no minimum.
-            if !(same && size <= before.min(after) && size < before.max(after)) {
-                continue;
+        self.memories[index].find_side(points);
+        let touch = self.resolution * self.memories[index].largest;
+        // Last place at which the function was on the present side.
+        let mut from = 0;
+        for i in 1..points.len() {
+            let side = self.memories[index].side;
+            if side == 0.0 {
+                break;
             }
-            let least = step.least(index, (a.0, next.0))?;
-            if least.1 * b.1 < 0.0 {
-                self.crossing(index, step, (a, least), found)?;
-                self.crossing(index, step, (least, next), found)?;
-            } else if least.1.abs() <= floor {
-                let theta = DoubleDouble::from(least.0);
-                let record = step.record(index, theta, EventKind::Grazing)?;
-                let (t, event) = (record.t.high(), index);
-                notes.push(Note::Grazing { t, event });
-                found.push((theta, record));
+            if points[i].1 * side < 0.0 {
+                self.crossing(index, step, (points[from], points[i]), found)?;
+            } else if i >= 2 && dips(&points[i - 2..=i], side) {
+                let (before, after) = (points[i - 2], points[i]);
+                let (theta, least) = step.least((index, side), (before.0, after.0))?;
+                let there = (theta, side * least);
+                if least < -touch {
+                    self.crossing(index, step, (before, there), found)?;
+                    self.crossing(index, step, (there, after), found)?;
+                } else if least <= touch && step.is_event(index, DoubleDouble::from(theta)) {
+                    let theta = DoubleDouble::from(theta);
+                    let record = step.record(index, theta, EventKind::Grazing)?;
+                    let (t, event) = (record.t.high(), index);
+                    notes.push(Note::Grazing { t, event });
+                    found.push((theta, record));
+                }
+            }
+            if points[i].1 != 0.0 {
+                from = i;
             }
         }
-        Ok(())
+        let [.., (_, before), (_, end)] = *points else {
+            return Ok(());
+        };
+        let slack = SAME * DoubleDouble::EPSILON * (step.t.high() / step.h.high()).abs().max(1.0);
+        let is_on_zero = self.memories[index].side != 0.0 && ends_on_zero(end, before, slack);
+        match step.is_last && is_on_zero {
+            true => self.change(index, step, DoubleDouble::ONE, found),
+            false => Ok(()),
+        }
     }
 
-    /// The crossing between two places, if there is one of the direction asked for.
+    /// The crossing between a place on the present side and one on the other.
     fn crossing(
-        &self,
+        &mut self,
         index: usize,
         step: &mut Step<'_>,
         (a, b): ((f64, f64), (f64, f64)),
         found: &mut Vec<(DoubleDouble, PreciseEventRecord)>,
     ) -> Result<(), EvaluationFailure> {
-        if a.1 == 0.0 || a.1 * b.1 > 0.0 {
-            return Ok(());
-        }
-        let kind = match a.1 < 0.0 {
+        let (left, right) = (DoubleDouble::from(a.0), DoubleDouble::from(b.0));
+        let (before, after) = (step.value(index, left)?, step.value(index, right)?);
+        // The first place may be on the other side already: a zero at the end of the last step, by rounding.
+        let is_before = before.high() * self.memories[index].side > 0.0;
+        let theta = match is_before {
+            true => step.zero(index, (left, before), (right, after))?,
+            false => left,
+        };
+        self.change(index, step, theta, found)
+    }
+
+    /// The function changes its side there; an event if it is of the direction asked for.
+    fn change(
+        &mut self,
+        index: usize,
+        step: &mut Step<'_>,
+        theta: DoubleDouble,
+        found: &mut Vec<(DoubleDouble, PreciseEventRecord)>,
+    ) -> Result<(), EvaluationFailure> {
+        let memory = &mut self.memories[index];
+        let kind = match memory.side < 0.0 {
             true => EventKind::Up,
             false => EventKind::Down,
         };
+        memory.side = -memory.side;
+        let t = step.t + step.h * theta;
+        let near = SAME * DoubleDouble::EPSILON * t.high().abs().max(step.h.high().abs());
+        let is_again = |last: DoubleDouble| (t - last).abs().high() <= near;
+        if memory.last_zero.replace(t).is_some_and(is_again) {
+            return Ok(());
+        }
         let is_wanted = match self.stated[index].direction {
             Direction::Both => true,
             Direction::Up => kind == EventKind::Up,
             Direction::Down => kind == EventKind::Down,
         };
-        if is_wanted {
-            let (left, right) = (DoubleDouble::from(a.0), DoubleDouble::from(b.0));
-            let ends = (step.value(index, left)?, step.value(index, right)?);
-            let theta = step.zero(index, (left, ends.0), (right, ends.1))?;
-            if step.is_event(index, theta) {
-                found.push((theta, step.record(index, theta, kind)?));
-            }
+        if is_wanted && step.is_event(index, theta) {
+            found.push((theta, step.record(index, theta, kind)?));
         }
         Ok(())
+    }
+}
+
+impl Memory {
+    /// Finds out the side if it is unknown: a value that is zero up to rounding at the start says nothing of it.
+    fn find_side(&mut self, points: &mut [(f64, f64)]) {
+        if self.side != 0.0 {
+            return;
+        }
+        let noise = ZERO * self.largest;
+        if let Some((_, value)) = points.iter().find(|(_, value)| value.abs() > noise) {
+            self.side = value.signum();
+        }
+        for (_, value) in points
+            .iter_mut()
+            .take_while(|(_, value)| value.abs() <= noise)
+        {
+            *value = 0.0;
+        }
     }
 }

@@ -3,7 +3,9 @@
 use super::events::{Events, Step};
 use super::expansion::Series;
 use super::{check, PreciseEvent, PreciseOptions, PreciseSolution, PreciseSystem};
+use crate::collapse::Collapse;
 use crate::integrate::Progress;
+use crate::method::State;
 use crate::problem::EvaluationFailure;
 use crate::solution::{Statistics, Stop};
 use crate::IntegrateError;
@@ -38,8 +40,10 @@ pub fn integrate(
         });
     }
     check(&options, span, y)?;
+    let mut events = Events::new(events, &options);
     let mut running = Running {
         series: Series::new(expected),
+        collapse: Collapse::new(span.0.high(), expected),
         to: vec![DoubleDouble::ZERO; expected],
         slope: vec![DoubleDouble::ZERO; expected],
         next: 0,
@@ -56,7 +60,7 @@ pub fn integrate(
         options,
         span,
     };
-    running.go(system, &mut Events::new(events));
+    running.go(system, &mut events);
     let mut solution = running.solution;
     solution.statistics.evaluations = running.series.evaluations;
     Ok(solution)
@@ -67,6 +71,8 @@ struct Running<'o> {
     options: PreciseOptions<'o>,
     span: (DoubleDouble, DoubleDouble),
     series: Series,
+    /// What tells a singularity of the motion from a tolerance out of reach.
+    collapse: Collapse,
     /// State and derivative at the end of a step.
     to: Vec<DoubleDouble>,
     slope: Vec<DoubleDouble>,
@@ -143,6 +149,7 @@ impl Running<'_> {
             system,
             t,
             h,
+            is_last: end == self.span.1,
             series: &self.series,
             y: &mut self.to,
             slope: &mut self.slope,
@@ -161,6 +168,12 @@ impl Running<'_> {
             .events
             .extend(found.into_iter().map(|(_, record)| record));
         self.solution.statistics.steps += 1;
+        let changes = reached
+            .iter()
+            .zip(&y)
+            .map(|(&to, &from)| (to - from).high());
+        let (there, length) = (rounded(&reached), (end - t).high());
+        self.collapse.changed((end.high(), &there), changes, length);
         if system.accepted(end, &mut reached) {
             self.solution.statistics.modifications += 1;
         }
@@ -180,11 +193,7 @@ impl Running<'_> {
         let t = self.solution.t;
         let rest = self.span.1 - t;
         let mut size = self.options.step.unwrap_or(self.series.radius);
-        let mut last = Stop::StepTooSmall {
-            t: t.high(),
-            component: self.series.worst,
-            h: size,
-        };
+        self.collapse.rejected(self.series.worst);
         loop {
             let h = match size * NEARLY >= rest.high().abs() {
                 true => rest,
@@ -192,7 +201,8 @@ impl Running<'_> {
             };
             let shortest = SHORTEST * t.high().abs().max(1e-12 * rest.high().abs());
             if h.high().abs() < shortest && h != rest {
-                return Err(last);
+                let now = State::exact(t.high(), &rounded(&self.solution.state));
+                return Err(self.collapse.stop(&now, h.high()));
             }
             self.series.at(h, &mut self.to, &mut self.slope);
             if self.options.step.is_some() {
@@ -204,12 +214,11 @@ impl Running<'_> {
                 Ok((defect, _)) if defect <= 1.0 => return Ok(h),
                 Ok((_, component)) => {
                     self.solution.statistics.rejected += 1;
-                    let (t, h) = (t.high(), h.high());
-                    last = Stop::StepTooSmall { t, component, h };
+                    self.collapse.rejected(component);
                 }
                 Err(failure) => {
                     self.solution.statistics.failed += 1;
-                    last = stopped(t.high(), failure);
+                    self.collapse.failed(failure);
                 }
             }
             size = h.high().abs() / 2.0;
@@ -270,6 +279,10 @@ impl Running<'_> {
             }
         }
     }
+}
+
+fn rounded(y: &[DoubleDouble]) -> Vec<f64> {
+    y.iter().map(|y| y.high()).collect()
 }
 
 /// The end of a run for a failure that no shorter step avoids.

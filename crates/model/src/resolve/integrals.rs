@@ -88,8 +88,16 @@ impl Resolver {
             };
             let parsed = self.parse(text, parse_relation);
             let is_equation = matches!(parsed.relations[..], [(Relation::Equal, _)]);
-            if parsed.has_errors() || !is_equation {
-                self.wrong_kind(raw, "`on`", wanted);
+            // What cannot be read was said where it was parsed.
+            if parsed.has_errors() {
+                continue;
+            }
+            if !is_equation {
+                let message = format!(
+                    "every entry of `on` must be an equation such as \"theta' = 0\"; \"{}\" is none",
+                    text.content
+                );
+                self.push(Diagnostic::error("wrong-kind", item.place, message));
                 continue;
             }
             let context = Context::state("where an integral holds");

@@ -117,7 +117,10 @@ impl Subject<'_> {
                 Some(number) => return stop::happened(&settings.events[number].name, t),
                 None => return stop::vanished(&watched[index], t, constraints),
             },
-            Stop::Singular { t, .. } | Stop::NotFinite { t, .. } | Stop::StepTooSmall { t, .. } => {
+            Stop::Singular { t, .. }
+            | Stop::NotFinite { t, .. }
+            | Stop::StepTooSmall { t, .. }
+            | Stop::Divergence { singularity: t, .. } => {
                 let a = flow.accelerations(solution.t, &solution.state);
                 let y = rounded(&solution.state);
                 let (q, v) = y.split_at(self.numeric.positions());

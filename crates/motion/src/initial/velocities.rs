@@ -207,17 +207,64 @@ impl Search<'_> {
 
     fn contradiction_of(&self, rows: &[usize], combination: &[f64], value: f64) -> InitialError {
         let mut names = Vec::new();
-        let mut terms = Vec::new();
+        let mut terms: Vec<(f64, &str)> = Vec::new();
         for (&row, &factor) in rows.iter().zip(combination) {
             if factor.abs() > 1e-12 {
                 let name = &self.system.constraints[row];
                 names.push(format!("`{name}`"));
-                terms.push(format!("{factor:+.4}·{name}"));
+                terms.push((factor, name));
             }
         }
+        // Nobody begins with a minus.
+        let sign = terms.first().map_or(1.0, |(factor, _)| factor.signum());
+        terms.iter_mut().for_each(|(factor, _)| *factor *= sign);
+        let sum = sum_in_words(&terms);
         InitialError::Contradiction {
             names: names.join(", "),
-            combination: format!("{} gives 0 = {:.4}", terms.join(" "), value),
+            combination: format!("{sum} gives 0 = {}", short(sign * value)),
         }
+    }
+}
+
+/// `a - 2 b + 0.3333 c`.
+pub(super) fn sum_in_words(terms: &[(f64, &str)]) -> String {
+    let mut text = String::new();
+    for &(factor, name) in terms {
+        text.push_str(match (text.is_empty(), factor < 0.0) {
+            (true, false) => "",
+            (true, true) => "-",
+            (false, false) => " + ",
+            (false, true) => " - ",
+        });
+        match &short(factor.abs())[..] {
+            "1" => text.push_str(name),
+            number => text.push_str(&format!("{number} {name}")),
+        }
+    }
+    text
+}
+
+/// A number with four places at most, and none that are zero at its end; small and large ones with a power of ten.
+fn short(x: f64) -> String {
+    let size = x.abs();
+    if size > 0.0 && !(1e-3..1e7).contains(&size) {
+        return format!("{x:.3e}");
+    }
+    let text = format!("{x:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sum_in_words;
+
+    #[test]
+    fn sums_are_written_as_by_hand() {
+        let terms = [(1.0, "a"), (-1.0, "b"), (0.5, "c"), (-1.0 / 3.0, "d")];
+        assert_eq!(sum_in_words(&terms), "a - b + 0.5 c - 0.3333 d");
+        assert_eq!(
+            sum_in_words(&[(-2.0, "a"), (1e-5, "b")]),
+            "-2 a + 1.000e-5 b"
+        );
     }
 }

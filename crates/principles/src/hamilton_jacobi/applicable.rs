@@ -1,7 +1,7 @@
 //! `hamilton-jacobi.applicable`: whether the generalized method of Hamilton and Jacobi integrates the motions; a complete integral
 //! that the model states (`#stated`), and separation of variables in the coordinates given (`#separated`).
 
-use super::complete::verified;
+use super::complete::{verified, Checked};
 use super::elementary::elementary;
 use super::extremum::Extremum;
 use super::separation;
@@ -9,11 +9,13 @@ use crate::stationarity::{free_constant, Closure, NoneBut};
 use crate::words::{formula, readable};
 use chetaev_mechanics::claims::formulation::{basis, derive, manifold, REFERENCE};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
+use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::formulations::{kappa_symbols, DeriveError};
+use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::system::CompleteIntegral;
 use chetaev_mechanics::Manifold;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Symbol, Verdict};
 
 /// `hamilton-jacobi.applicable`.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +25,8 @@ pub struct Applicable;
 const STATED: &str = "stated";
 /// Separation of variables.
 const SEPARATED: &str = "separated";
+/// Of systems with more coordinates no momenta are printed.
+const MOST_SHOWN: usize = 6;
 /// What it rests on.
 const STATIONARY: &str = "hamilton.stationary";
 
@@ -123,9 +127,61 @@ fn applicable(cx: &Context<'_>) -> Result<Finding, DeriveError> {
         _ => "whether the characteristics of S_t + H₁(q, S_q, t) = 0 are motions",
     };
     verdict.prefix(sentence);
-    let extremum = Extremum::new(cx);
-    formulas.extend(extremum.and_then(|e| formula(cx, "H₁(q, π, t)", None, e.hamiltonian)));
+    formulas.extend(momenta_shown(cx));
+    match Extremum::new(cx) {
+        Some(e) => formulas.extend(formula(cx, "H₁(q, π, t)", None, e.hamiltonian)),
+        None => formulas.extend(implicit_hamiltonian(cx)),
+    }
     Ok(Finding { verdict, formulas })
+}
+
+/// π by (q, v, κ), and along the motions where κ is known there for all of them.
+fn momenta_shown(cx: &Context<'_>) -> Vec<Formula> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    if system.n() > MOST_SHOWN {
+        return Vec::new();
+    }
+    let momenta = momenta_with(cx, &kappa_symbols(&basis(cx)));
+    let names = super::extremum::names(system);
+    let left: Vec<Expr> = names.iter().map(|name| g.symbol(name, 0)).collect();
+    let pairs = left.iter().zip(&momenta);
+    let caption = "momentum of the extremum, p + Σ κ ∂f/∂v";
+    let mut shown: Vec<Formula> = pairs
+        .filter_map(|(&left, &value)| formula(cx, caption, Some(left), value))
+        .collect();
+    if cx.selection.rows.is_empty() {
+        return shown;
+    }
+    // Constants of κ(0) that are free stay: with zero the extremum may be singular.
+    let along = multipliers(cx).map(|kappa| momenta_with(cx, &kappa));
+    let solved = manifold(cx).solved.into_iter();
+    let solved: Vec<(Expr, Expr)> = solved.map(|(s, e)| (g.symbol_expr(s), e)).collect();
+    for (left, value) in left.into_iter().zip(along.unwrap_or_default()) {
+        let caption = "the same along every motion, with its κ";
+        let value = g.substitute(value, &solved);
+        shown.extend(formula(cx, caption, Some(left), value));
+    }
+    shown
+}
+
+/// H₁ by (q, v, κ), where (v, κ) are not had in closed form.
+fn implicit_hamiltonian(cx: &Context<'_>) -> Option<Formula> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let momenta = momenta_with(cx, &kappa_symbols(&basis(cx)));
+    let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
+    let value = g.sub(dot(g, &momenta, &velocities), system.lagrangian);
+    let caption = "H₁ = Σ π v − L by (q, v, κ), which are functions of (q, π, t) by π = p + Σ κ ∂f/∂v and f = 0 where the bordered matrix is regular";
+    formula(cx, caption, None, value)
+}
+
+/// `p + Σ κ ∂f/∂v` with multipliers given, length n.
+pub(super) fn momenta_with(cx: &Context<'_>, kappa: &[Expr]) -> Vec<Expr> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let jacobian = basis(cx).jacobian();
+    let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
+    let with =
+        |(i, p): (usize, Expr)| g.add(&[p, dot(g, kappa, jacobian.iter().map(|row| &row[i]))]);
+    momenta.into_iter().enumerate().map(with).collect()
 }
 
 /// Where κ is known for every motion: `D(p + Σ κ ∂f/∂v) = ∂L/∂q + Σ κ ∂f/∂q`, which is −∂H₁/∂q.
@@ -178,6 +234,9 @@ pub(super) fn multipliers(cx: &Context<'_>) -> Option<Vec<Expr>> {
     let closure = Closure::of(cx);
     let closure = closure.as_ref().as_ref().ok()?;
     let stationary = cx.finding(STATIONARY);
+    if !matches!(stationary.verdict, Verdict::Proved(_)) {
+        return None;
+    }
     let symbols = kappa_symbols(&basis(cx)).into_iter();
     symbols
         .enumerate()
@@ -198,14 +257,7 @@ pub fn momenta_on_motions(cx: &Context<'_>) -> Option<Vec<Expr>> {
         .map(|name| (free_constant(system, g, name), g.zero()))
         .collect();
     let kappa = g.substitute_all(&multipliers(cx)?, &constants);
-    let jacobian = basis.jacobian();
-    let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
-    let with = |(i, p): (usize, Expr)| {
-        let reaction =
-            chetaev_mechanics::linear::dot(g, &kappa, jacobian.iter().map(|row| &row[i]));
-        g.add(&[p, reaction])
-    };
-    Some(momenta.into_iter().enumerate().map(with).collect())
+    Some(momenta_with(cx, &kappa))
 }
 
 fn stated(cx: &Context<'_>) -> Result<Finding, DeriveError> {
@@ -241,7 +293,17 @@ pub(super) fn checked(
     integral: &CompleteIntegral,
     what: &str,
 ) -> Result<Finding, DeriveError> {
-    let found = verified(cx, extremum, integral)?;
+    Ok(told(cx, integral, verified(cx, extremum, integral)?, what))
+}
+
+/// The checks of a complete integral in words.
+pub(super) fn told(
+    cx: &Context<'_>,
+    integral: &CompleteIntegral,
+    found: Checked,
+    what: &str,
+) -> Finding {
+    let formulas = shown(cx, integral);
     let parts = [
         ("the equation S_t + H₁ = 0", &found.equation),
         ("det ∂²S/∂q∂α", &found.nondegenerate),
@@ -251,10 +313,7 @@ pub(super) fn checked(
     for (part, verdict) in parts {
         if !matches!(verdict, Verdict::Proved(_)) {
             let verdict = verdict.clone().prefixed(part);
-            return Ok(Finding {
-                verdict,
-                formulas: shown(cx, integral),
-            });
+            return Finding { verdict, formulas };
         }
     }
     let mut verdict = found
@@ -269,14 +328,11 @@ pub(super) fn checked(
     if let Verdict::Proved(Proof { on, .. }) = &mut verdict {
         *on = "where S is defined and det ∂²S/∂q∂α does not vanish".into();
     }
-    Ok(Finding {
-        verdict,
-        formulas: shown(cx, integral),
-    })
+    Finding { verdict, formulas }
 }
 
 /// " with a = 0 after differentiation".
-fn fixed(cx: &Context<'_>, integral: &CompleteIntegral) -> String {
+pub(super) fn fixed(cx: &Context<'_>, integral: &CompleteIntegral) -> String {
     let g = &cx.system.graph;
     let values: Vec<String> = integral
         .motion
@@ -289,24 +345,70 @@ fn fixed(cx: &Context<'_>, integral: &CompleteIntegral) -> String {
     }
 }
 
-fn shown(cx: &Context<'_>, integral: &CompleteIntegral) -> Vec<Formula> {
-    let mut formulas: Vec<Formula> = formula(cx, "S in closed form", None, integral.action)
-        .into_iter()
-        .collect();
+/// S with a symbol for each quadrature, the quadratures, and what is constant by Jacobi's theorem.
+pub(super) fn shown(cx: &Context<'_>, integral: &CompleteIntegral) -> Vec<Formula> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let part = |i: usize| unused_name(system, &format!("S_{}", system.coordinates[i].name));
+    let mut whole = vec![integral.action];
+    let own = integral.quadratures.iter();
+    whole.extend(own.map(|&(i, _)| g.symbol(&part(i), 0)));
+    let mut formulas: Vec<Formula> = formula(
+        cx,
+        "S, each part S_q one integral over q",
+        Some(g.symbol("S", 0)),
+        g.add(&whole),
+    )
+    .into_iter()
+    .collect();
     for &(i, value) in &integral.quadratures {
-        let name = &cx.system.coordinates[i].name;
-        let caption = format!("the part of ∂S/∂{name} that is integrated over {name}");
+        let name = &system.coordinates[i].name;
         let right = readable(cx, value).unwrap_or(value);
+        let own = g.symbol(&part(i), 0);
+        let found = elementary(cx, value, system.coordinates[i].q_symbol);
+        let kind = match found.is_empty() {
+            true => "no elementary function for it was found in the family tried, and it stays an integral",
+            false => "it is elementary",
+        };
         formulas.push(Formula {
-            caption,
+            caption: format!("S_{name} = ∫ g d{name} with this g; {kind}"),
             left: None,
             right,
         });
-        let closed = elementary(cx, value, cx.system.coordinates[i].q_symbol);
-        let caption = format!("its integral over {name}");
-        formulas.extend(closed.and_then(|closed| formula(cx, caption, None, closed)));
+        for found in found {
+            let place = found.positive.map(|e| format!(" where {} > 0", g.text(e)));
+            let caption = format!(
+                "S_{name} in closed form{}; its derivative was proved to be g",
+                place.unwrap_or_default()
+            );
+            formulas.extend(formula(cx, caption, Some(own), found.value));
+        }
     }
+    formulas.extend(constants_shown(cx, integral));
     formulas
+}
+
+/// β of each constant α: outside the integrals as a formula, the integrals in its caption.
+fn constants_shown(cx: &Context<'_>, integral: &CompleteIntegral) -> Vec<Formula> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let of = |&alpha: &Symbol| {
+        let integrals = integral.quadratures.iter().filter_map(|&(i, value)| {
+            let slope = g.diff(value, alpha);
+            let text = || Some(g.text(readable(cx, slope)?));
+            let name = &system.coordinates[i].name;
+            let text = (!g.is_zero(slope)).then(text)?;
+            Some(text.map_or(format!(" + ∫ ∂g/∂α d{name}"), |e| {
+                format!(" + ∫ {e} d{name}")
+            }))
+        });
+        let integrals: Vec<String> = integrals.collect();
+        let caption = format!(
+            "∂S/∂{}, constant along the curves (Jacobi): this{}",
+            g.symbol_text(alpha),
+            integrals.concat()
+        );
+        formula(cx, caption, None, g.diff(integral.action, alpha))
+    };
+    integral.constants.iter().filter_map(of).collect()
 }
 
 /// Nothing ties the symbols.

@@ -8,8 +8,9 @@ use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::system::CompleteIntegral;
-use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
+use std::cmp::Ordering;
 
 /// What is found of a complete integral.
 #[derive(Clone, Debug)]
@@ -40,33 +41,42 @@ pub fn verified(
     let by_time = g.diff(integral.action, time);
     let at = |e: Expr| extremum.at(cx, e, &slopes);
     let velocities: Vec<Expr> = extremum.velocities.iter().map(|&v| at(v)).collect();
-    let identity =
-        |residuals: &[Expr], on: &str| cx.prover.identity(system, residuals, &free(), on);
     let on = "for all q, t and constants";
-    let equation = identity(&[g.add(&[by_time, at(extremum.hamiltonian)])], on);
+    let equation = g.add(&[by_time, at(extremum.hamiltonian)]);
+    let equation = [("S_t + H₁(q, S_q, t)".to_string(), equation)];
+    let equation = cx.prover.named_identity(system, &equation, &free(), on);
     let mixed = g.jacobian(&slopes, &integral.constants);
-    let nondegenerate = match integral.constants.len() == n {
-        true => cx
+    let stated = integral.constants.len();
+    let count = || {
+        format!("a complete integral for {n} coordinates has {n} constants beside an additive one, and here the number is {stated}")
+    };
+    let nondegenerate = match stated.cmp(&n) {
+        Ordering::Equal => cx
             .prover
             .nonsingular(system, &mixed, &free(), "det ∂²S/∂q∂α"),
-        false => Verdict::undecided(format!(
-            "a complete integral for {n} coordinates has {n} constants beside an additive one; {} are stated",
-            integral.constants.len()
-        )),
+        // The matrix has fewer columns than rows.
+        Ordering::Less => Verdict::Refuted(Counterexample {
+            point: Vec::new(),
+            quantity: format!("{n}, less the rank of ∂²S/∂q∂α, at least"),
+            residual: ((n - stated).to_string(), (n - stated).to_string()),
+            detail: format!("{}: ∂²S/∂q∂α is degenerate everywhere", count()),
+        }),
+        Ordering::Greater => Verdict::undecided(count()),
     };
-    let theorem: Vec<Expr> = integral
+    let theorem: Vec<(String, Expr)> = integral
         .constants
         .iter()
         .enumerate()
         .map(|(j, &alpha)| {
             let along = dot(g, mixed.iter().map(|row| &row[j]), &velocities);
-            g.add(&[g.diff(by_time, alpha), along])
+            let rate = g.add(&[g.diff(by_time, alpha), along]);
+            (format!("the rate of ∂S/∂{}", g.symbol_text(alpha)), rate)
         })
         .collect();
     Ok(Checked {
         equation,
         nondegenerate,
-        theorem: identity(&theorem, on),
+        theorem: cx.prover.named_identity(system, &theorem, &free(), on),
         motion: motion(cx, integral, &velocities)?,
     })
 }
@@ -104,19 +114,31 @@ fn motion(
     let expected = g.substitute_all(&routh.accelerations, &pairs);
     let none: [(Symbol, Expr); 0] = [];
     let moved = derive_along(system, &field, &field, g.one(), &none);
-    let mut residuals: Vec<Expr> = moved
-        .into_iter()
-        .zip(expected)
-        .map(|(a, b)| g.sub(a, b))
+    let coordinates = system.coordinates.iter();
+    let mut residuals: Vec<(String, Expr)> = coordinates
+        .zip(moved.into_iter().zip(expected))
+        .map(|(c, (a, b))| {
+            let name = &c.name;
+            let what = format!("the acceleration {name}'' of a curve less that of the motion");
+            (what, g.sub(a, b))
+        })
         .collect();
-    residuals.extend(g.substitute_all(&cx.terms.constraints, &pairs));
-    residuals.retain(|&e| !g.is_zero(e));
+    let kept = g.substitute_all(&cx.terms.constraints, &pairs);
+    let names = cx.terms.constraint_index.iter();
+    let names = names.map(|&index| {
+        format!(
+            "the constraint `{}` on a curve",
+            system.constraints[index].name
+        )
+    });
+    residuals.extend(names.zip(kept));
+    residuals.retain(|(_, e)| !g.is_zero(*e));
     let on = "for all q, t and constants";
     if residuals.is_empty() {
         let detail = "the accelerations of its curves are those of the motion by form";
         return Ok(Verdict::Proved(Proof::structural(on, detail)));
     }
-    let verdict = cx.prover.identity(system, &residuals, &free(), on);
+    let verdict = cx.prover.named_identity(system, &residuals, &free(), on);
     Ok(match verdict {
         Verdict::Refuted(mut found) => {
             let hint = "not every curve it gives is a motion; state the constants that motions have as `motion = { … }`";

@@ -4,36 +4,70 @@ use super::applicable::free;
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::prover::assumptions;
+use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{simplify, Expr, Function, Node, Symbol, Verdict};
 
-/// `∫ e dq` for `e = a + b √R`, a and b free of q and R a polynomial in q of the second degree at most, whose leading coefficient
-/// has a known sign. The derivative of what is returned is proved to be e.
-pub fn elementary(cx: &Context<'_>, e: Expr, q: Symbol) -> Option<Expr> {
+/// A function whose derivative was proved to be the integrand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Antiderivative {
+    /// The function.
+    pub value: Expr,
+    /// What is positive where the function is real; `None` where that is known, or nothing is needed.
+    pub positive: Option<Expr>,
+}
+
+/// `∫ e dq` for `e = a + b √X` and `e = a + b √X/q`, a and b free of q and X a polynomial in q of the second degree at most; √X/q may be written
+/// as one root, `√(A + B/q + C/q²)`. Two functions, one for each sign of a coefficient, where that is not known; none where the
+/// integral is not of this family. The derivative of each is proved to be e, by exact arithmetic.
+///
+/// Source: I. S. Gradshteyn, I. M. Ryzhik, Table of Integrals, Series, and Products, 2.26, with arc tangents in the place of arc
+/// sines and the root as it is written in e.
+pub fn elementary(cx: &Context<'_>, e: Expr, q: Symbol) -> Vec<Antiderivative> {
+    let g = &cx.system.graph;
+    let derived = |found: &Antiderivative| {
+        let residual = g.sub(g.diff(found.value, q), e);
+        let verdict = cx.prover.identity(cx.system, &[residual], &free(), "");
+        matches!(verdict, Verdict::Proved(_))
+    };
+    let mut found = candidates(cx, e, q).unwrap_or_default();
+    found.retain(derived);
+    found
+}
+
+fn candidates(cx: &Context<'_>, e: Expr, q: Symbol) -> Option<Vec<Antiderivative>> {
     let (system, g) = (cx.system, &cx.system.graph);
     let coordinate = g.symbol_expr(q);
-    let integral = match roots(cx, e, q).as_slice() {
-        [] if !g.contains_any(e, &[q]) => g.mul(&[e, coordinate]),
-        [root] => {
-            let name = unused_name(system, "root");
-            let (own, symbol) = (g.symbol(&name, 0), g.intern_symbol(&name, 0));
-            let linear = g.substitute(e, &[(*root, own)]);
-            let factor = g.diff(linear, symbol);
-            let rest = g.substitute(linear, &[(own, g.zero())]);
-            if g.any_contains_any(&[factor, rest], &[q, symbol]) {
-                return None;
-            }
-            let Node::Power { base, .. } = g.node(*root) else {
-                return None;
-            };
-            let of_root = of_root(cx, *base, q)?;
-            g.add(&[g.mul(&[rest, coordinate]), g.mul(&[factor, of_root])])
-        }
-        _ => return None,
+    let roots = roots(cx, e, q);
+    let &[root] = roots.as_slice() else {
+        let value = g.mul(&[e, coordinate]);
+        let constant = roots.is_empty() && !g.contains_any(e, &[q]);
+        return constant.then(|| {
+            let positive = None;
+            vec![Antiderivative { value, positive }]
+        });
     };
-    let residual = g.sub(g.diff(integral, q), e);
-    let verdict = cx.prover.identity(system, &[residual], &free(), "");
-    matches!(verdict, Verdict::Proved(_)).then_some(integral)
+    let name = unused_name(system, "root");
+    let (own, symbol) = (g.symbol(&name, 0), g.intern_symbol(&name, 0));
+    let linear = g.substitute(e, &[(root, own)]);
+    let factor = simple(cx, g.diff(linear, symbol));
+    let rest = g.substitute(linear, &[(own, g.zero())]);
+    let Node::Power { base, .. } = g.node(root) else {
+        return None;
+    };
+    let of_root = of_root(cx, factor, *base, q)?;
+    if g.any_contains_any(&[rest], &[q, symbol]) {
+        return None;
+    }
+    let with = |found: Antiderivative| Antiderivative {
+        value: g.add(&[g.mul(&[rest, coordinate]), found.value]),
+        ..found
+    };
+    Some(of_root.into_iter().map(with).collect())
+}
+
+fn simple(cx: &Context<'_>, e: Expr) -> Expr {
+    simplify::simplify(&cx.system.graph, e, &simplify::Options::default())
 }
 
 /// Square roots that contain q.
@@ -48,43 +82,179 @@ fn roots(cx: &Context<'_>, e: Expr, q: Symbol) -> Vec<Expr> {
         .collect()
 }
 
-/// `∫ √(A + B q + C q²) dq`.
-fn of_root(cx: &Context<'_>, radicand: Expr, q: Symbol) -> Option<Expr> {
+/// A function whose square is e: a product where e is seen to be a square, whatever its sign.
+fn root_of(cx: &Context<'_>, e: Expr) -> Expr {
     let g = &cx.system.graph;
-    let number = |n: i64| g.integer(n);
-    let simple = |e: Expr| simplify::simplify(g, e, &simplify::Options::default());
-    let at_zero = |e: Expr| simple(g.substitute(e, &[(g.symbol_expr(q), g.zero())]));
-    let first = g.diff(radicand, q);
-    let second = simple(g.diff(first, q));
-    if g.contains_any(second, &[q]) {
-        return None;
+    let halved = factored(g, e).and_then(|parts| {
+        let halved = |&(f, n): &(Expr, i64)| (n % 2 == 0).then(|| g.powi(f, n / 2));
+        let product: Option<Vec<Expr>> = parts.factors.iter().map(halved).collect();
+        let number = g.scale(&parts.coefficient, g.one());
+        Some(g.mul(&[g.sqrt(number), g.mul(&product?)]))
+    });
+    halved.unwrap_or_else(|| simple(cx, g.sqrt(e)))
+}
+
+/// `A + B q + C q²` with its square root as the integrand has it.
+struct Quadratic {
+    coefficients: [Expr; 3],
+    /// √X, up to a sign that does not change.
+    root: Expr,
+    q: Expr,
+}
+
+impl Quadratic {
+    fn new(cx: &Context<'_>, e: Expr, root: Expr, symbol: Symbol) -> Option<Quadratic> {
+        let (g, q) = (&cx.system.graph, cx.system.graph.symbol_expr(symbol));
+        let e = simple(cx, e);
+        let at_zero = |e: Expr| simple(cx, g.substitute(e, &[(q, g.zero())]));
+        let first = simple(cx, g.diff(e, symbol));
+        let second = simple(cx, g.diff(first, symbol));
+        if g.contains_any(second, &[symbol]) {
+            return None;
+        }
+        let c = simple(cx, g.div(second, g.integer(2)));
+        let b = simple(cx, g.sub(first, g.mul(&[second, q])));
+        let a = simple(cx, g.sub(e, g.add(&[g.mul(&[b, q]), g.mul(&[c, q, q])])));
+        let coefficients = match g.any_contains_any(&[a, b], &[symbol]) {
+            // The difference may not be seen to cancel; the values at zero are the same.
+            true => [at_zero(e), at_zero(first), c],
+            false => [a, b, c],
+        };
+        Some(Quadratic {
+            coefficients,
+            root,
+            q,
+        })
     }
-    let (a, b) = (at_zero(radicand), at_zero(first));
-    let c = simple(g.div(second, number(2)));
-    let root = g.sqrt(radicand);
-    if g.is_zero(c) {
-        let cube = g.mul(&[radicand, root]);
-        return (!g.is_zero(b)).then(|| g.div(g.mul(&[number(2), cube]), g.mul(&[number(3), b])));
-    }
-    let slope = g.add(&[g.mul(&[number(2), c, g.symbol_expr(q)]), b]);
-    let discriminant = g.sub(g.mul(&[b, b]), g.mul(&[number(4), a, c]));
-    let sign = known_sign(g, c, &assumptions(cx.system));
-    // ∫ dq/√R.
-    let inverse = if sign.is_positive() {
-        let lead = g.sqrt(c);
-        let argument = g.add(&[g.mul(&[number(2), lead, root]), slope]);
-        g.div(g.apply(Function::Log, &[argument]), lead)
-    } else if known_sign(g, g.neg(c), &assumptions(cx.system)).is_positive() {
-        // The arc tangent contains no further root, as the arc sine does.
-        let lead = g.sqrt(g.neg(c));
-        let tangent = g.div(g.neg(slope), g.mul(&[number(2), lead, root]));
-        g.div(g.apply(Function::Atan, &[tangent]), lead)
-    } else {
-        return None;
+}
+
+/// `∫ factor √R dq` for a factor that is free of q, or so but for 1/q, and R or R q² of the second degree.
+fn of_root(
+    cx: &Context<'_>,
+    factor: Expr,
+    radicand: Expr,
+    q: Symbol,
+) -> Option<Vec<Antiderivative>> {
+    let g = &cx.system.graph;
+    let (at, root) = (g.symbol_expr(q), g.sqrt(radicand));
+    let times = |weight: Expr, list: Vec<Antiderivative>| {
+        let scaled = |found: Antiderivative| Antiderivative {
+            value: g.mul(&[weight, found.value]),
+            ..found
+        };
+        list.into_iter().map(scaled).collect()
     };
-    let weight = g.div(discriminant, g.mul(&[number(8), c]));
-    Some(g.sub(
-        g.div(g.mul(&[slope, root]), g.mul(&[number(4), c])),
-        g.mul(&[weight, inverse]),
-    ))
+    let over = simple(cx, g.mul(&[factor, at]));
+    let is_free = |e: Expr| !g.contains_any(e, &[q]);
+    if is_free(factor) {
+        if let Some(x) = Quadratic::new(cx, radicand, root, q) {
+            return Some(times(factor, x.integral(cx)?));
+        }
+        // √R = √X/q, up to the sign of q.
+        let cleared = g.mul(&[radicand, at, at]);
+        let x = Quadratic::new(cx, cleared, g.mul(&[root, at]), q)?;
+        return Some(times(factor, x.integral_over_q(cx)?));
+    }
+    if !is_free(over) {
+        return None;
+    }
+    let x = Quadratic::new(cx, radicand, root, q)?;
+    Some(times(over, x.integral_over_q(cx)?))
+}
+
+impl Quadratic {
+    /// `2 C q + B`.
+    fn slope(&self, cx: &Context<'_>) -> Expr {
+        let (g, [_, b, c]) = (&cx.system.graph, self.coefficients);
+        g.add(&[g.mul(&[g.integer(2), c, self.q]), b])
+    }
+
+    /// `∫ √X dq`.
+    fn integral(&self, cx: &Context<'_>) -> Option<Vec<Antiderivative>> {
+        let (g, [a, b, c]) = (&cx.system.graph, self.coefficients);
+        let number = |n: i64| g.integer(n);
+        if g.is_zero(c) {
+            let cube = g.powi(self.root, 3);
+            let value = || g.div(g.mul(&[number(2), cube]), g.mul(&[number(3), b]));
+            let positive = None;
+            return (!g.is_zero(b)).then(|| {
+                vec![Antiderivative {
+                    value: value(),
+                    positive,
+                }]
+            });
+        }
+        let discriminant = g.sub(g.mul(&[b, b]), g.mul(&[number(4), a, c]));
+        let weight = g.div(discriminant, g.mul(&[number(8), c]));
+        let algebraic = g.div(g.mul(&[self.slope(cx), self.root]), g.mul(&[number(4), c]));
+        let with = |found: Antiderivative| Antiderivative {
+            value: g.sub(algebraic, g.mul(&[weight, found.value])),
+            ..found
+        };
+        Some(self.inverse(cx).into_iter().map(with).collect())
+    }
+
+    /// `∫ √X/q dq = √X + B/2 ∫ dq/√X + A ∫ dq/(q √X)`, for A not positive.
+    fn integral_over_q(&self, cx: &Context<'_>) -> Option<Vec<Antiderivative>> {
+        let (g, [a, b, c]) = (&cx.system.graph, self.coefficients);
+        let half = g.div(b, g.integer(2));
+        let mut parts = vec![self.root];
+        if !g.is_zero(a) {
+            let known = known_sign(g, g.neg(a), &assumptions(cx.system));
+            if !known.is_nonnegative() {
+                return None;
+            }
+            // A ∫ dq/(q √X) = −s atan((B q + 2 A)/(2 s √X)) with s² = −A; either sign of s gives the same.
+            let s = root_of(cx, g.neg(a));
+            let above = g.add(&[g.mul(&[b, self.q]), g.mul(&[g.integer(2), a])]);
+            let tangent = g.div(above, g.mul(&[g.integer(2), s, self.root]));
+            parts.push(g.neg(g.mul(&[s, g.apply(Function::Atan, &[tangent])])));
+        }
+        let rest = g.add(&parts);
+        if g.is_zero(b) {
+            let positive = None;
+            return Some(vec![Antiderivative {
+                value: rest,
+                positive,
+            }]);
+        }
+        if g.is_zero(c) {
+            // ∫ dq/√(A + B q) = 2 √X/B.
+            let value = g.add(&[rest, self.root]);
+            let positive = None;
+            return Some(vec![Antiderivative { value, positive }]);
+        }
+        let with = |found: Antiderivative| Antiderivative {
+            value: g.add(&[rest, g.mul(&[half, found.value])]),
+            ..found
+        };
+        Some(self.inverse(cx).into_iter().map(with).collect())
+    }
+
+    /// `∫ dq/√X` for C ≠ 0: a logarithm for C > 0, an arc tangent, which contains no further root as the arc sine does, for C < 0.
+    fn inverse(&self, cx: &Context<'_>) -> Vec<Antiderivative> {
+        let (g, [_, _, c]) = (&cx.system.graph, self.coefficients);
+        let (slope, two) = (self.slope(cx), g.integer(2));
+        let opposite = g.neg(c);
+        let logarithm = || {
+            let lead = g.sqrt(c);
+            let argument = g.add(&[g.mul(&[two, lead, self.root]), slope]);
+            g.div(g.apply(Function::Log, &[argument]), lead)
+        };
+        let arc = || {
+            let lead = g.sqrt(opposite);
+            let tangent = g.div(g.neg(slope), g.mul(&[two, lead, self.root]));
+            g.div(g.apply(Function::Atan, &[tangent]), lead)
+        };
+        let known = |e: Expr| known_sign(g, e, &assumptions(cx.system)).is_positive();
+        let found = |value: Expr, positive: Option<Expr>| Antiderivative { value, positive };
+        match (known(c), known(opposite)) {
+            (true, _) => vec![found(logarithm(), None)],
+            (_, true) => vec![found(arc(), None)],
+            _ => vec![
+                found(arc(), Some(simple(cx, opposite))),
+                found(logarithm(), Some(c)),
+            ],
+        }
+    }
 }

@@ -4,6 +4,7 @@ use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::linear::dot;
+use chetaev_mechanics::System;
 use chetaev_symbolic::{Expr, Symbol};
 
 /// `π_i = p_i + Σ κ_l ∂f^l/∂vⁱ`, `f = 0` solved for (v, κ), and `H₁ = Σ π v − L` (T1 (23), (24)), where that is linear.
@@ -21,6 +22,14 @@ pub struct Extremum {
     pub hamiltonian: Expr,
 }
 
+/// Names for π, one for each coordinate.
+pub(super) fn names(system: &System) -> Vec<String> {
+    let coordinates = system.coordinates.iter();
+    coordinates
+        .map(|c| unused_name(system, &format!("pi_{}", c.name)))
+        .collect()
+}
+
 impl Extremum {
     /// Solves for (v, κ) where L is quadratic in the velocities and the constraints are affine in them, with a bordered matrix
     /// that is nonsingular by form; `None` else.
@@ -33,11 +42,7 @@ impl Extremum {
         if moves(&cx.terms.mass_matrix) || moves(&jacobian) {
             return None;
         }
-        let names: Vec<String> = system
-            .coordinates
-            .iter()
-            .map(|c| unused_name(system, &format!("pi_{}", c.name)))
-            .collect();
+        let names = names(system);
         let momenta: Vec<Expr> = names.iter().map(|name| g.symbol(name, 0)).collect();
         let at_rest: Vec<(Expr, Expr)> =
             system.coordinates.iter().map(|c| (c.v, g.zero())).collect();

@@ -13,6 +13,6 @@ mod separation;
 
 pub use applicable::{momenta_on_motions, Applicable};
 pub use complete::{verified, Checked};
-pub use elementary::elementary;
+pub use elementary::{elementary, Antiderivative};
 pub use extremum::Extremum;
 pub use separation::{levi_civita, separated};

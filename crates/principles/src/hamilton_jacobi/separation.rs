@@ -10,14 +10,18 @@
 //! π° there: no Stäckel matrix is needed. Constants are E, the momenta of cyclic coordinates, and of the others the squares of
 //! their momenta at c; all radicands are then linear in E and these squares.
 
-use super::applicable::{checked, free, multipliers, no_closed_form};
+use super::applicable::{
+    checked, fixed, free, momenta_on_motions, momenta_with, multipliers, no_closed_form, told,
+};
+use super::complete::verified;
 use super::extremum::Extremum;
 use chetaev_mechanics::claims::formulation::{basis, manifold};
 use chetaev_mechanics::claims::{Context, Finding};
 use chetaev_mechanics::equations::unused_name;
-use chetaev_mechanics::formulations::DeriveError;
-use chetaev_mechanics::linear::dot;
+use chetaev_mechanics::formulations::{kappa_symbols, DeriveError};
+use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::system::CompleteIntegral;
+use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Graph, Node, Symbol, Verdict};
 
 /// Larger H₁, in nodes, are not differentiated twice.
@@ -99,27 +103,89 @@ pub(super) fn decide(cx: &Context<'_>) -> Result<Finding, DeriveError> {
             return Ok(verdict.into());
         }
     };
+    let checks = verified(cx, &extremum, &integral)?;
     let what = "the conditions of Levi-Civita hold; separated in these coordinates S is";
-    let found = checked(cx, &extremum, &integral, what)?;
+    let found = told(cx, &integral, checks.clone(), what);
     if matches!(found.verdict, Verdict::Proved(_)) {
         return Ok(Finding {
             verdict: verdict.and(found.verdict),
             formulas: found.formulas,
         });
     }
-    let open = match &found.verdict {
-        Verdict::Refuted(_) => {
-            "S as these quadratures give it is not confirmed as one whose curves are all motions; `motion = { … }` in \
-             [complete_integral] can state the constants that motions have"
-                .to_string()
+    let proved = |v: &Verdict| matches!(v, Verdict::Proved(_));
+    let complete = [&checks.equation, &checks.nondegenerate, &checks.theorem];
+    let rest = match &found.verdict {
+        Verdict::Refuted(_) if complete.into_iter().all(proved) => {
+            of_extremals(cx, &extremum, &integral)?
         }
-        other => format!("whether the quadratures give motions was not decided: {}", other.detail()),
+        Verdict::Refuted(_) => {
+            "S as these quadratures give it is not confirmed as a complete integral".into()
+        }
+        other => format!(
+            "whether the quadratures give motions was not decided: {}",
+            other.detail()
+        ),
     };
-    let Verdict::Proved(proof) = &mut verdict else {
-        return Ok(verdict.into());
+    verdict.prefix(&rest);
+    Ok(Finding {
+        verdict,
+        formulas: found.formulas,
+    })
+}
+
+/// What the curves of a complete integral are, not all of which are motions.
+fn of_extremals(
+    cx: &Context<'_>,
+    extremum: &Extremum,
+    integral: &CompleteIntegral,
+) -> Result<String, DeriveError> {
+    let mut sentence = "S as these quadratures give it is a complete integral of S_t + H₁ = 0, and β = ∂S/∂α are constant along its curves, which are \
+        extremals; not all of them are motions"
+        .to_string();
+    let method = cx.finding("hamilton-jacobi.applicable");
+    match &method.verdict {
+        Verdict::Conditional { condition, .. } => {
+            sentence.push_str(&format!(" (motions are those with {condition})"));
+        }
+        _ => sentence.push_str(
+            ", and `motion = { … }` in [complete_integral] can state the constants that motions have",
+        ),
+    }
+    for (place, motion) in on_sets(cx, integral) {
+        let own = CompleteIntegral {
+            motion,
+            ..integral.clone()
+        };
+        if matches!(verified(cx, extremum, &own)?.motion, Verdict::Proved(_)) {
+            let fixed = fixed(cx, &own);
+            sentence.push_str(&format!("; those{fixed} are motions with {place}"));
+        }
+    }
+    Ok(sentence)
+}
+
+/// Constants of cyclic coordinates that are zero on the sets of motions that make the action stationary, with the equations of each set.
+fn on_sets(cx: &Context<'_>, integral: &CompleteIntegral) -> Vec<(String, Vec<(Symbol, Expr)>)> {
+    let g = &cx.system.graph;
+    let constants = integral.constants.iter().copied();
+    let slopes = g.gradient(integral.action, &cx.system.coordinate_symbols());
+    let cyclic: Vec<(usize, Symbol)> = constants
+        .filter_map(|alpha| {
+            Some((
+                slopes.iter().position(|&e| e == g.symbol_expr(alpha))?,
+                alpha,
+            ))
+        })
+        .collect();
+    let kappa = kappa_symbols(&basis(cx));
+    let momenta = momenta_with(cx, &kappa);
+    let zero_on = |(place, values): (String, Vec<Expr>)| {
+        let zero = cyclic.iter().filter(|(i, _)| g.is_zero(values[*i]));
+        let zero: Vec<(Symbol, Expr)> = zero.map(|&(_, alpha)| (alpha, g.zero())).collect();
+        (!zero.is_empty()).then_some((place, zero))
     };
-    proof.detail = format!("{}; {open}", proof.detail);
-    Ok(verdict.into())
+    let on = crate::stationarity::on_sets(cx, &momenta, &kappa);
+    on.into_iter().filter_map(zero_on).collect()
 }
 
 /// That a coordinate occurs in H₁ without its momentum, so that no S of the form separates.
@@ -404,6 +470,11 @@ fn momentum(
         g.mul(&[slope, slope]),
         g.mul(&[g.integer(2), curvature, rest]),
     );
+    // √R/c is one root where c > 0.
+    if known_sign(g, curvature, &assumptions(cx.system)).is_positive() {
+        let square = short(cx, g.div(radicand, g.mul(&[curvature, curvature])));
+        return Some(g.sub(g.sqrt(square), short(cx, g.div(slope, curvature))));
+    }
     Some(g.div(g.sub(g.sqrt(short(cx, radicand)), slope), curvature))
 }
 
@@ -411,20 +482,49 @@ fn short(cx: &Context<'_>, e: Expr) -> Expr {
     crate::stationarity::by_sines(&cx.system.graph, e)
 }
 
-/// The cyclic momenta that are zero on all motions: `p + Σ κ ∂f/∂v` with the κ of the motions.
+/// What ties the constants of cyclic coordinates on all motions: of the momenta `p + Σ κ ∂f/∂v`, with the κ of the motions, those that are zero
+/// or a constant multiple of an earlier one.
 fn on_motions(cx: &Context<'_>, cyclic: &[(usize, Symbol)]) -> Vec<(Symbol, Expr)> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let Some(kappa) = multipliers(cx).filter(|kappa| !kappa.is_empty()) else {
+    let has_kappa = multipliers(cx).is_some_and(|kappa| !kappa.is_empty());
+    let Some(momenta) = momenta_on_motions(cx).filter(|_| has_kappa) else {
         return Vec::new();
     };
-    let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
-    let jacobian = basis(cx).jacobian();
-    let vanishes = |i: usize| {
-        let reaction = dot(g, &kappa, jacobian.iter().map(|row| &row[i]));
-        let momentum = [g.add(&[momenta[i], reaction])];
-        let verdict = cx.prover.identity(system, &momentum, &manifold(cx), "");
+    let vanishes = |e: Expr| {
+        let verdict = cx.prover.identity(system, &[e], &manifold(cx), "");
         matches!(verdict, Verdict::Proved(_))
     };
-    let zero = cyclic.iter().filter(|(i, _)| vanishes(*i));
-    zero.map(|&(_, alpha)| (alpha, g.zero())).collect()
+    let mut tied = Vec::new();
+    let mut free: Vec<(usize, Symbol)> = Vec::new();
+    for &(i, alpha) in cyclic {
+        if vanishes(momenta[i]) {
+            tied.push((alpha, g.zero()));
+            continue;
+        }
+        let multiple = free.iter().find_map(|&(j, earlier)| {
+            let ratio = constant_ratio(cx, momenta[i], momenta[j])?;
+            let rest = g.sub(momenta[i], g.mul(&[ratio, momenta[j]]));
+            vanishes(rest).then(|| g.mul(&[ratio, g.symbol_expr(earlier)]))
+        });
+        match multiple {
+            Some(value) => tied.push((alpha, value)),
+            None => free.push((i, alpha)),
+        }
+    }
+    tied
+}
+
+/// The ratio of two functions on the constraint manifold, where it is seen to contain nothing that moves.
+fn constant_ratio(cx: &Context<'_>, e: Expr, of: Expr) -> Option<Expr> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let solved: Vec<(Expr, Expr)> = manifold(cx)
+        .solved
+        .iter()
+        .map(|&(symbol, value)| (g.symbol_expr(symbol), value))
+        .collect();
+    let ratio = short(cx, g.substitute(g.div(e, of), &solved));
+    let mut moving = system.coordinate_symbols();
+    moving.extend(system.velocity_symbols());
+    moving.push(g.intern_symbol("t", 0));
+    (!g.contains_any(ratio, &moving)).then_some(ratio)
 }

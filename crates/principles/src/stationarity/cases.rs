@@ -26,6 +26,7 @@ use super::closed_form::short;
 use super::closure::Condition;
 use super::motion::Motion;
 use chetaev_mechanics::claims::Context;
+use chetaev_mechanics::system::Relation;
 use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::{simplify, Expr, Graph, Symbol};
 use std::cell::{Cell, RefCell};
@@ -172,6 +173,7 @@ pub(crate) fn with_multipliers(cx: &Context<'_>, motion: &Motion) -> Found {
     });
     let case = Case {
         rows: rows.collect(),
+        nonzero: assumed(cx, motion),
         ..Case::default()
     };
     let mut found = Search::new(cx, motion, true).on_constraints(case.clone(), &[]);
@@ -188,10 +190,26 @@ pub(crate) fn with_multipliers(cx: &Context<'_>, motion: &Motion) -> Found {
 /// The motions along which functions of the state vanish that are written with the dependent velocities of the system.
 pub(crate) fn where_zero(cx: &Context<'_>, motion: &Motion, functions: &[Expr]) -> Found {
     let case = Case {
-        nonzero: motion.dependent_poles.clone(),
+        nonzero: [motion.dependent_poles.clone(), assumed(cx, motion)].concat(),
         ..Case::default()
     };
     Search::new(cx, motion, false).on_constraints(case, functions)
+}
+
+/// Functions of the velocities that do not vanish by the assumptions of the system, on the states of the motion.
+fn assumed(cx: &Context<'_>, motion: &Motion) -> Vec<Expr> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let strict = system.assumptions.iter();
+    let strict = strict.filter(|a| a.relation != Relation::LessOrEqual);
+    let differences = strict.map(|a| g.sub(a.left, a.right));
+    let moving = differences.filter(|&e| g.contains_any(e, &system.velocity_symbols()));
+    let factors = moving.flat_map(|e| {
+        let list = factored(g, motion.on_states(g, e)).map(|parts| parts.factors);
+        let above = list.into_iter().flatten().filter(|(_, n)| *n > 0);
+        above.map(|(f, _)| f).collect::<Vec<Expr>>()
+    });
+    let state = motion.state();
+    factors.filter(|&f| g.contains_any(f, &state)).collect()
 }
 
 /// What one step with a case gives.
@@ -482,7 +500,11 @@ impl<'a, 'b> Search<'a, 'b> {
             angles: case.angles.clone(),
         };
         leaf.nonzero = self.needed(&leaf, &case.nonzero);
-        for text in self.clear(&mut leaf, &case) {
+        let leading = self.leading(&case);
+        let fresh = leading.iter().filter(|e| !leaf.nonzero.contains(e));
+        let fresh: Vec<Expr> = fresh.copied().collect();
+        leaf.nonzero.extend(fresh);
+        for text in self.clear(&mut leaf, &case, &leading) {
             self.leave(found, &case, text);
         }
         leaf.equations = self.written(&case, leaf.cleared.as_ref());
@@ -507,11 +529,13 @@ impl<'a, 'b> Search<'a, 'b> {
                 None => return nonzero.to_vec(),
             }
         }
-        nonzero
-            .iter()
-            .copied()
-            .filter(|e| poles.contains(e))
-            .collect()
+        let mut needed: Vec<Expr> = Vec::new();
+        for &e in nonzero {
+            if poles.contains(&e) && !needed.contains(&e) {
+                needed.push(e);
+            }
+        }
+        needed
     }
 
     /// The equations of a case as they are written, speeds first.

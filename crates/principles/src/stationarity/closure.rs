@@ -1,14 +1,16 @@
 //! The closure algorithm of T1 §4.3: all linear conditions on the multipliers κ of the constrained extremum under which a motion
 //! is an extremal.
 
+use super::closed_form::short;
+use crate::words::{listed, readable};
 use chetaev_mechanics::characteristics::derive_along;
 use chetaev_mechanics::claims::formulation::{basis, derive, REFERENCE};
 use chetaev_mechanics::claims::Context;
-use chetaev_mechanics::formulations::{Basis, DeriveError};
+use chetaev_mechanics::formulations::{kappa_symbols, Basis, DeriveError};
 use chetaev_mechanics::{Equations, Manifold};
-use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::{GenericRank, Pivots};
-use chetaev_symbolic::{Expr, Symbol, Verdict};
+use chetaev_symbolic::{simplify, Expr, Symbol, Verdict};
 use std::sync::Arc;
 
 /// A condition `Σ coefficient_l κ_l = right` on the multipliers of the extremum at a state.
@@ -43,6 +45,13 @@ pub struct Closure {
 /// More nodes than this are not made by one closure.
 const LARGEST_GROWTH: usize = 100_000;
 
+/// A condition that is to follow from others, with its place.
+const MORE: &str = "condition ";
+/// Functions of more signs are not simplified for a sentence.
+const LARGEST_SHOWN: u64 = 1_000;
+/// Longer functions are not written in a sentence.
+const LONGEST_SHOWN: usize = 160;
+
 /// The closure of a system, found once for all claims.
 type Found = Result<Closure, DeriveError>;
 
@@ -74,7 +83,7 @@ impl Closure {
                 return Ok(closure);
             }
             let known = closure.conditions.len();
-            closure.append(cx, &flow.manifold, fresh)?;
+            closure.append(cx, &flow, fresh)?;
             if !matches!(closure.verdict, Verdict::Proved(_)) {
                 return Ok(closure);
             }
@@ -89,9 +98,10 @@ impl Closure {
     fn append(
         &mut self,
         cx: &Context<'_>,
-        manifold: &Manifold,
+        flow: &Flow,
         fresh: Vec<Condition>,
     ) -> Result<(), DeriveError> {
+        let manifold = &flow.manifold;
         let known = self.conditions.len();
         let mut all = std::mem::take(&mut self.conditions);
         all.extend(fresh);
@@ -121,12 +131,16 @@ impl Closure {
             .map(|row| difference(cx, &all[row], &rank.pivots.columns, &values))
             .collect();
         let on = "on the constraint manifold, for almost every motion";
-        let left = "the left side less the right side of one more condition on κ, with the κ that the others demand,";
-        let named: Vec<(String, Expr)> = differences
-            .into_iter()
-            .map(|difference| (left.to_string(), difference))
+        let named = differences.iter().enumerate();
+        let named: Vec<(String, Expr)> = named
+            .map(|(place, &difference)| (format!("{MORE}{place}"), difference))
             .collect();
-        let follow = cx.prover.named_identity(cx.system, &named, manifold, on);
+        let mut follow = cx.prover.named_identity(cx.system, &named, manifold, on);
+        if let Verdict::Refuted(found) = &mut follow {
+            let kappa: Vec<(usize, Expr)> =
+                rank.pivots.columns.iter().copied().zip(values).collect();
+            flow.explain(cx, found, &differences, &kappa);
+        }
         self.verdict = match (follow, full_rank(cx, manifold, &matrix, &rank)) {
             (Verdict::Proved(mut follow), Verdict::Proved(mut ranks)) => {
                 let generic = matches!(rank.at_least, Verdict::Proved(_));
@@ -289,6 +303,58 @@ impl Flow {
                 right: g.zero(),
             })
             .collect()
+    }
+
+    /// Says of a contradiction which function would have to vanish, with the κ and λ that were used, as far as they are short.
+    fn explain(
+        &self,
+        cx: &Context<'_>,
+        found: &mut Counterexample,
+        differences: &[Expr],
+        kappa: &[(usize, Expr)],
+    ) {
+        let g = &cx.system.graph;
+        let place = found.quantity.strip_prefix(MORE);
+        let place = place.and_then(|rest| rest.split(' ').next()?.parse::<usize>().ok());
+        let solved: Vec<(Expr, Expr)> = self
+            .manifold
+            .solved
+            .iter()
+            .map(|&(symbol, value)| (g.symbol_expr(symbol), value))
+            .collect();
+        let text = |e: Expr| -> Option<String> {
+            let on_states = g.substitute(e, &solved);
+            if simplify::length(g, on_states) > LARGEST_SHOWN {
+                return None;
+            }
+            let text = g.text(readable(cx, short(g, on_states))?);
+            (text.chars().count() <= LONGEST_SHOWN && !text.contains('\n')).then_some(text)
+        };
+        let basis = basis(cx);
+        let symbols = kappa_symbols(&basis);
+        let names = basis.constraint_names();
+        let mut used: Vec<String> = kappa
+            .iter()
+            .filter_map(|&(l, value)| Some(format!("{} = {}", g.text(symbols[l]), text(value)?)))
+            .collect();
+        let reactions = names.into_iter().zip(&self.multipliers);
+        used.extend(reactions.filter_map(|(name, &value)| {
+            let value = text(value)?;
+            Some(format!("the reaction λ of `{name}` = {value}"))
+        }));
+        let with = match used.is_empty() {
+            true => "the κ that the others demand".to_string(),
+            false => format!("{} by the others and the motion", listed(&used)),
+        };
+        let function = place.and_then(|place| text(*differences.get(place)?));
+        let quantity = match function {
+            Some(function) => format!(
+                "{function}, the left side less the right side of one more condition on κ with {with},"
+            ),
+            None => format!("the left side less the right side of one more condition on κ, with {with},"),
+        };
+        found.detail = found.detail.replacen(&found.quantity, &quantity, 1);
+        found.quantity = quantity;
     }
 
     /// The derivatives of conditions along the motion.

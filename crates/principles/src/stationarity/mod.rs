@@ -17,6 +17,7 @@ mod suslov;
 pub(crate) use closed_form::{short as by_sines, zero_of};
 pub use closure::{Closure, Condition};
 pub(crate) use kappa::free_constant;
+pub(crate) use sets::on_sets;
 pub use sets::{StationarySet, StationarySets};
 pub use stationary::Stationary;
 pub(crate) use stationary::{of_parameters, NoneBut};

@@ -1,9 +1,11 @@
 //! The sets of states whose motions make the action stationary, as values: what a state is drawn from, with its κ.
 
 use super::cases::{with_multipliers, Found, Leaf};
+use super::closed_form::short;
 use super::closure::Condition;
 use super::motion::Motion;
 use super::stationary::set_aside_unconfirmed;
+use crate::words::listed;
 use chetaev_mechanics::claims::Context;
 use chetaev_symbolic::{Expr, Symbol};
 use std::sync::Arc;
@@ -68,6 +70,35 @@ impl StationarySets {
             complete: found.0.is_complete(),
         })
     }
+}
+
+/// Functions of (q, v, t) and the multipliers on each set of motions that make the action stationary without all of them doing so, where κ is determined
+/// there, with the equations of the set; rest is left out.
+pub(crate) fn on_sets(
+    cx: &Context<'_>,
+    functions: &[Expr],
+    kappa: &[Expr],
+) -> Vec<(String, Vec<Expr>)> {
+    let g = &cx.system.graph;
+    cx.finding("hamilton.stationary");
+    let (Some(motion), Some(sets)) = (cx.known::<Result<Motion, String>>(), cx.known::<Sets>())
+    else {
+        return Vec::new();
+    };
+    let Ok(motion) = motion.as_ref() else {
+        return Vec::new();
+    };
+    let on = |leaf: &Leaf| {
+        let values: Option<Vec<Expr>> = leaf.kappa.iter().copied().collect();
+        let pairs: Vec<(Expr, Expr)> = kappa.iter().copied().zip(values?).collect();
+        let at = |&e: &Expr| {
+            let e = motion.on_states(g, g.substitute(e, &pairs));
+            short(g, g.substitute_all(&[e], &leaf.substitutions(g))[0])
+        };
+        Some((listed(&leaf.equations), functions.iter().map(at).collect()))
+    };
+    let moving = sets.0.leaves.iter().filter(|leaf| !leaf.at_rest);
+    moving.filter_map(on).collect()
 }
 
 /// A set all of whose equations are solved.

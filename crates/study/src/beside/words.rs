@@ -70,7 +70,12 @@ fn distances(study: &Study, motion: &Motion, found: &Beside) -> String {
     let mut gaps: Vec<&Gap> = found.gaps.iter().collect();
     gaps.sort_by(|a, b| b.largest().1.total_cmp(&a.largest().1));
     let Some(most) = gaps.first() else {
-        return "One of the curves has no point beyond the start, so no distance is known.".into();
+        let run = &motion.evidence.run;
+        return match run.times.first() == run.times.last() {
+            true => "The interval of time has no length: there is nothing to compare but the start, which is the same.",
+            false => "One of the curves has no point beyond the start, so no distance is known.",
+        }
+        .into();
     };
     let tolerance = motion.settings.tolerance;
     if found.agree(tolerance) {
@@ -143,6 +148,15 @@ fn what_follows(study: &Study, motion: &Motion, found: &Beside) -> String {
         Some(sentence) => format!(" {sentence}"),
         None => String::new(),
     };
+    if found.gaps.is_empty() {
+        return match verdict {
+            Some(verdict) => format!(
+                "`hamilton.stationary` is {}; the curves do not bear on it.",
+                verdict.word()
+            ),
+            None => "Nothing follows for `hamilton.stationary`.".into(),
+        };
+    }
     match (verdict, agree) {
         (Some(Verdict::Proved(_)), true) => "So it must be: `hamilton.stationary` is proved, every motion of this system makes \
              the action stationary among the curves that satisfy the constraints."

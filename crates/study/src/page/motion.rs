@@ -7,7 +7,7 @@ use crate::record::zero_word;
 use crate::study::{Motion, Study};
 use crate::table::Table;
 use crate::typeset::letters;
-use chetaev_integrate::Note;
+use crate::witness;
 use chetaev_report::data::{
     ChartSwitch, EventMet, Fact, Figure, Portrait, Series, SeriesGroup, Stop, Trajectory,
     Verdict as Word,
@@ -276,16 +276,6 @@ fn statistics(motion: &Motion) -> Vec<Fact> {
             None,
         ));
     }
-    for note in &run.notes {
-        if let Note::Stiff { t, steps_ahead, .. } = note {
-            facts.push(fact(
-                "Advice",
-                format!("the problem looks stiff from t = {t:.4} on (about {steps_ahead:.0} more steps); an implicit method would need far fewer"),
-                None,
-                None,
-            ));
-        }
-    }
     facts
 }
 
@@ -327,19 +317,87 @@ pub(super) fn figures(motion: &Motion) -> Vec<Figure> {
     orders(motion)
         .into_iter()
         .chain(first_variations(motion))
+        .chain(PICTURES.iter().filter_map(|picture| picture.of(motion)))
         .collect()
+}
+
+/// A picture of what a witness computed.
+struct Picture {
+    figure: witness::Figure,
+    title: &'static str,
+    explanation: &'static str,
+    claim: &'static str,
+}
+
+static PICTURES: [Picture; 4] = [
+    Picture {
+        figure: witness::Figure::Action,
+        title: "Least action beside the motion",
+        explanation: "The first variation of each action of curves beside the motion, at its energy or at varied times, over the sizes of its terms: it goes to zero with the step of the quadrature, down to the accuracy of the motion.",
+        claim: "witness.action",
+    },
+    Picture {
+        figure: witness::Figure::SecondKind,
+        title: "Principles of the second kind along the motion",
+        explanation: "q and v are varied independently, with differences of the positions and momenta at the rows as their rates: each statement goes to zero with the step.",
+        claim: "witness.second-kind",
+    },
+    Picture {
+        figure: witness::Figure::Operators,
+        title: "Operators δv = A(δq) along the motion",
+        explanation: "The principle with δv by each operator, on all and on some of the velocities: each goes to zero with the step, whatever A is.",
+        claim: "witness.universal-relation",
+    },
+    Picture {
+        figure: witness::Figure::OtherTime,
+        title: "Equations in another time against the motion",
+        explanation: "The largest distance of the positions integrated in τ from those of the motion at the time that came out: it falls with the fourth power of the step, down to the accuracy of the motion.",
+        claim: "witness.other-time",
+    },
+];
+
+impl Picture {
+    /// The picture by the step, where something was computed for it.
+    fn of(&self, motion: &Motion) -> Option<Figure> {
+        let shown = motion.witness.shown.iter();
+        let own: Vec<&witness::Shown> = shown.filter(|s| s.figure == self.figure).collect();
+        let first = own.first()?;
+        let smallest = first.refined.steps.first()?;
+        // Stretches differ, and with them their steps: all are counted in the smallest.
+        let multiples = first.refined.steps.iter().map(|step| step / smallest);
+        Some(Figure {
+            title: self.title.into(),
+            explanation: vec![self.explanation.into()],
+            horizontal: "step over the smallest".into(),
+            abscissae: multiples.collect(),
+            series: own
+                .iter()
+                .map(|shown| Series {
+                    name: shown.name.clone(),
+                    group: SeriesGroup::Errors,
+                    values: shown.refined.residuals.clone(),
+                    ..Series::default()
+                })
+                .collect(),
+            logarithmic_horizontal: true,
+            logarithmic_vertical: true,
+            marks: true,
+            claim: Some(format!("{}#{}", self.claim, first.subject)),
+            ..Figure::default()
+        })
+    }
 }
 
 /// The first variation of each form by the step of the quadrature, and that of the action among admissible neighbours.
 fn first_variations(motion: &Motion) -> Option<Figure> {
     let forms = &motion.witness.first;
-    let steps = forms.first()?.steps.clone();
+    let steps = forms.first()?.refined.steps.clone();
     let mut series: Vec<Series> = forms
         .iter()
         .map(|found| Series {
             name: found.form.whose().into(),
             group: SeriesGroup::Errors,
-            values: found.residuals.clone(),
+            values: found.refined.residuals.clone(),
             ..Series::default()
         })
         .collect();

@@ -47,6 +47,9 @@ pub enum VariationError {
     /// Random values without a number.
     #[error("`{0}` takes random values: say how many by --count N")]
     NoCount(String),
+    /// No random values.
+    #[error("--count is 0: no random values would be drawn for `{0}`, so there is no trajectory; give a number of at least one")]
+    NoneDrawn(String),
     /// A number of random values that nothing takes.
     #[error("--count says how many random values are drawn, and no range is random: write NAME=FROM:TO:uniform")]
     UnusedCount,
@@ -83,6 +86,7 @@ impl Variations {
         let random: Vec<usize> = (0..list.len()).filter(|&at| is_random(&list[at])).collect();
         match (random.first(), together.count) {
             (Some(&at), None) => return Err(VariationError::NoCount(list[at].name.clone())),
+            (Some(&at), Some(0)) => return Err(VariationError::NoneDrawn(list[at].name.clone())),
             (None, Some(_)) => return Err(VariationError::UnusedCount),
             (_, count) => random
                 .iter()

@@ -6,14 +6,13 @@ use crate::start::{add_jets, check_rank, settings, start_of_motion};
 use chetaev_ensemble::{Outcome, Work, Worker};
 use chetaev_mechanics::System;
 use chetaev_motion::{ConsistentState, Run, RunSettings, Subject, Watcher};
-use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
 /// The trajectories of a sweep, each from the model with its values written in.
 pub(crate) struct Whole<'s>(pub(crate) &'s Sweep);
 
 impl Work for Whole<'_> {
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker(&self, _: usize) -> Box<dyn Worker + '_> {
         Box::new(Whole(self.0))
     }
 
@@ -23,17 +22,21 @@ impl Work for Whole<'_> {
 }
 
 impl Worker for Whole<'_> {
-    fn block(&mut self, range: Range<u64>, interrupt: &AtomicBool) -> Option<Vec<Outcome>> {
+    fn work(
+        &mut self,
+        next: &dyn Fn() -> Option<u64>,
+        done: &dyn Fn(u64, Outcome),
+        interrupt: &AtomicBool,
+    ) {
         let shape = self.0.shape();
-        let mut outcomes = Vec::new();
-        for index in range {
-            outcomes.push(match self.run(index, interrupt) {
-                Ok((run, ..)) if run.ending.interrupted => return None,
+        while let Some(index) = next() {
+            let outcome = match self.run(index, interrupt) {
+                Ok((run, ..)) if run.ending.interrupted => return,
                 Ok((run, start, settings)) => Outcome::of(&run, &start, &settings, shape),
                 Err(problem) => Outcome::not_started(shape, problem.to_string()),
-            });
+            };
+            done(index, outcome);
         }
-        Some(outcomes)
     }
 }
 

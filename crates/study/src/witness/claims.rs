@@ -1,7 +1,8 @@
 //! The claims: each compares integrals over the motion with what the proofs say.
 
 use super::first::Form;
-use super::{evidence, first, linear, neighbours};
+use super::refined::Refined;
+use super::{evidence, first, linear, neighbours, refined};
 use crate::motion_claims::of_another_system;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::words::counted;
@@ -15,6 +16,11 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &WitnessOfEnds,
     &WitnessOfIndex,
     &super::of_quadratures::WitnessOfQuadratures,
+    &super::least_action::WitnessOfLeastAction,
+    &super::of_stationary_action::WitnessOfStationaryAction,
+    &super::second_kind::WitnessOfSecondKind,
+    &super::operators::WitnessOfOperators,
+    &super::other_time::WitnessOfOtherTime,
 ];
 
 /// A first variation below this part of its terms is rounding and the error of the motion.
@@ -26,14 +32,14 @@ const SMALL: f64 = 1e-6;
 /// Beyond this part, and beyond what the quadrature leaves open, it is not zero.
 const CLEARLY: f64 = 1e-3;
 
-fn subjects_if_motion(cx: &Context<'_>, all: &[&str]) -> Vec<Option<String>> {
+pub(super) fn subjects_if_motion(cx: &Context<'_>, all: &[&str]) -> Vec<Option<String>> {
     let applies = evidence(cx).is_some() && cx.terms.order == 1;
     let subjects = all.iter().filter(|_| applies);
     subjects.map(|s| Some((*s).to_string())).collect()
 }
 
 /// Once for a motion of a system with so many coordinates at most.
-fn once_up_to(cx: &Context<'_>, coordinates: usize) -> Vec<Option<String>> {
+pub(super) fn once_up_to(cx: &Context<'_>, coordinates: usize) -> Vec<Option<String>> {
     let is_small = cx.system.n() <= coordinates;
     match evidence(cx).is_some() && cx.terms.order == 1 && is_small {
         true => vec![None],
@@ -63,7 +69,7 @@ pub(super) fn numerical(
         ),
         digits: 16,
         residual,
-        seed: Some(first::SEED),
+        seed: Some(refined::SEED),
         why_no_proof: sentence,
     })
 }
@@ -83,11 +89,11 @@ pub(super) fn refuted(quantity: &str, t: f64, value: f64, detail: String) -> Ver
 }
 
 /// Whether the constraints leave no velocity free: then every variation with fixed ends vanishes, and quotients of integrals are noise.
-fn is_fixed(cx: &Context<'_>) -> bool {
+pub(super) fn is_fixed(cx: &Context<'_>) -> bool {
     cx.system.n() == cx.selection.rows.len()
 }
 
-fn nothing_varies(what: &str) -> Verdict {
+pub(super) fn nothing_varies(what: &str) -> Verdict {
     let detail = format!("as many independent constraints as coordinates: there are no {what} but zero, and every first variation vanishes");
     Verdict::Proved(Proof::structural("for every motion", detail))
 }
@@ -149,6 +155,20 @@ impl Claim for WitnessOfForms {
 }
 
 fn of_form(found: &first::FirstVariation) -> Verdict {
+    vanishing(&found.refined, found.form.whose(), "first variation")
+}
+
+/// The verdict on an integral that a principle says is zero: `whose` is integrated, `quantity` would be refuted.
+pub(super) fn vanishing(found: &Refined, whose: &str, quantity: &str) -> Verdict {
+    let sentence = format!(
+        "{whose} over {} random variations: |∫ δ dt| over the sizes of its terms is",
+        found.variations
+    );
+    judged(found, &sentence, quantity)
+}
+
+/// The verdict on numbers that must vanish as the step is refined, which the sentence ends with.
+pub(super) fn judged(found: &Refined, sentence: &str, quantity: &str) -> Verdict {
     let shown: Vec<String> = found
         .residuals
         .iter()
@@ -156,9 +176,7 @@ fn of_form(found: &first::FirstVariation) -> Verdict {
         .map(|r| format!("{r:.1e}"))
         .collect();
     let sentence = format!(
-        "{} over {} random variations: |∫ δ dt| over the sizes of its terms is {} with steps {:.2e} to {:.2e}",
-        found.form.whose(),
-        found.variations,
+        "{sentence} {} with steps {:.2e} to {:.2e}",
         shown.join(", "),
         found.steps[found.steps.len() - 1],
         found.steps[0],
@@ -169,7 +187,7 @@ fn of_form(found: &first::FirstVariation) -> Verdict {
         return numerical(found.variations, found.interval, value, sentence);
     }
     if value > 3.0 * open + CLEARLY {
-        return refuted("first variation", found.interval.1, value, sentence);
+        return refuted(quantity, found.interval.1, value, sentence);
     }
     Verdict::undecided(format!(
         "{sentence}; the output is too coarse for a quadrature"
@@ -220,18 +238,23 @@ impl Claim for WitnessOfAction {
             return nothing_varies("admissible neighbours with the same ends").into();
         }
         match neighbours::of(cx) {
-            Ok(found) => of_action(cx, &found).into(),
+            Ok(found) => of_action(cx, &found, "δ∫L dt").into(),
             Err(why) => Verdict::undecided(why).into(),
         }
     }
 }
 
-fn of_action(cx: &Context<'_>, found: &neighbours::Neighbours) -> Verdict {
+/// The verdict on the change of an action among admissible neighbours.
+pub(super) fn of_action(
+    cx: &Context<'_>,
+    found: &neighbours::Neighbours,
+    quantity: &str,
+) -> Verdict {
     let stationary = "hamilton.stationary";
     let verdict = cx.finding(stationary).verdict.clone();
     let vanishes = found.change <= 3.0 * found.error + ROUNDING;
     let sentence = format!(
-        "largest |δ∫L dt| over the sizes of its terms, for {} admissible neighbours with the same ends: {:.2e}, and {:.1e} of it by the steps; `{stationary}` is {}",
+        "largest |{quantity}| over the sizes of its terms, for {} admissible neighbours with the same ends: {:.2e}, and {:.1e} of it by the steps; `{stationary}` is {}",
         found.variations,
         found.change,
         found.error,
@@ -248,7 +271,7 @@ fn of_action(cx: &Context<'_>, found: &neighbours::Neighbours) -> Verdict {
     let (said, residual) = match (&verdict, vanishes) {
         (Verdict::Proved(_), true) => ("the action is stationary", found.change),
         (Verdict::Proved(_), false) if contradicts => {
-            return refuted("δ∫L dt", found.interval.1, found.change, sentence)
+            return refuted(quantity, found.interval.1, found.change, sentence)
         }
         (_, true) => (
             "of this motion the action is stationary to the accuracy of the quadrature",

@@ -7,11 +7,11 @@
 //! ends with their derivatives.
 
 use super::algebra::{determinant, gram, solved, times, transposed_times};
-use super::samples::{Samples, LEAST};
+use super::refined::{longest, worst, Refined, Rule, Span, Term};
+use super::samples::Samples;
 use super::wave::Wave;
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::formulations::legendre::Legendre;
-use chetaev_mechanics::sample::Generator;
 use chetaev_mechanics::Context;
 use chetaev_motion::follow::magnitude;
 use chetaev_principles::hamilton::{suslov, voronets};
@@ -76,26 +76,12 @@ impl Form {
 pub struct FirstVariation {
     /// The form.
     pub form: Form,
-    /// Steps of the quadrature, the smallest first.
-    pub steps: Vec<f64>,
-    /// `|∫ integrand dt|/∫ Σ|terms| dt` for each.
-    pub residuals: Vec<f64>,
-    /// The difference of the two finest, on the same scale: what the quadrature leaves open.
-    pub change: f64,
-    /// The interval.
-    pub interval: (f64, f64),
-    /// How many variations were taken.
-    pub variations: u32,
+    /// Its integral.
+    pub refined: Refined,
 }
 
-/// Variations of each form.
-const VARIATIONS: usize = 4;
-/// Steps: so many times the distance of rows.
-const STRIDES: [usize; 5] = [1, 2, 4, 8, 16];
-/// Their seed.
-pub(super) const SEED: u64 = 0x5eed_0d9a;
 /// Where a minor of the constraints is less than this part of its largest possible value the velocities count as dependent.
-const INDEPENDENT: f64 = 0.25;
+pub(super) const INDEPENDENT: f64 = 0.25;
 
 /// All forms, computed once.
 pub(super) struct Found(Vec<(Form, Result<FirstVariation, String>)>);
@@ -134,67 +120,28 @@ fn compute(cx: &Context<'_>, form: Form) -> Result<FirstVariation, String> {
     }
 }
 
-/// The value of an integrand at a row for variations η at a share of the interval, and the sum of the sizes of its terms.
-type Term = (f64, f64);
-
-/// Quadratures over rows for several variations; the one with the largest result.
+/// Quadratures over rows for several variations that vanish at the ends; the one with the largest result.
 fn quadratures(
     form: Form,
     samples: &Samples,
-    rows: Range<usize>,
+    rows: &Range<usize>,
     width: usize,
     integrand: impl Fn(usize, &[(f64, f64)]) -> Option<Term>,
 ) -> Result<FirstVariation, String> {
-    let largest = STRIDES[STRIDES.len() - 1];
-    let count = (rows.len() - 1) / largest * largest;
-    if count < LEAST {
-        return Err(format!(
-            "the independent velocities are independent over {count} steps of the output at most; {LEAST} are needed"
-        ));
-    }
-    let (start, end) = (samples.times[rows.start], samples.times[rows.start + count]);
-    let length = end - start;
-    let mut generator = Generator::new(SEED);
-    let mut worst: Option<FirstVariation> = None;
-    for _ in 0..VARIATIONS {
-        let waves: Vec<Wave> = (0..width)
-            .map(|_| Wave::vanishing(&mut generator))
-            .collect();
-        let terms: Option<Vec<Term>> = (0..=count)
-            .map(|j| {
-                let share = j as f64 / count as f64;
-                let eta: Vec<(f64, f64)> = waves.iter().map(|w| w.at(share, length)).collect();
-                integrand(rows.start + j, &eta)
-            })
-            .collect();
+    let rule = Rule::Vanishing;
+    let what = "the independent velocities are independent";
+    let span = Span::new(&samples.times, rows, (rule, what))?;
+    let refined = worst(|generator| {
+        let waves: Vec<Wave> = (0..width).map(|_| Wave::vanishing(generator)).collect();
+        let at = |(row, share): (usize, f64)| {
+            let eta: Vec<(f64, f64)> = waves.iter().map(|w| w.at(share, span.length())).collect();
+            integrand(row, &eta)
+        };
+        let terms: Option<Vec<Term>> = span.rows().map(at).collect();
         let terms = terms.ok_or("the gradients of the constraints are dependent at a row")?;
-        // Both ends vanish: the trapezoidal rule is the plain sum.
-        let sum = |stride: usize| -> f64 {
-            let values = terms.iter().step_by(stride).map(|t| t.0);
-            values.sum::<f64>() * stride as f64
-        };
-        let scale: f64 = terms.iter().map(|t| t.1).sum();
-        if scale.is_nan() {
-            return Err("the integrand has no value at a row".into());
-        }
-        let over = |x: f64| if scale == 0.0 { 0.0 } else { x.abs() / scale };
-        let found = FirstVariation {
-            form,
-            steps: STRIDES
-                .iter()
-                .map(|&s| length.abs() * s as f64 / count as f64)
-                .collect(),
-            residuals: STRIDES.iter().map(|&s| over(sum(s))).collect(),
-            change: over(sum(1) - sum(2)),
-            interval: (start, end),
-            variations: VARIATIONS as u32,
-        };
-        let is_worse = |known: &FirstVariation| found.residuals[0] > known.residuals[0];
-        if worst.as_ref().is_none_or(is_worse) {
-            worst = Some(found);
-        }
-    }
-    worst.ok_or_else(|| "no variation was taken".into())
+        span.integral(rule, |_| Some(terms.clone()), (0.0, 0.0))
+    })?;
+    Ok(FirstVariation { form, refined })
 }
 
 /// `Σ (L_q + Q) δq + p D(δq)` with projected δq; with H, `Σ (Q − H_q) δq + p D(δq) + δp (v − ∂H/∂p)`.
@@ -232,7 +179,7 @@ fn projected(
     let samples = Samples::new(cx, &[&forces, &momenta, &jacobian, &moved, &lag])?;
     let rows = 0..samples.times.len();
     let width = n + lag.len();
-    quadratures(form, &samples, rows, width, |row, waves| {
+    quadratures(form, &samples, &rows, width, |row, waves| {
         let (eta, free) = waves.split_at(n);
         let eta: (Vec<f64>, Vec<f64>) = eta.iter().copied().unzip();
         let of = |group: usize| samples.at(group, row);
@@ -309,7 +256,7 @@ fn in_chart(cx: &Context<'_>, form: Form) -> Result<FirstVariation, String> {
         determinant(r, samples.at(2, row)).abs() >= INDEPENDENT * whole
     };
     let rows = longest(samples.times.len(), independent);
-    quadratures(form, &samples, rows, d.chart.k(), |row, waves| {
+    quadratures(form, &samples, &rows, d.chart.k(), |row, waves| {
         let of = |group: usize| samples.at(group, row);
         let waves = || waves.iter().map(|w| w.0).chain(waves.iter().map(|w| w.1));
         let all = of(0).iter().chain(of(1)).zip(waves());
@@ -321,31 +268,9 @@ fn in_chart(cx: &Context<'_>, form: Form) -> Result<FirstVariation, String> {
     })
 }
 
-/// The longest range of rows with a property.
-fn longest(count: usize, holds: impl Fn(usize) -> bool) -> Range<usize> {
-    let (mut best, mut start) = (0..1, 0);
-    for row in 0..=count {
-        if row == count || !holds(row) {
-            if row - start > best.len() {
-                best = start..row;
-            }
-            start = row + 1;
-        }
-    }
-    best
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_longest_stretch() {
-        let holds = |row: usize| ![0, 4, 5].contains(&row);
-        assert_eq!(longest(12, holds), 6..12);
-        assert_eq!(longest(3, |_| true), 0..3);
-        assert_eq!(longest(3, |_| false).len(), 1);
-    }
 
     /// z' = y x' at y(t) = sin t: the projection is virtual, and its rate is the difference quotient.
     #[test]

@@ -1,9 +1,11 @@
 //! Functions of the state at equally spaced rows of the run.
 
 use super::evidence;
+use crate::motion_evidence::MotionEvidence;
 use chetaev_mechanics::Context;
 use chetaev_motion::observe::Observer;
 use chetaev_symbolic::Expr;
+use std::sync::Arc;
 
 /// Fewer intervals show nothing.
 pub(super) const LEAST: usize = 48;
@@ -19,16 +21,9 @@ pub(super) struct Samples {
 impl Samples {
     /// Values of groups of expressions in t, q, q', q'' at the rows of the computed motion.
     pub(super) fn new(cx: &Context<'_>, groups: &[&[Expr]]) -> Result<Samples, String> {
-        let evidence = evidence(cx).ok_or("no motion was computed")?;
-        let run = evidence.dense.as_ref().unwrap_or(&evidence.run);
-        let count = run.asked();
+        let (evidence, count) = rows(cx)?;
+        let run = evidence.rows();
         let times = run.times[..count].to_vec();
-        if count <= LEAST || !equally_spaced(&times) {
-            return Err(format!(
-                "the motion has {} equally spaced output times; more than {LEAST} are needed",
-                if equally_spaced(&times) { count } else { 0 }
-            ));
-        }
         let all = groups.concat();
         let mut observer = Observer::new(cx.system, cx.terms, &evidence.binding, &all)
             .map_err(|problem| problem.to_string())?;
@@ -55,6 +50,23 @@ impl Samples {
     /// How many intervals of `multiple` rows there are, as rows.
     pub(super) fn intervals(&self, multiple: usize) -> usize {
         (self.times.len() - 1) / multiple * multiple
+    }
+}
+
+/// The motion and how many of [`MotionEvidence::rows`] there are, which are equally spaced.
+///
+/// # Errors
+/// That there are too few.
+pub(super) fn rows(cx: &Context<'_>) -> Result<(Arc<MotionEvidence>, usize), String> {
+    let evidence = evidence(cx).ok_or("no motion was computed")?;
+    let count = evidence.rows().asked();
+    let is_equal = equally_spaced(&evidence.rows().times[..count]);
+    match count > LEAST && is_equal {
+        true => Ok((evidence, count)),
+        false => Err(format!(
+            "the motion has {} equally spaced output times; more than {LEAST} are needed",
+            if is_equal { count } else { 0 }
+        )),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::requirements;
 use crate::noether::found::{found, Found, Searched};
-use crate::noether::special::{is_stated, Special};
+use crate::noether::special::{is_stated, Looked, Special};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::words::counted;
 use chetaev_symbolic::verdict::{Evidence, Method, Proof};
@@ -119,7 +119,7 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
     };
     let dependent = dependent(cx, found);
     let mut families: Vec<String> = found.families.iter().map(exhausted).collect();
-    families.extend(found.momenta.as_ref().map(|momenta| {
+    families.extend(found.momenta.iter().map(|momenta| {
         format!(
             "generalized momenta whose fields have components made of {} functions of the place, coefficients of weight up to {}: dimension {}",
             momenta.functions.len(),
@@ -149,10 +149,22 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
         true => ", or so where two others are equal",
         false => "",
     };
-    let special = match special.is_empty() {
-        true => String::new(),
-        false => format!(
-            "; looked at where parameters are equal or zero or as stated{critical}{beside}, there are further or simpler ones {}",
+    let places = match found.special.looked {
+        Looked::All => "where parameters are equal or zero or as stated".to_owned(),
+        Looked::Some(0) => "at special values of parameters".to_owned(),
+        Looked::Some(some) => format!(
+            "at {some} of the places where parameters are equal or zero, and where they are as stated"
+        ),
+        Looked::Not | Looked::Nothing => String::new(),
+    };
+    let special = match (found.special.looked, special.is_empty()) {
+        (Looked::Nothing, _) => String::new(),
+        (Looked::Not, _) => "; special values of parameters were not looked at".to_owned(),
+        (_, true) => {
+            format!("; looked at {places}{critical}{beside}, no more were found in a small family")
+        }
+        (_, false) => format!(
+            "; looked at {places}{critical}{beside}, there are further or simpler ones {}",
             special.join("; ")
         ),
     };
@@ -169,17 +181,36 @@ fn dependent(cx: &Context<'_>, found: &Found) -> String {
         true => "",
         false => " and of what the constraints fix",
     };
-    let mut parts = Vec::new();
-    if products > 0 {
-        parts.push(counted(products, "is a product", "are products") + " of two of these");
-    }
-    if others > 0 {
-        let words = counted(others, "is another function", "are other functions");
-        parts.push(format!("{words} of these{constraints}"));
-    }
-    match parts.is_empty() {
-        true => String::new(),
-        false => format!("; of the further ones {}", parts.join(" and ")),
+    // With one integral there is one product of two.
+    let these = match found.integrals.len() {
+        1 => ("its square", "a function of it"),
+        _ => ("a product of two of these", "a function of these"),
+    };
+    let several = match found.integrals.len() {
+        1 => "functions of it",
+        _ => "functions of these",
+    };
+    match (products, others) {
+        (0, 0) => String::new(),
+        (1, 0) => format!("; one more is {}", these.0),
+        (0, 1) => format!("; one more is {}{constraints}", these.1),
+        (products, 0) => format!("; {products} more are products of two of these"),
+        (0, others) => format!("; {others} more are {several}{constraints}"),
+        (products, others) => {
+            let products = match products {
+                1 => format!("one is {}", these.0),
+                _ => format!("{products} are products of two of these"),
+            };
+            let others = match others {
+                1 => "one is another function",
+                _ => &format!("{others} are other functions"),
+            };
+            let of = match found.integrals.len() {
+                1 => "of it",
+                _ => "of these",
+            };
+            format!("; of the further ones {products} and {others} {of}{constraints}")
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use crate::noether::generator::Generator;
 use crate::noether::letters::ENERGY;
 use crate::noether::shown::{is_constant, readable};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Graph, Node, Verdict};
 
 /// `noether.integral#j`.
 #[derive(Clone, Copy, Debug)]
@@ -77,15 +77,67 @@ fn symmetry(n: &Embedded<'_>, generator: &Generator, name: Option<&str>) -> Stri
         .map(|(speed, &xi)| (bare(&speed.name), readable(g, xi)))
         .filter(|(_, xi)| !g.is_zero(*xi))
         .collect();
-    match &along[..] {
-        [] if system.constraints.is_empty() => "its field vanishes".into(),
-        [] => "its field vanishes on the constraints".into(),
-        [(field, xi)] if is_constant(system, *xi) => {
-            format!("its symmetry is the shift along {field}")
-        }
-        _ => {
-            let fields: Vec<&str> = along.iter().map(|(field, _)| *field).collect();
-            format!("its field is along {}", fields.join(", "))
-        }
+    if along.is_empty() {
+        return match system.constraints.is_empty() {
+            true => "its field vanishes".into(),
+            false => "its field vanishes on the constraints".into(),
+        };
     }
+    // ξ^i Y_i in the coordinates; shifts are what moves them by constants.
+    let moved: Vec<(&str, Expr)> = system
+        .coordinates
+        .iter()
+        .zip(&n.embedding.chart.basis)
+        .map(|(c, row)| {
+            let parts = row.iter().zip(&generator.xi);
+            let parts: Vec<Expr> = parts.map(|(&b, &xi)| g.mul(&[b, xi])).collect();
+            (&c.name[..], readable(g, g.add(&parts)))
+        })
+        .filter(|(_, e)| !g.is_zero(*e))
+        .collect();
+    match &moved[..] {
+        [(coordinate, by)] if is_constant(system, *by) => {
+            format!("its symmetry is the shift along {coordinate}")
+        }
+        _ => match field(g, &moved) {
+            text if text.chars().count() <= LONGEST => format!("its field is {text}"),
+            _ => {
+                let fields = along.iter().map(|(field, _)| format!("Y_{field}"));
+                format!(
+                    "its field is a combination of {}",
+                    fields.collect::<Vec<String>>().join(", ")
+                )
+            }
+        },
+    }
+}
+
+/// A longer field is not written out in a sentence.
+const LONGEST: usize = 120;
+
+/// `x ∂/∂y - y ∂/∂x`.
+fn field(g: &Graph, moved: &[(&str, Expr)]) -> String {
+    let mut text = String::new();
+    for (coordinate, e) in moved {
+        let negative = g.neg(*e);
+        let begins_with_minus = |e: Expr| g.text(e).starts_with('-');
+        let is_sum = |e: Expr| matches!(g.node(e), Node::Sum { .. });
+        let (sign, size) = match begins_with_minus(*e) && !is_sum(*e) {
+            true => ("-", negative),
+            false => ("+", *e),
+        };
+        text.push_str(match (text.is_empty(), sign) {
+            (true, "+") => "",
+            (true, _) => "-",
+            (false, "+") => " + ",
+            (false, _) => " - ",
+        });
+        match (g.is_one(size), is_sum(size)) {
+            (true, _) => {}
+            (false, true) => text.push_str(&format!("({}) ", g.text(size))),
+            (false, false) => text.push_str(&format!("{} ", g.text(size))),
+        }
+        text.push_str(&format!("∂/∂{coordinate}"));
+    }
+    text
 }

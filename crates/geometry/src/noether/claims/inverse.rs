@@ -6,6 +6,7 @@ use super::{generator_formulas, on_manifold, requirements};
 use crate::noether::embedded::Embedded;
 use crate::noether::generator::Generator;
 use crate::noether::motion::Motion;
+use crate::noether::shown::readable;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::Manifold;
 use chetaev_symbolic::verdict::Proof;
@@ -218,6 +219,11 @@ fn trivial(cx: &Context<'_>, motion: &Motion<'_>, value: Expr, proof: &Proof) ->
         let verdict = cx.prover.identity(system, es, manifold, on);
         matches!(verdict, Verdict::Proved(_))
     };
+    if let Some((constant, where_it_is)) = constant(cx, motion, value) {
+        let proof = Verdict::Proved(proof.clone());
+        let what = format!("trivial, as the function is the constant {constant}{where_it_is}");
+        return Some(proof.prefixed(&what));
+    }
     if vanishes(&[value], &motion.manifold, "on the constraint manifold") {
         let proof = Verdict::Proved(proof.clone());
         return Some(proof.prefixed("trivial, as the function vanishes on the constraints"));
@@ -245,6 +251,45 @@ fn trivial(cx: &Context<'_>, motion: &Motion<'_>, value: Expr, proof: &Proof) ->
         proof,
         counterexample: None,
     })
+}
+
+/// The constant that a function is everywhere, or on the constraints, which the text after it says: its value where all that moves is 0,
+/// 1, or different numbers.
+fn constant(cx: &Context<'_>, motion: &Motion<'_>, value: Expr) -> Option<(String, &'static str)> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let solved = motion.manifold.solved.iter();
+    let solved: Vec<(Expr, Expr)> = solved.map(|&(s, e)| (g.symbol_expr(s), e)).collect();
+    let on_constraints = g.substitute(value, &solved);
+    let moving = |e: Expr| -> Vec<Expr> {
+        let own = g.symbols_in(&[e]).into_iter();
+        own.filter(|&s| motion.moves(s))
+            .map(|s| g.symbol_expr(s))
+            .collect()
+    };
+    let nowhere = Manifold::default();
+    for (function, manifold, on) in [
+        (value, &nowhere, ""),
+        (on_constraints, &motion.manifold, " on the constraints"),
+    ] {
+        let own = moving(function);
+        let starts: [fn(usize) -> i64; 3] = [|_| 0, |_| 1, |i| 2 + i as i64];
+        for start in starts {
+            let at = own
+                .iter()
+                .enumerate()
+                .map(|(i, &s)| (s, g.integer(start(i))));
+            let at: Vec<(Expr, Expr)> = at.collect();
+            let number = g.substitute(function, &at);
+            let is_number = g.evaluate_f64(&[number], &|_| Some(1.3));
+            let is_number = is_number.is_ok_and(|v| v.iter().all(|x| x.is_finite()));
+            let defect = g.sub(value, number);
+            let verdict = || cx.prover.identity(system, &[defect], manifold, "");
+            if is_number && !g.is_zero(number) && matches!(verdict(), Verdict::Proved(_)) {
+                return Some((g.text(readable(g, number)), on));
+            }
+        }
+    }
+    None
 }
 
 /// The parts of a function that jump: signs, and angles of two arguments.

@@ -2,7 +2,8 @@
 //!
 //! A motion of such a set may pass through the pole. By continuity it stays stationary there, as long as κ has no pole itself. What
 //! has to be shown is that the cleared equations hold nowhere but on the set and its limits: that they describe, where the
-//! denominator D vanishes, a smooth set in which D = 0 is of lower dimension.
+//! denominator D vanishes, a smooth set in which D = 0 is of lower dimension. The same is shown of polynomials that are not solved, `a s² + b s + c = 0`,
+//! where a vanishes, since others are reduced modulo them where it does not.
 
 use super::{Case, Found, Leaf, Search};
 use chetaev_symbolic::factors::{coefficients, factored};
@@ -32,8 +33,16 @@ enum Limit {
 }
 
 impl Search<'_, '_> {
-    /// Clears the poles of a set that are none of κ, where nothing is added by that; what stays open where it is not known.
-    pub(super) fn clear(&self, leaf: &mut Leaf, case: &Case) -> Vec<String> {
+    /// Clears the poles of a set that are none of κ, where nothing is added by that; what stays open where it is not known. `leading` are those
+    /// of them that are no poles, but leading coefficients of equations that are not solved.
+    pub(super) fn clear(&self, leaf: &mut Leaf, case: &Case, leading: &[Expr]) -> Vec<String> {
+        // The equations themselves say that a leading coefficient does not vanish, where that is so.
+        let implicit: Vec<Expr> = leaf.implicit.iter().map(|&(e, _)| e).collect();
+        let is_stated = |pole: &Expr| {
+            leading.contains(pole)
+                && self.is_empty(&Case::default(), &[&[*pole], &implicit[..]].concat())
+        };
+        leaf.nonzero.retain(|pole| !is_stated(pole));
         let poles: Vec<Expr> = leaf.nonzero.clone();
         let of_kappa = self.poles_of_kappa(leaf);
         let poles = poles.into_iter().filter(|e| !of_kappa.contains(e));
@@ -129,12 +138,13 @@ impl Search<'_, '_> {
         if self.is_empty(regular, &at_pole) {
             return Limit::None;
         }
-        let all_limits = match form {
-            [equation] => {
-                self.is_smooth(regular, *equation, pole) || self.is_regular(regular, &at_pole)
-            }
-            _ => self.is_regular(regular, &at_pole),
+        let is_smooth = match form {
+            [equation] => self.is_smooth(regular, *equation, pole),
+            _ => false,
         };
+        let all_limits = is_smooth
+            || self.is_regular(regular, &at_pole, &[])
+            || (self.is_regular(regular, form, &[pole]) && self.is_thin(regular, form, pole));
         match all_limits {
             true => Limit::All,
             false => Limit::Open,
@@ -166,8 +176,20 @@ impl Search<'_, '_> {
         })
     }
 
-    /// Whether functions are independent wherever they vanish together.
-    fn is_regular(&self, regular: &Case, functions: &[Expr]) -> bool {
+    /// Whether the equations of a form and D = 0 hold on a set of lower dimension than that of a smooth set given by the form: every case has
+    /// an equation more, each for a symbol of its own.
+    fn is_thin(&self, regular: &Case, form: &[Expr], pole: Expr) -> bool {
+        let at_pole = [form, &[pole]].concat();
+        let Some(cases) = self.all_cases(regular, &at_pole) else {
+            return false;
+        };
+        let count = |case: &Case| case.solved.len() + case.implicit.len();
+        let least = count(regular) + form.len() + 1;
+        cases.iter().all(|case| count(case) >= least)
+    }
+
+    /// Whether functions are independent wherever they vanish together with others.
+    fn is_regular(&self, regular: &Case, functions: &[Expr], others: &[Expr]) -> bool {
         let g = self.g;
         let symbols = self.moving(functions);
         let size = functions.len();
@@ -185,7 +207,7 @@ impl Search<'_, '_> {
             self.on(regular, determinant(g, &block))
         });
         let minors: Vec<Expr> = minors.filter(|&e| !g.is_zero(e)).take(MINORS).collect();
-        self.is_empty(regular, &[functions, &minors].concat())
+        self.is_empty(regular, &[others, functions, &minors].concat())
     }
 
     /// The symbols of the state, and the time, that occur.
@@ -198,11 +220,18 @@ impl Search<'_, '_> {
 
     /// Whether functions vanish together at no state.
     fn is_empty(&self, case: &Case, functions: &[Expr]) -> bool {
+        let cases = self.all_cases(case, functions);
+        cases.is_some_and(|cases| cases.is_empty())
+    }
+
+    /// The cases in which functions vanish together, where all of them are followed.
+    fn all_cases(&self, case: &Case, functions: &[Expr]) -> Option<Vec<Case>> {
         let mut found = Found::default();
         let before = self.left.borrow().len();
         let cases = self.require_all(&mut found, case.clone(), functions);
         self.left.borrow_mut().truncate(before);
-        cases.is_empty() && found.open.is_empty()
+        let waits = |case: &Case| !case.pending.is_empty();
+        (found.open.is_empty() && !cases.iter().any(waits)).then_some(cases)
     }
 }
 
@@ -210,7 +239,7 @@ impl Search<'_, '_> {
 mod tests {
     #![allow(clippy::unwrap_used)] // a panic is how a test fails
 
-    use super::super::{Case, Search};
+    use super::super::{Case, Found, Search};
     use super::Limit;
     use crate::stationarity::motion::Motion;
     use chetaev_mechanics::claims::Context;
@@ -240,6 +269,54 @@ mod tests {
         let motion = motion.as_ref().as_ref().unwrap();
         let symbols = [v("x"), g.symbol("x", 0), g.symbol("y", 0), g.symbol("z", 0)];
         look(&Search::new(&cx, motion, false), symbols);
+    }
+
+    /// y s² + x = 0 is smooth where y = 0, its states are limits of those with y ≠ 0, and y s² + 1 = 0 has none there. x s² + y² = 0 holds for every s where
+    /// x = y = 0, and the same of x³ s² + y² is not known to be a limit.
+    #[test]
+    fn limits_where_an_equation_loses_its_degree() {
+        with_search(|search, [s, x, y, _]| {
+            let g = search.g;
+            let symbol = g.as_symbol(s).unwrap();
+            let square = |a: Expr, c: Expr| g.add(&[g.mul(&[a, g.powi(s, 2)]), c]);
+            for (equation, stays) in [
+                (square(y, x), None),
+                (square(y, g.one()), None),
+                (square(x, g.powi(y, 2)), Some(x)),
+            ] {
+                let case = Case {
+                    implicit: vec![(equation, symbol)],
+                    stated: vec![equation],
+                    ..Case::default()
+                };
+                let mut found = Found::default();
+                let leaf = search.leaf(&mut found, case, &[]);
+                assert_eq!(leaf.nonzero, Vec::from_iter(stays), "{}", g.text(equation));
+                assert_eq!(found.open.len(), usize::from(stays.is_some()));
+            }
+        });
+    }
+
+    /// s = −x/y and p = −w/z have poles of their own, which may vanish together. s y + x = 0 and p z + y = 0 touch y = 0 where x = z = p = 0: the set is
+    /// smooth there too. With p y + x = 0 beside s y + x = 0 every s and p is left where x = y = 0, and s = p elsewhere.
+    #[test]
+    fn two_poles_at_once() {
+        with_search(|search, [s, x, y, z]| {
+            let g = search.g;
+            let (p, w) = (g.symbol("y", 1), g.symbol("w", 0));
+            let line = |s: Expr, y: Expr, x: Expr| g.add(&[g.mul(&[s, y]), x]);
+            let nowhere = Case::default();
+            let first = line(s, y, x);
+            let apart = [first, line(p, z, w)];
+            let touching = [first, line(p, z, y)];
+            for pole in [y, z] {
+                for form in [&apart, &touching] {
+                    assert!(matches!(search.limit(&nowhere, form, pole), Limit::All));
+                }
+            }
+            let tied = [first, line(p, y, x)];
+            assert!(matches!(search.limit(&nowhere, &tied, y), Limit::Open));
+        });
     }
 
     /// s = −N/y at y = 0. With N = x it is s y + x = 0, smooth with x = 0 there. With N = 1 there is no such state. With N = x³ and y² for y

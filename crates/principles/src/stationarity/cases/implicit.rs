@@ -26,6 +26,20 @@ impl Search<'_, '_> {
         rest
     }
 
+    /// What vanishes where an equation that is not solved loses its degree. What was found by division by it holds elsewhere, and where
+    /// this is zero in the limit only.
+    pub(super) fn leading(&self, case: &Case) -> Vec<Expr> {
+        let nowhere = Case::default();
+        let of = |&(polynomial, symbol): &(Expr, Symbol)| {
+            let list = coefficients(self.g, polynomial, symbol)?;
+            self.vanishing_factors(&nowhere, self.on(case, *list.last()?))
+        };
+        let mut all: Vec<Expr> = case.implicit.iter().filter_map(of).flatten().collect();
+        all.sort();
+        all.dedup();
+        all
+    }
+
     /// The cases that an equation gives which is not solved, where one of its symbols has got a value since; `None` where none has.
     pub(super) fn made_explicit(&self, found: &mut Found, case: &Case) -> Option<Vec<Case>> {
         let symbols: Vec<Symbol> = case

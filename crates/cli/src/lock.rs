@@ -1,0 +1,76 @@
+//! One process in a folder at a time.
+
+use std::fs::{File, OpenOptions};
+use std::path::Path;
+
+/// The file that is locked; it stays, since a file that is deleted while another process opens it protects nothing.
+const LOCK: &str = "sweep.lock";
+
+/// What came of the attempt to lock.
+enum Locked {
+    Alone(File),
+    Taken,
+    /// The file system has no locks.
+    Unknown(File),
+}
+
+/// Locks a folder for this process, until the file is dropped or the process ends, however it ends.
+///
+/// # Errors
+/// Another process has it, or the file cannot be made.
+pub(crate) fn folder(folder: &Path) -> Result<File, String> {
+    let path = folder.join(LOCK);
+    match lock(&path) {
+        Ok(Locked::Alone(file)) => Ok(file),
+        Ok(Locked::Unknown(file)) => {
+            crate::terminal::err(&format!(
+                "{} cannot be locked here: see to it that no other sweep runs in the same folder",
+                folder.display()
+            ));
+            Ok(file)
+        }
+        Ok(Locked::Taken) => Err(format!(
+            "another process computes a sweep in {}: wait until it has ended, or choose another folder with --out",
+            folder.display()
+        )),
+        Err(problem) => Err(format!("{} cannot be opened: {problem}", path.display())),
+    }
+}
+
+fn options() -> OpenOptions {
+    let mut options = OpenOptions::new();
+    options.read(true).write(true).create(true).truncate(false);
+    options
+}
+
+#[cfg(unix)]
+fn lock(path: &Path) -> std::io::Result<Locked> {
+    use rustix::fs::{flock, FlockOperation};
+    use rustix::io::Errno;
+    let file = options().open(path)?;
+    match flock(&file, FlockOperation::NonBlockingLockExclusive) {
+        Ok(()) => Ok(Locked::Alone(file)),
+        Err(Errno::WOULDBLOCK) => Ok(Locked::Taken),
+        Err(Errno::NOSYS | Errno::NOTSUP | Errno::NOLCK | Errno::INVAL) => {
+            Ok(Locked::Unknown(file))
+        }
+        Err(problem) => Err(problem.into()),
+    }
+}
+
+/// A file that is shared with nobody can be opened once.
+#[cfg(windows)]
+fn lock(path: &Path) -> std::io::Result<Locked> {
+    use std::os::windows::fs::OpenOptionsExt;
+    const SHARING_VIOLATION: i32 = 32;
+    match options().share_mode(0).open(path) {
+        Ok(file) => Ok(Locked::Alone(file)),
+        Err(problem) if problem.raw_os_error() == Some(SHARING_VIOLATION) => Ok(Locked::Taken),
+        Err(problem) => Err(problem),
+    }
+}
+
+#[cfg(not(any(unix, windows)))]
+fn lock(path: &Path) -> std::io::Result<Locked> {
+    Ok(Locked::Unknown(options().open(path)?))
+}

@@ -1,0 +1,220 @@
+//! Densities that are products of powers, `N = Π F_i^{e_i} exp(Σ c_j h_j)`: for given F_i and h_j their exponents enter
+//! `Z ln N = Σ e_i Z F_i / F_i + Σ c_j Z h_j = -div X̄` linearly, so they are solved for, not guessed.
+//!
+//! The bases F are factors of det W̄, of the denominators of the divergence, and of the functions that occur. A polynomial in sines
+//! and cosines has several factorizations, as `s² = (1 - c)(1 + c)`: it is factored as it is, in cosines, and in sines.
+
+use super::flow::Flow;
+use super::formula;
+use crate::noether::ansatz::Ansatz;
+use crate::noether::family::coefficients;
+use crate::noether::shown::readable;
+use chetaev_mechanics::Context;
+use chetaev_symbolic::factors::{factored, factors};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol, Verdict};
+
+/// The most bases, and the most functions in the exponential.
+const BASES: usize = 40;
+const EXPONENTS: usize = 60;
+
+/// Larger expressions, in nodes, are not factored.
+const FACTORED: usize = 4_000;
+
+/// A density of this form that is kept, with the proof.
+pub(super) fn density(cx: &Context<'_>, flow: &Flow<'_>) -> Option<(Expr, Verdict)> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let bases = bases(cx, flow);
+    let exponents = exponents(cx, flow);
+    let all = [&bases[..], &exponents[..]].concat();
+    let rates = flow.chart.frozen_derivative(system, &all);
+    let mut columns: Vec<Vec<Expr>> = Vec::new();
+    for (i, &rate) in rates.iter().enumerate() {
+        columns.push(vec![match bases.get(i) {
+            Some(&base) => g.div(rate, base),
+            None => rate,
+        }]);
+    }
+    columns.push(vec![flow.divergence]);
+    let (manifold, own) = (&flow.chart.manifold, flow.symbols());
+    let seed = cx.prover.points_seed();
+    let ansatz = Ansatz::new(&flow.motion, &columns, manifold, &own, seed).ok()?;
+    // With the common denominator that was cleared.
+    let found = ansatz.with_last()?;
+    let (&last, found) = found.split_last()?;
+    let power = |c: Expr| readable(g, g.div(c, last));
+    let (powers, rest) = found.split_at(bases.len());
+    let mut parts: Vec<Expr> = bases
+        .iter()
+        .zip(powers)
+        .map(|(&base, &e)| g.pow(base, power(e)))
+        .collect();
+    let rest = exponents.iter().zip(rest).filter(|(_, &c)| !g.is_zero(c));
+    let rest: Vec<Expr> = rest.map(|(&h, &c)| g.mul(&[power(c), h])).collect();
+    parts.push(g.exp(g.add(&rest)));
+    let density = formula::plain(cx, flow, g.mul(&parts));
+    let defect = g.add(&[logarithmic_rate(flow, density), flow.divergence]);
+    let on = match is_polynomial(g, density) {
+        true => "on the constraint manifold",
+        false => {
+            "on the constraint manifold, where no base of a negative or broken power in N vanishes"
+        }
+    };
+    let verdict = cx.prover.identity(system, &[defect], manifold, on);
+    matches!(verdict, Verdict::Proved(_)).then_some((density, verdict))
+}
+
+/// Whether no power in the density is negative or broken.
+fn is_polynomial(g: &Graph, density: Expr) -> bool {
+    g.reachable(&[density]).iter().all(|&e| match g.node(e) {
+        Node::Power { exponent, .. } => g.as_integer(*exponent).is_some_and(|n| n >= 0),
+        _ => true,
+    })
+}
+
+/// `Z ln N`, factor by factor: a rational function also where N has broken powers.
+fn logarithmic_rate(flow: &Flow<'_>, density: Expr) -> Expr {
+    let system = flow.motion.system;
+    let g = &system.graph;
+    let own = match g.node(density) {
+        Node::Product { factors, .. } => factors.to_vec(),
+        _ => vec![density],
+    };
+    let rates = own.into_iter().map(|factor| {
+        let (base, exponent) = g.base_exponent(factor);
+        if let Node::Apply {
+            function: Function::Exp,
+            arguments,
+        } = g.node(base)
+        {
+            let rate = flow.chart.frozen_derivative(system, &arguments[..1])[0];
+            return g.mul(&[exponent, rate]);
+        }
+        // What is inside a root counts as a product again.
+        let inner = match g.node(base) {
+            Node::Product { .. } => logarithmic_rate(flow, base),
+            _ => g.div(flow.chart.frozen_derivative(system, &[base])[0], base),
+        };
+        g.mul(&[exponent, inner])
+    });
+    g.add(&rates.collect::<Vec<Expr>>())
+}
+
+/// What densities are products of powers of: functions of the coordinates, and of the time where the motion contains it.
+fn bases(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Expr> {
+    let g = &cx.system.graph;
+    let own = flow.symbols();
+    let moving: Vec<Symbol> = cx
+        .system
+        .coordinate_symbols()
+        .into_iter()
+        .chain(g.as_symbol(g.symbol("t", 0)))
+        .collect();
+    let mut found: Vec<Expr> = Vec::new();
+    let mut add = |e: Expr| {
+        let is_one = g.contains_any(e, &moving) && !g.contains_any(e, &own) && flow.is_wanted(e);
+        if is_one && !found.contains(&e) {
+            found.push(e);
+        }
+    };
+    for letter in flow.letters(cx, flow.autonomous) {
+        add(formula::positive(
+            cx,
+            g.base_exponent(letter.letter.value).0,
+        ));
+    }
+    let mut products: Vec<Expr> = flow.determinant(cx).into_iter().collect();
+    let below = factored(g, flow.divergence).map(|f| f.factors);
+    let below = below.unwrap_or_default().into_iter();
+    products.extend(below.filter(|(_, n)| *n < 0).map(|(f, _)| f));
+    for product in products {
+        if g.reachable(&[product]).len() <= FACTORED {
+            for (factor, _) in all_factors(g, product, &moving) {
+                add(formula::positive(cx, factor));
+            }
+        }
+    }
+    found.truncate(BASES);
+    found
+}
+
+/// Factors of a function as it is, as a polynomial in cosines, and as one in sines.
+fn all_factors(g: &Graph, e: Expr, moving: &[Symbol]) -> Vec<(Expr, u32)> {
+    let mut found = factors(g, e, moving).unwrap_or_default();
+    for function in [Function::Cos, Function::Sin] {
+        let pairs = replaced(g, e, function);
+        if pairs.is_empty() {
+            continue;
+        }
+        let letters: Vec<Symbol> = pairs.iter().filter_map(|p| g.as_symbol(p.letter)).collect();
+        let there: Vec<(Expr, Expr)> = pairs
+            .iter()
+            .flat_map(|p| [(p.kept, p.letter), (p.other, p.root)])
+            .collect();
+        let back: Vec<(Expr, Expr)> = pairs
+            .iter()
+            .flat_map(|p| [(p.letter, p.kept), (p.root, p.other)])
+            .collect();
+        let own = factors(g, g.substitute(e, &there), &[moving, &letters[..]].concat());
+        let own = own.unwrap_or_default().into_iter();
+        found.extend(own.map(|(f, n)| (g.substitute(f, &back), n)));
+    }
+    found
+}
+
+/// The sine and the cosine of an argument, one of them as a letter of which the other is a root.
+struct Replaced {
+    kept: Expr,
+    other: Expr,
+    letter: Expr,
+    root: Expr,
+}
+
+/// The arguments of sines and cosines in an expression, with the function that is kept.
+fn replaced(g: &Graph, e: Expr, kept: Function) -> Vec<Replaced> {
+    let mut arguments: Vec<Expr> = Vec::new();
+    for part in g.reachable(&[e]) {
+        if let Node::Apply {
+            function: Function::Sin | Function::Cos,
+            arguments: own,
+        } = g.node(part)
+        {
+            if !arguments.contains(&own[0]) {
+                arguments.push(own[0]);
+            }
+        }
+    }
+    let pair = |(i, argument): (usize, Expr)| {
+        let both = [g.cos(argument), g.sin(argument)];
+        let [kept, other] = match kept {
+            Function::Cos => both,
+            _ => [both[1], both[0]],
+        };
+        // No name of a model contains a bracket.
+        let letter = g.symbol(&format!("kept[{i}]"), 0);
+        let root = g.sqrt(g.sub(g.one(), g.powi(letter, 2)));
+        Replaced {
+            kept,
+            other,
+            letter,
+            root,
+        }
+    };
+    arguments.into_iter().enumerate().map(pair).collect()
+}
+
+/// Functions of which the logarithm of a density may be a combination: products of up to two that occur.
+fn exponents(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Expr> {
+    let g = &cx.system.graph;
+    let mut letters = flow.letters(cx, flow.autonomous);
+    for own in &mut letters {
+        own.exponents.0 = 0;
+    }
+    let value = |member: &[(usize, i8)]| {
+        let powers = member.iter();
+        let powers = powers.map(|&(l, e)| g.powi(letters[l].letter.value, i64::from(e)));
+        g.mul(&powers.collect::<Vec<_>>())
+    };
+    let members = coefficients(&letters, 0, 2);
+    let members = members.iter().map(|(_, member)| value(member));
+    members.filter(|&e| !g.is_one(e)).take(EXPONENTS).collect()
+}

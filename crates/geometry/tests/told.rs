@@ -1,0 +1,201 @@
+//! What verdicts on first integrals say: trivial functions, symmetries, numbers of integrals, special values of parameters, and what
+//! functions of the model's own and a larger budget change.
+
+#![allow(clippy::unwrap_used)] // a panic is how a test fails
+
+mod common;
+
+use chetaev_geometry::noether::found::{found, Found};
+use chetaev_mechanics::{Context, Prepared, Prover, Registry, System};
+use common::{expr, finding, framed, system, with_context};
+use std::collections::BTreeSet;
+
+/// The verdict on a function that the model states as an integral.
+fn stated(mut system: System, value: &str) -> (&'static str, String) {
+    let g = std::sync::Arc::clone(&system.graph);
+    system.integrals.push(("own".into(), expr(&g, value)));
+    let found = finding(&system, "noether.inverse#own");
+    (found.verdict.word(), found.verdict.detail().to_owned())
+}
+
+/// Constants in disguise are no integrals, everywhere or on the constraints.
+#[test]
+fn constants_are_trivial() {
+    let particle = || {
+        system(
+            "x y z",
+            "(x'^2 + y'^2 + z'^2)/2 - c*x",
+            &[("f", "z' - y*x'")],
+        )
+    };
+    for (value, says) in [
+        ("sin(x)^2 + cos(x)^2", "is the constant 1;"),
+        ("cosh(y)^2 - sinh(y)^2 + 2", "is the constant 3;"),
+        ("(x*z + y*z)/(x + y)/z", "is the constant 1;"),
+        (
+            "(x + y)^2 - x^2 - 2*x*y - y^2 + 1/2",
+            "is the constant 1/2;",
+        ),
+        ("3 + z' - y*x'", "is the constant 3 on the constraints;"),
+        ("z' - y*x'", "vanishes on the constraints"),
+    ] {
+        let (word, detail) = stated(particle(), value);
+        assert_eq!(word, "proved", "{value}: {detail}");
+        let expected = detail.starts_with("trivial") && detail.contains(says);
+        assert!(expected, "{value}: {detail}");
+    }
+    let (word, detail) = stated(particle(), "y'");
+    assert_eq!(word, "proved", "{detail}");
+    assert!(!detail.contains("trivial"), "{detail}");
+}
+
+/// `ρ x'` of `z' = y x'` belongs to a field that is no shift: `∂x + y ∂z` times a function; y' to the shift along y.
+#[test]
+fn symmetries_are_named_as_what_they_are() {
+    let particle = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &[("f", "z' - y*x'")]);
+    let said: Vec<String> = (1..=3)
+        .map(|j| {
+            let found = finding(&particle, &format!("noether.integral#{j}"));
+            found.verdict.detail().to_owned()
+        })
+        .collect();
+    let says = |words: &str| said.iter().any(|detail| detail.contains(words));
+    assert!(says("its symmetry is the shift along y"), "{said:#?}");
+    assert!(says("∂/∂x") && says("∂/∂z"), "{said:#?}");
+    assert!(!says("the shift along x"), "{said:#?}");
+    // A body's angular velocity is the speed of no coordinate.
+    let top = framed(
+        "phi theta psi",
+        "A*(theta'^2 + phi'^2*sin(theta)^2)/2 + C*(psi' + phi'*cos(theta))^2/2 - cos(theta)",
+        &[],
+        &[
+            ("w1", "phi'*sin(theta)*sin(psi) + theta'*cos(psi)"),
+            ("w2", "phi'*sin(theta)*cos(psi) - theta'*sin(psi)"),
+            ("w3", "phi'*cos(theta) + psi'"),
+        ],
+        &[],
+    );
+    with_context(&top, |cx| {
+        let found = found(cx);
+        let found: &Found = found.as_ref().as_ref().unwrap();
+        for j in 1..=found.integrals.len() {
+            let verdict = &cx.finding(&format!("noether.integral#{j}")).verdict;
+            let detail = verdict.detail();
+            assert!(!detail.contains("shift along w"), "{detail}");
+            let known = ["shift along psi", "shift along phi", "shift of time"];
+            assert!(known.iter().any(|k| detail.contains(k)), "{detail}");
+        }
+    });
+}
+
+/// One more is one more.
+#[test]
+fn numbers_agree_with_their_nouns() {
+    let falling = system("x", "x'^2/2 - cos(x)", &[]);
+    let detail = finding(&falling, "noether.family")
+        .verdict
+        .detail()
+        .to_owned();
+    assert!(!detail.contains("two of these"), "{detail}");
+    for text in ["1 is a", "1 are", "ones 1 "] {
+        assert!(!detail.contains(text), "{detail}");
+    }
+}
+
+/// Whether special values were looked at is said, also where nothing is found there.
+#[test]
+fn special_values_are_accounted_for() {
+    let says = |lagrangian: &str| {
+        let own = system("x y", lagrangian, &[]);
+        finding(&own, "noether.family").verdict.detail().to_owned()
+    };
+    // Two springs of different strength: of equal strength the momentum is one more.
+    let springs = says("(x'^2 + y'^2)/2 - a*x^2 - b*y^2");
+    assert!(
+        springs.contains("there are further or simpler ones where"),
+        "{springs}"
+    );
+    let pendulum = says("x'^2/2 + y'^2/2 - k*cos(x) - k*cos(y)^3");
+    assert!(pendulum.contains("looked at where"), "{pendulum}");
+    let free = says("x'^2/2 + y'^2/2 - cos(x) - cos(y)^3");
+    assert!(!free.contains("parameters"), "{free}");
+}
+
+/// Twelve functions of the model's own take nothing away: all families without them are searched as they are without them.
+#[test]
+fn functions_of_the_model_are_additional() {
+    let usual = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &[("f", "z' - y*x'")]);
+    let mut own = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &[("f", "z' - y*x'")]);
+    let g = std::sync::Arc::clone(&own.graph);
+    for k in 1..=12 {
+        let function = format!("log({k} + x^2 + {k}*y^2)");
+        own.search_functions.push(expr(&g, &function));
+    }
+    let searched = |system: &System| {
+        with_context(system, |cx| {
+            let found = found(cx);
+            let found: &Found = found.as_ref().as_ref().unwrap();
+            let shown = found.integrals.iter().map(|i| system.graph.text(i.shown));
+            let families = found.families.iter();
+            let families = families.map(|f| (f.family.words.clone(), f.dimension));
+            let momenta = found.momenta.iter().map(|m| (m.weight, m.dimension));
+            (
+                shown.collect::<BTreeSet<String>>(),
+                families.collect::<Vec<_>>(),
+                momenta.collect::<Vec<_>>(),
+            )
+        })
+    };
+    let ((shown, families, momenta), (more, all, every)) = (searched(&usual), searched(&own));
+    assert!(shown.is_subset(&more), "{shown:?} of {more:?}");
+    assert_eq!(all[..families.len()], families[..]);
+    assert!(all.len() > families.len());
+    assert_eq!(every[..momenta.len()], momenta[..]);
+}
+
+/// Four times the work looks among more quotients and more generalized momenta.
+#[test]
+fn quotients_and_momenta_grow_with_the_budget() {
+    let thrown = system("x y", "(x'^2 + y'^2)/2 - y", &[]);
+    let prepared = Prepared::new(&thrown).unwrap();
+    let registry = Registry::new(&[chetaev_mechanics::claims::CLAIMS, chetaev_geometry::CLAIMS]);
+    let sizes = |work: f64| {
+        let (terms, selection) = (&prepared.terms, &prepared.selection);
+        let cx = Context::new(&thrown, terms, selection, &registry, Prover::default());
+        let cx = cx.allowing(work);
+        let found = found(&cx);
+        let found: &Found = found.as_ref().as_ref().unwrap();
+        let quotients = found
+            .families
+            .iter()
+            .find(|f| f.family.words.starts_with("quotients"));
+        let momenta = found.momenta.first().unwrap();
+        (
+            quotients.unwrap().family.members.len(),
+            momenta.functions.len(),
+        )
+    };
+    let (small, large) = (sizes(1.0), sizes(4.0));
+    assert!(
+        large.0 > small.0 && large.1 > small.1,
+        "{small:?} {large:?}"
+    );
+}
+
+/// Three bodies on rods: T + V as the model states it, not `Σ p v - L` worked out.
+#[test]
+fn the_energy_is_shown_as_the_model_states_it() {
+    let kinetic = "m*(x'^2 + y'^2)/2 + M*((x' + d*a'*sin(a))^2 + (y' - d*a'*cos(a))^2)/2 \
+        + N*((x' + d*a'*sin(a) + e*b'*sin(b))^2 + (y' - d*a'*cos(a) - e*b'*cos(b))^2)/2";
+    let lagrangian = format!("{kinetic} - m*g*y + k*(x*y' - y*x')");
+    let chain = system("x y a b", &lagrangian, &[]);
+    let g = &chain.graph;
+    with_context(&chain, |cx| {
+        let found = found(cx);
+        let found: &Found = found.as_ref().as_ref().unwrap();
+        let name = Some("the energy".to_owned());
+        let energy = found.integrals.iter().find(|i| i.name == name).unwrap();
+        let expected = expr(g, &format!("{kinetic} + m*g*y"));
+        assert_eq!(g.text(energy.shown), g.text(expected));
+    });
+}

@@ -1,0 +1,215 @@
+//! Factors of a constraint function on whose zero sets it holds for real velocities.
+//!
+//! `z'³ − y³ x'³` is `(z' − y x')` times a form that vanishes where `z' − y x'` does and nowhere else; `z'/x' − y` is `z' − y x'` where
+//! x' ≠ 0.
+
+use chetaev_symbolic::factors::{coefficients, factored, factors, remainder};
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
+
+/// At most so many linear factors are tried for one polynomial.
+const CANDIDATES: usize = 400;
+/// Integers above this are not divided into factors.
+const LARGEST_INTEGER: i64 = 100;
+/// Polynomials of a higher degree are not searched for linear factors.
+const DEGREE: usize = 6;
+
+/// What a constraint function vanishes by.
+#[derive(Clone, Debug, Default)]
+pub(super) struct RealFactors {
+    /// It vanishes where one of these does and no denominator vanishes.
+    pub(super) factors: Vec<Expr>,
+    /// Denominators in which velocities occur and which may vanish.
+    pub(super) denominators: Vec<Expr>,
+}
+
+/// The factors in which velocities occur, without those that vanish nowhere but where another one does.
+pub(super) fn real_factors(
+    g: &Graph,
+    f: Expr,
+    velocities: &[Symbol],
+    known: &Assumptions,
+) -> RealFactors {
+    let Some(parts) = factored(g, f) else {
+        return RealFactors::default();
+    };
+    let moves = |e: &Expr| g.contains_any(*e, velocities);
+    let below = parts.factors.iter().filter(|(_, n)| *n < 0);
+    let never_zero = |e: &Expr| known_sign(g, *e, known).is_nonzero();
+    let below = below.map(|(e, _)| *e).filter(moves);
+    let denominators = below.filter(|e| !never_zero(e)).collect();
+    let above = factors(g, f, velocities).unwrap_or_default().into_iter();
+    let split = above.flat_map(|(e, _)| split(g, e, velocities));
+    let all: Vec<Expr> = split.filter(|e| !never_zero(e)).collect();
+    let is_needed = |&e: &Expr| {
+        let mut others = all.iter().filter(|&&other| other != e);
+        let is_empty = zeros(g, e, velocities, known).is_some_and(|zeros| zeros.squares.is_empty());
+        !is_empty && !others.any(|&other| vanishes_only_with(g, e, other, velocities, known))
+    };
+    RealFactors {
+        factors: all.iter().copied().filter(is_needed).collect(),
+        denominators,
+    }
+}
+
+/// A square-free polynomial with its linear factors in one velocity apart, as far as they are found among the quotients of factors of its
+/// last and first coefficient.
+fn split(g: &Graph, e: Expr, velocities: &[Symbol]) -> Vec<Expr> {
+    let mut rest = e;
+    let mut found = Vec::new();
+    while let Some((linear, quotient)) = linear_factor(g, rest, velocities) {
+        found.push(linear);
+        rest = quotient;
+    }
+    // What is left is e itself where nothing was found.
+    found.push(rest);
+    found
+}
+
+/// A linear factor of a polynomial of the third degree or more in a velocity, and the quotient.
+fn linear_factor(g: &Graph, e: Expr, velocities: &[Symbol]) -> Option<(Expr, Expr)> {
+    velocities.iter().find_map(|&s| {
+        let list = coefficients(g, e, s)?;
+        if list.len() < 4 || list.len() > DEGREE + 1 {
+            return None;
+        }
+        let (last, first) = (*list.first()?, *list.last()?);
+        candidates(g, last, first)?.into_iter().find_map(|root| {
+            let linear = g.sub(g.symbol_expr(s), root);
+            let rest = remainder(g, e, linear, s)?;
+            if !g.is_zero(rest) {
+                return None;
+            }
+            // Horner's scheme.
+            let mut quotient = Vec::new();
+            let mut carried = g.zero();
+            for &c in list.iter().skip(1).rev() {
+                carried = g.add(&[c, g.mul(&[root, carried])]);
+                quotient.push(carried);
+            }
+            let powers = quotient.iter().rev().zip(0_i64..);
+            let terms = powers.map(|(&c, n)| g.mul(&[c, g.powi(g.symbol_expr(s), n)]));
+            let quotient = g.add(&terms.collect::<Vec<Expr>>());
+            Some((
+                numerator(g, linear, velocities)?,
+                numerator(g, quotient, velocities)?,
+            ))
+        })
+    })
+}
+
+/// The factors in which velocities occur as one product.
+fn numerator(g: &Graph, e: Expr, velocities: &[Symbol]) -> Option<Expr> {
+    let list = factors(g, e, velocities)?.into_iter();
+    let powers: Vec<Expr> = list.map(|(f, n)| g.powi(f, i64::from(n))).collect();
+    Some(g.mul(&powers))
+}
+
+/// Quotients of products of factors, with both signs.
+fn candidates(g: &Graph, above: Expr, below: Expr) -> Option<Vec<Expr>> {
+    if g.is_zero(above) {
+        return None;
+    }
+    let (above, below) = (factored(g, above)?, factored(g, below)?);
+    let numbers = |q: &Rational| {
+        let integers = [q.numerator().to_string(), q.denominator().to_string()];
+        integers.map(|text| text.trim_start_matches('-').parse::<i64>().ok())
+    };
+    let ([p, r], [q, s]) = (numbers(&above.coefficient), numbers(&below.coefficient));
+    let (p, q) = (p?.checked_mul(s?)?, q?.checked_mul(r?)?);
+    let divisors = |n: i64| (1..=n.min(LARGEST_INTEGER)).filter(move |d| n % d == 0);
+    let mut list: Vec<Expr> = divisors(p)
+        .flat_map(|a| divisors(q).map(move |b| (a, b)))
+        .map(|(a, b)| g.div(g.integer(a), g.integer(b)))
+        .collect();
+    let powers = above.factors.iter().map(|&(f, n)| (f, n));
+    let powers = powers.chain(below.factors.iter().map(|&(f, n)| (f, -n)));
+    for (factor, n) in powers {
+        let exponents: Vec<i64> = (0..=n.abs()).map(|k| k * n.signum()).collect();
+        list = list
+            .iter()
+            .flat_map(|&e| exponents.iter().map(move |&k| (e, k)))
+            .map(|(e, k)| g.mul(&[e, g.powi(factor, k)]))
+            .collect();
+        if list.len() > CANDIDATES {
+            return None;
+        }
+    }
+    list.sort();
+    list.dedup();
+    Some(list.into_iter().flat_map(|e| [e, g.neg(e)]).collect())
+}
+
+/// The real zeros of `a s² + b s + c` with `a ≠ 0` and `4 a c − b²` nowhere negative: `2 a s + b = 0` where these all vanish of which
+/// `4 a c − b²` is a product.
+struct Zeros {
+    symbol: Symbol,
+    a: Expr,
+    b: Expr,
+    /// Factors of `4 a c − b²` that may vanish; without any there are no zeros.
+    squares: Vec<Expr>,
+}
+
+/// The zeros of a quadratic polynomial in a velocity that changes its sign nowhere.
+fn zeros(g: &Graph, e: Expr, velocities: &[Symbol], known: &Assumptions) -> Option<Zeros> {
+    velocities.iter().find_map(|&symbol| {
+        let list = coefficients(g, e, symbol)?;
+        let &[c, b, a] = list.as_slice() else {
+            return None;
+        };
+        if !known_sign(g, a, known).is_nonzero() {
+            return None;
+        }
+        let four = g.mul(&[g.integer(4), a, c]);
+        let parts = factored(g, g.sub(four, g.mul(&[b, b])))?;
+        if parts.coefficient <= Rational::from(0) {
+            return None;
+        }
+        let sign = |f: Expr| known_sign(g, f, known);
+        let mut factors = parts.factors.iter();
+        if factors.any(|&(f, n)| n < 0 || (n % 2 != 0 && !sign(f).is_nonnegative())) {
+            return None;
+        }
+        let may_vanish = parts.factors.iter().map(|(f, _)| *f);
+        let squares = may_vanish.filter(|&f| !sign(f).is_nonzero()).collect();
+        Some(Zeros {
+            symbol,
+            a,
+            b,
+            squares,
+        })
+    })
+}
+
+/// Whether a factor that changes its sign nowhere vanishes only where another one, linear in the same velocity, does.
+fn vanishes_only_with(
+    g: &Graph,
+    e: Expr,
+    other: Expr,
+    velocities: &[Symbol],
+    known: &Assumptions,
+) -> bool {
+    let within = || -> Option<bool> {
+        let zeros = zeros(g, e, velocities, known)?;
+        let list = coefficients(g, other, zeros.symbol)?;
+        let &[last, first] = list.as_slice() else {
+            return None;
+        };
+        // 2 a (first s + last) at s = −b/(2 a).
+        let value = g.sub(
+            g.mul(&[g.integer(2), zeros.a, last]),
+            g.mul(&[first, zeros.b]),
+        );
+        let value = factored(g, value)?;
+        if value.coefficient == Rational::from(0) {
+            return Some(true);
+        }
+        let divides = |d: &Expr| {
+            let mut factors = value.factors.iter();
+            factors.any(|(f, n)| *n > 0 && (f == d || *f == g.neg(*d)))
+        };
+        Some(!zeros.squares.is_empty() && zeros.squares.iter().all(divides))
+    };
+    within().unwrap_or(false)
+}
