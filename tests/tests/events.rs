@@ -314,3 +314,71 @@ fn series_go_down_to_the_rounding_and_others_do_not() {
     );
     assert!(refused("tolerance = 1e-17\nmethod = \"taylor\"").contains("2.3e-16"));
 }
+
+/// A free particle is at x = t, and a step may be as long as the run: zeros between all places of a sampling are found, by the
+/// series of the functions, at the times that are seen by hand; touches are called so. The sleigh's reaction vanishes where x' ω
+/// does, and twice near a place at which it nearly does.
+#[test]
+fn zeros_close_together_are_not_missed() {
+    let model = |method: &str, when: &str| {
+        format!(
+            r#"
+coordinates = ["x", "y"]
+lagrangian = "(x'^2 + y'^2)/2"
+constraints = {{ straight = "y' = 0" }}
+[initial]
+"x'" = 1
+[simulation]
+t_end = 10
+{method}
+[events.narrow]
+when = "{when}"
+"#
+        )
+    };
+    let near = |center: f64, apart: f64| vec![center - apart, center + apart];
+    let every = |w: f64| (1..).map(move |k| f64::from(k) * std::f64::consts::PI / w);
+    let cases: Vec<(&str, Vec<f64>, f64)> = vec![
+        ("(x - 3.1234)^2 - 1e-6", near(3.1234, 1e-3), 1e-12),
+        ("(x - 3.1234)^2 - 1e-10", near(3.1234, 1e-5), 1e-10),
+        (
+            "(x - 3)*(x - 3.001)*(x - 3.002)*(x^2 + 1)",
+            vec![3.0, 3.001, 3.002],
+            1e-11,
+        ),
+        (
+            "1/(1 + 100*(x - 4)^2) - 0.9999",
+            near(4.0, (1.0 / 0.9999 - 1.0_f64).sqrt() / 10.0),
+            1e-10,
+        ),
+        (
+            "sin(30*x)",
+            every(30.0).take_while(|&t| t < 10.0).collect(),
+            1e-12,
+        ),
+        ("(x - 3.1234)^2 + 1e-6", vec![], 0.0),
+        ("x'' + lambda_straight + x - 7", vec![7.0], 1e-12),
+    ];
+    for method in ["taylor", "dop853"] {
+        for (when, expected, close) in &cases {
+            let text = model(&format!("method = \"{method}\""), when);
+            let found = met(&study(&text));
+            assert_eq!(found.len(), expected.len(), "{method} {when}: {found:?}");
+            for ((_, kind, t), expected) in found.iter().zip(expected) {
+                assert_ne!(*kind, EventKind::Grazing, "{method} {when}: {found:?}");
+                assert!(
+                    (t - expected).abs() < *close,
+                    "{method} {when}: {t} {expected}"
+                );
+            }
+        }
+        let touch = met(&study(&model(
+            &format!("method = \"{method}\""),
+            "(x - 3.1234)^2",
+        )));
+        assert!(
+            matches!(touch[..], [(0, EventKind::Grazing, t)] if (t - 3.1234).abs() < 1e-5),
+            "{method}: {touch:?}"
+        );
+    }
+}

@@ -8,6 +8,7 @@ use chetaev::study::{study, ClaimSelection, Hooks, Study, StudyOptions};
 use chetaev::symbolic::Verdict;
 use chetaev_tests::places::scratch;
 use chetaev_tests::program::{run, text};
+use chetaev_tests::runs::{ended_text, Ask};
 use chetaev_tests::studied::{gallery_path, loaded};
 use chetaev_tests::words::in_parallel;
 
@@ -646,4 +647,30 @@ fn nothing_to_compare_and_too_much_given() {
     let told = run(&[&["principles", skate, "--compare"][..], &twice].concat());
     assert_eq!(told.status, Some(2), "{}", told.both());
     assert!(told.err.contains("given twice"), "{}", told.both());
+}
+
+/// Where a velocity appears under a root too, what must vanish on a part of the states may lead back to itself: it is named as left
+/// open, and the search ends.
+#[test]
+fn a_condition_that_leads_back_to_itself_is_left() {
+    let ended = ended_text(
+        r#"
+assumptions = ["m_1 > 0", "m_2 > 0"]
+coordinates = ["q_1", "q_2"]
+[parameters]
+m_1 = "3/2"
+m_2 = "5/3"
+[lagrangian]
+L = "5 (15 q_2^2 q_1' + 2 q_2')^2/216 + 1/2 m_1 q_1'^2 + 1/2 m_2 q_2'^2 - 4 q_2 q_1' + 3 q_1^2/2 + 1"
+[constraints]
+c_1 = "2/3 sqrt(3) sqrt(2) sqrt(6 q_2'^2 + 9 q_1^4 + 4) + q_1' = 0"
+"#,
+        &Ask {
+            claims: vec!["hamilton.stationary"],
+            ..Ask::default()
+        },
+    );
+    let verdict = ended.verdict("hamilton.stationary");
+    // q_1' is nowhere zero, so that no motion stays on q_1 = 0, the only set on which the search had a chance.
+    assert!(!matches!(verdict, Verdict::Proved(_)), "{verdict:?}");
 }

@@ -1,6 +1,6 @@
 //! Events: zero crossings of switching functions, located on the dense output of each step.
 
-use crate::problem::{EvaluationFailure, System};
+use crate::problem::{EvaluationFailure, Piece, System};
 
 /// Which crossings count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,6 +87,19 @@ impl<'a> Event<'a> {
         match self.switching {
             Switching::Function(_) => true,
             Switching::OfSystem(index) => system.is_event(index, t, y),
+        }
+    }
+
+    /// Taylor coefficients along a piece of the motion; false where there are none.
+    pub(crate) fn series(
+        &self,
+        system: &mut dyn System,
+        piece: Piece<'_>,
+        series: &mut [f64],
+    ) -> bool {
+        match self.switching {
+            Switching::Function(_) => false,
+            Switching::OfSystem(index) => system.switching_series(index, piece, series),
         }
     }
 

@@ -25,6 +25,7 @@ mod error;
 pub mod event;
 pub mod global_error;
 pub mod integrate;
+mod isolate;
 mod locate;
 pub mod method;
 pub mod methods;
@@ -44,7 +45,7 @@ pub use global_error::{global_error, GlobalError};
 pub use integrate::{integrate, Options, Output, Progress, StepSize};
 pub use method::{method, Method, MethodCard};
 pub use problem::{
-    from_fn, try_from_fn, ChartChange, Control, EvaluationFailure, HaltReason, System,
+    from_fn, try_from_fn, ChartChange, Control, EvaluationFailure, HaltReason, Piece, System,
 };
 pub use solution::{Note, Solution, Statistics, Stop};
 pub use stepping::{Expansion, Stepping};

@@ -8,10 +8,11 @@ use crate::compensated::Time;
 use crate::dense::{Basis, DenseStep};
 use crate::event::{Direction, Event, EventKind, EventRecord};
 use crate::integrate::{Options, StepSize};
+use crate::isolate::{Followed, Isolator};
 use crate::method::{Method, State, Stepper, StepperSettings};
-use crate::problem::{EvaluationFailure, System};
+use crate::problem::{EvaluationFailure, Piece, System};
 use crate::roots::{bracketed_zero, minimum};
-use crate::sampling::{dips, ends_on_zero, refine, Samples, NEAR, NODES};
+use crate::sampling::{at_places, dips, ends_on_zero, refine, Samples, NEAR, NODES};
 use crate::solution::{Note, Solution, Stop};
 
 /// Zeros closer than this many units in the last place of t are one.
@@ -52,6 +53,9 @@ pub(crate) struct Locator {
     samples: Vec<Result<Samples, EvaluationFailure>>,
     /// Places and values of the function searched.
     points: Vec<(f64, f64)>,
+    isolator: Isolator,
+    /// Places that tell its zeros apart.
+    places: Vec<f64>,
     candidates: Vec<Candidate>,
     y: Vec<f64>,
     /// State at the event being refined.
@@ -83,6 +87,26 @@ impl Step<'_> {
     }
 }
 
+/// A switching function along one step.
+struct Along<'s, 'e> {
+    system: &'s mut dyn System,
+    event: &'s mut Event<'e>,
+    step: Step<'s>,
+    y: &'s mut Vec<f64>,
+}
+
+impl Followed for Along<'_, '_> {
+    fn series(&mut self, piece: Piece<'_>, series: &mut [f64]) -> bool {
+        self.event.series(self.system, piece, series)
+    }
+
+    fn value(&mut self, theta: f64) -> Result<f64, EvaluationFailure> {
+        self.step.dense.at_theta(theta, self.y);
+        let t = self.step.time(theta);
+        self.event.value(self.system, t, self.y)
+    }
+}
+
 impl Locator {
     pub(crate) fn new(n: usize, events: usize, options: &Options<'_>) -> Locator {
         let mut settings = options.settings();
@@ -107,6 +131,8 @@ impl Locator {
             memories: vec![memory; events],
             samples: vec![Ok([0.0; NODES.len()]); events],
             points: Vec::new(),
+            isolator: Isolator::default(),
+            places: Vec::new(),
             candidates: Vec::new(),
             y: vec![0.0; n],
             state: State::exact(0.0, &vec![0.0; n]),
@@ -239,15 +265,30 @@ impl Locator {
         step: Step<'_>,
     ) -> Result<bool, EvaluationFailure> {
         let samples = self.samples[index]?;
-        let y = &mut self.y;
-        let mut value = |theta: f64| {
-            step.dense.at_theta(theta, y);
-            event.value(system, step.time(theta), y)
+        let mut along = Along {
+            system,
+            event,
+            step,
+            y: &mut self.y,
         };
         let largest = self.memories[index].scale;
-        let shown = refine(&mut self.points, &samples, largest, &mut value)?;
+        let (isolator, places) = (&mut self.isolator, &mut self.places);
+        let largest_here = samples.iter().fold(largest, |m, v| m.max(v.abs()));
+        let sizes = (largest_here, self.resolution * largest_here);
+        let shown = match isolator.places(step.dense, sizes, &mut along, places)? {
+            true => {
+                at_places(
+                    &mut self.points,
+                    &samples,
+                    (&self.places, largest_here),
+                    |x| along.value(x),
+                )?;
+                true
+            }
+            false => refine(&mut self.points, &samples, largest, |x| along.value(x))?,
+        };
         let mut scan = Scan {
-            value,
+            value: |x: f64| along.value(x),
             step,
             index,
             memory: self.memories[index],

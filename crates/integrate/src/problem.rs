@@ -112,6 +112,19 @@ pub enum Control {
     Stop(HaltReason),
 }
 
+/// A piece of a motion within one step: for −1 ≤ s ≤ 1 the time is `t + length s` and the state Σ_j c_j s^j.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece<'a> {
+    /// Time at the middle.
+    pub t: f64,
+    /// Half of its duration.
+    pub length: f64,
+    /// Number of components of the state.
+    pub dimension: usize,
+    /// All components of c₀, then all of c₁, and so on.
+    pub coefficients: &'a [f64],
+}
+
 /// A first-order system y' = F(t, y) of fixed dimension.
 ///
 /// The integrator calls the hooks in this order for every accepted step from t to t + h: event functions and
@@ -190,6 +203,13 @@ pub trait System {
     fn switching(&mut self, index: usize, t: f64, y: &[f64]) -> Result<f64, EvaluationFailure> {
         let _ = (t, y);
         Err(EvaluationFailure::Domain { operation: index })
+    }
+
+    /// Writes the Taylor coefficients in s of switching function number `index` along a piece of the motion, orders 0 to
+    /// `series.len() - 1`; false where it has none. With them no zero is missed that the series shows.
+    fn switching_series(&mut self, index: usize, piece: Piece<'_>, series: &mut [f64]) -> bool {
+        let _ = (index, piece, series);
+        false
     }
 
     /// Whether a zero of switching function number `index` of the system near (t, y) is an event at all, asked before it is

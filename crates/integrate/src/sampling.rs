@@ -103,6 +103,30 @@ pub(crate) fn refine<E>(
     Ok(true)
 }
 
+/// Writes the nodes and further places, none given twice, with their values in ascending order into `points`; `largest` is the
+/// largest magnitude of the function.
+///
+/// # Errors
+/// The first failure of `value`.
+pub(crate) fn at_places<E>(
+    points: &mut Vec<(f64, f64)>,
+    nodes: &Samples,
+    (places, largest): (&[f64], f64),
+    mut value: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<(), E> {
+    points.clear();
+    points.extend(NODES.into_iter().zip(nodes.iter().copied()));
+    for &place in places.iter().filter(|place| !NODES.contains(place)) {
+        let found = value(place)?;
+        // The sign of what is nothing but rounding says nothing.
+        if found.abs() > 64.0 * f64::EPSILON * largest {
+            points.push((place, found));
+        }
+    }
+    points.sort_by(|x, y| x.0.total_cmp(&y.0));
+    Ok(())
+}
+
 /// The two halves of an interval with these values at its eighths, the first one last, to be taken first.
 fn halves(start: f64, length: f64, eighths: &[f64; 9]) -> [Interval; 2] {
     let half = |from: usize| Interval {

@@ -78,6 +78,7 @@ impl<'o> Course<'o> {
             flow: &mut *flow,
             own,
             observers: &mut looking.observers,
+            values: &looking.values,
             row: &mut self.row,
             passed: &self.passed,
         };

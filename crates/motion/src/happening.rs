@@ -3,7 +3,7 @@
 use crate::observe::Observer;
 use crate::run::WatchedFlow;
 use chetaev_integrate::{
-    Control, Direction, EvaluationFailure, Event, EventKind, EventRecord, Note, System,
+    Control, Direction, EvaluationFailure, Event, EventKind, EventRecord, Note, Piece, System,
 };
 use chetaev_symbolic::Expr;
 
@@ -40,6 +40,8 @@ pub(crate) struct WithEvents<'f, F> {
     pub(crate) own: usize,
     /// One for each event, since a value that does not exist belongs to one only.
     pub(crate) observers: &'f mut [Observer],
+    /// Their functions.
+    pub(crate) values: &'f [Expr],
     pub(crate) row: &'f mut Vec<f64>,
     /// For each of the flow's own switching functions the minimum that was looked at last, where it is not zero.
     pub(crate) passed: &'f [Option<Passed>],
@@ -168,6 +170,14 @@ impl<F: WatchedFlow> System for WithEvents<'_, F> {
             true => Ok(value),
             false => Err(EvaluationFailure::NotFinite { component: 0 }),
         }
+    }
+
+    fn switching_series(&mut self, index: usize, piece: Piece<'_>, series: &mut [f64]) -> bool {
+        let Some(number) = index.checked_sub(self.own) else {
+            return false;
+        };
+        let event = (number, self.values[number]);
+        self.flow.event_series(event, piece, series)
     }
 
     fn is_event(&mut self, index: usize, t: f64, y: &[f64]) -> bool {

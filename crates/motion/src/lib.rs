@@ -4,6 +4,7 @@
 //! [`observe`] evaluates expressions along the rows; [`double_double`] does both with about 31 digits.
 
 pub mod accelerations;
+mod along;
 pub mod chart;
 mod course;
 pub mod dense;

@@ -5,6 +5,7 @@
 //! constraints only). The former measures the error of every velocity, the latter that of the v_i alone.
 
 use crate::accelerations::Accelerations;
+use crate::along::FunctionAlong;
 use crate::chart::{self, Chart, DEGRADED, HYSTERESIS};
 use crate::drift::Drift;
 use crate::follow::Follow;
@@ -12,13 +13,16 @@ use crate::functions::{Functions, FunctionsError};
 use crate::initial::ConsistentState;
 use crate::keep::Keep;
 use crate::leaving::Anchor;
-use crate::numeric::{Completion, NumericSystem};
+use crate::numeric::{Completion, NumericSystem, States};
 use crate::projection::Projection;
 use crate::row::RowLayout;
 use crate::run::WatchedFlow;
 use crate::series::RateSeries;
 use crate::watch::Watch;
-use chetaev_integrate::{ChartChange, Control, EvaluationFailure, Expansion, HaltReason, System};
+use chetaev_integrate::{
+    ChartChange, Control, EvaluationFailure, Expansion, HaltReason, Piece, System,
+};
+use chetaev_symbolic::Expr;
 
 /// Which variables are integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,11 +59,14 @@ pub struct MultiplierFlow {
     pub watch: Watch,
     /// Whether the watched quantity asked for last vanishes at the state interpolated there.
     zero_between: bool,
-    /// Taylor recurrences of the rates of (q, v), with the constraint rows that they use; made when first asked for.
-    series: Option<(Vec<usize>, RateSeries)>,
+    /// Taylor recurrences of the rates of (q, v), with the constraint rows that they use and the states for which they are; made
+    /// when first asked for.
+    series: Option<((Vec<usize>, States), RateSeries)>,
     /// Accelerations without multipliers, with the constraint rows that they use, where there are such; made when first asked
     /// for.
     direct: Option<(Vec<usize>, Option<Functions>)>,
+    /// By event its function along the motion, with the constraint rows that it uses; `None` inside where there is none.
+    events: Vec<Option<(Vec<usize>, Option<FunctionAlong>)>>,
     /// Coefficients of (q, v).
     full: Vec<f64>,
     /// The state without whole turns of its angles.
@@ -119,6 +126,7 @@ impl MultiplierFlow {
             zero_between: false,
             series: None,
             direct: None,
+            events: Vec::new(),
             full: Vec::new(),
             reduced: Vec::new(),
             solved: None,
@@ -186,6 +194,7 @@ impl MultiplierFlow {
         if let Some((_, Some(direct))) = &mut self.direct {
             direct.set_parameters(values)?;
         }
+        self.events.clear();
         Ok(())
     }
 
@@ -482,14 +491,23 @@ impl MultiplierFlow {
 }
 
 impl MultiplierFlow {
+    /// The states at which rates are asked for: where nothing brings them back to the constraints they stray.
+    fn states(&self) -> States {
+        match self.kind == StateKind::Full && self.system.r > 0 {
+            true => self.projection.states(),
+            false => States::Admissible,
+        }
+    }
+
     /// The recurrences of (q, v) with the constraint rows of the present chart.
     fn series(&mut self) -> Result<&mut RateSeries, EvaluationFailure> {
-        let rows = &self.chart.rows;
+        let (rows, states) = (&self.chart.rows, self.states());
         // What is there stays where it is: it is large, and asked for several times in a step.
-        if self.series.as_ref().is_none_or(|(known, _)| known != rows) {
-            let series = self.system.series(rows);
+        let is_known = |(known, of): &(Vec<usize>, States)| known == rows && *of == states;
+        if self.series.as_ref().is_none_or(|(key, _)| !is_known(key)) {
+            let series = self.system.series(rows, states);
             let series = series.map_err(|_| EvaluationFailure::NoSeries)?;
-            self.series = Some((rows.clone(), series));
+            self.series = Some(((rows.clone(), states), series));
         }
         let made = self.series.as_mut().map(|(_, series)| series);
         made.ok_or(EvaluationFailure::NoSeries)
@@ -507,7 +525,7 @@ impl MultiplierFlow {
     /// The rates of (q, v) by accelerations without multipliers; false where there are none, or have no value here: the
     /// multiplier form then says why.
     fn direct_rates(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> bool {
-        if self.kind != StateKind::Full || self.system.jumps {
+        if self.kind != StateKind::Full || self.system.jumps || self.states() == States::All {
             return false;
         }
         let rows = &self.chart.rows;
@@ -528,11 +546,11 @@ impl MultiplierFlow {
     }
 
     /// Makes the series of the chart that most motions have, so that copies of this flow share them.
-    pub(crate) fn share_series(&mut self) {
+    pub(crate) fn share_series(&mut self, states: States) {
         if self.series.is_none() {
             let rows: Vec<usize> = (0..self.system.r).collect();
-            let made = self.system.series(&rows).ok();
-            self.series = made.map(|series| (rows, series));
+            let made = self.system.series(&rows, states).ok();
+            self.series = made.map(|series| ((rows, states), series));
         }
     }
 
@@ -762,5 +780,31 @@ impl WatchedFlow for MultiplierFlow {
 
     fn settled(&self) -> f64 {
         self.anchor.t
+    }
+
+    fn event_series(
+        &mut self,
+        (event, value): (usize, Expr),
+        piece: Piece<'_>,
+        series: &mut [f64],
+    ) -> bool {
+        // Integrals that are kept move the rows between steps, and what jumps has no series across the jump.
+        if self.kind != StateKind::Full || self.system.jumps || self.keep.is_some() {
+            return false;
+        }
+        if self.events.len() <= event {
+            self.events.resize(event + 1, None);
+        }
+        let rows = &self.chart.rows;
+        let known = &mut self.events[event];
+        if known.as_ref().is_none_or(|(own, _)| own != rows) {
+            let order = series.len() - 1;
+            let made = FunctionAlong::new(&self.system, rows, value, order);
+            *known = Some((rows.clone(), made.ok()));
+        }
+        match known {
+            Some((_, Some(function))) => function.expand(piece, series),
+            _ => false,
+        }
     }
 }

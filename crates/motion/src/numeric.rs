@@ -72,6 +72,16 @@ pub struct NumericSystem {
     values: Option<Vec<f64>>,
 }
 
+/// At which states rates of the motion are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum States {
+    /// Those that satisfy the constraints to rounding. Rates by quasi-velocities are the motion's there; next to them they let
+    /// a violation grow.
+    Admissible,
+    /// Any: the rates keep the values of the constraints, whatever they are.
+    All,
+}
+
 /// The expressions behind the functions, for the Taylor series of the motion.
 #[derive(Debug)]
 struct Source {
@@ -268,10 +278,14 @@ impl NumericSystem {
     ///
     /// # Errors
     /// [`FunctionsError`].
-    pub(crate) fn series(&self, rows: &[usize]) -> Result<RateSeries, FunctionsError> {
+    pub(crate) fn series(
+        &self,
+        rows: &[usize],
+        states: States,
+    ) -> Result<RateSeries, FunctionsError> {
         let binding = &self.source.binding;
         let parameters = binding.parameters.iter().map(|own| own.1).collect();
-        let mut series = RateSeries::of(&self.rates_program(rows)?, parameters)?;
+        let mut series = RateSeries::of(&self.rates_over(rows, states)?, parameters)?;
         if let Some(values) = &self.values {
             series.set_parameters(values)?;
         }
@@ -285,6 +299,18 @@ impl NumericSystem {
     /// # Errors
     /// [`FunctionsError`].
     pub fn rates_program(&self, rows: &[usize]) -> Result<Program, FunctionsError> {
+        self.rates_over(rows, States::Admissible)
+    }
+
+    /// The same for the states that occur.
+    ///
+    /// # Errors
+    /// [`FunctionsError`].
+    pub(crate) fn rates_over(
+        &self,
+        rows: &[usize],
+        states: States,
+    ) -> Result<Program, FunctionsError> {
         let Source {
             system,
             binding,
@@ -303,7 +329,11 @@ impl NumericSystem {
             series::program(g, binding, &binding.variables, &rates)
         };
         let stated = program(bordered.solve()?)?;
-        let accelerations = match self.source.accelerations(rows) {
+        let shortest = match states {
+            States::Admissible => self.source.accelerations(rows),
+            States::All => None,
+        };
+        let accelerations = match shortest {
             Some(found) => found,
             None => match bordered.eliminated() {
                 Some(Ok(found)) => found,
@@ -346,6 +376,14 @@ impl NumericSystem {
             made.set_parameters(values).ok()?;
         }
         Some(made)
+    }
+
+    /// The system, and the values of its parameters in the order of the binding where others were set.
+    pub(crate) fn stated(&self) -> (&System, &Binding, Option<&[f64]>) {
+        let Source {
+            system, binding, ..
+        } = &*self.source;
+        (system, binding, self.values.as_deref())
     }
 
     /// Sets other values of the parameters, in the order of the binding. What was derived and compiled stays.

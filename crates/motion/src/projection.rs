@@ -1,7 +1,7 @@
 //! Positions and velocities back on the constraints, by steps of least kinetic norm (theory 5.6).
 
 use crate::least_norm::least_step;
-use crate::numeric::NumericSystem;
+use crate::numeric::{NumericSystem, States};
 use crate::run::RunSettings;
 
 /// A projection on the constraints after a step.
@@ -17,6 +17,9 @@ const ROUNDED: f64 = 8.0 * f64::EPSILON;
 /// Residuals far below the tolerance do no harm, since the motion keeps the values of the constraints; each projection
 /// restarts the method and rounds the state.
 const HARMLESS: f64 = 0.1;
+/// Rates that are the motion's at admissible states only let a violation grow between projections, by a factor of some tens
+/// for a chain of eight links. With bounds below this one it would be seen.
+const TIGHT: f64 = 2e-14;
 /// Newton steps at most.
 const MOST: usize = 10;
 
@@ -33,6 +36,14 @@ impl Projection {
         let bound = (HARMLESS * tolerance).max(ROUNDED);
         Projection {
             bound: settings.project.then_some(bound),
+        }
+    }
+
+    /// The states at which rates are asked for.
+    pub(crate) fn states(self) -> States {
+        match self.bound {
+            Some(bound) if bound >= TIGHT => States::Admissible,
+            _ => States::All,
         }
     }
 

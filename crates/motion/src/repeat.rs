@@ -5,7 +5,7 @@ use crate::follow::Follow;
 use crate::functions::FunctionsError;
 use crate::keep::Keep;
 use crate::multiplier_flow::{MultiplierFlow, StateKind};
-use crate::numeric::NumericSystem;
+use crate::numeric::{NumericSystem, States};
 use crate::projection::Projection;
 use crate::run::{End, Looking, Run, RunError, RunSettings, Subject, Watcher};
 use crate::series::{self, RateSeries};
@@ -24,6 +24,8 @@ pub struct CompiledRouth {
     pub(crate) looking: Looking,
     /// Whether the method asks for Taylor series.
     needs_series: bool,
+    /// The states at which rates will be asked for.
+    states: States,
 }
 
 impl CompiledRouth {
@@ -50,7 +52,7 @@ impl CompiledRouth {
     #[must_use]
     pub fn copy(&mut self) -> CompiledRouth {
         match self.needs_series {
-            true => self.flow.share_series(),
+            true => self.flow.share_series(self.states),
             false => self.flow.share_accelerations(),
         }
         self.clone()
@@ -86,6 +88,10 @@ impl Subject<'_> {
             flow,
             looking: self.looking(settings, &[])?,
             needs_series: method(&settings.method)?.card().needs_series,
+            states: match self.variables(settings) == StateKind::Full && self.numeric.r > 0 {
+                true => Projection::of(settings).states(),
+                false => States::Admissible,
+            },
         })
     }
 

@@ -17,8 +17,8 @@ use crate::stop::{self, Ending};
 use crate::turns::outside_angles;
 use crate::watch::{Watch, Watched};
 use chetaev_integrate::{
-    integrate, method, ChartChange, ErrorControl, IntegrateError, Note, Options, Output, Progress,
-    Solution, Statistics, StiffnessPolicy, Stop,
+    integrate, method, ChartChange, ErrorControl, IntegrateError, Note, Options, Output, Piece,
+    Progress, Solution, Statistics, StiffnessPolicy, Stop,
 };
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::{Constraint, ConstraintKind, Formulation, MotionTerms, Selection, System};
@@ -210,6 +210,18 @@ pub(crate) trait WatchedFlow: chetaev_integrate::System {
 
     /// The time of the last accepted state from which constraints are followed.
     fn settled(&self) -> f64;
+
+    /// Writes the Taylor coefficients of event number `event`, with the function `value` of an output row, along a piece of the
+    /// motion; false where it has none, and it is sampled.
+    fn event_series(
+        &mut self,
+        (event, value): (usize, Expr),
+        piece: Piece<'_>,
+        series: &mut [f64],
+    ) -> bool {
+        let _ = (event, value, piece, series);
+        false
+    }
 }
 
 /// What a run needs beside its flow, made once.
@@ -217,6 +229,8 @@ pub(crate) trait WatchedFlow: chetaev_integrate::System {
 pub(crate) struct Looking {
     /// Functions of the events, over output rows.
     pub(crate) observers: Vec<Observer>,
+    /// The same as they are stated.
+    pub(crate) values: Vec<Expr>,
     /// Coordinates whose errors are measured absolutely.
     cyclic: Vec<bool>,
 }
@@ -450,6 +464,7 @@ impl Subject<'_> {
         let series = method(&settings.method)?.card().needs_series;
         Ok(Looking {
             observers: observers?,
+            values: settings.events.iter().map(|event| event.value).collect(),
             cyclic: self.cyclic(series),
         })
     }

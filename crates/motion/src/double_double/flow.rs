@@ -7,7 +7,7 @@ use crate::drift::Drift;
 use crate::follow::{followed_values, Deviation};
 use crate::functions::{failure, FunctionsError};
 use crate::multiplier_flow::AWAY;
-use crate::numeric::NumericSystem;
+use crate::numeric::{NumericSystem, States};
 use crate::observe::variables_of_rows;
 use crate::row::RowLayout;
 use crate::run::{RunSettings, Subject};
@@ -92,7 +92,11 @@ impl PreciseFlow {
     ) -> Result<PreciseFlow, FunctionsError> {
         let numeric = subject.numeric.clone();
         let rows = &subject.start.chart.rows;
-        let mut taylor = PreciseTaylor::new(&numeric.rates_program(rows)?)?;
+        let states = match settings.project {
+            true => States::Admissible,
+            false => States::All,
+        };
+        let mut taylor = PreciseTaylor::new(&numeric.rates_over(rows, states)?)?;
         taylor.prepare(&precise.parameters)?;
         let (system, binding) = (subject.system, subject.binding);
         let numbers = (binding, &precise.parameters[..]);

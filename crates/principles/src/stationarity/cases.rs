@@ -62,6 +62,8 @@ struct Case {
     nonzero: Vec<Expr>,
     /// What vanishes, as it was found.
     stated: Vec<Expr>,
+    /// Factors that were taken apart, and how much was known of the case then: with no more it leads nowhere to do so again.
+    taken: Vec<(Expr, usize)>,
     /// Roots that are given by the others.
     roots: Vec<Root>,
     rows: Vec<Row>,

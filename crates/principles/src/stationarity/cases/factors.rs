@@ -165,6 +165,9 @@ impl Search<'_, '_> {
             });
             return cases.collect();
         }
+        let Some(case) = &self.taken(found, case, factor) else {
+            return Vec::new();
+        };
         let forms = self.turned(factor).into_iter();
         let forms = forms.filter_map(|list| <[Expr; 1]>::try_from(list).ok());
         let mut forms = [[factor]].into_iter().chain(forms);
@@ -205,6 +208,24 @@ impl Search<'_, '_> {
                 })
             }
         }
+    }
+
+    /// The case in which a factor is taken apart; `None` where it was with all that is known now. Reduced by equations that are
+    /// not solved, what must vanish for it may be the factor again.
+    fn taken(&self, found: &mut Found, case: &Case, factor: Expr) -> Option<Case> {
+        let known = case.solved.len()
+            + case.implicit.len()
+            + case.roots.len()
+            + case.pending.len()
+            + case.nonzero.len();
+        if case.taken.contains(&(factor, known)) {
+            let text = format!("{} = 0 and {}", self.g.text(factor), self.place(case));
+            self.leave(found, case, text);
+            return None;
+        }
+        let mut case = case.clone();
+        case.taken.push((factor, known));
+        Some(case)
     }
 
     /// A case with a further equation; `None` where it contradicts what does not vanish.
