@@ -341,7 +341,7 @@ fn drifts_are_measured_between_the_rows() {
 }
 
 /// Rates keep the values of the constraints where nothing brings a motion back to them: what rounding leaves of these does not grow.
-/// In a chain of links on blades rates that are right at admissible states alone would let it grow a thousandfold in a unit of time.
+/// In a chain of links on blades rates that are right at admissible states alone would let it grow by orders of magnitude.
 #[test]
 fn without_projection_violations_do_not_grow() {
     let chain = |simulation: &str| {
