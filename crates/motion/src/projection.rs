@@ -39,11 +39,20 @@ impl Projection {
         }
     }
 
-    /// The states at which rates are asked for.
-    pub(crate) fn states(self) -> States {
+    /// The states for which series are made.
+    pub(crate) fn states_of_series(self) -> States {
         match self.bound {
             Some(bound) if bound >= TIGHT => States::Admissible,
             _ => States::All,
+        }
+    }
+
+    /// The states at which rates are asked for. Methods that ask for these alone make errors beside which a violation between two
+    /// projections is small.
+    pub(crate) fn states(self) -> States {
+        match self.bound {
+            Some(_) => States::Admissible,
+            None => States::All,
         }
     }
 

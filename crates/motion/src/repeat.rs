@@ -24,7 +24,7 @@ pub struct CompiledRouth {
     pub(crate) looking: Looking,
     /// Whether the method asks for Taylor series.
     needs_series: bool,
-    /// The states at which rates will be asked for.
+    /// The states for which series will be made.
     states: States,
 }
 
@@ -89,7 +89,7 @@ impl Subject<'_> {
             looking: self.looking(settings, &[])?,
             needs_series: method(&settings.method)?.card().needs_series,
             states: match self.variables(settings) == StateKind::Full && self.numeric.r > 0 {
-                true => Projection::of(settings).states(),
+                true => Projection::of(settings).states_of_series(),
                 false => States::Admissible,
             },
         })
