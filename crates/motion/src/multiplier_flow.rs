@@ -491,15 +491,10 @@ impl MultiplierFlow {
 }
 
 impl MultiplierFlow {
-    /// Whether states may leave the constraints at all.
-    fn may_stray(&self) -> bool {
-        self.kind == StateKind::Full && self.system.r > 0
-    }
-
-    /// The states for which series are made: where nothing brings them back to the constraints they stray.
+    /// The states at which rates are asked for: where nothing brings them back to the constraints they stray.
     fn states(&self) -> States {
-        match self.may_stray() {
-            true => self.projection.states_of_series(),
+        match self.kind == StateKind::Full && self.system.r > 0 {
+            true => self.projection.states(),
             false => States::Admissible,
         }
     }
@@ -530,8 +525,7 @@ impl MultiplierFlow {
     /// The rates of (q, v) by accelerations without multipliers; false where there are none, or have no value here: the
     /// multiplier form then says why.
     fn direct_rates(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> bool {
-        let strays = self.may_stray() && self.projection.states() == States::All;
-        if self.kind != StateKind::Full || self.system.jumps || strays {
+        if self.kind != StateKind::Full || self.system.jumps || self.states() == States::All {
             return false;
         }
         let rows = &self.chart.rows;

@@ -17,9 +17,6 @@ const ROUNDED: f64 = 8.0 * f64::EPSILON;
 /// Residuals far below the tolerance do no harm, since the motion keeps the values of the constraints; each projection
 /// restarts the method and rounds the state.
 const HARMLESS: f64 = 0.1;
-/// Rates that are the motion's at admissible states only let a violation grow between projections, by a factor of some tens
-/// for a chain of eight links. With bounds below this one it would be seen.
-const TIGHT: f64 = 2e-14;
 /// Newton steps at most.
 const MOST: usize = 10;
 
@@ -39,16 +36,7 @@ impl Projection {
         }
     }
 
-    /// The states for which series are made.
-    pub(crate) fn states_of_series(self) -> States {
-        match self.bound {
-            Some(bound) if bound >= TIGHT => States::Admissible,
-            _ => States::All,
-        }
-    }
-
-    /// The states at which rates are asked for. Methods that ask for these alone make errors beside which a violation between two
-    /// projections is small.
+    /// The states at which rates are asked for: what is not brought back strays.
     pub(crate) fn states(self) -> States {
         match self.bound {
             Some(_) => States::Admissible,

@@ -24,7 +24,7 @@ pub struct CompiledRouth {
     pub(crate) looking: Looking,
     /// Whether the method asks for Taylor series.
     needs_series: bool,
-    /// The states for which series will be made.
+    /// The states at which rates will be asked for.
     states: States,
 }
 
@@ -89,7 +89,7 @@ impl Subject<'_> {
             looking: self.looking(settings, &[])?,
             needs_series: method(&settings.method)?.card().needs_series,
             states: match self.variables(settings) == StateKind::Full && self.numeric.r > 0 {
-                true => Projection::of(settings).states_of_series(),
+                true => Projection::of(settings).states(),
                 false => States::Admissible,
             },
         })
