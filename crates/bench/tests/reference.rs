@@ -37,6 +37,26 @@ fn deviation(found: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
     worst
 }
 
+/// The velocity of a link is that of the link before it and a little more, and so are its derivatives (Featherstone 1983): twice as
+/// many links cost twice as much.
+#[test]
+fn a_chain_costs_like_its_length() {
+    let references = references();
+    let instructions = |links: usize| {
+        let system = format!("snake-{links}");
+        let reference = &references[&system];
+        let asked = question("rhs", &system, "reduced", reference);
+        let ready = prepare(&asked).unwrap_or_else(|e| panic!("{system}: {e}"));
+        let off = deviation(&rows(&ready.answer), &rows(&reference["accelerations"]));
+        assert!(off < 1e-12, "{system}: off by {off:e}");
+        ready.info["instructions"].as_f64().expect("a number")
+    };
+    let [eight, sixteen, thirty_two] = [8, 16, 32].map(instructions);
+    for growth in [sixteen / eight, thirty_two / sixteen] {
+        assert!(growth < 2.25, "{eight}, {sixteen}, {thirty_two}");
+    }
+}
+
 #[test]
 fn accelerations_are_those_of_the_references() {
     let references = references();

@@ -43,6 +43,16 @@ struct Term {
     b: Option<Register>,
 }
 
+impl Term {
+    fn plain(a: Register) -> Term {
+        Term {
+            negative: false,
+            a,
+            b: None,
+        }
+    }
+}
+
 /// The factors of a product by when they are known and on which side of the fraction bar they stand.
 #[derive(Default)]
 struct Factors {
@@ -55,39 +65,47 @@ struct Factors {
 impl Lowerer<'_> {
     pub(crate) fn sum(
         &mut self,
+        e: Expr,
         constant: &Rational,
         terms: &[(Expr, Rational)],
     ) -> Result<Register, Fault> {
         let mut hoisted = Vec::new();
-        let mut items = Vec::with_capacity(terms.len() + 1);
         if !constant.is_zero() {
             hoisted.push(self.number_term(constant));
         }
-        for (e, coefficient) in terms {
-            let term = self.term(*e, coefficient)?;
-            if self.is_static_term(term) {
-                hoisted.push(term);
-            } else {
-                items.push(term);
+        let whole = || vec![(0..terms.len() as u32).collect()];
+        let parts: Vec<Vec<u32>> = self.sums.parts(e).map_or_else(whole, <[_]>::to_vec);
+        let mut sum: Option<Register> = None;
+        for (number, part) in parts.iter().enumerate() {
+            let mut items = Vec::with_capacity(part.len() + 1);
+            items.extend(sum.map(Term::plain));
+            for &place in part {
+                let (e, coefficient) = &terms[place as usize];
+                let term = self.term(*e, coefficient)?;
+                match self.is_static_term(term) {
+                    true => hoisted.push(term),
+                    false => items.push(term),
+                }
             }
+            if number + 1 == parts.len() {
+                self.join_hoisted(&hoisted, &mut items);
+            }
+            sum = Some(self.emitter.sum(&items));
         }
-        if items.is_empty() {
-            return Ok(self.emitter.sum(&hoisted));
-        }
-        match hoisted[..] {
+        Ok(sum.unwrap_or_else(|| self.emitter.sum(&hoisted)))
+    }
+
+    /// Puts what depends on parameters only before the other terms of a sum, as one term.
+    fn join_hoisted(&mut self, hoisted: &[Term], items: &mut Vec<Term>) {
+        match hoisted {
             [] => {}
-            [single] => items.insert(0, single),
+            _ if items.is_empty() => items.extend(hoisted),
+            [single] => items.insert(0, *single),
             _ => {
-                let a = self.emitter.sum(&hoisted);
-                let term = Term {
-                    negative: false,
-                    a,
-                    b: None,
-                };
-                items.insert(0, term);
+                let a = self.emitter.sum(hoisted);
+                items.insert(0, Term::plain(a));
             }
         }
-        Ok(self.emitter.sum(&items))
     }
 
     fn is_static_term(&self, term: Term) -> bool {

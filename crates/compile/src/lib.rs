@@ -55,6 +55,7 @@ mod pairs;
 pub mod program;
 mod scalar;
 mod schedule;
+mod sums;
 pub mod taylor;
 pub mod verify;
 

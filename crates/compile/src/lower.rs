@@ -5,6 +5,7 @@
 //!
 //! - common factors of the terms of a sum are taken out (`horner`);
 //! - every node is computed once; equal instructions are one;
+//! - what several sums begin with is added once (`sums`);
 //! - a sum is folded with fused products in runs of eight terms, the runs are added pairwise;
 //! - what several products have in common is multiplied first (`pairs`);
 //! - in a product the factors that depend on parameters only are one hoisted factor; powers with negative
@@ -19,6 +20,7 @@ use crate::emit::{Emitter, Origin};
 use crate::horner;
 use crate::pairs::Pairs;
 use crate::program::{Binary, Factorization, Program, Register, Unary};
+use crate::sums::Sums;
 use chetaev_symbolic::{rational, Expr, Function, Graph, Node, Rational, Symbol};
 use rustc_hash::FxHashSet;
 
@@ -200,6 +202,8 @@ pub(crate) struct Lowerer<'g> {
     definite: Vec<Expr>,
     /// The order in which factors are multiplied.
     pub(crate) pairs: Pairs,
+    /// The order in which terms are added.
+    pub(crate) sums: Sums,
     names: Vec<(Expr, usize)>,
     name_texts: Vec<String>,
 }
@@ -219,6 +223,7 @@ impl<'g> Lowerer<'g> {
             inputs: Vec::new(),
             definite: matrices_in(graph, &lowering.definite),
             pairs: Pairs::default(),
+            sums: Sums::default(),
             names: Vec::new(),
             name_texts: Vec::new(),
         };
@@ -233,22 +238,25 @@ impl<'g> Lowerer<'g> {
         lowerer.bind(&lowering.parameters, Origin::Parameter)?;
         lowerer.bind(&lowering.variables, Origin::Variable)?;
         lowerer.survey(roots().copied());
-        lowerer.pairs = lowerer.pairs_below(roots().copied().collect(), &lowering.variables);
+        lowerer.share(&roots().copied().collect::<Vec<_>>(), &lowering.variables);
         Ok(lowerer)
     }
 
-    /// The order of multiplication of factors that change with the state and stand above the fraction bar.
-    fn pairs_below(&self, roots: Vec<Expr>, variables: &[Symbol]) -> Pairs {
+    /// The orders of multiplication of factors that change with the state and stand above the fraction bar, and of addition of
+    /// terms that change.
+    fn share(&mut self, roots: &[Expr], variables: &[Symbol]) {
         let (graph, variables) = (self.graph, FxHashSet::from_iter(variables.iter().copied()));
         let mut moves = vec![false; self.uses.len()];
-        for e in graph.reachable(&roots) {
+        for e in graph.reachable(roots) {
             let mut own = graph.as_symbol(e).is_some_and(|s| variables.contains(&s));
             let node = graph.node(e);
             node.for_each_child(|child| own |= moves[child.index()]);
             moves[e.index()] = own;
         }
         let is_factor = |e: Expr| moves[e.index()] && self.inlined_denominator(e).is_none();
-        Pairs::new(graph, &roots, is_factor)
+        let pairs = Pairs::new(graph, roots, is_factor);
+        self.sums = Sums::new(graph, roots, |e| moves[e.index()]);
+        self.pairs = pairs;
     }
 
     fn bind(
@@ -390,7 +398,7 @@ impl<'g> Lowerer<'g> {
             Node::Number(value) => self.emitter.number(value),
             Node::Pi => self.emitter.pi(),
             Node::Symbol(symbol) => self.input(e, *symbol)?,
-            Node::Sum { constant, terms } => self.sum(constant, terms)?,
+            Node::Sum { constant, terms } => self.sum(e, constant, terms)?,
             Node::Product { .. } => self.product(e)?,
             Node::Power { base, exponent } => self.power(*base, *exponent)?,
             Node::Apply {

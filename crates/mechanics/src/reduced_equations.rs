@@ -196,8 +196,8 @@ impl ReducedEquations {
     }
 }
 
-/// Larger equations are not simplified.
-const SHORT: usize = 300;
+/// Larger equations are not simplified: that takes a quarter of a second and seldom leaves them shorter.
+const SHORT: usize = 100;
 
 /// Linear forms of the velocities on the constraints.
 struct Forms {

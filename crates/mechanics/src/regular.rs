@@ -32,18 +32,13 @@ pub fn regular(system: &System, terms: &MotionTerms, rows: &[usize]) -> Option<C
     if rows.iter().any(is_holonomic) {
         return None;
     }
-    let mut elimination = Elimination::new(system);
-    let mut left: Vec<usize> = rows.to_vec();
-    while !left.is_empty() {
-        // A row that offers nothing may do so when others are solved.
-        let place = left
-            .iter()
-            .position(|&row| elimination.solve(terms.constraints[row]))?;
-        left.remove(place);
-    }
+    let size = |e: &Elimination<'_>| system.graph.reachable(&e.velocities).len();
+    let found = [Writing::Coefficients, Writing::Stated]
+        .into_iter()
+        .filter_map(|writing| Elimination::of(system, terms, rows, writing));
     let Elimination {
         velocities, speeds, ..
-    } = elimination;
+    } = found.min_by_key(size)?;
     let is_regular = velocities
         .iter()
         .chain(speeds.iter().map(|p| &p.definition))
@@ -51,7 +46,17 @@ pub fn regular(system: &System, terms: &MotionTerms, rows: &[usize]) -> Option<C
     is_regular.then(|| Characteristics::by_formulas(system, terms, rows, speeds, velocities))
 }
 
+/// How velocities that are known already stand in a constraint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Writing {
+    /// With their coefficients made short: best for a single body.
+    Coefficients,
+    /// As the constraint is written: sums that go on from body to body along a chain stay the same from row to row.
+    Stated,
+}
+
 struct Elimination<'a> {
+    writing: Writing,
     system: &'a System,
     g: &'a Graph,
     assumptions: Assumptions,
@@ -69,7 +74,26 @@ struct Row {
 }
 
 impl<'a> Elimination<'a> {
-    fn new(system: &'a System) -> Elimination<'a> {
+    /// Of all rows; `None` where one offers nothing.
+    fn of(
+        system: &'a System,
+        terms: &MotionTerms,
+        rows: &[usize],
+        writing: Writing,
+    ) -> Option<Elimination<'a>> {
+        let mut own = Elimination::new(system, writing);
+        let mut left: Vec<usize> = rows.to_vec();
+        while !left.is_empty() {
+            // A row that offers nothing may do so when others are solved.
+            let place = left
+                .iter()
+                .position(|&row| own.solve(terms.constraints[row]))?;
+            left.remove(place);
+        }
+        Some(own)
+    }
+
+    fn new(system: &'a System, writing: Writing) -> Elimination<'a> {
         let speed = |c: &crate::system::Coordinate| Parameter {
             name: format!("{}'", c.name),
             value: c.v,
@@ -79,6 +103,7 @@ impl<'a> Elimination<'a> {
             definition: c.v,
         };
         Elimination {
+            writing,
             system,
             g: &system.graph,
             assumptions: assumptions(system),
@@ -106,31 +131,38 @@ impl<'a> Elimination<'a> {
         let g = self.g;
         let velocities = &self.system.coordinates;
         let symbols: Vec<Symbol> = velocities.iter().map(|c| c.v_symbol).collect();
-        let at_rest: Vec<(Expr, Expr)> = velocities.iter().map(|c| (c.v, g.zero())).collect();
         let stated = simplify_all(g, &g.gradient(f, &symbols), &Options::default());
-        let mut rest = vec![g.substitute(f, &at_rest)];
         let mut coefficients = vec![g.zero(); self.speeds.len()];
         let speeds: Vec<Symbol> = self.speeds.iter().map(|p| p.symbol).collect();
+        // What every velocity is without the speeds that have a coefficient here.
+        let mut known: Vec<(Expr, Expr)> = velocities.iter().map(|c| (c.v, g.zero())).collect();
         let mut composed = Vec::new();
         for (i, &coefficient) in stated.iter().enumerate().filter(|(_, &c)| !g.is_zero(c)) {
             let value = self.velocities[i];
             match speeds.iter().position(|&s| g.as_symbol(value) == Some(s)) {
                 Some(place) => coefficients[place] = coefficient,
-                None => composed.push((coefficient, value)),
+                None => {
+                    known[i].1 = value;
+                    composed.push(g.mul(&[coefficient, value]));
+                }
             }
         }
-        let of_composed: Vec<Expr> = composed
-            .iter()
-            .map(|&(c, value)| g.mul(&[c, value]))
-            .collect();
-        rest.extend(&of_composed);
         let doubled: Vec<usize> = (0..speeds.len())
-            .filter(|&s| g.any_contains_any(&of_composed, &[speeds[s]]))
+            .filter(|&s| g.any_contains_any(&composed, &[speeds[s]]))
             .collect();
+        let rest = match self.writing {
+            Writing::Stated => g.substitute(f, &known),
+            Writing::Coefficients => {
+                let at_rest: Vec<(Expr, Expr)> =
+                    known.iter().map(|&(v, _)| (v, g.zero())).collect();
+                composed.push(g.substitute(f, &at_rest));
+                g.add(&composed)
+            }
+        };
         Row {
             coefficients,
             doubled,
-            rest: g.add(&rest),
+            rest,
         }
     }
 
