@@ -36,6 +36,15 @@ impl Time {
         Time { high, low }
     }
 
+    /// A length next to h after which the time is a float: the system is asked at floats only.
+    pub fn to_float(self, h: f64) -> f64 {
+        let length = self.until(self.plus(h).high);
+        match length * h > 0.0 {
+            true => length,
+            false => h,
+        }
+    }
+
     /// The time from `self` until the float `t`.
     pub fn until(self, t: f64) -> f64 {
         (t - self.high) - self.low

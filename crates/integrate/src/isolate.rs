@@ -4,6 +4,7 @@
 
 use crate::dense::{Basis, DenseStep};
 use crate::problem::{EvaluationFailure, Piece};
+use crate::sampling::{refine_within, size_around, Samples};
 
 /// Order of the series of a switching function.
 pub(crate) const ORDER: usize = 24;
@@ -22,6 +23,9 @@ const MOST_HALVINGS: u32 = 9;
 
 /// Pieces of one step; a function that needs more is sampled.
 const MOST_PIECES: usize = 1024;
+
+/// So many pieces are sampled, as kinks and poles are few; a function with more is sampled as a whole.
+const MOST_SAMPLED: usize = 16;
 
 /// Zeros closer than 2 to the power of this, in units of a piece, are looked at as one dip.
 const CLOSEST: u32 = 30;
@@ -50,23 +54,24 @@ pub(crate) struct Isolator {
 
 impl Isolator {
     /// Writes into `places` scaled times between which the function has one zero at most, and such that every dip to less than
-    /// `touch` has one of them near; false where it is not shown by its series. `largest` is the largest magnitude of the
-    /// function seen.
+    /// `touch` has one of them near; pieces on which its series does not converge, as at a kink or beside a pole, are sampled. Says
+    /// whether it was shown everywhere; `None` where it has no series, or needs too many pieces. `largest` is its largest magnitude
+    /// before this step, `nodes` are its values in it.
     ///
     /// # Errors
     /// Where the function has no value.
     pub(crate) fn places(
         &mut self,
         dense: &DenseStep,
-        (largest, touch): (f64, f64),
+        (nodes, largest, touch): (&Samples, f64, f64),
         function: &mut impl Followed,
         places: &mut Vec<f64>,
-    ) -> Result<bool, EvaluationFailure> {
+    ) -> Result<Option<bool>, EvaluationFailure> {
         places.clear();
         monomial(dense, &mut self.whole);
         let mut series = [0.0; ORDER + 1];
         let mut left = vec![(0.0, 1.0, 0)];
-        let mut looked = 0;
+        let (mut looked, mut sampled, mut is_shown) = (0, 0, true);
         while let Some((start, end, halvings)) = left.pop() {
             looked += 1;
             let (middle, half) = ((start + end) / 2.0, (end - start) / 2.0);
@@ -83,21 +88,31 @@ impl Isolator {
                 coefficients: &self.local,
             };
             if !function.series(piece, &mut series) {
-                return Ok(false);
+                return Ok(None);
             }
+            let largest = largest.max(size_around(nodes, (start, end)));
             if is_function(&series, largest, |s| function.value(middle + half * s))? {
                 separate(&series, touch, (middle, half), places);
                 continue;
             }
-            if halvings == MOST_HALVINGS || looked == MOST_PIECES {
-                return Ok(false);
+            if looked == MOST_PIECES {
+                return Ok(None);
+            }
+            if halvings == MOST_HALVINGS {
+                sampled += 1;
+                if sampled > MOST_SAMPLED {
+                    return Ok(None);
+                }
+                let value = |theta| function.value(theta);
+                is_shown &= refine_within((start, end), largest, value, places)?;
+                continue;
             }
             left.push((middle, end, halvings + 1));
             left.push((start, middle, halvings + 1));
         }
         places.sort_by(f64::total_cmp);
         places.dedup();
-        Ok(true)
+        Ok(Some(is_shown))
     }
 }
 
@@ -250,6 +265,7 @@ fn halved(polygon: &[f64; ORDER + 1]) -> ([f64; ORDER + 1], [f64; ORDER + 1]) {
 mod tests {
     use super::*;
     use crate::compensated::Time;
+    use crate::sampling::NODES;
 
     /// A function of one coordinate that moves by a polynomial, with a series that is known.
     struct Known<F, S> {
@@ -288,10 +304,11 @@ mod tests {
         let shown = isolator
             .places(
                 &line(Basis::Monomial),
-                (1.0, 0.0),
+                (&NODES.map(value), 0.0, 0.0),
                 &mut Known { value, series },
                 &mut places,
             )
+            .unwrap_or(None)
             .unwrap_or(false);
         places.extend([0.0, 1.0]);
         places.sort_by(f64::total_cmp);

@@ -12,11 +12,19 @@ use crate::isolate::{Followed, Isolator};
 use crate::method::{Method, State, Stepper, StepperSettings};
 use crate::problem::{EvaluationFailure, Piece, System};
 use crate::roots::{bracketed_zero, minimum};
-use crate::sampling::{at_places, dips, ends_on_zero, refine, Samples, NEAR, NODES};
+use crate::sampling::{
+    at_places, dips, early_size, ends_on_touch, ends_on_zero, is_pole, refine, Samples, NEAR, NODES,
+};
 use crate::solution::{Note, Solution, Stop};
 
 /// Zeros closer than this many units in the last place of t are one.
 const SAME: f64 = 10.0;
+
+/// How far behind the start of a step its motion is followed, in units of the step.
+const CLOSE_BEHIND: f64 = 0.1;
+
+/// Part of a bracket at which a function is looked at beside the zero, to tell it from a pole.
+const APART: f64 = 1e-9;
 
 /// What is remembered of one switching function between steps.
 #[derive(Debug, Clone, Copy)]
@@ -26,6 +34,8 @@ struct Memory {
     /// Largest magnitude seen.
     scale: f64,
     last_zero: f64,
+    /// Time and value at the place before the end of the last step: a dip may lie at the end itself.
+    before: Option<(f64, f64)>,
     /// Its values are unknown at present; the note was written.
     unknown: bool,
     /// It runs faster than it can be followed; the note was written.
@@ -120,6 +130,7 @@ impl Locator {
             side: 0.0,
             scale: 0.0,
             last_zero: f64::NAN,
+            before: None,
             unknown: false,
             unresolved: false,
         };
@@ -172,6 +183,7 @@ impl Locator {
             |a: &Candidate, b: &Candidate| a.theta.total_cmp(&b.theta).then(a.index.cmp(&b.index));
         self.candidates.sort_by(order);
         let mut restarted = false;
+        let mut stop: Option<(f64, Stop)> = None;
         for c in 0..self.candidates.len() {
             let candidate = self.candidates[c];
             let event = &mut events[candidate.index];
@@ -182,19 +194,22 @@ impl Locator {
             if !event.matters(system, step.time(candidate.theta), &self.y) {
                 continue;
             }
-            self.refine(system, event, (step, next), candidate, &mut restarted);
+            match stop {
+                // What happens at the same time as the end is recorded, in whatever order they are stated.
+                Some((theta, _)) if candidate.theta > theta + SAME * step.ulp() => break,
+                Some(_) => {}
+                None => self.refine(system, event, (step, next), candidate, &mut restarted),
+            }
             if self.record(system, candidate, solution)? {
                 event.count += 1;
-                if event.count == event.stop_at {
+                if event.count == event.stop_at && stop.is_none() {
                     next.clone_from(&self.state);
-                    return Ok(Some(Stop::Event {
-                        t: next.t.high,
-                        index: candidate.index,
-                    }));
+                    let (t, index) = (next.t.high, candidate.index);
+                    stop = Some((candidate.theta, Stop::Event { t, index }));
                 }
             }
         }
-        Ok(None)
+        Ok(stop.map(|(_, stop)| stop))
     }
 
     /// Values at the nodes, all functions at one node after the other: a system that computes several of them from the
@@ -225,6 +240,7 @@ impl Locator {
     ) {
         let memory = &mut self.memories[index];
         memory.side = 0.0;
+        memory.before = None;
         if !memory.unknown {
             memory.unknown = true;
             solution.notes.push(Note::EventUnknown {
@@ -274,18 +290,14 @@ impl Locator {
         let largest = self.memories[index].scale;
         let (isolator, places) = (&mut self.isolator, &mut self.places);
         let largest_here = samples.iter().fold(largest, |m, v| m.max(v.abs()));
-        let sizes = (largest_here, self.resolution * largest_here);
+        let sizes = (&samples, largest, self.resolution * largest_here);
         let shown = match isolator.places(step.dense, sizes, &mut along, places)? {
-            true => {
-                at_places(
-                    &mut self.points,
-                    &samples,
-                    (&self.places, largest_here),
-                    |x| along.value(x),
-                )?;
-                true
+            Some(shown) => {
+                let looked = (&self.places[..], largest);
+                at_places(&mut self.points, &samples, looked, |x| along.value(x))?;
+                shown
             }
-            false => refine(&mut self.points, &samples, largest, |x| along.value(x))?,
+            None => refine(&mut self.points, &samples, largest, |x| along.value(x))?,
         };
         let mut scan = Scan {
             value: |x: f64| along.value(x),
@@ -352,11 +364,13 @@ impl Locator {
         };
         let correction = -residual * 2.0 * d * step.dense.h / (after - before);
         let small = correction.abs() <= 1e-3 * step.dense.h.abs();
-        if small
+        let corrected = small
             && stepper
                 .attempt(system, step.now, h + correction, &mut trial)
-                .is_ok()
-        {
+                .is_ok();
+        // At a jump the correction means nothing.
+        let left = event.value(system, trial.t.high, &trial.y);
+        if corrected && left.is_ok_and(|left| left.abs() < residual.abs()) {
             self.state.clone_from(&trial);
         }
     }
@@ -401,15 +415,27 @@ where
     F: FnMut(f64) -> Result<f64, EvaluationFailure>,
 {
     /// Goes through the step sample by sample; dips of less than `resolution` times the largest value are touches.
-    fn run(&mut self, points: &mut [(f64, f64)], resolution: f64) -> Result<(), EvaluationFailure> {
+    fn run(
+        &mut self,
+        points: &mut Vec<(f64, f64)>,
+        resolution: f64,
+    ) -> Result<(), EvaluationFailure> {
         self.find_side(points);
+        let before = self.memory.before.take();
+        if let [.., (theta, value), _] = points[..] {
+            self.memory.before = Some((self.step.time(theta), value));
+        }
         if self.memory.side == 0.0 {
             return Ok(());
         }
         let touch = resolution * self.memory.scale;
-        // Last place at which the function was on the present side.
         let mut from = 0;
-        for i in 1..points.len() {
+        if let Some(point) = before.and_then(|before| self.behind(before)) {
+            points.insert(0, point);
+            from = 1;
+        }
+        // `from` is the last place at which the function was on the present side.
+        for i in from + 1..points.len() {
             if points[i].1 * self.memory.side < 0.0 {
                 self.cross(points[from], points[i])?;
             } else if i >= 2 && dips(&points[i - 2..=i], self.memory.side) {
@@ -419,11 +445,30 @@ where
                 from = i;
             }
         }
-        let [.., (_, before), (_, end)] = *points else {
+        self.at_end(points)
+    }
+
+    /// The last place of the step before, where it lies so close that the motion of this step serves there.
+    fn behind(&self, (t, value): (f64, f64)) -> Option<(f64, f64)> {
+        let theta = (t - self.step.now.t.high) / self.step.dense.h;
+        (-CLOSE_BEHIND..0.0)
+            .contains(&theta)
+            .then_some((theta, value))
+    }
+
+    /// A zero at the end of the run counts.
+    fn at_end(&mut self, points: &[(f64, f64)]) -> Result<(), EvaluationFailure> {
+        let [.., (place, before), (_, end)] = *points else {
             return Ok(());
         };
-        if self.step.last && ends_on_zero(end, before, SAME * self.step.ulp()) {
-            self.add_crossing(1.0);
+        let slack = SAME * self.step.ulp();
+        if !self.step.last || !ends_on_zero(end, (1.0 - place, before), slack) {
+            return Ok(());
+        }
+        let nearly = [(self.value)(1.0 - NEAR)?, (self.value)(1.0 - 2.0 * NEAR)?];
+        match ends_on_touch(nearly) {
+            true => self.add(1.0, EventKind::Grazing),
+            false => self.add_crossing(1.0),
         }
         Ok(())
     }
@@ -434,7 +479,7 @@ where
         self.memory.scale = self.memory.scale.max(largest);
         if self.memory.side == 0.0 {
             // A value that is zero up to rounding at the start says nothing about the side.
-            let noise = 100.0 * f64::EPSILON * self.memory.scale;
+            let noise = 100.0 * f64::EPSILON * early_size(points);
             if let Some((_, v)) = points.iter().find(|(_, v)| v.abs() > noise) {
                 self.memory.side = v.signum();
             }
@@ -446,6 +491,7 @@ where
 
     /// Refines a zero between a sample on the present side and one on the other.
     fn cross(&mut self, (a, fa): (f64, f64), (b, fb): (f64, f64)) -> Result<(), EvaluationFailure> {
+        let edges = [fa, fb];
         // The first sample may be on the other side already: a zero on the end of the last step, by rounding.
         let fa = if fa * self.memory.side > 0.0 {
             fa
@@ -453,7 +499,12 @@ where
             self.memory.side * f64::MIN_POSITIVE
         };
         let theta = bracketed_zero(&mut self.value, (a, fa), (b, fb), 4.0 * self.step.ulp())?;
-        self.add_crossing(theta);
+        let apart = (APART * (b - a)).max(8.0 * self.step.ulp());
+        let mut near = |place: f64| (self.value)(place.clamp(a, b)).unwrap_or(f64::INFINITY);
+        match is_pole(edges, [near(theta - apart), near(theta + apart)]) {
+            true => self.memory.side = -self.memory.side,
+            false => self.add_crossing(theta),
+        }
         Ok(())
     }
 
@@ -466,13 +517,18 @@ where
             self.cross(edges[0], (theta, side * least))?;
             self.cross((theta, side * least), edges[1])?;
         } else if least <= touch {
-            self.candidates.push(Candidate {
-                theta,
-                index: self.index,
-                kind: EventKind::Grazing,
-            });
+            self.add(theta, EventKind::Grazing);
         }
         Ok(())
+    }
+
+    /// Notes a zero; what lies behind the start of the step is at its start.
+    fn add(&mut self, theta: f64, kind: EventKind) {
+        self.candidates.push(Candidate {
+            theta: theta.max(0.0),
+            index: self.index,
+            kind,
+        });
     }
 
     /// Notes a change of side at θ, unless it is the last zero once more.
@@ -488,11 +544,7 @@ where
         let again = (t - memory.last_zero).abs() <= SAME * step.ulp() * step.dense.h.abs();
         memory.last_zero = t;
         if !again {
-            self.candidates.push(Candidate {
-                theta,
-                index: self.index,
-                kind,
-            });
+            self.add(theta, kind);
         }
     }
 }

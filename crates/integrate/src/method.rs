@@ -149,8 +149,9 @@ pub trait Stepper {
         let _ = row;
     }
 
-    /// The signed length that an attempt of length `h` has at first.
-    fn limited(&self, h: f64) -> f64 {
+    /// The signed length that an attempt of length `h` from a state has at first.
+    fn limited(&self, from: &State, h: f64) -> f64 {
+        let _ = from;
         h
     }
 

@@ -36,6 +36,12 @@ const ROUNDING: f64 = 1e-13;
 /// Shortest interval that is divided, in units of the step: a jump is looked at as closely as this.
 const SHORTEST: f64 = 1.0 / 4096.0;
 
+/// A branch beside a kink is at most so many times as steep as it is between the samples next to it.
+const KINK: f64 = 1.5;
+
+/// Close to a pole a function is so many times as large as at the edges of a bracket.
+const POLE: f64 = 100.0;
+
 /// Further values in one step; a function that needs more is not followed.
 const MOST: usize = 8192;
 
@@ -103,8 +109,33 @@ pub(crate) fn refine<E>(
     Ok(true)
 }
 
+/// Appends to `places` those at which [`refine`] looks at an interval of the step; says whether the function is shown by them.
+///
+/// # Errors
+/// The first failure of `value`.
+pub(crate) fn refine_within<E>(
+    (start, end): (f64, f64),
+    largest: f64,
+    mut value: impl FnMut(f64) -> Result<f64, E>,
+    places: &mut Vec<f64>,
+) -> Result<bool, E> {
+    let mut at = |place: f64| value(start + (end - start) * place);
+    let mut nodes = [0.0; NODES.len()];
+    for (value, place) in nodes.iter_mut().zip(NODES) {
+        *value = at(place)?;
+    }
+    let mut points = Vec::new();
+    let is_shown = refine(&mut points, &nodes, largest, at)?;
+    places.extend(
+        points
+            .iter()
+            .map(|(place, _)| start + (end - start) * place),
+    );
+    Ok(is_shown)
+}
+
 /// Writes the nodes and further places, none given twice, with their values in ascending order into `points`; `largest` is the
-/// largest magnitude of the function.
+/// largest magnitude of the function before this step.
 ///
 /// # Errors
 /// The first failure of `value`.
@@ -119,7 +150,8 @@ pub(crate) fn at_places<E>(
     for &place in places.iter().filter(|place| !NODES.contains(place)) {
         let found = value(place)?;
         // The sign of what is nothing but rounding says nothing.
-        if found.abs() > 64.0 * f64::EPSILON * largest {
+        let size = largest.max(size_around(nodes, (place, place)));
+        if found.abs() > 64.0 * f64::EPSILON * size {
             points.push((place, found));
         }
     }
@@ -173,8 +205,8 @@ fn is_noise<E>(
     Ok((a - 2.0 * b + c).abs() > 0.05 * largest)
 }
 
-/// Whether three samples on one side have their least magnitude in the middle, and a parabola through them comes
-/// near zero.
+/// Whether three samples on one side have their least magnitude in the middle, and the function may come near zero between them:
+/// by the parabola through them, or by a kink, where the branch on either side runs on as it does between two samples.
 pub(crate) fn dips(points: &[(f64, f64)], side: f64) -> bool {
     let [a, b, c] = [points[0].1 * side, points[1].1 * side, points[2].1 * side];
     let x = [points[0].0, points[1].0, points[2].0];
@@ -182,25 +214,54 @@ pub(crate) fn dips(points: &[(f64, f64)], side: f64) -> bool {
     if b < 0.0 || b > a || b >= c || a == 0.0 {
         return false;
     }
-    if b == 0.0 {
-        return true;
-    }
-    let left = (b - a) / (x[1] - x[0]);
+    let left = (a - b) / (x[1] - x[0]);
     let right = (c - b) / (x[2] - x[1]);
-    let curvature = (right - left) / (x[2] - x[0]);
-    if curvature <= 0.0 {
-        return false;
-    }
-    let slope = left + curvature * (x[1] - x[0]);
-    b - slope * slope / (4.0 * curvature) < 0.5 * b
+    let kink = (left * (x[2] - x[1])).max(right * (x[1] - x[0]));
+    b - KINK * kink <= 0.5 * b
 }
 
-/// Whether a function with these values at the end of the step and just before it vanishes within `slack` of the
+/// Part of the largest value early in a step below which values at its start are nothing but rounding, and the places that are
+/// early: a function that grows by orders of magnitude along the step is large at its end alone.
+const EARLY: usize = 3;
+
+/// The largest magnitude at the beginning of ascending places of a step.
+pub(crate) fn early_size(points: &[(f64, f64)]) -> f64 {
+    let most = NODES[EARLY];
+    let early = points.iter().take_while(|(place, _)| *place <= most);
+    early.fold(0.0, |largest, (_, value)| largest.max(value.abs()))
+}
+
+/// The largest magnitude at the nodes around an interval.
+pub(crate) fn size_around(nodes: &Samples, (start, end): (f64, f64)) -> f64 {
+    let first = NODES
+        .partition_point(|&node| node <= start)
+        .saturating_sub(1);
+    let last = NODES
+        .partition_point(|&node| node < end)
+        .min(NODES.len() - 1);
+    let around = &nodes[first..=last.max(first)];
+    around
+        .iter()
+        .fold(0.0, |largest, value| largest.max(value.abs()))
+}
+
+/// Whether a change of sign with these values at the edges of its bracket, and these close to it on both sides, is a pole.
+pub(crate) fn is_pole(edges: [f64; 2], close: [f64; 2]) -> bool {
+    let [edge, close] = [edges.map(f64::abs), close.map(f64::abs)];
+    close[0].min(close[1]) > POLE * edge[0].max(edge[1])
+}
+
+/// Whether a function with these values at the end of the step and at a distance before it vanishes within `slack` of the
 /// end, which is the end of the run.
-pub(crate) fn ends_on_zero(end: f64, before: f64, slack: f64) -> bool {
+pub(crate) fn ends_on_zero(end: f64, (distance, before): (f64, f64), slack: f64) -> bool {
     let fall = before - end;
     end == 0.0 && before != 0.0
-        || end * before > 0.0 && (end / fall) * NEAR <= slack && end / fall >= 0.0
+        || end * before > 0.0 && (end / fall) * distance <= slack && end / fall >= 0.0
+}
+
+/// Whether a zero at the end of the run, with these values at once and twice a small distance before it, is a touch.
+pub(crate) fn ends_on_touch([once, twice]: [f64; 2]) -> bool {
+    once * twice > 0.0 && twice.abs() > 3.0 * once.abs()
 }
 
 #[cfg(test)]

@@ -193,7 +193,7 @@ impl<'o> Stepping<'o> {
     pub fn take_series(&mut self, row: &dyn Fn(usize, &mut [f64])) -> Option<f64> {
         self.stepper.take_series(row);
         let (h, _) = self.choose_step().ok()?;
-        Some(self.stepper.limited(h))
+        Some(self.stepper.limited(&self.now, h))
     }
 
     /// Takes what that series gives at the end of the step of length `h`: the increment of the state and the derivative. The
@@ -323,7 +323,10 @@ impl<'o> Stepping<'o> {
         if h.abs() < least_step(self.now.t.high, span) {
             return Err(self.collapse.stop(&self.now, h));
         }
-        Ok((h, false))
+        match self.options.step {
+            StepSize::Fixed(_) => Ok((h, false)),
+            StepSize::Adaptive { .. } => Ok((self.now.t.to_float(h), false)),
+        }
     }
 
     fn attempt_until_accepted(&mut self, system: &mut dyn System) -> Result<Attempt, Stop> {

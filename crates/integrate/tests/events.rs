@@ -337,3 +337,108 @@ fn oscillations_faster_than_the_steps_are_followed() {
         [Note::EventUnresolved { event: 0, .. }]
     ));
 }
+
+/// The kinds of the events of one function.
+fn kinds(run: &Solution) -> Vec<EventKind> {
+    run.events.iter().map(|e| e.kind).collect()
+}
+
+/// Where a function bends sharply towards zero, its zeros and touches count as those of smooth ones.
+#[test]
+fn kinks_are_looked_at() {
+    for h in [0.31, 1.0] {
+        let mut two = [Event::new(|t, _| (t - 0.337).abs() - 1e-6)];
+        assert_times(&clock((0.0, 1.0), h, &mut two), &[0.336_999, 0.337_001]);
+        let mut capture = [Event::new(|t, _| {
+            ((t - 0.337f64).powi(2) + 1e-12).sqrt() - 1e-5
+        })];
+        let apart = (1e-10f64 - 1e-12).sqrt();
+        assert_times(
+            &clock((0.0, 1.0), h, &mut capture),
+            &[0.337 - apart, 0.337 + apart],
+        );
+        let run = clock((0.0, 1.0), h, &mut [Event::new(|t, _| (t - 0.337).abs())]);
+        assert_eq!(kinds(&run), [EventKind::Grazing]);
+        assert!((run.events[0].t - 0.337).abs() < 1e-8);
+    }
+}
+
+/// A touch just where a step ends is one, and one at the end of the run is no crossing.
+#[test]
+fn touches_at_the_ends_of_steps() {
+    let run = clock(
+        (0.0, 1.0),
+        0.125,
+        &mut [Event::new(|t, _| (t - 0.5).powi(2))],
+    );
+    assert_eq!(kinds(&run), [EventKind::Grazing]);
+    assert!((run.events[0].t - 0.5).abs() < 1e-6);
+    let run = clock(
+        (0.0, 1.0),
+        0.125,
+        &mut [Event::new(|t, _| (t - 0.5).powi(4))],
+    );
+    assert_eq!(kinds(&run), [EventKind::Grazing]);
+    let run = clock((0.0, 1.0), 0.1, &mut [Event::new(|t, _| (t - 1.0).powi(2))]);
+    assert_eq!(kinds(&run), [EventKind::Grazing]);
+    for h in [0.1, 0.01, 0.3] {
+        let run = clock((0.0, 1.0), h, &mut [Event::new(|_, y| y[0] - 1.0)]);
+        assert_eq!(kinds(&run), [EventKind::Up], "{h}");
+    }
+}
+
+/// Zeros early in a step in which the function grows by many orders of magnitude.
+#[test]
+fn growth_hides_no_zero() {
+    let mut events = [
+        Event::new(|t, _| t.exp() - 2.0),
+        Event::new(|t, _| t.powi(12) - 1.0),
+        Event::new(|t, _| t.cosh() - 1.5),
+    ];
+    let run = clock((0.0, 60.0), 60.0, &mut events);
+    // ln 2, arcosh 1.5 and 1.
+    assert_times(&run, &[2f64.ln(), 1.5f64.acosh(), 1.0]);
+}
+
+#[test]
+fn a_pole_is_no_zero() {
+    let mut pole = [Event::new(|t, _| 1.0 / (t - 0.3)).terminal()];
+    let run = clock((0.0, 1.0), 0.25, &mut pole);
+    assert_eq!((run.events.len(), run.stop), (0, Stop::Finished));
+    let half_turn = std::f64::consts::FRAC_PI_2;
+    let mut both = [Event::new(|t, _| (half_turn * (t + 1.0)).tan())];
+    let run = clock((0.5, 3.5), 0.7, &mut both);
+    assert_eq!(kinds(&run), [EventKind::Up; 2]);
+    assert!(times(&run)
+        .iter()
+        .zip([1.0, 3.0])
+        .all(|(a, b)| (a - b).abs() < 1e-14));
+}
+
+/// Newton's correction means nothing at a jump.
+#[test]
+fn jumps_are_located() {
+    for method in [&DORMAND_PRINCE_853 as &'static dyn Method, &TSITOURAS_5] {
+        let mut events = [Event::new(|_, y| (y[0] - 0.3).signum())];
+        let mut system = from_fn(1, |_t, _y: &[f64], dy: &mut [f64]| dy[0] = 1.0);
+        let options = Options::tolerance(1e-10).method(method);
+        let run = integrate(&mut system, (0.0, 1.0), &[0.0], &mut events, options).unwrap();
+        assert_times(&run, &[0.3]);
+    }
+}
+
+/// What happens at the time at which the run is stopped is recorded, in whatever order it is stated.
+#[test]
+fn events_at_the_end_do_not_depend_on_their_order() {
+    for stop_first in [true, false] {
+        let stop = || Event::new(|_, y: &[f64]| y[0] - 0.4).terminal();
+        let other = || Event::new(|_, y: &[f64]| 2.0 * (y[0] - 0.4));
+        let mut events = match stop_first {
+            true => [stop(), other()],
+            false => [other(), stop()],
+        };
+        let run = clock((0.0, 1.0), 0.25, &mut events);
+        assert_times(&run, &[0.4, 0.4]);
+        assert!(matches!(run.stop, Stop::Event { .. }));
+    }
+}

@@ -557,3 +557,37 @@ fn a_period_by_its_event() {
         run.t - 2.0 * period
     );
 }
+
+/// Late on the clock the time has few digits behind the point: steps end where it is a float, so that the force is asked for at the
+/// time at which it acts. x'' = cos t from rest is x = cos t₀ − cos t − (t − t₀) sin t₀.
+#[test]
+fn a_late_start_costs_nothing() {
+    for start in [0.0, 1e5, 1e8] {
+        let mut system = recurrence(2, |t, x: &[Vec<f64>], next: &mut [f64]| {
+            let j = x.len() - 1;
+            let quarter_turns = j as f64 * std::f64::consts::FRAC_PI_2;
+            let factorial: f64 = (1..=j).map(|k| k as f64).product();
+            next[0] = x[j][1] / (j + 1) as f64;
+            next[1] = (t + 0.0)
+                .cos()
+                .mul_add(quarter_turns.cos(), -t.sin() * quarter_turns.sin())
+                / factorial
+                / (j + 1) as f64;
+            Ok(())
+        });
+        let options = Options::tolerance(1e-14)
+            .method(&TAYLOR)
+            .output(Output::End);
+        let run = integrate(
+            &mut system,
+            (start, start + 10.0),
+            &[0.0, 0.0],
+            &mut [],
+            options,
+        )
+        .unwrap();
+        let exact = start.cos() - (start + 10.0).cos() - 10.0 * start.sin();
+        assert!((run.state[0] - exact).abs() < 1e-12, "{start}");
+        assert!(run.statistics.rejected < 5, "{start}");
+    }
+}

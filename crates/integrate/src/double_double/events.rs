@@ -4,7 +4,9 @@ use super::expansion::Series;
 use super::{PreciseEvent, PreciseEventRecord, PreciseOptions, PreciseSystem};
 use crate::event::{Direction, EventKind};
 use crate::problem::EvaluationFailure;
-use crate::sampling::{dips, ends_on_zero, refine, NODES};
+use crate::sampling::{
+    dips, early_size, ends_on_touch, ends_on_zero, is_pole, refine, NEAR, NODES,
+};
 use crate::solution::Note;
 use chetaev_double_double::DoubleDouble;
 
@@ -18,6 +20,10 @@ const ZERO: f64 = 1e-28;
 const FIXED: f64 = 1e-10;
 /// Zeros closer than this many units in the last place of t are one.
 const SAME: f64 = 1e3;
+/// How far behind the start of a step its motion is followed, in units of the step.
+const CLOSE_BEHIND: f64 = 0.1;
+/// Part of a bracket at which a function is looked at beside the zero, to tell it from a pole.
+const APART: f64 = 1e-9;
 
 /// What is remembered of one switching function between steps.
 #[derive(Clone, Copy)]
@@ -27,6 +33,8 @@ struct Memory {
     /// Largest magnitude seen.
     largest: f64,
     last_zero: Option<DoubleDouble>,
+    /// Time and value at the place before the end of the last step: a dip may lie at the end itself.
+    before: Option<(DoubleDouble, f64)>,
 }
 
 /// The events of a run.
@@ -168,6 +176,7 @@ impl<'e> Events<'e> {
             side: 0.0,
             largest: 0.0,
             last_zero: None,
+            before: None,
         };
         Events {
             memories: vec![memory; stated.len()],
@@ -193,7 +202,7 @@ impl<'e> Events<'e> {
             if let Err(failure) = self.of(index, step, &mut found, notes) {
                 found.truncate(before);
                 // What was known of its side is worthless.
-                self.memories[index].side = 0.0;
+                (self.memories[index].side, self.memories[index].before) = (0.0, None);
                 let (t, event) = (step.t.high(), index);
                 let known = |note: &Note| matches!(note, Note::EventUnknown { event: e, .. } if *e == index);
                 if !notes.iter().any(known) {
@@ -203,7 +212,11 @@ impl<'e> Events<'e> {
         }
         found.sort_by(|a, b| a.0.partial_cmp(&b.0).unwrap_or(std::cmp::Ordering::Equal));
         if let Some(last) = found.iter().position(|(_, record)| self.stops(record)) {
-            found.truncate(last + 1);
+            // What happens at the same time as the end is recorded, in whatever order they are stated.
+            let near =
+                SAME * DoubleDouble::EPSILON * (step.t.high() / step.h.high()).abs().max(1.0);
+            let end = found[last].0 + DoubleDouble::from(near);
+            found.retain(|(theta, _)| *theta <= end);
         }
         found
     }
@@ -251,15 +264,15 @@ impl<'e> Events<'e> {
         &mut self,
         index: usize,
         step: &mut Step<'_>,
-        points: &mut [(f64, f64)],
+        points: &mut Vec<(f64, f64)>,
         found: &mut Vec<(DoubleDouble, PreciseEventRecord)>,
         notes: &mut Vec<Note>,
     ) -> Result<(), EvaluationFailure> {
         self.memories[index].find_side(points);
         let touch = self.resolution * self.memories[index].largest;
         // Last place at which the function was on the present side.
-        let mut from = 0;
-        for i in 1..points.len() {
+        let mut from = usize::from(self.memories[index].look_behind(step, points));
+        for i in from + 1..points.len() {
             let side = self.memories[index].side;
             if side == 0.0 {
                 break;
@@ -274,25 +287,39 @@ impl<'e> Events<'e> {
                     self.crossing(index, step, (before, there), found)?;
                     self.crossing(index, step, (there, after), found)?;
                 } else if least <= touch && step.is_event(index, DoubleDouble::from(theta)) {
-                    let theta = DoubleDouble::from(theta);
-                    let record = step.record(index, theta, EventKind::Grazing)?;
-                    let (t, event) = (record.t.high(), index);
-                    notes.push(Note::Grazing { t, event });
-                    found.push((theta, record));
+                    touch_at(index, step, theta.max(0.0), (found, notes))?;
                 }
             }
             if points[i].1 != 0.0 {
                 from = i;
             }
         }
-        let [.., (_, before), (_, end)] = *points else {
+        self.at_end(index, step, points, (found, notes))
+    }
+
+    /// A zero at the end of the run counts.
+    fn at_end(
+        &mut self,
+        index: usize,
+        step: &mut Step<'_>,
+        points: &[(f64, f64)],
+        (found, notes): Found<'_>,
+    ) -> Result<(), EvaluationFailure> {
+        let [.., (place, before), (_, end)] = *points else {
             return Ok(());
         };
         let slack = SAME * DoubleDouble::EPSILON * (step.t.high() / step.h.high()).abs().max(1.0);
-        let is_on_zero = self.memories[index].side != 0.0 && ends_on_zero(end, before, slack);
-        match step.is_last && is_on_zero {
-            true => self.change(index, step, DoubleDouble::ONE, found),
-            false => Ok(()),
+        let is_on_zero = ends_on_zero(end, (1.0 - place, before), slack);
+        if !step.is_last || self.memories[index].side == 0.0 || !is_on_zero {
+            return Ok(());
+        }
+        let mut nearly = [0.0; 2];
+        for (value, place) in nearly.iter_mut().zip([1.0 - NEAR, 1.0 - 2.0 * NEAR]) {
+            *value = step.value(index, DoubleDouble::from(place))?.high();
+        }
+        match ends_on_touch(nearly) && step.is_event(index, DoubleDouble::ONE) {
+            true => touch_at(index, step, 1.0, (found, notes)),
+            false => self.change(index, step, DoubleDouble::ONE, found),
         }
     }
 
@@ -312,6 +339,15 @@ impl<'e> Events<'e> {
             true => step.zero(index, (left, before), (right, after))?,
             false => left,
         };
+        let apart = DoubleDouble::from(APART * (b.0 - a.0));
+        let close = [theta - apart, theta + apart].map(|place| {
+            let value = step.value(index, place);
+            value.map_or(f64::INFINITY, DoubleDouble::high)
+        });
+        if is_pole([before.high(), after.high()], close) {
+            self.memories[index].side *= -1.0;
+            return Ok(());
+        }
         self.change(index, step, theta, found)
     }
 
@@ -347,13 +383,51 @@ impl<'e> Events<'e> {
     }
 }
 
+/// Zeros found, with the part of the step at which each lies, and remarks.
+type Found<'a> = (
+    &'a mut Vec<(DoubleDouble, PreciseEventRecord)>,
+    &'a mut Vec<Note>,
+);
+
+/// Records a touch.
+fn touch_at(
+    index: usize,
+    step: &mut Step<'_>,
+    theta: f64,
+    (found, notes): Found<'_>,
+) -> Result<(), EvaluationFailure> {
+    let theta = DoubleDouble::from(theta);
+    let record = step.record(index, theta, EventKind::Grazing)?;
+    let (t, event) = (record.t.high(), index);
+    notes.push(Note::Grazing { t, event });
+    found.push((theta, record));
+    Ok(())
+}
+
 impl Memory {
+    /// Puts the last place of the step before first, where it lies so close that the motion of this step serves there, and
+    /// remembers that of this step; says whether it did.
+    fn look_behind(&mut self, step: &Step<'_>, points: &mut Vec<(f64, f64)>) -> bool {
+        let before = self.before.take();
+        if let [.., (theta, value), _] = points[..] {
+            self.before = Some((step.t + step.h * DoubleDouble::from(theta), value));
+        }
+        let behind = before.map(|(t, value)| ((t - step.t).high() / step.h.high(), value));
+        match behind.filter(|(theta, _)| (-CLOSE_BEHIND..0.0).contains(theta)) {
+            Some(point) => {
+                points.insert(0, point);
+                true
+            }
+            None => false,
+        }
+    }
+
     /// Finds out the side if it is unknown: a value that is zero up to rounding at the start says nothing of it.
     fn find_side(&mut self, points: &mut [(f64, f64)]) {
         if self.side != 0.0 {
             return;
         }
-        let noise = ZERO * self.largest;
+        let noise = ZERO * early_size(points);
         if let Some((_, value)) = points.iter().find(|(_, value)| value.abs() > noise) {
             self.side = value.signum();
         }

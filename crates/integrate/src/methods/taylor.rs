@@ -387,12 +387,11 @@ impl Stepper for Expansion {
         (self.is_fresh, self.is_taken) = (true, true);
     }
 
-    fn limited(&self, h: f64) -> f64 {
-        let size = match self.fixed {
-            true => h.abs(),
-            false => h.abs().min(self.radius),
-        };
-        size.copysign(h)
+    fn limited(&self, from: &State, h: f64) -> f64 {
+        match self.fixed || h.abs() <= self.radius {
+            true => h,
+            false => from.t.to_float(self.radius.copysign(h)),
+        }
     }
 
     fn take_end(
@@ -418,7 +417,7 @@ impl Stepper for Expansion {
             self.expand(system, from)?;
         }
         self.is_taken = false;
-        let h = self.limited(h);
+        let h = self.limited(from, h);
         self.h = h;
         if self.end_at.take() != Some(h) {
             self.fetch_missing(system, from)?;
