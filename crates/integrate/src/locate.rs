@@ -491,7 +491,6 @@ where
 
     /// Refines a zero between a sample on the present side and one on the other.
     fn cross(&mut self, (a, fa): (f64, f64), (b, fb): (f64, f64)) -> Result<(), EvaluationFailure> {
-        let edges = [fa, fb];
         // The first sample may be on the other side already: a zero on the end of the last step, by rounding.
         let fa = if fa * self.memory.side > 0.0 {
             fa
@@ -500,8 +499,8 @@ where
         };
         let theta = bracketed_zero(&mut self.value, (a, fa), (b, fb), 4.0 * self.step.ulp())?;
         let apart = (APART * (b - a)).max(8.0 * self.step.ulp());
-        let mut near = |place: f64| (self.value)(place.clamp(a, b)).unwrap_or(f64::INFINITY);
-        match is_pole(edges, [near(theta - apart), near(theta + apart)]) {
+        let near = |place: f64| (self.value)(place).unwrap_or(f64::INFINITY);
+        match is_pole(theta, apart, near) {
             true => self.memory.side = -self.memory.side,
             false => self.add_crossing(theta),
         }

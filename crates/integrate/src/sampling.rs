@@ -39,8 +39,8 @@ const SHORTEST: f64 = 1.0 / 4096.0;
 /// A branch beside a kink is at most so many times as steep as it is between the samples next to it.
 const KINK: f64 = 1.5;
 
-/// Close to a pole a function is so many times as large as at the edges of a bracket.
-const POLE: f64 = 100.0;
+/// A function is so many times as large at a tenth of the distance to a pole: that of order 1/3 is twice as large, at a jump it stays.
+const POLE: f64 = 1.5;
 
 /// Further values in one step; a function that needs more is not followed.
 const MOST: usize = 8192;
@@ -245,10 +245,13 @@ pub(crate) fn size_around(nodes: &Samples, (start, end): (f64, f64)) -> f64 {
         .fold(0.0, |largest, value| largest.max(value.abs()))
 }
 
-/// Whether a change of sign with these values at the edges of its bracket, and these close to it on both sides, is a pole.
-pub(crate) fn is_pole(edges: [f64; 2], close: [f64; 2]) -> bool {
-    let [edge, close] = [edges.map(f64::abs), close.map(f64::abs)];
-    close[0].min(close[1]) > POLE * edge[0].max(edge[1])
+/// Whether a change of sign is a pole: on both sides the function is larger closer to it. The value at a place beside it; where
+/// there is none, it is infinite.
+pub(crate) fn is_pole(theta: f64, apart: f64, mut value: impl FnMut(f64) -> f64) -> bool {
+    [-apart, apart].into_iter().all(|apart| {
+        let [close, far] = [apart, 10.0 * apart].map(|apart| value(theta + apart).abs());
+        close > POLE * far
+    })
 }
 
 /// Whether a function with these values at the end of the step and at a distance before it vanishes within `slack` of the

@@ -339,12 +339,11 @@ impl<'e> Events<'e> {
             true => step.zero(index, (left, before), (right, after))?,
             false => left,
         };
-        let apart = DoubleDouble::from(APART * (b.0 - a.0));
-        let close = [theta - apart, theta + apart].map(|place| {
-            let value = step.value(index, place);
+        let near = |place: f64| {
+            let value = step.value(index, DoubleDouble::from(place));
             value.map_or(f64::INFINITY, DoubleDouble::high)
-        });
-        if is_pole([before.high(), after.high()], close) {
+        };
+        if is_pole(theta.high(), APART * (b.0 - a.0), near) {
             self.memories[index].side *= -1.0;
             return Ok(());
         }
