@@ -267,9 +267,12 @@ impl Claim for ConstraintsIntegrable {
         let mut sentence = summary(&pfaff, strength, &finding.verdict).to_string();
         let integrable = matches!(finding.verdict, Verdict::Proved(_));
         let subsystems = subsystems(cx, strength);
-        let some = integrable || subsystems.as_ref().is_some_and(|(_, some)| *some);
+        // A product may be integrable on one of its components only.
+        let partly = matches!(finding.verdict, Verdict::Conditional { .. });
+        let some = integrable || partly || subsystems.as_ref().is_some_and(|(_, some)| *some);
         if some && strength == Strength::Weak {
-            for kept in integral::kept(cx) {
+            let all = integral::kept(cx).into_iter();
+            for kept in all.filter(|kept| !partly || !kept.functions.is_empty()) {
                 let texts = kept.functions.iter().map(|&e| cx.system.graph.text(e));
                 let texts = texts.collect::<Vec<String>>().join(", ");
                 let place = match &kept.component {

@@ -45,11 +45,10 @@ impl Reduced {
         let chart: Characteristics = basis(cx)
             .characteristics()
             .map_err(|problem| problem.to_string())?;
-        if chart.implicit().next().is_some() {
-            return Err("the dependent velocities stay implicit".into());
-        }
         let definitions: Vec<Expr> = chart.parameters.iter().map(|p| p.definition).collect();
         let rates = chart.restrict(system, &motion.derivatives(&definitions));
+        // Velocities that stay implicit are functions of what their constraints contain.
+        let ties: Vec<Expr> = chart.implicit().map(|(f, _)| f).collect();
         let free = |e: Expr, s: Symbol| is_free(cx, e, s);
         let symbols = system.coordinate_symbols().into_iter();
         let mut moving: Vec<(Symbol, Expr)> = symbols.zip(chart.velocities.clone()).collect();
@@ -61,7 +60,8 @@ impl Reduced {
             let next = rest.iter().copied().find(|&i| {
                 let s = moving[i].0;
                 // Its own rate too: y' = y^2 + x asks for a Riccati equation, not for a quadrature.
-                rates.iter().all(|&e| free(e, s)) && rest.iter().all(|&j| free(moving[j].1, s))
+                rates.iter().chain(&ties).all(|&e| free(e, s))
+                    && rest.iter().all(|&j| free(moving[j].1, s))
             });
             match next {
                 Some(i) => ignorable.push(i),
@@ -77,7 +77,7 @@ impl Reduced {
             .collect();
         let mut all = rates;
         let rest = (0..moving.len()).filter(|i| !ignorable.contains(i));
-        all.extend(rest.map(|i| moving[i].1));
+        all.extend(rest.map(|i| moving[i].1).chain(ties));
         let is_state = |s: Symbol| moving.iter().any(|(own, _)| *own == s);
         let timed = g.as_symbol(g.symbol("t", 0)).is_some_and(|t| {
             let own = g.symbols_in(&all).into_iter();

@@ -21,8 +21,10 @@ mod products;
 use crate::flag::{horizontal, Directed, Flag, Obstacle};
 use crate::noether::shown::readable;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
+use chetaev_mechanics::equations::unused_letter;
 use chetaev_symbolic::{Expr, Verdict};
 use flow::Flow;
+pub(crate) use formula::on_both_sides;
 use std::sync::Arc;
 
 /// `measure.invariant`.
@@ -138,8 +140,9 @@ fn without_formula(
         other => other,
     });
     if let Some(text) = with_time {
+        let n = density_letter(cx);
         let more = format!(
-            "; N dt dq dη is kept for N = {text}, which changes with the time, and so is no measure on the states of a motion free of it"
+            "; {n} dt dq dη is kept for {n} = {text}, which changes with the time, and so is no measure on the states of a motion free of it"
         );
         match &mut verdict {
             Verdict::Refuted(found) => found.detail.push_str(&more),
@@ -272,7 +275,7 @@ fn not_affine(cx: &Context<'_>, flow: &Flow<'_>) -> Verdict {
         .identity(cx.system, &[flow.divergence], manifold, on);
     match zero {
         Verdict::Proved(_) => {
-            zero.prefixed("dq dη is invariant, N = 1, as the divergence of the motion vanishes")
+            zero.prefixed("dq dη is invariant, as the divergence of the motion vanishes")
         }
         _ => Verdict::undecided(
             "the constraints are not affine in the velocities; no density was found among the functions of the coordinates that occur and their products with powers of the roots that contain velocities"
@@ -307,8 +310,13 @@ fn closed(cx: &Context<'_>, flow: &Flow<'_>, fields: &[Directed]) -> Result<Flag
     }
 }
 
+/// The letter of the density, which nothing in the model is called.
+fn density_letter(cx: &Context<'_>) -> String {
+    unused_letter(cx.system, &["N", "D", "F", "W"])
+}
+
 /// What contradicting brackets say.
-const CONTRADICTION: &str = "no density depends on the coordinates only: what the divergence asks of its logarithm along admissible fields contradicts their brackets";
+const CONTRADICTION: &str = "no density depends on the coordinates only: the slopes that its logarithm would need along the admissible directions fit no function, as they contradict each other on brackets of these directions";
 
 impl Claim for InvariantMeasure {
     fn id(&self) -> &'static str {
@@ -324,7 +332,7 @@ impl Claim for InvariantMeasure {
     }
 
     fn explanation(&self) -> &'static str {
-        "On the constraint manifold with coordinates q and independent (quasi-)velocities η, which the verdict names, the measure N dq dη is invariant when X̄ ln N = -div X̄ (N dq dη dM with masses M that have a law of their own). For a motion free of the time N is free of it too, as a density that changes with the time can always be carried along. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved; then among products of powers of these and of the factors of det W̄, the determinant of the mass matrix on admissible velocities, whose exponents are solved for. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). The claim is refuted only where no smooth positive density N(q, η) exists at all, rest included: where the divergence does not vanish at states of rest or on a steady motion that only turns angles; where ln N would change over a turn of an angle; and where rest is admissible, the accelerations have there neither terms without velocities nor linear ones, and the brackets contradict each other: then the terms of its equation that are linear in the velocities are those for N at rest. Where brackets contradict each other otherwise, densities that contain velocities are not excluded, and the claim is undecided."
+        "On the constraint manifold with coordinates q and independent (quasi-)velocities η, which the verdict names, the measure N dq dη is invariant when X̄ ln N = -div X̄ (N dq dη dM with masses M that have a law of their own). For a motion free of the time N is free of it too, as a density that changes with the time can always be carried along. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved; then among products of powers of these and of the factors of det W̄, the determinant of the mass matrix on admissible velocities, whose exponents are solved for; where such a factor may be negative and its exponent is not whole its absolute value stands in N. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). The claim is refuted only where no smooth positive density N(q, η) exists at all, rest included: where the divergence does not vanish at states of rest or on a steady motion that only turns angles; where ln N would change over a turn of an angle; and where rest is admissible, the accelerations have there neither terms without velocities nor linear ones, and the brackets contradict each other: then the terms of its equation that are linear in the velocities are those for N at rest. Where brackets contradict each other otherwise, densities that contain velocities are not excluded, and the claim is undecided."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -343,9 +351,14 @@ impl Claim for InvariantMeasure {
         };
         let g = &cx.system.graph;
         let masses: Vec<&str> = cx.system.masses.iter().map(|m| m.name.as_str()).collect();
+        let n = density_letter(cx);
+        let m = unused_letter(cx.system, &["M", "µ"]);
         let (form, with) = match masses.is_empty() {
-            true => ("N dq dη", String::new()),
-            false => ("N dq dη dM", format!(" and M = ({})", masses.join(", "))),
+            true => (format!("{n} dq dη"), String::new()),
+            false => (
+                format!("{n} dq dη d{m}"),
+                format!(" and {m} = ({})", masses.join(", ")),
+            ),
         };
         let all = match cx.system.fixed_functions().is_empty() {
             true => "",
@@ -356,15 +369,15 @@ impl Claim for InvariantMeasure {
         let mut verdict = measure.verdict.clone();
         if let Some(density) = measure.density {
             formulas.push(Formula {
-                caption: format!("the density N of the invariant measure {form}, {with}"),
+                caption: format!("the density {n} of the invariant measure {form}, {with}"),
                 left: None,
                 right: density,
             });
             if let Verdict::Proved(proof) = &mut verdict {
                 let text = g.text(density);
                 let what = match text.chars().count() <= LONGEST {
-                    true => format!("for N = {text}"),
-                    false => format!("for the N stated{}", measure.words),
+                    true => format!("for {n} = {text}"),
+                    false => format!("for the {n} stated{}", measure.words),
                 };
                 proof.detail = format!("{form}, {with}, is invariant {what}; {}", proof.detail);
             }

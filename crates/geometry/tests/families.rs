@@ -6,6 +6,7 @@ mod common;
 
 use chetaev_geometry::noether::found::{found, Found};
 use chetaev_geometry::noether::motion::Motion;
+use chetaev_geometry::noether::search::Integral;
 use chetaev_mechanics::{Context, System};
 use chetaev_symbolic::{Expr, Verdict};
 use common::{expr, framed, system, with_context, with_motion};
@@ -205,4 +206,134 @@ fn what_is_too_much_is_said() {
     let said = finding.verdict.detail();
     let words = "only the energy, as polynomials of degree 6 in the velocities are too many";
     assert!(said.contains(words), "{said}");
+}
+
+/// Kepler's problem in spherical coordinates: the energy, the moment of momentum in space and, beside it, the component of Laplace's
+/// vector along the axis (`v × L - k r/r`), a complete set for three coordinates and a motion free of the time.
+#[test]
+fn kepler_in_spherical_coordinates() {
+    let kepler = system(
+        "r theta phi",
+        "m*(r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2 + k/r",
+        &[],
+    );
+    let known = [
+        "r^2*(theta'*sin(phi) + phi'*sin(theta)*cos(theta)*cos(phi))",
+        "r^2*(theta'*cos(phi) - phi'*sin(theta)*cos(theta)*sin(phi))",
+        "r^2*sin(theta)^2*phi'",
+        "m*(r^3*cos(theta)*(theta'^2 + sin(theta)^2*phi'^2) + r^2*r'*theta'*sin(theta)) - k*cos(theta)",
+    ];
+    contains(&kepler, 5, &known);
+}
+
+/// Separable systems, by what separates: a charge in the field of a dipole beside an elastic force, `p_θ² + p_φ²/sin² θ + 2 m a cos θ`; the
+/// hydrogen atom in a field, in parabolic coordinates (Epstein 1916), `p_u²/2m + p_φ²/(2 m u²) + f u⁴/2 - u² H`; two fixed centres in the
+/// plane, in elliptic coordinates (Euler 1760), `p_x²/2 - a cosh x - cosh² x H`.
+#[test]
+fn separable_systems() {
+    let dipole = system(
+        "r theta phi",
+        "m*(r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2 - a*cos(theta)/r^2 - b*r^2/2",
+        &[],
+    );
+    let of_angles = "m*r^4*(theta'^2 + sin(theta)^2*phi'^2) + 2*a*cos(theta)";
+    contains(&dipole, 3, &[of_angles]);
+    let energy =
+        "(m/2*((u^2 + v^2)*(u'^2 + v'^2) + u^2*v^2*phi'^2) - 2*k/(u^2 + v^2) + f*(u^2 - v^2)/2)";
+    let stark = system(
+        "u v phi",
+        "m/2*((u^2 + v^2)*(u'^2 + v'^2) + u^2*v^2*phi'^2) + 2*k/(u^2 + v^2) - f*(u^2 - v^2)/2",
+        &[],
+    );
+    let separated = format!("m*(u^2 + v^2)^2*u'^2/2 + m*u^2*v^4*phi'^2/2 + f*u^4/2 - u^2*{energy}");
+    contains(&stark, 3, &[&separated]);
+    let metric = "(cosh(x)^2 - cos(y)^2)";
+    let potential = format!("(a*cosh(x) + b*cos(y))/{metric}");
+    let centres = system(
+        "x y",
+        &format!("{metric}*(x'^2 + y'^2)/2 + {potential}"),
+        &[],
+    );
+    let separated = format!(
+        "{metric}^2*x'^2/2 - a*cosh(x) - cosh(x)^2*({metric}*(x'^2 + y'^2)/2 - {potential})"
+    );
+    contains(&centres, 2, &[&separated]);
+}
+
+/// Geodesics of the hyperbolic plane `dy² + cosh² y dx²`: with X = (cosh y cosh x, cosh y sinh x, sinh y) on the hyperboloid the moments are
+/// `X0 X2' - X2 X0'` and `X1 X2' - X2 X1'`, which contain exp(±x) although x occurs nowhere.
+#[test]
+fn moments_in_the_hyperbolic_plane() {
+    let plane = system("x y", "(y'^2 + cosh(y)^2*x'^2)/2", &[]);
+    let known = [
+        "y'*cosh(x) - sinh(y)*cosh(y)*sinh(x)*x'",
+        "y'*sinh(x) - sinh(y)*cosh(y)*cosh(x)*x'",
+        "cosh(y)^2*x'",
+    ];
+    contains(&plane, 3, &known);
+}
+
+/// `x'' = -s x' y'/y`, `y'' = -k y'²/y`: `(ln x')' = -s (ln y)'` and `(ln y')' = -k (ln y)'`, so x' |y|^s and y' |y|^k keep their values for
+/// all s and k. With friction, `y'' = -c y' - k y'²/y`, the second is y' |y|^k exp(c t).
+#[test]
+fn products_of_any_powers() {
+    let forced = |of_y: &str| {
+        let forces = [("x", "-s*x'*y'/y"), ("y", of_y)];
+        framed("x y", "(x'^2 + y'^2)/2", &[], &[], &forces)
+    };
+    for (of_y, wanted) in [
+        ("-k*y'^2/y", ["x'*abs(y)^s", "y'*abs(y)^k"]),
+        ("-c*y' - k*y'^2/y", ["x'*abs(y)^s", "y'*abs(y)^k*exp(c*t)"]),
+        ("-y'^2/(2*y)", ["x'*abs(y)^s", "y*y'^2"]),
+    ] {
+        let own = forced(of_y);
+        with_motion(&own, |cx, _| {
+            let g = &own.graph;
+            let found = found(cx);
+            let found: &Found = found.as_ref().as_ref().unwrap();
+            let texts: Vec<String> = found.integrals.iter().map(|i| g.text(i.shown)).collect();
+            for text in wanted.map(|text| g.text(expr(g, text))) {
+                assert!(texts.contains(&text), "{text}: {texts:?}");
+            }
+            let proved = |i: &Integral| matches!(i.verdict, Verdict::Proved(_));
+            assert!(found.integrals.iter().all(proved), "{texts:?}");
+        });
+    }
+}
+
+/// Coefficients with roots of numbers, in denominators too: a uniform field E across a magnetic field B in the plane keeps the guiding centre
+/// `x' - B y - E_x t`, `y' + B x - E_y t` for `x'' = B y' + E_x`, `y'' = -B x' + E_y`. With
+/// `B = 1/√3` and `E = (1/(2 + √3), √3)` and unit mass nothing else is new but the energy.
+#[test]
+fn coefficients_with_roots_of_numbers() {
+    let field = framed(
+        "x y",
+        "(x'^2 + y'^2)/2 + x/(2 + sqrt(3)) + y*sqrt(3)",
+        &[],
+        &[],
+        &[("x", "y'/sqrt(3)"), ("y", "-x'/sqrt(3)")],
+    );
+    let known = [
+        "x' - y/sqrt(3) - t/(2 + sqrt(3))",
+        "y' + x/sqrt(3) - sqrt(3)*t",
+    ];
+    contains(&field, 3, &known);
+}
+
+/// `x'' = g - 3 s x'²/(1 + s x)` keeps `(1 + s x)⁶ x'² - 2 g (1 + s x)⁷/(7 s)`, whose last term is a polynomial of seven terms where a
+/// constant is left out.
+#[test]
+fn powers_are_written_as_powers() {
+    let own = framed("x", "x'^2/2", &[], &[], &[("x", "g - 3*s*x'^2/(1 + s*x)")]);
+    with_motion(&own, |cx, motion| {
+        let g = &own.graph;
+        let found = found(cx);
+        let found: &Found = found.as_ref().as_ref().unwrap();
+        let texts: Vec<String> = found.integrals.iter().map(|i| g.text(i.shown)).collect();
+        assert!(texts.iter().any(|t| t.contains(")^7")), "{texts:?}");
+        for integral in &found.integrals {
+            let verdict = motion.is_integral(cx, integral.value);
+            assert!(matches!(verdict, Verdict::Proved(_)), "{texts:?}");
+        }
+    });
 }

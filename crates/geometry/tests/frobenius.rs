@@ -562,6 +562,28 @@ fn what_constraints_keep_is_named() {
     }
 }
 
+/// A product of which one factor is integrable: on its component x² + y² + z² is kept, on the other nothing is.
+#[test]
+fn what_one_component_keeps_is_named() {
+    let product = system(
+        "x y z",
+        "(x'^2 + y'^2 + z'^2)/2",
+        &[("f", "(z' - y*x')*(x*x' + y*y' + z*z')")],
+    );
+    let found = finding(&product, "model.constraints-integrable#weak");
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "conditional", "{detail}");
+    let g = &product.graph;
+    let sphere = expr(g, "x^2 + y^2 + z^2");
+    let kept = found.formulas.iter().filter(|f| f.caption.contains("keep"));
+    let kept: Vec<Expr> = kept.map(|f| f.right).collect();
+    assert_eq!(kept.len(), 1, "{detail}");
+    assert!(
+        (0..4).all(|seed| crossed(&product, kept[0], sphere, seed) < 1e-10),
+        "{detail}"
+    );
+}
+
 /// The largest 2 × 2 minor of the gradients by (t, x, y, z) of two functions somewhere.
 fn crossed(system: &System, a: Expr, b: Expr, seed: u64) -> f64 {
     let g = &system.graph;

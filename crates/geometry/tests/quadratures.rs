@@ -196,3 +196,67 @@ fn exponents_of_products_are_solved_for() {
         is_multiple(&forced, found.formulas[0].right, known);
     }
 }
+
+/// `y'' = -k y'²/y` with x' constant: |y|^(2 k) dx dy dx' dy' is kept on both sides of y = 0, as `-div X̄ = 2 k y'/y`. Where the model itself
+/// has a root of y it ends at y = 0, and the density is written as the model writes it; y² - 3 has two signs, y² + 3 one.
+#[test]
+fn densities_are_real_on_both_sides() {
+    for (force, density) in [
+        ("-k*y'^2/y", "abs(y)^(2*k)"),
+        ("-y'^2/(4*y)", "sqrt(abs(y))"),
+        ("-y'^2/y", "y^2"),
+        ("-k*y'^2*2*y/(y^2 + 3)", "(y^2 + 3)^(2*k)"),
+        ("-k*y'^2*2*y/(y^2 - 3)", "abs(y^2 - 3)^(2*k)"),
+        ("-k*y'^2/y - sqrt(y)", "y^(2*k)"),
+    ] {
+        let own = framed("x y", "(x'^2 + y'^2)/2", &[], &[], &[("y", force)]);
+        let found = finding(&own, "measure.invariant");
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "proved", "{force}: {detail}");
+        let (g, shown) = (&own.graph, found.formulas[0].right);
+        let wanted = expr(g, density);
+        // Up to a constant factor, on both sides of y = 0 where it is real.
+        let sides: &[f64] = if force.contains("sqrt") {
+            &[0.7, 1.3]
+        } else {
+            &[0.7, -1.3]
+        };
+        let ratio = |y: f64| {
+            let value = |s| Some(if g.symbol_name(s) == "y" { y } else { 0.75 });
+            let at = g.evaluate_f64(&[shown, wanted], &value).unwrap();
+            at[0] / at[1]
+        };
+        assert!(
+            (ratio(sides[0]) - ratio(sides[1])).abs() < 1e-12,
+            "{force}: {}",
+            g.text(shown)
+        );
+    }
+}
+
+/// Velocities that stay implicit: x, y, z occur neither in the rates nor in `z'⁵ + z' = x'² + y'²`, so two variables are left; the horizontal
+/// part of the reaction is along (x', y') and keeps the direction, y'/x'. Where the constraint contains y, x and z are left out.
+#[test]
+fn implicit_constraints_leave_coordinates_out() {
+    let lagrangian = "(x'^2 + y'^2 + z'^2)/2 - z";
+    let cone = system("x y z", lagrangian, &[("f", "z'^5 + z' - x'^2 - y'^2")]);
+    let (found, detail) = word(&cone, "liouville.integrable");
+    assert_eq!(found, "proved", "{detail}");
+    assert!(detail.contains("2 variables"), "{detail}");
+    let moved = system("x y z", lagrangian, &[("f", "z'^5 + z' - x'^2 - y*y'^2")]);
+    let (found, detail) = word(&moved, "liouville.integrable");
+    assert_ne!(found, "proved", "{detail}");
+    assert!(detail.contains("3 variables after x, z"), "{detail}");
+}
+
+/// A model that calls something N has a density with another letter.
+#[test]
+fn letters_of_the_model_are_no_letters_of_the_theory() {
+    let own = system("x N", "(x'^2 + x^2*N'^2)/2", &[]);
+    let (found, detail) = word(&own, "measure.invariant");
+    assert_eq!(found, "proved", "{detail}");
+    assert!(
+        detail.contains("D dq dη") && !detail.contains("N ="),
+        "{detail}"
+    );
+}

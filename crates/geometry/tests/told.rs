@@ -60,9 +60,12 @@ fn symmetries_are_named_as_what_they_are() {
         })
         .collect();
     let says = |words: &str| said.iter().any(|detail| detail.contains(words));
-    assert!(says("its symmetry is the shift along y"), "{said:#?}");
+    assert!(
+        says("it belongs to the symmetry under shifts of y"),
+        "{said:#?}"
+    );
     assert!(says("∂/∂x") && says("∂/∂z"), "{said:#?}");
-    assert!(!says("the shift along x"), "{said:#?}");
+    assert!(!says("under shifts of x"), "{said:#?}");
     // A body's angular velocity is the speed of no coordinate.
     let top = framed(
         "phi theta psi",
@@ -81,8 +84,8 @@ fn symmetries_are_named_as_what_they_are() {
         for j in 1..=found.integrals.len() {
             let verdict = &cx.finding(&format!("noether.integral#{j}")).verdict;
             let detail = verdict.detail();
-            assert!(!detail.contains("shift along w"), "{detail}");
-            let known = ["shift along psi", "shift along phi", "shift of time"];
+            assert!(!detail.contains("shifts of w"), "{detail}");
+            let known = ["shifts of psi", "shifts of phi", "shifts of time"];
             assert!(known.iter().any(|k| detail.contains(k)), "{detail}");
         }
     });

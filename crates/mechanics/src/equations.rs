@@ -394,8 +394,19 @@ pub fn unused_name(system: &System, wanted: &str) -> String {
     name
 }
 
+/// The first of some letters that nothing in the system is called, for a quantity of the theory in a sentence; the first one with
+/// underscores where all are used.
+pub fn unused_letter(system: &System, wanted: &[&str]) -> String {
+    let mut free = wanted.iter().filter(|name| !is_used(system, name));
+    match free.next() {
+        Some(name) => (*name).to_owned(),
+        None => unused_name(system, wanted.first().copied().unwrap_or_default()),
+    }
+}
+
 fn is_used(system: &System, name: &str) -> bool {
     system.moves(name)
+        || system.controls.iter().any(|c| c.name == name)
         || system.parameters.iter().any(|p| p.name == name)
         || system.quasi_velocities.iter().any(|u| u.name == name)
         || (system.characteristics.iter()).any(|c| c.parameters.iter().any(|p| p == name))

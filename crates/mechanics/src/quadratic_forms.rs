@@ -39,11 +39,13 @@ pub(crate) fn positive_in_linear_forms(system: &System, kinetic: Expr) -> Option
     let symbols: Vec<_> = variables.iter().filter_map(|&e| g.as_symbol(e)).collect();
     let momenta = g.gradient(written, &symbols);
     let matrix = g.jacobian(&momenta, &symbols);
-    let every = blocks(g, &matrix);
-    every
-        .iter()
-        .all(|block| is_positive(system, &matrix, block))
-        .then_some(variables.len())
+    is_nonnegative_by_minors(system, &matrix).then_some(variables.len())
+}
+
+/// Whether a symmetric matrix is nowhere negative by its leading minors (Sylvester's criterion), block by block of coupled rows.
+pub(crate) fn is_nonnegative_by_minors(system: &System, matrix: &[Vec<Expr>]) -> bool {
+    let every = blocks(&system.graph, matrix);
+    every.iter().all(|block| is_positive(system, matrix, block))
 }
 
 /// Whether the Lagrangian is a function φ of one quadratic form N in the velocities, with `φ' ∂²N/∂v∂v` nowhere negative and

@@ -63,9 +63,10 @@ pub(super) fn returning(
         .iter()
         .map(|&j| cx.system.coordinates[j].name.as_str())
         .collect();
+    let n = super::density_letter(cx);
     turned(cx, flow, &open).unwrap_or_else(|| {
         Verdict::undecided(format!(
-            "N = {} makes N dq dη invariant near every place; whether a density returns to its values after a turn of {} is not decided",
+            "{n} = {} makes {n} dq dη invariant near every place; whether a density returns to its values after a turn of {} is not decided",
             cx.system.graph.text(density),
             names.join(", ")
         ))

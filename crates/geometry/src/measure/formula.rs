@@ -3,9 +3,11 @@
 
 use super::Flow;
 use crate::noether::shown::readable;
+use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::system::Coordinate;
 use chetaev_mechanics::{sample, Context};
-use chetaev_symbolic::simplify::length;
+use chetaev_symbolic::simplify::{by_square, length};
+use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Graph, Node, Verdict};
 
 /// The states at which the sign of a density is looked at, and where their draws begin.
@@ -39,6 +41,54 @@ pub(super) fn positive(cx: &Context<'_>, e: Expr) -> Expr {
         Some(false) => cx.system.graph.neg(e),
         _ => e,
     }
+}
+
+/// A product of powers with the absolute values of bases that may be negative under exponents that are not whole: `|y|^k` is real and
+/// positive on both sides of y = 0. Bases under such exponents in the model itself are left: the model ends where they change sign.
+pub(crate) fn on_both_sides(cx: &Context<'_>, density: Expr) -> Expr {
+    let g = &cx.system.graph;
+    let factors = match g.node(density) {
+        Node::Product { factors, .. } => factors.to_vec(),
+        _ => vec![density],
+    };
+    let broken = bases_of_broken_powers(cx);
+    let real = factors.into_iter().map(|factor| {
+        let (base, exponent) = g.base_exponent(factor);
+        let is_whole = g.as_number(exponent).is_some_and(|n| n.is_int());
+        match is_whole || broken.contains(&base) || is_of_one_sign(cx, base) {
+            true => factor,
+            false => g.pow(g.abs(base), exponent),
+        }
+    });
+    g.mul(&real.collect::<Vec<Expr>>())
+}
+
+/// Bases of powers that are not whole in what the model states.
+fn bases_of_broken_powers(cx: &Context<'_>) -> Vec<Expr> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let mut stated = vec![system.lagrangian];
+    stated.extend(system.constraints.iter().map(|c| c.f));
+    stated.extend(&system.forces);
+    let powers = g.reachable(&stated).into_iter().filter_map(|e| {
+        let (base, exponent) = g.base_exponent(e);
+        let is_whole = g.as_number(exponent).is_some_and(|n| n.is_int());
+        (!is_whole).then_some(base)
+    });
+    powers.collect()
+}
+
+/// Whether an expression is seen to be nowhere negative, under the assumptions or for the values of the parameters; a composed one also
+/// where it is positive at all sampled states: factors of det W̄ keep their signs where the mass matrix is regular.
+fn is_of_one_sign(cx: &Context<'_>, e: Expr) -> bool {
+    let g = &cx.system.graph;
+    if matches!(g.node(e), Node::Sum { .. }) && signs(cx, e) == Some(true) {
+        return true;
+    }
+    let stated = assumptions(cx.system);
+    let valued = g.substitute(e, &cx.system.parameter_values());
+    let forms = [e, valued].into_iter();
+    let mut forms = forms.flat_map(|e| [e, by_square(g, e, true), by_square(g, e, false)]);
+    forms.any(|e| known_sign(g, e, &stated).is_nonnegative())
 }
 
 /// Whether an expression is positive, or negative, at all sampled states.

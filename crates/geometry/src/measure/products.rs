@@ -56,11 +56,19 @@ pub(super) fn density(cx: &Context<'_>, flow: &Flow<'_>) -> Option<(Expr, Verdic
     let on = match is_polynomial(g, density) {
         true => "on the constraint manifold",
         false => {
-            "on the constraint manifold, where no base of a negative or broken power in N vanishes"
+            "on the constraint manifold, where no base of a negative or broken power in the density vanishes"
         }
     };
-    let verdict = cx.prover.identity(system, &[defect], manifold, on);
-    matches!(verdict, Verdict::Proved(_)).then_some((density, verdict))
+    let mut verdict = cx.prover.identity(system, &[defect], manifold, on);
+    let real = formula::on_both_sides(cx, density);
+    match &mut verdict {
+        Verdict::Proved(proof) if real != density => proof.detail.push_str(
+            "; the absolute value of a base has the same logarithmic derivative on either side of its zeros",
+        ),
+        Verdict::Proved(_) => {}
+        _ => return None,
+    }
+    Some((real, verdict))
 }
 
 /// Whether no power in the density is negative or broken.

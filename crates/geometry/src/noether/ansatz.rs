@@ -244,6 +244,10 @@ impl lift::Source for Restricted<'_> {
         self.solve(&draw)
     }
 
+    fn roots(&self) -> Vec<(usize, u32)> {
+        lift::roots_of_numbers(&self.ansatz.motion.system.graph, &self.ansatz.parameters)
+    }
+
     fn varied(&mut self, parameter: usize) -> Option<Sample> {
         let g = &self.ansatz.motion.system.graph;
         let symbol = g.as_symbol(self.ansatz.parameters[parameter])?;

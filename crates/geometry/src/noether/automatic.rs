@@ -1,5 +1,6 @@
 //! The families that are chosen for a system, as large as the budget allows.
 
+use super::conjugate;
 use super::family::{Family, ANY};
 use super::letters::{Letters, Polar};
 use super::plain;
@@ -83,6 +84,7 @@ fn usual_families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
         .collect();
     families.extend(plain::largest(cx, letters));
     families.extend(turned(cx, letters));
+    families.extend(conjugate::families(cx, letters));
     families.extend(letters.polar.iter().map(|polar| waves(cx, letters, polar)));
     if letters.velocities.len() > 1 {
         let make = |weight| letters.quotients(cx.system, weight);

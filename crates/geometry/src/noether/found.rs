@@ -6,9 +6,10 @@ use super::family::{Family, Member};
 use super::killing::solutions;
 use super::letters::{Letters, ENERGY, FIXED};
 use super::motion::Motion;
+use super::powers::products;
 use super::search::{Integral, Table};
 use super::shorter::shorter;
-use super::shown::{shortest, without_constant_factor};
+use super::shown::{shortest, with_power, without_constant_factor};
 use super::special::{special, Specials};
 use chetaev_mechanics::Context;
 use chetaev_symbolic::number::prime_field::Residue;
@@ -38,6 +39,8 @@ pub struct Found {
     /// The generalized momenta ψ^i p_i that were searched, where these were not too many; those with functions that the model states for
     /// the search stand last.
     pub momenta: Vec<Momenta>,
+    /// The functions of whose powers products were searched; none where these were too many.
+    pub powers: Vec<Expr>,
     /// Functionally independent first integrals, each proved.
     pub integrals: Vec<Integral>,
     /// Further integrals that are functions of `integrals`, linearly independent ones: products of two of these, and others.
@@ -144,9 +147,11 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
     }
     // Where the integrals cannot be told apart over prime fields nothing is said of special values.
     let special = special(cx, motion, &usual, &integrals).unwrap_or_default();
+    let powers = add_products(cx, motion, &usual, &mut integrals);
     Ok(Found {
         families: searched,
         momenta: all_momenta,
+        powers,
         integrals,
         special,
         dependent,
@@ -239,6 +244,28 @@ fn is_new(cx: &Context<'_>, motion: &Motion<'_>, integrals: &[Integral], value: 
         .is_some_and(|kept| kept.contains(&(all.len() - 1)))
 }
 
+/// Adds products of powers that are no functions of the integrals found; the functions of which these are made. They are told apart by
+/// their logarithms, as powers with parameters as exponents have no values over a prime field.
+fn add_products(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    letters: &Letters,
+    integrals: &mut Vec<Integral>,
+) -> Vec<Expr> {
+    let (bases, found) = products(cx, motion, letters);
+    let mut known = integrals.clone();
+    for product in found {
+        if is_new(cx, motion, &known, product.logarithm) {
+            known.push(Integral {
+                value: product.logarithm,
+                ..product.integral.clone()
+            });
+            integrals.push(product.integral);
+        }
+    }
+    bases
+}
+
 /// The most components of fields of generalized momenta, for the usual work.
 const COMPONENTS: usize = 60;
 
@@ -306,8 +333,12 @@ fn chosen(
                 if candidate.is_linear {
                     linear.push(integral.clone());
                 }
-                integrals.push(match integral.name.is_none() && !candidate.is_linear {
+                let integral = match integral.name.is_none() && !candidate.is_linear {
                     true => shorter(cx, motion, integral, &linear),
+                    false => integral,
+                };
+                integrals.push(match integral.name.is_none() {
+                    true => with_power(cx, motion, integral),
                     false => integral,
                 });
             }

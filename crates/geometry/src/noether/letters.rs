@@ -1,6 +1,7 @@
 //! The letters of a system, and the families that are made of them (T3 §7): letters of the velocities, and functions of (t, q) for the
 //! coefficients.
 
+use super::conjugate;
 use super::family::{coefficients, monomials, product, CoefficientLetter, Family, Letter, Member};
 use super::motion::{draw_with_points, Motion};
 use super::occurring::Occurring;
@@ -33,6 +34,8 @@ pub struct Letters {
     /// Functions that are members by themselves, with their names: the energy, and the momenta of coordinates that L does not
     /// contain.
     pub known: Vec<(String, Letter)>,
+    /// Momenta ∂L/∂v with the coordinates that they belong to, for families of their own ([`super::conjugate`]).
+    pub momenta: Vec<(Symbol, Letter)>,
 }
 
 /// A coordinate that occurs nowhere and whose velocity counts more the farther out others are, as φ of `r'² + r² φ'²`: by turns of
@@ -63,9 +66,11 @@ impl Letters {
         let mut found = Occurring::in_roots(system, &roots);
         found.roots_of_measure(cx);
         found.divisors(cx);
+        let momenta = conjugate::momenta(cx).into_iter();
         Letters {
             velocities,
             known: known(cx),
+            momenta: momenta.map(|(q, p)| (q, Letter::plain(p))).collect(),
             ..found.letters()
         }
     }
@@ -211,7 +216,8 @@ impl Letters {
     pub fn without_zeros(&self, motion: &Motion<'_>, seed: u64) -> Result<Letters, String> {
         let known = self.known.iter().map(|(_, letter)| letter.value);
         let velocities = self.velocities.iter().map(|l| l.value);
-        let values: Vec<Expr> = velocities.chain(known).collect();
+        let momenta = self.momenta.iter().map(|(_, letter)| letter.value);
+        let values: Vec<Expr> = velocities.chain(known).chain(momenta).collect();
         let points = motion.points(&values)?;
         let mut random = Random::stream(seed, 1 << 21);
         let at = draw_with_points(&points, &mut random)
@@ -221,15 +227,18 @@ impl Letters {
         let mut kept = at.iter().map(|value| !value.is_zero());
         without.velocities.retain(|_| kept.next().unwrap_or(true));
         without.known.retain(|_| kept.next().unwrap_or(true));
+        without.momenta.retain(|_| kept.next().unwrap_or(true));
         Ok(without)
     }
 
-    /// All letters, velocities first, known functions last.
+    /// All letters, velocities first, then functions of (t, q), known functions, and momenta.
     pub fn all(&self) -> Vec<Letter> {
         let coefficients = self.coefficients.iter().map(|c| c.letter.clone());
         let known = self.known.iter().map(|(_, letter)| letter.clone());
         let velocities = self.velocities.iter().cloned();
-        velocities.chain(coefficients).chain(known).collect()
+        let momenta = self.momenta.iter().map(|(_, letter)| letter.clone());
+        let functions = velocities.chain(coefficients);
+        functions.chain(known).chain(momenta).collect()
     }
 
     /// The polynomials of degree up to `degree` in the velocities whose coefficients have weight up to `weight` in the terms of
@@ -330,6 +339,7 @@ impl Letters {
         let known = self.velocities.len() + self.coefficients.len();
         let of_letter = |&(letter, exponent): &(usize, i8)| match letter {
             l if l < self.velocities.len() => u32::from(exponent.unsigned_abs()),
+            l if l >= known + self.known.len() => u32::from(exponent.unsigned_abs()),
             l if l >= known => 2,
             _ => 0,
         };

@@ -6,11 +6,12 @@
 //! solution gives the reduced fraction. Its coefficients are rational numbers, found from their classes. Nothing found here is
 //! believed: the integral built of it is proved or dropped.
 
+use super::algebraic::combination;
 use chetaev_symbolic::number::modular_matrix::null_space;
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::reconstruct::rational;
 use chetaev_symbolic::polynomial::{Budget, Meter, Monomial, Polynomial, RationalFunction};
-use chetaev_symbolic::{Expr, Graph, Rational};
+use chetaev_symbolic::{Expr, Graph, Node, Rational};
 
 /// The most unknowns of one fit.
 const UNKNOWNS: usize = 420;
@@ -44,6 +45,48 @@ pub(super) trait Source {
     /// A sample that differs from the last one of [`sample`](Source::sample) in the parameter of this number only; `None` where that
     /// cannot be arranged.
     fn varied(&mut self, parameter: usize) -> Option<Sample>;
+    /// Which parameters are no parameters, but roots of rational numbers, as √3, with the number of their different powers.
+    fn roots(&self) -> Vec<(usize, u32)> {
+        Vec::new()
+    }
+}
+
+/// The roots of rational numbers among the parameters, with the number of different powers of each.
+pub(super) fn roots_of_numbers(g: &Graph, parameters: &[Expr]) -> Vec<(usize, u32)> {
+    let powers = |e: Expr| match g.node(e) {
+        Node::Power { base, exponent } if g.as_number(*base).is_some() => {
+            u32::try_from(g.as_number(*exponent)?.denominator().clone()).ok()
+        }
+        _ => None,
+    };
+    let own = parameters.iter().enumerate();
+    own.filter_map(|(p, &e)| Some((p, powers(e)?))).collect()
+}
+
+/// One more sample in which the roots of numbers have the same values as in the first one.
+fn alike(source: &mut dyn Source, first: &Sample, roots: &[Vec<u32>]) -> Option<Sample> {
+    const TRIALS: usize = 40;
+    let occurs = |p: usize| roots.iter().any(|r| r.get(p).is_some_and(|&e| e > 0));
+    let is_alike = |s: &Sample| {
+        let mut own = (0..s.parameters.len()).filter(|&p| occurs(p));
+        own.all(|p| s.parameters[p] == first.parameters[p])
+    };
+    (0..TRIALS).find_map(|_| source.sample().filter(is_alike))
+}
+
+/// Exponents of the products of powers of the roots of numbers, 1 first.
+fn products_of_roots(roots: &[(usize, u32)], parameters: usize) -> Vec<Vec<u32>> {
+    let mut products = vec![vec![0; parameters]];
+    for &(p, powers) in roots {
+        let before = products.clone();
+        for e in 1..powers {
+            products.extend(before.iter().cloned().map(|mut exponents| {
+                exponents[p] = e;
+                exponents
+            }));
+        }
+    }
+    products
 }
 
 /// The entries as functions of the parameters; `None` when some entry is none of moderate degree.
@@ -52,9 +95,14 @@ pub(super) fn entries(source: &mut dyn Source, count: usize) -> Option<Vec<Ratio
     let field = source.field();
     let first = source.sample()?;
     let parameters = 0..first.parameters.len();
+    let numbers = source.roots();
+    let roots = products_of_roots(&numbers, first.parameters.len());
     let lines: Vec<Vec<Degrees>> = parameters
         .clone()
-        .map(|p| line(source, &first, p))
+        .map(|p| match numbers.iter().any(|&(root, _)| root == p) {
+            true => vec![Degrees::Are(0, 0); count],
+            false => line(source, &first, p),
+        })
         .collect();
     let mut samples = vec![first];
     (0..count)
@@ -67,6 +115,7 @@ pub(super) fn entries(source: &mut dyn Source, count: usize) -> Option<Vec<Ratio
                 entry,
                 used,
                 degrees,
+                roots: &roots,
             };
             fit.least(source, &mut samples, &meter).or_else(|| {
                 // Where letters are related, as r² (1 + a²) = 1, degrees along a line may not be those of the fraction.
@@ -182,16 +231,18 @@ impl Monomials {
     }
 }
 
-struct Fit {
+struct Fit<'r> {
     field: PrimeField,
     entry: usize,
     used: Vec<usize>,
     /// In each parameter used.
     degrees: Vec<Degrees>,
+    /// Exponents of the products of powers of the roots of numbers of which coefficients are combinations; 1 alone where there are none.
+    roots: &'r [Vec<u32>],
 }
 
-impl Fit {
-    fn of_any_degrees(&self) -> Fit {
+impl Fit<'_> {
+    fn of_any_degrees(&self) -> Fit<'_> {
         Fit {
             used: self.used.clone(),
             degrees: vec![Degrees::Any; self.used.len()],
@@ -247,7 +298,8 @@ impl Fit {
     ) -> Option<RationalFunction> {
         let unknowns = monomials.count();
         while samples.len() < unknowns + 3 {
-            samples.push(source.sample()?);
+            let next = alike(source, &samples[0], self.roots)?;
+            samples.push(next);
         }
         let rows = samples[..unknowns + 3].iter();
         let matrix: Vec<Residue> = rows.flat_map(|s| self.row(monomials, s)).collect();
@@ -265,7 +317,7 @@ impl Fit {
             });
             match denominator.is_zero() {
                 true => None,
-                false => self.fraction(monomials, above, below, meter),
+                false => self.fraction(monomials, (above, below), &samples[0], meter),
             }
         })
     }
@@ -293,12 +345,12 @@ impl Fit {
     fn fraction(
         &self,
         monomials: &Monomials,
-        above: &[Residue],
-        below: &[Residue],
+        (above, below): (&[Residue], &[Residue]),
+        sample: &Sample,
         meter: &Meter,
     ) -> Option<RationalFunction> {
-        let numerator = self.polynomial(&monomials.above, above, meter)?;
-        let denominator = self.polynomial(&monomials.below, below, meter)?;
+        let numerator = self.polynomial(&monomials.above, above, sample, meter)?;
+        let denominator = self.polynomial(&monomials.below, below, sample, meter)?;
         numerator.div(&denominator, meter).ok()?
     }
 
@@ -306,6 +358,7 @@ impl Fit {
         &self,
         monomials: &[Vec<u32>],
         coefficients: &[Residue],
+        sample: &Sample,
         meter: &Meter,
     ) -> Option<RationalFunction> {
         let mut sum = RationalFunction::zero();
@@ -313,17 +366,39 @@ impl Fit {
             if class.is_zero() {
                 continue;
             }
-            let number: Rational = rational(&self.field, class)?;
-            let mut powers = vec![0_u16; self.used.iter().max().map_or(0, |&p| p + 1)];
+            let mut powers = vec![0; sample.parameters.len()];
             for (&p, &e) in self.used.iter().zip(exponents) {
-                powers[p] = u16::try_from(e).ok()?;
+                powers[p] = e;
             }
-            let monomial = Polynomial::term(Monomial::from_exponents(&powers), 1.into());
-            let term = RationalFunction::constant(&number);
-            let term = term.mul(&RationalFunction::from(monomial), meter).ok()?;
-            sum = sum.add(&term, meter).ok()?;
+            for (number, root) in self.number(class, sample)? {
+                let both = powers.iter().zip(root).map(|(a, b)| u16::try_from(a + b));
+                let both: Vec<u16> = both.collect::<Result<_, _>>().ok()?;
+                let monomial = Polynomial::term(Monomial::from_exponents(&both), 1.into());
+                let term = RationalFunction::constant(&number);
+                let term = term.mul(&RationalFunction::from(monomial), meter).ok()?;
+                sum = sum.add(&term, meter).ok()?;
+            }
         }
         Some(sum)
+    }
+
+    /// A number from its class: rational coefficients of products of roots of numbers.
+    fn number(&self, class: Residue, sample: &Sample) -> Option<Vec<(Rational, &[u32])>> {
+        let [_, _, ..] = self.roots else {
+            let number = rational(&self.field, class)?;
+            return Some(vec![(number, self.roots.first()?)]);
+        };
+        let field = &self.field;
+        let value = |exponents: &Vec<u32>| {
+            let powers = exponents.iter().zip(&sample.parameters);
+            powers.fold(field.one(), |product, (&e, &x)| {
+                field.mul(product, field.pow(x, u64::from(e)))
+            })
+        };
+        let values: Vec<Residue> = self.roots.iter().map(value).collect();
+        let found = combination(field, class, &values)?.into_iter();
+        let pairs = found.zip(self.roots.iter().map(Vec::as_slice));
+        Some(pairs.filter(|(number, _)| !number.is_zero()).collect())
     }
 }
 

@@ -135,6 +135,10 @@ impl lift::Source for Restricted<'_> {
         self.solve(&draw)
     }
 
+    fn roots(&self) -> Vec<(usize, u32)> {
+        lift::roots_of_numbers(&self.table.motion.system.graph, &self.table.parameters)
+    }
+
     fn varied(&mut self, parameter: usize) -> Option<Sample> {
         let g = &self.table.motion.system.graph;
         let symbol: Symbol = g.as_symbol(self.table.parameters[parameter])?;

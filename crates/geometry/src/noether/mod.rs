@@ -1,8 +1,10 @@
 //! First integrals: their search, their symmetries and generators (T3 §6–7).
 
+mod algebraic;
 pub mod ansatz;
 mod automatic;
 pub mod claims;
+mod conjugate;
 mod constants;
 mod critical;
 mod dependence;
@@ -18,6 +20,7 @@ pub mod motion;
 pub mod moving;
 pub(crate) mod occurring;
 mod plain;
+mod powers;
 pub mod reduced;
 pub mod search;
 mod shorter;

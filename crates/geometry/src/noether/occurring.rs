@@ -239,15 +239,20 @@ impl<'a> Occurring<'a> {
             true => 1,
             false => 2,
         };
+        let hyperbola = |x: Expr| {
+            let value = |function| g.apply(function, &[x]);
+            [
+                letter(value(Function::Sinh), (0, ANY), 1),
+                letter(value(Function::Cosh), (0, 1), 1),
+            ]
+        };
         let mut all: Vec<CoefficientLetter> = Vec::new();
         self.angles
             .iter()
             .for_each(|&angle| all.extend(circle(angle)));
-        for &x in &self.hyperbolic {
-            let value = |function| g.apply(function, &[x]);
-            all.push(letter(value(Function::Sinh), (0, ANY), 1));
-            all.push(letter(value(Function::Cosh), (0, 1), 1));
-        }
+        self.hyperbolic
+            .iter()
+            .for_each(|&x| all.extend(hyperbola(x)));
         let first_turning = all.len();
         for c in &self.system.coordinates {
             if self.system.angles.contains(&c.name) && !self.angles.contains(&c.q) {
@@ -297,6 +302,12 @@ impl<'a> Occurring<'a> {
         self.perhaps_angles()
             .into_iter()
             .for_each(|q| all.extend(circle(q)));
+        // Where hyperbolic functions of one coordinate occur, fields may grow with others: exp(±x) in the hyperbolic plane.
+        if !self.hyperbolic.is_empty() {
+            let free = self.absent().map(|c| (&c.name, c.q));
+            let free = free.filter(|(name, _)| !self.system.angles.contains(*name));
+            free.for_each(|(_, q)| all.extend(hyperbola(q)));
+        }
         let turning_end = all.len();
         let mut polar = Vec::new();
         for coordinate in self.polar_angles() {
@@ -319,6 +330,7 @@ impl<'a> Occurring<'a> {
             perhaps_turning: (usual..turning_end).collect(),
             coefficients: all,
             known: Vec::new(),
+            momenta: Vec::new(),
         }
     }
 

@@ -1,9 +1,11 @@
 //! Integrals as a person writes them.
 
+use super::motion::Motion;
 use super::search::Integral;
 use chetaev_mechanics::{Context, System};
+use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::simplify::{length, simplify, Options};
-use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol};
+use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol, Verdict};
 
 /// Larger expressions, in nodes, are shown as they are.
 const READABLE: usize = 90;
@@ -47,6 +49,69 @@ pub(super) fn without_constant_factor(cx: &Context<'_>, integral: Integral) -> I
         ..integral
     };
     without_first_minus(g, divided)
+}
+
+/// The integral with a constant added for which its part without velocities is a power: `(1 + s x)^7/s` for
+/// `x (7 + 21 s x + … + s⁶ x⁶)`, whose slope is `7 (1 + s x)^6`. Where that is shorter, and proved.
+pub(super) fn with_power(cx: &Context<'_>, motion: &Motion<'_>, integral: Integral) -> Integral {
+    let g = &cx.system.graph;
+    let Some((rest, power)) = power_of_place(motion, integral.shown) else {
+        return integral;
+    };
+    let more = g.sub(power, rest);
+    let [value, shown] = [integral.value, integral.shown].map(|e| g.add(&[e, more]));
+    if length(g, shown) >= length(g, integral.shown) {
+        return integral;
+    }
+    match motion.is_integral(cx, value) {
+        verdict @ Verdict::Proved(_) => Integral {
+            value,
+            shown,
+            verdict,
+            ..integral
+        },
+        _ => integral,
+    }
+}
+
+/// The part of a sum that contains one coordinate and neither velocities nor the time, with the power of a linear function of that
+/// coordinate that has the same slope.
+fn power_of_place(motion: &Motion<'_>, e: Expr) -> Option<(Expr, Expr)> {
+    let (system, g) = (motion.system, &motion.system.graph);
+    let Node::Sum { terms, .. } = g.node(e) else {
+        return None;
+    };
+    let places = system.coordinate_symbols();
+    let is_of_place = |e: Expr| {
+        let own = g.symbols_in(&[e]);
+        let is_plain = |s: &Symbol| places.contains(s) || !motion.moves(*s);
+        own.iter().all(is_plain) && own.iter().any(|s| places.contains(s))
+    };
+    let own = terms.iter().filter(|(term, _)| is_of_place(*term));
+    let rest = g.add(
+        &own.map(|(term, c)| g.scale(c, *term))
+            .collect::<Vec<Expr>>(),
+    );
+    let symbols = g.symbols_in(&[rest]);
+    let mut moving = symbols.into_iter().filter(|s| places.contains(s));
+    let (Some(q), None) = (moving.next(), moving.next()) else {
+        return None;
+    };
+    let slope = g.diff(rest, q);
+    let all = factored(g, slope)?.factors;
+    let mut with = all.iter().filter(|(f, _)| g.contains_any(*f, &[q]));
+    let (Some(&(base, times)), None) = (with.next(), with.next()) else {
+        return None;
+    };
+    let by = g.diff(base, q);
+    if times < 2 || g.is_zero(by) || g.contains_any(by, &[q]) {
+        return None;
+    }
+    let constant = g.div(slope, g.powi(base, times));
+    let constant = simplify(g, constant, &Options::default());
+    let over = g.mul(&[g.integer(times + 1), by]);
+    let power = g.mul(&[constant, g.powi(base, times + 1), g.powi(over, -1)]);
+    Some((rest, power))
 }
 
 /// The integral or its negative, whichever is not written with a minus in front.

@@ -23,6 +23,8 @@ enum Rule {
     /// The cosine that belongs to the sine in the slot before.
     Cosine,
     Exponential(usize),
+    /// The logarithm or arctangent of the first slot, whose slope, as a function of it, is the second.
+    Primitive(Function, usize, usize),
 }
 
 /// Expressions as series in the time.
@@ -83,6 +85,19 @@ impl Rules<'_> {
     fn apply(&mut self, function: Function, x: usize) -> Option<usize> {
         if function == Function::Exp {
             return Some(self.push(Rule::Exponential(x)));
+        }
+        if function == Function::Log {
+            let slope = self.inverse(x);
+            return Some(self.push(Rule::Primitive(function, x, slope)));
+        }
+        if function == Function::Atan {
+            let square = self.push(Rule::Product(x, x));
+            let below = self.push(Rule::Sum(
+                Ball::integer(1),
+                vec![(square, Ball::integer(1))],
+            ));
+            let slope = self.inverse(below);
+            return Some(self.push(Rule::Primitive(function, x, slope)));
         }
         let (sine, cosine) = self.turning(x);
         Some(match function {
@@ -232,6 +247,16 @@ impl Series {
                 0 => p.exp(&of(*x)[0]).ok()?.midpoint(),
                 _ => over(p, &convolution(p, &rates(p, of(*x))?, of(slot))?, order)?,
             },
+            // k u_k = Σ j x_j s_{k-j}.
+            Rule::Primitive(function, x, slope) => match (order, function) {
+                (0, Function::Log) => p.log(&of(*x)[0]).ok()?.midpoint(),
+                (0, _) => p.atan(&of(*x)[0]).ok()?.midpoint(),
+                _ => over(
+                    p,
+                    &convolution(p, &rates(p, of(*x))?, &of(*slope)[..order])?,
+                    order,
+                )?,
+            },
             Rule::Sine(_) | Rule::Cosine => return None,
         })
     }
@@ -307,7 +332,7 @@ pub(super) fn over(p: &Precision, x: &Ball, n: usize) -> Option<Ball> {
 mod tests {
     use super::*;
 
-    /// Coefficients of sin(x) e^x/(1 + x²)^(1/2) and tan(x), for x = t, from their known expansions.
+    /// Coefficients of sin(x) e^x, (1 + x²)^(-1/2), tan(x), log(1 + x) and atan(x), for x = t, from their known expansions.
     #[test]
     fn coefficients_of_known_functions() {
         let g = Graph::new();
@@ -320,6 +345,8 @@ mod tests {
                 g.number(ratio(-1, 2).unwrap()),
             ),
             g.apply(Function::Tan, &[x]),
+            g.apply(Function::Log, &[g.add(&[g.one(), x])]),
+            g.apply(Function::Atan, &[x]),
         ];
         let place = |s: Symbol| (s == symbol).then_some(0);
         let mut series = Series::of(&g, &outputs, &p, &place, &|_| None).unwrap();
@@ -327,11 +354,14 @@ mod tests {
         given[1] = Ball::integer(1);
         let given = [given];
         let found: Vec<Vec<Ball>> = (0..6).map(|_| series.next(&given).unwrap()).collect();
-        // sin t e^t = t + t² + t³/3 - t⁵/30; (1 + t²)^(-1/2) = 1 - t²/2 + 3 t⁴/8; tan t = t + t³/3 + 2 t⁵/15.
+        // sin t e^t = t + t² + t³/3 - t⁵/30; (1 + t²)^(-1/2) = 1 - t²/2 + 3 t⁴/8; tan t = t + t³/3 + 2 t⁵/15;
+        // log(1 + t) = t - t²/2 + …, atan t = t - t³/3 + ….
         let expected = [
             [(0, 1), (1, 1), (1, 1), (1, 3), (0, 1), (-1, 30)],
             [(1, 1), (0, 1), (-1, 2), (0, 1), (3, 8), (0, 1)],
             [(0, 1), (1, 1), (0, 1), (1, 3), (0, 1), (2, 15)],
+            [(0, 1), (1, 1), (-1, 2), (1, 3), (-1, 4), (1, 5)],
+            [(0, 1), (1, 1), (0, 1), (-1, 3), (0, 1), (1, 5)],
         ];
         for (place, row) in expected.iter().enumerate() {
             for (order, &(above, below)) in row.iter().enumerate() {

@@ -1,15 +1,15 @@
 //! `model.metric-positive`: whether the kinetic metric of Jacobi's principle is positive on the admissible velocities.
 
 use super::{Claim, Context, Finding, Group};
-use crate::characteristics::Manifold;
+use crate::characteristics::{Characteristics, Manifold};
 use crate::claims::formulation::manifold;
 use crate::formulations::stated_apart;
 use crate::linear::dot;
 use crate::prover::{located, Prover};
-use crate::quadratic_forms::{nonnegative, positive_in_linear_forms};
+use crate::quadratic_forms::{is_nonnegative_by_minors, nonnegative, positive_in_linear_forms};
 use crate::system::System;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Symbol, Verdict};
 
 /// The claim.
 #[derive(Clone, Copy, Debug)]
@@ -60,6 +60,9 @@ impl Claim for MetricPositive {
                 }
             }
         }
+        if let Some(proof) = by_minors(cx) {
+            return Verdict::Proved(proof).into();
+        }
         let metric = metric(cx);
         let prover = Prover {
             budget: cx.prover.budget.min(BUDGET),
@@ -81,6 +84,64 @@ impl Claim for MetricPositive {
             }
         }
     }
+}
+
+/// Sylvester's criterion for the mass matrix, or for `BᵀWB` on the admissible velocities `v = B P`; for general values of the parameters or
+/// for those stated.
+fn by_minors(cx: &Context<'_>) -> Option<Proof> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let values = system.parameter_values();
+    let whole = at_rest(cx);
+    let restricted =
+        restricted(cx, &whole).map(|m| (m, "the mass matrix on the admissible velocities"));
+    let matrices = std::iter::once((whole, "the mass matrix")).chain(restricted);
+    for (matrix, what) in matrices {
+        let valued = |row: &Vec<Expr>| g.substitute_all(row, &values);
+        let valued: Vec<Vec<Expr>> = matrix.iter().map(valued).collect();
+        for (matrix, when) in [(matrix, ""), (valued, "for the values of the parameters ")] {
+            if is_nonnegative_by_minors(system, &matrix) {
+                let on = located("wherever both sides are defined", ON, system);
+                let detail = format!("{when}{what} is nowhere negative by its leading minors (Sylvester's criterion)");
+                return Some(Proof::structural(on, detail));
+            }
+        }
+    }
+    None
+}
+
+/// `BᵀWB` where the admissible velocities are `v = B P`, B free of velocities.
+fn restricted(cx: &Context<'_>, mass: &[Vec<Expr>]) -> Option<Vec<Vec<Expr>>> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let chart = Characteristics::independent_velocities(system, cx.terms, cx.selection).ok()?;
+    let own: Vec<Symbol> = chart.parameters.iter().map(|p| p.symbol).collect();
+    let all = [&system.velocity_symbols()[..], &own[..]].concat();
+    let pairs: Vec<(Expr, Expr)> = chart
+        .parameters
+        .iter()
+        .map(|p| (p.value, g.zero()))
+        .collect();
+    let is_homogeneous = |&phi: &Expr| g.is_zero(g.substitute(phi, &pairs));
+    let is_linear = !g.any_contains_any(&chart.basis.concat(), &all);
+    if chart.order > 1 || !is_linear || !chart.velocities.iter().all(is_homogeneous) {
+        return None;
+    }
+    let columns: Vec<Vec<Expr>> = (0..chart.k())
+        .map(|i| chart.basis.iter().map(|row| row[i]).collect())
+        .collect();
+    let image =
+        |column: &Vec<Expr>| -> Vec<Expr> { mass.iter().map(|row| dot(g, row, column)).collect() };
+    let images: Vec<Vec<Expr>> = columns.iter().map(image).collect();
+    let row = |a: &Vec<Expr>| images.iter().map(|b| dot(g, a, b)).collect();
+    Some(columns.iter().map(row).collect())
+}
+
+/// W at rest, which is W for the Lagrangians in question.
+fn at_rest(cx: &Context<'_>) -> Vec<Vec<Expr>> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let own = system.coordinates.iter();
+    let at_rest: Vec<(Expr, Expr)> = own.map(|c| (c.v, g.zero())).collect();
+    let rows = cx.terms.mass_matrix.iter();
+    rows.map(|row| g.substitute_all(row, &at_rest)).collect()
 }
 
 /// The signs that F takes on the manifold.
@@ -123,11 +184,8 @@ fn by_signs(system: &System, prover: &Prover, manifold: &Manifold, metric: Expr)
 fn metric(cx: &Context<'_>) -> Expr {
     let (system, g) = (cx.system, &cx.system.graph);
     let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
-    let at_rest: Vec<(Expr, Expr)> = velocities.iter().map(|&v| (v, g.zero())).collect();
-    let rows = cx.terms.mass_matrix.iter();
-    let momenta: Vec<Expr> = rows
-        .map(|row| dot(g, &g.substitute_all(row, &at_rest), &velocities))
-        .collect();
+    let rows = at_rest(cx);
+    let momenta: Vec<Expr> = rows.iter().map(|row| dot(g, row, &velocities)).collect();
     g.div(dot(g, &velocities, &momenta), g.integer(2))
 }
 

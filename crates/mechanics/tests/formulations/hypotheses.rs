@@ -188,6 +188,34 @@ fn jacobis_metric_has_a_sign() {
     expect(&both, jacobi, "proved");
 }
 
+/// Forms with products of velocities, by Sylvester's criterion: `x'² - x'y' + y'²` has the minors 2 and 3, with `y'z' + 2 z'²` beside it
+/// the determinant 10; with `z'² - 3 x'z'` in its place the form is negative at (1, 0, 1). On `z' = (x' + y')/4` the form
+/// `x'² - x'y' + 3 y'² - z'²` of both signs has the matrix `(15 -9; -9 47)/8`.
+#[test]
+fn forms_with_products_are_decided_by_minors() {
+    let space = |lagrangian: &str, more: &str| {
+        Case::new(&format!(
+            "coordinates = [\"x\", \"y\", \"z\"]\nparameters = {{ a = 1, b = 3 }}\nlagrangian = \"{lagrangian}\"\n{more}"
+        ))
+    };
+    let tied = "constraints = { c = \"z' = (x' + y')/4\" }\n";
+    for (lagrangian, more, word) in [
+        ("x'^2 - x' y' + y'^2 + y' z' + 2 z'^2", "", "proved"),
+        (
+            "x'^2 - x' y' + y'^2 + y' z' + z'^2 - 3 x' z'",
+            "",
+            "conditional",
+        ),
+        ("(1 + y^2) (x'^2 - x' y' + y'^2 + z'^2)", "", "proved"),
+        ("a x'^2 - a x' y' + b y'^2 - z'^2", tied, "proved"),
+        ("a x'^2 - a x' y' + b y'^2 - z'^2", "", "conditional"),
+    ] {
+        let (found, detail) = space(lagrangian, more).verdict("model.metric-positive");
+        assert_eq!(found, word, "{lagrangian}: {detail}");
+        assert_eq!(detail.contains("Sylvester"), word == "proved", "{detail}");
+    }
+}
+
 /// W is diag(1, −1): on y' = x' the bordered determinant vanishes, on y' = 2 x' it is 3. The accelerations are unique there.
 #[test]
 fn a_matrix_that_is_singular_on_one_component_is_not_singular_on_all() {

@@ -6,8 +6,9 @@ use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_symbolic::factors::factored;
+use chetaev_symbolic::simplify::by_square;
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
+use chetaev_symbolic::{Expr, Graph, Symbol};
 
 /// N with the conditions under which it is real and positive, up to the sign.
 pub(super) struct Product {
@@ -146,31 +147,6 @@ fn real(
     };
     let condition = format!("{} > 0", g.text(base));
     (g.pow(base, exponent), Some(condition))
-}
-
-/// The squares of cosines by sines, or of sines by cosines.
-fn by_square(g: &Graph, e: Expr, is_cosine: bool) -> Expr {
-    let square = |e: Expr| -> Option<(Expr, Expr)> {
-        let Node::Apply {
-            function,
-            arguments,
-        } = g.node(e)
-        else {
-            return None;
-        };
-        let angle = *arguments.first()?;
-        let other = match (function, is_cosine) {
-            (Function::Cos, true) => g.sin(angle),
-            (Function::Sin, false) => g.cos(angle),
-            _ => return None,
-        };
-        Some((g.powi(e, 2), g.sub(g.one(), g.powi(other, 2))))
-    };
-    let squares: Vec<(Expr, Expr)> = g.reachable(&[e]).into_iter().filter_map(square).collect();
-    match squares.is_empty() {
-        true => e,
-        false => g.substitute(e, &squares),
-    }
 }
 
 /// Whether a factor is negative at the first simple position where it does not vanish, for the values of the parameters that the

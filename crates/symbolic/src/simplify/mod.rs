@@ -16,6 +16,8 @@ mod direction;
 mod local;
 mod measure;
 mod polynomial_view;
+mod roots;
+mod squares;
 
 use rustc_hash::FxHashMap;
 
@@ -32,6 +34,7 @@ use measure::written_length;
 pub use polynomial_view::{
     homogeneity, homogeneous_parts, linear_form, HomogeneousPart, LinearForm,
 };
+pub use squares::by_square;
 
 /// What a simplification may spend and produce.
 #[derive(Clone, Debug)]
@@ -407,6 +410,7 @@ fn simplify_arguments(g: &Graph, es: &[Expr], options: &Options) -> Vec<Expr> {
                 rebuilt = replace_argument(g, rebuilt, simple);
             }
         }
+        rebuilt = roots::outside_root(g, rebuilt);
         if rebuilt != e {
             image.insert(e, rebuilt);
         }

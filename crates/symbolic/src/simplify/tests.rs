@@ -466,3 +466,13 @@ fn definitions_nested_hundreds_deep_are_printed_with_names() {
     let text = g.text(d);
     assert!(text.len() < 1_000_000, "{} signs", text.len());
 }
+
+/// Even powers of what is not negative stand before a root; √(y²) is |y|, and stays.
+#[test]
+fn squares_stand_outside_roots() {
+    check("sqrt((1 + y^2)^(-2))", "1/(1 + y^2)");
+    check("sqrt(c/(1 + 2 y^2 + y^4))", "sqrt(c)/(1 + y^2)");
+    check("(3 (2 + cos(x))^2 y^2)^(1/2)", "(2 + cos(x)) sqrt(3 y^2)");
+    check("sqrt(x/y^2)", "sqrt(x/y^2)");
+    check("sqrt(y^2)", "sqrt(y^2)");
+}

@@ -34,7 +34,7 @@ impl Claim for Contraction {
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        let statement = "Ȳ ⌟ Ω̄ = dG in every component";
+        let statement = "the symmetry, contracted with the dynamical 2-form, gives the differential in every component";
         of_generator(cx, subject, statement, Generator::contraction)
     }
 }

@@ -35,7 +35,9 @@ impl Claim for FamilySearched {
         "First integrals G(t, q, v) are searched as combinations of the functions of a family: products of velocities, dependent \
          ones and quasi-velocities too, with functions of the coordinates and the time that occur in the model (sines and cosines of its \
          angles, its roots and exponentials, powers of coordinates, time and masses with a law of their own, logarithms of masses that vary, roots of the factors of the determinant of \
-         the mass matrix; in a family of its own sines and cosines of multiples of polar angles that occur nowhere). The \
+         the mass matrix; in a family of its own sines and cosines of multiples of polar angles that occur nowhere; for curvilinear coordinates polynomials in the \
+         momenta and the energy, in which moments of momentum and the integrals of separable systems are short; products of any powers of \
+         velocities and functions, whose exponents are solved for). The \
          family is as large as the budget allows and is stated; terms of a higher degree in the velocities than two are in it where the \
          model asks for them by [search] degree. X̄G = 0 on the constraint manifold is a linear system for the \
          coefficients; it is solved at random points of prime fields with random parameters, the coefficients are lifted to functions of \
@@ -127,6 +129,14 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
             momenta.dimension
         )
     }));
+    if !found.powers.is_empty() {
+        let g = &cx.system.graph;
+        let bases: Vec<String> = found.powers.iter().map(|&e| g.text(e)).collect();
+        families.push(format!(
+            "products of any powers of {}, times exponentials of the time and of coordinates that are no angles",
+            bases.join(", ")
+        ));
+    }
     let special: Vec<String> = found.special.found.iter().map(|s| special(cx, s)).collect();
     let looked = &found.special.critical;
     let size = looked.functions;

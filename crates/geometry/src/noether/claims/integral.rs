@@ -1,6 +1,6 @@
 //! `noether.integral#j`: a first integral that was found, with its generator.
 
-use super::{bare, generator, generator_formulas, integral, requirements, subjects};
+use super::{generator, generator_formulas, integral, requirements, subjects};
 use crate::noether::embedded::Embedded;
 use crate::noether::generator::Generator;
 use crate::noether::letters::ENERGY;
@@ -50,11 +50,11 @@ impl Claim for FirstIntegral {
         let name = integral.name.as_deref();
         let named = name.map_or(String::new(), |name| format!(", {name}"));
         let mut formulas = vec![Formula {
-            caption: format!("the first integral G{named}"),
+            caption: format!("the first integral{named}"),
             left: None,
             right: integral.shown,
         }];
-        let mut sentence = format!("X̄G = 0 on motions for G = {}", g.text(integral.shown));
+        let mut sentence = format!("{} keeps its value on every motion", g.text(integral.shown));
         if let Ok((_, n, generator)) = generator(cx, subject) {
             formulas.extend(generator_formulas(&n, &generator));
             sentence = format!("{sentence}; {}", symmetry(&n, &generator, name));
@@ -70,17 +70,18 @@ impl Claim for FirstIntegral {
 fn symmetry(n: &Embedded<'_>, generator: &Generator, name: Option<&str>) -> String {
     let (system, g) = (n.system, &n.system.graph);
     if name == Some(ENERGY) {
-        return "its symmetry is the shift of time".into();
+        return "it belongs to the symmetry under shifts of time".into();
     }
     let speeds = n.embedding.chart.parameters.iter().zip(&generator.xi);
     let along: Vec<(&str, Expr)> = speeds
-        .map(|(speed, &xi)| (bare(&speed.name), readable(g, xi)))
+        .map(|(speed, &xi)| (&speed.name[..], readable(g, xi)))
         .filter(|(_, xi)| !g.is_zero(*xi))
         .collect();
     if along.is_empty() {
         return match system.constraints.is_empty() {
-            true => "its field vanishes".into(),
-            false => "its field vanishes on the constraints".into(),
+            true => "no displacement belongs to it, as it contains no velocity".into(),
+            false => "no displacement belongs to it, as it contains no velocity on the constraints"
+                .into(),
         };
     }
     // ξ^i Y_i in the coordinates; shifts are what moves them by constants.
@@ -97,15 +98,17 @@ fn symmetry(n: &Embedded<'_>, generator: &Generator, name: Option<&str>) -> Stri
         .collect();
     match &moved[..] {
         [(coordinate, by)] if is_constant(system, *by) => {
-            format!("its symmetry is the shift along {coordinate}")
+            format!("it belongs to the symmetry under shifts of {coordinate}")
         }
         _ => match field(g, &moved) {
-            text if text.chars().count() <= LONGEST => format!("its field is {text}"),
+            text if text.chars().count() <= LONGEST => {
+                format!("by Noether's theorem it belongs to the displacements along {text}")
+            }
             _ => {
-                let fields = along.iter().map(|(field, _)| format!("Y_{field}"));
+                let own = along.iter().map(|(speed, _)| *speed);
                 format!(
-                    "its field is a combination of {}",
-                    fields.collect::<Vec<String>>().join(", ")
+                    "by Noether's theorem it belongs to displacements that change {} at once, with the components given below",
+                    own.collect::<Vec<&str>>().join(", ")
                 )
             }
         },

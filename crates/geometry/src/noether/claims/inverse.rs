@@ -89,13 +89,15 @@ impl Claim for Inverse {
         }
         if !matches!(verdict, Verdict::Proved(_)) {
             let words = match verdict {
-                Verdict::Refuted(_) => "the rate of the function does not vanish on motions",
+                Verdict::Refuted(_) => "it changes on motions: its rate does not vanish",
                 _ => "whether the rate of the function vanishes on motions",
             };
             return verdict.prefixed(words).into();
         }
         let (killing, formulas) = symmetry(cx, *value);
-        let verdict = verdict.prefixed("X̄G = 0 on motions").and(killing);
+        let verdict = verdict
+            .prefixed("it keeps its value on every motion")
+            .and(killing);
         Finding { verdict, formulas }
     }
 }
@@ -130,7 +132,7 @@ fn on_part(
         ),
         Some(Verdict::Proved(mut proof)) => {
             proof.detail = format!(
-                "motions that begin with {condition} stay there, and X̄G = 0 on them; {}",
+                "motions that begin with {condition} stay there, and it keeps its value on them; {}",
                 proof.detail
             );
             Verdict::Conditional {
@@ -153,7 +155,7 @@ fn on_positions(cx: &Context<'_>, motion: &Motion<'_>, value: Expr) -> Option<Ve
     let verdict = on_all_parts(cx, motion, &[value], &[]).ok()??;
     Some(match verdict {
         Verdict::Proved(proof) => Verdict::Proved(proof)
-            .prefixed("X̄G = 0 on motions that satisfy the holonomic constraints themselves, not only their derivatives"),
+            .prefixed("it keeps its value on motions that satisfy the holonomic constraints themselves, not only their derivatives"),
         other => other.prefixed("whether the rate of the function vanishes on motions"),
     })
 }
@@ -238,7 +240,7 @@ fn trivial(cx: &Context<'_>, motion: &Motion<'_>, value: Expr, proof: &Proof) ->
     }
     let what = match (is_locally_constant, jumps.is_empty()) {
         (true, _) => "trivial, as the function is constant on each part of its domain",
-        (false, _) => "X̄G = 0 on motions where the function is smooth",
+        (false, _) => "it keeps its value on motions where it is smooth",
     };
     let condition = match jumps.is_empty() {
         true => "as long as the motion stays in one part of the domain of the function".to_owned(),
@@ -396,7 +398,7 @@ fn for_parameters(
         .map(|&(symbol, e)| format!("{} = {}", g.text(symbol), g.text(e)))
         .collect();
     proof.detail = format!(
-        "X̄G = 0 on motions for parameters as the model {verb} them; {}",
+        "it keeps its value on motions for parameters as the model {verb} them; {}",
         proof.detail
     );
     Some(Verdict::Conditional {
@@ -419,8 +421,8 @@ fn symmetry(cx: &Context<'_>, value: Expr) -> (Verdict, Vec<Formula>) {
     };
     let mut residuals = generator.killing_speeds(&n);
     residuals.push(generator.killing_drift(&n));
-    let verdict =
-        on_manifold(cx, &n, &residuals).prefixed("the Killing-type equations hold for its field");
+    let verdict = on_manifold(cx, &n, &residuals)
+        .prefixed("the Killing-type equations hold for its symmetry");
     (verdict, generator_formulas(&n, &generator))
 }
 

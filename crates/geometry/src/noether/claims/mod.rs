@@ -111,7 +111,7 @@ fn of_generator(
         Err(why) => return Verdict::undecided(why).into(),
     };
     let g = &cx.system.graph;
-    let sentence = format!("{statement} for G = {}", g.text(integral.shown));
+    let sentence = format!("{statement} for the integral {}", g.text(integral.shown));
     let verdict = on_manifold(cx, &n, &residuals(&generator, &n));
     verdict.prefixed(&sentence).into()
 }
@@ -120,14 +120,24 @@ fn of_generator(
 fn generator_formulas(n: &Embedded<'_>, generator: &Generator) -> Vec<Formula> {
     let g = &n.system.graph;
     let speeds = &n.embedding.chart.parameters;
-    let mut stated: Vec<(String, Expr)> = vec![("δ, along Y_0".into(), generator.delta)];
+    let mut stated: Vec<(String, Expr)> = vec![(
+        "the symmetry: how it shifts the time, δ".into(),
+        generator.delta,
+    )];
     for (speed, &xi) in speeds.iter().zip(&generator.xi) {
-        stated.push((format!("ξ along Y_{}", bare(&speed.name)), xi));
+        let caption = format!(
+            "the symmetry: its component ξ along the displacement that {} measures",
+            speed.name
+        );
+        stated.push((caption, xi));
     }
     for (speed, &zeta) in speeds.iter().zip(&generator.zeta) {
-        stated.push((format!("ζ along ∂/∂{}", speed.name), zeta));
+        stated.push((
+            format!("the symmetry: how it changes {}, ζ", speed.name),
+            zeta,
+        ));
     }
-    stated.push(("the gauge function g".into(), generator.gauge));
+    stated.push(("the gauge function of the symmetry".into(), generator.gauge));
     let values: Vec<Expr> = stated.iter().map(|(_, e)| *e).collect();
     let values: Vec<Expr> = values.iter().map(|&e| readable(g, e)).collect();
     stated
@@ -140,11 +150,6 @@ fn generator_formulas(n: &Embedded<'_>, generator: &Generator) -> Vec<Formula> {
             right,
         })
         .collect()
-}
-
-/// The name of a velocity as a subscript.
-fn bare(name: &str) -> &str {
-    name.trim_end_matches('\'')
 }
 
 /// Decides that residuals vanish on N, in its chart (t, q, η).

@@ -1,0 +1,160 @@
+//! First integrals that are products of powers, `Π F_i^{e_i} exp(Σ c_j h_j)`, as `x' y^k`: for given F_i and h_j the exponents enter
+//! `X̄ ln G = Σ e_i X̄F_i/F_i + Σ c_j X̄h_j = 0` linearly, so they are solved for, whatever numbers or functions of the parameters they
+//! are. Where F may be negative and e is not whole it stands by its absolute value, whose logarithm has the same derivative.
+//! The F are velocities and functions that occur: with one velocity and the density N of an invariant measure this is `N η_i`.
+
+use super::ansatz::Ansatz;
+use super::letters::Letters;
+use super::motion::Motion;
+use super::search::Integral;
+use super::shown::readable;
+use crate::measure::on_both_sides;
+use chetaev_mechanics::Context;
+use chetaev_symbolic::{Expr, Function, Node, Verdict};
+
+/// More factors are not looked at.
+const FACTORS: usize = 30;
+
+/// A product of powers that keeps its value, with its logarithm.
+pub(super) struct Product {
+    pub(super) integral: Integral,
+    pub(super) logarithm: Expr,
+}
+
+/// The products of powers of letters that are proved to keep their values, with the functions that are raised to powers; those without
+/// velocity are constants of the constraints, and left out.
+pub(super) fn products(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    letters: &Letters,
+) -> (Vec<Expr>, Vec<Product>) {
+    let g = &cx.system.graph;
+    let factors = Factors::of(cx, letters);
+    let all = factors.all();
+    if all.len() > FACTORS {
+        return (Vec::new(), Vec::new());
+    }
+    let rates: Vec<Expr> = motion
+        .derivatives(&all)
+        .into_iter()
+        .zip(&all)
+        .enumerate()
+        .map(|(i, (rate, &e))| match factors.is_exponent(i) {
+            true => rate,
+            false => g.div(rate, e),
+        })
+        .collect();
+    let columns: Vec<Vec<Expr>> = rates.iter().map(|&e| vec![e]).collect();
+    let seed = cx.prover.points_seed();
+    let ansatz = Ansatz::new(motion, &columns, &motion.manifold, &[], seed);
+    let Some(solved) = ansatz.ok().and_then(|ansatz| ansatz.all()) else {
+        return (Vec::new(), Vec::new());
+    };
+    let first = factors.places.len() + factors.exponents.len();
+    let leading = |own: &Vec<Expr>| own[first..].iter().rev().copied().find(|&e| !g.is_zero(e));
+    let with_velocity = solved
+        .into_iter()
+        .filter_map(|own| Some((leading(&own)?, own)));
+    let found: Option<Vec<Product>> = with_velocity
+        .map(|(leading, own)| {
+            let own = own.into_iter().map(|e| readable(g, g.div(e, leading)));
+            factors.proved(cx, motion, &own.collect::<Vec<Expr>>(), &rates)
+        })
+        .collect();
+    match found {
+        Some(found) => ([factors.velocities, factors.places].concat(), found),
+        // Nothing is said of a family of which something stayed without proof.
+        None => (Vec::new(), Vec::new()),
+    }
+}
+
+/// What products are made of. Velocities stand last, so that solutions have few of them.
+struct Factors {
+    places: Vec<Expr>,
+    exponents: Vec<Expr>,
+    velocities: Vec<Expr>,
+}
+
+impl Factors {
+    fn of(cx: &Context<'_>, letters: &Letters) -> Factors {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let angles = &letters.coefficients[..letters.circular];
+        let is_angle = |q: Expr| angles.iter().any(|c| c.letter.value == g.sin(q));
+        let plain = system.coordinates.iter().map(|c| c.q);
+        let plain = plain.filter(|&q| !is_angle(q));
+        Factors {
+            places: places(cx, letters),
+            exponents: plain.chain([g.symbol("t", 0)]).collect(),
+            velocities: letters.velocities.iter().map(|l| l.value).collect(),
+        }
+    }
+
+    fn all(&self) -> Vec<Expr> {
+        [&self.places[..], &self.exponents, &self.velocities].concat()
+    }
+
+    fn is_exponent(&self, i: usize) -> bool {
+        (self.places.len()..self.places.len() + self.exponents.len()).contains(&i)
+    }
+
+    /// The product with these exponents, where its logarithm is proved to keep its value.
+    fn proved(
+        &self,
+        cx: &Context<'_>,
+        motion: &Motion<'_>,
+        own: &[Expr],
+        rates: &[Expr],
+    ) -> Option<Product> {
+        let g = &cx.system.graph;
+        let (mut parts, mut logarithms) = (Vec::new(), Vec::new());
+        for (i, (&e, factor)) in own.iter().zip(self.all()).enumerate() {
+            if self.is_exponent(i) {
+                parts.push(g.exp(g.mul(&[e, factor])));
+                logarithms.push(g.mul(&[e, factor]));
+                continue;
+            }
+            parts.push(g.pow(factor, e));
+            logarithms.push(g.mul(&[e, g.apply(Function::Log, &[factor])]));
+        }
+        let terms = own.iter().zip(rates).map(|(&e, &rate)| g.mul(&[e, rate]));
+        let residual = g.add(&terms.collect::<Vec<Expr>>());
+        let (manifold, on) = (&motion.manifold, "on the constraint manifold");
+        let verdict = cx.prover.identity(cx.system, &[residual], manifold, on);
+        let value = on_both_sides(cx, g.mul(&parts));
+        matches!(verdict, Verdict::Proved(_)).then_some(Product {
+            integral: Integral {
+                value,
+                shown: value,
+                verdict: verdict.prefixed("the rate of its logarithm vanishes"),
+                independent: true,
+                name: None,
+            },
+            logarithm: g.add(&logarithms),
+        })
+    }
+}
+
+/// What occurs: roots by what is under them, exponentials and the time not.
+fn places(cx: &Context<'_>, letters: &Letters) -> Vec<Expr> {
+    let g = &cx.system.graph;
+    let time = g.symbols_in(&[g.symbol("t", 0)]);
+    let mut found: Vec<Expr> = Vec::new();
+    for (place, c) in letters.coefficients.iter().enumerate() {
+        let base = g.base_exponent(c.letter.value).0;
+        let is_other = c.exponents == (0, 0)
+            || letters.perhaps_turning.contains(&place)
+            || letters.turning.contains(&place)
+            || g.contains_any(base, &time)
+            || matches!(
+                g.node(base),
+                Node::Apply {
+                    function: Function::Exp,
+                    ..
+                }
+            );
+        if !is_other && !found.contains(&base) {
+            found.push(base);
+        }
+    }
+    found
+}
