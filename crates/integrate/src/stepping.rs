@@ -73,6 +73,8 @@ pub struct Stepping<'o> {
     solution: Solution,
 }
 
+/// Where the rounding of the time is more than this part of a step, steps end at floats: forces are asked for at floats only.
+const LATE: f64 = 1e-10;
 /// So many accepted steps must get on by more than this part of the span: at that rate the rest would take 10¹¹.
 const CREEPING_STEPS: u64 = 100_000;
 const CREEPING: f64 = 1e-6;
@@ -323,9 +325,10 @@ impl<'o> Stepping<'o> {
         if h.abs() < least_step(self.now.t.high, span) {
             return Err(self.collapse.stop(&self.now, h));
         }
+        let is_late = f64::EPSILON * self.now.t.high.abs() > LATE * h.abs();
         match self.options.step {
-            StepSize::Fixed(_) => Ok((h, false)),
-            StepSize::Adaptive { .. } => Ok((self.now.t.to_float(h), false)),
+            StepSize::Adaptive { .. } if is_late => Ok((self.now.t.to_float(h), false)),
+            _ => Ok((h, false)),
         }
     }
 

@@ -388,9 +388,10 @@ impl Stepper for Expansion {
     }
 
     fn limited(&self, from: &State, h: f64) -> f64 {
-        match self.fixed || h.abs() <= self.radius {
+        match self.fixed {
             true => h,
-            false => from.t.to_float(self.radius.copysign(h)),
+            // The series is asked for at a float.
+            false => from.t.to_float(h.abs().min(self.radius).copysign(h)),
         }
     }
 
