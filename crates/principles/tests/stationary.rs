@@ -942,3 +942,21 @@ fn motions_on_which_conditions_lose_their_rank() {
         "{detail}"
     );
 }
+
+/// z'³ = x'³ + y'³ is symmetric in x and y, and Σ θ A vanishes where x' = 0 and where y' = 0; solved for one of these velocities it has no
+/// value where that vanishes, which is said.
+#[test]
+fn where_suslovs_terms_have_no_value() {
+    let cube = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2) - z",
+        &[("c", "z'^3 - x'^3 - y'^3")],
+    );
+    let found = finding(&system(&cube), SUSLOV);
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "conditional", "{detail}");
+    assert!(
+        detail.contains("as the constraints are solved for the dependent velocities"),
+        "{detail}"
+    );
+}

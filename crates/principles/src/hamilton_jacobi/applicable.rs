@@ -290,13 +290,12 @@ fn stated(cx: &Context<'_>) -> Result<Finding, DeriveError> {
 
 /// What keeps H₁ from a closed form.
 pub(super) fn no_closed_form(cx: &Context<'_>) -> Verdict {
-    let moves = cx.system.graph.any_contains_any(
-        &cx.terms.mass_matrix.concat(),
-        &cx.system.velocity_symbols(),
-    );
-    let hypothesis = match moves {
-        true => "model.lagrangian-quadratic",
-        false => "model.constraints-linear",
+    let (g, speeds) = (&cx.system.graph, cx.system.velocity_symbols());
+    let moves = |rows: &[Vec<Expr>]| g.any_contains_any(&rows.concat(), &speeds);
+    let hypothesis = match (moves(&cx.terms.mass_matrix), moves(&basis(cx).jacobian())) {
+        (true, _) => "model.lagrangian-quadratic",
+        (_, true) => "model.constraints-linear",
+        _ => return Verdict::undecided(format!("H₁ is not had in closed form: {}", implicit(cx))),
     };
     Verdict::not_applicable(
         hypothesis,

@@ -47,10 +47,25 @@ impl Exceptions {
                 "; whether those on which the conditions on κ lose their rank do was not looked at";
             return of("almost every motion", others.into());
         };
+        let g = &cx.system.graph;
+        let time = [g.intern_symbol("t", 0)];
+        let (of_time, poles): (Vec<Expr>, Vec<Expr>) =
+            poles.into_iter().partition(|&e| g.contains_any(e, &time));
+        if !of_time.is_empty() {
+            // Motions pass such a place at an instant: they are not on it.
+            let texts: Vec<String> = of_time
+                .iter()
+                .map(|&e| format!("{} = 0", g.text(e)))
+                .collect();
+            let others = format!(
+                "; κ has a pole where {}, and only intervals without it are spoken of",
+                texts.join(" or ")
+            );
+            return of("almost every motion", others);
+        }
         if poles.is_empty() {
             return of("every motion", String::new());
         }
-        let g = &cx.system.graph;
         let texts: Vec<String> = poles
             .iter()
             .map(|&e| format!("{} ≠ 0", g.text(e)))
@@ -64,7 +79,8 @@ impl Exceptions {
 /// closed form.
 fn poles_of(cx: &Context<'_>, motion: &Motion, closure: &Closure) -> Option<Vec<Expr>> {
     let g = &cx.system.graph;
-    let (state, known) = (motion.state(), assumptions(cx.system));
+    let (mut state, known) = (motion.state(), assumptions(cx.system));
+    state.push(g.intern_symbol("t", 0));
     let mut poles: Vec<Expr> = Vec::new();
     for (_, condition) in closure.solved(cx).ok()? {
         for e in condition.coefficients.into_iter().chain([condition.right]) {

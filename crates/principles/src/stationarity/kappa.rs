@@ -19,6 +19,9 @@ use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::matrix::inverse;
 use chetaev_symbolic::{simplify, Expr, Graph, Node, Symbol, Verdict};
 
+/// Of longer functions no normal form is made, and no combination of momenta is looked for.
+const LONGEST: u64 = 400;
+
 /// κ of the constraints in closed form along all motions, those that the conditions leave free each with its constant of integration;
 /// `None` for those that are not found. All were proved to make the motions extremals, where all are found.
 pub(crate) fn integrated(
@@ -179,7 +182,7 @@ impl Place {
     /// An equal function on the states, simplified; by its normal form where it then contains nothing that moves.
     fn simple(&self, g: &Graph, e: Expr) -> Expr {
         let e = simple(g, self.ties.reduced(g, e));
-        if self.rests(g, e) {
+        if self.rests(g, e) || simplify::length(g, e) > LONGEST {
             return e;
         }
         let product = factored(g, e).map(|parts| {

@@ -215,7 +215,15 @@ fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Findin
     let condition = format!("{stated}{controls}{open}");
     let how = "the conditions on κ were differentiated along the motion in every case, exactly";
     let proof = Proof::exact(place(cx, motion), how);
+    let is_free = |leaf: &&Leaf| !leaf.at_rest && leaf.kappa.iter().any(Option::is_none);
+    let free: Vec<&Leaf> = all.iter().copied().filter(is_free).collect();
     let (mut formulas, mut unknown) = (Vec::new(), String::new());
+    if !free.is_empty() {
+        unknown = format!(
+            "; κ is not unique where {}, and these motions are abnormal extremals too (ν₀ = 0)",
+            alternatives(&free)
+        );
+    }
     for leaf in &all {
         let (shown, missing) = of_leaf(cx, motion, leaf);
         formulas.extend(shown);
@@ -355,11 +363,6 @@ fn of_leaf(cx: &Context<'_>, motion: &Motion, leaf: &Leaf) -> (Vec<Formula>, Str
         return (formulas, sentence);
     }
     let on = listed(&leaf.equations);
-    if leaf.kappa.iter().any(Option::is_none) {
-        sentence.push_str(&format!(
-            "; where {on}, κ is not unique, and the motions are abnormal extremals too (ν₀ = 0)"
-        ));
-    }
     if !missing.is_empty() {
         let missing = listed(&missing);
         sentence.push_str(&format!(

@@ -1,10 +1,10 @@
 //! Multipliers as combinations of momenta and coordinates: the coefficients are seen in double precision, and the result is exact.
 
-use super::Place;
+use super::{Place, LONGEST};
 use crate::stationarity::motion::Motion;
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::sample::Generator;
-use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
+use chetaev_symbolic::{simplify, Expr, Graph, Rational, Symbol};
 
 /// More functions are not combined.
 const MOST: usize = 16;
@@ -21,7 +21,8 @@ pub(super) fn of_momenta(
     rate: Expr,
 ) -> Option<Expr> {
     let (system, g) = (cx.system, &cx.system.graph);
-    if !motion.implicit.is_empty() || 2 * system.n() > MOST {
+    let is_long = simplify::length(g, rate) > LONGEST;
+    if is_long || !motion.implicit.is_empty() || 2 * system.n() > MOST {
         return None;
     }
     let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
