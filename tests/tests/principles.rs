@@ -213,6 +213,207 @@ fn the_index_of_the_disc() {
     assert!(told.contains("not unique"), "{told}");
 }
 
+fn made_up(text: &str) -> Model {
+    let loaded = load("model.toml", text, &NoFiles, &[]).into_result();
+    loaded.unwrap_or_else(|_| panic!("{text}")).0
+}
+
+/// Appell and Hamel's system with a stated κ(0) = m s/ρ + C (T1 §4.4): across the motion BᵀF_vv B is −C ρ/s, so that C < 0 gives a
+/// weak minimum and C > 0 negative directions on every interval, which prove nothing, since κ may be changed without the curve.
+#[test]
+fn the_index_of_a_stated_multiplier() {
+    let of = |kappa: &str| {
+        let text = format!(
+            "coordinates = [\"x\", \"y\", \"z\"]\nparameters = {{ m = 2, a = 0.5, g = 3 }}\n\
+             lagrangian = \"1/2 m (x'^2 + y'^2 + z'^2) - m g z\"\n\
+             constraints = {{ cone = \"z' = a sqrt(x'^2 + y'^2)\" }}\n\
+             [initial]\nx = 0\ny = 0\nz = 0\n\"x'\" = 3\n\"y'\" = 4\n{kappa}\n\
+             [simulation]\nt_end = 1\noutput = 600\ntolerance = 1e-11\n"
+        );
+        studied(made_up(&text), &WITNESS, |_| ())
+    };
+    // m s/a = 20.
+    let least = of("kappa_cone = 19");
+    let (word, told) = detail(&least, "witness.index");
+    assert_eq!(word, "numerical", "{told}");
+    for part in [
+        "with kappa_cone(0) = 19 as stated",
+        "weak minimum, its index 0",
+        "abnormal: 1 independent variation of κ moves no coordinate",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    let unused = least.notices.iter().any(|said| said.contains("kappa_cone"));
+    assert!(!unused, "{:?}", least.notices);
+    let other = of("kappa_cone = 21");
+    let (word, told) = detail(&other, "witness.index");
+    assert_eq!(word, "numerical", "{told}");
+    for part in ["F_vv is not positive", "of the curve that says nothing"] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    let none = of("");
+    let (word, told) = detail(&none, "witness.index");
+    assert_eq!(word, "undecided", "{told}");
+    assert!(told.contains("state kappa_cone under [initial]"), "{told}");
+}
+
+/// A skate that glides straight, u φ' = 0: the set is given by the speed u and the angle; κ = 0, and the action is a minimum. With κ(0) = 1
+/// the motion is no extremal, and where κ is unique what is stated is not used.
+#[test]
+fn the_index_on_a_set_given_by_a_speed() {
+    for (start, set) in [
+        ("u = 0", "\"phi'\" = 1"),
+        ("phi' = 0", "\"x'\" = 1\n\"phi'\" = 0"),
+    ] {
+        let text = format!(
+            "coordinates = [\"x\", \"y\", \"phi\"]\nlagrangian = \"1/2 (x'^2 + y'^2 + phi'^2)\"\n\
+             constraints = {{ blade = \"x' sin(phi) = y' cos(phi)\" }}\n\
+             [initial]\nx = 0\ny = 0\nphi = 0.3\n{set}\nkappa_blade = 1\n\
+             [simulation]\nt_end = 2\noutput = 600\ntolerance = 1e-11\n"
+        );
+        let study = studied(made_up(&text), &WITNESS, |_| ());
+        let (word, told) = detail(&study, "witness.index");
+        assert_eq!(word, "numerical", "{start}: {told}");
+        assert!(
+            told.starts_with("on the set of stationary motions"),
+            "{told}"
+        );
+        assert!(told.contains("index 0"), "{start}: {told}");
+        assert!(!told.contains("abnormal"), "{start}: {told}");
+        let unused = study
+            .notices
+            .iter()
+            .any(|said| said.contains("kappa_blade"));
+        assert!(unused, "{:?}", study.notices);
+    }
+}
+
+/// Witnesses speak of the system of the principles: of the component on which the motion starts, and with the law of a control. With
+/// y' = 2 x' and V = 9 x²/2 the motion is an oscillation with (1 + 4) x'' = −9 x, and conjugate times are π √5/3, 2π √5/3, ….
+#[test]
+fn witnesses_speak_of_the_system_of_the_principles() {
+    let with = |coordinates: &str, rest: &str| {
+        let text = format!(
+            "coordinates = {coordinates}\n{rest}\n[simulation]\nt_end = 4\noutput = 600\ntolerance = 1e-11\n"
+        );
+        studied(
+            made_up(&text),
+            &["principles", "motion.constraint-drift"],
+            |_| (),
+        )
+    };
+    let control = with(
+        "[\"x\", \"y\"]",
+        "controls = { u = \"2\" }\nlagrangian = \"1/2 (x'^2 + y'^2) - 9/2 x^2\"\nconstraints = { c = \"y' = u x'\" }\n\
+         initial = { x = 0, y = 0, \"x'\" = 1 }",
+    );
+    let (word, told) = detail(&control, "witness.index");
+    assert_eq!(word, "numerical", "{told}");
+    assert!(
+        told.starts_with("for u = 2, as the model states it"),
+        "{told}"
+    );
+    let found = control
+        .motion
+        .as_ref()
+        .and_then(|m| m.witness.conjugate.clone());
+    let times = found.expect("conjugate times").times;
+    assert_eq!(times.len(), 1, "{times:?}");
+    let expected = std::f64::consts::PI * 5.0_f64.sqrt() / 3.0;
+    assert!((times[0] - expected).abs() < 1e-6, "{times:?}");
+    let product = with(
+        "[\"x\", \"y\", \"z\"]",
+        "lagrangian = \"1/2 (x'^2 + y'^2 + z'^2) - z\"\nconstraints = { c = \"(z' - y x') (z' - 2 x' - 2 y') = 0\" }\n\
+         initial = { x = 0, y = 0.4, z = 0, \"x'\" = 1, \"y'\" = 0.5, \"z'\" = 3 }",
+    );
+    let (word, told) = detail(&product, "witness.index");
+    assert_eq!(word, "numerical", "{told}");
+    assert!(told.starts_with("on the component"), "{told}");
+    assert!(told.contains("no conjugate time"), "{told}");
+    for principle in ["identity", "lagrange", "jacobi", "parametric"] {
+        let (word, told) = detail(&product, &format!("witness.action#{principle}"));
+        assert_eq!(word, "numerical", "{principle}: {told}");
+    }
+    let (word, told) = detail(&product, "witness.hamilton-jacobi#separated");
+    assert_eq!(word, "numerical", "{told}");
+}
+
+/// A disc in a magnetic field that rolls straight on: of almost every motion is proved what is not so of this one, and the witness, which
+/// sees that, contradicts nothing. No index is stated for a κ that is not determined.
+#[test]
+fn a_motion_on_which_conditions_lose_their_rank() {
+    let text = "coordinates = [\"th\", \"ph\", \"x\", \"y\"]\nparameters = { B = 0.4, m = 2 }\n\
+                lagrangian = \"1/2 (th'^2 + ph'^2) + 1/2 m (x'^2 + y'^2) + B (x y' - y x')/2\"\n\
+                constraints = { c = \"x' = cos(ph) th'\", d = \"y' = sin(ph) th'\" }\n\
+                [initial]\n\"th'\" = 1\n\"ph'\" = 0\n[simulation]\nt_end = 1.5\noutput = 300\n";
+    let words = [&WITNESS[..], &["witness.action-stationary"]].concat();
+    let study = studied(made_up(text), &words, |_| ());
+    let (word, told) = detail(&study, "witness.stationary");
+    assert_eq!(word, "numerical", "{told}");
+    assert!(
+        told.contains("a lower rank than on others, the action is not stationary"),
+        "{told}"
+    );
+    assert_eq!(study.outcome.exit_status(), 0, "{:?}", study.notices);
+    let (word, told) = detail(&study, "witness.index");
+    assert_eq!(word, "undecided", "{told}");
+    // One that turns is an extremal.
+    let turning = text.replace("\"ph'\" = 0", "\"ph'\" = 0.7");
+    let study = studied(made_up(&turning), &words, |_| ());
+    let (_, told) = detail(&study, "witness.stationary");
+    assert!(told.starts_with("the action is stationary"), "{told}");
+}
+
+/// z' = y x' and x w' + z' = y x' + x y', which is w' = y' but where x = 0. With y = t the motion has x = 1 − arsinh t, and passes x = 0 at
+/// t = sinh 1, which is said.
+#[test]
+fn a_rank_that_falls_on_the_way_is_said() {
+    let text = "coordinates = [\"x\", \"y\", \"z\", \"w\"]\nlagrangian = \"1/2 (x'^2 + y'^2 + z'^2 + w'^2)\"\n\
+                constraints = { c = \"z' = y x'\", d = \"x w' + z' = y x' + x y'\" }\n\
+                [initial]\nx = 1\ny = 0\n\"x'\" = -1\n\"y'\" = 1\n[simulation]\nt_end = 2\n";
+    let words = ["motion.constraint-drift"];
+    let study = studied(made_up(text), &words, |_| ());
+    let said = format!(
+        "the rank of the constraints falls at t = {:.5}",
+        1.0_f64.sinh()
+    );
+    assert!(
+        study.notices.iter().any(|n| n.starts_with(&said)),
+        "{:?}",
+        study.notices
+    );
+    let before = studied(
+        made_up(&text.replace("t_end = 2", "t_end = 1")),
+        &words,
+        |_| (),
+    );
+    assert!(
+        before
+            .notices
+            .iter()
+            .all(|n| !n.contains("rank of the constraints falls")),
+        "{:?}",
+        before.notices
+    );
+}
+
+/// A blade that points along y all the time: x' and φ' are no independent velocities there, and y' and φ' take their place.
+#[test]
+fn forms_in_velocities_that_are_independent() {
+    let text = "coordinates = [\"x\", \"y\", \"phi\"]\nlagrangian = \"1/2 (x'^2 + y'^2 + phi'^2) - 2 y\"\n\
+                constraints = { blade = \"x' sin(phi) = y' cos(phi)\" }\n\
+                [initial]\nx = 0\ny = 0\nphi = \"pi/2\"\n\"x'\" = 0\n\"y'\" = 1\n\"phi'\" = 0\n\
+                [simulation]\nt_end = 2\noutput = 600\ntolerance = 1e-11\n";
+    let study = studied(made_up(text), &WITNESS, |_| ());
+    // φ' = 0 with cos φ = 0 is one of the sets, at every half turn.
+    let (word, told) = detail(&study, "witness.index");
+    assert_eq!(word, "numerical", "{told}");
+    for form in ["voronets", "suslov"] {
+        let (word, told) = detail(&study, &format!("witness.first-variation#{form}"));
+        assert_eq!(word, "numerical", "{form}: {told}");
+    }
+}
+
 /// The skate on an incline stays between two contour lines; the extremum slides down by about g t²/2 at first and on.
 #[test]
 fn the_skate_and_the_extremum() {
@@ -251,8 +452,8 @@ fn stated_multipliers_have_their_use() {
                 c = \"z' = y x'\"\n[initial]\n\"x'\" = 1\n\"y'\" = 1\nkappa_c = 2\n[simulation]\nt_end = 1\n";
     for compare in [false, true] {
         let loaded = load("model.toml", text, &NoFiles, &[]).into_result();
-        let (made_up, _) = loaded.unwrap_or_else(|_| panic!("{text}"));
-        let study = studied(made_up, &["motion.constraint-drift"], |options| {
+        let (stated, _) = loaded.unwrap_or_else(|_| panic!("{text}"));
+        let study = studied(stated, &["motion.constraint-drift"], |options| {
             options.extremum = compare.then(Vec::new);
         });
         let unused = study.notices.iter().any(|said| said.contains("`kappa_c`"));

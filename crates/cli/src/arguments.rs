@@ -6,7 +6,8 @@ use std::path::PathBuf;
 const EXIT: &str = "\
 Exit status:
   0  done (also when an early stop was declared as expected, and when redundant constraints were reduced)
-  1  a claim that the model declares as expected is not met, or `verify` disagrees
+  1  a claim that the model declares as expected is not met, `verify` disagrees, or the
+     witness of a principle refutes along the motion what is proved of the system
   2  the input is wrong: syntax, contradictory or rank-deficient constraints, a singular system
   3  the run stopped early or was interrupted
 The highest of 2, 3, 1 in that order wins.";

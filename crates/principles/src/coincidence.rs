@@ -4,7 +4,7 @@
 //! of motion. Two questions are kept apart: whether the two *systems* are equal, that is, the accelerations for all κ, and
 //! whether every motion is *among* the extremals, that is, for some κ(t). The second is decided by [`Closure`].
 
-use crate::stationarity::Closure;
+use crate::stationarity::{every_motion, Closure};
 use chetaev_mechanics::claims::formulation::{basis, derive, manifold, residuals, REFERENCE};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::formulations::{extremum_matrix, kappa_symbols};
@@ -197,7 +197,8 @@ fn motions_are_extremals(cx: &Context<'_>) -> Finding {
     let mut verdict = closure.verdict.clone();
     let sentence = match &verdict {
         Verdict::Proved(_) => format!(
-            "every motion is an extremal for suitable κ; {}",
+            "{} is an extremal for suitable κ; {}",
+            every_motion(cx),
             free_constants(closure)
         ),
         Verdict::Refuted(_) => {

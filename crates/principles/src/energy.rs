@@ -11,8 +11,9 @@
 use chetaev_mechanics::claims::formulation::{derive, manifold, REFERENCE};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::equations::Equations;
+use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::{Manifold, System};
-use chetaev_symbolic::{simplify, Expr, Verdict};
+use chetaev_symbolic::{simplify, Expr, Node, Rational, Verdict};
 
 /// The longest dH/dt that is printed with the multipliers inserted.
 const PRINTED: u64 = 120;
@@ -79,12 +80,56 @@ impl Claim for EnergyIntegral {
         let mut formulas = vec![Formula {
             caption: "the energy H = Σ p v - L".into(),
             left: None,
-            right: cx.system.energy(),
+            right: written(cx),
         }];
         if !matches!(verdict, Verdict::Proved(_)) {
             formulas.extend(power_balance(cx.system, &hypotheses, &equations));
         }
         Finding { verdict, formulas }
+    }
+}
+
+/// H as it is read: of a term of L that is homogeneous of degree k in the velocities it contains k − 1 times the term, `T + V` for natural
+/// systems with T as it is written; of any other term `Σ v ∂/∂v` of it less the term.
+fn written(cx: &Context<'_>) -> Expr {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let (coefficients, terms): (Vec<Rational>, Vec<Expr>) = match g.node(system.lagrangian) {
+        Node::Sum { terms, constant } => {
+            let own = terms.iter().map(|(e, c)| (c.clone(), *e));
+            own.chain([(constant.clone(), g.one())]).unzip()
+        }
+        _ => (vec![Rational::from(1)], vec![system.lagrangian]),
+    };
+    let parts = coefficients
+        .iter()
+        .zip(terms)
+        .map(|(c, e)| g.scale(c, of_term(cx, e)));
+    g.add(&parts.collect::<Vec<Expr>>())
+}
+
+/// Degrees in the velocities that are looked for.
+const DEGREES: [i64; 4] = [0, 1, 2, 3];
+
+/// `Σ v ∂e/∂v − e`, as a multiple of e where e is homogeneous.
+fn of_term(cx: &Context<'_>, e: Expr) -> Expr {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let slopes = g.gradient(e, &system.velocity_symbols());
+    let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
+    let moved = dot(g, &slopes, &velocities);
+    let is_of = |degree: &&i64| {
+        let residual = g.sub(moved, g.mul(&[g.integer(**degree), e]));
+        let verdict = cx
+            .prover
+            .identity(system, &[residual], &Manifold::default(), "");
+        matches!(verdict, Verdict::Proved(_))
+    };
+    let degree = match g.any_contains_any(&[e], &system.velocity_symbols()) {
+        false => Some(&0),
+        true => DEGREES[1..].iter().find(is_of),
+    };
+    match degree {
+        Some(degree) => g.mul(&[g.integer(degree - 1), e]),
+        None => g.sub(moved, e),
     }
 }
 

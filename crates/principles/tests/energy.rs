@@ -7,7 +7,8 @@ mod common;
 use chetaev_mechanics::formulations::{Basis, Routh};
 use chetaev_mechanics::{Formulation, Prepared};
 use chetaev_principles::energy::{energy_rate, force_power};
-use common::{admissible, expr, finding, system, values, Text};
+use common::worked::text;
+use common::{admissible, expr, finding, system, values, with_context, Text};
 
 struct Case {
     name: &'static str,
@@ -257,4 +258,34 @@ fn gyroscopic_forces_have_no_power() {
         .unwrap();
     let system = system(&case.text);
     assert!(system.graph.is_zero(force_power(&system)));
+}
+
+/// H is written with T as it is stated: T + V − L₁ has as few signs as L, and is Σ v ∂L/∂v − L.
+#[test]
+fn the_energy_as_it_is_read() {
+    let stated = text(
+        "x y phi",
+        "1/2 m ((x' - a sin(phi) phi')^2 + (y' + a cos(phi) phi')^2) + J/2 phi'^2 + B (x y' - y x') - m g y + k (x' + 1)^2",
+        &[("blade", "x' sin(phi) - y' cos(phi)")],
+    );
+    let stated = system(&stated);
+    let found = finding(&stated, "energy.integral");
+    let g = &stated.graph;
+    let written = found.formulas[0].right;
+    let expected = expr(
+        g,
+        "1/2 m ((x' - a sin(phi) phi')^2 + (y' + a cos(phi) phi')^2) + J/2 phi'^2 + m g y + k (x'^2 - 1)",
+    );
+    let difference = [g.sub(written, expected)];
+    let verdict = with_context(&stated, |cx| {
+        cx.prover
+            .identity(&stated, &difference, &Default::default(), "")
+    });
+    assert_eq!(verdict.word(), "proved", "{}", g.text(written));
+    let length = |e| chetaev_symbolic::simplify::length(g, e);
+    assert!(
+        length(written) < length(stated.energy()) * 2 / 3,
+        "{}",
+        g.text(written)
+    );
 }

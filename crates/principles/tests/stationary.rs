@@ -352,7 +352,7 @@ fn edges_of_roots_are_no_motions() {
     assert_condition(&sphere, STATIONARY, "x' = 0 and y' = 0");
 }
 
-/// Σ κ E[f] = 2 (κ_f + 2 κ_g) (…): the constants of κ_f and κ_g are tied, and no formula gives each of its own.
+/// Σ κ E[f] = 2 (κ_f + 2 κ_g) (…): the constants of κ_f and κ_g are tied, so that one remains; λ = 0, as z'' = −5 (x² + y²) λ_f = λ_f.
 #[test]
 fn tied_multipliers_have_no_constants_of_their_own() {
     let tied = text(
@@ -360,12 +360,25 @@ fn tied_multipliers_have_no_constants_of_their_own() {
         "1/2 (x'^2 + y'^2 + z'^2 + w'^2)",
         &[("f", "z' - y x' + x y'"), ("g", "w' - 2 y x' + 2 x y'")],
     );
-    let found = finding(&system(&tied), STATIONARY);
+    let stated = system(&tied);
+    let found = finding(&stated, STATIONARY);
     assert_eq!(found.verdict.word(), "proved");
-    assert!(found
-        .formulas
-        .iter()
-        .all(|f| !f.caption.contains("multiplier")));
+    let detail = found.verdict.detail();
+    assert!(detail.contains("1 constant of κ(0) is free"), "{detail}");
+    let g = &stated.graph;
+    let value = |name: &str| {
+        let own = found
+            .formulas
+            .iter()
+            .find(|f| f.left == Some(g.symbol(name, 0)));
+        own.unwrap().right
+    };
+    let (f, of_g) = (value("kappa_f"), value("kappa_g"));
+    assert!(
+        g.is_zero(g.add(&[f, g.mul(&[g.integer(2), of_g])])),
+        "{detail}"
+    );
+    assert_eq!(g.symbols_in(&[f, of_g]).len(), 1, "{detail}");
     let method = finding(&system(&tied), "hamilton-jacobi.applicable");
     assert_eq!(
         method.verdict.word(),
@@ -485,6 +498,74 @@ fn free_multipliers_on_subsets() {
     let kappa = [("kappa_c", "const_c - m g cos(phi) t")];
     let rest = "where u_x = 0, phi' = 0 and sin(phi) = 0";
     assert_on_set(&skate, rest, &[], &kappa);
+}
+
+/// κ of constraints that stay implicit, with a factor of its own, of two constraints that contain each other, and linear in the time.
+/// The cone as a polynomial: κ of f is that of z' − aρ over 2 z', m z'/a² + C. z' = z y': (κ z)' = κ' z + κ z y' = −λ z = y''. Of
+/// w' = z' + x x' the rate is that of κ_d, and D(κ_c − κ_d + z') = −g.
+#[test]
+fn multipliers_by_factors_and_by_both_constraints() {
+    let cone = text(
+        "x y z",
+        "1/2 m (x'^2 + y'^2 + z'^2) - m g z",
+        &[("cone", "z'^2 - a^2 (x'^2 + y'^2)")],
+    );
+    let kappa = [("kappa_cone", "m/(2 a^2) + const_cone/z'")];
+    assert_kappa(&cone, &kappa, "every κ(0) serves");
+    let exponential = text("x y z", "1/2 (x'^2 + y'^2 + z'^2)", &[("c", "z' - z y'")]);
+    assert_kappa(
+        &exponential,
+        &[("kappa_c", "(y' + const_c)/z")],
+        "every κ(0) serves",
+    );
+    let both = text(
+        "x y z w",
+        "1/2 (x'^2 + y'^2 + z'^2 + w'^2) - g z",
+        &[("c", "z' - y x' - x y'"), ("d", "w' - z' - x x'")],
+    );
+    let kappa = [
+        ("kappa_c", "const_c - z' - w' - g t"),
+        ("kappa_d", "const_d - w'"),
+    ];
+    assert_kappa(&both, &kappa, "2 constants of κ(0) are free");
+    // κ_d = C − y, and D(κ_c + y') = −1 − κ_d, where y'' = 1 and y = x'.
+    let no_freedom = text(
+        "x y",
+        "1/2 (x'^2 + y'^2) - y",
+        &[("c", "y' - t"), ("d", "x' - y")],
+    );
+    let kappa = [
+        ("kappa_c", "const_c + x - 2 t - const_d t"),
+        ("kappa_d", "const_d - y"),
+    ];
+    assert_kappa(&no_freedom, &kappa, "2 constants of κ(0) are free");
+}
+
+/// On a sphere with V = x, λ = (3 x − 2 E)/r² is no derivative of an elementary function: that none was found is said. And that κ is
+/// not unique means that the motions are abnormal extremals; of the disc it is unique.
+#[test]
+fn what_is_not_found_is_said() {
+    let sphere = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2) - x",
+        &[("c", "x x' + y y' + z z'")],
+    );
+    let told = |stated: &Text| {
+        finding(&system(stated), STATIONARY)
+            .verdict
+            .detail()
+            .to_string()
+    };
+    let of_sphere = told(&sphere);
+    assert!(
+        of_sphere.contains("no closed form of kappa_c was found"),
+        "{of_sphere}"
+    );
+    let abnormal = "abnormal extremal";
+    assert!(of_sphere.contains(abnormal), "{of_sphere}");
+    assert!(told(&CONE).contains(abnormal));
+    assert!(!told(&DISC).contains(abnormal));
+    assert!(!told(&LEVEL_SKATE).contains(abnormal));
 }
 
 /// An integrable constraint behind a factor, with a potential: E_z[f] = −e^x x', so D(e^x κ) = −e^x λ = −(z'' + g).
@@ -817,5 +898,65 @@ fn what_must_not_vanish_is_said_once() {
     assert!(
         condition.contains("y' = -x', x = 1/x'^2 - y and x' ≠ 0"),
         "{condition}"
+    );
+}
+
+/// A vertical disc in a magnetic field, with the force B (y', −x') on the point of contact: κ = −th' (m + B/ph') (cos ph, sin ph) has a pole
+/// where ph' = 0. There the disc rolls straight on, the reaction λ = B th' (−sin ph, cos ph) would have to be −κ' while κ stays along
+/// (cos ph, sin ph): of these motions only rest makes the action stationary. Without the field κ has no pole, and every motion does.
+#[test]
+fn motions_on_which_conditions_lose_their_rank() {
+    let with = |lagrangian: &'static str| Text {
+        coordinates: "th ph x y",
+        lagrangian,
+        forces: &[],
+        constraints: &[("c", "x' - cos(ph) th'"), ("d", "y' - sin(ph) th'")],
+    };
+    let field = with("1/2 (th'^2 + ph'^2) + 1/2 m (x'^2 + y'^2) + B/2 (x y' - y x')");
+    let system_in_field = system(&field);
+    let found = finding(&system_in_field, STATIONARY);
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "proved", "{detail}");
+    assert!(
+        detail.starts_with("every motion with ph' ≠ 0 makes the action stationary"),
+        "{detail}"
+    );
+    assert!(
+        detail.contains("of the others only rest where") && detail.contains("th' = 0"),
+        "{detail}"
+    );
+    let method = finding(&system_in_field, "hamilton-jacobi.applicable");
+    assert!(
+        method
+            .verdict
+            .detail()
+            .starts_with("the method integrates every motion with ph' ≠ 0"),
+        "{}",
+        method.verdict.detail()
+    );
+    let none = with("1/2 (th'^2 + ph'^2) + 1/2 m (x'^2 + y'^2)");
+    let found = finding(&system(&none), STATIONARY);
+    let detail = found.verdict.detail();
+    assert!(
+        detail.starts_with("every motion makes the action stationary"),
+        "{detail}"
+    );
+}
+
+/// z'³ = x'³ + y'³ is symmetric in x and y, and Σ θ A vanishes where x' = 0 and where y' = 0; solved for one of these velocities it has no
+/// value where that vanishes, which is said.
+#[test]
+fn where_suslovs_terms_have_no_value() {
+    let cube = text(
+        "x y z",
+        "1/2 (x'^2 + y'^2 + z'^2) - z",
+        &[("c", "z'^3 - x'^3 - y'^3")],
+    );
+    let found = finding(&system(&cube), SUSLOV);
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "conditional", "{detail}");
+    assert!(
+        detail.contains("as the constraints are solved for the dependent velocities"),
+        "{detail}"
     );
 }

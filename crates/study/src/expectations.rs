@@ -8,7 +8,7 @@ use crate::study::{Decided, Motion, Outcome};
 use chetaev_mechanics::claims::{full_id, Registry};
 use chetaev_model::model::Model;
 use chetaev_symbolic::syntax::names;
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::{Expr, Verdict};
 
 /// Every claim of which the model expects something exists.
 pub(crate) fn check_expectations(model: &Model, known: &Registry) -> Result<(), StudyError> {
@@ -58,11 +58,26 @@ pub(crate) fn outcome(model: &Model, verdicts: &[Decided], motion: Option<&Motio
             return Outcome::Unmet;
         }
     }
-    if verdicts.iter().all(Decided::is_as_expected) {
+    let agree = contradictions(verdicts).is_empty();
+    if agree && verdicts.iter().all(Decided::is_as_expected) {
         Outcome::Done
     } else {
         Outcome::Unmet
     }
+}
+
+/// What the witness of a principle refutes along the motion: what is stated of the system and what is computed of its motion
+/// cannot both be true, and neither is to be trusted. A witness is refuted only where the principle is stated of the motion.
+pub(crate) fn contradictions(verdicts: &[Decided]) -> Vec<String> {
+    let refuted = verdicts.iter().filter(|d| {
+        d.claim.starts_with("witness.") && matches!(d.finding.verdict, Verdict::Refuted(_))
+    });
+    refuted
+        .map(|d| {
+            let full = d.full_id();
+            format!("`{full}` contradicts what is proved: one of the two is wrong, the proof or the motion computed")
+        })
+        .collect()
 }
 
 /// Expectations about a subject that the claim does not have for this system: they can never be met.
@@ -110,4 +125,39 @@ pub(crate) fn stop_is_expected(model: &Model, motion: &Motion) -> bool {
         None => true,
     };
     near && ending.reason.contains(&stop.reason)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chetaev_mechanics::Group;
+    use chetaev_symbolic::verdict::Counterexample;
+    use std::sync::Arc;
+
+    fn decided(claim: &'static str) -> Decided {
+        let found = Counterexample {
+            point: Vec::new(),
+            quantity: "δ∫L dt".into(),
+            residual: ("1".into(), "1".into()),
+            detail: "it does not vanish".into(),
+        };
+        Decided {
+            claim,
+            subject: None,
+            title: "",
+            group: Group::Principles,
+            requires: Vec::new(),
+            finding: Arc::new(Verdict::Refuted(found).into()),
+            seconds: 0.0,
+            expected: Vec::new(),
+        }
+    }
+
+    /// A principle may be refuted of a system; its witness may not, as it is refuted only against what is stated.
+    #[test]
+    fn a_refuting_witness_is_a_contradiction() {
+        let of = |claim| contradictions(&[decided(claim)]).len();
+        assert_eq!(of("hamilton.stationary"), 0);
+        assert_eq!(of("witness.stationary"), 1);
+    }
 }

@@ -59,6 +59,8 @@ pub struct MotionEvidence {
     pub orders: Option<Orders>,
     /// Tolerance asked.
     pub tolerance: f64,
+    /// Initial values that the model states beside coordinates and velocities: multipliers of the extremum, `kappa_NAME`.
+    pub given: Vec<(String, f64)>,
     /// Data for `model.initial-state-admissible`: exact initial values where all are given exactly.
     pub exact_start: Option<Vec<(Expr, Expr)>>,
     /// Initial values as numbers, for messages.
@@ -122,6 +124,7 @@ impl MotionEvidence {
             disagreement: comparison.as_ref().map(|other| difference(&run, other)),
             global_error: finer.as_ref().map(|other| difference(&run, other).value),
             tolerance: settings.tolerance,
+            given: settings.own.clone(),
             exact_start: exact_start(model, subject),
             start: start_values(subject),
             start_residual,

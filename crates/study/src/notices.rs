@@ -3,6 +3,7 @@
 use crate::options::StudyOptions;
 use crate::start::{holds, Start};
 use crate::study::{keeps, Motion};
+use crate::witness::{determinant, gram, zeros};
 use chetaev_integrate::Note;
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::words::quoted;
@@ -21,17 +22,12 @@ pub(crate) fn notices(
     start: Option<&Start>,
     options: &StudyOptions,
 ) -> Vec<String> {
-    let formulation = options.formulation.as_deref().unwrap_or(REFERENCE);
     let mut notices = holonomic(model, system);
     notices.extend(choice::unheeded(
         system,
         &prepared.terms,
         &prepared.selection,
     ));
-    if prepared.terms.order == 1 {
-        let extremum = formulation == "vakonomic" || options.extremum.is_some();
-        notices.extend(unused_multipliers(model, extremum));
-    }
     notices.extend(isotropic(model, system));
     notices.extend(mass_in_potential(model));
     if let Some(start) = start {
@@ -194,8 +190,21 @@ fn mass_in_potential(model: &Model) -> Option<String> {
     ))
 }
 
-/// Initial values of multipliers that the state determines: all of them but those of the constrained extremum, where it is computed.
-fn unused_multipliers(model: &Model, extremum: bool) -> Option<String> {
+/// Initial values of multipliers that the state determines: all of them but those of the constrained extremum, where it is computed or
+/// the index of the motion with them was.
+pub(crate) fn unused_multipliers(
+    model: &Model,
+    prepared: &Prepared,
+    options: &StudyOptions,
+    motion: Option<&Motion>,
+) -> Option<String> {
+    if prepared.terms.order != 1 {
+        return None;
+    }
+    let formulation = options.formulation.as_deref().unwrap_or(REFERENCE);
+    let conjugate = motion.and_then(|motion| motion.witness.conjugate.as_ref());
+    let with_index = conjugate.is_some_and(|found| !found.given.is_empty());
+    let extremum = formulation == "vakonomic" || options.extremum.is_some() || with_index;
     let is_used = |name: &str| extremum && name.starts_with("kappa_");
     let names: Vec<String> = model
         .initial
@@ -210,7 +219,7 @@ fn unused_multipliers(model: &Model, extremum: bool) -> Option<String> {
             names.join(", "),
             match extremum {
                 true => "the constrained extremum has the multipliers κ of the constraints and no others",
-                false => "the state determines the multipliers in every formulation but `vakonomic`, which takes κ",
+                false => "the state determines the multipliers in every formulation but `vakonomic`, which takes κ, as does `witness.index` where κ is not unique",
             }
         )
     })
@@ -356,4 +365,59 @@ pub(crate) fn negative_masses(
             negative.join(", ")
         )
     })
+}
+
+/// More constraints are not looked at.
+const MOST_CONSTRAINTS: usize = 8;
+/// At most so many times are written.
+const MOST_TIMES: usize = 4;
+
+/// Times at which gradients of the constraints become dependent along the motion although it goes on: the squared volume of the
+/// gradients, each of unit length, touches zero. Where one gradient vanishes the run has stopped.
+pub(crate) fn rank_falls(system: &System, prepared: &Prepared, motion: &Motion) -> Option<String> {
+    let (rows, n) = (&prepared.selection.rows, system.n());
+    let r = rows.len();
+    if prepared.terms.order != 1 || !(2..=MOST_CONSTRAINTS).contains(&r) {
+        return None;
+    }
+    let gradients = rows.iter().flat_map(|&row| &prepared.terms.jacobian[row]);
+    let gradients: Vec<Expr> = gradients.copied().collect();
+    let run = &motion.evidence.run;
+    let binding = &motion.binding;
+    let mut observer =
+        Observer::with_own(system, &prepared.terms, binding, &run.own, &gradients).ok()?;
+    let values = (0..run.asked()).map(|j| {
+        let entries = observer.at(run.times[j], run.row(j));
+        let volume = squared_volume(&entries, (r, n));
+        volume.is_finite().then_some((run.times[j], volume))
+    });
+    let values: Vec<(f64, f64)> = values.collect::<Option<_>>()?;
+    let mut times = zeros(&values, 2);
+    times.dedup();
+    let shown: Vec<String> = times
+        .iter()
+        .take(MOST_TIMES)
+        .map(|t| format!("{t:.6}"))
+        .collect();
+    let more = if times.len() > MOST_TIMES {
+        ", …"
+    } else {
+        ""
+    };
+    (!times.is_empty()).then(|| {
+        format!(
+            "the rank of the constraints falls at t = {}{more}: there the gradients of {r} constraints are dependent, and the constraints admit more velocities than elsewhere; the motion computed is the one that passes smoothly, and is not the only one",
+            shown.join(", ")
+        )
+    })
+}
+
+/// The squared volume of r rows of n numbers, each over its length.
+fn squared_volume(entries: &[f64], (r, n): (usize, usize)) -> f64 {
+    let unit = entries.chunks(n).flat_map(|row| {
+        let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+        row.iter().map(move |x| x / length)
+    });
+    let unit: Vec<f64> = unit.collect();
+    determinant(r, &gram(&unit, r, n))
 }

@@ -3,12 +3,13 @@
 use crate::beside::{self, Beside};
 use crate::derivation::check_applies;
 use crate::error::StudyError;
-use crate::expectations::{check_expectations, expected, outcome, unmatched};
+use crate::expectations::{check_expectations, contradictions, expected, outcome, unmatched};
 use crate::method_order::observed_order;
 use crate::motion_claims::METHOD_ORDER;
 use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
 use crate::notices::{
-    events_not_followed, integrals_not_kept, left_assumptions, negative_masses, notices, stiffness,
+    events_not_followed, integrals_not_kept, left_assumptions, negative_masses, notices,
+    rank_falls, stiffness, unused_multipliers,
 };
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
@@ -127,7 +128,7 @@ pub struct Study {
 pub enum Outcome {
     /// Everything as asked.
     Done,
-    /// A declared expectation is not met.
+    /// A declared expectation is not met, or a witness refutes what is stated.
     Unmet,
     /// The run stopped early or was interrupted.
     Stopped,
@@ -260,6 +261,7 @@ pub fn study(
         notices.extend(stiffness(motion));
         notices.extend(integrals_not_kept(&model, motion, &options));
         notices.extend(negative_masses(&system, &prepared, motion));
+        notices.extend(rank_falls(&system, &prepared, motion));
     }
     let known_motion = KnownMotion {
         start: start.as_ref(),
@@ -272,12 +274,19 @@ pub fn study(
         motion.found = found.map_or_else(Vec::new, |found| found.0.clone());
         motion.witness = witness;
     }
+    notices.extend(unused_multipliers(
+        &model,
+        &prepared,
+        &options,
+        motion.as_ref(),
+    ));
     let mut unmatched = unmatched(&model, &verdicts, &options);
     unmatched.extend(options.claims.without_subject(&verdicts));
     let outcome = match outcome(&model, &verdicts, motion.as_ref()) {
         Outcome::Done if !unmatched.is_empty() => Outcome::Unmet,
         outcome => outcome,
     };
+    notices.extend(contradictions(&verdicts));
     notices.extend(unmatched);
     notices.extend(options.claims.without_witness(&verdicts));
     Ok(Study {
@@ -552,10 +561,21 @@ fn context_of<'a>(
     Context::new(system, terms, selection, known, prover.clone()).allowing(work)
 }
 
-/// Claims on the principles are decided on the component.
+/// Claims on the principles are decided on the component, and so are their witnesses: these compare numbers of the motion with
+/// what the principles say, and both must be of one system.
 fn narrowed<'a>(cx: Context<'a>, on: Option<&'a (Context<'a>, &OnComponent)>) -> Context<'a> {
     match on {
-        Some((of, on)) => cx.on_component(chetaev_principles::CLAIMS, of, on),
+        Some((of, on)) => cx
+            .on_component(chetaev_principles::CLAIMS, of, on)
+            .on_component(witness::CLAIMS, of, on),
+        None => cx,
+    }
+}
+
+/// With the motion computed, where there is one.
+fn with_motion<'a>(cx: Context<'a>, motion: Option<&Motion>) -> Context<'a> {
+    match motion {
+        Some(motion) => cx.with(Arc::clone(&motion.evidence)),
         None => cx,
     }
 }
@@ -602,25 +622,28 @@ fn decide(
     let narrow = stated.as_ref().map_or(system, |(_, system)| system);
     let component = narrow.on_component(|list| at_start(system, start?, list));
     let component = component.and_then(|on| Some((Prepared::new(&on.system).ok()?, on)));
+    let context = |system, prepared| {
+        let cx = context_of(system, prepared, &known, proving);
+        with_motion(cx, motion)
+    };
     let on = component
         .as_ref()
-        .map(|(prepared, on)| (context_of(&on.system, prepared, &known, proving), on));
-    let stated = stated.as_ref().map(|(prepared, system)| {
-        narrowed(context_of(system, prepared, &known, proving), on.as_ref())
-    });
-    let cx = context_of(system, prepared, &known, proving);
+        .map(|(prepared, on)| (context(&on.system, prepared), on));
+    let stated = stated
+        .as_ref()
+        .map(|(prepared, system)| narrowed(context(system, prepared), on.as_ref()));
+    let cx = context(system, prepared);
     let mut cx = match &stated {
         Some(stated) => {
-            cx.for_stated_values(chetaev_principles::CLAIMS, &system.stated_values(), stated)
+            let values = system.stated_values();
+            cx.for_stated_values(chetaev_principles::CLAIMS, &values, stated)
+                .for_stated_values(witness::CLAIMS, &values, stated)
         }
         None => narrowed(cx, on.as_ref()),
     };
     if let Some(zeros) = &zeros {
         let values = system.stated_zeros();
         cx = cx.for_stated_values(chetaev_geometry::CLAIMS, &values, zeros);
-    }
-    if let Some(motion) = motion {
-        cx = cx.with(Arc::clone(&motion.evidence));
     }
     let began = (hooks.clock)();
     let mut verdicts = Vec::new();
@@ -675,5 +698,6 @@ fn decide(
     let place = |d: &Decided| Group::ALL.iter().position(|&g| g == d.group);
     verdicts.sort_by_key(place);
     let found = cx.known::<FoundIntegrals>();
-    (verdicts, found, witness::computed(&cx))
+    let witnessed = witness::computed(cx.deciding(witness::STATIONARY));
+    (verdicts, found, witnessed)
 }

@@ -14,7 +14,7 @@ pub use jacobi::Jacobi;
 pub use lagrange::Lagrange;
 pub use parametric::Parametric;
 
-use crate::stationarity::{of_parameters, NoneBut};
+use crate::stationarity::{every_motion, of_parameters, NoneBut};
 use crate::variations::delta_name;
 use crate::words::for_general_controls;
 use chetaev_mechanics::claims::Context;
@@ -116,7 +116,7 @@ fn as_stationary(cx: &Context<'_>, which: &str) -> String {
     let controls = for_general_controls(cx);
     match verdict {
         Verdict::Proved(_) => {
-            format!("{which} is one of stationary action among admissible curves for every motion, as Hamilton's is (`{id}`)")
+            format!("{which} is one of stationary action among admissible curves for {}, as Hamilton's is (`{id}`)", every_motion(cx))
         }
         Verdict::Conditional { condition, .. } => format!(
             "{which} is one of stationary action among admissible curves exactly where Hamilton's is (`{id}`){general}: {condition}{particular}"

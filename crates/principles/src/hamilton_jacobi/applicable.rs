@@ -5,9 +5,9 @@ use super::complete::{verified, Checked};
 use super::elementary::elementary;
 use super::extremum::Extremum;
 use super::separation;
-use crate::stationarity::{free_constant, Closure, NoneBut};
-use crate::words::{formula, readable};
-use chetaev_mechanics::claims::formulation::{basis, derive, manifold, REFERENCE};
+use crate::stationarity::{every_motion, extremal_residuals, free_constant, Closure, NoneBut};
+use crate::words::{formula, listed, readable};
+use chetaev_mechanics::claims::formulation::{basis, manifold};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::formulations::{kappa_symbols, DeriveError};
@@ -109,30 +109,79 @@ fn applicable(cx: &Context<'_>) -> Result<Finding, DeriveError> {
     let stationary = cx.finding(STATIONARY);
     let mut verdict = stationary.verdict.clone();
     let mut formulas = stationary.formulas.clone();
-    let sentence = match &verdict {
+    let sentence: String = match &verdict {
         Verdict::Proved(_) => {
             if let Some(characteristics) = characteristics(cx)? {
                 verdict = verdict.and(characteristics);
             }
-            "the method integrates every motion: δ∫(Σ π q' − H₁) dt = 0 with π = p + Σ κ ∂f/∂v, and the motions are characteristics of S_t + H₁(q, S_q, t) = 0"
+            format!("the method integrates {}: δ∫(Σ π q' − H₁) dt = 0 with π = p + Σ κ ∂f/∂v, and the motions are characteristics of S_t + H₁(q, S_q, t) = 0", every_motion(cx))
         }
         Verdict::Conditional { .. } => {
-            "the method integrates those motions alone that make the action stationary; the other characteristics of S_t + H₁(q, S_q, t) = 0 are no motions"
+            "the method integrates those motions alone that make the action stationary; the other characteristics of S_t + H₁(q, S_q, t) = 0 are no motions".into()
         }
         Verdict::Refuted(_) => match NoneBut::refuted(cx) {
             NoneBut::Nothing => "the method integrates no motion: the characteristics of S_t + H₁(q, S_q, t) = 0 are no motions",
             NoneBut::Rest => "the method integrates no motion but rest: the other characteristics of S_t + H₁(q, S_q, t) = 0 are no motions",
             NoneBut::Open => "the method integrates almost no motion: almost no motion is a characteristic of S_t + H₁(q, S_q, t) = 0; the others were not followed",
-        },
-        _ => "whether the characteristics of S_t + H₁(q, S_q, t) = 0 are motions",
+        }
+        .into(),
+        _ => "whether the characteristics of S_t + H₁(q, S_q, t) = 0 are motions".into(),
     };
-    verdict.prefix(sentence);
     formulas.extend(momenta_shown(cx));
-    match Extremum::new(cx) {
-        Some(e) => formulas.extend(formula(cx, "H₁(q, π, t)", None, e.hamiltonian)),
-        None => formulas.extend(implicit_hamiltonian(cx)),
-    }
+    let (hamiltonian, without) = hamiltonian_shown(cx);
+    formulas.extend(hamiltonian);
+    verdict.prefix(&format!("{sentence}{without}"));
     Ok(Finding { verdict, formulas })
+}
+
+/// H₁(q, π, t), or H₁ by (q, v, κ) where it has no closed form; and why it is not written, as the end of a sentence.
+fn hamiltonian_shown(cx: &Context<'_>) -> (Option<Formula>, String) {
+    if let Some(extremum) = Extremum::new(cx) {
+        let shown = formula(cx, "H₁(q, π, t)", None, extremum.hamiltonian);
+        let without = match shown {
+            Some(_) => String::new(),
+            None => "; H₁(q, π, t) has a closed form, from linear equations for (v, κ), and is too long to be written here".into(),
+        };
+        return (shown, without);
+    }
+    let shown = implicit_hamiltonian(cx);
+    let by = match shown {
+        Some(_) => "H₁ is written by (q, v, κ) and not by (q, π, t)",
+        None => "H₁ is not written by (q, π, t), and is too long to be written by (q, v, κ)",
+    };
+    let without = format!("; {by}: {}", implicit(cx));
+    (shown, without)
+}
+
+/// Why (v, κ) are not had as functions of (q, π, t).
+fn implicit(cx: &Context<'_>) -> String {
+    let (g, speeds) = (&cx.system.graph, cx.system.velocity_symbols());
+    let moves = |rows: &[Vec<Expr>]| g.any_contains_any(&rows.concat(), &speeds);
+    let basis = basis(cx);
+    let jacobian = basis.jacobian();
+    let rows = basis.constraint_names().into_iter().zip(&jacobian);
+    let nonlinear: Vec<String> = rows
+        .filter(|(_, row)| g.any_contains_any(row, &speeds))
+        .map(|(name, _)| format!("`{name}`"))
+        .collect();
+    let mut reasons = Vec::new();
+    if moves(&cx.terms.mass_matrix) {
+        reasons.push("L is not quadratic in the velocities".to_string());
+    }
+    if !nonlinear.is_empty() {
+        let is = if nonlinear.len() == 1 { "is" } else { "are" };
+        reasons.push(format!(
+            "{} {is} nonlinear in the velocities",
+            listed(&nonlinear)
+        ));
+    }
+    match reasons.is_empty() {
+        true => "the linear equations π = p + Σ κ ∂f/∂v, f = 0 were not solved for (v, κ)".into(),
+        false => format!(
+            "{}, so that π = p + Σ κ ∂f/∂v, f = 0 are nonlinear equations for (v, κ)",
+            listed(&reasons)
+        ),
+    }
 }
 
 /// π by (q, v, κ), and along the motions where κ is known there for all of them.
@@ -186,44 +235,13 @@ pub(super) fn momenta_with(cx: &Context<'_>, kappa: &[Expr]) -> Vec<Expr> {
 
 /// Where κ is known for every motion: `D(p + Σ κ ∂f/∂v) = ∂L/∂q + Σ κ ∂f/∂q`, which is −∂H₁/∂q.
 fn characteristics(cx: &Context<'_>) -> Result<Option<Verdict>, DeriveError> {
-    let (system, g) = (cx.system, &cx.system.graph);
     let Some(kappa) = multipliers(cx) else {
         return Ok(None);
     };
-    let routh = derive(cx, REFERENCE)?;
-    let motion: Vec<(Expr, Expr)> = system
-        .coordinates
-        .iter()
-        .map(|c| c.a)
-        .zip(routh.accelerations)
-        .collect();
-    let basis = basis(cx);
-    let constraints = basis.constraints();
-    let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
-    let slopes = g.gradient(system.lagrangian, &system.coordinate_symbols());
-    let by_velocities = basis.jacobian();
-    let by_coordinates = g.jacobian(&constraints, &system.coordinate_symbols());
-    let with = |own: Expr, rows: &[Vec<Expr>], i: usize| {
-        let terms = kappa.iter().zip(rows);
-        let parts = terms.map(|(&k, row)| g.mul(&[k, row[i]]));
-        g.add(&parts.chain([own]).collect::<Vec<Expr>>())
-    };
-    let residuals: Vec<Expr> = (0..system.n())
-        .map(|i| {
-            let moved = system.total_derivative(with(momenta[i], &by_velocities, i));
-            g.sub(
-                g.substitute(moved, &motion),
-                with(slopes[i], &by_coordinates, i),
-            )
-        })
-        .collect();
+    let residuals = extremal_residuals(cx, &kappa)?;
     let on = "on the constraint manifold, for almost every motion";
-    Ok(Some(cx.prover.identity(
-        system,
-        &residuals,
-        &manifold(cx),
-        on,
-    )))
+    let verdict = cx.prover.identity(cx.system, &residuals, &manifold(cx), on);
+    Ok(Some(verdict))
 }
 
 /// κ of the selected constraints as functions of the state and constants, where `hamilton.stationary` knows all of them.
@@ -272,13 +290,12 @@ fn stated(cx: &Context<'_>) -> Result<Finding, DeriveError> {
 
 /// What keeps H₁ from a closed form.
 pub(super) fn no_closed_form(cx: &Context<'_>) -> Verdict {
-    let moves = cx.system.graph.any_contains_any(
-        &cx.terms.mass_matrix.concat(),
-        &cx.system.velocity_symbols(),
-    );
-    let hypothesis = match moves {
-        true => "model.lagrangian-quadratic",
-        false => "model.constraints-linear",
+    let (g, speeds) = (&cx.system.graph, cx.system.velocity_symbols());
+    let moves = |rows: &[Vec<Expr>]| g.any_contains_any(&rows.concat(), &speeds);
+    let hypothesis = match (moves(&cx.terms.mass_matrix), moves(&basis(cx).jacobian())) {
+        (true, _) => "model.lagrangian-quadratic",
+        (_, true) => "model.constraints-linear",
+        _ => return Verdict::undecided(format!("H₁ is not had in closed form: {}", implicit(cx))),
     };
     Verdict::not_applicable(
         hypothesis,
@@ -375,11 +392,14 @@ pub(super) fn shown(cx: &Context<'_>, integral: &CompleteIntegral) -> Vec<Formul
             right,
         });
         for found in found {
-            let place = found.positive.map(|e| format!(" where {} > 0", g.text(e)));
-            let caption = format!(
-                "S_{name} in closed form{}; its derivative was proved to be g",
-                place.unwrap_or_default()
-            );
+            let positive = found.positive.iter();
+            let positive: Vec<String> = positive.map(|&e| format!("{} > 0", g.text(e))).collect();
+            let place = match positive.is_empty() {
+                true => String::new(),
+                false => format!(" where {}", listed(&positive)),
+            };
+            let caption =
+                format!("S_{name} in closed form{place}; its derivative was proved to be g");
             formulas.extend(formula(cx, caption, Some(own), found.value));
         }
     }

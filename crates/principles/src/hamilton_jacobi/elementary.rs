@@ -9,17 +9,26 @@ use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{simplify, Expr, Function, Node, Symbol, Verdict};
 
 /// A function whose derivative was proved to be the integrand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Antiderivative {
     /// The function.
     pub value: Expr,
-    /// What is positive where the function is real; `None` where that is known, or nothing is needed.
-    pub positive: Option<Expr>,
+    /// What is positive where the function is real, and not known to be so.
+    pub positive: Vec<Expr>,
+}
+
+impl Antiderivative {
+    fn everywhere(value: Expr) -> Antiderivative {
+        Antiderivative {
+            value,
+            positive: Vec::new(),
+        }
+    }
 }
 
 /// `∫ e dq` for `e = a + b √X` and `e = a + b √X/q`, a and b free of q and X a polynomial in q of the second degree at most; √X/q may be written
-/// as one root, `√(A + B/q + C/q²)`. Two functions, one for each sign of a coefficient, where that is not known; none where the
-/// integral is not of this family. The derivative of each is proved to be e, by exact arithmetic.
+/// as one root, `√(A + B/q + C/q²)`. Several functions, one for each sign of a coefficient, where that is not known and the coefficient
+/// can have it; none where the integral is not of this family. The derivative of each is proved to be e, by exact arithmetic.
 ///
 /// Source: I. S. Gradshteyn, I. M. Ryzhik, Table of Integrals, Series, and Products, 2.26, with arc tangents in the place of arc
 /// sines and the root as it is written in e.
@@ -42,10 +51,7 @@ fn candidates(cx: &Context<'_>, e: Expr, q: Symbol) -> Option<Vec<Antiderivative
     let &[root] = roots.as_slice() else {
         let value = g.mul(&[e, coordinate]);
         let constant = roots.is_empty() && !g.contains_any(e, &[q]);
-        return constant.then(|| {
-            let positive = None;
-            vec![Antiderivative { value, positive }]
-        });
+        return constant.then(|| vec![Antiderivative::everywhere(value)]);
     };
     let name = unused_name(system, "root");
     let (own, symbol) = (g.symbol(&name, 0), g.intern_symbol(&name, 0));
@@ -176,13 +182,7 @@ impl Quadratic {
         if g.is_zero(c) {
             let cube = g.powi(self.root, 3);
             let value = || g.div(g.mul(&[number(2), cube]), g.mul(&[number(3), b]));
-            let positive = None;
-            return (!g.is_zero(b)).then(|| {
-                vec![Antiderivative {
-                    value: value(),
-                    positive,
-                }]
-            });
+            return (!g.is_zero(b)).then(|| vec![Antiderivative::everywhere(value())]);
         }
         let discriminant = g.sub(g.mul(&[b, b]), g.mul(&[number(4), a, c]));
         let weight = g.div(discriminant, g.mul(&[number(8), c]));
@@ -194,41 +194,50 @@ impl Quadratic {
         Some(self.inverse(cx).into_iter().map(with).collect())
     }
 
-    /// `∫ √X/q dq = √X + B/2 ∫ dq/√X + A ∫ dq/(q √X)`, for A not positive.
+    /// `∫ √X/q dq = √X + B/2 ∫ dq/√X + A ∫ dq/(q √X)`.
     fn integral_over_q(&self, cx: &Context<'_>) -> Option<Vec<Antiderivative>> {
-        let (g, [a, b, c]) = (&cx.system.graph, self.coefficients);
+        let (g, [_, b, c]) = (&cx.system.graph, self.coefficients);
         let half = g.div(b, g.integer(2));
-        let mut parts = vec![self.root];
-        if !g.is_zero(a) {
-            let known = known_sign(g, g.neg(a), &assumptions(cx.system));
-            if !known.is_nonnegative() {
-                return None;
-            }
-            // A ∫ dq/(q √X) = −s atan((B q + 2 A)/(2 s √X)) with s² = −A; either sign of s gives the same.
-            let s = root_of(cx, g.neg(a));
-            let above = g.add(&[g.mul(&[b, self.q]), g.mul(&[g.integer(2), a])]);
-            let tangent = g.div(above, g.mul(&[g.integer(2), s, self.root]));
-            parts.push(g.neg(g.mul(&[s, g.apply(Function::Atan, &[tangent])])));
-        }
-        let rest = g.add(&parts);
-        if g.is_zero(b) {
-            let positive = None;
-            return Some(vec![Antiderivative {
-                value: rest,
-                positive,
-            }]);
-        }
-        if g.is_zero(c) {
-            // ∫ dq/√(A + B q) = 2 √X/B.
-            let value = g.add(&[rest, self.root]);
-            let positive = None;
-            return Some(vec![Antiderivative { value, positive }]);
-        }
-        let with = |found: Antiderivative| Antiderivative {
-            value: g.add(&[rest, g.mul(&[half, found.value])]),
-            ..found
+        // ∫ dq/√(A + B q) = 2 √X/B.
+        let by_slope = match (g.is_zero(b), g.is_zero(c)) {
+            (true, _) => vec![Antiderivative::everywhere(g.zero())],
+            (_, true) => vec![Antiderivative::everywhere(
+                g.div(g.mul(&[g.integer(2), self.root]), b),
+            )],
+            _ => self.inverse(cx),
         };
-        Some(self.inverse(cx).into_iter().map(with).collect())
+        let at_zero = self.inverse_over_q(cx);
+        let pairs = at_zero
+            .iter()
+            .flat_map(|a| by_slope.iter().map(move |b| (a, b)));
+        let sum = |(own, other): (&Antiderivative, &Antiderivative)| Antiderivative {
+            value: g.add(&[self.root, own.value, g.mul(&[half, other.value])]),
+            positive: [own.positive.clone(), other.positive.clone()].concat(),
+        };
+        let found: Vec<Antiderivative> = pairs.map(sum).collect();
+        (!found.is_empty()).then_some(found)
+    }
+
+    /// `A ∫ dq/(q √X)`: `−s atan((B q + 2 A)/(2 s √X))` with s² = −A for A < 0, `−s ln((2 A + B q + 2 s √X)/q)` with s² = A for A > 0;
+    /// either sign of s gives the same.
+    fn inverse_over_q(&self, cx: &Context<'_>) -> Vec<Antiderivative> {
+        let (g, [a, b, _]) = (&cx.system.graph, self.coefficients);
+        if g.is_zero(a) {
+            return vec![Antiderivative::everywhere(g.zero())];
+        }
+        let above = g.add(&[g.mul(&[b, self.q]), g.mul(&[g.integer(2), a])]);
+        let arc = || {
+            let s = root_of(cx, g.neg(a));
+            let tangent = g.div(above, g.mul(&[g.integer(2), s, self.root]));
+            g.neg(g.mul(&[s, g.apply(Function::Atan, &[tangent])]))
+        };
+        let logarithm = || {
+            let s = root_of(cx, a);
+            let argument = g.add(&[above, g.mul(&[g.integer(2), s, self.root])]);
+            let argument = g.div(argument, self.q);
+            g.neg(g.mul(&[s, g.apply(Function::Log, &[argument])]))
+        };
+        by_sign(cx, a, &arc, &logarithm)
     }
 
     /// `∫ dq/√X` for C ≠ 0: a logarithm for C > 0, an arc tangent, which contains no further root as the arc sine does, for C < 0.
@@ -246,15 +255,34 @@ impl Quadratic {
             let tangent = g.div(g.neg(slope), g.mul(&[two, lead, self.root]));
             g.div(g.apply(Function::Atan, &[tangent]), lead)
         };
-        let known = |e: Expr| known_sign(g, e, &assumptions(cx.system)).is_positive();
-        let found = |value: Expr, positive: Option<Expr>| Antiderivative { value, positive };
-        match (known(c), known(opposite)) {
-            (true, _) => vec![found(logarithm(), None)],
-            (_, true) => vec![found(arc(), None)],
-            _ => vec![
-                found(arc(), Some(simple(cx, opposite))),
-                found(logarithm(), Some(c)),
-            ],
-        }
+        by_sign(cx, c, &arc, &logarithm)
     }
+}
+
+/// A function for a negative coefficient and one for a positive: that of the sign which the coefficient has, or both with what is
+/// positive there. One that is real for no values of the parameters is left out.
+fn by_sign(
+    cx: &Context<'_>,
+    coefficient: Expr,
+    negative: &dyn Fn() -> Expr,
+    positive: &dyn Fn() -> Expr,
+) -> Vec<Antiderivative> {
+    let g = &cx.system.graph;
+    let opposite = g.neg(coefficient);
+    let sign = |e: Expr| known_sign(g, e, &assumptions(cx.system));
+    let of = |value: &dyn Fn() -> Expr, own: Expr, other: Expr| {
+        // A coefficient that is no less than zero, and is zero for particular values, has been taken not to vanish.
+        let is_free = sign(own).is_nonnegative() || sign(other).is_nonpositive();
+        let condition = (!is_free).then(|| simple(cx, own));
+        let never = sign(own).is_nonpositive() || sign(other).is_nonnegative();
+        (!never).then(|| Antiderivative {
+            value: value(),
+            positive: condition.into_iter().collect(),
+        })
+    };
+    let both = [
+        of(negative, opposite, coefficient),
+        of(positive, coefficient, opposite),
+    ];
+    both.into_iter().flatten().collect()
 }

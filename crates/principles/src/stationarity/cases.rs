@@ -189,6 +189,21 @@ pub(crate) fn with_multipliers(cx: &Context<'_>, motion: &Motion) -> Found {
     found
 }
 
+/// The motions along which κ exists and functions of the state vanish; particular parameters are not looked at.
+pub(crate) fn where_multipliers(cx: &Context<'_>, motion: &Motion, functions: &[Expr]) -> Found {
+    let zero = cx.system.graph.zero();
+    let rows = motion.conditions.iter().map(|row| Row {
+        coefficients: row.clone(),
+        right: zero,
+    });
+    let case = Case {
+        rows: rows.collect(),
+        nonzero: assumed(cx, motion),
+        ..Case::default()
+    };
+    Search::new(cx, motion, true).on_constraints(case, functions)
+}
+
 /// The motions along which functions of the state vanish that are written with the dependent velocities of the system.
 pub(crate) fn where_zero(cx: &Context<'_>, motion: &Motion, functions: &[Expr]) -> Found {
     let case = Case {

@@ -42,6 +42,33 @@ pub struct Closure {
     pub verdict: Verdict,
 }
 
+/// What κ satisfies along a motion that is an extremal: `Σ_l κ_l E[f^l]·δq = 0` (12) and `κ' = Φ κ − λ` (13), functions of (q, v, t).
+#[derive(Clone, Debug)]
+pub struct Transport {
+    /// The coefficients of κ in (12), one row for each independent virtual displacement.
+    pub conditions: Vec<Vec<Expr>>,
+    /// Φ, row by row.
+    pub matrix: Vec<Vec<Expr>>,
+    /// λ of the selected constraints.
+    pub multipliers: Vec<Expr>,
+}
+
+impl Transport {
+    /// (12) and (13) for the context's system.
+    ///
+    /// # Errors
+    /// [`DeriveError`] when the equations of motion or the virtual displacements cannot be derived.
+    pub fn new(cx: &Context<'_>) -> Result<Transport, DeriveError> {
+        let flow = Flow::new(cx)?;
+        let conditions = flow.first_conditions(cx).into_iter();
+        Ok(Transport {
+            conditions: conditions.map(|c| c.coefficients).collect(),
+            matrix: flow.transport,
+            multipliers: flow.multipliers,
+        })
+    }
+}
+
 /// More nodes than this are not made by one closure.
 const LARGEST_GROWTH: usize = 100_000;
 
@@ -92,6 +119,39 @@ impl Closure {
         closure.free = cx.selection.rows.len() - closure.conditions.len();
         closure.kappa = determined(cx, &flow.manifold, &closure.conditions, &closure.columns)?;
         Ok(closure)
+    }
+
+    /// The conditions solved for the multipliers at [`columns`](Closure::columns): `κ_l = right − Σ coefficient κ` over the others, with
+    /// the coefficient 1 of κ_l itself.
+    ///
+    /// # Errors
+    /// [`DeriveError`] where the linear system cannot be written.
+    pub(crate) fn solved(&self, cx: &Context<'_>) -> Result<Vec<(usize, Condition)>, DeriveError> {
+        let g = &cx.system.graph;
+        let r = cx.selection.rows.len();
+        let mut solved: Vec<(usize, Condition)> = Vec::new();
+        let values = solve(cx, &self.conditions, &self.columns)?;
+        for (&l, right) in self.columns.iter().zip(values) {
+            let mut coefficients = vec![g.zero(); r];
+            coefficients[l] = g.one();
+            let condition = Condition {
+                coefficients,
+                right,
+            };
+            solved.push((l, condition));
+        }
+        for free in (0..r).filter(|l| !self.columns.contains(l)) {
+            let right: Vec<Expr> = self
+                .conditions
+                .iter()
+                .map(|c| c.coefficients[free])
+                .collect();
+            let slopes = solve_for(cx, &self.conditions, &self.columns, &right)?;
+            for ((_, condition), slope) in solved.iter_mut().zip(slopes) {
+                condition.coefficients[free] = slope;
+            }
+        }
+        Ok(solved)
     }
 
     /// Keeps the new conditions that are independent of the known ones, and decides whether the others follow.

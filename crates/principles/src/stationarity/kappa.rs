@@ -1,21 +1,92 @@
 //! Multipliers that the conditions leave free, in closed form: `κ' = Φ κ − λ` integrated along the motion.
 
+mod modulo;
+mod momenta;
+
+use self::modulo::Ties;
+use self::momenta::of_momenta;
 use super::cases::Leaf;
 use super::closed_form::{closed, short};
-use super::closure::Condition;
+use super::closure::{Closure, Condition};
 use super::motion::Motion;
-use chetaev_mechanics::claims::formulation::basis;
+use chetaev_mechanics::claims::formulation::{basis, derive, manifold, REFERENCE};
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::equations::unused_name;
+use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::System;
+use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::matrix::inverse;
-use chetaev_symbolic::{simplify, Expr, Graph, Node, Symbol};
+use chetaev_symbolic::{simplify, Expr, Graph, Node, Symbol, Verdict};
 
-/// κ of the constraints in closed form along all motions, each with its constant of integration; `None` for those that are not
-/// found.
-pub(crate) fn integrated(cx: &Context<'_>, motion: &Motion) -> Vec<Option<Expr>> {
-    along(cx, motion, &Place::anywhere(cx, motion))
+/// Of longer functions no normal form is made, and no combination of momenta is looked for.
+const LONGEST: u64 = 400;
+
+/// κ of the constraints in closed form along all motions, those that the conditions leave free each with its constant of integration;
+/// `None` for those that are not found. All were proved to make the motions extremals, where all are found.
+pub(crate) fn integrated(
+    cx: &Context<'_>,
+    motion: &Motion,
+    closure: &Closure,
+) -> Vec<Option<Expr>> {
+    let Some(place) = Place::with_conditions(cx, motion, closure) else {
+        return vec![None; motion.multipliers.len()];
+    };
+    let found = along(cx, motion, &place);
+    let values: Option<Vec<Expr>> = found.iter().copied().collect();
+    match values.is_none_or(|values| are_extremals(cx, motion, &values)) {
+        true => found,
+        false => vec![None; found.len()],
+    }
+}
+
+/// Whether κ, functions of the state of the motion and the time, satisfy (12) and (13) on all states.
+fn are_extremals(cx: &Context<'_>, motion: &Motion, kappa: &[Expr]) -> bool {
+    let residuals = residuals(cx, motion, kappa);
+    let verdict = cx.prover.identity(cx.system, &residuals, &manifold(cx), "");
+    matches!(verdict, Verdict::Proved(_))
+}
+
+/// `κ' − Φ κ + λ` and the left sides of (12).
+fn residuals(cx: &Context<'_>, motion: &Motion, kappa: &[Expr]) -> Vec<Expr> {
+    let g = &cx.system.graph;
+    let demanded = motion.transport.iter().zip(&motion.multipliers);
+    let rates = kappa.iter().zip(demanded).map(|(&value, (row, &lambda))| {
+        let demanded = g.sub(dot(g, row, kappa), lambda);
+        g.sub(motion.along(cx, value), demanded)
+    });
+    let conditions = motion.conditions.iter().map(|row| dot(g, row, kappa));
+    rates.chain(conditions).collect()
+}
+
+/// `D(p + Σ κ ∂f/∂v) − ∂L/∂q − Σ κ ∂f/∂q` along the motion, for κ as functions of (q, v, t).
+///
+/// # Errors
+/// [`DeriveError`] where the equations of motion are not derived.
+pub(crate) fn extremal_residuals(
+    cx: &Context<'_>,
+    kappa: &[Expr],
+) -> Result<Vec<Expr>, DeriveError> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let routh = derive(cx, REFERENCE)?;
+    let coordinates = system.coordinates.iter().map(|c| c.a);
+    let motion: Vec<(Expr, Expr)> = coordinates.zip(routh.accelerations).collect();
+    let basis = basis(cx);
+    let momenta = g.gradient(system.lagrangian, &system.velocity_symbols());
+    let slopes = g.gradient(system.lagrangian, &system.coordinate_symbols());
+    let by_velocities = basis.jacobian();
+    let by_coordinates = g.jacobian(&basis.constraints(), &system.coordinate_symbols());
+    let with = |own: Expr, rows: &[Vec<Expr>], i: usize| {
+        let terms = kappa.iter().zip(rows);
+        let parts = terms.map(|(&k, row)| g.mul(&[k, row[i]]));
+        g.add(&parts.chain([own]).collect::<Vec<Expr>>())
+    };
+    let residual = |i: usize| {
+        let moved = system.total_derivative(with(momenta[i], &by_velocities, i));
+        let slope = with(slopes[i], &by_coordinates, i);
+        g.sub(g.substitute(moved, &motion), slope)
+    };
+    Ok((0..system.n()).map(residual).collect())
 }
 
 /// The same along the motions of a set. Multipliers that the conditions there tie to free ones are given by these.
@@ -32,14 +103,10 @@ pub(crate) fn integrated_on(cx: &Context<'_>, motion: &Motion, leaf: &Leaf) -> V
 fn solves(cx: &Context<'_>, motion: &Motion, leaf: &Leaf, kappa: &[Expr]) -> bool {
     let g = &cx.system.graph;
     let place = Place::on(cx, motion, leaf);
-    let demanded = motion.transport.iter().zip(&motion.multipliers);
-    let rates = kappa.iter().zip(demanded).map(|(&value, (row, &lambda))| {
-        let demanded = g.sub(dot(g, row, kappa), lambda);
-        g.sub(motion.along(cx, value), demanded)
-    });
-    let conditions = motion.conditions.iter().map(|row| dot(g, row, kappa));
-    let mut residuals = rates.chain(conditions);
-    residuals.all(|e| g.is_zero(place.restricted(g, e)))
+    let residuals = residuals(cx, motion, kappa).into_iter();
+    residuals
+        .map(|e| place.restricted(g, e))
+        .all(|e| g.is_zero(e))
 }
 
 fn along(cx: &Context<'_>, motion: &Motion, place: &Place) -> Vec<Option<Expr>> {
@@ -60,6 +127,8 @@ struct Place {
     moving: Vec<Symbol>,
     /// Multipliers given by others: κ = right − Σ coefficient κ.
     tied: Vec<(usize, Condition)>,
+    /// Constraints that stay implicit.
+    ties: Ties,
 }
 
 impl Place {
@@ -70,7 +139,26 @@ impl Place {
             values: Vec::new(),
             moving,
             tied: Vec::new(),
+            ties: Ties::new(cx, motion),
         }
+    }
+
+    /// Along all motions, where conditions tie some multipliers to the others; `None` where these are not had in closed form.
+    fn with_conditions(cx: &Context<'_>, motion: &Motion, closure: &Closure) -> Option<Place> {
+        let g = &cx.system.graph;
+        let mut place = Place::anywhere(cx, motion);
+        for (l, condition) in closure.solved(cx).ok()? {
+            let on = |e: Expr| closed(g, motion.on_states(g, e)).ok();
+            let coefficients = condition.coefficients.into_iter().map(on);
+            place.tied.push((
+                l,
+                Condition {
+                    coefficients: coefficients.collect::<Option<_>>()?,
+                    right: on(condition.right)?,
+                },
+            ));
+        }
+        Some(place)
     }
 
     fn on(cx: &Context<'_>, motion: &Motion, leaf: &Leaf) -> Place {
@@ -88,7 +176,26 @@ impl Place {
     }
 
     fn restricted(&self, g: &Graph, e: Expr) -> Expr {
-        short(g, g.substitute(e, &self.values))
+        self.ties.reduced(g, g.substitute(e, &self.values))
+    }
+
+    /// An equal function on the states, simplified; by its normal form where it then contains nothing that moves.
+    fn simple(&self, g: &Graph, e: Expr) -> Expr {
+        let e = simple(g, self.ties.reduced(g, e));
+        if self.rests(g, e) || simplify::length(g, e) > LONGEST {
+            return e;
+        }
+        let product = factored(g, e).map(|parts| {
+            let powers = parts.factors.iter().map(|&(f, n)| g.powi(f, n));
+            let powers: Vec<Expr> = powers.collect();
+            g.scale(&parts.coefficient, g.mul(&powers))
+        });
+        product.filter(|&e| self.rests(g, e)).unwrap_or(e)
+    }
+
+    /// Whether a function contains nothing that moves.
+    fn rests(&self, g: &Graph, e: Expr) -> bool {
+        !g.contains_any(e, &self.moving)
     }
 
     /// The rates of the multipliers that are free, with what they contain of the others.
@@ -214,13 +321,19 @@ impl Rates {
         l: usize,
     ) -> Option<Expr> {
         let g = &cx.system.graph;
+        let own = self.transport[l][l];
+        // κ = μ c with μ' = Φ_ll μ.
+        let factor = match g.is_zero(own) {
+            true => g.one(),
+            false => integrating_factor((cx, motion, place), own)?,
+        };
         let mut rate = vec![g.neg(self.multipliers[l])];
         for (m, &coefficient) in self.transport[l].iter().enumerate() {
-            if !g.is_zero(coefficient) {
+            if m != l && !g.is_zero(coefficient) {
                 rate.push(g.mul(&[coefficient, known[m]?]));
             }
         }
-        let rate = g.add(&rate);
+        let rate = place.restricted(g, g.div(g.add(&rate), factor));
         let symbols: Vec<Symbol> = g.symbols_in(constants);
         let slopes = g.gradient(rate, &symbols);
         let free = |e: Expr| {
@@ -235,8 +348,30 @@ impl Rates {
             let weight = of(free(slope))?;
             parts.push(g.mul(&[g.symbol_expr(symbol), weight]));
         }
-        Some(simple(g, g.add(&parts)))
+        Some(place.simple(g, g.mul(&[factor, g.add(&parts)])))
     }
+}
+
+/// μ with `μ' = a μ`: a power of one of the functions at hand.
+fn integrating_factor(
+    (cx, motion, place): (&Context<'_>, &Motion, &Place),
+    a: Expr,
+) -> Option<Expr> {
+    let g = &cx.system.graph;
+    // Dependent velocities do not vanish as easily as others.
+    let dependent = cx.selection.dependent.iter();
+    let dependent = dependent.map(|&d| motion.on_states(g, cx.system.coordinates[d].v));
+    let mut all: Vec<Expr> = dependent.collect();
+    all.extend(candidates(cx, motion, None));
+    all.into_iter().find_map(|candidate| {
+        let candidate = place.restricted(g, candidate);
+        let moved = place.simple(g, place.restricted(g, motion.along(cx, candidate)));
+        if g.is_zero(moved) {
+            return None;
+        }
+        let power = place.simple(g, g.div(g.mul(&[a, candidate]), moved));
+        place.rests(g, power).then(|| g.pow(candidate, power))
+    })
 }
 
 /// κ by the multipliers of f solved for the dependent velocities: `κ̂ = S κ` with `S_ml = ∂f^l/∂v_m` has
@@ -254,7 +389,8 @@ fn by_slopes(cx: &Context<'_>, motion: &Motion, place: &Place) -> Option<Vec<Opt
     };
     let entry = |m: usize, l: usize| {
         let parts: Vec<Expr> = (0..r).map(|n| g.mul(&[turned(m, n), back[n][l]])).collect();
-        closed(g, g.substitute(g.add(&parts), &place.values)).ok()
+        let value = closed(g, g.substitute(g.add(&parts), &place.values)).ok()?;
+        Some(place.simple(g, value))
     };
     let transport = (0..r).map(|m| (0..r).map(|l| entry(m, l)).collect());
     let multipliers = slopes.iter().map(|row| dot(g, row, &motion.multipliers));
@@ -296,33 +432,62 @@ fn slopes(cx: &Context<'_>, motion: &Motion) -> Option<Vec<Vec<Expr>>> {
 
 /// A function whose rate along all motions is the given one: a constant multiple of a function at hand (the roots in the
 /// constraints, the momenta of the dependent velocities, velocities, coordinates and the time), or of `θ` and the time, where
-/// `D(κ + θ) = ∂L/∂q` is constant (T1 (13')).
+/// `D(κ + θ) = ∂L/∂q` is constant (T1 (13')); or a polynomial in the time, where the rate or its own rate is constant along the motions.
+/// Also a combination of momenta and coordinates, and of a sum what belongs to each term.
 fn antiderivative(
     (cx, motion, place): (&Context<'_>, &Motion, &Place),
     theta: Option<Expr>,
     rate: Expr,
 ) -> Option<Expr> {
     let g = &cx.system.graph;
-    let rate = simple(g, rate);
+    let rate = place.simple(g, rate);
+    let whole = of_one_function((cx, motion, place), theta, rate);
+    let whole = whole.or_else(|| of_momenta((cx, motion, place), rate));
+    whole.or_else(|| {
+        let Node::Sum { constant, terms } = g.node(rate) else {
+            return None;
+        };
+        let number = g.scale(constant, g.one());
+        let terms = terms.iter().map(|(e, c)| g.scale(c, *e)).chain([number]);
+        let parts = terms.map(|e| of_one_function((cx, motion, place), None, e));
+        Some(g.add(&parts.collect::<Option<Vec<Expr>>>()?))
+    })
+}
+
+/// [`antiderivative`] of what is not taken apart.
+fn of_one_function(
+    (cx, motion, place): (&Context<'_>, &Motion, &Place),
+    theta: Option<Expr>,
+    rate: Expr,
+) -> Option<Expr> {
+    let g = &cx.system.graph;
     if g.is_zero(rate) {
         return Some(g.zero());
     }
-    let moved = |e: Expr| simple(g, place.restricted(g, motion.along(cx, e)));
+    let moved = |e: Expr| place.simple(g, place.restricted(g, motion.along(cx, e)));
     for candidate in candidates(cx, motion, theta) {
         let candidate = place.restricted(g, candidate);
         let moved = moved(candidate);
         if g.is_zero(moved) {
             continue;
         }
-        let ratio = simple(g, g.div(rate, moved));
-        if !g.contains_any(ratio, &place.moving) {
+        let ratio = place.simple(g, g.div(rate, moved));
+        if place.rests(g, ratio) {
             return Some(g.mul(&[ratio, candidate]));
         }
     }
-    let theta = theta?;
-    let rest = simple(g, g.add(&[rate, moved(theta)]));
-    let value = g.add(&[g.neg(theta), g.mul(&[rest, g.symbol("t", 0)])]);
-    (!g.contains_any(rest, &place.moving)).then_some(value)
+    let time = g.symbol("t", 0);
+    if let Some(theta) = theta {
+        let rest = place.simple(g, g.add(&[rate, moved(theta)]));
+        if place.rests(g, rest) {
+            return Some(g.add(&[g.neg(theta), g.mul(&[rest, time])]));
+        }
+    }
+    // D(R t − ½ R' t²) = R + R' t − R' t, where R'' = 0.
+    let second = moved(rate);
+    let half = g.div(g.mul(&[second, time, time]), g.integer(2));
+    g.is_zero(moved(second))
+        .then(|| g.sub(g.mul(&[rate, time]), half))
 }
 
 fn simple(g: &Graph, e: Expr) -> Expr {

@@ -8,6 +8,7 @@
 mod cases;
 mod closed_form;
 mod closure;
+mod exceptions;
 mod kappa;
 mod motion;
 mod sets;
@@ -15,10 +16,12 @@ mod stationary;
 mod suslov;
 
 pub(crate) use closed_form::{short as by_sines, zero_of};
-pub use closure::{Closure, Condition};
-pub(crate) use kappa::free_constant;
+pub use closure::{Closure, Condition, Transport};
+pub(crate) use exceptions::Exceptions;
+pub(crate) use kappa::{extremal_residuals, free_constant};
 pub(crate) use sets::on_sets;
 pub use sets::{StationarySet, StationarySets};
+pub(crate) use stationary::every_motion;
 pub use stationary::Stationary;
 pub(crate) use stationary::{of_parameters, NoneBut};
 pub use suslov::StationarySuslov;

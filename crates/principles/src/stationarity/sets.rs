@@ -15,6 +15,8 @@ use std::sync::Arc;
 pub struct StationarySet {
     /// Symbols of the state with their values, free of all these symbols.
     pub solved: Vec<(Symbol, Expr)>,
+    /// What vanishes exactly on the set, also at other turns of its angles.
+    pub vanishing: Vec<Expr>,
     /// The conditions on κ there, each solved for one multiplier: its coefficient is 1, and zero in the others.
     pub conditions: Vec<Condition>,
     /// The place of the multiplier for which each condition is solved.
@@ -113,6 +115,7 @@ fn set(cx: &Context<'_>, leaf: &Leaf) -> Option<StationarySet> {
     let (pivots, conditions) = leaf.conditions().into_iter().unzip();
     Some(StationarySet {
         solved: solved?,
+        vanishing: leaf.vanishing(&cx.system.graph),
         conditions,
         pivots,
     })

@@ -4,7 +4,7 @@ use super::cases::{confirmed, joined, Found, Leaf};
 use super::closed_form::short;
 use super::kappa::{integrated, integrated_on};
 use super::motion::Motion;
-use super::{sets, Closure};
+use super::{sets, Closure, Exceptions};
 use crate::words::{conditional, for_general_controls, formula, listed};
 use chetaev_mechanics::claims::formulation::{basis, manifold};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
@@ -39,7 +39,7 @@ impl Claim for Stationary {
          subset that was found (`refuted`: for no motion, for none but rest, or for almost none, where others were not followed; the sentence says which). Example: a particle z' = y x' has E[f]·δq = y' δx − x' δy, so (a) \
          demands κ = 0 unless x' = y' = 0, and then (b) demands λ = x' y'/(1 + y²) = 0: only motions with x' = 0 or y' = 0 are stationary. \
          A rolling disc, which is not integrable either, has κ = (−m x', −m y') for every motion. κ = 0 alone would need all \
-         reactions to vanish. Parameters are taken as general; particular values with more such motions are named where they were found."
+         reactions to vanish. Where κ is not unique, the difference of two satisfies the conditions with λ = 0: the motion is an extremal of ∫Σ κ f dt, without L, and called abnormal (its multiplier ν₀ of L may be zero). Parameters are taken as general; particular values with more such motions are named where they were found."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -74,8 +74,10 @@ fn decide(cx: &Context<'_>, closure: &Closure) -> Finding {
     match &verdict {
         Verdict::Proved(_) => {
             let (kappa, formulas) = multipliers(cx, closure);
+            let exceptions = Exceptions::of(cx, closure);
             verdict.prefix(&format!(
-                "every motion makes the action stationary among admissible curves; {kappa}"
+                "{} makes the action stationary among admissible curves{}; {kappa}",
+                exceptions.every, exceptions.others
             ));
             Finding { verdict, formulas }
         }
@@ -95,6 +97,17 @@ fn decide(cx: &Context<'_>, closure: &Closure) -> Finding {
     }
 }
 
+/// Of which motions `hamilton.stationary` is proved: "every motion", or those on which the conditions on κ keep their rank.
+pub(crate) fn every_motion(cx: &Context<'_>) -> String {
+    let closure = (!cx.selection.rows.is_empty()).then(|| Closure::of(cx));
+    let known = closure
+        .as_ref()
+        .and_then(|found| found.as_ref().as_ref().ok());
+    known.map_or("every motion".into(), |closure| {
+        Exceptions::of(cx, closure).every.clone()
+    })
+}
+
 /// κ in words and formulas where every motion is an extremal.
 fn multipliers(cx: &Context<'_>, closure: &Closure) -> (String, Vec<Formula>) {
     let g = &cx.system.graph;
@@ -105,15 +118,16 @@ fn multipliers(cx: &Context<'_>, closure: &Closure) -> (String, Vec<Formula>) {
         .iter()
         .map(|&(symbol, value)| (g.symbol_expr(symbol), value))
         .collect();
-    // Where conditions tie the multipliers to each other, their constants of integration are not independent.
-    let all_free = closure.free == closure.kappa.len();
-    let motion = (all_free && closure.free > 0).then(|| Motion::of(cx));
+    let motion = (closure.free > 0).then(|| Motion::of(cx));
+    let unknown_motion = motion
+        .as_ref()
+        .and_then(|motion| motion.as_ref().as_ref().err());
     let motion = motion
         .as_ref()
         .and_then(|motion| motion.as_ref().as_ref().ok());
-    let integrated = motion.map(|motion| integrated(cx, motion));
+    let integrated = motion.map(|motion| integrated(cx, motion, closure));
     let mut formulas = Vec::new();
-    let mut known = Vec::new();
+    let (mut known, mut unknown) = (Vec::new(), Vec::new());
     for (l, name) in basis.constraint_names().into_iter().enumerate() {
         let value = match closure.kappa[l] {
             Some(value) => Some(g.substitute(value, &solved)),
@@ -121,8 +135,10 @@ fn multipliers(cx: &Context<'_>, closure: &Closure) -> (String, Vec<Formula>) {
         };
         let caption = format!("multiplier κ of `{name}`, along every motion");
         let shown = value.and_then(|value| formula(cx, caption, Some(symbols[l]), value));
-        if let Some(shown) = &shown {
-            known.push(format!("{} = {}", g.text(symbols[l]), g.text(shown.right)));
+        let text = g.text(symbols[l]);
+        match &shown {
+            Some(shown) => known.push(format!("{text} = {}", g.text(shown.right))),
+            None => unknown.push(not_shown(&text, value.is_some(), unknown_motion)),
         }
         formulas.extend(shown);
     }
@@ -136,7 +152,29 @@ fn multipliers(cx: &Context<'_>, closure: &Closure) -> (String, Vec<Formula>) {
         true => String::new(),
         false => format!("{}{}; ", known.join(", "), speeds(cx, motion, &formulas)),
     };
-    (format!("{values}{free}"), formulas)
+    let open: Vec<String> = unknown.iter().map(|text| format!("; {text}")).collect();
+    let abnormal = match closure.free {
+        0 => "",
+        _ => "; as κ is not unique every motion is an abnormal extremal too: one of ∫Σ κ f dt without L (ν₀ = 0)",
+    };
+    (
+        format!("{values}{free}{abnormal}{}", open.concat()),
+        formulas,
+    )
+}
+
+/// Why a multiplier is not written.
+fn not_shown(symbol: &str, is_known: bool, motion: Option<&String>) -> String {
+    match (is_known, motion) {
+        (true, _) => format!("{symbol} is too long to be written here"),
+        (false, Some(why)) => {
+            format!("no closed form of {symbol} was looked for ({why}); it solves κ' = Φ κ − λ")
+        }
+        (false, None) => format!(
+            "no closed form of {symbol} was found: κ' = Φ κ − λ was not integrated by the functions tried (momenta, velocities, coordinates, \
+             roots of the constraints, the time, and their powers as factors)"
+        ),
+    }
 }
 
 /// What the speeds are that occur in formulas and that the model does not name.
@@ -177,14 +215,24 @@ fn on_subsets(cx: &Context<'_>, motion: &Motion, mut refuted: Verdict) -> Findin
     let condition = format!("{stated}{controls}{open}");
     let how = "the conditions on κ were differentiated along the motion in every case, exactly";
     let proof = Proof::exact(place(cx, motion), how);
-    let formulas = all
-        .iter()
-        .flat_map(|leaf| of_leaf(cx, motion, leaf))
-        .collect();
+    let is_free = |leaf: &&Leaf| !leaf.at_rest && leaf.kappa.iter().any(Option::is_none);
+    let free: Vec<&Leaf> = all.iter().copied().filter(is_free).collect();
+    let (mut formulas, mut unknown) = (Vec::new(), String::new());
+    if !free.is_empty() {
+        unknown = format!(
+            "; κ is not unique where {}, and these motions are abnormal extremals too (ν₀ = 0)",
+            alternatives(&free)
+        );
+    }
+    for leaf in &all {
+        let (shown, missing) = of_leaf(cx, motion, leaf);
+        formulas.extend(shown);
+        unknown.push_str(&missing);
+    }
     let mut verdict = conditional(condition, proof, refuted);
     let particular = particular(cx, found);
     verdict.prefix(&format!(
-        "motions make the action stationary {}where {stated}{controls}{particular}{open}",
+        "motions make the action stationary {}where {stated}{controls}{particular}{open}{unknown}",
         only(found)
     ));
     Finding { verdict, formulas }
@@ -288,8 +336,10 @@ pub(super) fn set_aside_unconfirmed(cx: &Context<'_>, motion: &Motion, found: &m
 /// differs from zero, and the ranks of the others are the greatest.
 const ALMOST_NONE: &str = "almost no motion makes the action stationary: those that do pass through a set of states of lower dimension, on which a function vanishes that does not at the point stated";
 
-/// κ on a subset: those that the conditions determine, and the others with their constants, where they have a closed form.
-fn of_leaf(cx: &Context<'_>, motion: &Motion, leaf: &Leaf) -> Vec<Formula> {
+/// κ on a subset: those that the conditions determine, and the others with their constants, where they have a closed form; and of which
+/// no such form was found, as the end of a sentence.
+fn of_leaf(cx: &Context<'_>, motion: &Motion, leaf: &Leaf) -> (Vec<Formula>, String) {
+    let g = &cx.system.graph;
     let basis = basis(cx);
     let symbols = kappa_symbols(&basis);
     let names = basis.constraint_names().into_iter().zip(symbols);
@@ -297,13 +347,29 @@ fn of_leaf(cx: &Context<'_>, motion: &Motion, leaf: &Leaf) -> Vec<Formula> {
         true => leaf.kappa.clone(),
         false => integrated_on(cx, motion, leaf),
     };
-    names
-        .zip(values.iter().zip(&leaf.kappa))
-        .filter_map(|((name, symbol), (value, determined))| {
-            let caption = format!("multiplier κ of `{name}` where {}", listed(&leaf.equations));
-            formula(cx, caption, Some(symbol), determined.or(*value)?)
-        })
-        .collect()
+    let (mut formulas, mut missing) = (Vec::new(), Vec::new());
+    for ((name, symbol), (value, determined)) in names.zip(values.iter().zip(&leaf.kappa)) {
+        let caption = format!("multiplier κ of `{name}` where {}", listed(&leaf.equations));
+        let shown = determined
+            .or(*value)
+            .and_then(|value| formula(cx, caption, Some(symbol), value));
+        if shown.is_none() {
+            missing.push(g.text(symbol));
+        }
+        formulas.extend(shown);
+    }
+    let mut sentence = String::new();
+    if leaf.at_rest {
+        return (formulas, sentence);
+    }
+    let on = listed(&leaf.equations);
+    if !missing.is_empty() {
+        let missing = listed(&missing);
+        sentence.push_str(&format!(
+            "; of {missing} no short closed form was found where {on}"
+        ));
+    }
+    (formulas, sentence)
 }
 
 /// "x' = 0, or y' = 0 and z = 1".

@@ -8,9 +8,14 @@ use super::stationary::{
 };
 use crate::variations::Displacements;
 use crate::words::{conditional, for_general_controls, formula, listed};
+use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::{once_where, Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::formulations::DeriveError;
+use chetaev_mechanics::prover::assumptions;
+use chetaev_symbolic::factors::factors;
+use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Verdict};
 
 /// `hamilton.stationary-suslov`.
@@ -161,8 +166,14 @@ fn on_subsets(
 /// Where the terms have no value, as the dependent velocities are divided by zero.
 fn with_dependent(cx: &Context<'_>, motion: &Motion) -> String {
     let g = &cx.system.graph;
-    let poles = motion.dependent_poles.iter();
-    let poles: Vec<String> = poles.map(|&e| format!("{} ≠ 0", g.text(e))).collect();
+    let poles = match motion.implicit.is_empty() {
+        true => motion.dependent_poles.clone(),
+        false => slopes_that_vanish(cx),
+    };
+    let poles: Vec<String> = poles
+        .iter()
+        .map(|&e| format!("{} ≠ 0", g.text(e)))
+        .collect();
     match poles.is_empty() {
         true => String::new(),
         false => format!(
@@ -170,4 +181,17 @@ fn with_dependent(cx: &Context<'_>, motion: &Motion) -> String {
             listed(&poles)
         ),
     }
+}
+
+/// Factors of the determinant of ∂f/∂v on the dependent velocities, of constraints that are not solved for these.
+fn slopes_that_vanish(cx: &Context<'_>) -> Vec<Expr> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let jacobian = basis(cx).jacobian();
+    let columns = |row: &Vec<Expr>| cx.selection.dependent.iter().map(|&d| row[d]).collect();
+    let block: Vec<Vec<Expr>> = jacobian.iter().map(columns).collect();
+    let known = assumptions(system);
+    let list = factors(g, determinant(g, &block), &system.velocity_symbols()).unwrap_or_default();
+    let list = list.into_iter().map(|(factor, _)| factor);
+    list.filter(|&e| !known_sign(g, e, &known).is_nonzero())
+        .collect()
 }

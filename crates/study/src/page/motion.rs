@@ -317,6 +317,7 @@ pub(super) fn figures(motion: &Motion) -> Vec<Figure> {
     orders(motion)
         .into_iter()
         .chain(first_variations(motion))
+        .chain(conjugate_times(motion))
         .chain(PICTURES.iter().filter_map(|picture| picture.of(motion)))
         .collect()
 }
@@ -422,6 +423,39 @@ fn first_variations(motion: &Motion) -> Option<Figure> {
         logarithmic_vertical: true,
         marks: true,
         claim: Some("witness.first-variation#hoelder".into()),
+        ..Figure::default()
+    })
+}
+
+/// The determinant whose zeros conjugate times are.
+fn conjugate_times(motion: &Motion) -> Option<Figure> {
+    let found = motion.witness.conjugate.as_ref()?;
+    let values = found.determinants.iter().map(|(_, value)| *value);
+    let largest = values.clone().fold(0.0_f64, |m, x| m.max(x.abs()));
+    if largest == 0.0 || !largest.is_finite() || found.legendre.is_err() {
+        return None;
+    }
+    let kept = match found.times.first() {
+        None => "It has no zero here: the action is a weak minimum on the whole interval.".into(),
+        Some(first) => format!(
+            "The first zero, t = {first:.6}, is where the action stops being a weak minimum."
+        ),
+    };
+    Some(Figure {
+        title: "Conjugate times".into(),
+        explanation: vec![
+            "The determinant of extremals that start beside the motion from its first position, over its largest value: zero where some of them meet the motion again to first order.".into(),
+            kept,
+        ],
+        horizontal: "t".into(),
+        abscissae: found.determinants.iter().map(|(t, _)| *t).collect(),
+        series: vec![Series {
+            name: "determinant".into(),
+            group: SeriesGroup::Other,
+            values: values.map(|x| x / largest).collect(),
+            ..Series::default()
+        }],
+        claim: Some("witness.index".into()),
         ..Figure::default()
     })
 }

@@ -21,7 +21,7 @@ pub(super) fn transposed_times(a: &[f64], columns: usize, b: &[f64]) -> Vec<f64>
 }
 
 /// `a aᵀ` of r rows.
-pub(super) fn gram(a: &[f64], r: usize, columns: usize) -> Vec<f64> {
+pub(crate) fn gram(a: &[f64], r: usize, columns: usize) -> Vec<f64> {
     let mut product = vec![0.0; r * r];
     for i in 0..r {
         for j in 0..r {
@@ -96,7 +96,7 @@ pub(super) fn null_space(a: &[f64], rows: usize, columns: usize, threshold: f64)
 }
 
 /// The determinant.
-pub(super) fn determinant(n: usize, a: &[f64]) -> f64 {
+pub(crate) fn determinant(n: usize, a: &[f64]) -> f64 {
     let mut a = a.to_vec();
     let mut product = 1.0;
     for k in 0..n {

@@ -3,20 +3,22 @@
 //!
 //! Virtual displacements are projections of free ones, `δq = η − fᵥᵀ (fᵥ fᵥᵀ)⁻¹ fᵥ η`, for the forms of Hölder and of
 //! Helmholtz and Poincaré; those of Voronets and Suslov are taken by their own rules in the independent velocities, on the longest
-//! stretch on which these are independent. The trapezoidal rule shows its order in halved steps, as the variations vanish at the
+//! stretch on which these are independent, in others where that is too short. The trapezoidal rule shows its order in halved steps, as the variations vanish at the
 //! ends with their derivatives.
 
 use super::algebra::{determinant, gram, solved, times, transposed_times};
+use super::evidence;
 use super::refined::{longest, worst, Refined, Rule, Span, Term};
 use super::samples::Samples;
 use super::wave::Wave;
+use chetaev_mechanics::characteristics::Selection;
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::formulations::legendre::Legendre;
 use chetaev_mechanics::Context;
 use chetaev_motion::follow::magnitude;
 use chetaev_principles::hamilton::{suslov, voronets};
 use chetaev_principles::variations::Displacements;
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::Expr;
 use std::ops::Range;
 
 /// A form of Hamilton's principle.
@@ -83,6 +85,11 @@ pub struct FirstVariation {
 /// Where a minor of the constraints is less than this part of its largest possible value the velocities count as dependent.
 pub(super) const INDEPENDENT: f64 = 0.25;
 
+/// Of systems with more coordinates no other independent velocities are tried.
+const MOST_COORDINATES: usize = 10;
+/// At most so many others.
+const CHARTS: usize = 3;
+
 /// All forms, computed once.
 pub(super) struct Found(Vec<(Form, Result<FirstVariation, String>)>);
 
@@ -107,12 +114,6 @@ fn compute(cx: &Context<'_>, form: Form) -> Result<FirstVariation, String> {
     match form {
         Form::Hoelder => projected(cx, form, None),
         Form::HelmholtzPoincare => {
-            if matches!(
-                cx.finding("model.hessian-regular").verdict,
-                Verdict::Refuted(_)
-            ) {
-                return Err("there is no H, as ∂²L/∂v∂v is singular".into());
-            }
             let legendre = Legendre::new(cx.system).map_err(|problem| problem.to_string())?;
             projected(cx, form, Some(&legendre))
         }
@@ -129,7 +130,7 @@ fn quadratures(
     integrand: impl Fn(usize, &[(f64, f64)]) -> Option<Term>,
 ) -> Result<FirstVariation, String> {
     let rule = Rule::Vanishing;
-    let what = "the independent velocities are independent";
+    let what = "the velocities taken as independent are so";
     let span = Span::new(&samples.times, rows, (rule, what))?;
     let refined = worst(|generator| {
         let waves: Vec<Wave> = (0..width).map(|_| Wave::vanishing(generator)).collect();
@@ -223,8 +224,56 @@ pub(super) fn projection(
     Some((value, parts.map(|((a, b), c)| a - b - c).collect()))
 }
 
-/// The forms in independent velocities, each by its own rule.
+/// The forms in independent velocities, each by its own rule: in those of the system, or in others where these are dependent along too
+/// much of the motion.
 fn in_chart(cx: &Context<'_>, form: Form) -> Result<FirstVariation, String> {
+    let own = along_chart(cx, form);
+    if own.is_ok() {
+        return own;
+    }
+    let others = other_selections(cx).into_iter();
+    let mut found = others.filter_map(|selection| {
+        let evidence = evidence(cx)?;
+        let prover = cx.prover.clone();
+        let other = Context::new(cx.system, cx.terms, &selection, cx.registry(), prover);
+        along_chart(&other.with(evidence), form).ok()
+    });
+    found.next().map_or(own, Ok)
+}
+
+/// Other dependent velocities for the same constraints, those first that are best determined at the middle of the motion.
+fn other_selections(cx: &Context<'_>) -> Vec<Selection> {
+    let (n, r) = (cx.system.n(), cx.selection.rows.len());
+    let jacobian = basis(cx).jacobian().concat();
+    if n > MOST_COORDINATES {
+        return Vec::new();
+    }
+    let Ok(samples) = Samples::new(cx, &[&jacobian]) else {
+        return Vec::new();
+    };
+    let middle = samples.at(0, samples.times.len() / 2);
+    let sets = (0..1_usize << n).filter(|set| set.count_ones() as usize == r);
+    let columns = sets.map(|set| (0..n).filter(|i| set >> i & 1 == 1).collect());
+    let size = |dependent: &Vec<usize>| {
+        let rows = middle.chunks(n);
+        let minor: Vec<f64> = rows
+            .flat_map(|row| dependent.iter().map(|&i| row[i]))
+            .collect();
+        determinant(r, &minor).abs()
+    };
+    let mut all: Vec<Vec<usize>> = columns.collect();
+    all.retain(|dependent| *dependent != cx.selection.dependent && size(dependent) > 0.0);
+    all.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    let rows = &cx.selection.rows;
+    let selection = |dependent| Selection {
+        rows: rows.clone(),
+        dependent,
+    };
+    all.into_iter().take(CHARTS).map(selection).collect()
+}
+
+/// A form in the independent velocities of the context, on the longest stretch on which these are independent.
+fn along_chart(cx: &Context<'_>, form: Form) -> Result<FirstVariation, String> {
     let (system, g, n) = (cx.system, &cx.system.graph, cx.system.n());
     let r = cx.selection.rows.len();
     let d = Displacements::new(cx).map_err(|problem| problem.to_string())?;

@@ -2,12 +2,11 @@
 //! the constrained extremum.
 
 use super::algebra::{determinant, gram, null_space, solved};
+use super::kappa::{multipliers, Kappa};
 use super::samples::{Samples, LEAST};
 use super::zeros::{ends_at_zero, zeros};
 use chetaev_mechanics::claims::formulation::{basis, derive, REFERENCE};
-use chetaev_mechanics::formulations::kappa_symbols;
 use chetaev_mechanics::Context;
-use chetaev_principles::stationarity::Closure;
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 
 /// More coordinates are too many.
@@ -18,6 +17,8 @@ const LARGEST: usize = 30_000;
 const EARLY: usize = 8;
 /// A volume below this part of that of the lengths counts as zero.
 const FLAT: f64 = 1e-6;
+/// Squared lengths below this part of the largest are none.
+const NOTHING: f64 = 1e-24;
 
 /// The positions that motions from the start reach at later times, to first order.
 #[derive(Clone, Debug)]
@@ -43,6 +44,12 @@ pub struct Conjugate {
     pub at_end: bool,
     /// The interval.
     pub interval: (f64, f64),
+    /// The determinant whose zeros conjugate times are, with its time; of any scale.
+    pub determinants: Vec<(f64, f64)>,
+    /// How many independent κ leave every coordinate where it is: of an abnormal extremal.
+    pub abnormal: usize,
+    /// κ(0) by name, where κ is that of the κ(0) stated.
+    pub given: Vec<(String, f64)>,
 }
 
 /// The result, computed once.
@@ -175,18 +182,6 @@ fn share_of_positions(states: &[Vec<f64>], n: usize, sizes: &mut (f64, f64)) -> 
     }
 }
 
-/// The volume of the first n components of vectors over the product of their lengths.
-fn volume(states: &[Vec<f64>], n: usize) -> f64 {
-    let rows: Vec<f64> = states.iter().flat_map(|y| y[..n].to_vec()).collect();
-    let k = states.len();
-    let gram = gram(&rows, k, n);
-    let lengths: f64 = (0..k).map(|i| gram[i * k + i]).product();
-    match lengths == 0.0 {
-        true => 0.0,
-        false => (determinant(k, &gram) / lengths).max(0.0).sqrt(),
-    }
-}
-
 /// Whether a volume of [`Reach`] is that of dependent directions.
 pub(super) fn is_flat(volume: f64) -> bool {
     volume < FLAT
@@ -204,72 +199,94 @@ pub(super) fn conjugate(cx: &Context<'_>) -> Result<Conjugate, String> {
     .clone()
 }
 
-/// κ along the motion as functions of the state: of every motion, or of those on the set that the computed one lies on.
-pub(super) fn multipliers(cx: &Context<'_>) -> Result<Vec<Expr>, String> {
-    if cx.selection.rows.is_empty() {
-        return Ok(Vec::new());
-    }
-    if matches!(
-        cx.finding("hamilton.stationary").verdict,
-        Verdict::Conditional { .. }
-    ) {
-        return super::subset::multipliers(cx);
-    }
-    let closure = Closure::of(cx);
-    let Ok(closure) = closure.as_ref() else {
-        return Err("κ is not known".into());
-    };
-    let kappa: Option<Vec<Expr>> = closure.kappa.iter().copied().collect();
-    kappa.ok_or_else(|| "κ is not unique; an index belongs to a κ, not to the curve".into())
-}
-
-/// F_vv, F_vq, F_qq of `F = L + Σ κ f` with κ frozen, and f_v, f_q; κ put in last.
-fn second_derivatives(cx: &Context<'_>) -> Result<[Vec<Expr>; 5], String> {
+/// Second derivatives of `F = L + Σ κ f` with κ frozen, F_vv, F_vq, F_qq, then f_v and f_q, by row.
+fn second_derivatives(cx: &Context<'_>, kappa: &Kappa) -> Result<Samples, String> {
     let (system, g) = (cx.system, &cx.system.graph);
     let basis = basis(cx);
-    let symbols = kappa_symbols(&basis);
-    let mut parts = vec![system.lagrangian];
     let constraints = basis.constraints();
-    for (&kappa, &f) in symbols.iter().zip(&constraints) {
-        parts.push(g.mul(&[kappa, f]));
-    }
-    let augmented = g.add(&parts);
     let (q, v) = (system.coordinate_symbols(), system.velocity_symbols());
-    let (by_q, by_v) = (g.gradient(augmented, &q), g.gradient(augmented, &v));
-    let values: Vec<(Expr, Expr)> = symbols.into_iter().zip(multipliers(cx)?).collect();
-    let along = |rows: Vec<Vec<Expr>>| g.substitute_all(&rows.concat(), &values);
-    Ok([
-        along(g.jacobian(&by_v, &v)),
-        along(g.jacobian(&by_v, &q)),
-        along(g.jacobian(&by_q, &q)),
-        basis.jacobian().concat(),
-        g.jacobian(&constraints, &q).concat(),
-    ])
+    let of = |e: Expr| -> [Vec<Expr>; 3] {
+        let (by_q, by_v) = (g.gradient(e, &q), g.gradient(e, &v));
+        [
+            g.jacobian(&by_v, &v).concat(),
+            g.jacobian(&by_v, &q).concat(),
+            g.jacobian(&by_q, &q).concat(),
+        ]
+    };
+    let mut parts: Vec<Vec<Expr>> = of(system.lagrangian).to_vec();
+    parts.push(basis.jacobian().concat());
+    parts.push(g.jacobian(&constraints, &q).concat());
+    let first = parts.len();
+    for &f in &constraints {
+        parts.extend(of(f));
+    }
+    small(cx, &parts.concat())?;
+    let groups: Vec<&[Expr]> = parts.iter().map(Vec::as_slice).collect();
+    let mut samples = Samples::new(cx, &groups)?;
+    for l in 0..constraints.len() {
+        for place in 0..3 {
+            samples.add(place, first + 3 * l + place, &|row| kappa.at(row)[l]);
+        }
+    }
+    Ok(samples)
 }
 
 /// The linearized extremum in (η, ζ): `F_vv η' + fᵥᵀ δκ = ζ − F_vq η`, `fᵥ η' = −f_q η`, `ζ' = F_qv η' + F_qq η + f_qᵀ δκ`. η starts
-/// at zero with every ζ; a conjugate time is one at which the n values of η are dependent.
+/// at zero with every ζ; a conjugate time is one at which the n values of η are dependent. Solutions with η = 0 and δκ ≠ 0 are those
+/// of an abnormal extremal: they do not count, and the ζ of each is a normal of all η.
 fn compute(cx: &Context<'_>) -> Result<Conjugate, String> {
     let n = cx.system.n();
-    let parts = second_derivatives(cx)?;
-    small(cx, &parts.concat())?;
-    let groups: Vec<&[Expr]> = parts.iter().map(Vec::as_slice).collect();
-    let samples = Samples::new(cx, &groups)?;
+    let kappa = multipliers(cx)?;
+    let samples = second_derivatives(cx, &kappa)?;
     let r = cx.selection.rows.len();
     let rate = |row: usize, y: &[f64]| linearized(&samples, (n, r), row, y);
-    let mut states: Vec<Vec<f64>> = (0..n)
-        .map(|j| {
-            (0..2 * n)
-                .map(|i| f64::from(u8::from(i == n + j)))
-                .collect()
-        })
-        .collect();
-    let complete = |_: usize| Vec::new();
-    let (found, largest) = followed(&samples, (n, r), (&rate, &complete), &mut states)?;
-    match is_flat(largest) {
-        true => Err("the extremal is abnormal: some variations of κ move no coordinate".into()),
-        false => Ok(found),
+    let starting = |directions: &[Vec<f64>]| -> Vec<Vec<f64>> {
+        let zeta = directions.iter();
+        zeta.map(|zeta| [vec![0.0; n], zeta.clone()].concat())
+            .collect()
+    };
+    let unit = |j: usize| (0..n).map(|i| f64::from(u8::from(i == j))).collect();
+    let mut states = starting(&(0..n).map(unit).collect::<Vec<Vec<f64>>>());
+    let all = |_: usize, states: &[Vec<f64>]| positions(states, n);
+    let (mut found, gram) = followed(&samples, (n, r), (&rate, &all), &mut states)?;
+    let abnormal = abnormal(&gram, n);
+    if !abnormal.is_empty() {
+        let normal = null_space(&abnormal.concat(), abnormal.len(), n, 1e-12);
+        let count = normal.len();
+        let mut states = starting(&[normal, abnormal.clone()].concat());
+        let beside = |_: usize, states: &[Vec<f64>]| {
+            let mut rows = positions(&states[..count], n);
+            rows.extend(states[count..].iter().flat_map(|y| y[n..].to_vec()));
+            rows
+        };
+        found = followed(&samples, (n, r), (&rate, &beside), &mut states)?.0;
     }
+    Ok(Conjugate {
+        abnormal: abnormal.len(),
+        given: kappa.given,
+        ..found
+    })
+}
+
+/// The first n components of vectors of 2n, one after the other.
+fn positions(states: &[Vec<f64>], n: usize) -> Vec<f64> {
+    states.iter().flat_map(|y| y[..n].to_vec()).collect()
+}
+
+/// Combinations of variations that move no coordinate at any time, by the sum of their Gram matrices.
+fn abnormal(gram: &[f64], n: usize) -> Vec<Vec<f64>> {
+    let largest = (0..n).fold(0.0_f64, |m, i| m.max(gram[i * n + i]));
+    // Lengths of different units are compared with themselves.
+    let length = |i: usize| match gram[i * n + i] > NOTHING * largest {
+        true => gram[i * n + i].sqrt(),
+        false => largest.sqrt(),
+    };
+    let scaled: Vec<f64> = (0..n * n)
+        .map(|place| gram[place] / (length(place / n) * length(place % n)))
+        .collect();
+    let found = null_space(&scaled, n, n, FLAT * FLAT);
+    let unscaled = |vector: Vec<f64>| (0..n).map(|i| vector[i] / length(i)).collect();
+    found.into_iter().map(unscaled).collect()
 }
 
 /// Motions that start beside the computed one from its position, on the leaf of integrable constraints affine in the velocities: there
@@ -301,21 +318,25 @@ fn along_leaf(cx: &Context<'_>) -> Result<Conjugate, String> {
         .iter()
         .map(|v| vec![0.0; n].into_iter().chain(v.iter().copied()).collect())
         .collect();
-    let normals = |row: usize| samples.at(3, row).to_vec();
-    followed(&samples, (n, r), (&rate, &normals), &mut states).map(|(found, _)| found)
+    let with_normals = |row: usize, states: &[Vec<f64>]| {
+        let mut rows = positions(states, n);
+        rows.extend(samples.at(3, row));
+        rows
+    };
+    followed(&samples, (n, r), (&rate, &with_normals), &mut states).map(|(found, _)| found)
 }
 
-/// Rows of length n that complete the variations of the position at a row.
-type Rows<'a> = dyn Fn(usize) -> Vec<f64> + 'a;
+/// An n × n matrix of variations at a row, which is singular at conjugate times.
+type Rows<'a> = dyn Fn(usize, &[Vec<f64>]) -> Vec<f64> + 'a;
 
-/// Variations followed along the motion: conjugate times, and the largest volume of what they move. F_vv is the group 0 of the
+/// Variations followed along the motion: conjugate times, and the sum of the Gram matrices of what they move. F_vv is the group 0 of the
 /// samples, f_v the group 3.
 fn followed(
     samples: &Samples,
     (n, r): (usize, usize),
-    (rate, completing): (&Rate<'_>, &Rows<'_>),
+    (rate, matrix): (&Rate<'_>, &Rows<'_>),
     states: &mut [Vec<f64>],
-) -> Result<(Conjugate, f64), String> {
+) -> Result<(Conjugate, Vec<f64>), String> {
     let count = samples.intervals(4);
     if count < LEAST {
         return Err("there are too few output times".into());
@@ -327,9 +348,13 @@ fn followed(
         times: Vec::new(),
         at_end: false,
         interval: (t0, t1),
+        determinants: Vec::new(),
+        abnormal: 0,
+        given: Vec::new(),
     };
     let mut determinants: Vec<(f64, f64)> = Vec::new();
-    let mut largest = 0.0_f64;
+    let k = states.len();
+    let mut grams = vec![0.0; k * k];
     for row in (0..count).step_by(4) {
         let fails = |row: &usize| !is_positive(samples, (n, r), *row);
         if found.legendre.is_ok() {
@@ -341,10 +366,10 @@ fn followed(
             *y = extrapolated(rate, row, h, y)
                 .ok_or("the linearized extremum is singular at a row")?;
         }
-        let mut rows: Vec<f64> = states.iter().flat_map(|y| y[..n].to_vec()).collect();
-        rows.extend(completing(row + 4));
+        let rows = matrix(row + 4, states);
         determinants.push((samples.times[row + 4], determinant(n, &rows)));
-        largest = largest.max(volume(states, n));
+        let moved = gram(&positions(states, n), k, n);
+        grams.iter_mut().zip(moved).for_each(|(sum, x)| *sum += x);
     }
     // Near the start all η are small, and the sign of their determinant is rounding.
     let later = &determinants[EARLY.min(determinants.len())..];
@@ -353,7 +378,8 @@ fn followed(
     if found.at_end {
         found.times.retain(|t| t1 - t > h / 2.0);
     }
-    Ok((found, largest))
+    found.determinants = determinants;
+    Ok((found, grams))
 }
 
 fn linearized(

@@ -11,6 +11,7 @@ mod algebra;
 mod claims;
 mod common;
 mod first;
+mod kappa;
 mod least_action;
 mod linear;
 mod neighbours;
@@ -29,12 +30,14 @@ mod tests;
 mod wave;
 mod zeros;
 
+pub(crate) use algebra::{determinant, gram};
 pub use claims::CLAIMS;
 pub use first::{FirstVariation, Form};
 pub use linear::{Conjugate, Reach};
 pub use neighbours::Neighbours;
 pub use quadratures::Quadratures;
 pub use refined::Refined;
+pub(crate) use zeros::zeros;
 
 use crate::motion_evidence::MotionEvidence;
 use chetaev_mechanics::Context;
@@ -99,6 +102,9 @@ fn show(cx: &Context<'_>, figure: Figure, (subject, name): (&str, &str), refined
 fn evidence(cx: &Context<'_>) -> Option<Arc<MotionEvidence>> {
     cx.extension::<MotionEvidence>()
 }
+
+/// The claim on the action among admissible curves: in the context in which it is decided all witnesses are.
+pub(crate) const STATIONARY: &str = "witness.stationary";
 
 /// What claims have computed, for the report.
 pub fn computed(cx: &Context<'_>) -> Witness {

@@ -176,7 +176,7 @@ impl Imposed {
         let rule = Rule::Vanishing;
         let what = match self.samples.at(MINOR, 0) {
             [] => "the operator has no pole",
-            _ => "the independent velocities are independent",
+            _ => "the velocities taken as independent are so",
         };
         let span = Span::new(self.common.times(), &self.rows, (rule, what))?;
         let mut is_first = true;

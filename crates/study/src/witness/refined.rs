@@ -2,6 +2,7 @@
 
 use super::samples::LEAST;
 use chetaev_mechanics::sample::Generator;
+use chetaev_mechanics::words::counted;
 use std::ops::Range;
 
 /// An integral that a principle says is zero, for the random variation at which it is largest.
@@ -87,7 +88,7 @@ impl Span {
     /// The span in a range of rows.
     ///
     /// # Errors
-    /// That it is too short, in words that begin with `what`.
+    /// That it is too short, where `what` says what holds on it.
     pub(super) fn new(
         times: &[f64],
         rows: &Range<usize>,
@@ -100,9 +101,13 @@ impl Span {
             Rule::Open => FEWEST * largest,
         };
         if count < least {
-            return Err(format!(
-                "{what} over {count} steps of the output at most; {least} are needed"
-            ));
+            return Err(match rows.len() {
+                0 | 1 => format!("there is no part of the motion computed on which {what}"),
+                _ => format!(
+                    "the longest part of the motion computed on which {what} has {}; {least} are needed",
+                    counted(rows.len() - 1, "step of the output", "steps of the output")
+                ),
+            });
         }
         Ok(Span {
             first: rows.start,

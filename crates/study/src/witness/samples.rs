@@ -47,6 +47,17 @@ impl Samples {
         &self.groups[group][row]
     }
 
+    /// Adds a group, times a number at each row, to another of the same width.
+    pub(super) fn add(&mut self, to: usize, from: usize, weight: &dyn Fn(usize) -> f64) {
+        let moved = self.groups[from].clone();
+        for (row, (values, moved)) in self.groups[to].iter_mut().zip(moved).enumerate() {
+            let weight = weight(row);
+            for (x, by) in values.iter_mut().zip(moved) {
+                *x += weight * by;
+            }
+        }
+    }
+
     /// How many intervals of `multiple` rows there are, as rows.
     pub(super) fn intervals(&self, multiple: usize) -> usize {
         (self.times.len() - 1) / multiple * multiple

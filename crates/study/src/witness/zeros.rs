@@ -12,7 +12,7 @@ const HALVINGS: usize = 80;
 /// Zeros of a function given at equal steps, each as often as its multiplicity, which is at most n: where the sign changes, and
 /// where it touches zero. A zero of multiplicity m is one of the derivative m − 1, which is simple: it is located on the polynomial
 /// through the values around it.
-pub(super) fn zeros(values: &[(f64, f64)], n: usize) -> Vec<f64> {
+pub(crate) fn zeros(values: &[(f64, f64)], n: usize) -> Vec<f64> {
     let mut found: Vec<f64> = Vec::new();
     for j in 1..values.len() {
         let ((t0, a), (t1, b)) = (values[j - 1], values[j]);

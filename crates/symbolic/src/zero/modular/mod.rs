@@ -328,7 +328,7 @@ impl Session<'_> {
                 return Trial::Stopped(Outcome::Empty { samples: empty });
             }
         }
-        let why = "no point was found where all radicands are squares".to_owned();
+        let why = "no random point of a finite field was found at which all the square roots that occur have values".to_owned();
         Trial::Stopped(Outcome::Open { why })
     }
 
