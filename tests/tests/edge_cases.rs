@@ -211,3 +211,27 @@ fn chaplygins_equations_end_where_their_velocities_are_not_determined() {
         ended.text
     );
 }
+
+/// Where the direction of a jerk ceases to be determined the residual of its constraint is 0/0: no violation, and said. The closed
+/// form: the acceleration shrinks by 1/2 in a unit of time, from 1 at the start.
+#[test]
+fn a_constraint_without_a_value_at_the_singular_end_is_not_violated() {
+    let folder = chetaev_tests::places::scratch("singular-end");
+    let out = chetaev_tests::program::text(&folder);
+    for method in ["taylor", "tsit5", "dop853"] {
+        let model = "gallery/fixed-jerk/stop.toml";
+        let ended =
+            chetaev_tests::program::ok(&["simulate", model, "--method", method, "--out", out]);
+        let lines = ended.both();
+        let line = lines
+            .lines()
+            .find(|line| line.contains("motion.constraint-drift"));
+        let line = line.expect("the claim");
+        assert!(line.contains("numerical"), "{method}: {line}");
+        assert!(
+            line.contains("without a finite value at the end, t = 2.000"),
+            "{method}: {line}"
+        );
+        assert!(!lines.contains("inf"), "{method}: {lines}");
+    }
+}

@@ -480,6 +480,38 @@ fn ranges_make_products_and_are_walked_together() {
     let list = rows(&model, "cases.csv", table).expect("rows");
     let of_rows = Variations::new(list, Vec::new(), Together::default()).expect("a sweep");
     assert_eq!(all(&of_rows), [[0.1, 1.0], [0.2, -2.5e-3]]);
+    // The same behind a byte order mark.
+    let list = rows(&model, "cases.csv", &format!("\u{feff}{table}")).expect("rows");
+    let of_rows = Variations::new(list, Vec::new(), Together::default()).expect("a sweep");
+    assert_eq!(all(&of_rows), [[0.1, 1.0], [0.2, -2.5e-3]]);
+}
+
+/// The logarithms of the middles are the means of those of the ends, also where product and quotient of the ends are out of range.
+#[test]
+fn logarithmic_ranges_span_all_numbers() {
+    let model = read(SLEIGH, &[]);
+    for (range, middle) in [
+        ("1e-200:1e-190", 1e-195),
+        ("1e-300:1e300", 1.0),
+        ("1e300:1e-300", 1.0),
+        ("-1e300:-1e-300", -1.0),
+        ("-1e200:-1e210", -1e205),
+        ("1e-3:1e5", 10.0),
+    ] {
+        let text = format!("a={range}:log:3");
+        let range = varied(&model, &[&text], &[], Together::default());
+        let found = range.values(1)[0];
+        assert!(
+            ((found - middle) / middle).abs() < 1e-12,
+            "{text}: {found:e}"
+        );
+    }
+    for text in ["a=-1:1:log:3", "a=0:1:log:3", "a=1:0:log:3"] {
+        assert!(
+            Variation::parse(&model, ("--vary", text), false).is_err(),
+            "{text}"
+        );
+    }
 }
 
 #[test]
@@ -619,6 +651,43 @@ fn archive(path: &Path) -> BTreeMap<String, (Vec<u64>, Vec<f64>)> {
         columns.insert(name, (shape, values));
     }
     columns
+}
+
+/// Beside a coordinate `x_d` the array of the velocity `x'` has another name, in every archive.
+#[test]
+fn no_two_quantities_share_an_array() {
+    let folder = scratch("same-names");
+    let path = folder.join("model.toml");
+    // Free motions: x moves with 2, x_d with 3; the energy is 13/2, the coordinate `energy` rests at 7.
+    let model = "coordinates = [\"x\", \"x_d\", \"energy\"]\nlagrangian = \"(x'^2 + x_d'^2 + energy'^2)/2\"\n[initial]\nx = 0\nx_d = 5\nenergy = 7\n\"x'\" = 2\n\"x_d'\" = 3\n\"energy'\" = 0\n[simulation]\nt_end = 1\noutput = 2\n";
+    std::fs::write(&path, model).expect("a scratch file");
+    let at_end = |name: &str, quantity: &str| {
+        let columns = archive(&folder.join(name));
+        let found = columns
+            .get(quantity)
+            .and_then(|(_, values)| values.last().copied());
+        found.unwrap_or_else(|| panic!("{quantity} among {:?}", columns.keys()))
+    };
+    let near = |found: f64, expected: f64| {
+        assert!((found - expected).abs() < 1e-9, "{found}, not {expected}")
+    };
+    ok(&["simulate", text(&path), "--out", text(&folder)]);
+    near(at_end("trajectory.npz", "x_d"), 8.0);
+    near(at_end("trajectory.npz", "x_d_2"), 2.0);
+    near(at_end("trajectory.npz", "x_d_d"), 3.0);
+    near(at_end("trajectory.npz", "energy"), 7.0);
+    near(at_end("trajectory.npz", "energy_2"), 6.5);
+    ok(&[
+        "sweep",
+        text(&path),
+        "--initial",
+        "x'=1,4",
+        "--out",
+        text(&folder),
+    ]);
+    near(at_end("sweep.npz", "vary_x_d_2"), 4.0);
+    near(at_end("sweep.npz", "end_x_d_2"), 4.0);
+    near(at_end("sweep.npz", "end_x_d"), 8.0);
 }
 
 #[test]

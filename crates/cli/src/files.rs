@@ -117,7 +117,7 @@ pub(crate) fn default_folder(model: &Path) -> PathBuf {
     Path::new("out").join(folder.unwrap_or(stem))
 }
 
-/// Writes a file completely or not at all: to a temporary name, then renamed.
+/// Writes a file completely or not at all: to a temporary name, then renamed. What could not be written is removed.
 pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), String> {
     let describe = |e: std::io::Error| format!("{} cannot be written: {e}", path.display());
     if let Some(folder) = path.parent() {
@@ -125,6 +125,10 @@ pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), String> {
     }
     let mut partial = path.as_os_str().to_owned();
     partial.push(".partial");
-    std::fs::write(&partial, content).map_err(describe)?;
-    std::fs::rename(&partial, path).map_err(describe)
+    let written = std::fs::write(&partial, content).and_then(|()| std::fs::rename(&partial, path));
+    written.map_err(|problem| {
+        // It may never have been there, and what went wrong is said already.
+        let _ = std::fs::remove_file(&partial);
+        describe(problem)
+    })
 }

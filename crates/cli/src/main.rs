@@ -23,6 +23,10 @@ const STOPPED: u8 = 3;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
+    if let Err(problem) = chetaev::compile::wish() {
+        commands::error(problem);
+        return ExitCode::from(INPUT);
+    }
     let status = match arguments.command {
         Command::Study(a) => commands::study::run(&a),
         Command::Derive(a) => commands::derive::run(&a),

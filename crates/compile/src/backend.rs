@@ -12,6 +12,41 @@ use crate::verify::VerifyError;
 /// wider vectors.
 pub const VARIABLE: &str = "CHETAEV_BACKEND";
 
+/// What [`VARIABLE`] may ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wish {
+    /// Whatever is fastest: the variable is not set, or empty.
+    Fastest,
+    /// `interpreter`: no native code.
+    Interpreter,
+    /// `avx2`: no wider vectors.
+    Avx2,
+}
+
+/// A value of [`VARIABLE`] that asks for nothing there is.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{VARIABLE}={value}: there is no such back end; it may be `interpreter` or `avx2`, or not set at all for the fastest")]
+pub struct UnknownBackend {
+    /// The value.
+    pub value: String,
+}
+
+/// What [`VARIABLE`] asks for.
+///
+/// # Errors
+/// [`UnknownBackend`]; [`backend`] then takes the fastest, so whoever reads commands of a user asks first.
+pub fn wish() -> Result<Wish, UnknownBackend> {
+    let value = std::env::var_os(VARIABLE).unwrap_or_default();
+    match value.to_str() {
+        Some("") => Ok(Wish::Fastest),
+        Some("interpreter") => Ok(Wish::Interpreter),
+        Some("avx2") => Ok(Wish::Avx2),
+        _ => Err(UnknownBackend {
+            value: value.to_string_lossy().into_owned(),
+        }),
+    }
+}
+
 /// A program made ready by one of the back ends.
 #[derive(Debug)]
 #[non_exhaustive]
@@ -34,14 +69,16 @@ pub enum Backend {
 /// # Errors
 /// [`VerifyError`] if the program is not well formed; one made by [`Lowering`](crate::Lowering) is.
 pub fn backend(program: Program) -> Result<Backend, VerifyError> {
-    let value = std::env::var_os(VARIABLE);
-    let is = |name: &str| value.as_deref().is_some_and(|value| value == name);
+    let wish = wish().unwrap_or(Wish::Fastest);
     #[cfg(all(unix, target_arch = "x86_64"))]
-    if let Some(widest) = Vectors::widest().filter(|_| !is("interpreter")) {
-        let vectors = if is("avx2") { Vectors::Avx2 } else { widest };
+    if let Some(widest) = Vectors::widest().filter(|_| wish != Wish::Interpreter) {
+        let vectors = match wish {
+            Wish::Avx2 => Vectors::Avx2,
+            _ => widest,
+        };
         return Backend::with_vectors(program, vectors);
     }
-    let _ = is;
+    let _ = wish;
     Backend::interpreter(program)
 }
 

@@ -59,7 +59,7 @@ mod sums;
 pub mod taylor;
 pub mod verify;
 
-pub use backend::{backend, Backend, VARIABLE};
+pub use backend::{backend, wish, Backend, UnknownBackend, Wish, VARIABLE};
 pub use double_double::PreciseProgram;
 pub use evaluate::{BlockEvaluator, EvaluateFailure, Evaluator};
 pub use interpret::{BlockWorkspace, Interpreter, Workspace};

@@ -2,6 +2,7 @@
 //! reasons of failures.
 
 use crate::outcome::{Outcome, Shape};
+use std::collections::HashMap;
 
 /// What the numbers of a column are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,10 +72,15 @@ pub struct Names<'a> {
 
 impl Columns {
     /// `vary_…`; `stop`; `t_start`, `t`, `t_stop`; `steps`, `rejected`; `start_…`; `end_…`; `drift_…`, `drift_constraints`; `count_…`
-    /// and `first_…` of events; with samples `sample_t` and `sample_…`. The velocity `x'` is written `x_d`.
+    /// and `first_…` of events; with samples `sample_t` and `sample_…`. The velocity `x'` is written `x_d`, by [`array_names`].
     pub fn new(names: Names<'_>) -> Columns {
-        let float =
-            |prefix: &str, name: &String| Column::float(format!("{prefix}_{}", plain(name)));
+        let quantities: Vec<&String> = names.varied.iter().chain(names.state).collect();
+        let written = array_names(&quantities);
+        let of: HashMap<&String, &String> = quantities.into_iter().zip(&written).collect();
+        let float = |prefix: &str, name: &String| {
+            let written = of.get(name).copied().unwrap_or(name);
+            Column::float(format!("{prefix}_{written}"))
+        };
         let mut list: Vec<Column> = names.varied.iter().map(|n| float("vary", n)).collect();
         list.push(Column::integer("stop"));
         list.extend(["t_start", "t", "t_stop"].map(|name| Column::float(name.into())));
@@ -85,16 +91,16 @@ impl Columns {
         list.extend(names.kept.iter().map(|n| float("drift", n)));
         list.push(Column::float("drift_constraints".into()));
         for name in names.events {
-            list.push(Column::integer(&format!("count_{}", plain(name))));
+            list.push(Column::integer(&format!("count_{name}")));
             list.push(float("first", name));
         }
         if names.samples > 0 {
-            let sampled = |name: &str| Column {
+            let sampled = |column: Column| Column {
                 samples: Some(names.samples),
-                ..Column::float(format!("sample_{}", plain(name)))
+                ..column
             };
-            list.push(sampled("t"));
-            list.extend(names.state.iter().map(|n| sampled(n)));
+            list.push(sampled(Column::float("sample_t".into())));
+            list.extend(names.state.iter().map(|n| sampled(float("sample", n))));
         }
         Columns {
             list,
@@ -206,11 +212,82 @@ fn word(bytes: &[u8]) -> Option<(u64, &[u8])> {
     Some((u64::from_le_bytes(*first), rest))
 }
 
-/// A name as NumPy, and any file system, takes it: `x'` is `x_d`, `x''` is `x_dd`.
-pub fn plain(name: &str) -> String {
+/// Names as NumPy, and any file system, takes them, no two different names the same: `x'` is `x_d`, `x''` is `x_dd`. A name without
+/// primes is kept; where one with primes would be that of another, a number is put behind it: beside a coordinate `x_d` the
+/// velocity `x'` is `x_d_2`.
+pub fn array_names<S: AsRef<str>>(names: &[S]) -> Vec<String> {
+    let kept = names.iter().map(AsRef::as_ref);
+    let mut taken: HashMap<String, &str> = kept
+        .filter(|name| !name.ends_with('\''))
+        .map(|name| (name.to_owned(), name))
+        .collect();
+    let mut written = Vec::with_capacity(names.len());
+    for name in names.iter().map(AsRef::as_ref) {
+        let own = numbered(plain(name), |wish| {
+            taken.get(wish).is_some_and(|owner| *owner != name)
+        });
+        taken.insert(own.clone(), name);
+        written.push(own);
+    }
+    written
+}
+
+/// A name, with the first number from 2 behind it under which it is not taken.
+pub fn numbered(name: String, is_taken: impl Fn(&str) -> bool) -> String {
+    let mut own = name.clone();
+    for number in 2_u64.. {
+        if !is_taken(&own) {
+            break;
+        }
+        own = format!("{name}_{number}");
+    }
+    own
+}
+
+/// `x'` as `x_d`, `x''` as `x_dd`.
+fn plain(name: &str) -> String {
     let base = name.trim_end_matches('\'');
     match name.len() - base.len() {
         0 => base.to_string(),
         order => format!("{base}_{}", "d".repeat(order)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_quantities_share_an_array() {
+        let state = ["x", "x_d", "x'", "x_d'", "x_d_2'"].map(String::from);
+        // What is written without primes keeps its name, in whatever order it stands.
+        assert_eq!(
+            array_names(&["x'", "x_d", "x_d_2", "x", "x'"]),
+            ["x_d_3", "x_d", "x_d_2", "x", "x_d_3"]
+        );
+        let names = Names {
+            varied: &["x'".into(), "a".into()],
+            state: &state,
+            kept: &["energy".into()],
+            events: &["touch".into()],
+            samples: 2,
+        };
+        let list = Columns::new(names).list;
+        let mut seen: Vec<&str> = list.iter().map(|c| c.name.as_str()).collect();
+        // One quantity has one name in all columns.
+        for expected in [
+            "vary_x_d_2",
+            "start_x_d_2",
+            "end_x_d_2",
+            "sample_x_d_2",
+            "end_x_d",
+            "count_touch",
+        ] {
+            assert!(seen.contains(&expected), "{expected} in {seen:?}");
+        }
+        let all = seen.len();
+        seen.sort_unstable();
+        seen.dedup();
+        assert_eq!(seen.len(), all);
     }
 }

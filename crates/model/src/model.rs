@@ -448,6 +448,16 @@ pub struct Simulation {
     pub project: Option<bool>,
     /// Whether the first integrals that are found are kept by projection.
     pub keep_integrals: Option<bool>,
+    /// Where the value of each key stands that is given.
+    pub places: Vec<(&'static str, Place)>,
+}
+
+impl Simulation {
+    /// Where the value of a key stands.
+    pub fn place(&self, key: &str) -> Option<Place> {
+        let mut places = self.places.iter();
+        places.find(|(own, _)| *own == key).map(|(_, place)| *place)
+    }
 }
 
 /// When the state is put out.

@@ -202,3 +202,34 @@ fn the_degree_of_a_search() {
     let model = read(&text("3")).model.expect("a degree in range");
     assert_eq!(model.search_degree, Some(3));
 }
+
+/// The function of an event that never changes has no zeros to be met; one that is constant on pieces has.
+#[test]
+fn events_that_cannot_happen() {
+    let text = |when: &str| {
+        format!(
+            "coordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2\"\n[parameters]\nk = 1\n[events.e]\nwhen = \"{when}\"\n"
+        )
+    };
+    for when in [
+        "1",
+        "cos(x)^2 + sin(x)^2 - 1",
+        "cos(x)^2 + sin(x)^2 - 2",
+        "(x' + y')^2 - x'^2 - 2 x' y' - y'^2",
+        "k (cosh(t)^2 - sinh(t)^2) - k^2",
+        "k - 1",
+    ] {
+        refused(&text(when), &["zero never or always", "model.toml:6:"]);
+    }
+    for when in [
+        "sign(x) - 1",
+        "abs(x) - x",
+        "cos(x)^2 - sin(x)^2",
+        "k x",
+        "t - 1",
+        "atan(x) + atan(1/x) - 1",
+    ] {
+        let loaded = read(&text(when));
+        assert!(loaded.model.is_some(), "{when}: {}", loaded.diagnostics);
+    }
+}

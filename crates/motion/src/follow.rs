@@ -16,6 +16,8 @@ pub struct Deviation {
     pub scale: f64,
     /// The deviation before the last state.
     earlier: Extreme,
+    /// The size of the terms before the last state.
+    earlier_scale: f64,
 }
 
 impl Deviation {
@@ -28,6 +30,7 @@ impl Deviation {
         };
         if is_new {
             self.earlier = self.drift;
+            self.earlier_scale = self.scale;
         }
         self.drift.record(known, t);
         self.scale = self.scale.max(size);
@@ -39,6 +42,7 @@ impl Deviation {
         match until_singular {
             true => Deviation {
                 drift: self.earlier,
+                scale: self.earlier_scale,
                 ..*self
             },
             false => *self,

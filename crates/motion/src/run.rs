@@ -153,6 +153,9 @@ pub struct Run {
     pub precise: Option<PreciseRows>,
 }
 
+/// How closely the time of a singularity is found, relative to the time.
+const LOCATED: f64 = 64.0 * f64::EPSILON;
+
 impl Run {
     /// Row number j.
     pub fn row(&self, j: usize) -> &[f64] {
@@ -168,6 +171,19 @@ impl Run {
     /// Number of rows at times that were asked for.
     pub fn asked(&self) -> usize {
         self.len() - usize::from(self.ends_between)
+    }
+
+    /// Number of rows before the state at which the run ended early, whether or not its time was asked for: there a quantity
+    /// may have no value, or one that says nothing. So it is at rows that rounding does not tell from it. All rows of a run that did
+    /// not end early.
+    pub fn regular(&self) -> usize {
+        if self.ending.finished || self.ending.interrupted {
+            return self.len();
+        }
+        let near = LOCATED * self.t.abs().max(1.0);
+        let at_end = |t: &&f64| (**t - self.t).abs() <= near;
+        let rows = self.times.iter().rev().take_while(at_end).count();
+        self.len() - rows.max(usize::from(self.ends_between))
     }
 
     /// Whether there are no rows.

@@ -57,9 +57,9 @@ fn no_motion() -> Finding {
     Verdict::undecided("no motion was computed").into()
 }
 
-/// A drift against its bound.
+/// A drift against its bound; `beyond` are words about the end of the motion.
 fn drift_verdict(
-    what: &str,
+    (what, beyond): (&str, &str),
     drift: &Extreme,
     bound: f64,
     samples: u32,
@@ -67,7 +67,7 @@ fn drift_verdict(
 ) -> Verdict {
     let tolerance = evidence.tolerance;
     let sentence = format!(
-        "largest drift of {what}: {:.2e} at t = {:.6} over {samples} states, tolerance asked {tolerance:.0e}, bound {bound:.1e}",
+        "largest drift of {what}: {:.2e} at t = {:.6} over {samples} states, tolerance asked {tolerance:e}, bound {bound:.1e}{beyond}",
         drift.value, drift.t
     );
     if drift.value <= bound {
@@ -94,6 +94,23 @@ fn drift_verdict(
             residual: (format!("{:e}", drift.value), format!("{:e}", drift.value)),
             detail: sentence,
         })
+    }
+}
+
+/// What is said where quantities have no finite value at the state at which the equations became singular, which is left out.
+fn without_value<'a>(
+    evidence: &MotionEvidence,
+    mut followed: impl Iterator<Item = &'a Followed>,
+) -> String {
+    let run = &evidence.run;
+    let end = run.regular()..run.len();
+    let has_none = |own: &Followed| own.values[end.clone()].iter().any(|x| !x.is_finite());
+    match followed.any(has_none) {
+        true => format!(
+            "; without a finite value at the end, t = {:.6}, where the equations become singular",
+            run.t
+        ),
+        false => String::new(),
     }
 }
 
@@ -267,7 +284,9 @@ impl Claim for ConstraintDrift {
         if let Some(drift) = &evidence.run.drift {
             samples += drift.steps as u32;
         }
-        drift_verdict("the constraints", &worst, bound, samples, &evidence).into()
+        let all = evidence.residuals.iter().chain(&evidence.positions);
+        let what = ("the constraints", &without_value(&evidence, all)[..]);
+        drift_verdict(what, &worst, bound, samples, &evidence).into()
     }
 }
 
@@ -362,7 +381,8 @@ fn followed_verdict(evidence: &MotionEvidence, followed: &Followed, what: &str) 
     // Rows, and the ends of all steps.
     let samples = evidence.run.len() as u32 + evidence.run.statistics.steps as u32;
     let bound = bound(evidence, followed.scale);
-    drift_verdict(what, &followed.drift, bound, samples, evidence)
+    let beyond = without_value(evidence, std::iter::once(followed));
+    drift_verdict((what, &beyond), &followed.drift, bound, samples, evidence)
 }
 
 /// `motion.integral-drift#NAME`.
@@ -539,7 +559,14 @@ impl Claim for FormulationsAgree {
             "difference of `{}` and `{}`",
             evidence.run.formulation, other.formulation
         );
-        drift_verdict(&what, gap, allowed, evidence.run.len() as u32, &evidence).into()
+        drift_verdict(
+            (&what, ""),
+            gap,
+            allowed,
+            evidence.run.len() as u32,
+            &evidence,
+        )
+        .into()
     }
 }
 

@@ -204,10 +204,7 @@ fn follow(
     let mut observer = Observer::with_own(system, terms, binding, &run.own, &expressions)?;
     let mut series = observer.along(run);
     // The state at which the equations became singular is recorded, but a residual may have no value there.
-    let regular = match run.ending.finished || run.ending.interrupted {
-        true => run.len(),
-        false => run.asked(),
-    };
+    let regular = run.regular();
     let sizes = series.split_off(quantities.len());
     let followed = quantities
         .into_iter()
@@ -226,7 +223,7 @@ fn follow(
                 name,
                 expression,
                 drift: deviation(&run.times[..regular], &changes),
-                scale: sizes.iter().fold(0.0, |m: f64, x| m.max(*x)),
+                scale: sizes[..regular].iter().fold(0.0, |m: f64, x| m.max(*x)),
                 values: rounded.unwrap_or(values),
                 precise,
             }

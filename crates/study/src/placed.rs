@@ -1,13 +1,21 @@
 //! Problems of the mechanics shown where the model states what they name.
 
 use crate::error::StudyError;
+use chetaev_integrate::IntegrateError;
 use chetaev_model::model::Model;
 use chetaev_model::{Diagnostic, Place};
+use chetaev_motion::RunError;
 
 /// What is wrong with the input of a study: one diagnostic for each mistake, at its place.
 pub fn diagnostics(problem: &StudyError, model: &Model) -> Vec<Diagnostic> {
     let StudyError::UnknownClaims { claims } = problem else {
-        return vec![placed(&problem.to_string(), model)];
+        let stated = keys(problem)
+            .iter()
+            .find_map(|key| model.simulation.place(key));
+        return vec![match stated {
+            Some(place) => Diagnostic::error("mechanics", place, problem.to_string()),
+            None => placed(&problem.to_string(), model),
+        }];
     };
     claims
         .iter()
@@ -20,6 +28,23 @@ pub fn diagnostics(problem: &StudyError, model: &Model) -> Vec<Diagnostic> {
             Diagnostic::error("unknown-claim", unknown.place, message).hint(hint)
         })
         .collect()
+}
+
+/// The keys of `[simulation]` that a problem may come from; the first one that is stated is where it stands.
+fn keys(problem: &StudyError) -> &'static [&'static str] {
+    match problem {
+        StudyError::Tolerance { .. } | StudyError::PreciseTolerance { .. } => &["tolerance"],
+        StudyError::PrecisionMethod { .. } => &["method", "precision"],
+        StudyError::PreciseSweep => &["precision"],
+        StudyError::Step => &["step"],
+        StudyError::StepMissing { .. }
+        | StudyError::Run(RunError::Integrate(IntegrateError::UnknownMethod { .. })) => &["method"],
+        StudyError::TooManyRows { .. }
+        | StudyError::OutputTime { .. }
+        | StudyError::OutputOrder
+        | StudyError::OutputStep => &["output"],
+        _ => &[],
+    }
 }
 
 /// A diagnostic at the places of the constraints, parameters, controls, masses, initial values and coordinates that `problem`

@@ -186,7 +186,7 @@ fn trajectory(text: &mut String, study: &Study) {
         run.method,
         match motion.settings.step {
             Some(h) => format!("step {h}"),
-            None => format!("tolerance {:.0e}{arithmetic}", motion.settings.tolerance),
+            None => format!("tolerance {:e}{arithmetic}", motion.settings.tolerance),
         },
         run.statistics.steps,
         run.statistics.rejected,

@@ -3,6 +3,7 @@
 use crate::motion_evidence::Followed;
 use crate::record::zero_word;
 use crate::study::{Motion, Study};
+use chetaev_ensemble::columns::{array_names, numbered};
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::formulation;
 use chetaev_motion::double_double::decimal;
@@ -122,6 +123,8 @@ impl Table {
     }
 
     fn push(&mut self, name: String, (column, precise): (Vec<f64>, Option<Vec<DoubleDouble>>)) {
+        // A coordinate may be called `energy`, or as the multiplier of a constraint is: no two columns share a name.
+        let name = numbered(name, |wish| self.names.iter().any(|own| own == wish));
         self.names.push(name);
         self.columns.push(column);
         self.precise.extend(precise);
@@ -160,7 +163,8 @@ impl Table {
     }
 
     /// A NumPy archive with one array per column; `x'` is stored as `x_d`, `x''` as `x_dd`. Of a run in double-double arithmetic
-    /// what the doubles leave out is stored beside them, as `x_low`.
+    /// what the doubles leave out is stored beside them, as `x_low`. Where another column has that name, a number is put behind
+    /// it ([`array_names`]).
     ///
     /// # Errors
     /// What the archive writer reports.
@@ -170,16 +174,27 @@ impl Table {
             .compression_method(CompressionMethod::Stored)
             .last_modified_time(DateTime::default());
         let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-        for (name, column) in self.names.iter().zip(&self.columns) {
-            archive.start_file(format!("{}.npy", array_name(name)), options)?;
-            archive.write_all(&npy(column))?;
-        }
-        for (name, column) in self.names.iter().zip(&self.precise) {
+        let low = self.precise.iter().map(|column| {
             let low: Vec<f64> = column.iter().map(|x| x.low()).collect();
-            archive.start_file(format!("{}_low.npy", array_name(name)), options)?;
-            archive.write_all(&npy(&low))?;
+            npy(&low)
+        });
+        let arrays = self.columns.iter().map(|column| npy(column)).chain(low);
+        for (name, array) in self.arrays().into_iter().zip(arrays) {
+            archive.start_file(format!("{name}.npy"), options)?;
+            archive.write_all(&array)?;
         }
         Ok(archive.finish()?.into_inner())
+    }
+
+    /// The names of the arrays, no two the same: of the columns, then of what their doubles leave out.
+    fn arrays(&self) -> Vec<String> {
+        let mut names = array_names(&self.names);
+        let low = self.precise.iter().zip(names.clone());
+        let low: Vec<String> = low.map(|(_, name)| format!("{name}_low")).collect();
+        for name in low {
+            names.push(numbered(name, |wish| names.iter().any(|own| own == wish)));
+        }
+        names
     }
 }
 
@@ -197,14 +212,4 @@ fn npy(column: &[f64]) -> Vec<u8> {
     bytes.extend(format!("{header:<0$}\n", padded - 1).as_bytes());
     bytes.extend(column.iter().flat_map(|x| x.to_le_bytes()));
     bytes
-}
-
-fn array_name(name: &str) -> String {
-    let order = name.chars().filter(|&c| c == '\'').count();
-    let base = name.trim_end_matches('\'');
-    if order == 0 {
-        base.to_string()
-    } else {
-        format!("{base}_{}", "d".repeat(order))
-    }
 }

@@ -8,7 +8,6 @@ use chetaev_symbolic::simplify;
 use chetaev_symbolic::syntax::names::greek_letter;
 use chetaev_symbolic::{Expr, Graph, Verdict};
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeMap;
 
 /// Printing options of a system: its coordinates, quasi-velocities and parameters in the order of the model. Where a
 /// quasi-velocity stands in a product does not depend on whether its rate occurs beside it.
@@ -147,8 +146,8 @@ pub struct Typesetter<'a> {
     system: &'a System,
     options: Options,
     room: Cell<Room>,
-    /// Lengths already measured; a deep graph takes seconds.
-    lengths: RefCell<BTreeMap<Expr, u64>>,
+    /// Lengths already measured, of all parts too: formulas of a large system share most of what they consist of.
+    lengths: RefCell<simplify::Lengths>,
 }
 
 impl<'a> Typesetter<'a> {
@@ -173,14 +172,10 @@ impl<'a> Typesetter<'a> {
     }
 
     /// The total length of expressions.
-    fn signs(&self, es: &[Expr]) -> u64 {
-        es.iter().fold(0u64, |sum, &e| {
-            let mut lengths = self.lengths.borrow_mut();
-            let length = lengths
-                .entry(e)
-                .or_insert_with(|| simplify::length(self.graph(), e));
-            sum.saturating_add(*length)
-        })
+    pub(crate) fn signs(&self, es: &[Expr]) -> u64 {
+        let mut lengths = self.lengths.borrow_mut();
+        let of = |sum: u64, &e: &Expr| sum.saturating_add(lengths.of(self.graph(), e));
+        es.iter().fold(0, of)
     }
 
     /// Whether a formula is short enough for a page.
@@ -340,16 +335,20 @@ fn bytes(formula: &Formula) -> usize {
 
 /// What stands on a page in place of a formula that nobody would read.
 fn announced(signs: u64) -> Printed {
-    let length = if signs > 1_000_000 {
-        "more than a million signs".into()
-    } else {
-        format!("about {signs} signs")
-    };
+    let length = length_in_words(signs);
     Printed {
         omitted: Some(format!(
             "An expression of {length}, not printed here; `chetaev derive` prints it."
         )),
         ..Printed::default()
+    }
+}
+
+/// "about 5000 signs".
+pub(crate) fn length_in_words(signs: u64) -> String {
+    match signs > 1_000_000 {
+        true => "more than a million signs".into(),
+        false => format!("about {signs} signs"),
     }
 }
 

@@ -126,7 +126,7 @@ fn of_option(problem: &StudyError, motion: &MotionArguments) -> Option<String> {
 }
 
 /// Prints an error in the common form.
-fn error(message: impl std::fmt::Display) {
+pub(crate) fn error(message: impl std::fmt::Display) {
     let label = if terminal::error_colours() {
         "\u{1b}[1;31merror\u{1b}[0m"
     } else {

@@ -16,7 +16,8 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             return INPUT;
         }
     };
-    let lines = read(&text).and_then(|record| with_hooks(|hooks| verify(&record, hooks)));
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    let lines = read(text).and_then(|record| with_hooks(|hooks| verify(&record, hooks)));
     match lines {
         Ok(lines) => {
             report(&lines, arguments.json);

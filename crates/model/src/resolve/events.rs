@@ -1,7 +1,9 @@
 //! Events along a motion: `[events.NAME]` with `when`, a function whose zeros are meant, `direction` and `action`.
 
 use chetaev_symbolic::syntax::parse_expression;
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::{decide_zero, Options, ZeroTest};
+use chetaev_symbolic::{Expr, Symbol, Verdict};
 
 use super::formula::Expected;
 use super::scope::{Context, MULTIPLIER};
@@ -11,7 +13,41 @@ use crate::model::{Constraint, EventStated, Zero};
 use crate::raw::{Kind, Table};
 use crate::text::Text;
 
+/// Operations spent on the question whether the function of an event ever changes.
+const CONSTANT_BUDGET: u64 = 50_000_000;
+
 impl Resolver {
+    /// Whether a function has one value at all times and states, for any parameters: whether its values at two of them, each with
+    /// symbols of its own, are proved to be equal.
+    fn never_changes(&self, value: Expr) -> bool {
+        let g = &self.graph;
+        let fixed: Vec<Option<Symbol>> = (self.parameters.iter())
+            .map(|p| g.as_symbol(p.symbol))
+            .collect();
+        let moving = g.symbols_in(&[value]).into_iter();
+        let elsewhere: Vec<(Expr, Expr)> = moving
+            .filter(|s| !fixed.contains(&Some(*s)))
+            .enumerate()
+            .map(|(i, s)| (g.symbol_expr(s), g.symbol(&format!("elsewhere_{i}"), 0)))
+            .collect();
+        if elsewhere.is_empty() {
+            return true;
+        }
+        let residuals = [g.sub(value, g.substitute(value, &elsewhere))];
+        let test = ZeroTest {
+            residuals: &residuals,
+            solved: &[],
+            implicit: &[],
+            assumptions: &Assumptions::new(),
+            options: Options {
+                budget: CONSTANT_BUDGET,
+                refute: false,
+                ..Options::default()
+            },
+        };
+        matches!(decide_zero(g, &test), Verdict::Proved(_))
+    }
+
     /// Every event that is stated, in the order of the file.
     pub(crate) fn events(&mut self, root: &Table, constraints: &[Constraint]) -> Vec<EventStated> {
         let mut events: Vec<EventStated> = Vec::new();
@@ -52,9 +88,8 @@ impl Resolver {
                 else {
                     continue;
                 };
-                if self.graph.symbols_in(&[value]).is_empty() {
-                    let message =
-                        "the function of an event is a number, which is zero never or always";
+                if self.never_changes(value) {
+                    let message = "the function of an event is a number, or the same whatever the motion: it is zero never or always";
                     self.push(Diagnostic::error("constant-event", text.place, message));
                     continue;
                 }

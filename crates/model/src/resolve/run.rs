@@ -156,6 +156,10 @@ impl Resolver {
             return simulation;
         };
         self.known_keys(table, KEYS, "of [simulation]");
+        let given = KEYS
+            .iter()
+            .filter_map(|key| table.get(key).map(|raw| (*key, raw.place)));
+        simulation.places = given.collect();
         simulation.t_start = self.time_value(table.get("t_start"), "the start of the run");
         simulation.t_end = self.time_value(table.get("t_end"), "the end of the run");
         let words = Precision::WORDS.map(|(word, _)| word);

@@ -80,7 +80,7 @@ fn distances(study: &Study, motion: &Motion, found: &Beside) -> String {
     let tolerance = motion.settings.tolerance;
     if found.agree(tolerance) {
         return format!(
-            "The curves agree: the largest difference is {}, with a tolerance of {tolerance:.0e} for each step.",
+            "The curves agree: the largest difference is {}, with a tolerance of {tolerance:e} for each step.",
             reading(study, motion, most)
         );
     }

@@ -2,13 +2,17 @@
 
 use crate::derivation::{check_applies, claim_of};
 use crate::study::Study;
-use crate::typeset::Typesetter;
+use crate::typeset::{length_in_words, Typesetter};
 use chetaev_mechanics::card::{Card, Relation};
 use chetaev_mechanics::claims::formulation::derive;
 use chetaev_mechanics::equations::NamedExpr;
 use chetaev_mechanics::{Context, Equations, Prover, FORMULATIONS};
 use chetaev_report::data::{Equation, EquationSection};
 use chetaev_symbolic::Expr;
+
+/// Where Routh's equations have more signs than this, those of other formulations are not derived for the page: nobody reads them
+/// there, and to derive them all takes many times as long as what was asked for.
+const DERIVED: u64 = 400_000;
 
 /// Lagrangian, constraints and the equations of motion.
 pub(super) fn sections(study: &Study, set: &Typesetter<'_>) -> Vec<EquationSection> {
@@ -26,7 +30,9 @@ pub(super) fn sections(study: &Study, set: &Typesetter<'_>) -> Vec<EquationSecti
         Prover::default(),
     );
     let is_free = study.system.constraints.is_empty();
+    let mut signs = 0;
     if let Ok(routh) = derive(&cx, "routh") {
+        signs = signs_of(&routh, set);
         let (title, explanation) = if is_free {
             ("Lagrange's equations", "One equation for each coordinate.")
         } else if prepared.terms.order > 1 {
@@ -49,11 +55,39 @@ pub(super) fn sections(study: &Study, set: &Typesetter<'_>) -> Vec<EquationSecti
         if is_again {
             continue;
         }
+        if signs > DERIVED {
+            sections.push(not_derived(card, signs));
+            continue;
+        }
         if let Ok(derived) = derive(&cx, card.name) {
             sections.push(other_formulation(card, &derived, set));
         }
     }
     sections
+}
+
+/// The length of all equations.
+fn signs_of(derived: &Equations, set: &Typesetter<'_>) -> u64 {
+    let equations = derived.groups.iter().flat_map(|group| &group.equations);
+    let sides: Vec<Expr> = equations.flat_map(|e| [e.left, e.right]).collect();
+    set.signs(&sides)
+}
+
+/// A formulation of a system whose equations nobody reads: what it is, and where its equations are to be had.
+fn not_derived(card: &Card, signs: u64) -> EquationSection {
+    let why = format!(
+        "Not derived for this page, since Routh's equations of this system have {}. `chetaev derive MODEL --formulation {}` derives and prints them.",
+        length_in_words(signs),
+        card.name
+    );
+    EquationSection {
+        id: card.name.into(),
+        title: card.title.into(),
+        explanation: vec![card.statement.into(), why],
+        claim: claim_of(card),
+        collapsed: true,
+        ..EquationSection::default()
+    }
 }
 
 /// A formulation beside Routh's: what it is, its general form, its equations and intermediate objects. Maggi's stand open.

@@ -245,7 +245,7 @@ fn statistics(motion: &Motion) -> Vec<Fact> {
         ),
         fact(
             "Tolerance",
-            format!("{:.0e}", motion.settings.tolerance),
+            format!("{:e}", motion.settings.tolerance),
             None,
             None,
         ),

@@ -147,10 +147,7 @@ impl Variation {
             Values::Linear(from, _) | Values::Logarithmic(from, _) if row == 0 => *from,
             Values::Linear(_, to) | Values::Logarithmic(_, to) if row + 1 == count => *to,
             Values::Linear(from, to) => between(*from, *to, row, count),
-            Values::Logarithmic(from, to) => {
-                let share = row as f64 / (count - 1) as f64;
-                from * (to / from).powf(share)
-            }
+            Values::Logarithmic(from, to) => geometric(*from, *to, row as f64 / (count - 1) as f64),
             Values::Random(from, to) => {
                 // The generator of a name and a seed, set to the row: any row can be had without those before it.
                 let own = self.name.bytes().fold(seed, |hash, byte| {
@@ -162,6 +159,21 @@ impl Variation {
             }
         }
     }
+}
+
+/// `from (to/from)^share` of two numbers of one sign, also where their quotient is out of range: then by the powers of each,
+/// which lie between 1 and the number.
+fn geometric(from: f64, to: f64, share: f64) -> f64 {
+    let quotient = to / from;
+    if quotient.is_normal() {
+        return from * quotient.powf(share);
+    }
+    from.signum() * from.abs().powf(1.0 - share) * to.abs().powf(share)
+}
+
+/// Whether two numbers are not zero and have one sign; their product may be out of range.
+fn one_sign(a: f64, b: f64) -> bool {
+    a > 0.0 && b > 0.0 || a < 0.0 && b < 0.0
 }
 
 /// `from + (to − from) row/(count − 1)` of the shortest decimals that read as these numbers, rounded once: the third of five
@@ -281,7 +293,7 @@ fn range(model: &Model, said: &Said<'_>, from: usize) -> Result<(Values, u64), D
         [low, high, kind, count] => {
             let (from, to) = (said.number(model, *low)?, said.number(model, *high)?);
             let values = match word(kind) {
-                "log" if from * to > 0.0 => Values::Logarithmic(from, to),
+                "log" if one_sign(from, to) => Values::Logarithmic(from, to),
                 "log" => {
                     let message = "a logarithmic range needs two ends of one sign, and not zero";
                     let ends = Span::new(low.start, high.end);
@@ -319,6 +331,8 @@ fn counted(said: &Said<'_>, span: Span) -> Result<u64, Diagnostics> {
 /// # Errors
 /// What is wrong, at its line and column.
 pub fn rows(model: &Model, label: &str, text: &str) -> Result<Vec<Variation>, Diagnostics> {
+    // Some editors and spreadsheets put a byte order mark before the first line.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let said = Said { label, text };
     let mut lines = lines(text).into_iter();
     let Some(head) = lines.next() else {

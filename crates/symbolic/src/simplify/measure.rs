@@ -24,8 +24,8 @@ pub(super) fn written_length(g: &Graph, e: Expr) -> u64 {
 }
 
 /// Lengths already computed, of every node met; for one graph.
-#[derive(Debug, Default)]
-pub(super) struct Lengths {
+#[derive(Clone, Debug, Default)]
+pub struct Lengths {
     known: FxHashMap<Expr, u64>,
     /// Whether components of solutions count as the names they are printed by.
     named: bool,
@@ -40,7 +40,7 @@ impl Lengths {
     }
 
     /// The [`length`]; costs time in proportion to the nodes not met before.
-    pub(super) fn of(&mut self, g: &Graph, e: Expr) -> u64 {
+    pub fn of(&mut self, g: &Graph, e: Expr) -> u64 {
         if let Some(&known) = self.known.get(&e) {
             return known;
         }

@@ -29,8 +29,8 @@ use arrange::Arranger;
 
 pub use collect::{collect, collect_all};
 use local::{shorten, shorten_systems};
-pub use measure::length;
 use measure::written_length;
+pub use measure::{length, Lengths};
 pub use polynomial_view::{
     homogeneity, homogeneous_parts, linear_form, HomogeneousPart, LinearForm,
 };
