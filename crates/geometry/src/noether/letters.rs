@@ -34,7 +34,7 @@ pub struct Letters {
     /// Functions that are members by themselves, with their names: the energy, and the momenta of coordinates that L does not
     /// contain.
     pub known: Vec<(String, Letter)>,
-    /// Momenta ∂L/∂v with the coordinates that they belong to, for families of their own ([`super::conjugate`]).
+    /// Momenta ∂L/∂v with the coordinates that they belong to, for families of their own.
     pub momenta: Vec<(Symbol, Letter)>,
 }
 
