@@ -216,7 +216,11 @@ fn what_simulation_states_is_refused_at_its_place() {
 fn tolerances_are_said_with_all_their_digits() {
     let path = scratch_model("messages-digits", FALL);
     let folder = scratch("messages-digits-out");
-    for tolerance in ["2.3e-16", "1e-15", "4.25e-10"] {
+    for (tolerance, typeset) in [
+        ("2.3e-16", "2.3 × 10⁻¹⁶"),
+        ("1e-15", "10⁻¹⁵"),
+        ("4.25e-10", "4.25 × 10⁻¹⁰"),
+    ] {
         let ended = ok(&[
             "study",
             text(&path),
@@ -236,7 +240,7 @@ fn tolerances_are_said_with_all_their_digits() {
             ended.both()
         );
         assert!(
-            page.contains(&format!("tolerance asked {tolerance},")),
+            page.contains(&format!("tolerance asked {typeset},")),
             "{tolerance} on the page"
         );
     }
