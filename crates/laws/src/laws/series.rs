@@ -71,6 +71,11 @@ impl Rules<'_> {
             Some(n) if (1..=12).contains(&n) => {
                 (1..n).fold(base, |all, _| self.push(Rule::Product(all, base)))
             }
+            // The rule of other powers takes a logarithm, which a negative base lacks.
+            Some(n) if (-12..0).contains(&n) => {
+                let inverse = self.inverse(base);
+                (1..-n).fold(inverse, |all, _| self.push(Rule::Product(all, inverse)))
+            }
             _ => {
                 let exponent = self.precision.rational(exponent).midpoint();
                 self.push(Rule::Power(base, exponent))
@@ -331,6 +336,28 @@ pub(super) fn over(p: &Precision, x: &Ball, n: usize) -> Option<Ball> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// (x - 1)^(-2) = Σ (k + 1) x^k and (x - 1)^(-3) = -Σ (k + 1) (k + 2)/2 x^k: the base is negative.
+    #[test]
+    fn inverse_powers_of_a_negative_base() {
+        let g = Graph::new();
+        let (x, p) = (g.symbol("x", 0), Precision::new(160));
+        let symbol = g.as_symbol(x).unwrap();
+        let base = g.add(&[x, g.integer(-1)]);
+        let outputs = [g.powi(base, -2), g.powi(base, -3)];
+        let place = |s: Symbol| (s == symbol).then_some(0);
+        let mut series = Series::of(&g, &outputs, &p, &place, &|_| None).unwrap();
+        let mut given = vec![Ball::zero(); 6];
+        given[1] = Ball::integer(1);
+        let given = [given];
+        for k in 0..6_i32 {
+            let found = series.next(&given).unwrap();
+            let expected = [k + 1, -(k + 1) * (k + 2) / 2];
+            for (found, expected) in found.iter().zip(expected) {
+                assert_eq!(found.to_f64(), f64::from(expected), "order {k}");
+            }
+        }
+    }
 
     /// Coefficients of sin(x) e^x, (1 + x²)^(-1/2), tan(x), log(1 + x) and atan(x), for x = t, from their known expansions.
     #[test]
