@@ -623,3 +623,28 @@ thrust = { exhaust_speed = "c" }
         );
     });
 }
+
+/// x' = -x contracts all states to x = 0, and so does the circle with φ' = sin φ from its source to its sink: what keeps the formulas
+/// 1/x and 1/sin φ is infinite there, and no smooth measure is kept. Of x' y = y' x the pole is that of the velocities chosen.
+#[test]
+fn formulas_that_are_infinite_at_sources_are_no_densities() {
+    let text = |coordinates: &str, lagrangian: &str, constraint: &str| {
+        format!(
+            "name = \"flow\"\ncoordinates = [{coordinates}]\nlagrangian = \"{lagrangian}\"\n[constraints]\na = \"{constraint}\"\n"
+        )
+    };
+    let plane = "\"x\", \"y\"";
+    for constraint in ["x' = -x", "x' = 3 x", "x' = sin(x)"] {
+        let (word, detail) = verdict(&stated(&text(plane, "(x'^2 + y'^2)/2", constraint)));
+        assert_eq!(word, "refuted", "{constraint}: {detail}");
+        assert!(detail.contains("neither zero nor infinite"), "{detail}");
+    }
+    let space = "\"x\", \"y\", \"z\"";
+    let level = text(space, "(x'^2 + y'^2 + z'^2)/2", "x' y = y' x");
+    let (word, detail) = verdict(&stated(&level));
+    assert_eq!(word, "proved", "{detail}");
+    assert!(
+        detail.contains("not where y = 0") || detail.contains("not where x = 0"),
+        "{detail}"
+    );
+}

@@ -26,7 +26,7 @@ use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::{sample, Characteristics, MotionTerms, Selection, System};
 use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Function, Node, Verdict};
 
 /// The most residuals tested pair by pair.
 const PAIRWISE_BUDGET: usize = 3000;
@@ -264,6 +264,7 @@ impl Claim for ConstraintsIntegrable {
         }
         let pfaff = PfaffSystem::new(cx.system, cx.terms, cx.selection.clone());
         let mut finding = decide(cx, &pfaff, strength);
+        finding.verdict = on_each_side(cx, finding.verdict);
         let mut sentence = summary(&pfaff, strength, &finding.verdict).to_string();
         let integrable = matches!(finding.verdict, Verdict::Proved(_));
         let subsystems = subsystems(cx, strength);
@@ -279,8 +280,12 @@ impl Claim for ConstraintsIntegrable {
                     Some(condition) => format!(" on the component {condition}"),
                     None => String::new(),
                 };
+                let missing = cx.selection.rows.len().saturating_sub(kept.functions.len());
                 sentence = match texts.is_empty() {
                     true => format!("{sentence}; what they keep{place} was not found among the functions that occur, their logarithms and arctangents"),
+                    false if integrable && kept.component.is_none() && missing > 0 => {
+                        format!("{sentence}; what they keep: {texts}, and {missing} more, not found")
+                    }
                     false => format!("{sentence}; what they keep{place}: {texts}"),
                 };
                 let caption =
@@ -299,6 +304,50 @@ impl Claim for ConstraintsIntegrable {
         finding.verdict = finding.verdict.prefixed(&sentence);
         finding
     }
+}
+
+/// Frobenius' condition speaks of smooth constraints: where a constraint has a corner in the velocities, as `abs(x') = y'` has,
+/// it says nothing, and curves that pass from one side to the other keep no function.
+fn on_each_side(cx: &Context<'_>, verdict: Verdict) -> Verdict {
+    let corners = corners(cx);
+    match verdict {
+        Verdict::Proved(proof) if !corners.is_empty() => {
+            let g = &cx.system.graph;
+            let texts = corners.iter().map(|&e| format!("{} ≠ 0", g.text(e)));
+            let condition = texts.collect::<Vec<String>>().join(" and ");
+            Verdict::Conditional {
+                condition: format!("{condition}, on each side by itself"),
+                proof,
+                counterexample: None,
+            }
+        }
+        other => other,
+    }
+}
+
+/// What is not zero where the independent constraints are smooth in the velocities.
+fn corners(cx: &Context<'_>) -> Vec<Expr> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let rows = cx.selection.rows.iter();
+    let constraints: Vec<Expr> = rows.map(|&l| cx.terms.constraints[l]).collect();
+    let velocities = system.velocity_symbols();
+    let corners = g.reachable(&constraints).into_iter().filter_map(|e| {
+        let inside = match g.node(e) {
+            Node::Apply {
+                function: Function::Abs | Function::Sign,
+                arguments,
+            } => arguments.first().copied(),
+            Node::Power { base, exponent } => {
+                let is_whole = g.as_number(*exponent).is_some_and(|n| n.is_int());
+                (!is_whole).then_some(*base)
+            }
+            _ => None,
+        };
+        inside.filter(|&x| g.any_contains_any(&[x], &velocities))
+    });
+    let mut corners: Vec<Expr> = corners.collect();
+    corners.dedup();
+    corners
 }
 
 /// Decides Frobenius' condition: first the plainest component that a sampled state shows to be nonzero, for a

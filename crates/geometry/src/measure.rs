@@ -68,7 +68,25 @@ pub fn measure(cx: &Context<'_>) -> Arc<Result<Measure, String>> {
     })
 }
 
+/// What the search finds, unless states exclude a density that is smooth and positive there: what was found is singular then.
 fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
+    let (mut measure, g) = (searched(cx, flow), &cx.system.graph);
+    let is_constant = measure.density.is_some_and(|n| g.as_number(n).is_some());
+    if is_constant || !matches!(measure.verdict, Verdict::Proved(_)) {
+        return measure;
+    }
+    if let Some(mut verdict) = excluded::at_states(cx, flow) {
+        if let (Verdict::Refuted(found), Some(density)) = (&mut verdict, measure.density.take()) {
+            let (n, text) = (density_letter(cx), g.text(density));
+            let more = format!("; {n} = {text} is kept only where it is neither zero nor infinite");
+            found.detail.push_str(&more);
+        }
+        measure.verdict = verdict;
+    }
+    measure
+}
+
+fn searched(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
     let known = |density, verdict, words| Measure {
         density,
         with_time: None,
@@ -332,7 +350,7 @@ impl Claim for InvariantMeasure {
     }
 
     fn explanation(&self) -> &'static str {
-        "On the constraint manifold with coordinates q and independent (quasi-)velocities η, which the verdict names, the measure N dq dη is invariant when X̄ ln N = -div X̄ (N dq dη dM with masses M that have a law of their own). For a motion free of the time N is free of it too, as a density that changes with the time can always be carried along. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved; then among products of powers of these and of the factors of det W̄, the determinant of the mass matrix on admissible velocities, whose exponents are solved for; where such a factor may be negative and its exponent is not whole its absolute value stands in N. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). The claim is refuted only where no smooth positive density N(q, η) exists at all, rest included: where the divergence does not vanish at states of rest or on a steady motion that only turns angles; where ln N would change over a turn of an angle; and where rest is admissible, the accelerations have there neither terms without velocities nor linear ones, and the brackets contradict each other: then the terms of its equation that are linear in the velocities are those for N at rest. Where brackets contradict each other otherwise, densities that contain velocities are not excluded, and the claim is undecided."
+        "On the constraint manifold with coordinates q and independent (quasi-)velocities η, which the verdict names, the measure N dq dη is invariant when X̄ ln N = -div X̄ (N dq dη dM with masses M that have a law of their own). For a motion free of the time N is free of it too, as a density that changes with the time can always be carried along. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved; then among products of powers of these and of the factors of det W̄, the determinant of the mass matrix on admissible velocities, whose exponents are solved for; where such a factor may be negative and its exponent is not whole its absolute value stands in N. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). The claim is refuted only where no smooth positive density N(q, η) exists at all, rest included: where the divergence does not vanish at states of rest or on a steady motion that only turns angles, whatever formula holds elsewhere; where ln N would change over a turn of an angle; and where rest is admissible, the accelerations have there neither terms without velocities nor linear ones, and the brackets contradict each other: then the terms of its equation that are linear in the velocities are those for N at rest. Where brackets contradict each other otherwise, densities that contain velocities are not excluded, and the claim is undecided."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -380,6 +398,10 @@ impl Claim for InvariantMeasure {
                     false => format!("for the {n} stated{}", measure.words),
                 };
                 proof.detail = format!("{form}, {with}, is invariant {what}; {}", proof.detail);
+                if let Some(places) = formula::infinite(cx, density) {
+                    let more = format!("; not where {places}, as {n} is infinite there");
+                    proof.detail.push_str(&more);
+                }
             }
         }
         if let Some(divergence) = measure.divergence {

@@ -1,6 +1,6 @@
 //! Frobenius' condition: against a direct evaluation of the forms, and the verdicts of the literature.
 
-#![allow(clippy::unwrap_used)] // a panic is how a test fails
+#![allow(clippy::unwrap_used, clippy::panic)] // a panic is how a test fails
 
 mod common;
 
@@ -8,7 +8,7 @@ use chetaev_geometry::cartan::{exterior_derivative, CartanForm, JetField};
 use chetaev_geometry::distribution::Distribution;
 use chetaev_geometry::integrability::{PfaffSystem, Strength};
 use chetaev_mechanics::{MotionTerms, Prepared, Selection, System};
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::{Expr, Verdict};
 use common::{admissible, anywhere, expr, finding, largest, system, values};
 
 struct Case {
@@ -560,6 +560,36 @@ fn what_constraints_keep_is_named() {
             assert!(kept.iter().any(|e| parallel(&e)), "{constraint}: {detail}");
         }
     }
+}
+
+/// |x'| = y' keeps y - x while x' > 0 and y + x while x' < 0, and nothing over both: going there and back leads from (0, 0) to (0, 2).
+#[test]
+fn constraints_with_corners_are_integrable_on_each_side() {
+    let unit = "(x'^2 + y'^2 + z'^2)/2";
+    for constraint in ["y' - abs(x')", "y' - sqrt(x'^2)"] {
+        let own = system("x y z", unit, &[("f", constraint)]);
+        let found = finding(&own, "model.constraints-integrable#weak");
+        let Verdict::Conditional { condition, .. } = &found.verdict else {
+            panic!("{constraint}: {}", found.verdict.detail());
+        };
+        assert!(
+            condition.contains("≠ 0, on each side by itself"),
+            "{condition}"
+        );
+    }
+}
+
+/// x' = y, y' = x, z' = x y keep three functions of (t, q): x² - 2 z, y² - 2 z and (x + y) e^(-t). Whatever is not found is counted.
+#[test]
+fn functions_that_were_not_found_are_counted() {
+    let constraints = [("a", "x' - y"), ("b", "y' - x"), ("c", "z' - x*y")];
+    let own = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &constraints);
+    let found = finding(&own, "model.constraints-integrable#weak");
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "proved", "{detail}");
+    let missing = 3 - found.formulas.len();
+    let said = detail.contains(&format!("and {missing} more, not found"));
+    assert_eq!(said, missing > 0, "{detail}");
 }
 
 /// A product of which one factor is integrable: on its component x² + y² + z² is kept, on the other nothing is.

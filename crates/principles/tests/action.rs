@@ -44,6 +44,16 @@ fn assert_word(stated: &Text, id: &str, expected: &str) -> String {
     detail
 }
 
+/// With y' = t x' no varied curve of the same energy has fixed ends, so Lagrange's action is stationary on every motion, Hamilton's
+/// only at rest: where the constraints contain the time one does not tell the other.
+#[test]
+fn constraints_with_the_time_part_lagrange_from_hamilton() {
+    let detail = assert_word(&RHEONOMIC, "action.lagrange", "proved");
+    let open = "is open: the constraints contain the time";
+    assert!(detail.contains(open), "{detail}");
+    assert_word(&RHEONOMIC, "hamilton.stationary", "refuted");
+}
+
 /// (18) holds for every system: with forces, with the time, with any constraints.
 #[test]
 fn the_action_changes_by_its_end_terms() {

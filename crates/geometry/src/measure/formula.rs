@@ -63,6 +63,28 @@ pub(crate) fn on_both_sides(cx: &Context<'_>, density: Expr) -> Expr {
     g.mul(&real.collect::<Vec<Expr>>())
 }
 
+/// Where a density is infinite: the equations of its poles, as far as bases of its factors are not seen to be of one sign.
+pub(super) fn infinite(cx: &Context<'_>, density: Expr) -> Option<String> {
+    let g = &cx.system.graph;
+    let factors = match g.node(density) {
+        Node::Product { factors, .. } => factors.to_vec(),
+        _ => vec![density],
+    };
+    let mut moving = cx.system.coordinate_symbols();
+    moving.extend(cx.system.velocity_symbols());
+    let poles = factors.into_iter().filter_map(|factor| {
+        let (base, exponent) = g.base_exponent(factor);
+        let is_negative = g
+            .as_number(exponent)
+            .is_some_and(|n| *n < chetaev_symbolic::Rational::ZERO);
+        let moves = g.any_contains_any(&[base], &moving);
+        let is_pole = is_negative && moves && !is_of_one_sign(cx, base);
+        is_pole.then(|| format!("{} = 0", g.text(base)))
+    });
+    let poles: Vec<String> = poles.collect();
+    (!poles.is_empty()).then(|| poles.join(" or "))
+}
+
 /// Bases of powers that are not whole in what the model states.
 fn bases_of_broken_powers(cx: &Context<'_>) -> Vec<Expr> {
     let (system, g) = (cx.system, &cx.system.graph);

@@ -111,6 +111,16 @@ fn as_stationary(cx: &Context<'_>, which: &str) -> String {
         return format!("without constraints {which} is one of stationary action");
     }
     let id = "hamilton.stationary";
+    // With multipliers s - 1 of the energy and κ the extremals at fixed energy satisfy 2 T s' = κ ∂f/∂t: only where ∂f/∂t = 0 is
+    // s constant, and κ that of Hamilton's principle.
+    let g = &cx.system.graph;
+    let changes = |&l: &usize| !g.is_zero(cx.system.time_derivative(cx.terms.constraints[l]));
+    if cx.selection.rows.iter().any(changes) {
+        return format!(
+            "where {which} is one of stationary action is open: the constraints contain the time, so that the extremals at fixed energy \
+             are others than those of Hamilton's principle, and `{id}` does not tell"
+        );
+    }
     let verdict = &cx.finding(id).verdict;
     let (general, particular) = of_parameters(cx);
     let controls = for_general_controls(cx);
