@@ -4,9 +4,11 @@ use super::family::Family;
 use super::letters::Letters;
 use super::motion::Motion;
 use super::search::{Integral, Table};
+use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{Context, Manifold};
 use chetaev_symbolic::number::prime_field::Residue;
+use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::zero::points::{Draw, Points};
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol, Verdict};
 
@@ -415,14 +417,20 @@ impl CriticalSearch<'_, '_> {
     }
 }
 
-/// Whether what the model assumes of parameters alone does not exclude a special value, all others as the model states them.
+/// Whether what the model assumes of parameters alone does not exclude a special value, all others as the model states them; of those
+/// without values the assumptions tell the signs.
 fn is_admitted(cx: &Context<'_>, tie: &Tie) -> bool {
     let (system, g) = (cx.system, &cx.system.graph);
-    let values = system.parameter_values();
+    let (values, stated) = (system.parameter_values(), assumptions(system));
     system.assumptions.iter().all(|a| {
         let tied = g.substitute(g.sub(a.right, a.left), &tie.pairs(g));
         let Ok(found) = g.evaluate_f64(&[g.substitute(tied, &values)], &|_| None) else {
-            return true;
+            let sign = known_sign(g, tied, &stated);
+            return match a.relation {
+                Relation::NotEqual => true,
+                Relation::Less => !sign.is_nonpositive(),
+                Relation::LessOrEqual => !(sign.is_nonpositive() && sign.is_nonzero()),
+            };
         };
         let difference = found.first().copied().unwrap_or(f64::NAN);
         match a.relation {
