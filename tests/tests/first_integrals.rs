@@ -633,3 +633,25 @@ contact = "z' = (x y' - y x' + u v' - v u')/2"
         );
     });
 }
+
+/// Chaplygin's sleigh whose inertia J > 0 has no value: at J = 3 a² there is a further integral (checked by hand), at J = -3 a²/4 too,
+/// which the assumption excludes.
+#[test]
+fn special_values_without_the_others_values_satisfy_the_assumptions() {
+    let text = "name = \"sleigh\"\ncoordinates = [\"x\", \"y\", \"phi\"]\nparameters = {a = {}, J = {}}\nassumptions = [\"J > 0\", \"a > 0\"]\n\
+        lagrangian = \"((x' - a phi' sin(phi))^2 + (y' + a phi' cos(phi))^2 + J phi'^2)/2\"\n[constraints]\nb = \"x' sin(phi) = y' cos(phi)\"\n";
+    let loaded = load("model.toml", text, &NoFiles, &[]);
+    let Ok((model, _)) = loaded.into_result() else {
+        panic!("the model is right");
+    };
+    within(&model, |cx, found| {
+        let g = &cx.system.graph;
+        let specials = found.special.found.iter();
+        let values: Vec<f64> = specials
+            .flat_map(|special| special.tie.pairs(g))
+            .flat_map(|(_, value)| g.evaluate_f64(&[value], &|_| Some(1.0)).expect("a value"))
+            .collect();
+        assert!(values.contains(&3.0), "{values:?}");
+        assert!(values.iter().all(|&value| value > 0.0), "{values:?}");
+    });
+}
