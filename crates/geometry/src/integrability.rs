@@ -23,10 +23,13 @@ use crate::cartan::{exterior_derivative, CartanForm, JetField};
 use crate::distribution::Distribution;
 use chetaev_mechanics::characteristics::{self, Manifold};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
+use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::{sample, Characteristics, MotionTerms, Selection, System};
 use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Function, Node, Verdict};
+use std::collections::BTreeSet;
 
 /// The most residuals tested pair by pair.
 const PAIRWISE_BUDGET: usize = 3000;
@@ -330,7 +333,7 @@ fn corners(cx: &Context<'_>) -> Vec<Expr> {
     let (system, g) = (cx.system, &cx.system.graph);
     let rows = cx.selection.rows.iter();
     let constraints: Vec<Expr> = rows.map(|&l| cx.terms.constraints[l]).collect();
-    let velocities = system.velocity_symbols();
+    let (velocities, stated) = (system.velocity_symbols(), assumptions(system));
     let corners = g.reachable(&constraints).into_iter().filter_map(|e| {
         let inside = match g.node(e) {
             Node::Apply {
@@ -343,11 +346,12 @@ fn corners(cx: &Context<'_>) -> Vec<Expr> {
             }
             _ => None,
         };
-        inside.filter(|&x| g.any_contains_any(&[x], &velocities))
+        // A root of what vanishes nowhere has no corner.
+        let vanishes = |x: Expr| !known_sign(g, x, &stated).is_nonzero();
+        inside.filter(|&x| g.any_contains_any(&[x], &velocities) && vanishes(x))
     });
-    let mut corners: Vec<Expr> = corners.collect();
-    corners.dedup();
-    corners
+    let corners: BTreeSet<Expr> = corners.collect();
+    corners.into_iter().collect()
 }
 
 /// Decides Frobenius' condition: first the plainest component that a sampled state shows to be nonzero, for a

@@ -579,6 +579,15 @@ fn constraints_with_corners_are_integrable_on_each_side() {
     }
 }
 
+/// A root of what vanishes nowhere has no corner: (z' - x x') √(1 + x'²) = 0 keeps z - x²/2 at all states.
+#[test]
+fn a_root_that_vanishes_nowhere_is_no_corner() {
+    let constraint = "(z' - x*x')*sqrt(1 + x'^2)";
+    let own = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &[("f", constraint)]);
+    let found = finding(&own, "model.constraints-integrable#weak");
+    assert_eq!(found.verdict.word(), "proved", "{}", found.verdict.detail());
+}
+
 /// x' = y, y' = x, z' = x y keep three functions of (t, q): x² - 2 z, y² - 2 z and (x + y) e^(-t). Whatever is not found is counted.
 #[test]
 fn functions_that_were_not_found_are_counted() {
