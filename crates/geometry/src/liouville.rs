@@ -219,11 +219,13 @@ fn counted_for(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
     let measure = measure.as_ref().as_ref().map_err(Clone::clone)?;
     // A density without a formula may contain what is left out: then another one is asked for, which is a quadrature.
     // Quadratures go from place to place, so a density near each serves, also where none returns to its values on a circle.
-    let (evidence, kept) = match (measure.density, &measure.with_time) {
-        (Some(density), _) if counts(density) => (
-            measure.verdict.clone(),
-            "the measure of `measure.invariant` is kept",
-        ),
+    let (evidence, kept) = match (
+        measure.density.zip(measure.kept.clone()),
+        &measure.with_time,
+    ) {
+        (Some((density, proof)), _) if counts(density) => {
+            (proof, "the measure of `measure.invariant` is kept")
+        }
         // A density that changes with the time is one where the time is a variable.
         (None, Some((density, proof))) if reduced.timed && counts(*density) => (
             proof.clone(),

@@ -22,6 +22,7 @@ use crate::flag::{horizontal, Directed, Flag, Obstacle};
 use crate::noether::shown::readable;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::equations::unused_letter;
+use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 use flow::Flow;
 pub(crate) use formula::on_both_sides;
@@ -36,6 +37,10 @@ pub struct InvariantMeasure;
 pub struct Measure {
     /// The density N, where it has a formula in the family.
     pub density: Option<Expr>,
+    /// That N dq dη is kept near every place where N is neither zero nor infinite.
+    pub kept: Option<Verdict>,
+    /// Where N may be zero or infinite.
+    pub edges: formula::Edges,
     /// A density N(t, q) of `N dt dq dη`, for a motion free of the time that keeps one with the time although none without was found,
     /// with its proof.
     pub with_time: Option<(Expr, Verdict)>,
@@ -68,27 +73,59 @@ pub fn measure(cx: &Context<'_>) -> Arc<Result<Measure, String>> {
     })
 }
 
-/// What the search finds, unless states exclude a density that is smooth and positive there: what was found is singular then.
+/// What the search finds, unless states exclude a density that is smooth and positive there, since what was found is singular
+/// then, or it does not return after the turn of an angle.
 fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
     let (mut measure, g) = (searched(cx, flow), &cx.system.graph);
-    let is_constant = measure.density.is_some_and(|n| g.as_number(n).is_some());
-    if is_constant || !matches!(measure.verdict, Verdict::Proved(_)) {
+    let (Some(density), Some(kept)) = (measure.density, measure.kept.clone()) else {
+        return measure.or_exponential(cx, flow);
+    };
+    if g.as_number(density).is_some() {
         return measure;
     }
     if let Some(mut verdict) = excluded::at_states(cx, flow) {
-        if let (Verdict::Refuted(found), Some(density)) = (&mut verdict, measure.density.take()) {
+        if let Verdict::Refuted(found) = &mut verdict {
             let (n, text) = (density_letter(cx), g.text(density));
             let more = format!("; {n} = {text} is kept only where it is neither zero nor infinite");
             found.detail.push_str(&more);
         }
+        measure.density = None;
         measure.verdict = verdict;
+        return measure;
     }
-    measure
+    measure.edges = formula::edges(cx, flow, density);
+    let density = formula::positive_beyond(g, density, &measure.edges);
+    measure.density = Some(density);
+    measure.verdict = angles::returning(cx, flow, density, kept);
+    match measure.edges.of_density.is_empty() {
+        true => measure,
+        false => measure.or_exponential(cx, flow),
+    }
+}
+
+impl Measure {
+    /// With a density that contains velocities in an exponential, where one is found and nothing is decided, or where the density
+    /// found ends.
+    fn or_exponential(mut self, cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
+        if !flow.autonomous || matches!(self.verdict, Verdict::Refuted(_)) {
+            return self;
+        }
+        if let Some((density, kept)) = flow.exponential(cx) {
+            self.verdict = angles::returning(cx, flow, density, kept.clone());
+            self.kept = Some(kept);
+            self.density = Some(density);
+            self.edges = formula::Edges::default();
+            self.words = WORDS[0];
+        }
+        self
+    }
 }
 
 fn searched(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
-    let known = |density, verdict, words| Measure {
+    let known = |density: Option<Expr>, verdict: Verdict, words| Measure {
         density,
+        kept: density.map(|_| verdict.clone()),
+        edges: formula::Edges::default(),
         with_time: None,
         verdict,
         divergence: Some(flow.divergence),
@@ -106,7 +143,6 @@ fn searched(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
         let on = "on the constraint manifold";
         let verdict = cx.prover.identity(system, &defect, manifold, on);
         if matches!(verdict, Verdict::Proved(_)) {
-            let verdict = angles::returning(cx, flow, density, verdict);
             return known(Some(density), verdict, words);
         }
     }
@@ -124,7 +160,6 @@ fn searched(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
     };
     if excluded.is_none() && !matches!(by_brackets, Verdict::Refuted(_)) {
         if let Some((density, verdict)) = products::density(cx, flow) {
-            let verdict = angles::returning(cx, flow, density, verdict);
             return known(Some(density), verdict, WORDS[3]);
         }
     }
@@ -350,7 +385,7 @@ impl Claim for InvariantMeasure {
     }
 
     fn explanation(&self) -> &'static str {
-        "On the constraint manifold with coordinates q and independent (quasi-)velocities η, which the verdict names, the measure N dq dη is invariant when X̄ ln N = -div X̄ (N dq dη dM with masses M that have a law of their own). For a motion free of the time N is free of it too, as a density that changes with the time can always be carried along. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved; then among products of powers of these and of the factors of det W̄, the determinant of the mass matrix on admissible velocities, whose exponents are solved for; where such a factor may be negative and its exponent is not whole its absolute value stands in N. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). The claim is refuted only where no smooth positive density N(q, η) exists at all, rest included: where the divergence does not vanish at states of rest or on a steady motion that only turns angles, whatever formula holds elsewhere; where ln N would change over a turn of an angle; and where rest is admissible, the accelerations have there neither terms without velocities nor linear ones, and the brackets contradict each other: then the terms of its equation that are linear in the velocities are those for N at rest. Where brackets contradict each other otherwise, densities that contain velocities are not excluded, and the claim is undecided."
+        "On the constraint manifold with coordinates q and independent (quasi-)velocities η, which the verdict names, the measure N dq dη is invariant when X̄ ln N = -div X̄ (N dq dη dM with masses M that have a law of their own). For a motion free of the time N is free of it too, as a density that changes with the time can always be carried along. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved; then among products of powers of these and of the factors of det W̄, the determinant of the mass matrix on admissible velocities, whose exponents are solved for; where such a factor may be negative and its exponent is not whole its absolute value stands in N. Where none of these is smooth and positive everywhere an exponential of polynomials in the velocities with such coefficients is looked for. Where N may be zero or infinite is stated: where the variables chosen do not determine the motion it does not matter, elsewhere N is a density on each side by itself. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). The claim is refuted only where no smooth positive density N(q, η) exists at all, rest included: where the divergence does not vanish at states of rest or on a steady motion that only turns angles, whatever formula holds elsewhere; where ln N would change over a turn of an angle; and where rest is admissible, the accelerations have there neither terms without velocities nor linear ones, and the brackets contradict each other: then the terms of its equation that are linear in the velocities are those for N at rest. Where brackets contradict each other otherwise, densities that contain velocities are not excluded, and the claim is undecided."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -398,10 +433,7 @@ impl Claim for InvariantMeasure {
                     false => format!("for the {n} stated{}", measure.words),
                 };
                 proof.detail = format!("{form}, {with}, is invariant {what}; {}", proof.detail);
-                if let Some(places) = formula::infinite(cx, density) {
-                    let more = format!("; not where {places}, as {n} is infinite there");
-                    proof.detail.push_str(&more);
-                }
+                within(cx, proof, &measure.edges, &n);
             }
         }
         if let Some(divergence) = measure.divergence {
@@ -415,6 +447,32 @@ impl Claim for InvariantMeasure {
             }
         }
         Finding { verdict, formulas }
+    }
+}
+
+/// Says in a proof outside which set a density is one.
+fn within(cx: &Context<'_>, proof: &mut Proof, edges: &formula::Edges, n: &str) {
+    let g = &cx.system.graph;
+    let all = [&edges.of_chart[..], &edges.of_density].concat();
+    let texts = |edges: &[Expr], join: &str| formula::Edges::texts(g, edges, "=", join);
+    if all.is_empty() || texts(&all, "").chars().count() > LONGEST {
+        return;
+    }
+    proof.on = format!(
+        "on the constraint manifold, where {}",
+        formula::Edges::texts(g, &all, "≠", " and ")
+    );
+    if !edges.of_chart.is_empty() {
+        proof.detail.push_str(&format!(
+            "; where {} these variables do not determine the motion",
+            texts(&edges.of_chart, " or ")
+        ));
+    }
+    if !edges.of_density.is_empty() {
+        proof.detail.push_str(&format!(
+            "; not where {}, as {n} is zero or infinite there: it is a measure on each of the parts into which this divides the states, and whether another one is smooth and positive across is not decided",
+            texts(&edges.of_density, " or ")
+        ));
     }
 }
 

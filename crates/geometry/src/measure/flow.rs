@@ -2,7 +2,7 @@
 
 use super::{formula, WORDS};
 use crate::noether::ansatz::Ansatz;
-use crate::noether::family::{coefficients, CoefficientLetter, Letter};
+use crate::noether::family::{coefficients, CoefficientLetter, Letter, ANY};
 use crate::noether::letters::Letters;
 use crate::noether::motion::Motion;
 use crate::noether::occurring::congruent;
@@ -281,15 +281,78 @@ impl<'a> Flow<'a> {
         letters.collect()
     }
 
-    /// `X̄ N + N div X̄` for functions on N.
-    fn full_defects(&self, system: &System, densities: &[Expr]) -> Vec<Expr> {
-        let g = &system.graph;
+    /// A density `N = exp(σ)` with a σ(q, η) for which `X̄σ = -div X̄`, that is a combination of products of velocities with functions
+    /// that occur: such a density is smooth and positive wherever these are. With the proof that it is kept.
+    pub(super) fn exponential(&self, cx: &Context<'_>) -> Option<(Expr, Verdict)> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let members = self.with_velocities(cx);
+        let mut columns: Vec<Vec<Expr>> = self
+            .rates_of(system, &members)
+            .into_iter()
+            .map(|e| vec![e])
+            .collect();
+        columns.push(vec![self.divergence]);
+        let (manifold, own) = (&self.chart.manifold, self.symbols());
+        let seed = cx.prover.points_seed();
+        let ansatz = Ansatz::new(&self.motion, &columns, manifold, &own, seed).ok()?;
+        let found = ansatz.with_last()?;
+        let (&last, found) = found.split_last()?;
+        let parts = found.iter().zip(&members).filter(|(&c, _)| !g.is_zero(c));
+        let parts: Vec<Expr> = parts
+            .map(|(&c, &e)| g.mul(&[readable(g, g.div(c, last)), e]))
+            .collect();
+        let exponent = g.add(&parts);
+        let defect = g.add(&[self.rates_of(system, &[exponent])[0], self.divergence]);
+        let on = "on the constraint manifold";
+        let verdict = cx.prover.identity(system, &[defect], manifold, on);
+        let verdict = verdict.prefixed("the rate of its logarithm is the negative divergence");
+        matches!(verdict, Verdict::Proved(_)).then(|| (g.exp(exponent), verdict))
+    }
+
+    /// Products of velocities η and functions of the coordinates that occur, simple ones first.
+    fn with_velocities(&self, cx: &Context<'_>) -> Vec<Expr> {
+        let g = &cx.system.graph;
+        let mut letters = self.letters(cx, true);
+        for own in &mut letters {
+            own.exponents.0 = 0;
+        }
+        let own = self.chart.parameters.iter().map(|p| CoefficientLetter {
+            letter: Letter::plain(p.value),
+            exponents: (0, ANY),
+            weight: 1,
+        });
+        letters.extend(own);
+        let mut members = coefficients(&letters, 0, 1);
+        for weight in 2..=WEIGHT {
+            let next = coefficients(&letters, 0, weight);
+            if next.len() > MEMBERS {
+                break;
+            }
+            members = next;
+        }
+        members.retain(|(_, member)| !member.is_empty());
+        let value = |member: &[(usize, i8)]| {
+            let powers = member.iter();
+            let powers = powers.map(|&(l, e)| g.powi(letters[l].letter.value, i64::from(e)));
+            g.mul(&powers.collect::<Vec<_>>())
+        };
+        members.iter().map(|(_, member)| value(member)).collect()
+    }
+
+    /// X̄ of functions on N.
+    fn rates_of(&self, system: &System, functions: &[Expr]) -> Vec<Expr> {
         let direction = Direction {
-            time: g.one(),
+            time: system.graph.one(),
             coordinates: self.chart.velocities.clone(),
             parameters: self.rates.clone(),
         };
-        let rates = self.chart.along(system, densities, &direction);
+        self.chart.along(system, functions, &direction)
+    }
+
+    /// `X̄ N + N div X̄` for functions on N.
+    fn full_defects(&self, system: &System, densities: &[Expr]) -> Vec<Expr> {
+        let g = &system.graph;
+        let rates = self.rates_of(system, densities);
         let pairs = rates.into_iter().zip(densities);
         pairs
             .map(|(rate, &n)| g.add(&[rate, g.mul(&[n, self.divergence])]))

@@ -1,14 +1,14 @@
 //! Densities as a person writes them: without constant factors, positive where states are looked at, in as few angles and with as
 //! little under roots as possible.
 
-use super::Flow;
+use super::{products, Flow};
 use crate::noether::shown::readable;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::system::Coordinate;
 use chetaev_mechanics::{sample, Context};
 use chetaev_symbolic::simplify::{by_square, length};
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{Expr, Graph, Node, Verdict};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Verdict};
 
 /// The states at which the sign of a density is looked at, and where their draws begin.
 const SAMPLES: u64 = 8;
@@ -63,8 +63,42 @@ pub(crate) fn on_both_sides(cx: &Context<'_>, density: Expr) -> Expr {
     g.mul(&real.collect::<Vec<Expr>>())
 }
 
-/// Where a density is infinite: the equations of its poles, as far as bases of its factors are not seen to be of one sign.
-pub(super) fn infinite(cx: &Context<'_>, density: Expr) -> Option<String> {
+/// Where a density may be zero or infinite: the bases of its factors that are not seen to be of one sign.
+#[derive(Clone, Debug, Default)]
+pub struct Edges {
+    /// Where the velocities η do not determine the motion or its mass matrix is singular: there the chart ends.
+    pub of_chart: Vec<Expr>,
+    /// Where the motion goes on: there the density ends.
+    pub of_density: Vec<Expr>,
+}
+
+impl Edges {
+    /// The equations of some edges, and what holds off them.
+    pub(super) fn texts(g: &Graph, edges: &[Expr], relation: &str, join: &str) -> String {
+        let texts = edges.iter().map(|&e| format!("{} {relation} 0", g.text(e)));
+        texts.collect::<Vec<String>>().join(join)
+    }
+}
+
+/// A density with the absolute values of what it changes its sign with.
+pub(super) fn positive_beyond(g: &Graph, density: Expr, edges: &Edges) -> Expr {
+    let factors = match g.node(density) {
+        Node::Product { factors, .. } => factors.to_vec(),
+        _ => vec![density],
+    };
+    let real = factors.into_iter().map(|factor| {
+        let (base, exponent) = g.base_exponent(factor);
+        let is_odd = g.as_integer(exponent).is_some_and(|n| n % 2 != 0);
+        match is_odd && edges.of_density.contains(&base) {
+            true => g.pow(g.abs(base), exponent),
+            false => factor,
+        }
+    });
+    g.mul(&real.collect::<Vec<Expr>>())
+}
+
+/// The edges of the domain of a density.
+pub(super) fn edges(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Edges {
     let g = &cx.system.graph;
     let factors = match g.node(density) {
         Node::Product { factors, .. } => factors.to_vec(),
@@ -72,17 +106,44 @@ pub(super) fn infinite(cx: &Context<'_>, density: Expr) -> Option<String> {
     };
     let mut moving = cx.system.coordinate_symbols();
     moving.extend(cx.system.velocity_symbols());
-    let poles = factors.into_iter().filter_map(|factor| {
-        let (base, exponent) = g.base_exponent(factor);
-        let is_negative = g
-            .as_number(exponent)
-            .is_some_and(|n| *n < chetaev_symbolic::Rational::ZERO);
-        let moves = g.any_contains_any(&[base], &moving);
-        let is_pole = is_negative && moves && !is_of_one_sign(cx, base);
-        is_pole.then(|| format!("{} = 0", g.text(base)))
+    moving.extend(flow.symbols());
+    let bases = factors.into_iter().map(|factor| {
+        let base = g.base_exponent(factor).0;
+        match g.node(base) {
+            Node::Apply {
+                function: Function::Abs,
+                arguments,
+            } => arguments[0],
+            _ => base,
+        }
     });
-    let poles: Vec<String> = poles.collect();
-    (!poles.is_empty()).then(|| poles.join(" or "))
+    let vanishes = |&base: &Expr| {
+        let is_exponential = matches!(
+            g.node(base),
+            Node::Apply {
+                function: Function::Exp,
+                ..
+            }
+        );
+        !is_exponential && g.any_contains_any(&[base], &moving) && !is_of_one_sign(cx, base)
+    };
+    let bases: Vec<Expr> = bases.filter(vanishes).collect();
+    let singular = match bases.is_empty() {
+        true => Vec::new(),
+        false => products::singular(cx, flow),
+    };
+    let is_of_chart = |&base: &Expr| {
+        let own = products::factors_of(g, base, &moving);
+        !own.is_empty()
+            && own
+                .iter()
+                .all(|f| singular.contains(f) || singular.contains(&g.neg(*f)))
+    };
+    let (of_chart, of_density) = bases.into_iter().partition(is_of_chart);
+    Edges {
+        of_chart,
+        of_density,
+    }
 }
 
 /// Bases of powers that are not whole in what the model states.

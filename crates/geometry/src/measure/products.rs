@@ -145,6 +145,51 @@ fn bases(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Expr> {
     found
 }
 
+/// The factors of an expression in every form that is looked at; itself where it is not factored.
+pub(super) fn factors_of(g: &Graph, e: Expr, moving: &[Symbol]) -> Vec<Expr> {
+    let is_simple = matches!(g.node(e), Node::Symbol(_) | Node::Apply { .. });
+    if is_simple || g.reachable(&[e]).len() > FACTORED {
+        return vec![e];
+    }
+    let found = factors(g, e, moving).unwrap_or_default();
+    match found.is_empty() {
+        true => vec![e],
+        false => found.into_iter().map(|(f, _)| f).collect(),
+    }
+}
+
+/// Factors of det W̄ and of what velocities and accelerations are divided by: where they vanish the chart ends.
+pub(super) fn singular(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Expr> {
+    let g = &cx.system.graph;
+    let mut moving = cx.system.coordinate_symbols();
+    moving.extend(flow.symbols());
+    let mut all = flow.chart.velocities.clone();
+    all.extend(&flow.rates);
+    let mut products: Vec<Expr> = flow.determinant(cx).into_iter().collect();
+    for e in all {
+        // Negative powers by their form, and what is divided by once all is over one denominator.
+        let below = g.reachable(&[e]).into_iter().filter_map(|part| {
+            let (base, exponent) = g.base_exponent(part);
+            let is_negative = g.as_integer(exponent).is_some_and(|n| n < 0);
+            is_negative.then_some(base)
+        });
+        products.extend(below);
+    }
+    let mut found: Vec<Expr> = Vec::new();
+    for product in products {
+        if g.reachable(&[product]).len() > FACTORED {
+            continue;
+        }
+        let own = all_factors(g, product, &moving).into_iter().map(|(f, _)| f);
+        for factor in own.chain([product]) {
+            if !found.contains(&factor) {
+                found.push(factor);
+            }
+        }
+    }
+    found
+}
+
 /// Factors of a function as it is, as a polynomial in cosines, and as one in sines.
 fn all_factors(g: &Graph, e: Expr, moving: &[Symbol]) -> Vec<(Expr, u32)> {
     let mut found = factors(g, e, moving).unwrap_or_default();
