@@ -655,3 +655,55 @@ fn special_values_without_the_others_values_satisfy_the_assumptions() {
         assert!(values.iter().all(|&value| value > 0.0), "{values:?}");
     });
 }
+
+/// Linear motions: (x ± y) e^(∓t) of x' = y, y' = x; the eigenvalues (-3 ± √5)/2 and the double one -1 of damped springs; the speed
+/// under drag and gravity, m y' + m²g/c, falls as e^(-c t/m).
+#[test]
+fn eigenfunctions_with_exponentials() {
+    let model = |coordinates: &str, lagrangian: &str, rest: &str, integrals: &str| {
+        format!(
+            "name = \"linear\"\ncoordinates = [{coordinates}]\nlagrangian = \"{lagrangian}\"\n{rest}\n[integrals]\n{integrals}\n"
+        )
+    };
+    let space = "(x'^2 + y'^2 + z'^2)/2";
+    contains(
+        &model(
+            "\"x\", \"y\", \"z\"",
+            space,
+            "[constraints]\na = \"x' = y\"\nb = \"y' = x\"\nc = \"z' = x y\"",
+            "a = \"(x + y) exp(-t)\"\nb = \"(x - y) exp(t)\"\nc = \"2 z - x^2\"",
+        ),
+        3,
+    );
+    contains(
+        &model(
+            "\"x\", \"y\"",
+            "(x'^2 + y'^2)/2",
+            "[constraints]\na = \"x' = x + y\"",
+            "a = \"(x + y + y') exp(-t)\"\nb = \"y'\"",
+        ),
+        3,
+    );
+    contains(
+        &model(
+            "\"x\"",
+            "x'^2/2 - x^2/2",
+            "[forces]\nx = \"-3 x'\"",
+            "a = \"(2 x' + (3 + sqrt(5)) x) exp((3 - sqrt(5)) t/2)\"\nb = \"(2 x' + (3 - sqrt(5)) x) exp((3 + sqrt(5)) t/2)\"",
+        ),
+        2,
+    );
+    contains(
+        &model(
+            "\"x\"",
+            "x'^2/2 - x^2/2",
+            "[forces]\nx = \"-2 x'\"",
+            "a = \"(x' + x) exp(t)\"\nb = \"(x - t (x' + x)) exp(t)\"",
+        ),
+        2,
+    );
+    contains(
+        "name = \"drag\"\ncoordinates = [\"y\"]\nparameters = { m = 2, c = 3, g = 1 }\nlagrangian = \"m y'^2/2 - m g y\"\n[forces]\ny = \"-c y'\"\n[integrals]\na = \"(y' + m g/c) exp(c t/m)\"\n",
+        2,
+    );
+}

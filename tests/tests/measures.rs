@@ -649,15 +649,27 @@ fn formulas_that_are_infinite_at_sources_are_no_densities() {
     );
 }
 
-/// x x' + y y' + z z' = 0 with x' = x is regular at y = 0 for x' and z' as independent velocities, and x = 0 is kept by the motion,
-/// which leaves it as e^t: a density c/x there is one on each side by itself.
+/// x' = -x drives all to x = 0, which the corner of the other constraint hides from states of rest: 1/|x| is a density on each side.
 #[test]
 fn densities_end_where_they_are_infinite() {
-    let model = "name = \"flow\"\ncoordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2\"\n[forces.drive]\nx = \"1\"\n[constraints]\na = \"y' = y x\"\n";
+    let model = "name = \"flow\"\ncoordinates = [\"x\", \"y\", \"w\"]\nlagrangian = \"(x'^2 + y'^2 + w'^2)/2\"\n[constraints]\na = \"x' = -x\"\nb = \"abs(y') = w'\"\n";
     let (word, detail) = verdict(&stated(model));
     assert_eq!(word, "proved", "{detail}");
     assert!(
-        detail.contains("not where y = 0") && detail.contains("abs(y)"),
+        detail.contains("not where x = 0") && detail.contains("1/abs(x)"),
         "{detail}"
     );
+}
+
+/// Where the divergence is the rate of a polynomial in the velocities, as -1 is that of -(x + x') for x'' = 1 - x', and x that of
+/// x x' - x'³/3 for y' = y x and x'' = 1: an exponential is smooth and positive everywhere, other than 1/y.
+#[test]
+fn exponentials_of_velocities() {
+    let drag = "name = \"drag\"\ncoordinates = [\"x\"]\nlagrangian = \"x'^2/2\"\n[forces]\nx = \"1 - x'\"\n";
+    let carried = "name = \"carried\"\ncoordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2 + x\"\n[constraints]\na = \"y' = y x\"\n";
+    for (model, density) in [(drag, "exp(x' + x)"), (carried, "exp(x'^3/3 - x x')")] {
+        let (word, detail) = verdict(&stated(model));
+        assert_eq!(word, "proved", "{detail}");
+        assert!(detail.contains(density), "{detail}");
+    }
 }

@@ -1,6 +1,7 @@
 //! The first integrals of a system in the families that are chosen for it, computed once for all claims about them.
 
 use super::automatic::{allowed, families, grown};
+use super::eigenfunctions::eigenfunctions;
 use super::embedded::Embedded;
 use super::family::{Family, Member};
 use super::killing::solutions;
@@ -41,6 +42,8 @@ pub struct Found {
     pub momenta: Vec<Momenta>,
     /// The functions of whose powers products were searched; none where these were too many.
     pub powers: Vec<Expr>,
+    /// Whether linear functions times exponentials of the time were searched.
+    pub exponentials: bool,
     /// Functionally independent first integrals, each proved.
     pub integrals: Vec<Integral>,
     /// Further integrals that are functions of `integrals`, linearly independent ones: products of two of these, and others.
@@ -148,10 +151,12 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
     // Where the integrals cannot be told apart over prime fields nothing is said of special values.
     let special = special(cx, motion, &usual, &integrals).unwrap_or_default();
     let powers = add_products(cx, motion, &usual, &mut integrals);
+    let exponentials = add_eigenfunctions(cx, motion, &usual, &mut integrals);
     Ok(Found {
         families: searched,
         momenta: all_momenta,
         powers,
+        exponentials,
         integrals,
         special,
         dependent,
@@ -264,6 +269,29 @@ fn add_products(
         }
     }
     bases
+}
+
+/// Adds linear functions times exponentials of the time that are no functions of the integrals found; whether they were searched.
+fn add_eigenfunctions(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    letters: &Letters,
+    integrals: &mut Vec<Integral>,
+) -> bool {
+    let Some(found) = eigenfunctions(cx, motion, letters) else {
+        return false;
+    };
+    let mut known = integrals.clone();
+    for own in found {
+        if is_new(cx, motion, &known, own.rational) {
+            known.push(Integral {
+                value: own.rational,
+                ..own.integral.clone()
+            });
+            integrals.push(own.integral);
+        }
+    }
+    true
 }
 
 /// The most components of fields of generalized momenta, for the usual work.

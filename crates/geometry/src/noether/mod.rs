@@ -8,6 +8,7 @@ mod conjugate;
 mod constants;
 mod critical;
 mod dependence;
+mod eigenfunctions;
 pub mod embedded;
 pub mod family;
 pub mod found;

@@ -37,7 +37,8 @@ impl Claim for FamilySearched {
          angles, its roots and exponentials, powers of coordinates, time and masses with a law of their own, logarithms of masses that vary, roots of the factors of the determinant of \
          the mass matrix; in a family of its own sines and cosines of multiples of polar angles that occur nowhere; for curvilinear coordinates polynomials in the \
          momenta and the energy, in which moments of momentum and the integrals of separable systems are short; products of any powers of \
-         velocities and functions, whose exponents are solved for). The \
+         velocities and functions, whose exponents are solved for; linear functions times exponentials of the time, whose exponents are \
+         eigenvalues of the motion on them). The \
          family is as large as the budget allows and is stated; terms of a higher degree in the velocities than two are in it where the \
          model asks for them by [search] degree. X̄G = 0 on the constraint manifold is a linear system for the \
          coefficients; it is solved at random points of prime fields with random parameters, the coefficients are lifted to functions of \
@@ -136,6 +137,9 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
             "products of any powers of {}, times exponentials of the time and of coordinates that are no angles",
             bases.join(", ")
         ));
+    }
+    if found.exponentials {
+        families.push("linear functions of velocities and coordinates times exponentials of the time, where an eigenvalue of the motion on such functions is real and solves an equation of degree one or two".into());
     }
     let special: Vec<String> = found.special.found.iter().map(|s| special(cx, s)).collect();
     let looked = &found.special.critical;

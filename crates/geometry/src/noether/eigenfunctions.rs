@@ -1,0 +1,325 @@
+//! First integrals `F e^(-λt)` from linear functions with `X̄F = λF`, as (x + y) e^(-t) for x' = y, y' = x.
+//!
+//! Among the functions `c_0 + c_i u_i` of coordinates and velocities u, those whose rates are such functions again are looked for,
+//! and of these the largest space that X̄ maps into itself. On it X̄ is a matrix of constants: its eigenvalues λ that are in the
+//! parameter field or roots of quadratics over it are formed, with eigenvectors and principal vectors of height two, for which
+//! `X̄F = λF + F_1` and `(F - t F_1) e^(-λt)` keeps its value. For polynomials F these are Darboux polynomials of degree one with
+//! constant cofactors (Goriely 2001, ch. 2).
+
+use super::ansatz::Ansatz;
+use super::letters::Letters;
+use super::motion::Motion;
+use super::search::Integral;
+use super::shown::readable;
+use chetaev_mechanics::prover::assumptions;
+use chetaev_mechanics::Context;
+use chetaev_symbolic::factors::{coefficients, factored, factors};
+use chetaev_symbolic::matrix::{determinant, null_space};
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{Expr, Function, Graph, Symbol, Verdict};
+
+/// Characteristic polynomials of larger matrices are not formed.
+const LARGEST: usize = 10;
+
+/// Longer eigenvalues, in nodes, make no integrals that a person would read.
+const LONGEST: usize = 40;
+
+/// An integral with a function of it that has values over prime fields.
+pub(super) struct Eigenfunction {
+    pub(super) integral: Integral,
+    pub(super) rational: Expr,
+}
+
+/// The integrals of this form, each proved; those with λ = 0 belong to other families. `None` where they could not be searched.
+pub(super) fn eigenfunctions(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    letters: &Letters,
+) -> Option<Vec<Eigenfunction>> {
+    let space = Invariant::of(cx, motion, letters)?;
+    let values = space.eigenvalues(cx)?.into_iter();
+    let found: Option<Vec<Vec<Eigenfunction>>> = values
+        .map(|value| space.with_eigenvalue(cx, motion, value))
+        .collect();
+    Some(found?.into_iter().flatten().collect())
+}
+
+/// Linear functions that X̄ maps into their own span.
+struct Invariant {
+    members: Vec<Expr>,
+    /// Their coefficients.
+    functions: Vec<Vec<Expr>>,
+    /// X̄ of each is the combination of all with the coefficients of its row.
+    rows: Vec<Vec<Expr>>,
+}
+
+impl Invariant {
+    fn of(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Option<Invariant> {
+        let g = &cx.system.graph;
+        let members = members(cx, motion, letters)?;
+        let rates = motion.derivatives(&members);
+        let columns: Vec<Vec<Expr>> = rates.iter().chain(&members).map(|&e| vec![e]).collect();
+        let seed = cx.prover.points_seed();
+        let ansatz = Ansatz::new(motion, &columns, &motion.manifold, &[], seed).ok()?;
+        // Σ c_i X̄u_i + Σ d_i u_i = 0: the combination c has the rate -d.
+        let found = ansatz.all()?;
+        let split = |own: &Vec<Expr>| {
+            let (c, d) = own.split_at(members.len());
+            (c.to_vec(), d.iter().map(|&e| g.neg(e)).collect())
+        };
+        let mut pairs: Vec<(Vec<Expr>, Vec<Expr>)> = found.iter().map(split).collect();
+        loop {
+            if pairs.is_empty() || pairs.len() > 2 * LARGEST {
+                return None;
+            }
+            let (next, rows) = mapped_inside(g, &pairs)?;
+            if next.len() == pairs.len() {
+                return (pairs.len() <= LARGEST).then(|| Invariant {
+                    members,
+                    functions: pairs.into_iter().map(|(c, _)| c).collect(),
+                    rows,
+                });
+            }
+            pairs = next;
+        }
+    }
+
+    /// The eigenvalues that are not zero, as far as the characteristic polynomial has factors of degree one and two.
+    fn eigenvalues(&self, cx: &Context<'_>) -> Option<Vec<Expr>> {
+        let g = &cx.system.graph;
+        // No name of a model contains a bracket.
+        let unknown = g.symbol("eigenvalue[]", 0);
+        let symbol = g.as_symbol(unknown)?;
+        let characteristic = determinant(g, &less(g, &self.rows, unknown));
+        let own = factors(g, characteristic, &[symbol])?;
+        let own = own.into_iter().flat_map(|(f, _)| roots(cx, f, symbol));
+        let own = own.map(|e| readable(g, e));
+        let own = own.filter(|&e| !g.is_zero(e) && g.reachable(&[e]).len() <= LONGEST);
+        Some(own.collect())
+    }
+
+    fn with_eigenvalue(
+        &self,
+        cx: &Context<'_>,
+        motion: &Motion<'_>,
+        value: Expr,
+    ) -> Option<Vec<Eigenfunction>> {
+        let g = &cx.system.graph;
+        let once = transposed(&less(g, &self.rows, value));
+        let twice = product(g, &once, &once);
+        let size = self.functions.len();
+        // Eigenvectors first, so that principal vectors are new beside them.
+        let vectors: Result<Vec<Vec<Vec<Expr>>>, _> = [&once, &twice]
+            .into_iter()
+            .map(|m| null_space(g, m, size))
+            .collect();
+        let found = vectors.ok()?.into_iter().flatten().map(|vector| {
+            let lower = self.coefficients(g, &times(g, &once, &vector));
+            let own = self.coefficients(g, &vector);
+            let leading = self.leading(g, &own)?;
+            let function = |own: Vec<Expr>| {
+                let scaled = own.into_iter().map(|e| readable(g, g.div(e, leading)));
+                combined(g, &scaled.collect::<Vec<Expr>>(), &self.members)
+            };
+            proved(cx, motion, value, (function(own), function(lower)))
+        });
+        found.collect()
+    }
+
+    /// The coefficient of the first velocity, or of the first coordinate where there is none.
+    fn leading(&self, g: &Graph, own: &[Expr]) -> Option<Expr> {
+        let is_velocity = |e: Expr| g.symbols_in(&[e]).iter().any(|&s| g.symbol_order(s) > 0);
+        let used = own.iter().zip(&self.members);
+        let used = used.filter(|(&c, &e)| !g.is_zero(c) && !g.is_one(e));
+        let (first, velocity) = (
+            used.clone().next(),
+            used.clone().find(|(_, &e)| is_velocity(e)),
+        );
+        velocity.or(first).map(|(&c, _)| c)
+    }
+
+    /// The coefficients of a combination of the functions.
+    fn coefficients(&self, g: &Graph, weights: &[Expr]) -> Vec<Expr> {
+        let columns = 0..self.members.len();
+        let entry = |i: usize| {
+            let own: Vec<Expr> = self.functions.iter().map(|c| c[i]).collect();
+            combined(g, weights, &own)
+        };
+        columns.map(entry).collect()
+    }
+}
+
+/// One, coordinates that are no angles, and velocities, as far as they are linearly independent on the constraint manifold.
+fn members(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Option<Vec<Expr>> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let angles = &letters.coefficients[..letters.circular];
+    let is_angle = |q: Expr| angles.iter().any(|c| c.letter.value == g.sin(q));
+    let places = system.coordinates.iter().map(|c| c.q);
+    let places = places.filter(|&q| !is_angle(q));
+    let velocities = letters.velocities.iter().map(|l| l.value);
+    let all: Vec<Expr> = std::iter::once(g.one())
+        .chain(places)
+        .chain(velocities)
+        .collect();
+    let columns: Vec<Vec<Expr>> = all.iter().map(|&e| vec![e]).collect();
+    let seed = cx.prover.points_seed();
+    let ansatz = Ansatz::new(motion, &columns, &motion.manifold, &[], seed).ok()?;
+    let independent = ansatz.independent()?;
+    Some(independent.into_iter().map(|i| all[i]).collect())
+}
+
+/// Combinations with their rates, both in the same functions.
+type Pairs = Vec<(Vec<Expr>, Vec<Expr>)>;
+
+/// Those of the span of combinations whose rates are in it, and their rates by all combinations given.
+fn mapped_inside(g: &Graph, pairs: &Pairs) -> Option<(Pairs, Vec<Vec<Expr>>)> {
+    let size = pairs.first()?.0.len();
+    let count = pairs.len();
+    let rows: Vec<Vec<Expr>> = (0..size)
+        .map(|i| {
+            let own = pairs.iter().map(|(c, _)| c[i]);
+            own.chain(pairs.iter().map(|(_, d)| d[i])).collect()
+        })
+        .collect();
+    let found = null_space(g, &rows, 2 * count).ok()?;
+    let sum = |weights: &[Expr], of: fn(&(Vec<Expr>, Vec<Expr>)) -> &Vec<Expr>| -> Vec<Expr> {
+        let entry = |i: usize| {
+            let own = weights
+                .iter()
+                .zip(pairs)
+                .map(|(&w, pair)| g.mul(&[w, of(pair)[i]]));
+            readable(g, g.add(&own.collect::<Vec<Expr>>()))
+        };
+        (0..size).map(entry).collect()
+    };
+    let next = found.iter().map(|own| {
+        let weights = &own[count..];
+        (sum(weights, |pair| &pair.0), sum(weights, |pair| &pair.1))
+    });
+    let by_all = found.iter().map(|own| {
+        let own = own[..count].iter().map(|&e| readable(g, g.neg(e)));
+        own.collect::<Vec<Expr>>()
+    });
+    Some((next.collect(), by_all.collect()))
+}
+
+/// The real roots of a polynomial of degree one or two.
+fn roots(cx: &Context<'_>, polynomial: Expr, symbol: Symbol) -> Vec<Expr> {
+    let g = &cx.system.graph;
+    match coefficients(g, polynomial, symbol).as_deref() {
+        Some(&[b, a]) => vec![g.neg(g.div(b, a))],
+        Some(&[c, b, a]) => {
+            let square = g.sub(g.powi(b, 2), g.mul(&[g.integer(4), a, c]));
+            let square = readable(g, square);
+            let valued = g.substitute(square, &cx.system.parameter_values());
+            let stated = assumptions(cx.system);
+            let is_real = [square, valued]
+                .iter()
+                .any(|&e| known_sign(g, e, &stated).is_positive());
+            if !is_real {
+                return Vec::new();
+            }
+            let root = root_or_negative(g, square);
+            let below = g.mul(&[g.integer(2), a]);
+            [root, g.neg(root)]
+                .map(|root| g.div(g.sub(root, b), below))
+                .to_vec()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// √e or its negative: squares stand before the root.
+fn root_or_negative(g: &Graph, e: Expr) -> Expr {
+    let Some(own) = factored(g, e) else {
+        return g.sqrt(e);
+    };
+    let (mut outside, mut inside) = (Vec::new(), vec![g.number(own.coefficient)]);
+    for (factor, power) in own.factors {
+        let power = i64::from(power);
+        outside.push(g.powi(factor, power.div_euclid(2)));
+        inside.push(g.powi(factor, power.rem_euclid(2)));
+    }
+    outside.push(g.sqrt(g.mul(&inside)));
+    g.mul(&outside)
+}
+
+/// The integral of a function with `X̄F = λF + F_1`, where that and `X̄F_1 = λF_1` are proved; F_1 may be zero.
+fn proved(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    value: Expr,
+    (function, lower): (Expr, Expr),
+) -> Option<Eigenfunction> {
+    let g = &cx.system.graph;
+    let (function, lower) = (readable(g, function), readable(g, lower));
+    let rates = motion.derivatives(&[function, lower]);
+    let residuals = [
+        g.sub(rates[0], g.add(&[g.mul(&[value, function]), lower])),
+        g.sub(rates[1], g.mul(&[value, lower])),
+    ];
+    let on = "on the constraint manifold";
+    let verdict = cx
+        .prover
+        .identity(cx.system, &residuals, &motion.manifold, on);
+    if !matches!(verdict, Verdict::Proved(_)) {
+        return None;
+    }
+    let time = g.symbol("t", 0);
+    let decay = g.exp(g.neg(g.mul(&[value, time])));
+    let (integral, rational) = match g.is_zero(lower) {
+        true => (
+            g.mul(&[function, decay]),
+            g.sub(g.apply(Function::Log, &[function]), g.mul(&[value, time])),
+        ),
+        false => (
+            g.mul(&[g.sub(function, g.mul(&[time, lower])), decay]),
+            g.sub(g.div(function, lower), time),
+        ),
+    };
+    Some(Eigenfunction {
+        integral: Integral {
+            value: integral,
+            shown: integral,
+            verdict: verdict.prefixed(match g.is_zero(lower) {
+                true => "what stands before the exponential grows or decays at its inverse rate",
+                false => "the rate of what stands before the exponential is a multiple of it",
+            }),
+            independent: true,
+            name: None,
+        },
+        rational,
+    })
+}
+
+/// A square matrix less a multiple of the unit matrix.
+fn less(g: &Graph, matrix: &[Vec<Expr>], value: Expr) -> Vec<Vec<Expr>> {
+    let mut less = matrix.to_vec();
+    for (i, row) in less.iter_mut().enumerate() {
+        row[i] = g.sub(row[i], value);
+    }
+    less
+}
+
+fn transposed(matrix: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
+    let columns = 0..matrix.len();
+    columns
+        .map(|j| matrix.iter().map(|row| row[j]).collect())
+        .collect()
+}
+
+fn product(g: &Graph, a: &[Vec<Expr>], b: &[Vec<Expr>]) -> Vec<Vec<Expr>> {
+    let columns = transposed(b);
+    let row = |own: &Vec<Expr>| columns.iter().map(|c| combined(g, own, c)).collect();
+    a.iter().map(row).collect()
+}
+
+fn times(g: &Graph, matrix: &[Vec<Expr>], vector: &[Expr]) -> Vec<Expr> {
+    matrix.iter().map(|row| combined(g, row, vector)).collect()
+}
+
+/// Σ c_i f_i.
+fn combined(g: &Graph, c: &[Expr], f: &[Expr]) -> Expr {
+    let parts = c.iter().zip(f).map(|(&c, &f)| g.mul(&[c, f]));
+    readable(g, g.add(&parts.collect::<Vec<Expr>>()))
+}
