@@ -707,3 +707,27 @@ fn eigenfunctions_with_exponentials() {
         2,
     );
 }
+
+/// |x'| = y' keeps y - x while x' > 0 and y + x while x' < 0; x + 2 y on neither side.
+#[test]
+fn integrals_on_one_side_of_a_corner() {
+    let model = made_up(
+        "name = \"corner\"\ncoordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2\"\n[constraints]\na = \"abs(x') = y'\"\n[integrals]\nforward = \"y - x\"\nbackward = \"y + x\"\nneither = \"x + 2 y\"\n",
+    );
+    in_context(&model, |cx| {
+        for (name, side) in [("forward", "x' > 0"), ("backward", "x' < 0")] {
+            let finding = cx.finding(&format!("noether.inverse#{name}"));
+            let Verdict::Conditional { condition, .. } = &finding.verdict else {
+                panic!("{name}: {}", finding.verdict.detail());
+            };
+            assert!(condition.contains(side), "{name}: {condition}");
+        }
+        let finding = cx.finding("noether.inverse#neither");
+        assert_eq!(
+            finding.verdict.word(),
+            "refuted",
+            "{}",
+            finding.verdict.detail()
+        );
+    });
+}

@@ -18,6 +18,7 @@
 //! identity in these coefficients is the same statement, one residual for each constraint.
 
 mod integral;
+pub(crate) use integral::on_its_own;
 
 use crate::cartan::{exterior_derivative, CartanForm, JetField};
 use crate::distribution::Distribution;
@@ -279,14 +280,14 @@ impl Claim for ConstraintsIntegrable {
             for kept in all.filter(|kept| !partly || !kept.functions.is_empty()) {
                 let texts = kept.functions.iter().map(|&e| cx.system.graph.text(e));
                 let texts = texts.collect::<Vec<String>>().join(", ");
-                let place = match &kept.component {
-                    Some(condition) => format!(" on the component {condition}"),
+                let place = match &kept.place {
+                    Some(place) => format!(" {place}"),
                     None => String::new(),
                 };
                 let missing = cx.selection.rows.len().saturating_sub(kept.functions.len());
                 sentence = match texts.is_empty() {
                     true => format!("{sentence}; what they keep{place} was not found among the functions that occur, their logarithms and arctangents"),
-                    false if integrable && kept.component.is_none() && missing > 0 => {
+                    false if integrable && kept.place.is_none() && missing > 0 => {
                         format!("{sentence}; what they keep: {texts}, and {missing} more, not found")
                     }
                     false => format!("{sentence}; what they keep{place}: {texts}"),

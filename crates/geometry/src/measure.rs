@@ -41,6 +41,8 @@ pub struct Measure {
     pub kept: Option<Verdict>,
     /// Where N may be zero or infinite.
     pub edges: formula::Edges,
+    /// Coordinates that may be angles of which the model does not say so, and after a turn of which N does not return.
+    pub unrolled: Vec<String>,
     /// A density N(t, q) of `N dt dq dη`, for a motion free of the time that keeps one with the time although none without was found,
     /// with its proof.
     pub with_time: Option<(Expr, Verdict)>,
@@ -96,6 +98,7 @@ fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
     measure.edges = formula::edges(cx, flow, density);
     let density = formula::positive_beyond(g, density, &measure.edges);
     measure.density = Some(density);
+    measure.unrolled = angles::unrolled(cx, flow, density);
     measure.verdict = angles::returning(cx, flow, density, kept);
     match measure.edges.of_density.is_empty() {
         true => measure,
@@ -115,6 +118,7 @@ impl Measure {
             self.kept = Some(kept);
             self.density = Some(density);
             self.edges = formula::Edges::default();
+            self.unrolled = angles::unrolled(cx, flow, density);
             self.words = WORDS[0];
         }
         self
@@ -126,6 +130,7 @@ fn searched(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
         density,
         kept: density.map(|_| verdict.clone()),
         edges: formula::Edges::default(),
+        unrolled: Vec::new(),
         with_time: None,
         verdict,
         divergence: Some(flow.divergence),
@@ -434,6 +439,12 @@ impl Claim for InvariantMeasure {
                 };
                 proof.detail = format!("{form}, {with}, is invariant {what}; {}", proof.detail);
                 within(cx, proof, &measure.edges, &n);
+                if !measure.unrolled.is_empty() {
+                    proof.detail.push_str(&format!(
+                        "; {} counted as of the whole line: as an angle, which unit = \"rad\" says, the density would have to return after a turn",
+                        listed(&measure.unrolled)
+                    ));
+                }
             }
         }
         if let Some(divergence) = measure.divergence {
@@ -448,6 +459,12 @@ impl Claim for InvariantMeasure {
         }
         Finding { verdict, formulas }
     }
+}
+
+/// Names with their verb.
+fn listed(names: &[String]) -> String {
+    let verb = if names.len() == 1 { "is" } else { "are" };
+    format!("{} {verb}", names.join(", "))
 }
 
 /// Says in a proof outside which set a density is one.

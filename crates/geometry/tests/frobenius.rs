@@ -576,7 +576,28 @@ fn constraints_with_corners_are_integrable_on_each_side() {
             condition.contains("≠ 0, on each side by itself"),
             "{condition}"
         );
+        let detail = found.verdict.detail();
+        let sides = ["where x' > 0: y - x", "where x' < 0: x + y"];
+        assert!(sides.iter().all(|side| detail.contains(side)), "{detail}");
     }
+}
+
+/// y/x is kept where √(x² + y²)/x is.
+#[test]
+fn what_is_kept_is_shown_without_roots() {
+    let constraints = [
+        ("a", "x*y' - y*x'"),
+        ("b", "z' - (x*x' + y*y')/sqrt(x^2 + y^2)"),
+    ];
+    let own = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &constraints);
+    let found = finding(&own, "model.constraints-integrable#weak");
+    let mut shown: Vec<String> = found
+        .formulas
+        .iter()
+        .map(|f| own.graph.text(f.right))
+        .collect();
+    shown.sort();
+    assert_eq!(shown, ["sqrt(x^2 + y^2) - z", "y/x"]);
 }
 
 /// A root of what vanishes nowhere has no corner: (z' - x x') √(1 + x'²) = 0 keeps z - x²/2 at all states.

@@ -118,6 +118,70 @@ impl System {
         found.collect::<Option<Vec<_>>>().unwrap_or_default()
     }
 
+    /// The systems on all sides of the corners of constraints, where an absolute value or a sign of velocities is written without it:
+    /// for `abs(x') = y'` those with x' = y' and x' > 0, and with -x' = y' and x' < 0. None where there are no corners, or too many.
+    pub fn sides(&self) -> Vec<OnComponent> {
+        let corners = self.corners();
+        if corners.is_empty() || 1 << corners.len() > COMPONENTS {
+            return Vec::new();
+        }
+        let all = 0..1_usize << corners.len();
+        let found = all.map(|number| {
+            let signs = (0..corners.len()).map(|i| number >> i & 1 == 0);
+            self.with_signs(&corners.iter().copied().zip(signs).collect::<Vec<_>>())
+        });
+        found.collect::<Option<Vec<_>>>().unwrap_or_default()
+    }
+
+    /// What stands in absolute values and signs in the constraints and contains velocities.
+    fn corners(&self) -> Vec<Expr> {
+        let (g, velocities) = (&self.graph, self.velocity_symbols());
+        let constraints: Vec<Expr> = self.constraints.iter().map(|c| c.f).collect();
+        let mut found: Vec<Expr> = Vec::new();
+        for e in g.reachable(&constraints) {
+            if let Node::Apply {
+                function: Function::Abs | Function::Sign,
+                arguments,
+            } = g.node(e)
+            {
+                let inside = arguments[0];
+                if g.contains_any(inside, &velocities) && !found.contains(&inside) {
+                    found.push(inside);
+                }
+            }
+        }
+        found
+    }
+
+    /// The system where these are positive, or negative.
+    fn with_signs(&self, signs: &[(Expr, bool)]) -> Option<OnComponent> {
+        let (g, mut system) = (&self.graph, self.clone());
+        let (mut pairs, mut conditions) = (Vec::new(), Vec::new());
+        for &(inside, is_positive) in signs {
+            let (sign, own) = match is_positive {
+                true => (g.one(), inside),
+                false => (g.neg(g.one()), g.neg(inside)),
+            };
+            pairs.push((g.abs(inside), own));
+            pairs.push((g.apply(Function::Sign, &[inside]), sign));
+            system
+                .assumptions
+                .push(assumption(g, g.zero(), Relation::Less, own));
+            let relation = if is_positive { ">" } else { "<" };
+            conditions.push(format!("{} {relation} 0", g.text(inside)));
+        }
+        for constraint in &mut system.constraints {
+            let f = g.substitute(constraint.f, &pairs);
+            *constraint = Constraint::classify(self, constraint.name.clone(), f).ok()?;
+        }
+        let condition = conditions.join(" and ");
+        Some(OnComponent {
+            system,
+            sentence: format!("where {condition}"),
+            condition: Some(condition),
+        })
+    }
+
     /// The constraints nonlinear in the velocities for which there are simpler functions.
     fn simpler(&self) -> Vec<Simpler> {
         let (g, known) = (&self.graph, assumptions(self));

@@ -11,9 +11,11 @@ use crate::noether::letters::{fixed_coordinates, Letters};
 use crate::noether::motion::Motion;
 use crate::noether::shown::readable;
 use chetaev_mechanics::characteristics::derive_along;
-use chetaev_mechanics::{Characteristics, Context, Manifold, Prepared};
+use chetaev_mechanics::components::OnComponent;
+use chetaev_mechanics::{Characteristics, Context, Manifold, Prepared, System};
 use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::rational::content;
+use chetaev_symbolic::simplify::length;
 use chetaev_symbolic::{Expr, Function, Node, Rational, Verdict};
 
 /// The most functions combined, without logarithms.
@@ -45,42 +47,48 @@ const LOOKED_AT: usize = 12;
 
 /// What constraints keep.
 pub(super) struct Kept {
-    /// The equations of a component of constraints that are products, where it is kept there only.
-    pub(super) component: Option<String>,
+    /// On which component of constraints that are products, or on which side of their corners, where it is kept there only.
+    pub(super) place: Option<String>,
     /// Functions of (t, q).
     pub(super) functions: Vec<Expr>,
 }
 
-/// What the context's constraints keep, on each component where they are products; constraints that are functions of simpler ones
-/// are replaced by these.
+/// What the context's constraints keep, on each component where they are products, on each side of corners; constraints that are
+/// functions of simpler ones are replaced by these.
 pub(super) fn kept(cx: &Context<'_>) -> Vec<Kept> {
     let components = cx.system.components();
-    if components.is_empty() {
-        let functions = functions(cx);
-        return vec![Kept {
-            component: None,
-            functions,
-        }];
+    if !components.is_empty() {
+        return on_each(cx, components, "on the component ");
     }
-    let on = components.into_iter().map(|on| {
-        let prepared = Prepared::new(&on.system).ok();
-        let functions = prepared.map(|prepared| {
-            let (terms, selection) = (&prepared.terms, &prepared.selection);
-            let own = Context::new(
-                &on.system,
-                terms,
-                selection,
-                cx.registry(),
-                cx.prover.clone(),
-            );
-            functions(&own.allowing(cx.work()))
-        });
-        Kept {
-            component: on.condition,
-            functions: functions.unwrap_or_default(),
-        }
+    let sides = cx.system.sides();
+    if !sides.is_empty() {
+        return on_each(cx, sides, "where ");
+    }
+    let functions = functions(cx);
+    vec![Kept {
+        place: None,
+        functions,
+    }]
+}
+
+fn on_each(cx: &Context<'_>, systems: Vec<OnComponent>, words: &str) -> Vec<Kept> {
+    let on = systems.into_iter().map(|on| Kept {
+        functions: on_its_own(cx, &on.system, functions).unwrap_or_default(),
+        place: on.condition.map(|condition| format!("{words}{condition}")),
     });
     on.collect()
+}
+
+/// What is known of another system than the context's, with the work and the prover of this; `None` where it has no independent velocities.
+pub(crate) fn on_its_own<T>(
+    cx: &Context<'_>,
+    system: &System,
+    ask: impl FnOnce(&Context<'_>) -> T,
+) -> Option<T> {
+    let prepared = Prepared::new(system).ok()?;
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let own = Context::new(system, terms, selection, cx.registry(), cx.prover.clone());
+    Some(ask(&own.allowing(cx.work())))
 }
 
 /// Functions of (t, q) that the context's constraints keep, each proved, none a function of those before it: what holonomic
@@ -165,6 +173,12 @@ fn members(cx: &Context<'_>, motion: &Motion<'_>) -> Option<Vec<Member>> {
         }
         monomials = next;
     }
+    // Without roots first: where √(x² + y²)/y is kept so is x/y.
+    let is_root = |&(l, _): &(usize, i8)| {
+        let (_, exponent) = g.base_exponent(letters[l].letter.value);
+        g.as_integer(exponent).is_none()
+    };
+    monomials.sort_by_key(|(weight, member)| (*weight, member.iter().any(is_root)));
     let value = |member: &[(usize, i8)]| {
         let powers = member.iter();
         let powers = powers.map(|&(l, e)| g.powi(letters[l].letter.value, i64::from(e)));
@@ -198,6 +212,8 @@ fn members(cx: &Context<'_>, motion: &Motion<'_>) -> Option<Vec<Member>> {
         }
     }
     members.extend(arctangents(cx, &bases).into_iter().map(Member::Plain));
+    // Short ones first: combinations use those before them, and x/y is wanted where √(x² + y²)/y is kept too.
+    bases.sort_by_key(|&e| length(g, e));
     members.extend(bases.into_iter().map(Member::Logarithm));
     Some(members)
 }

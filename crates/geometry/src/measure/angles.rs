@@ -73,6 +73,23 @@ pub(super) fn returning(
     })
 }
 
+/// Coordinates without a unit with which a density does not return although the motion does after a turn of them: the density is right
+/// where they are lengths, and a further turn is a further place.
+pub(super) fn unrolled(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Vec<String> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let motion = [&flow.chart.velocities[..], &flow.rates].concat();
+    let is_one = |j: &usize| {
+        let c = &system.coordinates[*j];
+        !system.angles.contains(&c.name)
+            && g.contains_any(density, &[c.q_symbol])
+            && !returns(cx, density, *j)
+            && g.any_contains_any(&motion, &[c.q_symbol])
+            && motion.iter().all(|&e| returns(cx, e, *j))
+    };
+    let all = (0..system.n()).filter(is_one);
+    all.map(|j| system.coordinates[j].name.clone()).collect()
+}
+
 /// Whether an expression contains an angle only in sines and the like of whole multiples.
 fn returns(cx: &Context<'_>, e: Expr, angle: usize) -> bool {
     let g = &cx.system.graph;

@@ -3,6 +3,7 @@
 use super::domain::{nowhere, undefined_at_samples};
 use super::parts::{parts, Part};
 use super::{generator_formulas, on_manifold, requirements};
+use crate::integrability::on_its_own;
 use crate::noether::embedded::Embedded;
 use crate::noether::generator::Generator;
 use crate::noether::motion::Motion;
@@ -33,7 +34,7 @@ impl Claim for Inverse {
         "A function G stated under [integrals] keeps its value along every motion: X̄G = 0 on the constraint manifold. If so, the inverse of \
          Noether's theorem gives its field: χ = -W̄⁻¹ ∂G, here with δ = 0, and the gauge g = G + p χ; the Killing-type equations are \
          proved for them. `conditional` says that it is one for parameters as the model defines them by others, not for \
-         independent ones, or for the values that it states, or as long as the function does not jump, or on the part of the states that the model states with `on`, which is proved to be invariant, or on one component of constraints that are products; `refuted` comes with an admissible state at which the rate of G is not zero; \
+         independent ones, or for the values that it states, or as long as the function does not jump, or on the part of the states that the model states with `on`, which is proved to be invariant, or on one component of constraints that are products, or on one side of the corners of constraints; `refuted` comes with an admissible state at which the rate of G is not zero; \
          `not-applicable` says that G has no real value at any state."
     }
 
@@ -67,7 +68,7 @@ impl Claim for Inverse {
                 Some(verdict) => return verdict.into(),
                 None => Verdict::Proved(proof),
             },
-            other => match on_part(cx, &motion, subject, *value) {
+            other => match on_part(cx, &motion, subject, *value).or_else(|| on_sides(cx, *value)) {
                 Some(verdict) => verdict,
                 None => match by_definitions(cx, &motion, *value)
                     .or_else(|| by_values(cx, &motion, *value))
@@ -144,6 +145,33 @@ fn on_part(
         Some(other) => other.prefixed(
             "whether states as stated with `on` stay such, and the rate of the function vanishes there",
         ),
+    })
+}
+
+/// The verdict where constraints have corners and the function keeps its value on some of their sides only.
+fn on_sides(cx: &Context<'_>, value: Expr) -> Option<Verdict> {
+    let (mut proofs, mut found) = (Vec::new(), None);
+    for side in cx.system.sides() {
+        let decided = on_its_own(cx, &side.system, |own| {
+            Some(Motion::of(own).ok()?.is_integral(own, value))
+        });
+        match decided.flatten()? {
+            Verdict::Proved(proof) => proofs.push((side.condition?, proof)),
+            Verdict::Refuted(counterexample) => found = Some(counterexample),
+            _ => return None,
+        }
+    }
+    let texts: Vec<&str> = proofs.iter().map(|(text, _)| text.as_str()).collect();
+    let condition = texts.join(" or ");
+    let (_, mut proof) = proofs.pop()?;
+    proof.detail = format!(
+        "the constraints have corners, and it keeps its value as long as {condition}; {}",
+        proof.detail
+    );
+    Some(Verdict::Conditional {
+        condition: format!("{condition}, as long as the motion stays there"),
+        proof,
+        counterexample: found,
     })
 }
 
