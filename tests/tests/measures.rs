@@ -339,18 +339,19 @@ fn densities_with_velocities_are_not_excluded() {
 /// The angle φ enters the density exp(φ) of φ'' = sin φ, ψ'' = -φ' ψ': smooth on the line, and nothing that returns after a turn.
 #[test]
 fn coordinates_without_units_are_no_angles() {
-    let text = |unit: &str| {
+    let text = |unit: &str, parameter: &str| {
         format!(
-            "name = \"turning\"\nlagrangian = \"(phi'^2 + psi'^2)/2 - cos(phi)\"\n[coordinates]\nphi = {unit}\npsi = {unit}\n[forces]\npsi = \"-phi' psi'\"\n"
+            "name = \"turning\"\nlagrangian = \"(phi'^2 + psi'^2)/2 - k cos(phi)\"\n[coordinates]\nphi = {unit}\npsi = {unit}\n[parameters]\nk = {parameter}\n[forces]\npsi = \"-phi' psi'\"\n"
         )
     };
-    let (word, detail) = verdict(&stated(&text("{}")));
+    let (word, detail) = verdict(&stated(&text("{}", "1")));
     assert_eq!(word, "proved", "{detail}");
     assert!(
         detail.contains("exp(phi)") && detail.contains("phi is counted as of the whole line"),
         "{detail}"
     );
-    let (word, detail) = verdict(&stated(&text("{ unit = \"rad\" }")));
+    let parameter = "{ value = 1, unit = \"1/s^2\" }";
+    let (word, detail) = verdict(&stated(&text("{ unit = \"rad\" }", parameter)));
     assert_eq!(word, "undecided", "{detail}");
 }
 

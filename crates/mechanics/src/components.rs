@@ -73,6 +73,34 @@ struct Simpler {
     assumptions: Vec<Assumption>,
 }
 
+/// A function at whose zeros constraints have a corner.
+struct Corner {
+    inside: Expr,
+    /// What is a whole power of its absolute value; the power 0 stands for its sign.
+    written: Vec<(Expr, i64)>,
+}
+
+/// What an expression is the sign or a power of the absolute value of.
+fn corner(g: &Graph, e: Expr) -> Option<(Expr, i64)> {
+    match g.node(e) {
+        Node::Apply {
+            function: Function::Abs,
+            arguments,
+        } => Some((arguments[0], 1)),
+        Node::Apply {
+            function: Function::Sign,
+            arguments,
+        } => Some((arguments[0], 0)),
+        Node::Power { base, exponent } if g.as_integer(*exponent).is_none() => {
+            let (inside, square) = g.base_exponent(*base);
+            let power = g.as_integer(g.mul(&[square, *exponent]))?;
+            let is_even = g.as_integer(square).is_some_and(|n| n % 2 == 0);
+            (is_even && power != 0).then_some((inside, power))
+        }
+        _ => None,
+    }
+}
+
 impl System {
     /// The system on one component of constraints nonlinear in the velocities that are products, `z'² = y² x'²`: that with the only factor
     /// that vanishes at the start, by the values of factors there where they are known, else with the first. Constraints `F(u) = c`
@@ -128,42 +156,51 @@ impl System {
         let all = 0..1_usize << corners.len();
         let found = all.map(|number| {
             let signs = (0..corners.len()).map(|i| number >> i & 1 == 0);
-            self.with_signs(&corners.iter().copied().zip(signs).collect::<Vec<_>>())
+            self.with_signs(&corners.iter().zip(signs).collect::<Vec<_>>())
         });
         found.collect::<Option<Vec<_>>>().unwrap_or_default()
     }
 
-    /// What stands in absolute values and signs in the constraints and contains velocities.
-    fn corners(&self) -> Vec<Expr> {
+    /// The corners of the constraints in the velocities: absolute values, signs, and roots of squares.
+    fn corners(&self) -> Vec<Corner> {
         let (g, velocities) = (&self.graph, self.velocity_symbols());
         let constraints: Vec<Expr> = self.constraints.iter().map(|c| c.f).collect();
-        let mut found: Vec<Expr> = Vec::new();
+        let mut found: Vec<Corner> = Vec::new();
         for e in g.reachable(&constraints) {
-            if let Node::Apply {
-                function: Function::Abs | Function::Sign,
-                arguments,
-            } = g.node(e)
-            {
-                let inside = arguments[0];
-                if g.contains_any(inside, &velocities) && !found.contains(&inside) {
-                    found.push(inside);
-                }
+            let Some((inside, power)) = corner(g, e) else {
+                continue;
+            };
+            if !g.contains_any(inside, &velocities) {
+                continue;
+            }
+            match found.iter_mut().find(|own| own.inside == inside) {
+                Some(own) => own.written.push((e, power)),
+                None => found.push(Corner {
+                    inside,
+                    written: vec![(e, power)],
+                }),
             }
         }
         found
     }
 
-    /// The system where these are positive, or negative.
-    fn with_signs(&self, signs: &[(Expr, bool)]) -> Option<OnComponent> {
+    /// The system where the insides of corners are positive, or negative.
+    fn with_signs(&self, signs: &[(&Corner, bool)]) -> Option<OnComponent> {
         let (g, mut system) = (&self.graph, self.clone());
         let (mut pairs, mut conditions) = (Vec::new(), Vec::new());
-        for &(inside, is_positive) in signs {
-            let (sign, own) = match is_positive {
-                true => (g.one(), inside),
-                false => (g.neg(g.one()), g.neg(inside)),
-            };
-            pairs.push((g.abs(inside), own));
-            pairs.push((g.apply(Function::Sign, &[inside]), sign));
+        for &(corner, is_positive) in signs {
+            let inside = corner.inside;
+            let own = if is_positive { inside } else { g.neg(inside) };
+            for &(e, power) in &corner.written {
+                pairs.push((
+                    e,
+                    match power {
+                        0 if is_positive => g.one(),
+                        0 => g.neg(g.one()),
+                        _ => g.powi(own, power),
+                    },
+                ));
+            }
             system
                 .assumptions
                 .push(assumption(g, g.zero(), Relation::Less, own));
