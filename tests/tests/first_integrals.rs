@@ -731,3 +731,24 @@ fn integrals_on_one_side_of_a_corner() {
         );
     });
 }
+
+/// Veselova's system as by hand, in the rates of Euler's angles: the components of the moment of momentum across the direction are
+/// momenta with coefficients that contain 1/sin θ.
+#[test]
+fn veselova_without_quasi_velocities() {
+    let rates = [
+        "(phi' sin(theta) sin(psi) + theta' cos(psi))",
+        "(phi' sin(theta) cos(psi) - theta' sin(psi))",
+        "(phi' cos(theta) + psi')",
+    ];
+    let [w1, w2, w3] = rates;
+    let across = format!(
+        "2 {w1} (cos(phi) cos(psi) - sin(phi) cos(theta) sin(psi)) - 3 {w2} (cos(phi) sin(psi) + sin(phi) cos(theta) cos(psi)) + 5 {w3} sin(phi) sin(theta)"
+    );
+    contains(
+        &format!(
+            "name = \"veselova\"\nlagrangian = \"{w1}^2 + 3 {w2}^2/2 + 5 {w3}^2/2\"\n[coordinates]\nphi = {{ unit = \"rad\" }}\ntheta = {{ unit = \"rad\" }}\npsi = {{ unit = \"rad\" }}\n[constraints]\nno_spin = \"phi' + psi' cos(theta) = 0\"\n[integrals]\nacross = \"{across}\"\n"
+        ),
+        3,
+    );
+}

@@ -19,12 +19,12 @@ const COORDINATES: usize = 4;
 /// The most members of the family linear in the momenta, and of the quadratic one, for the usual work.
 const MEMBERS: [usize; 2] = [260, 260];
 
-/// The momenta of the coordinates, where constraints do not tie them and the mass matrix depends on the place.
+/// The momenta of the coordinates, where the mass matrix depends on the place.
 pub(super) fn momenta(cx: &Context<'_>) -> Vec<(Symbol, Expr)> {
     let (system, g) = (cx.system, &cx.system.graph);
     let own = system.coordinate_symbols();
     let is_curvilinear = g.any_contains_any(&cx.terms.mass_matrix.concat(), &own);
-    if !system.constraints.is_empty() || system.n() > COORDINATES || !is_curvilinear {
+    if system.n() > COORDINATES || !is_curvilinear {
         return Vec::new();
     }
     let all = system.coordinates.iter();
@@ -40,7 +40,10 @@ pub(super) fn families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
     let own = Own::of(cx, letters);
     let sizes = MEMBERS.map(|usual| allowed(cx, usual));
     let linear = grown(sizes[0], 0, |weight| own.linear(weight), members);
-    let quadratic = grown(sizes[1], 0, |weight| own.quadratic(weight), members);
+    // Nothing separates where constraints tie the momenta; moments of momentum are kept there too, as Veselova's.
+    let is_free = cx.system.constraints.is_empty();
+    let quadratic = is_free.then(|| grown(sizes[1], 0, |weight| own.quadratic(weight), members));
+    let quadratic = quadratic.flatten();
     let linear = linear.map(|(weight, family)| Family {
         words: own.words(&own.turning, 1, weight),
         ..family
@@ -88,7 +91,10 @@ impl<'l> Own<'l> {
                 letters.polar.iter().any(|p| p.coordinate == q) || values.any(|e| e == g.cos(q))
             };
             let (least, most) = c.exponents;
-            c.exponents = match turns(letters.coefficients[place].letter.value) {
+            // Roots that stand in densities are in no momentum about an axis.
+            let (_, power) = g.base_exponent(c.letter.value);
+            let is_root = !system.constraints.is_empty() && g.as_integer(power).is_none();
+            c.exponents = match is_root || turns(letters.coefficients[place].letter.value) {
                 true => (0, 0),
                 false => (least.max(-1), most.min(1)),
             };
