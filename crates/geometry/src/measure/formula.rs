@@ -187,6 +187,12 @@ fn signs(cx: &Context<'_>, e: Expr) -> Option<bool> {
 
 fn values(cx: &Context<'_>, e: Expr) -> Vec<f64> {
     let g = &cx.system.graph;
+    // States are sampled in the velocities of the coordinates.
+    let quasi = cx.system.quasi_velocities.iter();
+    let definitions: Vec<(Expr, Expr)> = quasi
+        .map(|own| (g.symbol(&own.name, 0), own.definition))
+        .collect();
+    let e = g.substitute(e, &definitions);
     let points =
         (0..SAMPLES).filter_map(|i| sample::admissible_point(cx.system, cx.terms, SEED + i));
     let values = points.filter_map(|point| {

@@ -3,7 +3,7 @@
 //! The columns X̄φ that are independent in general make a square matrix at as many points of N. With the points and all other
 //! parameters at random values modulo p its determinant is a rational function of the one parameter, and it vanishes where the
 //! rank falls, hence wherever there are more integrals. Of its roots those are candidates that are rational multiples of
-//! products of powers of the others, or sums of two such; whoever asks searches there again, and proves what is found.
+//! products of powers of the others, or sums of two of these; whoever asks searches there again, and proves what is found.
 
 use super::family::{Family, Member};
 use super::search::{Table, SURPLUS};
@@ -15,6 +15,7 @@ use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::number::reconstruct::rational;
 use chetaev_symbolic::zero::points::Draw;
 use chetaev_symbolic::{Rational, Symbol};
+use rustc_hash::FxHashMap;
 
 /// The most values of the determinant.
 const VALUES: usize = 400;
@@ -103,7 +104,7 @@ impl Table<'_> {
         None
     }
 
-    /// One, and products of powers of one or two parameters, simple ones first.
+    /// One, products of powers of one or two parameters, simple ones first, and products and quotients of three.
     fn products(&self, draw: &Draw, others: &[Symbol]) -> Vec<Product> {
         let field = &draw.field;
         let power = |(s, e): (Symbol, i8)| {
@@ -125,6 +126,20 @@ impl Table<'_> {
                 if powers[0].0 != more[0].0 {
                     all.push(([&more[..], powers].concat(), field.mul(*value, *other)));
                 }
+            }
+        }
+        let plain = all
+            .iter()
+            .filter(|(powers, _)| powers.len() == 2 && powers.iter().all(|(_, e)| e.abs() == 1));
+        let plain: Vec<Product> = plain.cloned().collect();
+        for (powers, value) in plain {
+            let position = |s: Symbol| others.iter().position(|&own| own == s);
+            let last = powers.iter().filter_map(|&(s, _)| position(s)).max();
+            let after = single
+                .iter()
+                .filter(|(more, _)| more[0].1.abs() == 1 && position(more[0].0) > last);
+            for (more, other) in after {
+                all.push(([&powers[..], more].concat(), field.mul(value, *other)));
             }
         }
         all
@@ -150,7 +165,7 @@ fn recognized(field: &PrimeField, root: Residue, products: &[Product]) -> Option
     let linear: Vec<&Product> = products.iter().filter(is_linear).collect();
     let factors = [(1, 1_u64), (-1, 1), (2, 1), (-2, 1), (1, 2), (-1, 2)];
     let factors = factors.map(|(n, d)| Rational::from_parts(n.into(), d.into()));
-    linear.iter().enumerate().find_map(|(i, (powers, value))| {
+    let of_linear = linear.iter().enumerate().find_map(|(i, (powers, value))| {
         factors.iter().find_map(|factor| {
             let own = field.mul(field.from_rational(factor)?, *value);
             let rest = field.sub(root, own);
@@ -161,6 +176,45 @@ fn recognized(field: &PrimeField, root: Residue, products: &[Product]) -> Option
             };
             Some(vec![other, own])
         })
+    });
+    of_linear.or_else(|| sum_of_products(field, root, products, &factors))
+}
+
+/// The most products with factors of which two are added.
+const SUMMANDS: usize = 4000;
+
+/// A root as a sum of two products with the factors given, as in I2 = I1 + I13²/I1.
+fn sum_of_products(
+    field: &PrimeField,
+    root: Residue,
+    products: &[Product],
+    factors: &[Rational],
+) -> Option<Vec<Term>> {
+    let short = products
+        .iter()
+        .enumerate()
+        .filter(|(_, (powers, _))| powers.len() <= 2);
+    let short: Vec<(usize, &Product)> = short.collect();
+    if short.len() * factors.len() > SUMMANDS {
+        return None;
+    }
+    let with_factor = |&(place, (_, value)): &(usize, &Product)| {
+        let own = factors.iter().enumerate();
+        let own = own.filter_map(|(i, factor)| {
+            let value = field.mul(field.from_rational(factor)?, *value);
+            Some((value, (place, i)))
+        });
+        own.collect::<Vec<_>>()
+    };
+    let all: Vec<(Residue, (usize, usize))> = short.iter().flat_map(with_factor).collect();
+    let known: FxHashMap<Residue, (usize, usize)> = all.iter().rev().copied().collect();
+    let term = |(place, factor): (usize, usize)| Term {
+        coefficient: factors[factor].clone(),
+        powers: products[place].0.clone(),
+    };
+    all.iter().find_map(|&(value, own)| {
+        let other = *known.get(&field.sub(root, value))?;
+        Some(vec![term(own), term(other)])
     })
 }
 

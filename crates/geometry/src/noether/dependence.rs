@@ -154,15 +154,16 @@ impl Table<'_> {
         family: &Family,
         vector: &[(usize, Residue)],
     ) -> Vec<Residue> {
-        // ∂G = Σ_x (Σ_ν c_ν φ_ν e_ν(x)/x) ∂x.
+        // ∂G = Σ_x (Σ_ν c_ν ∂φ_ν/∂x) ∂x.
         let mut slopes = vec![Residue::ZERO; self.letters.len()];
         for &(member, c) in vector {
-            let (value, _) = self.member(field, at, &family.members[member]);
-            let weighted = field.mul(c, value);
-            for &(letter, exponent) in &family.members[member] {
-                let times = field.mul(weighted, field.from_i64(i64::from(exponent)));
-                let inverse = field.inv(at.values[letter]).unwrap_or(Residue::ZERO);
-                slopes[letter] = field.add(slopes[letter], field.mul(times, inverse));
+            let own = &family.members[member];
+            for (place, &(letter, exponent)) in own.iter().enumerate() {
+                let (_, mut slope) = at.power(field, letter, exponent);
+                for &(other, power) in own[..place].iter().chain(&own[place + 1..]) {
+                    slope = field.mul(slope, at.power(field, other, power).0);
+                }
+                slopes[letter] = field.add(slopes[letter], field.mul(c, slope));
             }
         }
         let along = |direction: usize| {

@@ -1,9 +1,10 @@
-//! First integrals `F e^(-λt)` from linear functions with `X̄F = λF`, as (x + y) e^(-t) for x' = y, y' = x.
+//! First integrals `F e^(-λt)` from functions with `X̄F = λF`, as (x + y) e^(-t) for x' = y, y' = x.
 //!
-//! Among the functions `c_0 + c_i u_i` of coordinates and velocities u, those whose rates are such functions again are looked for,
-//! and of these the largest space that X̄ maps into itself. On it X̄ is a matrix of constants: its eigenvalues λ that are in the
+//! Among the functions `c_0 + c_i u_i` of coordinates, functions of the time, and velocities u, then among their products two by two,
+//! those whose rates are such functions again are looked for, and of these the largest space that X̄ maps into itself. On it X̄ is a matrix of constants: its eigenvalues λ that are in the
 //! parameter field or roots of quadratics over it are formed, with eigenvectors and principal vectors of height two, for which
-//! `X̄F = λF + F_1` and `(F - t F_1) e^(-λt)` keeps its value. For polynomials F these are Darboux polynomials of degree one with
+//! `X̄F = λF + F_1` and `(F - t F_1) e^(-λt)` keeps its value; other quadratic factors λ² + b λ + c give a quadratic form times e^(bt), and for complex roots
+//! functions that turn with the time. For polynomials F these are Darboux polynomials of degree one with
 //! constant cofactors (Goriely 2001, ch. 2).
 
 use super::ansatz::Ansatz;
@@ -30,21 +31,56 @@ pub(super) struct Eigenfunction {
     pub(super) rational: Expr,
 }
 
+/// What was found, and where it was looked for.
+pub(super) struct Eigenfunctions {
+    /// The integrals, each proved.
+    pub(super) found: Vec<Eigenfunction>,
+    /// Whether products of two coordinates and velocities were members too.
+    pub(super) quadratic: bool,
+}
+
 /// The integrals of this form, each proved; those with λ = 0 belong to other families. `None` where they could not be searched.
 pub(super) fn eigenfunctions(
     cx: &Context<'_>,
     motion: &Motion<'_>,
     letters: &Letters,
+) -> Option<Eigenfunctions> {
+    let linear = members(cx, motion, letters)?;
+    let mut found = of_members(cx, motion, linear.clone())?;
+    let products = products(cx, motion, &linear);
+    let quadratic = products.and_then(|members| of_members(cx, motion, members));
+    let is_searched = quadratic.is_some();
+    found.extend(quadratic.unwrap_or_default());
+    Some(Eigenfunctions {
+        found,
+        quadratic: is_searched,
+    })
+}
+
+fn of_members(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    members: Vec<Expr>,
 ) -> Option<Vec<Eigenfunction>> {
-    let space = Invariant::of(cx, motion, letters)?;
+    let space = Invariant::of(cx, motion, members)?;
     let values = space.eigenvalues(cx)?.into_iter();
     let found: Option<Vec<Vec<Eigenfunction>>> = values
-        .map(|value| space.with_eigenvalue(cx, motion, value))
+        .map(|value| match value {
+            Eigenvalue::Real(value) => space.with_eigenvalue(cx, motion, value),
+            Eigenvalue::Pair(b, c) => space.with_pair(cx, motion, (b, c)),
+        })
         .collect();
     Some(found?.into_iter().flatten().collect())
 }
 
-/// Linear functions that X̄ maps into their own span.
+/// What a factor of the characteristic polynomial gives.
+enum Eigenvalue {
+    Real(Expr),
+    /// The roots of `λ² + b λ + c`, which are not seen to be real.
+    Pair(Expr, Expr),
+}
+
+/// Functions that X̄ maps into their own span.
 struct Invariant {
     members: Vec<Expr>,
     /// Their coefficients.
@@ -54,9 +90,8 @@ struct Invariant {
 }
 
 impl Invariant {
-    fn of(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Option<Invariant> {
+    fn of(cx: &Context<'_>, motion: &Motion<'_>, members: Vec<Expr>) -> Option<Invariant> {
         let g = &cx.system.graph;
-        let members = members(cx, motion, letters)?;
         let rates = motion.derivatives(&members);
         let columns: Vec<Vec<Expr>> = rates.iter().chain(&members).map(|&e| vec![e]).collect();
         let seed = cx.prover.points_seed();
@@ -85,7 +120,7 @@ impl Invariant {
     }
 
     /// The eigenvalues that are not zero, as far as the characteristic polynomial has factors of degree one and two.
-    fn eigenvalues(&self, cx: &Context<'_>) -> Option<Vec<Expr>> {
+    fn eigenvalues(&self, cx: &Context<'_>) -> Option<Vec<Eigenvalue>> {
         let g = &cx.system.graph;
         // No name of a model contains a bracket.
         let unknown = g.symbol("eigenvalue[]", 0);
@@ -93,8 +128,11 @@ impl Invariant {
         let characteristic = determinant(g, &less(g, &self.rows, unknown));
         let own = factors(g, characteristic, &[symbol])?;
         let own = own.into_iter().flat_map(|(f, _)| roots(cx, f, symbol));
-        let own = own.map(|e| readable(g, e));
-        let own = own.filter(|&e| !g.is_zero(e) && g.reachable(&[e]).len() <= LONGEST);
+        let is_wanted = |e: Expr| !g.is_zero(e) && g.reachable(&[e]).len() <= LONGEST;
+        let own = own.filter(|value| match value {
+            Eigenvalue::Real(value) => is_wanted(*value),
+            Eigenvalue::Pair(_, c) => is_wanted(*c),
+        });
         Some(own.collect())
     }
 
@@ -126,6 +164,39 @@ impl Invariant {
         found.collect()
     }
 
+    /// For functions F_1 and F_2 = X̄F_1 with `X̄F_2 = -b F_2 - c F_1`: `(F_2² + b F_1 F_2 + c F_1²) e^(b t)` keeps its value, for real
+    /// roots and for others. Where the roots are complex, α ± iω, so does `e^(-αt) ((F_2 - αF_1) cos ωt + ωF_1 sin ωt)`.
+    fn with_pair(
+        &self,
+        cx: &Context<'_>,
+        motion: &Motion<'_>,
+        (b, c): (Expr, Expr),
+    ) -> Option<Vec<Eigenfunction>> {
+        let g = &cx.system.graph;
+        let map = transposed(&self.rows);
+        let mut polynomial = product(g, &map, &map);
+        for (i, row) in polynomial.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                let constant = if i == j { c } else { g.zero() };
+                *entry = g.add(&[*entry, g.mul(&[b, map[i][j]]), constant]);
+            }
+        }
+        let vectors = null_space(g, &polynomial, self.functions.len()).ok()?;
+        let found = vectors.iter().map(|vector| {
+            let own = self.coefficients(g, vector);
+            let rate = self.coefficients(g, &times(g, &map, vector));
+            // The leading coefficient may be that of the rate, where F_1 contains no velocity.
+            let leading = self.leading(g, &own).or_else(|| self.leading(g, &rate))?;
+            let function = |own: Vec<Expr>| {
+                let scaled = own.into_iter().map(|e| readable(g, g.div(e, leading)));
+                combined(g, &scaled.collect::<Vec<Expr>>(), &self.members)
+            };
+            pair(cx, motion, (b, c), (function(own), function(rate)))
+        });
+        let found: Option<Vec<Vec<Eigenfunction>>> = found.collect();
+        Some(found?.into_iter().flatten().collect())
+    }
+
     /// The coefficient of the first velocity, or of the first coordinate where there is none.
     fn leading(&self, g: &Graph, own: &[Expr]) -> Option<Expr> {
         let is_velocity = |e: Expr| g.symbols_in(&[e]).iter().any(|&s| g.symbol_order(s) > 0);
@@ -149,7 +220,8 @@ impl Invariant {
     }
 }
 
-/// One, coordinates that are no angles, and velocities, as far as they are linearly independent on the constraint manifold.
+/// One, coordinates that are no angles, functions of the time that occur, and velocities, as far as they are linearly independent on
+/// the constraint manifold.
 fn members(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Option<Vec<Expr>> {
     let (system, g) = (cx.system, &cx.system.graph);
     let angles = &letters.coefficients[..letters.circular];
@@ -157,10 +229,33 @@ fn members(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Option<V
     let places = system.coordinates.iter().map(|c| c.q);
     let places = places.filter(|&q| !is_angle(q));
     let velocities = letters.velocities.iter().map(|l| l.value);
-    let all: Vec<Expr> = std::iter::once(g.one())
-        .chain(places)
-        .chain(velocities)
-        .collect();
+    let own = system.coordinate_symbols();
+    let time = g.symbols_in(&[g.symbol("t", 0)]);
+    let timed = letters.coefficients.iter().map(|c| c.letter.value);
+    let timed = timed.filter(|&e| {
+        let is_plain = g.as_symbol(e).is_some();
+        !is_plain && g.contains_any(e, &time) && !g.contains_any(e, &own)
+    });
+    let all = std::iter::once(g.one()).chain(timed).chain(places);
+    independent(cx, motion, all.chain(velocities).collect())
+}
+
+/// The most products of two members.
+const PRODUCTS: usize = 30;
+
+/// Products of two members, where there are not too many.
+fn products(cx: &Context<'_>, motion: &Motion<'_>, members: &[Expr]) -> Option<Vec<Expr>> {
+    let g = &cx.system.graph;
+    if members.len() * (members.len() + 1) / 2 > PRODUCTS {
+        return None;
+    }
+    let pairs = members.iter().enumerate();
+    let all = pairs.flat_map(|(i, &a)| members[..=i].iter().map(move |&b| g.mul(&[a, b])));
+    independent(cx, motion, all.collect())
+}
+
+/// Functions without those that are combinations of others on the constraint manifold.
+fn independent(cx: &Context<'_>, motion: &Motion<'_>, all: Vec<Expr>) -> Option<Vec<Expr>> {
     let columns: Vec<Vec<Expr>> = all.iter().map(|&e| vec![e]).collect();
     let seed = cx.prover.points_seed();
     let ansatz = Ansatz::new(motion, &columns, &motion.manifold, &[], seed).ok()?;
@@ -203,30 +298,35 @@ fn mapped_inside(g: &Graph, pairs: &Pairs) -> Option<(Pairs, Vec<Vec<Expr>>)> {
     Some((next.collect(), by_all.collect()))
 }
 
-/// The real roots of a polynomial of degree one or two.
-fn roots(cx: &Context<'_>, polynomial: Expr, symbol: Symbol) -> Vec<Expr> {
+/// What the roots of a polynomial of degree one or two are.
+fn roots(cx: &Context<'_>, polynomial: Expr, symbol: Symbol) -> Vec<Eigenvalue> {
     let g = &cx.system.graph;
     match coefficients(g, polynomial, symbol).as_deref() {
-        Some(&[b, a]) => vec![g.neg(g.div(b, a))],
+        Some(&[b, a]) => vec![Eigenvalue::Real(readable(g, g.neg(g.div(b, a))))],
         Some(&[c, b, a]) => {
             let square = g.sub(g.powi(b, 2), g.mul(&[g.integer(4), a, c]));
             let square = readable(g, square);
-            let valued = g.substitute(square, &cx.system.parameter_values());
-            let stated = assumptions(cx.system);
-            let is_real = [square, valued]
-                .iter()
-                .any(|&e| known_sign(g, e, &stated).is_positive());
-            if !is_real {
-                return Vec::new();
+            if !is_positive(cx, square) {
+                let [b, c] = [b, c].map(|e| readable(g, g.div(e, a)));
+                return vec![Eigenvalue::Pair(b, c)];
             }
             let root = root_or_negative(g, square);
             let below = g.mul(&[g.integer(2), a]);
-            [root, g.neg(root)]
-                .map(|root| g.div(g.sub(root, b), below))
-                .to_vec()
+            let own = [root, g.neg(root)].map(|root| g.div(g.sub(root, b), below));
+            own.map(|e| Eigenvalue::Real(readable(g, e))).into()
         }
         _ => Vec::new(),
     }
+}
+
+/// Whether a function of the parameters is seen to be positive, under the assumptions or for the values that the model states.
+fn is_positive(cx: &Context<'_>, e: Expr) -> bool {
+    let g = &cx.system.graph;
+    let valued = g.substitute(e, &cx.system.parameter_values());
+    let stated = assumptions(cx.system);
+    [e, valued]
+        .iter()
+        .any(|&e| known_sign(g, e, &stated).is_positive())
 }
 
 /// √e or its negative: squares stand before the root.
@@ -290,6 +390,68 @@ fn proved(
         },
         rational,
     })
+}
+
+/// What follows from `X̄F_1 = F_2` and `X̄F_2 = -b F_2 - c F_1`, where these are proved.
+fn pair(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    (b, c): (Expr, Expr),
+    (first, second): (Expr, Expr),
+) -> Option<Vec<Eigenfunction>> {
+    let g = &cx.system.graph;
+    let (first, second) = (readable(g, first), readable(g, second));
+    let rates = motion.derivatives(&[first, second]);
+    let residuals = [
+        g.sub(rates[0], second),
+        g.add(&[rates[1], g.mul(&[b, second]), g.mul(&[c, first])]),
+    ];
+    let on = "on the constraint manifold";
+    let verdict = cx
+        .prover
+        .identity(cx.system, &residuals, &motion.manifold, on);
+    if !matches!(verdict, Verdict::Proved(_)) {
+        return None;
+    }
+    let verdict =
+        verdict.prefixed("it is made of two functions whose rates are combinations of both");
+    let integral = |value: Expr| Integral {
+        value,
+        shown: value,
+        verdict: verdict.clone(),
+        independent: true,
+        name: None,
+    };
+    let time = g.symbol("t", 0);
+    let form = g.add(&[
+        g.powi(second, 2),
+        g.mul(&[b, first, second]),
+        g.mul(&[c, g.powi(first, 2)]),
+    ]);
+    let form = readable(g, form);
+    let growth = g.exp(g.mul(&[b, time]));
+    let mut found = vec![Eigenfunction {
+        integral: integral(g.mul(&[form, growth])),
+        rational: g.add(&[g.apply(Function::Log, &[form]), g.mul(&[b, time])]),
+    }];
+    let square = g.sub(c, g.div(g.powi(b, 2), g.integer(4)));
+    let square = readable(g, square);
+    if is_positive(cx, square) {
+        let frequency = readable(g, root_or_negative(g, square));
+        let decay = readable(g, g.neg(g.div(b, g.integer(2))));
+        let other = readable(g, g.sub(second, g.mul(&[decay, first])));
+        let angle = g.mul(&[frequency, time]);
+        let turned = g.add(&[
+            g.mul(&[other, g.cos(angle)]),
+            g.mul(&[frequency, first, g.sin(angle)]),
+        ]);
+        let slope = g.div(other, g.mul(&[frequency, first]));
+        found.push(Eigenfunction {
+            integral: integral(g.mul(&[turned, g.exp(g.neg(g.mul(&[decay, time])))])),
+            rational: g.add(&[g.apply(Function::Atan, &[slope]), angle]),
+        });
+    }
+    Some(found)
 }
 
 /// A square matrix less a multiple of the unit matrix.

@@ -10,8 +10,9 @@ use super::motion::Motion;
 use super::powers::products;
 use super::search::{Integral, Table};
 use super::shorter::shorter;
-use super::shown::{shortest, with_power, without_constant_factor};
+use super::shown::{readable, shortest, with_power, without_constant_factor};
 use super::special::{special, Specials};
+use super::written::in_quasi_velocities;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::number::prime_field::Residue;
 use chetaev_symbolic::{Expr, Verdict};
@@ -42,8 +43,8 @@ pub struct Found {
     pub momenta: Vec<Momenta>,
     /// The functions of whose powers products were searched; none where these were too many.
     pub powers: Vec<Expr>,
-    /// Whether linear functions times exponentials of the time were searched.
-    pub exponentials: bool,
+    /// The degree in coordinates and velocities up to which functions times exponentials of the time were searched; 0 for none.
+    pub exponentials: u8,
     /// Functionally independent first integrals, each proved.
     pub integrals: Vec<Integral>,
     /// Further integrals that are functions of `integrals`, linearly independent ones: products of two of these, and others.
@@ -271,18 +272,19 @@ fn add_products(
     bases
 }
 
-/// Adds linear functions times exponentials of the time that are no functions of the integrals found; whether they were searched.
+/// Adds functions times exponentials of the time that are no functions of the integrals found; up to which degree in coordinates and
+/// velocities these were searched.
 fn add_eigenfunctions(
     cx: &Context<'_>,
     motion: &Motion<'_>,
     letters: &Letters,
     integrals: &mut Vec<Integral>,
-) -> bool {
-    let Some(found) = eigenfunctions(cx, motion, letters) else {
-        return false;
+) -> u8 {
+    let Some(all) = eigenfunctions(cx, motion, letters) else {
+        return 0;
     };
     let mut known = integrals.clone();
-    for own in found {
+    for own in all.found {
         if is_new(cx, motion, &known, own.rational) {
             known.push(Integral {
                 value: own.rational,
@@ -291,7 +293,11 @@ fn add_eigenfunctions(
             integrals.push(own.integral);
         }
     }
-    true
+    if all.quadratic {
+        2
+    } else {
+        1
+    }
 }
 
 /// The most components of fields of generalized momenta, for the usual work.
@@ -313,9 +319,11 @@ fn momenta(
     for solution in &found {
         let is_new = is_new(cx, motion, integrals, solution.integral);
         if is_new && matches!(solution.verdict, Verdict::Proved(_)) {
+            let short = readable(&cx.system.graph, solution.integral);
+            let shown = in_quasi_velocities(cx, &[short]);
             let integral = Integral {
                 value: solution.integral,
-                shown: solution.integral,
+                shown: shown.first().copied().unwrap_or(short),
                 verdict: solution.verdict.clone(),
                 independent: true,
                 name: None,

@@ -5,12 +5,12 @@ use super::conjugate;
 use super::family::{coefficients, monomials, product, CoefficientLetter, Family, Letter, Member};
 use super::motion::{draw_with_points, Motion};
 use super::occurring::Occurring;
+use super::written::{as_stated, in_quasi_velocities};
 use chetaev_mechanics::claims::formulation::manifold;
 use chetaev_mechanics::system::Coordinate;
 use chetaev_mechanics::{Context, Frame, System};
 use chetaev_symbolic::number::random::Random;
-use chetaev_symbolic::{simplify, Expr, Graph, Node, Symbol};
-use std::collections::BTreeMap;
+use chetaev_symbolic::{Expr, Symbol};
 
 /// The letters of a system.
 #[derive(Clone, Debug)]
@@ -380,7 +380,7 @@ fn velocities(cx: &Context<'_>) -> Vec<Letter> {
 }
 
 /// The quasi-velocities that the model states, by their definitions in (q, v, t).
-fn definitions(system: &System, frame: &Frame) -> Vec<Letter> {
+pub(super) fn definitions(system: &System, frame: &Frame) -> Vec<Letter> {
     let stated = frame.speeds.iter().take(system.quasi_velocities.len());
     let mut letters = Vec::new();
     for (speed, quasi) in stated.zip(&system.quasi_velocities) {
@@ -417,7 +417,8 @@ fn known(cx: &Context<'_>) -> Vec<(String, Letter)> {
         }
     }
     values.retain(|(_, value)| !g.is_free_of(*value, &moves));
-    let mut shown = in_quasi_velocities(cx, &values);
+    let plain: Vec<Expr> = values.iter().map(|(_, value)| *value).collect();
+    let mut shown = in_quasi_velocities(cx, &plain);
     for ((name, _), shown) in values.iter().zip(&mut shown) {
         if name == ENERGY {
             *shown = as_stated(cx, *shown);
@@ -427,106 +428,4 @@ fn known(cx: &Context<'_>) -> Vec<(String, Letter)> {
     letters
         .map(|((name, value), shown)| (name, Letter { value, shown }))
         .collect()
-}
-
-/// The energy as it is shown, or made of the terms of L as these are stated, in the quasi-velocities that the model states where their
-/// definitions occur in it; whichever is shortest.
-fn as_stated(cx: &Context<'_>, shown: Expr) -> Expr {
-    let (system, g) = (cx.system, &cx.system.graph);
-    let terms = termwise_energy(system);
-    let named = match Frame::stated(system, cx.terms, cx.selection) {
-        Some(Ok((frame, _))) => {
-            let own = definitions(system, &frame).into_iter();
-            let pairs: Vec<(Expr, Expr)> = own.map(|l| (l.value, l.shown)).collect();
-            g.substitute(terms, &pairs)
-        }
-        _ => terms,
-    };
-    let all = [shown, terms, named];
-    let shortest = all.into_iter().min_by_key(|&e| simplify::length(g, e));
-    shortest.unwrap_or(shown)
-}
-
-/// `Σ pᵢ vⁱ - L`, term by term: `(d - 1) f` for each term f of L that is homogeneous of degree d in the velocities by its form, so that a
-/// kinetic energy stands there as it is stated.
-fn termwise_energy(system: &System) -> Expr {
-    let g = &system.graph;
-    let terms: Vec<Expr> = match g.node(system.lagrangian) {
-        Node::Sum { terms, constant } => {
-            let own = terms.iter().map(|(e, c)| g.scale(c, *e));
-            own.chain([g.number(constant.clone())]).collect()
-        }
-        _ => vec![system.lagrangian],
-    };
-    let velocities = system.velocity_symbols();
-    let energy = |f: Expr| match degree(g, f, &velocities) {
-        Some(d) => g.mul(&[g.integer(d - 1), f]),
-        None => {
-            let slopes = g.gradient(f, &velocities);
-            let pairs = slopes.into_iter().zip(&system.coordinates);
-            let powers = pairs.map(|(slope, c)| g.mul(&[slope, c.v]));
-            g.add(&powers.chain([g.neg(f)]).collect::<Vec<Expr>>())
-        }
-    };
-    g.add(&terms.into_iter().map(energy).collect::<Vec<Expr>>())
-}
-
-/// The degree in the velocities of what is homogeneous in them by its form.
-fn degree(g: &Graph, e: Expr, velocities: &[Symbol]) -> Option<i64> {
-    if !g.contains_any(e, velocities) {
-        return Some(0);
-    }
-    // Ascending handles are a topological order: what an expression is made of comes before it.
-    let mut known: BTreeMap<Expr, Option<i64>> = BTreeMap::new();
-    for part in g.reachable(&[e]) {
-        let of = |e: &Expr| known.get(e).copied().flatten();
-        let own = match g.node(part) {
-            _ if !g.contains_any(part, velocities) => Some(0),
-            Node::Symbol(_) => Some(1),
-            Node::Product { factors, .. } => factors.iter().map(of).sum::<Option<i64>>(),
-            Node::Power { base, exponent } => {
-                g.as_integer(*exponent).and_then(|n| Some(n * of(base)?))
-            }
-            Node::Sum { terms, constant } => {
-                let first = terms.first().and_then(|(e, _)| of(e));
-                let alike = terms.iter().all(|(e, _)| of(e) == first);
-                first.filter(|&d| alike && (d == 0 || constant.is_zero()))
-            }
-            _ => None,
-        };
-        known.insert(part, own);
-    }
-    known.get(&e).copied().flatten()
-}
-
-/// Larger functions, in nodes, are not rewritten in quasi-velocities.
-const REWRITTEN: usize = 400;
-
-/// Functions of the state as they are shown: in the quasi-velocities that the model states where that is not longer.
-fn in_quasi_velocities(cx: &Context<'_>, values: &[(String, Expr)]) -> Vec<Expr> {
-    let (system, g) = (cx.system, &cx.system.graph);
-    let as_they_are = || values.iter().map(|(_, value)| *value).collect();
-    let Some(Ok((frame, _))) = Frame::stated(system, cx.terms, cx.selection) else {
-        return as_they_are();
-    };
-    let is_adapted = |s: usize| frame.adapted.iter().any(|&(_, speed)| speed == s);
-    let speeds = frame.speeds.iter().enumerate();
-    let speeds: Vec<Expr> = speeds
-        .map(|(s, speed)| if is_adapted(s) { g.zero() } else { speed.value })
-        .collect();
-    let velocities = frame.velocities(system, &speeds);
-    let own = system.coordinates.iter().map(|c| c.v);
-    let pairs: Vec<(Expr, Expr)> = own.zip(velocities).collect();
-    let shorter = |value: Expr| {
-        let rewritten = g.substitute(value, &pairs);
-        if g.reachable(&[rewritten]).len() > REWRITTEN {
-            return value;
-        }
-        let rewritten = simplify::simplify(g, rewritten, &simplify::Options::default());
-        match simplify::length(g, rewritten) <= simplify::length(g, value) {
-            true => rewritten,
-            false => value,
-        }
-    };
-    values.iter().map(|(_, value)| shorter(*value)).collect()
 }

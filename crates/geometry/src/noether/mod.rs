@@ -27,3 +27,4 @@ pub mod search;
 mod shorter;
 pub(crate) mod shown;
 pub mod special;
+mod written;

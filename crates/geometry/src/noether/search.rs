@@ -78,11 +78,47 @@ pub struct Integral {
 /// A value of all letters at one point.
 pub(super) struct At {
     pub(super) values: Vec<Residue>,
-    /// `X̄x/x` of each letter x.
+    /// `1/x` of each letter x; 0 of those that vanish, which special values of parameters may make of a momentum.
+    pub(super) inverses: Vec<Residue>,
+    /// `X̄x` of each letter x.
     pub(super) rates: Vec<Residue>,
     pub(super) parameters: Vec<Residue>,
     /// Derivatives along N of the letters, then of the functions that the constraints fix.
     pub(super) gradients: Vec<Residue>,
+}
+
+impl At {
+    /// A power of a letter x, and its derivative by x.
+    pub(super) fn power(
+        &self,
+        field: &PrimeField,
+        letter: usize,
+        exponent: i8,
+    ) -> (Residue, Residue) {
+        let (x, inverse) = (self.values[letter], self.inverses[letter]);
+        if exponent == 1 {
+            return (x, field.one());
+        }
+        let count = u64::from(exponent.unsigned_abs());
+        let (power, less) = match exponent < 0 {
+            true => {
+                let power = field.pow(inverse, count);
+                (power, field.mul(power, inverse))
+            }
+            false => {
+                let less = field.pow(x, count.saturating_sub(1));
+                (field.mul(less, x), less)
+            }
+        };
+        (power, field.mul(field.from_i64(i64::from(exponent)), less))
+    }
+
+    /// Whether no letter vanishes of which a member contains a negative power.
+    fn defines(&self, members: &[Member]) -> bool {
+        let is_zero = |letter: usize| self.values[letter].is_zero();
+        let mut own = members.iter().flatten();
+        !own.any(|&(letter, exponent)| exponent < 0 && is_zero(letter))
+    }
 }
 
 impl<'a> Table<'a> {
@@ -136,11 +172,10 @@ impl<'a> Table<'a> {
             let (values, rest) = outputs.split_at(count);
             let (rates, rest) = rest.split_at(count);
             let (parameters, gradients) = rest.split_at(self.parameters.len());
-            let inverses: Option<Vec<Residue>> =
-                values.iter().map(|&x| draw.field.inv(x)).collect();
-            let relative = rates.iter().zip(inverses?);
+            let inverse = |&x: &Residue| draw.field.inv(x).unwrap_or(Residue::ZERO);
             Some(At {
-                rates: relative.map(|(&rate, i)| draw.field.mul(rate, i)).collect(),
+                inverses: values.iter().map(inverse).collect(),
+                rates: rates.to_vec(),
                 values: values.to_vec(),
                 parameters: parameters.to_vec(),
                 gradients: gradients.to_vec(),
@@ -158,17 +193,12 @@ impl<'a> Table<'a> {
         let mut value = field.one();
         let mut rate = Residue::ZERO;
         for &(letter, exponent) in member {
-            let x = at.values[letter];
-            let power = field.pow(x, u64::from(exponent.unsigned_abs()));
-            let power = match exponent < 0 {
-                true => field.inv(power).unwrap_or(Residue::ZERO),
-                false => power,
-            };
+            let (power, slope) = at.power(field, letter, exponent);
+            let own = field.mul(slope, at.rates[letter]);
+            rate = field.add(field.mul(rate, power), field.mul(value, own));
             value = field.mul(value, power);
-            let times = field.from_i64(i64::from(exponent));
-            rate = field.add(rate, field.mul(times, at.rates[letter]));
         }
-        (value, field.mul(value, rate))
+        (value, rate)
     }
 
     pub(super) fn draw(&self, number: usize) -> Option<(Draw, Random)> {
@@ -259,6 +289,9 @@ impl<'a> Table<'a> {
         let mut rows = Vec::with_capacity(members.len() * points);
         for _ in 0..points {
             let at = self.at(draw, random)?;
+            if !at.defines(members) {
+                return None;
+            }
             let rates = members.iter().map(|m| self.member(&draw.field, &at, m).1);
             rows.extend(rates);
         }

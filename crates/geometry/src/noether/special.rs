@@ -135,7 +135,8 @@ impl Table<'_> {
             .collect()
     }
 
-    /// What a family has more of at special values of the parameters, each integral proved there.
+    /// What a family has more of at special values of the parameters, each integral proved there, and at how many of these it could not
+    /// be looked at, as nothing has a value there.
     /// Beside two conditions at once those count too that add something by themselves and follow from both.
     pub fn special(
         &self,
@@ -143,19 +144,21 @@ impl Table<'_> {
         family: &Family,
         ties: &[Tie],
         adding: &[Tie],
-    ) -> Vec<Special> {
+    ) -> (Vec<Special>, usize) {
         let Some((general, _)) = self.vectors(family) else {
-            return Vec::new();
+            return (Vec::new(), ties.len());
         };
         let mut found: Vec<Special> = Vec::new();
+        let mut missed = 0;
         for tie in ties {
-            let Some((draw, mut random)) = self.draw(0) else {
-                continue;
-            };
-            let Some(draw) = self.tied(&draw, tie) else {
-                continue;
-            };
-            let Some((vectors, _)) = self.vectors_at(family, &draw, &mut random) else {
+            let drawn = self.draw(0);
+            let tied = drawn.and_then(|(draw, random)| Some((self.tied(&draw, tie)?, random)));
+            let at = tied.and_then(|(draw, mut random)| {
+                let (vectors, _) = self.vectors_at(family, &draw, &mut random)?;
+                Some((draw, vectors))
+            });
+            let Some((draw, vectors)) = at else {
+                missed += 1;
                 continue;
             };
             let without = match tie {
@@ -184,7 +187,7 @@ impl Table<'_> {
                 });
             }
         }
-        found
+        (found, missed)
     }
 
     /// How many integrals a family contains at a special value.
@@ -260,10 +263,10 @@ pub(super) fn special(
     let at = special_at(cx, table, letters, &parameters, &ties);
     let mut looked = match (&at, all) {
         (None, _) => Looked::Not,
-        (Some(_), true) => Looked::All,
-        (Some(_), false) => Looked::Some(ties.len()),
+        (Some((_, 0)), true) => Looked::All,
+        (Some((_, missed)), _) => Looked::Some(ties.len() - missed),
     };
-    let mut found = at.unwrap_or_default();
+    let (mut found, _) = at.unwrap_or_default();
     let g = &cx.system.graph;
     let mut parameters = parameters;
     parameters.sort_by_key(|&s| g.symbol_name(s).to_owned());
@@ -348,14 +351,14 @@ fn critical(
     };
     let mut looked = parameters.to_vec();
     looked.retain(|&parameter| search.looked_at(None, parameter));
-    let mut found = table.special(cx, &family, &search.ties, &[]);
+    let (mut found, _) = table.special(cx, &family, &search.ties, &[]);
     // Two conditions at once: an equality that adds nothing by itself, and a value of another parameter.
     let alone = search.ties.len();
     let mut pairs: Vec<Tie> = known.to_vec();
     pairs.retain(|tie| matches!(tie, Tie::Equal(..)) && !at.iter().any(|s| s.tie == *tie));
     let all = pairs.iter().all(|pair| search.looked_beside(pair));
     let adding: Vec<Tie> = at.iter().chain(&found).map(|s| s.tie.clone()).collect();
-    found.extend(table.special(cx, &family, &search.ties[alone..], &adding));
+    found.extend(table.special(cx, &family, &search.ties[alone..], &adding).0);
     let critical = Critical {
         equal: all && !pairs.is_empty() && parameters.len() > 2,
         functions: family.members.len() - 1,
@@ -448,7 +451,7 @@ fn special_at(
     letters: &Letters,
     parameters: &[Symbol],
     ties: &[Tie],
-) -> Option<Vec<Special>> {
+) -> Option<(Vec<Special>, usize)> {
     let family = [
         letters.polynomials(2, 1),
         letters.polynomials(2, 0),
@@ -456,7 +459,7 @@ fn special_at(
     ]
     .into_iter()
     .find(|family| family.members.len() <= SMALL.0)?;
-    let mut found = table.special(cx, &family, ties, &[]);
+    let (mut found, missed) = table.special(cx, &family, ties, &[]);
     let values: Vec<(Symbol, Rational)> = parameters
         .iter()
         .filter_map(|&s| Some((s, stated(cx, s)?)))
@@ -466,9 +469,9 @@ fn special_at(
     }
     let seen = found.iter().any(|special| is_stated(cx, &special.tie));
     if !seen && !values.is_empty() {
-        found.extend(table.special(cx, &family, &[Tie::Values(values)], &[]));
+        found.extend(table.special(cx, &family, &[Tie::Values(values)], &[]).0);
     }
-    Some(found)
+    Some((found, missed))
 }
 
 /// The special values that are looked at, those that the model states first, and whether these are all.

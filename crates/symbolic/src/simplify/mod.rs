@@ -129,6 +129,11 @@ pub fn simplify_all(g: &Graph, es: &[Expr], options: &Options) -> Vec<Expr> {
         };
         offer(read(g, &inner, &reading), false);
     }
+    for place in &mut best {
+        for candidate in roots::over_roots(g, *place, options) {
+            *place = better(g, *place, candidate, false, options);
+        }
+    }
     if found.largest_solve > 0 {
         best = shorten_systems(g, &best, options);
     }

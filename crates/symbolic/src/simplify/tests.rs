@@ -30,6 +30,18 @@ fn common_factors_are_cancelled_and_pulled_out() {
 }
 
 #[test]
+fn sums_over_a_root() {
+    check(
+        "m c^2 sqrt(1 - v^2/c^2) + m v^2/sqrt(1 - v^2/c^2) - F y",
+        "m c^2/sqrt(1 - v^2/c^2) - F y",
+    );
+    check(
+        "x^2/sqrt(x^2 + y^2) + y^2/sqrt(x^2 + y^2)",
+        "sqrt(x^2 + y^2)",
+    );
+}
+
+#[test]
 fn pythagoras_goes_both_ways() {
     check("m cos(phi)^2 + m sin(phi)^2", "m");
     check("J + m a^2 sin(phi)^2 + m a^2 cos(phi)^2", "J + m a^2");

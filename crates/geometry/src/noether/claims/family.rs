@@ -37,7 +37,7 @@ impl Claim for FamilySearched {
          angles, its roots and exponentials, powers of coordinates, time and masses with a law of their own, logarithms of masses that vary, roots of the factors of the determinant of \
          the mass matrix; in a family of its own sines and cosines of multiples of polar angles that occur nowhere; for curvilinear coordinates polynomials in the \
          momenta and the energy, in which moments of momentum and the integrals of separable systems are short; products of any powers of \
-         velocities and functions, whose exponents are solved for; linear functions times exponentials of the time, whose exponents are \
+         velocities and functions, whose exponents are solved for; functions of first and second degree times exponentials, sines and cosines of the time, whose exponents are \
          eigenvalues of the motion on them). The \
          family is as large as the budget allows and is stated; terms of a higher degree in the velocities than two are in it where the \
          model asks for them by [search] degree. X̄G = 0 on the constraint manifold is a linear system for the \
@@ -138,9 +138,14 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
             bases.join(", ")
         ));
     }
-    if found.exponentials {
-        families.push("linear functions of velocities and coordinates times exponentials of the time, where an eigenvalue of the motion on such functions is real and solves an equation of degree one or two".into());
-    }
+    let functions = match found.exponentials {
+        0 => None,
+        1 => Some("linear functions"),
+        _ => Some("functions up to second degree"),
+    };
+    families.extend(functions.map(|functions| format!(
+        "{functions} of velocities and coordinates times exponentials of the time, where these functions are mapped into themselves by the motion, with eigenvalues of equations of degree one or two that are seen to be real, or as quadratic forms of two functions that belong to others"
+    )));
     let special: Vec<String> = found.special.found.iter().map(|s| special(cx, s)).collect();
     let looked = &found.special.critical;
     let size = looked.functions;
@@ -155,7 +160,7 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
             format!(", and, with {size} functions free of the time, where {one} is a simple rational number")
         }
         all => format!(
-            ", and, with {size} functions free of the time, where one of {} is a simple rational multiple of powers of others",
+            ", and, with {size} functions free of the time, where one of {} is a simple rational multiple of a product of powers of others or a sum of two of these",
             all.join(", ")
         ),
     };
