@@ -28,14 +28,18 @@ const SYSTEMS: &[(&str, usize, &[&str])] = &[
     ("chaplygin-sphere", 4, &[]),
     // Hypergeometric integrals are in no elementary family: the energy only.
     ("falling-rolling-disc", 1, &[]),
-    ("sphere-on-turntable", 4, &["center_x", "center_y"]),
+    // Four free of the time, and the velocity turns at the rate κ Ω/(1 + κ) (2/7 of Ω for a homogeneous ball).
+    ("sphere-on-turntable", 5, &["center_x", "center_y"]),
+    // m y'/sqrt(1 - v²/c²) - F t beside the energy and the momentum along the constraint.
+    ("relativistic-particle", 3, &[]),
     ("suslov", 1, &[]),
     // Euler: the moment of momentum in space, and the energy.
     ("rigid-body", 4, &[]),
     // Lagrange's top.
     ("heavy-top", 3, &[]),
     ("vertical-rolling-disc", 6, &[]),
-    ("charged-particle", 5, &[]),
+    // Five free of a phase, and the velocity less the drift E/B turns at the rate B q/m: all that are there.
+    ("charged-particle", 6, &[]),
     ("moving-knife-edge", 5, &[]),
     // The logarithm of the mass, and the momentum along the vertical; the thrust is along the velocity, so the path is a straight line:
     // beside y'/x' its places in two planes.
@@ -751,4 +755,187 @@ fn veselova_without_quasi_velocities() {
         ),
         3,
     );
+}
+
+/// Underdamped and undamped oscillators (by hand): `e^(c t) (x'² + c x x' + k x²)` whatever the sign of c² - 4 k, and the phase; two that
+/// are coupled, by their sum and difference; one with a periodic force; a central force with drag keeps `e^(c t) (x y' - y x')`.
+#[test]
+fn eigenfunctions_that_turn() {
+    let model = |coordinates: &str, lagrangian: &str, rest: &str, integrals: &str| {
+        format!("name = \"turning\"\ncoordinates = [{coordinates}]\nlagrangian = \"{lagrangian}\"\n{rest}\n[integrals]\n{integrals}\n")
+    };
+    contains(
+        &model(
+            "\"x\"",
+            "x'^2/2 - 2 x^2",
+            "",
+            "a = \"x' sin(2 t) - 2 x cos(2 t)\"\nb = \"x' cos(2 t) + 2 x sin(2 t)\"",
+        ),
+        2,
+    );
+    let damped = "[forces]\nx = \"-c x'\"";
+    contains(
+        &model(
+            "\"x\"",
+            "x'^2/2 - k x^2/2",
+            &format!("parameters = [\"c\", \"k\"]\n{damped}"),
+            "a = \"exp(c t) (x'^2 + c x x' + k x^2)\"",
+        ),
+        1,
+    );
+    contains(
+        &model(
+            "\"x\"",
+            "x'^2/2 - x^2",
+            "[forces]\nx = \"-2 x'\"",
+            "a = \"exp(2 t) (x'^2 + 2 x x' + 2 x^2)\"\nb = \"exp(t) ((x' + x) cos(t) + x sin(t))\"",
+        ),
+        2,
+    );
+    contains(
+        &model(
+            "\"x\", \"y\"",
+            "(x'^2 + y'^2)/2 - (x^2 + y^2)/2 - (x - y)^2/2",
+            "[forces]\nx = \"-x'/5\"\ny = \"-y'/5\"",
+            "a = \"exp(t/5) ((x' + y')^2 + (x + y) (x' + y')/5 + (x + y)^2)\"\nb = \"exp(t/5) ((x' - y')^2 + (x - y) (x' - y')/5 + 3 (x - y)^2)\"",
+        ),
+        4,
+    );
+    // x'' + x = 3 sin(2 t): x + sin(2 t) is free.
+    contains(
+        &model(
+            "\"x\"",
+            "x'^2/2 - x^2/2 + 3 x sin(2 t)",
+            "",
+            "a = \"(x' + 2 cos(2 t))^2 + (x + sin(2 t))^2\"",
+        ),
+        2,
+    );
+    contains(
+        &model(
+            "\"x\", \"y\"",
+            "(x'^2 + y'^2)/2 - k (x^2 + y^2)^2/2",
+            "parameters = [\"c\", \"k\"]\n[forces]\nx = \"-c x'\"\ny = \"-c y'\"",
+            "a = \"exp(c t) (x y' - y x')\"",
+        ),
+        1,
+    );
+}
+
+/// Drag that grows with v² (by hand): `(k x'² - g) e^(-2 k x)` where it drives, `1/v - k t` in the plane; the isokinetic particle in
+/// a linear field keeps `y' e^(-x²/2c²)`; `1/x' - 1/y'` under x'³ + y'³ + z'³ = 1; the momentum beside a control.
+#[test]
+fn rates_that_vanish_speeds_and_reciprocals() {
+    let model = |coordinates: &str, rest: &str| {
+        format!("name = \"made-up\"\ncoordinates = [{coordinates}]\n{rest}\n")
+    };
+    contains(
+        &model(
+            "\"x\"",
+            "parameters = [\"k\", \"g\"]\nlagrangian = \"x'^2/2 - g x\"\n[forces]\nx = \"k x'^2\"\n[integrals]\na = \"(k x'^2 - g) exp(-2 k x)\"",
+        ),
+        1,
+    );
+    contains(
+        &model(
+            "\"x\", \"y\"",
+            "parameters = [\"k\"]\nlagrangian = \"(x'^2 + y'^2)/2\"\n[forces]\nx = \"-k x' sqrt(x'^2 + y'^2)\"\ny = \"-k y' sqrt(x'^2 + y'^2)\"\n[integrals]\na = \"1/sqrt(x'^2 + y'^2) - k t\"\nb = \"x'/y'\"",
+        ),
+        3,
+    );
+    contains(
+        &model(
+            "\"x\", \"y\", \"z\"",
+            "parameters = [\"c\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2\"\n[forces]\nx = \"-x\"\n[constraints]\na = \"x'^2 + y'^2 + z'^2 = c^2\"\n[integrals]\na = \"y' exp(-x^2/(2 c^2))\"\nb = \"y'/z'\"",
+        ),
+        3,
+    );
+    contains(
+        &model(
+            "\"x\"",
+            "lagrangian = \"x'^2/2\"\n[controls]\nu = \"sin(3 t)\"\n[forces]\nx = \"u'\"\n[integrals]\na = \"x' - u\"",
+        ),
+        1,
+    );
+}
+
+/// The special values of a model, with what is found there, as text.
+fn specials(text: &str) -> Vec<(String, Vec<String>)> {
+    within(&made_up(text), |cx, found| {
+        let g = &cx.system.graph;
+        let special = found.special.found.iter().map(|special| {
+            let pairs = special.tie.pairs(g).into_iter();
+            let pairs = pairs.map(|(a, b)| format!("{} = {}", g.text(a), g.text(b)));
+            let pairs: Vec<String> = pairs.collect();
+            let integrals = special.integrals.iter().map(|&e| g.text(e));
+            (pairs.join(", "), integrals.collect())
+        });
+        special.collect()
+    })
+}
+
+/// Suslov's body with w3 = 0: at K = 0, where a momentum vanishes, w1' = w2' = 0; where I2 = 1 + K² the reaction vanishes, and the moment of
+/// momentum is constant in space. The skate under drag keeps u θ' where d/J = -c/m. All by hand.
+#[test]
+fn special_values_that_are_sums_or_make_momenta_vanish() {
+    let suslov = "name = \"suslov\"\nparameters = [\"I2\", \"K\"]\nassumptions = [\"0 < theta < pi\"]\n[coordinates]\nphi = { unit = \"rad\" }\ntheta = { unit = \"rad\" }\npsi = { unit = \"rad\" }\n\
+        [quasi_velocities]\nw1 = \"phi' sin(theta) sin(psi) + theta' cos(psi)\"\nw2 = \"phi' sin(theta) cos(psi) - theta' sin(psi)\"\n[define]\nw3 = \"phi' cos(theta) + psi'\"\n\
+        [lagrangian]\nT = \"1/2 (w1^2 + I2 w2^2 + w3^2) + K w1 w3\"\n[constraints]\nc = \"w3 = 0\"\n";
+    let found = specials(suslov);
+    let at = |tie: &str| found.iter().find(|(own, _)| own == tie).map(|(_, own)| own);
+    let zero = at("K = 0").unwrap_or_else(|| panic!("{found:?}"));
+    assert!(
+        zero.iter().any(|e| e == "w1") && zero.iter().any(|e| e == "w2"),
+        "{zero:?}"
+    );
+    assert!(at("I2 = 1 + K^2").is_some(), "{found:?}");
+    let skate = "name = \"skate\"\ncoordinates = [\"x\", \"y\", \"th\"]\nparameters = [\"m\", \"J\", \"c\", \"d\"]\nlagrangian = \"m (x'^2 + y'^2)/2 + J th'^2/2\"\n\
+        [forces]\nx = \"-c x'\"\ny = \"-c y'\"\nth = \"-d th'\"\n[constraints]\nb = \"x' sin(th) = y' cos(th)\"\n";
+    let found = specials(skate);
+    let others: Vec<&String> = found
+        .iter()
+        .map(|(tie, _)| tie)
+        .filter(|tie| !["c = 0", "d = 0"].contains(&&tie[..]))
+        .collect();
+    assert_eq!(others, ["J = -m d/c"], "{found:?}");
+}
+
+/// Springs between M > 0 and m > 0: M = -m is excluded whatever k is. Where y has no inertia no motion is determined: nothing is kept at
+/// e = 0.
+#[test]
+fn special_values_that_are_none() {
+    let springs = "name = \"springs\"\ncoordinates = [\"x\", \"y\"]\nparameters = [\"M\", \"m\", \"k\"]\nassumptions = [\"M > 0\", \"m > 0\"]\nlagrangian = \"M x'^2/2 + m y'^2/2 - k M m (x - y)^2/2\"\n";
+    let ties: Vec<String> = specials(springs).into_iter().map(|(tie, _)| tie).collect();
+    assert_eq!(ties, ["k = 0"]);
+    let massless = "name = \"massless\"\ncoordinates = [\"x\", \"y\"]\nparameters = [\"e\"]\nlagrangian = \"(x'^2 + e y'^2)/2 - e x y\"\n";
+    assert_eq!(specials(massless), []);
+}
+
+/// x' √(1 + 2 K y + y²) with K free: near K = 0 the root is real.
+#[test]
+fn roots_are_real_near_the_origin_of_free_parameters() {
+    let text = "name = \"roots\"\ncoordinates = [\"x\", \"y\", \"z\"]\nparameters = [\"K\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2 + K x' z'\"\n[constraints]\nc = \"z' = y x'\"\n";
+    within(&made_up(text), |cx, found| {
+        let g = &cx.system.graph;
+        let shown: Vec<String> = found.integrals.iter().map(|i| g.text(i.shown)).collect();
+        assert!(shown.iter().any(|e| e.contains("sqrt(1 + ")), "{shown:?}");
+    });
+}
+
+/// The energy of a relativistic particle, and of a body in its angular velocities, as a person writes them.
+#[test]
+fn energies_as_they_are_written() {
+    let shown = |name: &str| {
+        with(name, |cx, found| {
+            let own = found.integrals.iter();
+            own.map(|i| cx.system.graph.text(i.shown))
+                .collect::<Vec<String>>()
+        })
+    };
+    let relativistic = shown("relativistic-particle");
+    let energy = "m c^2/sqrt(1 - (s^2 + u^2)/c^2) - F y".to_owned();
+    assert!(relativistic.contains(&energy), "{relativistic:?}");
+    let sphere = shown("chaplygin-sphere");
+    let energy = "1/2 m (x'^2 + y'^2) + 1/2 I1 w1^2 + 1/2 I2 w2^2 + 1/2 I3 w3^2".to_owned();
+    assert!(sphere.contains(&energy), "{sphere:?}");
 }

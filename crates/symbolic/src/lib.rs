@@ -15,6 +15,7 @@ pub mod node;
 pub mod number;
 pub mod polynomial;
 pub mod print;
+pub mod quadratic_factors;
 pub mod rational;
 pub mod simplify;
 pub mod substitute;

@@ -98,7 +98,19 @@ fn usual_families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
         };
         families.push(quotients);
     }
+    families.extend(reciprocals(cx, letters));
     families
+}
+
+/// Reciprocals of velocities with the largest coefficients for the work allowed.
+fn reciprocals(cx: &Context<'_>, letters: &Letters) -> Option<Family> {
+    let make = |weight| letters.reciprocals(weight);
+    let (weight, mut family) = grown(allowed(cx, QUOTIENTS), 0, make, members)?;
+    family.words = match weight {
+        0 => "reciprocals of velocities".into(),
+        _ => format!("reciprocals of velocities times coefficients of weight up to {weight}"),
+    };
+    Some(family)
 }
 
 /// The largest family of polynomials of a degree in the velocities: with heavier coefficients where there are fewer velocities; where that
@@ -124,6 +136,9 @@ fn of_degree(cx: &Context<'_>, letters: &Letters, degree: u32) -> Family {
         let grown = grown(most, 0, make, members);
         if let Some((weight, mut largest)) = grown.or_else(smallest).filter(fits) {
             largest.words = words(cx, letters, (degree, step), weight);
+            if degree == 1 {
+                letters.push_timed(cx.system, &mut largest);
+            }
             return largest;
         }
     }

@@ -1,9 +1,10 @@
-//! Families in the momenta p = ∂L/∂v, where the mass matrix depends on the place.
+//! Families in the momenta p = ∂L/∂v, where the mass matrix depends on the place or on the velocities.
 //!
 //! In curvilinear coordinates integrals are short in the momenta and long in the velocities. A moment of momentum is
 //! `p_θ sin φ + p_φ cot θ cos φ` in spherical coordinates, in Euler's angles and in any others in which θ and φ are such angles. A
 //! system whose equation of Hamilton and Jacobi separates (Liouville, Stäckel 1891) has integrals `Σ φ_ij(q) p_i p_j + φ(q) H + ψ(q)`:
-//! `p_u²/2m + p_φ²/(2 m u²) - u² H + …` in parabolic coordinates, `p_θ² + p_φ²/sin² θ` in spherical ones.
+//! `p_u²/2m + p_φ²/(2 m u²) - u² H + …` in parabolic coordinates, `p_θ² + p_φ²/sin² θ` in spherical ones. Where L is not quadratic in
+//! the velocities momenta take their place beside the time too: `p - F t` and `x H - c² t p` of a relativistic particle.
 
 use super::automatic::{allowed, grown, members};
 use super::family::{coefficients, monomials, product, CoefficientLetter, Family, Member};
@@ -19,12 +20,19 @@ const COORDINATES: usize = 4;
 /// The most members of the family linear in the momenta, and of the quadratic one, for the usual work.
 const MEMBERS: [usize; 2] = [260, 260];
 
-/// The momenta of the coordinates, where the mass matrix depends on the place.
+/// Whether the mass matrix contains velocities, as where L is not quadratic in them.
+fn is_of_velocities(cx: &Context<'_>) -> bool {
+    let own = cx.system.velocity_symbols();
+    let g = &cx.system.graph;
+    g.any_contains_any(&cx.terms.mass_matrix.concat(), &own)
+}
+
+/// The momenta of the coordinates, where the mass matrix depends on the place or on the velocities.
 pub(super) fn momenta(cx: &Context<'_>) -> Vec<(Symbol, Expr)> {
     let (system, g) = (cx.system, &cx.system.graph);
     let own = system.coordinate_symbols();
     let is_curvilinear = g.any_contains_any(&cx.terms.mass_matrix.concat(), &own);
-    if system.n() > COORDINATES || !is_curvilinear {
+    if system.n() > COORDINATES || !(is_curvilinear || is_of_velocities(cx)) {
         return Vec::new();
     }
     let all = system.coordinates.iter();
@@ -68,6 +76,8 @@ struct Own<'l> {
     energy: Option<usize>,
     /// Which momenta belong to coordinates that L does not contain.
     cyclic: Vec<bool>,
+    /// Whether the time and products with the energy are in the linear family.
+    is_timed: bool,
 }
 
 impl<'l> Own<'l> {
@@ -119,7 +129,16 @@ impl<'l> Own<'l> {
                 turning[place].exponents = (0, 1);
             }
         }
+        let is_timed = is_of_velocities(cx);
+        if is_timed {
+            let time = g.symbol("t", 0);
+            let mut own = turning.iter_mut();
+            if let Some(c) = own.find(|c| c.letter.value == time) {
+                c.exponents = (0, 1);
+            }
+        }
         Own {
+            is_timed,
             system,
             letters,
             plain,
@@ -140,7 +159,7 @@ impl<'l> Own<'l> {
         family
     }
 
-    /// Momenta times functions of weight up to `weight`, and these functions.
+    /// Momenta times functions of weight up to `weight`, and these functions; where L is not quadratic the energy too.
     fn linear(&self, weight: u32) -> Family {
         let functions = coefficients(&self.turning, self.letters.velocities.len(), weight);
         let mut members = Vec::new();
@@ -148,6 +167,8 @@ impl<'l> Own<'l> {
             let momenta = 0..self.letters.momenta.len();
             let own = momenta.map(|i| product(&vec![(self.first + i, 1)], &function));
             members.extend(own.collect::<Vec<Member>>());
+            let energy = self.energy.filter(|_| self.is_timed);
+            members.extend(energy.map(|i| product(&vec![(i, 1)], &function)));
             members.push(function);
         }
         self.family(members)
@@ -200,7 +221,10 @@ impl<'l> Own<'l> {
         format!(
             "polynomials of degree up to {degree} in the momenta {}{} with coefficients of weight up to {weight}{more}, built of {built}",
             names.join(", "),
-            if degree == 1 { "" } else { ", and in the energy," },
+            match degree {
+                1 if !self.is_timed => "",
+                _ => ", and in the energy,",
+            },
         )
     }
 }

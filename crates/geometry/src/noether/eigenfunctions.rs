@@ -16,6 +16,7 @@ use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::factors::{coefficients, factored, factors};
 use chetaev_symbolic::matrix::{determinant, null_space};
+use chetaev_symbolic::quadratic_factors::linear_and_quadratic;
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Function, Graph, Symbol, Verdict};
 
@@ -127,7 +128,8 @@ impl Invariant {
         let symbol = g.as_symbol(unknown)?;
         let characteristic = determinant(g, &less(g, &self.rows, unknown));
         let own = factors(g, characteristic, &[symbol])?;
-        let own = own.into_iter().flat_map(|(f, _)| roots(cx, f, symbol));
+        let own = own.into_iter().flat_map(|(f, _)| split(g, f, symbol));
+        let own = own.flat_map(|f| roots(cx, f, symbol));
         let is_wanted = |e: Expr| !g.is_zero(e) && g.reachable(&[e]).len() <= LONGEST;
         let own = own.filter(|value| match value {
             Eigenvalue::Real(value) => is_wanted(*value),
@@ -232,10 +234,7 @@ fn members(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Option<V
     let own = system.coordinate_symbols();
     let time = g.symbols_in(&[g.symbol("t", 0)]);
     let timed = letters.coefficients.iter().map(|c| c.letter.value);
-    let timed = timed.filter(|&e| {
-        let is_plain = g.as_symbol(e).is_some();
-        !is_plain && g.contains_any(e, &time) && !g.contains_any(e, &own)
-    });
+    let timed = timed.filter(|&e| g.contains_any(e, &time) && !g.contains_any(e, &own));
     let all = std::iter::once(g.one()).chain(timed).chain(places);
     independent(cx, motion, all.chain(velocities).collect())
 }
@@ -243,9 +242,11 @@ fn members(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Option<V
 /// The most products of two members.
 const PRODUCTS: usize = 30;
 
-/// Products of two members, where there are not too many.
+/// Products of two members but the time, where there are not too many.
 fn products(cx: &Context<'_>, motion: &Motion<'_>, members: &[Expr]) -> Option<Vec<Expr>> {
     let g = &cx.system.graph;
+    let time = g.symbol("t", 0);
+    let members: Vec<Expr> = members.iter().copied().filter(|&e| e != time).collect();
     if members.len() * (members.len() + 1) / 2 > PRODUCTS {
         return None;
     }
@@ -298,6 +299,26 @@ fn mapped_inside(g: &Graph, pairs: &Pairs) -> Option<(Pairs, Vec<Vec<Expr>>)> {
     Some((next.collect(), by_all.collect()))
 }
 
+/// The factors of degree one and two of a polynomial of a higher degree with numbers as coefficients; others as they are.
+fn split(g: &Graph, polynomial: Expr, symbol: Symbol) -> Vec<Expr> {
+    let numbers = coefficients(g, polynomial, symbol).and_then(|own| {
+        let numbers = own.iter().map(|&c| g.as_number(c).cloned());
+        numbers.collect::<Option<Vec<_>>>()
+    });
+    let unknown = g.symbol_expr(symbol);
+    match numbers.filter(|own| own.len() > 3) {
+        None => vec![polynomial],
+        Some(own) => linear_and_quadratic(&own)
+            .into_iter()
+            .map(|factor| {
+                let terms = factor.into_iter().zip(0..);
+                let terms = terms.map(|(c, n)| g.mul(&[g.number(c), g.powi(unknown, n)]));
+                g.add(&terms.collect::<Vec<Expr>>())
+            })
+            .collect(),
+    }
+}
+
 /// What the roots of a polynomial of degree one or two are.
 fn roots(cx: &Context<'_>, polynomial: Expr, symbol: Symbol) -> Vec<Eigenvalue> {
     let g = &cx.system.graph;
@@ -306,7 +327,7 @@ fn roots(cx: &Context<'_>, polynomial: Expr, symbol: Symbol) -> Vec<Eigenvalue> 
         Some(&[c, b, a]) => {
             let square = g.sub(g.powi(b, 2), g.mul(&[g.integer(4), a, c]));
             let square = readable(g, square);
-            if !is_positive(cx, square) {
+            if !is_nonnegative(cx, square) {
                 let [b, c] = [b, c].map(|e| readable(g, g.div(e, a)));
                 return vec![Eigenvalue::Pair(b, c)];
             }
@@ -319,14 +340,14 @@ fn roots(cx: &Context<'_>, polynomial: Expr, symbol: Symbol) -> Vec<Eigenvalue> 
     }
 }
 
-/// Whether a function of the parameters is seen to be positive, under the assumptions or for the values that the model states.
-fn is_positive(cx: &Context<'_>, e: Expr) -> bool {
+/// Whether a function of the parameters is seen to be nowhere negative, under the assumptions or for the values that the model states.
+fn is_nonnegative(cx: &Context<'_>, e: Expr) -> bool {
     let g = &cx.system.graph;
     let valued = g.substitute(e, &cx.system.parameter_values());
     let stated = assumptions(cx.system);
     [e, valued]
         .iter()
-        .any(|&e| known_sign(g, e, &stated).is_positive())
+        .any(|&e| known_sign(g, e, &stated).is_nonnegative())
 }
 
 /// √e or its negative: squares stand before the root.
@@ -436,7 +457,7 @@ fn pair(
     }];
     let square = g.sub(c, g.div(g.powi(b, 2), g.integer(4)));
     let square = readable(g, square);
-    if is_positive(cx, square) {
+    if is_nonnegative(cx, square) {
         let frequency = readable(g, root_or_negative(g, square));
         let decay = readable(g, g.neg(g.div(b, g.integer(2))));
         let other = readable(g, g.sub(second, g.mul(&[decay, first])));
@@ -445,6 +466,7 @@ fn pair(
             g.mul(&[other, g.cos(angle)]),
             g.mul(&[frequency, first, g.sin(angle)]),
         ]);
+        let turned = readable(g, turned);
         let slope = g.div(other, g.mul(&[frequency, first]));
         found.push(Eigenfunction {
             integral: integral(g.mul(&[turned, g.exp(g.neg(g.mul(&[decay, time])))])),

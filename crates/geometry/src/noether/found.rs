@@ -43,6 +43,8 @@ pub struct Found {
     pub momenta: Vec<Momenta>,
     /// The functions of whose powers products were searched; none where these were too many.
     pub powers: Vec<Expr>,
+    /// The functions of whose combinations exponentials are factors of these products.
+    pub exponents: Vec<Expr>,
     /// The degree in coordinates and velocities up to which functions times exponentials of the time were searched; 0 for none.
     pub exponentials: u8,
     /// Functionally independent first integrals, each proved.
@@ -151,12 +153,13 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
     }
     // Where the integrals cannot be told apart over prime fields nothing is said of special values.
     let special = special(cx, motion, &usual, &integrals).unwrap_or_default();
-    let powers = add_products(cx, motion, &usual, &mut integrals);
+    let (powers, exponents) = add_products(cx, motion, &usual, &mut integrals);
     let exponentials = add_eigenfunctions(cx, motion, &usual, &mut integrals);
     Ok(Found {
         families: searched,
         momenta: all_momenta,
         powers,
+        exponents,
         exponentials,
         integrals,
         special,
@@ -250,15 +253,18 @@ fn is_new(cx: &Context<'_>, motion: &Motion<'_>, integrals: &[Integral], value: 
         .is_some_and(|kept| kept.contains(&(all.len() - 1)))
 }
 
-/// Adds products of powers that are no functions of the integrals found; the functions of which these are made. They are told apart by
+/// Adds products of powers that are no functions of the integrals found; the functions of which these are made, and those of whose
+/// combinations exponentials are factors. They are told apart by
 /// their logarithms, as powers with parameters as exponents have no values over a prime field.
 fn add_products(
     cx: &Context<'_>,
     motion: &Motion<'_>,
     letters: &Letters,
     integrals: &mut Vec<Integral>,
-) -> Vec<Expr> {
-    let (bases, found) = products(cx, motion, letters);
+) -> (Vec<Expr>, Vec<Expr>) {
+    let Some((factors, found)) = products(cx, motion, letters) else {
+        return (Vec::new(), Vec::new());
+    };
     let mut known = integrals.clone();
     for product in found {
         if is_new(cx, motion, &known, product.logarithm) {
@@ -269,7 +275,7 @@ fn add_products(
             integrals.push(product.integral);
         }
     }
-    bases
+    (factors.bases(), factors.exponents)
 }
 
 /// Adds functions times exponentials of the time that are no functions of the integrals found; up to which degree in coordinates and
@@ -290,7 +296,7 @@ fn add_eigenfunctions(
                 value: own.rational,
                 ..own.integral.clone()
             });
-            integrals.push(own.integral);
+            integrals.push(without_constant_factor(cx, own.integral));
         }
     }
     if all.quadratic {
@@ -358,7 +364,7 @@ fn chosen(
         match table.proved(cx, candidate.family, &candidate.vector) {
             Some(integral) => {
                 let integral = Integral {
-                    shown: shortest(&cx.system.graph, &integral),
+                    shown: shortest(cx, &integral),
                     name: candidate.name.clone(),
                     ..integral
                 };

@@ -5,12 +5,12 @@ use super::conjugate;
 use super::family::{coefficients, monomials, product, CoefficientLetter, Family, Letter, Member};
 use super::motion::{draw_with_points, Motion};
 use super::occurring::Occurring;
-use super::written::{as_stated, in_quasi_velocities};
+use super::written::{as_stated, degree, in_quasi_velocities};
 use chetaev_mechanics::claims::formulation::manifold;
 use chetaev_mechanics::system::Coordinate;
 use chetaev_mechanics::{Context, Frame, System};
 use chetaev_symbolic::number::random::Random;
-use chetaev_symbolic::{Expr, Symbol};
+use chetaev_symbolic::{Expr, Node, Symbol};
 
 /// The letters of a system.
 #[derive(Clone, Debug)]
@@ -276,6 +276,25 @@ impl Letters {
         }
     }
 
+    /// Adds t, t² and t times each velocity to a family, as in t P - Σ m x; its words say so where it did not contain them.
+    pub fn push_timed(&self, system: &System, family: &mut Family) {
+        let time = system.graph.symbol("t", 0);
+        let is_time = |c: &CoefficientLetter| c.letter.value == time && c.exponents != (0, 0);
+        let Some(place) = self.coefficients.iter().position(is_time) else {
+            return;
+        };
+        let count = self.velocities.len();
+        let (time, before) = (count + place, family.members.len());
+        let own = (0..count).map(|v| vec![(v, 1), (time, 1)]);
+        let powers = [1, 2].map(|power| vec![(time, power)]);
+        own.chain(powers).for_each(|member| family.push(member));
+        if family.members.len() > before {
+            family
+                .words
+                .push_str(", also t, t^2 and t times velocities");
+        }
+    }
+
     /// The known functions alone, for a system too large for polynomials of this degree.
     pub fn known_only(&self, degree: u32) -> Family {
         let first = self.velocities.len() + self.coefficients.len();
@@ -305,6 +324,21 @@ impl Letters {
                     members.push(product(&quotient, function));
                 }
             }
+        }
+        Family {
+            letters: self.all(),
+            members,
+            words: String::new(),
+        }
+    }
+
+    /// Reciprocals of velocities times functions of weight up to `weight`, and these functions, as `1/v - k t` where drag grows with v².
+    pub fn reciprocals(&self, weight: u32) -> Family {
+        let count = self.velocities.len();
+        let functions = coefficients(&self.usual(), count, weight);
+        let mut members: Vec<Member> = functions.iter().map(|(_, f)| f.clone()).collect();
+        for (_, function) in &functions {
+            members.extend((0..count).map(|a| product(&vec![(a, -1)], function)));
         }
         Family {
             letters: self.all(),
@@ -364,12 +398,14 @@ fn velocities(cx: &Context<'_>) -> Vec<Letter> {
             .map(natural)
             .collect();
         all.extend(cx.selection.dependent.iter().map(|&d| natural(d)));
+        all.extend(speeds(system));
         return all;
     }
     let mut all = quasi;
     if all.len() < system.n() {
         all.extend(cx.selection.dependent.iter().map(|&d| natural(d)));
     }
+    all.extend(speeds(system));
     let mut seen: Vec<Expr> = Vec::new();
     all.retain(|letter| {
         let is_new = !seen.contains(&letter.value);
@@ -377,6 +413,24 @@ fn velocities(cx: &Context<'_>) -> Vec<Letter> {
         is_new
     });
     all
+}
+
+/// Roots of quadratic forms in the velocities that occur in forces, as the speed does in drag.
+fn speeds(system: &System) -> Vec<Letter> {
+    let (g, velocities) = (&system.graph, system.velocity_symbols());
+    let mut found: Vec<Letter> = Vec::new();
+    for e in g.reachable(&system.forces) {
+        let Node::Power { base, exponent } = g.node(e) else {
+            continue;
+        };
+        let is_root = g.as_integer(*exponent).is_none()
+            && g.as_integer(g.mul(&[*exponent, g.integer(2)])).is_some();
+        let root = Letter::plain(g.sqrt(*base));
+        if is_root && degree(g, *base, &velocities) == Some(2) && !found.contains(&root) {
+            found.push(root);
+        }
+    }
+    found
 }
 
 /// The quasi-velocities that the model states, by their definitions in (q, v, t).

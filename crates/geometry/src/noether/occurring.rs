@@ -208,13 +208,23 @@ impl<'a> Occurring<'a> {
             })
     }
 
-    /// The factor or its negative, whichever is positive at a sampled state.
+    /// The factor or its negative, whichever is positive at a sampled state; where parameters have no values, for small ones near the
+    /// origin.
     fn positive(&self, cx: &Context<'_>, factor: Expr) -> Expr {
-        let g = &self.system.graph;
-        let value = sample::admissible_point(self.system, cx.terms, 0x6e_6f_65).and_then(|point| {
-            let values = g.evaluate_f64(&[factor], &|s| point.get(&s).copied());
+        let g = &cx.system.graph;
+        let at = |value: &dyn Fn(Symbol) -> Option<f64>| {
+            let values = g.evaluate_f64(&[factor], value);
             values.ok()?.first().copied()
-        });
+        };
+        let valued = g.substitute(factor, &self.system.parameter_values());
+        let parameters = self.system.parameters.iter();
+        let mut parameters = parameters.filter_map(|p| g.as_symbol(g.symbol(&p.name, 0)));
+        let is_free = parameters.any(|s| g.contains_any(valued, &[s]));
+        let value = match is_free {
+            true => at(&|s| Some(SMALL / (1.0 + g.symbol_name(s).len() as f64))),
+            false => sample::admissible_point(self.system, cx.terms, 0x6e_6f_65)
+                .and_then(|point| at(&|s| point.get(&s).copied())),
+        };
         match value.is_some_and(|v| v < 0.0) {
             true => g.neg(factor),
             false => factor,
@@ -281,6 +291,9 @@ impl<'a> Occurring<'a> {
         }
         for &e in &self.others {
             all.push(letter(e, (0, 2), 1));
+        }
+        for control in &self.system.controls {
+            all.push(letter(g.symbol(&control.name, 0), (0, 2), 1));
         }
         for c in &self.system.coordinates {
             match self.angles.contains(&c.q) {
@@ -419,6 +432,9 @@ fn insert(list: &mut Vec<Expr>, e: Expr) {
         list.push(e);
     }
 }
+
+/// The size of numbers near zero for parameters without values.
+const SMALL: f64 = 0.1;
 
 /// What stands for a power with a fraction as exponent.
 struct Chosen;

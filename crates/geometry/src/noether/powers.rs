@@ -10,10 +10,14 @@ use super::search::Integral;
 use super::shown::readable;
 use crate::measure::on_both_sides;
 use chetaev_mechanics::Context;
+use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::{Expr, Function, Node, Verdict};
 
 /// More factors are not looked at.
 const FACTORS: usize = 30;
+
+/// Larger rates, in nodes, are not factored.
+const FACTORED: usize = 40;
 
 /// A product of powers that keeps its value, with its logarithm.
 pub(super) struct Product {
@@ -21,19 +25,22 @@ pub(super) struct Product {
     pub(super) logarithm: Expr,
 }
 
-/// The products of powers of letters that are proved to keep their values, with the functions that are raised to powers; those without
-/// velocity are constants of the constraints, and left out.
+/// The products of powers of letters that are proved to keep their values, with what they are made of; those without velocity are
+/// constants of the constraints, and left out. `None` where they are too many, or something stayed without proof: nothing is said of a
+/// family then.
 pub(super) fn products(
     cx: &Context<'_>,
     motion: &Motion<'_>,
     letters: &Letters,
-) -> (Vec<Expr>, Vec<Product>) {
+) -> Option<(Factors, Vec<Product>)> {
     let g = &cx.system.graph;
-    let factors = Factors::of(cx, letters);
-    let all = factors.all();
-    if all.len() > FACTORS {
-        return (Vec::new(), Vec::new());
+    let mut factors = Factors::of(cx, letters);
+    let plain = factors.all().len();
+    if plain > FACTORS {
+        return None;
     }
+    factors.extend(cx, motion, FACTORS - plain);
+    let all = factors.all();
     let rates: Vec<Expr> = motion
         .derivatives(&all)
         .into_iter()
@@ -47,9 +54,7 @@ pub(super) fn products(
     let columns: Vec<Vec<Expr>> = rates.iter().map(|&e| vec![e]).collect();
     let seed = cx.prover.points_seed();
     let ansatz = Ansatz::new(motion, &columns, &motion.manifold, &[], seed);
-    let Some(solved) = ansatz.ok().and_then(|ansatz| ansatz.all()) else {
-        return (Vec::new(), Vec::new());
-    };
+    let solved = ansatz.ok().and_then(|ansatz| ansatz.all())?;
     let first = factors.places.len() + factors.exponents.len();
     let leading = |own: &Vec<Expr>| own[first..].iter().rev().copied().find(|&e| !g.is_zero(e));
     let with_velocity = solved
@@ -61,17 +66,13 @@ pub(super) fn products(
             factors.proved(cx, motion, &own.collect::<Vec<Expr>>(), &rates)
         })
         .collect();
-    match found {
-        Some(found) => ([factors.velocities, factors.places].concat(), found),
-        // Nothing is said of a family of which something stayed without proof.
-        None => (Vec::new(), Vec::new()),
-    }
+    Some((factors, found?))
 }
 
 /// What products are made of. Velocities stand last, so that solutions have few of them.
-struct Factors {
+pub(super) struct Factors {
     places: Vec<Expr>,
-    exponents: Vec<Expr>,
+    pub(super) exponents: Vec<Expr>,
     velocities: Vec<Expr>,
 }
 
@@ -87,6 +88,48 @@ impl Factors {
             exponents: plain.chain([g.symbol("t", 0)]).collect(),
             velocities: letters.velocities.iter().map(|l| l.value).collect(),
         }
+    }
+
+    /// Adds products of two coordinates to the exponents, and to the velocities what their rates vanish with, as k x'² - g of
+    /// `x'' = k x'² - g`; none of both where they are more than `most`.
+    fn extend(&mut self, cx: &Context<'_>, motion: &Motion<'_>, most: usize) {
+        let g = &cx.system.graph;
+        let own = cx.system.velocity_symbols();
+        let plain = self.exponents[..self.exponents.len() - 1].to_vec();
+        let pairs = plain.iter().enumerate();
+        let pairs = pairs.flat_map(|(i, &a)| plain[..=i].iter().map(move |&b| g.mul(&[a, b])));
+        let pairs: Vec<Expr> = pairs.collect();
+        let mut vanishing: Vec<Expr> = Vec::new();
+        for rate in motion.derivatives(&self.velocities) {
+            let parts = g.reachable(&[rate]);
+            let is_solved = |&e: &Expr| matches!(g.node(e), Node::Solve { .. });
+            if parts.len() > FACTORED || parts.iter().any(is_solved) {
+                continue;
+            }
+            let list = factors(g, rate, &own).unwrap_or_default();
+            for (factor, _) in list {
+                let known = [&self.velocities[..], &vanishing].concat();
+                if !known.iter().any(|&e| e == factor || e == g.neg(factor)) {
+                    vanishing.push(factor);
+                }
+            }
+        }
+        let room = most.saturating_sub(vanishing.len());
+        if vanishing.len() <= most {
+            vanishing.append(&mut self.velocities);
+            self.velocities = vanishing;
+        }
+        if pairs.len() <= room {
+            // The time stays last.
+            let time = self.exponents.pop();
+            self.exponents.extend(pairs);
+            self.exponents.extend(time);
+        }
+    }
+
+    /// The functions that are raised to powers.
+    pub(super) fn bases(&self) -> Vec<Expr> {
+        [&self.velocities[..], &self.places].concat()
     }
 
     fn all(&self) -> Vec<Expr> {

@@ -2,10 +2,12 @@
 
 use super::motion::Motion;
 use super::search::Integral;
+use super::written::in_quasi_velocities;
 use chetaev_mechanics::{Context, System};
 use chetaev_symbolic::factors::factored;
+use chetaev_symbolic::rational::content;
 use chetaev_symbolic::simplify::{length, simplify, Options};
-use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Graph, Node, Symbol, Verdict};
 
 /// Larger expressions, in nodes, are shown as they are.
 const READABLE: usize = 90;
@@ -17,31 +19,40 @@ pub(crate) fn is_constant(system: &System, e: Expr) -> bool {
     g.symbols_in(&[e]).into_iter().all(is_parameter)
 }
 
-/// An integral in the letters of its family or in velocities, whichever is shorter: letters may be related.
-pub(super) fn shortest(g: &Graph, integral: &Integral) -> Expr {
+/// An integral in the letters of its family, in velocities, or in the quasi-velocities that the model states, whichever is shortest:
+/// letters may be related.
+pub(super) fn shortest(cx: &Context<'_>, integral: &Integral) -> Expr {
+    let g = &cx.system.graph;
     let [shown, value] = [integral.shown, integral.value].map(|e| readable(g, e));
-    match length(g, value) < length(g, shown) {
-        true => value,
-        false => shown,
+    let mut all = vec![shown, value];
+    if !cx.system.quasi_velocities.is_empty() {
+        all.extend(in_quasi_velocities(cx, &[value]));
     }
+    let shortest = all.into_iter().min_by_key(|&e| length(g, e));
+    shortest.unwrap_or(shown)
 }
 
 /// The integral divided by what all its terms share and nothing moves, as (1 + a²)^(3/2).
 pub(super) fn without_constant_factor(cx: &Context<'_>, integral: Integral) -> Integral {
     let g = &cx.system.graph;
-    let Node::Product {
-        coefficient,
-        factors,
-    } = g.node(integral.shown)
-    else {
-        return without_first_minus(g, integral);
+    let by = match g.node(integral.shown) {
+        Node::Product {
+            coefficient,
+            factors,
+        } => {
+            let constant = factors.iter().copied();
+            let constant: Vec<Expr> = constant.filter(|&f| is_constant(cx.system, f)).collect();
+            g.mul(&[&[g.number(coefficient.clone())], &constant[..]].concat())
+        }
+        Node::Sum { terms, constant } => {
+            let numbers = terms.iter().map(|(_, c)| c).chain([constant]);
+            g.number(content(numbers))
+        }
+        _ => g.one(),
     };
-    let constant = factors.iter().copied();
-    let constant: Vec<Expr> = constant.filter(|&f| is_constant(cx.system, f)).collect();
-    if constant.is_empty() && *coefficient == Rational::ONE {
+    if g.is_one(by) {
         return without_first_minus(g, integral);
     }
-    let by = g.mul(&[&[g.number(coefficient.clone())], &constant[..]].concat());
     let divided = Integral {
         value: g.div(integral.value, by),
         shown: g.div(integral.shown, by),

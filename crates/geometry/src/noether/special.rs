@@ -3,10 +3,12 @@
 use super::family::Family;
 use super::letters::Letters;
 use super::motion::Motion;
+use super::occurring::congruent;
 use super::search::{Integral, Table};
 use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::system::Relation;
-use chetaev_mechanics::{Context, Manifold};
+use chetaev_mechanics::{Characteristics, Context, Manifold};
+use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::number::prime_field::Residue;
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::zero::points::{Draw, Points};
@@ -180,11 +182,15 @@ impl Table<'_> {
                 .iter()
                 .filter_map(|&i| self.proved_on(cx, family, &vectors[i], tie))
                 .collect();
-            if !integrals.is_empty() {
-                found.push(Special {
+            if integrals.is_empty() {
+                continue;
+            }
+            match leaves_no_motion(cx, tie) {
+                true => missed += 1,
+                false => found.push(Special {
                     tie: tie.clone(),
                     integrals,
-                });
+                }),
             }
         }
         (found, missed)
@@ -233,6 +239,23 @@ impl Table<'_> {
             .identity(system, &rate, &manifold, "at a special value");
         matches!(verdict, Verdict::Proved(_)).then(|| replaced(shown))
     }
+}
+
+/// Whether the mass matrix on admissible velocities is singular at a special value: the accelerations for all others say nothing there.
+fn leaves_no_motion(cx: &Context<'_>, tie: &Tie) -> bool {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let chart = Characteristics::independent_velocities(system, cx.terms, cx.selection);
+    let Ok(chart) = chart else {
+        return false;
+    };
+    let pairs = tie.pairs(g);
+    let mut mass = congruent(system, &cx.terms.mass_matrix, &chart.basis);
+    for entry in mass.iter_mut().flatten() {
+        *entry = g.substitute(*entry, &pairs);
+    }
+    let det = determinant(g, &mass);
+    let verdict = cx.prover.identity(system, &[det], &chart.manifold, "");
+    matches!(verdict, Verdict::Proved(_))
 }
 
 /// The most members of a family that is searched at special values, and the most special values.
@@ -424,11 +447,17 @@ impl CriticalSearch<'_, '_> {
 /// without values the assumptions tell the signs.
 fn is_admitted(cx: &Context<'_>, tie: &Tie) -> bool {
     let (system, g) = (cx.system, &cx.system.graph);
-    let (values, stated) = (system.parameter_values(), assumptions(system));
-    system.assumptions.iter().all(|a| {
-        let tied = g.substitute(g.sub(a.right, a.left), &tie.pairs(g));
+    let (values, pairs) = (system.parameter_values(), tie.pairs(g));
+    system.assumptions.iter().enumerate().all(|(i, a)| {
+        // The others hold for what is put in too: M = -m is excluded where both are positive.
+        let mut others = system.clone();
+        others.assumptions.remove(i);
+        for a in &mut others.assumptions {
+            (a.left, a.right) = (g.substitute(a.left, &pairs), g.substitute(a.right, &pairs));
+        }
+        let tied = g.substitute(g.sub(a.right, a.left), &pairs);
         let Ok(found) = g.evaluate_f64(&[g.substitute(tied, &values)], &|_| None) else {
-            let sign = known_sign(g, tied, &stated);
+            let sign = known_sign(g, tied, &assumptions(&others));
             return match a.relation {
                 Relation::NotEqual => true,
                 Relation::Less => !sign.is_nonpositive(),

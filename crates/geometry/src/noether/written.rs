@@ -51,7 +51,7 @@ fn termwise_energy(system: &System) -> Expr {
 }
 
 /// The degree in the velocities of what is homogeneous in them by its form.
-fn degree(g: &Graph, e: Expr, velocities: &[Symbol]) -> Option<i64> {
+pub(super) fn degree(g: &Graph, e: Expr, velocities: &[Symbol]) -> Option<i64> {
     if !g.contains_any(e, velocities) {
         return Some(0);
     }

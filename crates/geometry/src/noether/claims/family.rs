@@ -133,9 +133,11 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
     if !found.powers.is_empty() {
         let g = &cx.system.graph;
         let bases: Vec<String> = found.powers.iter().map(|&e| g.text(e)).collect();
+        let exponents: Vec<String> = found.exponents.iter().map(|&e| g.text(e)).collect();
         families.push(format!(
-            "products of any powers of {}, times exponentials of the time and of coordinates that are no angles",
-            bases.join(", ")
+            "products of any powers of {}, times exponentials of combinations of {}",
+            bases.join(", "),
+            exponents.join(", ")
         ));
     }
     let functions = match found.exponentials {
