@@ -939,3 +939,15 @@ fn energies_as_they_are_written() {
     let energy = "1/2 m (x'^2 + y'^2) + 1/2 I1 w1^2 + 1/2 I2 w2^2 + 1/2 I3 w3^2".to_owned();
     assert!(sphere.contains(&energy), "{sphere:?}");
 }
+
+/// Under z' = y x' + x y' free motion on z = x y keeps x' y' (1 + x² + y²) (by hand), which is shorter without z'.
+#[test]
+fn integrals_in_independent_velocities_where_these_are_shorter() {
+    let text = "name = \"saddle\"\ncoordinates = [\"x\", \"y\", \"z\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2\"\n[constraints]\nc = \"z' = y x' + x y'\"\n";
+    within(&made_up(text), |cx, found| {
+        let g = &cx.system.graph;
+        let shown: Vec<String> = found.integrals.iter().map(|i| g.text(i.shown)).collect();
+        let own = shown.iter().find(|e| e.contains("x' y'"));
+        assert!(own.is_some_and(|e| !e.contains("z'")), "{shown:?}");
+    });
+}

@@ -10,7 +10,7 @@ use super::motion::Motion;
 use super::powers::products;
 use super::search::{Integral, Table};
 use super::shorter::shorter;
-use super::shown::{readable, shortest, with_power, without_constant_factor};
+use super::shown::{on_constraints, readable, shortest, with_power, without_constant_factor};
 use super::special::{special, Specials};
 use super::written::in_quasi_velocities;
 use chetaev_mechanics::Context;
@@ -371,6 +371,10 @@ fn chosen(
                 let integral = match integral.name.as_deref() {
                     Some(ENERGY) => integral,
                     _ => without_constant_factor(cx, integral),
+                };
+                let integral = match integral.name.is_none() {
+                    true => on_constraints(cx, motion, integral),
+                    false => integral,
                 };
                 if candidate.is_linear {
                     linear.push(integral.clone());

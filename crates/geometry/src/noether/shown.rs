@@ -32,6 +32,33 @@ pub(super) fn shortest(cx: &Context<'_>, integral: &Integral) -> Expr {
     shortest.unwrap_or(shown)
 }
 
+/// The integral as it is on the constraints, in the velocities that these leave, where that is shorter, and proved: `x' y' (1 + x² + y²)` for `x' (y² y' - x y x' + y' + x z')` under z' = y x' + x y'.
+pub(super) fn on_constraints(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    integral: Integral,
+) -> Integral {
+    let g = &cx.system.graph;
+    let solved = motion.manifold.solved.iter();
+    let solved: Vec<(Expr, Expr)> = solved.map(|&(s, e)| (g.symbol_expr(s), e)).collect();
+    if solved.is_empty() {
+        return integral;
+    }
+    let own = readable(g, g.substitute(integral.value, &solved));
+    if length(g, own) >= length(g, integral.shown) {
+        return integral;
+    }
+    match motion.is_integral(cx, own) {
+        verdict @ Verdict::Proved(_) => Integral {
+            value: own,
+            shown: own,
+            verdict,
+            ..integral
+        },
+        _ => integral,
+    }
+}
+
 /// The integral divided by what all its terms share and nothing moves, as (1 + a²)^(3/2).
 pub(super) fn without_constant_factor(cx: &Context<'_>, integral: Integral) -> Integral {
     let g = &cx.system.graph;
