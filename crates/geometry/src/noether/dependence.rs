@@ -1,7 +1,7 @@
 //! Which integrals of families are functions of others, by their derivatives and values modulo p.
 
 use super::family::{Family, Member};
-use super::search::{is_linear, At, Table, SURPLUS};
+use super::search::{degree_of, At, Table, SURPLUS};
 use chetaev_symbolic::number::modular_matrix::null_space;
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
@@ -59,13 +59,13 @@ impl Table<'_> {
         let mut random = Random::stream(self.seed, 1 << 20);
         let at = self.at(draw, &mut random)?;
         let known = self.known_columns(&at).into_iter().enumerate();
-        let known = known.map(|(i, column)| ((!self.linear[i], 0), None, column));
+        let known = known.map(|(i, column)| ((self.degrees[i], 0), None, column));
         let own = candidates.iter().enumerate().map(|(i, (family, vector))| {
-            let is_linear = vector
+            let degrees = vector
                 .iter()
-                .all(|&(m, _)| self.is_linear(&family.members[m]));
+                .map(|&(m, _)| self.degree_of(&family.members[m]));
             let column = self.gradient(&draw.field, &at, family, vector);
-            ((!is_linear, 1), Some(i), column)
+            ((degrees.max().unwrap_or(0), 1), Some(i), column)
         });
         let mut all: Vec<_> = known.chain(own).collect();
         all.sort_by_key(|(order, ..)| *order);
@@ -77,21 +77,13 @@ impl Table<'_> {
         Some(pivots.into_iter().filter_map(|i| places[i]).collect())
     }
 
-    /// Whether a member is at most linear in the velocities.
-    fn is_linear(&self, member: &Member) -> bool {
-        let system = self.motion.system;
-        let velocities = system.velocity_symbols();
-        let moving = member.iter().filter(|(letter, _)| {
-            let value = self.letters[*letter].value;
-            system.graph.contains_any(value, &velocities)
+    /// The degree of a member in the velocities.
+    fn degree_of(&self, member: &Member) -> u32 {
+        let degrees = member.iter().map(|&(letter, exponent)| {
+            let own = degree_of(self.motion, self.letters[letter].value);
+            own * u32::from(exponent.unsigned_abs())
         });
-        let moving: Vec<&(usize, i8)> = moving.collect();
-        match moving[..] {
-            [] => true,
-            // A known function such as the energy is one letter too.
-            [&(letter, 1)] => is_linear(self.motion, self.letters[letter].value),
-            _ => false,
-        }
+        degrees.sum()
     }
 
     /// How many of the candidates are new functions, constants aside, beside the first of them at the places `independent`: as

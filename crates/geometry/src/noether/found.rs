@@ -110,8 +110,8 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
     let table = Table::new(motion, &letters.all(), cx.prover.points_seed())?;
     let mut candidates: Vec<Candidate<'_>> = Vec::new();
     let mut searched = Vec::new();
-    for (place, family) in families.iter().enumerate() {
-        let space = table.space(family)?;
+    let spaces = table.spaces(&families)?;
+    for (place, (family, space)) in families.iter().zip(spaces).enumerate() {
         searched.push(Searched {
             family: family.clone(),
             relations: space.relations.len(),

@@ -18,6 +18,7 @@ use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::zero::points::{Draw, Points};
 use chetaev_symbolic::{Expr, Verdict};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// More points than members.
 pub(super) const SURPLUS: usize = 10;
@@ -39,8 +40,8 @@ pub struct Table<'a> {
     pub(super) directions: usize,
     /// How many functions what is found is told apart from: those of the place that the constraints fix, and others that are known.
     pub(super) fixed: usize,
-    /// Which of these are at most linear in the velocities.
-    pub(super) linear: Vec<bool>,
+    /// The degrees of these in the velocities.
+    pub(super) degrees: Vec<u32>,
     pub(super) seed: u64,
 }
 
@@ -150,14 +151,14 @@ impl<'a> Table<'a> {
         outputs.extend(gradients.concat());
         let mut fixed = motion.system.fixed_functions();
         fixed.extend(known);
-        let linear = fixed.iter().map(|&e| is_linear(motion, e)).collect();
+        let degrees = fixed.iter().map(|&e| degree_of(motion, e)).collect();
         let fixed = motion.gradients(&fixed);
         outputs.extend(fixed.concat());
         Ok(Table {
             points: motion.points(&outputs)?,
             directions: gradients.first().map_or(0, Vec::len),
             fixed: fixed.len(),
-            linear,
+            degrees,
             letters: letters.to_vec(),
             parameters,
             motion,
@@ -235,6 +236,43 @@ impl<'a> Table<'a> {
             error_bound_log2: (once * draws as f64).min(0.0),
             draws: draws as u32,
         })
+    }
+
+    /// The null spaces of several families, in parallel; each is the same as alone.
+    ///
+    /// # Errors
+    /// A sentence that says why one of them is not known.
+    pub(super) fn spaces(&self, families: &[Family]) -> Result<Vec<Space>, String> {
+        let workers = std::thread::available_parallelism().map_or(1, usize::from);
+        if workers == 1 || families.len() < 2 {
+            return families.iter().map(|family| self.space(family)).collect();
+        }
+        let next = AtomicUsize::new(0);
+        let work = || {
+            let mut own = Vec::new();
+            loop {
+                let place = next.fetch_add(1, Ordering::Relaxed);
+                match families.get(place) {
+                    Some(family) => own.push((place, self.space(family))),
+                    None => return own,
+                }
+            }
+        };
+        let mut found: Vec<(usize, Result<Space, String>)> = std::thread::scope(|scope| {
+            let all: Vec<_> = (1..workers.min(families.len()))
+                .map(|_| scope.spawn(work))
+                .collect();
+            let mut found = work();
+            for worker in all {
+                match worker.join() {
+                    Ok(own) => found.extend(own),
+                    Err(panic) => std::panic::resume_unwind(panic),
+                }
+            }
+            found
+        });
+        found.sort_by_key(|(place, _)| *place);
+        found.into_iter().map(|(_, space)| space).collect()
     }
 
     /// The null vectors of the first draw that are integrals, and the members of each relation, the leading one last.
@@ -360,14 +398,25 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Whether a function is at most linear in the velocities, by its form.
-pub(super) fn is_linear(motion: &Motion<'_>, e: Expr) -> bool {
+/// No degree is looked for beyond this one; what is no polynomial in the velocities has it too.
+const DEGREE: u32 = 4;
+
+/// The degree of a function in the velocities, by its form.
+pub(super) fn degree_of(motion: &Motion<'_>, e: Expr) -> u32 {
     let g = &motion.system.graph;
     let velocities = motion.system.velocity_symbols();
-    let slopes = velocities.iter().map(|&v| g.diff(e, v));
-    slopes
-        .into_iter()
-        .all(|slope| !g.contains_any(slope, &velocities))
+    let mut slopes = vec![e];
+    for degree in 0..DEGREE {
+        slopes.retain(|&e| g.contains_any(e, &velocities));
+        if slopes.is_empty() {
+            return degree;
+        }
+        let all = slopes.iter().flat_map(|&e| g.gradient(e, &velocities));
+        slopes = all.collect();
+        slopes.sort_unstable();
+        slopes.dedup();
+    }
+    DEGREE
 }
 
 /// The degree of a member in the letters.

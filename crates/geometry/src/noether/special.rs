@@ -12,7 +12,7 @@ use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::number::prime_field::Residue;
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::zero::points::{Draw, Points};
-use chetaev_symbolic::{Expr, Graph, Rational, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol, Verdict};
 
 /// Special values of parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -152,8 +152,14 @@ impl Table<'_> {
         };
         let mut found: Vec<Special> = Vec::new();
         let mut missed = 0;
+        let inside = self.inside_functions();
         for tie in ties {
-            let drawn = self.draw(0);
+            // Points where w is zero and sin(w t) is not are none.
+            let is_inside = |(s, _): &(Expr, Expr)| inside.contains(s);
+            let drawn = match tie.pairs(&self.motion.system.graph).iter().any(is_inside) {
+                true => None,
+                false => self.draw(0),
+            };
             let tied = drawn.and_then(|(draw, random)| Some((self.tied(&draw, tie)?, random)));
             let at = tied.and_then(|(draw, mut random)| {
                 let (vectors, _) = self.vectors_at(family, &draw, &mut random)?;
@@ -194,6 +200,28 @@ impl Table<'_> {
             }
         }
         (found, missed)
+    }
+
+    /// The parameters in arguments of functions, which are letters of their own at points over prime fields.
+    fn inside_functions(&self) -> Vec<Expr> {
+        let g = &self.motion.system.graph;
+        let mut all: Vec<Expr> = self.letters.iter().map(|l| l.value).collect();
+        all.extend(&self.motion.accelerations);
+        let arguments = g
+            .reachable(&all)
+            .into_iter()
+            .filter_map(|e| match g.node(e) {
+                Node::Apply { arguments, .. } => Some(arguments.to_vec()),
+                Node::Power { exponent, .. } => Some(vec![*exponent]),
+                _ => None,
+            });
+        let arguments: Vec<Expr> = arguments.flatten().collect();
+        let own = self.parameters.iter().copied();
+        let is_inside = |&e: &Expr| {
+            let symbol = g.as_symbol(e);
+            symbol.is_some_and(|s| g.any_contains_any(&arguments, &[s]))
+        };
+        own.filter(is_inside).collect()
     }
 
     /// How many integrals a family contains at a special value.
@@ -373,7 +401,10 @@ fn critical(
         ties: Vec::new(),
     };
     let mut looked = parameters.to_vec();
-    looked.retain(|&parameter| search.looked_at(None, parameter));
+    let (inside, g) = (table.inside_functions(), &cx.system.graph);
+    looked.retain(|&parameter| {
+        !inside.contains(&g.symbol_expr(parameter)) && search.looked_at(None, parameter)
+    });
     let (mut found, _) = table.special(cx, &family, &search.ties, &[]);
     // Two conditions at once: an equality that adds nothing by itself, and a value of another parameter.
     let alone = search.ties.len();

@@ -102,6 +102,14 @@ impl<'t, 'a> Polynomials<'t, 'a> {
             *self.unsupported.borrow_mut() = true;
             return Vec::new();
         }
+        // Most are numbers.
+        if let ([x], [y]) = (&a[..], &b[..]) {
+            let product = self.tower.mul(x, y);
+            return match product.is_empty() {
+                true => Vec::new(),
+                false => vec![product],
+            };
+        }
         let one = self.tower.field().one();
         let mut product: Poly = vec![Vec::new(); a.len() + b.len() - 1];
         for (i, x) in a.iter().enumerate() {
@@ -119,6 +127,9 @@ impl<'t, 'a> Polynomials<'t, 'a> {
     fn mul_masked(&self, a: &[Poly], b: &[Poly]) -> Vec<Poly> {
         let one = self.tower.field().one();
         let roots = self.roots.borrow();
+        if let ([x], [y], true) = (a, b, roots.is_empty()) {
+            return vec![self.mul_poly(x, y)];
+        }
         let mut product: Vec<Poly> = vec![Vec::new(); 1 << roots.len()];
         for (i, x) in a.iter().enumerate() {
             for (j, y) in b.iter().enumerate() {
