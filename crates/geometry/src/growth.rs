@@ -1,14 +1,20 @@
 //! `distribution.growth`: the growth vector of the admissible velocities, and what can be reached.
 
-use crate::flag::{horizontal, Directed, Flag, Obstacle};
+use crate::flag::{derived, horizontal, Directed, Flag, Obstacle};
+use crate::integrability::{integral, on_its_own};
+use crate::parameters;
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_mechanics::components::OnComponent;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::words::counted;
+use chetaev_mechanics::ConstraintKind;
 use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{simplify, Expr, Symbol, Verdict};
+use std::sync::Arc;
 
 /// `distribution.growth`.
 #[derive(Clone, Copy, Debug)]
@@ -46,28 +52,208 @@ impl Claim for Growth {
     }
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
-        let chart = match basis(cx).characteristics() {
-            Ok(chart) => chart,
-            Err(problem) => return Verdict::undecided(problem.to_string()).into(),
-        };
-        let (fields, drift) = match horizontal(cx.system, &chart) {
-            Ok(found) => found,
-            Err(why) => return Verdict::not_applicable("model.constraints-linear", why).into(),
-        };
-        let mut flag = Flag::of(cx, &fields, false, false);
-        let stops = |flag: &Flag| flag.growth.last() < Some(&cx.system.n());
-        let drifts =
-            matches!(&flag, Ok(flag) if stops(flag)) && moves_by_itself(cx, &fields, &drift);
-        if drifts {
-            let all = [&fields[..], &[drift]].concat();
-            flag = Flag::of(cx, &all, true, false);
-        }
-        match flag {
-            Ok(flag) => reached(cx, flag, drifts).into(),
-            Err(Obstacle::Undecided(tried)) => Verdict::undecided(tried).into(),
-            Err(Obstacle::Contradiction(verdict)) => (*verdict).into(),
-        }
+        parameters::with_definitions(cx, decided)
     }
+}
+
+/// What admissible displacements generate, on the positions; where that is not everything and something moves by itself, on positions
+/// and the time with the field of that.
+#[derive(Debug)]
+pub(crate) struct Generated {
+    pub(crate) generators: Vec<Directed>,
+    pub(crate) flag: Result<Flag, Obstacle>,
+    /// Whether the fields are those on positions and the time.
+    pub(crate) with_time: bool,
+}
+
+impl Generated {
+    /// How many functions of the position, and of the time where the fields are on it, keep their values; `None` where it is not proved.
+    pub(crate) fn kept(&self, cx: &Context<'_>) -> Option<usize> {
+        let flag = self.flag.as_ref().ok()?;
+        let all = cx.system.n() + usize::from(self.with_time);
+        matches!(flag.verdict, Verdict::Proved(_)).then(|| all.saturating_sub(flag.fields.len()))
+    }
+}
+
+/// [`Generated`], once for all claims, or the verdict that there are no such fields.
+pub(crate) fn generated(cx: &Context<'_>) -> Arc<Result<Generated, Verdict>> {
+    cx.shared(|cx| {
+        let chart = basis(cx).characteristics();
+        let chart = chart.map_err(|problem| Verdict::undecided(problem.to_string()))?;
+        let (fields, drift) = horizontal(cx.system, &chart)
+            .map_err(|why| Verdict::not_applicable("model.constraints-linear", why))?;
+        let flag = Flag::of(cx, &fields, false, false);
+        let stops = |flag: &Flag| flag.growth.last() < Some(&cx.system.n());
+        let with_time =
+            matches!(&flag, Ok(flag) if stops(flag)) && moves_by_itself(cx, &fields, &drift);
+        Ok(match with_time {
+            true => {
+                let generators = [&fields[..], &[drift]].concat();
+                Generated {
+                    flag: Flag::of(cx, &generators, true, false),
+                    generators,
+                    with_time,
+                }
+            }
+            false => Generated {
+                generators: fields,
+                flag,
+                with_time,
+            },
+        })
+    })
+}
+
+fn decided(cx: &Context<'_>) -> Finding {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let bound = system.constraints.iter();
+    let bound = bound.filter(|c| c.kind != ConstraintKind::Holonomic);
+    let corners = system.corners_of(&bound.map(|c| c.f).collect::<Vec<Expr>>());
+    let velocities = system.velocity_symbols();
+    if corners.is_empty() || g.any_contains_any(&corners, &velocities) {
+        return smooth(cx);
+    }
+    let sides = system.sides();
+    if sides.is_empty() {
+        return Verdict::undecided(
+            "the constraints have too many corners for their sides to be looked at one by one",
+        )
+        .into();
+    }
+    apart(cx, sides, "where ", decided)
+}
+
+/// Where the constraints are smooth: one system, or the components of constraints that are products.
+fn smooth(cx: &Context<'_>) -> Finding {
+    let generated = generated(cx);
+    let generated = match &*generated {
+        Ok(generated) => generated,
+        Err(none @ Verdict::NotApplicable { .. }) => {
+            let components = cx.system.components();
+            return match components.len() {
+                0 | 1 => none.clone().into(),
+                _ => on_components(cx, components, none.clone()),
+            };
+        }
+        Err(other) => return other.clone().into(),
+    };
+    let flag = match &generated.flag {
+        Ok(flag) => flag,
+        Err(Obstacle::Undecided(tried)) => return Verdict::undecided(tried.clone()).into(),
+        Err(Obstacle::Contradiction(verdict)) => return Verdict::clone(verdict).into(),
+    };
+    let mut finding = reached(cx, flag, generated);
+    let own = vector(flag, generated.with_time);
+    let stated = parameters::where_stated(cx, &own, |own| match &*self::generated(own) {
+        Ok(generated) => {
+            let flag = generated.flag.as_ref().ok()?;
+            Some(vector(flag, generated.with_time))
+        }
+        Err(_) => None,
+    });
+    if let Some(stated) = stated {
+        finding.verdict.prefix(&stated);
+    }
+    finding
+}
+
+/// What is said of several systems in the place of one: of sides of corners, each by itself. Near a place of one side only that side counts.
+fn apart(
+    cx: &Context<'_>,
+    systems: Vec<OnComponent>,
+    words: &str,
+    decide: impl Fn(&Context<'_>) -> Finding,
+) -> Finding {
+    let mut all = Vec::new();
+    for on in systems {
+        let own = on_its_own(cx, &on.system, &decide);
+        let none = || Verdict::undecided("it has no independent velocities").into();
+        all.push((
+            on.condition.unwrap_or(on.sentence),
+            own.unwrap_or_else(none),
+        ));
+    }
+    let is = |word: &str| all.iter().filter(|(_, f)| f.verdict.word() == word).count();
+    let texts = all
+        .iter()
+        .map(|(place, f)| format!("{words}{place}: {}", f.verdict.detail()));
+    let sentence = texts.collect::<Vec<String>>().join("; ");
+    let formulas = all.iter().flat_map(|(_, f)| f.formulas.clone()).collect();
+    let (proved, refuted) = (is("proved"), is("refuted"));
+    let holds = all.iter().filter(|(_, f)| f.verdict.word() == "proved");
+    let places: Vec<&str> = holds.map(|(place, _)| place.as_str()).collect();
+    let condition = places.join(" or ");
+    let among = "paths from one side to another may join more than those on one side do";
+    let first = all.iter().map(|(_, f)| f.verdict.clone());
+    let verdict = match first.reduce(Verdict::and) {
+        Some(Verdict::Proved(proof)) => Verdict::Proved(Proof {
+            detail: sentence,
+            ..proof
+        }),
+        Some(Verdict::Refuted(found)) if refuted == all.len() => Verdict::Refuted(Counterexample {
+            detail: format!("{among}; {sentence}"),
+            ..found
+        }),
+        Some(Verdict::Refuted(found)) if proved > 0 && proved + refuted == all.len() => {
+            Verdict::Conditional {
+                condition,
+                proof: Proof::exact("on each side by itself", format!("{among}; {sentence}")),
+                counterexample: Some(found),
+            }
+        }
+        _ => Verdict::undecided(sentence),
+    };
+    Finding { verdict, formulas }
+}
+
+/// On the components of constraints that are products, where these are affine: what all of them generate each of them does; where one
+/// does not, paths that go over from one to another may.
+fn on_components(cx: &Context<'_>, components: Vec<OnComponent>, none: Verdict) -> Finding {
+    let words = "on the component ";
+    let mut finding = apart(cx, components, words, decided);
+    let is_known = !matches!(finding.verdict, Verdict::Undecided { .. });
+    if matches!(
+        finding.verdict,
+        Verdict::Refuted(_) | Verdict::Conditional { .. }
+    ) {
+        let said = finding.verdict.detail().to_owned();
+        let said = said.replacen("one side", "one component", 2);
+        let why = format!("{}; component by component: {said}", none.detail());
+        finding.verdict = Verdict::not_applicable("model.constraints-linear", why);
+    } else if !is_known {
+        finding.verdict = none;
+    }
+    finding
+}
+
+/// The growth vector in words.
+fn vector(flag: &Flag, with_time: bool) -> String {
+    let growth: Vec<String> = flag.growth.iter().map(usize::to_string).collect();
+    let fields = match with_time {
+        true => " of the fields on space and time, with the one of what happens by itself,",
+        false => "",
+    };
+    format!("the growth vector{fields} is ({})", growth.join(", "))
+}
+
+/// The derived flag in words, where it was found.
+fn derived_flag(cx: &Context<'_>, flag: &Flag, generated: &Generated) -> Option<String> {
+    // After one step of brackets both flags are the same.
+    let ranks = match flag.growth.len() {
+        1 | 2 => flag.growth.clone(),
+        _ => derived(cx, &generated.generators, generated.with_time).ok()?,
+    };
+    let all = cx.system.n() + usize::from(generated.with_time);
+    let listed = |ranks: Vec<usize>| {
+        let texts: Vec<String> = ranks.iter().map(usize::to_string).collect();
+        texts.join(", ")
+    };
+    let forms = ranks.iter().map(|rank| all.saturating_sub(*rank)).collect();
+    Some(format!(
+        "the derived flag, with all brackets at each step, has the ranks ({}), that of the Pfaff system ({})",
+        listed(ranks),
+        listed(forms)
+    ))
 }
 
 /// Whether something moves at rest of the independent velocities, or the admissible displacements change with the time.
@@ -125,56 +311,58 @@ fn full_at(cx: &Context<'_>, flag: &Flag, with_time: bool) -> String {
     }
 }
 
-fn reached(cx: &Context<'_>, flag: Flag, drifts: bool) -> Verdict {
-    let n = cx.system.n();
+fn reached(cx: &Context<'_>, flag: &Flag, generated: &Generated) -> Finding {
+    let (n, drifts) = (cx.system.n(), generated.with_time);
     let rank = flag.growth.last().copied().unwrap_or(0);
-    let growth: Vec<String> = flag.growth.iter().map(usize::to_string).collect();
-    let fields = match drifts {
-        true => " of the fields on space and time, with the one of what happens by itself,",
-        false => "",
-    };
-    let growth = format!("the growth vector{fields} is ({})", growth.join(", "));
-    let full = full_at(cx, &flag, drifts);
+    let growth = vector(flag, drifts);
+    let full = full_at(cx, flag, drifts);
     let missing = n + usize::from(drifts) - rank;
-    let sentence = match (missing, drifts) {
+    let mut sentence = match (missing, drifts) {
         (0, false) => format!("{growth}{full}: every configuration nearby can be reached"),
         (0, true) => format!(
             "{growth}{full}: the configurations that can be reached at a time fill an open set"
         ),
-        _ => {
-            let of = match drifts {
-                true => "of position and time",
-                false => "of the position",
-            };
-            let kept = counted(
-                missing,
-                &format!("function {of} keeps its value"),
-                &format!("functions {of} keep their values"),
-            );
-            match drifts {
-                true => {
-                    format!("{growth} with {n} coordinates: {kept} under all admissible motions")
-                }
-                false => format!(
-                    "{growth} with {n} coordinates: {kept} under all admissible displacements"
-                ),
-            }
-        }
+        _ => format!(
+            "{growth} with {n} coordinates: {}",
+            keeping(missing, drifts)
+        ),
     };
-    match (flag.verdict, missing) {
+    let mut formulas = Vec::new();
+    if missing > 0 {
+        let (said, shown) = integral::named(cx, missing);
+        sentence = format!("{sentence}: {said}");
+        formulas = shown;
+    }
+    if let Some(derived) = derived_flag(cx, flag, generated) {
+        sentence = format!("{sentence}; {derived}");
+    }
+    let verdict = match (flag.verdict.clone(), missing) {
         (Verdict::Proved(mut proof), 0) => {
             proof.on = "outside the points where a rank falls".into();
             proof.detail = format!("{sentence}; {}", proof.detail);
             Verdict::Proved(proof)
         }
-        (Verdict::Proved(proof), _) => {
-            Verdict::Refuted(chetaev_symbolic::verdict::Counterexample {
-                point: Vec::new(),
-                quantity: "the rank that is reached".into(),
-                residual: (rank.to_string(), rank.to_string()),
-                detail: format!("{sentence}; {}", proof.detail),
-            })
-        }
+        (Verdict::Proved(proof), _) => Verdict::Refuted(Counterexample {
+            point: Vec::new(),
+            quantity: "the rank that is reached".into(),
+            residual: (rank.to_string(), rank.to_string()),
+            detail: format!("{sentence}; {}", proof.detail),
+        }),
         (other, _) => other,
-    }
+    };
+    Finding { verdict, formulas }
+}
+
+/// How many functions are kept, in words.
+fn keeping(missing: usize, with_time: bool) -> String {
+    let (of, under) = match with_time {
+        true => ("of position and time", "motions"),
+        false => ("of the position", "displacements"),
+    };
+    let kept = counted(
+        missing,
+        &format!("function {of} keeps its value"),
+        &format!("functions {of} keep their values"),
+    );
+    format!("{kept} under all admissible {under}")
 }
