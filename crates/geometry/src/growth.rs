@@ -34,7 +34,7 @@ impl Claim for Growth {
     }
 
     fn explanation(&self) -> &'static str {
-        "The displacements that the constraints admit at one time form the distribution D¹; brackets of its fields with those found before add directions, step by step. The ranks are the growth vector, (2, 3) for a knife edge. Where they reach the number of coordinates, every configuration near another one can be reached by an admissible path (Chow 1939, Rashevskii 1938), and the system is controllable as far as kinematics go; where they stop before, as many functions of the position keep their values as ranks are missing, and these are among the first integrals. The claim is refuted then. Where the constraints contain the time, or velocities that nobody chooses, such a function need not be one of the motion, as the displacements of another time lead off its values: then the fields are taken on space and time, with the field of what happens by itself, ∂/∂t and the velocities at which the independent ones vanish. Where their brackets generate every direction there, the places that can be reached at a time fill an open set and no function of position and time keeps its value. A system without constraints generates everything at the first step."
+        "The displacements that the constraints admit at one time form the distribution D¹; brackets of its fields with those found before add directions, step by step. The ranks are the growth vector, (2, 3) for a knife edge. Where they reach the number of coordinates, every configuration near another one can be reached by an admissible path (Chow 1939, Rashevskii 1938), and the system is controllable as far as kinematics go; where they stop before, as many functions of the position keep their values as ranks are missing, and these are among the first integrals. The claim is refuted then, and the functions are named as far as they were found. The derived flag takes the brackets of all fields found with each other at each step; what its ranks leave are the ranks of the derived systems of the constraints' Pfaff system. Where abs and sign make corners in the place, each side is looked at by itself; where constraints are products of linear ones, each of these is. Where the constraints contain the time, or velocities that nobody chooses, such a function need not be one of the motion, as the displacements of another time lead off its values: then the fields are taken on space and time, with the field of what happens by itself, ∂/∂t and the velocities at which the independent ones vanish. Where their brackets generate every direction there, the places that can be reached at a time fill an open set and no function of position and time keeps its value. A system without constraints generates everything at the first step."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -109,16 +109,15 @@ fn decided(cx: &Context<'_>) -> Finding {
     let bound = system.constraints.iter();
     let bound = bound.filter(|c| c.kind != ConstraintKind::Holonomic);
     let corners = system.corners_of(&bound.map(|c| c.f).collect::<Vec<Expr>>());
-    let velocities = system.velocity_symbols();
-    if corners.is_empty() || g.any_contains_any(&corners, &velocities) {
+    // Where absolute values of velocities stand, admissible displacements form no linear space.
+    if corners.is_empty() || g.any_contains_any(&corners, &system.velocity_symbols()) {
         return smooth(cx);
     }
     let sides = system.sides();
     if sides.is_empty() {
-        return Verdict::undecided(
-            "the constraints have too many corners for their sides to be looked at one by one",
-        )
-        .into();
+        let many =
+            "the constraints have too many corners for their sides to be looked at one by one";
+        return Verdict::undecided(many).into();
     }
     apart(cx, sides, "where ", decided)
 }
@@ -174,10 +173,7 @@ fn apart(
         ));
     }
     let is = |word: &str| all.iter().filter(|(_, f)| f.verdict.word() == word).count();
-    let texts = all
-        .iter()
-        .map(|(place, f)| format!("{words}{place}: {}", f.verdict.detail()));
-    let sentence = texts.collect::<Vec<String>>().join("; ");
+    let sentence = said_of(&all, words);
     let formulas = all.iter().flat_map(|(_, f)| f.formulas.clone()).collect();
     let (proved, refuted) = (is("proved"), is("refuted"));
     let holds = all.iter().filter(|(_, f)| f.verdict.word() == "proved");
@@ -204,6 +200,22 @@ fn apart(
         _ => Verdict::undecided(sentence),
     };
     Finding { verdict, formulas }
+}
+
+/// What is said of several places, once where it is the same.
+fn said_of(all: &[(String, Finding)], words: &str) -> String {
+    let mut said: Vec<(String, &str)> = Vec::new();
+    for (place, finding) in all {
+        let detail = finding.verdict.detail();
+        match said.iter_mut().find(|(_, known)| *known == detail) {
+            Some((places, _)) => *places = format!("{places}, and {words}{place}"),
+            None => said.push((format!("{words}{place}"), detail)),
+        }
+    }
+    let texts = said
+        .iter()
+        .map(|(places, detail)| format!("{places}: {detail}"));
+    texts.collect::<Vec<String>>().join("; ")
 }
 
 /// On the components of constraints that are products, where these are affine: what all of them generate each of them does; where one

@@ -327,7 +327,12 @@ fn sides_apart(cx: &Context<'_>, strength: Strength) -> Option<String> {
         holds.then_some(side.condition?)
     });
     let places: Vec<String> = sides.collect();
-    (!places.is_empty()).then(|| format!("it holds where {} by itself", places.join(" or where ")))
+    let told = match strength {
+        Strength::Weak => "the constraints are integrable",
+        Strength::Strong => "the condition holds",
+    };
+    let places = places.join(" or where ");
+    (!places.is_empty()).then(|| format!("{told} where {places} by itself"))
 }
 
 /// What constraints keep, in words and as formulas: all that integrable ones do, and what others keep in spite of it.
@@ -339,10 +344,16 @@ fn what_is_kept(cx: &Context<'_>, verdict: &Verdict) -> (Vec<String>, Vec<Formul
         return (Vec::new(), Vec::new());
     }
     let (mut sentences, mut formulas) = (Vec::new(), Vec::new());
-    for kept in integral::kept(cx) {
+    let all = integral::kept(cx);
+    let has_none = |kept: &integral::Kept| kept.functions.is_empty() && kept.count.is_none();
+    if integrable && all.iter().all(has_none) {
+        let said = integral::said(cx, &[], None);
+        return (vec![format!("what they keep: {said}")], formulas);
+    }
+    for kept in all {
         let whole = integrable.then_some(cx.selection.rows.len());
         let count = kept.count.or(whole.filter(|_| kept.place.is_none()));
-        let unknown = kept.functions.is_empty() && (count.is_none() && !integrable);
+        let unknown = kept.functions.is_empty() && count.is_none();
         if count == Some(0) || unknown {
             continue;
         }
@@ -476,6 +487,12 @@ fn summary(pfaff: &PfaffSystem<'_>, strength: Strength, verdict: &Verdict) -> &'
         }
         (Verdict::Proved(_), Strength::Weak, true) => {
             "the constraints together restrict positions, not only velocities: they are integrable"
+        }
+        (Verdict::Conditional { .. }, Strength::Weak, _) => {
+            "on the condition stated the constraints restrict positions, not only velocities: they are integrable there"
+        }
+        (Verdict::Conditional { .. }, Strength::Strong, _) => {
+            "on the condition stated Frobenius' condition holds, also where f is not zero"
         }
         (Verdict::Refuted(_), Strength::Weak, false) => "the constraint is nonholonomic",
         (Verdict::Refuted(_), Strength::Weak, true) => "the constraints together are nonholonomic",

@@ -8,12 +8,20 @@ use chetaev_symbolic::{Expr, Graph, Verdict};
 /// Longer values are not printed, in signs.
 const SHOWN: usize = 60;
 
-/// `decide` with the definitions of parameters put in; what is decided says so.
+/// `decide` with the definitions of parameters put in; what is decided says so. Where the assumptions leave one side of the corners of the
+/// constraints only, absolute values and signs are written without.
 pub(crate) fn with_definitions(
     cx: &Context<'_>,
     decide: impl Fn(&Context<'_>) -> Finding,
 ) -> Finding {
     let system = cx.system;
+    let decide = |cx: &Context<'_>| {
+        let own = match &cx.system.sides()[..] {
+            [only] => on_its_own(cx, &only.system, &decide),
+            _ => None,
+        };
+        own.unwrap_or_else(|| decide(cx))
+    };
     let pairs = system.definitions_in_constraints();
     let resolved = system.with_constraints_for(pairs.clone());
     let own = resolved.and_then(|resolved| on_its_own(cx, &resolved, &decide));

@@ -7,6 +7,7 @@
 //! function is proved by whoever asks.
 
 use super::primitive::{expanded, primitive, tidy};
+use crate::noether::shown::is_constant;
 use chetaev_mechanics::System;
 use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::rational::content;
@@ -65,7 +66,7 @@ impl Fields<'_> {
                 break;
             };
             let function = g.substitute(next.function, &constants);
-            let shown = presented(g, function);
+            let shown = presented(system, function);
             if !is_kept(shown) {
                 break;
             }
@@ -350,9 +351,12 @@ fn exponential(g: &Graph, e: Expr) -> Expr {
     g.mul(&factors)
 }
 
-/// A kept function as a person writes it: without logarithms where its exponential has none, without fractions, and a constant is none of it.
-fn presented(g: &Graph, e: Expr) -> Expr {
-    let all = parts(g, tidy(g, e));
+/// A kept function as a person writes it: without logarithms where its exponential has none, without fractions, constant terms and constant
+/// factors, and not with a minus in front.
+fn presented(system: &System, e: Expr) -> Expr {
+    let g = &system.graph;
+    let e = tidy(g, e);
+    let all = parts(g, e);
     let logs: Vec<Expr> = all
         .iter()
         .filter_map(|&part| logarithm(g, part).map(|(_, c)| c))
@@ -366,14 +370,28 @@ fn presented(g: &Graph, e: Expr) -> Expr {
         .and_then(|first| Some((first, ratios(*first)?)))
     {
         let unit = g.number(content(ratios.iter()));
-        return tidy(g, exponential(g, g.div(g.add(&all), g.mul(&[unit, first]))));
+        let whole = exponential(g, g.div(g.add(&all), g.mul(&[unit, first])));
+        return tidy(g, whole);
     }
-    let Node::Sum { terms, .. } = g.node(tidy(g, e)) else {
-        return tidy(g, e);
+    let scaled = match g.node(e) {
+        Node::Sum { terms, .. } => {
+            let unit = content(terms.iter().map(|(_, c)| c));
+            let own = terms
+                .iter()
+                .map(|(term, c)| g.scale(&(c.clone() / unit.clone()), *term));
+            tidy(g, g.add(&own.collect::<Vec<Expr>>()))
+        }
+        Node::Product { factors, .. } => {
+            let own = factors.iter().copied();
+            g.mul(
+                &own.filter(|&f| !is_constant(system, f))
+                    .collect::<Vec<Expr>>(),
+            )
+        }
+        _ => e,
     };
-    let unit = content(terms.iter().map(|(_, c)| c));
-    let scaled = terms
-        .iter()
-        .map(|(term, c)| g.scale(&(c.clone() / unit.clone()), *term));
-    tidy(g, g.add(&scaled.collect::<Vec<Expr>>()))
+    match g.text(scaled).starts_with('-') {
+        true => g.neg(scaled),
+        false => scaled,
+    }
 }
