@@ -8,7 +8,6 @@ use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::components::OnComponent;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::words::counted;
-use chetaev_mechanics::ConstraintKind;
 use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
@@ -76,12 +75,14 @@ impl Generated {
 }
 
 /// [`Generated`], once for all claims, or the verdict that there are no such fields.
-pub(crate) fn generated(cx: &Context<'_>) -> Arc<Result<Generated, Verdict>> {
+pub(crate) fn generated(cx: &Context<'_>) -> Arc<Result<Generated, Box<Verdict>>> {
     cx.shared(|cx| {
         let chart = basis(cx).characteristics();
-        let chart = chart.map_err(|problem| Verdict::undecided(problem.to_string()))?;
-        let (fields, drift) = horizontal(cx.system, &chart)
-            .map_err(|why| Verdict::not_applicable("model.constraints-linear", why))?;
+        let chart = chart.map_err(|problem| Box::new(Verdict::undecided(problem.to_string())))?;
+        let (fields, drift) = horizontal(cx.system, &chart).map_err(|why| {
+            let hypothesis = "model.constraints-linear";
+            Box::new(Verdict::not_applicable(hypothesis, why))
+        })?;
         let flag = Flag::of(cx, &fields, false, false);
         let stops = |flag: &Flag| flag.growth.last() < Some(&cx.system.n());
         let with_time =
@@ -106,20 +107,31 @@ pub(crate) fn generated(cx: &Context<'_>) -> Arc<Result<Generated, Verdict>> {
 
 fn decided(cx: &Context<'_>) -> Finding {
     let (system, g) = (cx.system, &cx.system.graph);
-    let bound = system.constraints.iter();
-    let bound = bound.filter(|c| c.kind != ConstraintKind::Holonomic);
-    let corners = system.corners_of(&bound.map(|c| c.f).collect::<Vec<Expr>>());
+    let constraints = system.constraints.iter().map(|c| c.f);
+    let corners = system.corners_of(&constraints.collect::<Vec<Expr>>());
     // Where absolute values of velocities stand, admissible displacements form no linear space.
-    if corners.is_empty() || g.any_contains_any(&corners, &system.velocity_symbols()) {
+    if g.any_contains_any(&corners, &system.velocity_symbols()) {
         return smooth(cx);
     }
-    let sides = system.sides();
-    if sides.is_empty() {
-        let many =
-            "the constraints have too many corners for their sides to be looked at one by one";
-        return Verdict::undecided(many).into();
+    let sides = system.all_sides();
+    match (sides.is_empty(), corners.is_empty()) {
+        (true, true) => smooth(cx),
+        (true, false) => with_corners_left(),
+        (false, _) => apart(cx, sides, "where ", on_side),
     }
-    apart(cx, sides, "where ", decided)
+}
+
+/// On one side of the corners.
+fn on_side(cx: &Context<'_>) -> Finding {
+    match cx.system.all_sides().is_empty() {
+        true => smooth(cx),
+        false => with_corners_left(),
+    }
+}
+
+fn with_corners_left() -> Finding {
+    let tried = "the constraints have more corners than are looked at one by one";
+    Verdict::undecided(tried).into()
 }
 
 /// Where the constraints are smooth: one system, or the components of constraints that are products.
@@ -127,14 +139,10 @@ fn smooth(cx: &Context<'_>) -> Finding {
     let generated = generated(cx);
     let generated = match &*generated {
         Ok(generated) => generated,
-        Err(none @ Verdict::NotApplicable { .. }) => {
-            let components = cx.system.components();
-            return match components.len() {
-                0 | 1 => none.clone().into(),
-                _ => on_components(cx, components, none.clone()),
-            };
+        Err(none) if matches!(**none, Verdict::NotApplicable { .. }) => {
+            return on_components(cx, Verdict::clone(none));
         }
-        Err(other) => return other.clone().into(),
+        Err(other) => return Verdict::clone(other).into(),
     };
     let flag = match &generated.flag {
         Ok(flag) => flag,
@@ -219,8 +227,20 @@ fn said_of(all: &[(String, Finding)], words: &str) -> String {
 }
 
 /// On the components of constraints that are products, where these are affine: what all of them generate each of them does; where one
-/// does not, paths that go over from one to another may.
-fn on_components(cx: &Context<'_>, components: Vec<OnComponent>, none: Verdict) -> Finding {
+/// does not, paths that go over from one to another may. Constraints that are functions of affine ones are replaced by these.
+fn on_components(cx: &Context<'_>, none: Verdict) -> Finding {
+    let components = cx.system.components();
+    if let [only] = components.as_slice() {
+        let own = on_its_own(cx, &only.system, decided);
+        let known = own.filter(|own| !matches!(own.verdict, Verdict::NotApplicable { .. }));
+        return known.map_or(none.into(), |mut own| {
+            own.verdict.prefix(&only.sentence);
+            own
+        });
+    }
+    if components.is_empty() {
+        return none.into();
+    }
     let words = "on the component ";
     let mut finding = apart(cx, components, words, decided);
     let is_known = !matches!(finding.verdict, Verdict::Undecided { .. });

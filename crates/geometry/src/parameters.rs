@@ -24,7 +24,7 @@ pub(crate) fn with_definitions(
     };
     let pairs = system.definitions_in_constraints();
     let resolved = system.with_constraints_for(pairs.clone());
-    let own = resolved.and_then(|resolved| on_its_own(cx, &resolved, &decide));
+    let own = resolved.and_then(|resolved| on_its_own(cx, &resolved, decide));
     match own {
         Some(mut finding) => {
             let put_in = equations(&system.graph, &pairs);

@@ -976,6 +976,9 @@ fn growth_is_told_on_linear_components() {
     let detail = found.verdict.detail();
     assert_eq!(found.verdict.word(), "proved", "{detail}");
     assert!(detail.contains("on the component"), "{detail}");
+    let found = finding(&in_space(&[("c", "exp(z' - y*x') - 1")]), GROWTH);
+    let detail = found.verdict.detail();
+    assert!(detail.contains("growth vector is (2, 3)"), "{detail}");
     let found = finding(&in_space(&[("c", "x'^4 - y'^4")]), GROWTH);
     let detail = found.verdict.detail();
     assert_eq!(found.verdict.word(), "not-applicable", "{detail}");
@@ -983,6 +986,23 @@ fn growth_is_told_on_linear_components() {
     assert_eq!(
         detail.matches("growth vector is (2) ").count(),
         2,
+        "{detail}"
+    );
+}
+
+/// A function of the place with a corner, kept by a holonomic constraint, makes one for the others: w is constant where y < 0.
+#[test]
+fn corners_of_holonomic_constraints_count_for_brackets() {
+    let constraints = [("h", "w - (y + abs(y))^3"), ("c", "z' - w*x'")];
+    let own = system("x y z w", "(x'^2 + y'^2 + z'^2 + w'^2)/2", &constraints);
+    let found = finding(&own, GROWTH);
+    let detail = found.verdict.detail();
+    assert!(
+        detail.contains("where y > 0: the growth vector is (2, 3) "),
+        "{detail}"
+    );
+    assert!(
+        detail.contains("where y < 0: the growth vector is (2) "),
         "{detail}"
     );
 }

@@ -167,7 +167,17 @@ impl System {
     /// for `abs(x') = y'` those with x' = y' and x' > 0, and with -x' = y' and x' < 0; for `z' = abs(y) x'` those with y > 0 and with
     /// y < 0. Sides that the assumptions exclude are left out. None where there are no corners, or too many.
     pub fn sides(&self) -> Vec<OnComponent> {
-        let corners = self.corners();
+        self.sides_of(&self.corners())
+    }
+
+    /// As [`sides`](System::sides), with the corners of functions of the place that constraints keep at their values too.
+    pub fn all_sides(&self) -> Vec<OnComponent> {
+        let constraints = self.constraints.iter();
+        let all = constraints.flat_map(|c| [c.f, c.stated]);
+        self.sides_of(&self.all_corners(&all.collect::<Vec<Expr>>()))
+    }
+
+    fn sides_of(&self, corners: &[Corner]) -> Vec<OnComponent> {
         if corners.is_empty() || 1 << corners.len() > COMPONENTS {
             return Vec::new();
         }

@@ -231,7 +231,7 @@ fn inverse_quadratic(g: &Graph, u: Expr, x: Symbol) -> Option<Expr> {
     let line = g.add(&[g.mul(&[twice, g.symbol_expr(x)]), b]);
     let is_negative = g
         .as_number(determinant)
-        .is_some_and(|d| chetaev_symbolic::rational::is_negative(d));
+        .is_some_and(chetaev_symbolic::rational::is_negative);
     if g.is_zero(determinant) {
         return Some(g.div(g.integer(-2), line));
     }
@@ -274,7 +274,7 @@ fn circular(g: &Graph, own: &[Expr], x: Symbol, depth: usize) -> Option<Expr> {
                 .collect();
         }
     }
-    if count < 2 || count > 8 {
+    if !(2..=8).contains(&count) {
         return None;
     }
     let terms: Vec<Expr> = sum
