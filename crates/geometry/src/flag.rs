@@ -128,15 +128,7 @@ impl Flag {
         with_time: bool,
         valued: bool,
     ) -> Result<Flag, Obstacle> {
-        let mut growing = Growing {
-            cx,
-            with_time,
-            valued,
-            fields: Vec::new(),
-            independent: None,
-            dependent: Vec::new(),
-            full: generators.first().map_or(0, |f| f.place.len()) + usize::from(with_time),
-        };
+        let mut growing = Growing::new(cx, generators, with_time, valued);
         for field in generators {
             growing.take(field.clone())?;
         }
@@ -182,6 +174,43 @@ impl Flag {
     }
 }
 
+/// The ranks of the derived flag: of D, of D + [D, D], and so on with brackets of all fields at each step. Those of the Pfaff system of the
+/// forms that vanish on D are what is missing.
+///
+/// # Errors
+/// [`Obstacle`].
+pub fn derived(
+    cx: &Context<'_>,
+    generators: &[Directed],
+    with_time: bool,
+) -> Result<Vec<usize>, Obstacle> {
+    let mut growing = Growing::new(cx, generators, with_time, false);
+    for field in generators {
+        growing.take(field.clone())?;
+    }
+    let (mut ranks, mut first, mut formed) = (vec![growing.fields.len()], 0, 0);
+    loop {
+        let last = growing.fields.len();
+        let pairs = (first..last).flat_map(|i| (0..i).map(move |j| (i, j)));
+        for (i, j) in pairs {
+            formed += 1;
+            let (u, v) = (&growing.fields[j], &growing.fields[i]);
+            let graph = &cx.system.graph;
+            let size = [u, v].map(|f| graph.reachable(&row(f, true, false)).len());
+            if formed > BRACKETS || cx.is_out_of_time() || size.iter().any(|&s| s > NODES) {
+                return Err(Obstacle::Undecided("the work was spent".into()));
+            }
+            let next = bracket(cx.system, u, v);
+            growing.take(next)?;
+        }
+        if growing.fields.len() == last {
+            return Ok(ranks);
+        }
+        ranks.push(growing.fields.len());
+        first = last;
+    }
+}
+
 struct Growing<'c, 'a> {
     cx: &'c Context<'a>,
     with_time: bool,
@@ -192,12 +221,41 @@ struct Growing<'c, 'a> {
     full: usize,
 }
 
-impl Growing<'_, '_> {
+impl<'c, 'a> Growing<'c, 'a> {
+    fn new(
+        cx: &'c Context<'a>,
+        generators: &[Directed],
+        with_time: bool,
+        valued: bool,
+    ) -> Growing<'c, 'a> {
+        Growing {
+            cx,
+            with_time,
+            valued,
+            fields: Vec::new(),
+            independent: None,
+            dependent: Vec::new(),
+            full: generators.first().map_or(0, |f| f.place.len()) + usize::from(with_time),
+        }
+    }
+
     /// All that was found of ranks.
     fn verdict(&self) -> Verdict {
         let all = self.independent.iter().chain(&self.dependent).cloned();
         let none = Verdict::undecided("there are no fields");
-        all.reduce(Verdict::and).unwrap_or(none)
+        let mut verdict = all.reduce(Verdict::and).unwrap_or(none);
+        // What is said of each bracket that adds nothing is the same but for figures.
+        if let (Verdict::Proved(proof), [first, _, ..]) = (&mut verdict, &self.dependent[..]) {
+            let independent = self.independent.iter().map(|v| v.detail().to_owned());
+            let many = self.dependent.len();
+            let last = format!(
+                "{many} brackets add nothing, the first by {}",
+                first.detail()
+            );
+            let parts: Vec<String> = independent.chain([last]).collect();
+            proof.detail = parts.join("; ");
+        }
+        verdict
     }
 
     /// Adds a field that is independent of those before; looks at the value of one that is not.

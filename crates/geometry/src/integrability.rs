@@ -17,29 +17,28 @@
 //! Where the pairs are too many, `dΘ(U, V) = 0` is tested for U and V with indeterminate coefficients in the basis: an
 //! identity in these coefficients is the same statement, one residual for each constraint.
 
-mod integral;
+pub(crate) mod integral;
+mod primitive;
+mod quadrature;
+mod subsystems;
 pub(crate) use integral::on_its_own;
 
 use crate::cartan::{exterior_derivative, CartanForm, JetField};
 use crate::distribution::Distribution;
-use chetaev_mechanics::characteristics::{self, Manifold};
+use crate::parameters;
+use chetaev_mechanics::characteristics::Manifold;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::prover::assumptions;
-use chetaev_mechanics::{sample, Characteristics, MotionTerms, Selection, System};
+use chetaev_mechanics::words::counted;
+use chetaev_mechanics::{sample, Characteristics, ConstraintKind, MotionTerms, Selection, System};
 use chetaev_symbolic::linear::SolveError;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{Expr, Function, Node, Verdict};
+use chetaev_symbolic::{Expr, Node, Verdict};
 use std::collections::BTreeSet;
 
 /// The most residuals tested pair by pair.
 const PAIRWISE_BUDGET: usize = 3000;
-
-/// The most constraints whose sub-systems of every size are looked at; above, single constraints only.
-const ALL_SUBSETS: usize = 3;
-
-/// The most sub-systems named one by one.
-const LISTED: usize = 6;
 
 /// Which of the two conditions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -242,8 +241,12 @@ impl Claim for ConstraintsIntegrable {
          that the forms Θ annihilate. `weak` asks this at the states that satisfy the constraints; it does not depend on \
          how the constraints are written and is the verdict on the mechanics. `strong` asks it at all states; it fails \
          for every f that is not linear in the velocities, so its failure alone says nothing about the mechanics. \
-         Constraints that are not integrable one by one may be so together, and the detail tells which sub-systems are \
-         integrable by themselves."
+         Constraints that are not integrable one by one may be so together, and the detail tells which sub-systems were looked at and \
+         which of them are integrable by themselves. Constraints that are not integrable may keep functions of position and time \
+         all the same, as many as the brackets of the admissible displacements leave directions out. \
+         Where constraints have corners, as abs and sign of velocities or of the place make them, the condition is asked on each side by itself: \
+         paths over a corner need not keep what each side does. Parameters that a model defines by others are put in before \
+         anything is decided; otherwise the verdict is for general values of the parameters, and where those stated make a difference it says so."
     }
 
     fn subjects(&self, _: &Context<'_>) -> Vec<Option<String>> {
@@ -266,54 +269,113 @@ impl Claim for ConstraintsIntegrable {
             )
             .into();
         }
-        let pfaff = PfaffSystem::new(cx.system, cx.terms, cx.selection.clone());
-        let mut finding = decide(cx, &pfaff, strength);
-        finding.verdict = on_each_side(cx, finding.verdict);
-        let mut sentence = summary(&pfaff, strength, &finding.verdict).to_string();
-        let integrable = matches!(finding.verdict, Verdict::Proved(_));
-        let subsystems = subsystems(cx, strength);
-        // A product may be integrable on one of its components only.
-        let partly = matches!(finding.verdict, Verdict::Conditional { .. });
-        let some = integrable || partly || subsystems.as_ref().is_some_and(|(_, some)| *some);
-        if some && strength == Strength::Weak {
-            let all = integral::kept(cx).into_iter();
-            for kept in all.filter(|kept| !partly || !kept.functions.is_empty()) {
-                let texts = kept.functions.iter().map(|&e| cx.system.graph.text(e));
-                let texts = texts.collect::<Vec<String>>().join(", ");
-                let place = match &kept.place {
-                    Some(place) => format!(" {place}"),
-                    None => String::new(),
-                };
-                let missing = cx.selection.rows.len().saturating_sub(kept.functions.len());
-                sentence = match texts.is_empty() {
-                    true => format!("{sentence}; what they keep{place} was not found among the functions that occur, their logarithms and arctangents"),
-                    false if integrable && kept.place.is_none() && missing > 0 => {
-                        format!("{sentence}; what they keep: {texts}, and {missing} more, not found")
-                    }
-                    false => format!("{sentence}; what they keep{place}: {texts}"),
-                };
-                let caption =
-                    format!("a function of the positions that the constraints keep{place}");
-                let formulas = kept.functions.into_iter().map(|right| Formula {
-                    caption: caption.clone(),
-                    left: None,
-                    right,
-                });
-                finding.formulas.extend(formulas);
-            }
-        }
-        if let Some((parts, _)) = subsystems {
-            sentence = format!("{sentence}; {parts}");
-        }
-        finding.verdict = finding.verdict.prefixed(&sentence);
-        finding
+        parameters::with_definitions(cx, |cx| decided(cx, strength))
     }
 }
 
-/// Frobenius' condition speaks of smooth constraints: where a constraint has a corner in the velocities, as `abs(x') = y'` has,
-/// it says nothing, and curves that pass from one side to the other keep no function.
-fn on_each_side(cx: &Context<'_>, verdict: Verdict) -> Verdict {
-    let corners = corners(cx);
+fn decided(cx: &Context<'_>, strength: Strength) -> Finding {
+    let pfaff = PfaffSystem::new(cx.system, cx.terms, cx.selection.clone());
+    let mut finding = answered(cx, strength);
+    let mut sentences = vec![summary(&pfaff, strength, &finding.verdict).to_owned()];
+    if matches!(finding.verdict, Verdict::Refuted(_)) {
+        sentences.extend(sides_apart(cx, strength));
+    }
+    if let Some(general) = answer(&finding.verdict, strength) {
+        let stated = parameters::where_stated(cx, general, |own| {
+            answer(&answered(own, strength).verdict, strength).map(str::to_owned)
+        });
+        sentences.extend(stated);
+    }
+    if strength == Strength::Weak {
+        let (said, formulas) = what_is_kept(cx, &finding.verdict);
+        sentences.extend(said);
+        finding.formulas.extend(formulas);
+    }
+    sentences.extend(subsystems::told(cx, strength));
+    finding.verdict = finding.verdict.prefixed(&sentences.join("; "));
+    finding
+}
+
+/// Frobenius' condition for all constraints, on each side of their corners.
+fn answered(cx: &Context<'_>, strength: Strength) -> Finding {
+    let pfaff = PfaffSystem::new(cx.system, cx.terms, cx.selection.clone());
+    let mut finding = decide(cx, &pfaff, strength);
+    finding.verdict = on_each_side(cx, &cx.selection.rows, finding.verdict);
+    finding
+}
+
+/// What a verdict says of one system, to be compared with that of another.
+fn answer(verdict: &Verdict, strength: Strength) -> Option<&'static str> {
+    match (verdict, strength) {
+        (Verdict::Proved(_) | Verdict::Conditional { .. }, Strength::Weak) => {
+            Some("the constraints are integrable")
+        }
+        (Verdict::Refuted(_), Strength::Weak) => Some("the constraints are not integrable"),
+        (Verdict::Proved(_) | Verdict::Conditional { .. }, Strength::Strong) => {
+            Some("Frobenius' condition holds at all states")
+        }
+        (Verdict::Refuted(_), Strength::Strong) => Some("Frobenius' condition fails"),
+        _ => None,
+    }
+}
+
+/// On which sides of corners the condition holds, where it does not hold on all: what vanishes on one side may not on another.
+fn sides_apart(cx: &Context<'_>, strength: Strength) -> Option<String> {
+    let sides = cx.system.sides().into_iter().filter_map(|side| {
+        let own = on_its_own(cx, &side.system, |own| answered(own, strength));
+        let holds = matches!(own?.verdict, Verdict::Proved(_));
+        holds.then_some(side.condition?)
+    });
+    let places: Vec<String> = sides.collect();
+    let told = match strength {
+        Strength::Weak => "the constraints are integrable",
+        Strength::Strong => "the condition holds",
+    };
+    let places = places.join(" or where ");
+    (!places.is_empty()).then(|| format!("{told} where {places} by itself"))
+}
+
+/// What constraints keep, in words and as formulas: all that integrable ones do, and what others keep in spite of it.
+fn what_is_kept(cx: &Context<'_>, verdict: &Verdict) -> (Vec<String>, Vec<Formula>) {
+    let integrable = matches!(verdict, Verdict::Proved(_));
+    // A product may be integrable on one of its components only.
+    let partly = matches!(verdict, Verdict::Conditional { .. });
+    if matches!(verdict, Verdict::Refuted(_)) && integral::is_nothing(cx) {
+        return (Vec::new(), Vec::new());
+    }
+    let (mut sentences, mut formulas) = (Vec::new(), Vec::new());
+    let all = integral::kept(cx);
+    let has_none = |kept: &integral::Kept| kept.functions.is_empty() && kept.count.is_none();
+    if integrable && all.iter().all(has_none) {
+        let said = integral::said(cx, &[], None);
+        return (vec![format!("what they keep: {said}")], formulas);
+    }
+    for kept in all {
+        let whole = integrable.then_some(cx.selection.rows.len());
+        let count = kept.count.or(whole.filter(|_| kept.place.is_none()));
+        let unknown = kept.functions.is_empty() && count.is_none();
+        if count == Some(0) || unknown {
+            continue;
+        }
+        let place = kept.place.iter().map(|place| format!(" {place}"));
+        let place: String = place.collect();
+        let said = integral::said(cx, &kept.functions, count);
+        sentences.push(match (integrable || partly, count) {
+            (false, Some(count)) => {
+                let many = counted(count, "function is", "functions are");
+                format!("{many} kept in spite of it{place}: {said}")
+            }
+            _ => format!("what they keep{place}: {said}"),
+        });
+        formulas.extend(integral::formulas(&kept));
+    }
+    (sentences, formulas)
+}
+
+/// Frobenius' condition speaks of smooth constraints: where one has a corner, as `abs(x') = y'` and `z' = sign(y) x'` have, it says nothing,
+/// and curves that pass from one side to the other may keep no function.
+fn on_each_side(cx: &Context<'_>, rows: &[usize], verdict: Verdict) -> Verdict {
+    let corners = corners(cx, rows);
     match verdict {
         Verdict::Proved(proof) if !corners.is_empty() => {
             let g = &cx.system.graph;
@@ -329,29 +391,25 @@ fn on_each_side(cx: &Context<'_>, verdict: Verdict) -> Verdict {
     }
 }
 
-/// What is not zero where the independent constraints are smooth in the velocities.
-fn corners(cx: &Context<'_>) -> Vec<Expr> {
+/// What is not zero where these constraints are smooth: insides of absolute values and signs, and in the velocities of roots.
+fn corners(cx: &Context<'_>, rows: &[usize]) -> Vec<Expr> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let rows = cx.selection.rows.iter();
-    let constraints: Vec<Expr> = rows.map(|&l| cx.terms.constraints[l]).collect();
+    let kind = |l: usize| system.constraints[cx.terms.constraint_index[l]].kind;
+    let rows = rows.iter().copied();
+    let rows = rows.filter(|&l| kind(l) != ConstraintKind::Holonomic);
+    let constraints: Vec<Expr> = rows.map(|l| cx.terms.constraints[l]).collect();
     let (velocities, stated) = (system.velocity_symbols(), assumptions(system));
-    let corners = g.reachable(&constraints).into_iter().filter_map(|e| {
-        let inside = match g.node(e) {
-            Node::Apply {
-                function: Function::Abs | Function::Sign,
-                arguments,
-            } => arguments.first().copied(),
-            Node::Power { base, exponent } => {
-                let is_whole = g.as_number(*exponent).is_some_and(|n| n.is_int());
-                (!is_whole).then_some(*base)
-            }
-            _ => None,
+    let roots = g.reachable(&constraints).into_iter().filter_map(|e| {
+        let Node::Power { base, exponent } = g.node(e) else {
+            return None;
         };
-        // A root of what vanishes nowhere has no corner.
-        let vanishes = |x: Expr| !known_sign(g, x, &stated).is_nonzero();
-        inside.filter(|&x| g.any_contains_any(&[x], &velocities) && vanishes(x))
+        let is_whole = g.as_number(*exponent).is_some_and(|n| n.is_int());
+        // A root of what vanishes nowhere has no corner, and that of a square is an absolute value.
+        let vanishes = !known_sign(g, *base, &stated).is_nonzero();
+        let is_root = !is_whole && vanishes && g.contains_any(*base, &velocities);
+        (is_root && system.corners_of(&[e]).is_empty()).then_some(*base)
     });
-    let corners: BTreeSet<Expr> = corners.collect();
+    let corners: BTreeSet<Expr> = roots.chain(system.corners_of(&constraints)).collect();
     corners.into_iter().collect()
 }
 
@@ -430,6 +488,12 @@ fn summary(pfaff: &PfaffSystem<'_>, strength: Strength, verdict: &Verdict) -> &'
         (Verdict::Proved(_), Strength::Weak, true) => {
             "the constraints together restrict positions, not only velocities: they are integrable"
         }
+        (Verdict::Conditional { .. }, Strength::Weak, _) => {
+            "on the condition stated the constraints restrict positions, not only velocities: they are integrable there"
+        }
+        (Verdict::Conditional { .. }, Strength::Strong, _) => {
+            "on the condition stated Frobenius' condition holds, also where f is not zero"
+        }
         (Verdict::Refuted(_), Strength::Weak, false) => "the constraint is nonholonomic",
         (Verdict::Refuted(_), Strength::Weak, true) => "the constraints together are nonholonomic",
         (Verdict::Proved(_), Strength::Strong, _) => {
@@ -439,110 +503,5 @@ fn summary(pfaff: &PfaffSystem<'_>, strength: Strength, verdict: &Verdict) -> &'
             "Frobenius' condition fails for the functions f as they are written"
         }
         _ => "Frobenius' condition for the constraints",
-    }
-}
-
-/// Which sub-systems of several constraints are integrable by themselves, in words.
-fn subsystems(cx: &Context<'_>, strength: Strength) -> Option<(String, bool)> {
-    let rows = &cx.selection.rows;
-    let r = rows.len();
-    if r < 2 {
-        return None;
-    }
-    let subsets: Vec<Vec<usize>> = if r <= ALL_SUBSETS {
-        proper_subsets(rows)
-    } else {
-        rows.iter().map(|&row| vec![row]).collect()
-    };
-    let (mut integrable, mut not, mut open) = (Vec::new(), Vec::new(), Vec::new());
-    for subset in subsets {
-        let names = names(cx.system, cx.terms, &subset);
-        let verdict = subset_verdict(cx, &subset, strength);
-        match verdict {
-            Verdict::Proved(_) => integrable.push(names),
-            Verdict::Refuted(_) => not.push(names),
-            _ => open.push(names),
-        }
-    }
-    let some = !integrable.is_empty();
-    let parts: Vec<String> = [
-        (integrable, "integrable by themselves"),
-        (not, "not integrable by themselves"),
-        (open, "not decided by themselves"),
-    ]
-    .into_iter()
-    .filter(|(names, _)| !names.is_empty())
-    .map(|(names, word)| format!("{word}: {}", listed(&names)))
-    .collect();
-    Some((parts.join("; "), some))
-}
-
-/// All names of a short list, the first few of a long one.
-fn listed(names: &[String]) -> String {
-    match names.get(..LISTED) {
-        Some(first) if names.len() > LISTED + 1 => {
-            let more = names.len() - LISTED;
-            format!("{} and {more} more", first.join(", "))
-        }
-        _ => names.join(", "),
-    }
-}
-
-/// Single constraints first, then pairs; never all of them.
-fn proper_subsets(rows: &[usize]) -> Vec<Vec<usize>> {
-    let mut subsets: Vec<Vec<usize>> = (1..(1usize << rows.len()) - 1)
-        .map(|mask| {
-            rows.iter()
-                .enumerate()
-                .filter(|(bit, _)| mask >> bit & 1 == 1)
-                .map(|(_, &row)| row)
-                .collect()
-        })
-        .collect();
-    subsets.sort_by_key(|subset: &Vec<usize>| (subset.len(), subset.clone()));
-    subsets
-}
-
-fn names(system: &System, terms: &MotionTerms, rows: &[usize]) -> String {
-    let names: Vec<String> = rows
-        .iter()
-        .map(|&row| format!("`{}`", system.constraints[terms.constraint_index[row]].name))
-        .collect();
-    if names.len() == 1 {
-        names.concat()
-    } else {
-        format!("{{{}}}", names.join(", "))
-    }
-}
-
-fn subset_verdict(cx: &Context<'_>, rows: &[usize], strength: Strength) -> Verdict {
-    let terms = restricted_terms(cx.terms, rows);
-    match characteristics::select(cx.system, &terms) {
-        Ok(selection) => {
-            let pfaff = PfaffSystem::new(cx.system, &terms, selection);
-            decide(cx, &pfaff, strength).verdict
-        }
-        Err(problem) => Verdict::undecided(problem.to_string()),
-    }
-}
-
-/// The terms with some of the constraints only.
-fn restricted_terms(terms: &MotionTerms, rows: &[usize]) -> MotionTerms {
-    MotionTerms {
-        order: terms.order,
-        jets: terms.jets.clone(),
-        mass_matrix: terms.mass_matrix.clone(),
-        force: terms.force.clone(),
-        affine: rows.iter().map(|&row| terms.affine[row]).collect(),
-        constraints: rows.iter().map(|&row| terms.constraints[row]).collect(),
-        jacobian: rows
-            .iter()
-            .map(|&row| terms.jacobian[row].clone())
-            .collect(),
-        constraint_rate: rows.iter().map(|&row| terms.constraint_rate[row]).collect(),
-        constraint_index: rows
-            .iter()
-            .map(|&row| terms.constraint_index[row])
-            .collect(),
     }
 }

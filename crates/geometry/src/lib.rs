@@ -11,6 +11,7 @@ pub mod jacobi;
 pub mod liouville;
 pub mod measure;
 pub mod noether;
+mod parameters;
 
 use chetaev_mechanics::Claim;
 

@@ -7,6 +7,8 @@ mod common;
 use chetaev_geometry::cartan::{exterior_derivative, CartanForm, JetField};
 use chetaev_geometry::distribution::Distribution;
 use chetaev_geometry::integrability::{PfaffSystem, Strength};
+use chetaev_mechanics::claims::Finding;
+use chetaev_mechanics::system::{Assumption, Parameter, Relation};
 use chetaev_mechanics::{MotionTerms, Prepared, Selection, System};
 use chetaev_symbolic::{Expr, Verdict};
 use common::{admissible, anywhere, expr, finding, largest, system, values};
@@ -663,4 +665,344 @@ fn crossed(system: &System, a: Expr, b: Expr, seed: u64) -> f64 {
         }
     }
     largest
+}
+
+const WEAK: &str = "model.constraints-integrable#weak";
+const GROWTH: &str = "distribution.growth";
+
+/// Unit masses in space under constraints.
+fn in_space(constraints: &[(&str, &str)]) -> System {
+    system("x y z", "(x'^2 + y'^2 + z'^2)/2", constraints)
+}
+
+/// `a` and `b` with these values, and the second defined by the first where that is wanted.
+fn with_parameters(mut own: System, values: [i64; 2], is_defined: bool) -> System {
+    let g = own.graph.clone();
+    let names = ["a", "b"].into_iter().zip(values);
+    own.parameters = names
+        .map(|(name, value)| Parameter {
+            name: name.into(),
+            expr: g.symbol(name, 0),
+            value: Some(g.integer(value)),
+        })
+        .collect();
+    if is_defined {
+        own.definitions = vec![(g.symbol("b", 0), g.symbol("a", 0))];
+    }
+    own
+}
+
+/// Whether what is kept is a function of each known one alone, and there are no more.
+fn keeps(own: &System, found: &Finding, known: &[&str]) -> bool {
+    let kept = found.formulas.iter().filter(|f| f.caption.contains("keep"));
+    let kept: Vec<Expr> = kept.map(|f| f.right).collect();
+    let parallel = |e: Expr, known: Expr| (0..4).all(|seed| crossed(own, e, known, seed) < 1e-8);
+    let mut known = known.iter().map(|text| expr(&own.graph, text));
+    kept.len() == known.len() && known.all(|known| kept.iter().any(|&e| parallel(e, known)))
+}
+
+/// z' = a y x' + b x y' keeps z - a x y where b is a; with dz - a y dx - b x dy the only component of Frobenius' condition is a - b.
+#[test]
+fn definitions_of_parameters_count_and_stated_values_are_said() {
+    let stated = in_space(&[("c", "z' - a*y*x' - b*x*y'")]);
+    let defined = with_parameters(stated.clone(), [1, 1], true);
+    let found = finding(&defined, WEAK);
+    assert_eq!(found.verdict.word(), "proved", "{}", found.verdict.detail());
+    assert!(found.verdict.detail().contains("with b = a"));
+    assert!(keeps(&defined, &found, &["z - a*x*y"]));
+    let growth = finding(&defined, GROWTH);
+    assert_eq!(growth.verdict.word(), "refuted");
+    assert!(growth.verdict.detail().contains("growth vector is (2) "));
+
+    let equal = with_parameters(stated.clone(), [1, 1], false);
+    for (claim, word, says) in [
+        (
+            WEAK,
+            "refuted",
+            "for a = 1 and b = 1, as the model states, the constraints are integrable",
+        ),
+        (
+            GROWTH,
+            "proved",
+            "for a = 1 and b = 1, as the model states, the growth vector is (2)",
+        ),
+    ] {
+        let found = finding(&equal, claim);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), word, "{detail}");
+        assert!(detail.contains(says), "{detail}");
+        let other = finding(&with_parameters(stated.clone(), [1, 2], false), claim);
+        assert!(!other.verdict.detail().contains("as the model states"));
+    }
+}
+
+/// z' = (y + |y|)² x' is z' = 0 where y < 0, and z' = 4 y² x' elsewhere: brackets add a direction there alone.
+#[test]
+fn what_vanishes_on_one_side_generates_nothing_there() {
+    let own = in_space(&[("c", "z' - (y + abs(y))^2*x'")]);
+    let found = finding(&own, GROWTH);
+    let detail = found.verdict.detail();
+    let Verdict::Conditional { condition, .. } = &found.verdict else {
+        panic!("{detail}");
+    };
+    assert_eq!(condition, "y > 0");
+    assert!(
+        detail.contains("where y > 0: the growth vector is (2, 3)"),
+        "{detail}"
+    );
+    assert!(
+        detail.contains("where y < 0: the growth vector is (2) "),
+        "{detail}"
+    );
+    let weak = finding(&own, WEAK);
+    let detail = weak.verdict.detail();
+    assert_eq!(weak.verdict.word(), "refuted", "{detail}");
+    assert!(detail.contains("integrable where y < 0"), "{detail}");
+    assert!(keeps(&own, &weak, &["z"]), "{detail}");
+}
+
+/// With y > 0 the constraint z' = (y - |y|) x' is z' = 0.
+#[test]
+fn assumptions_choose_the_side() {
+    let mut own = in_space(&[("c", "z' - (y - abs(y))*x'")]);
+    let g = own.graph.clone();
+    own.assumptions.push(Assumption {
+        left: g.zero(),
+        relation: Relation::Less,
+        right: g.symbol("y", 0),
+        text: "y > 0".into(),
+    });
+    let found = finding(&own, WEAK);
+    assert_eq!(found.verdict.word(), "proved", "{}", found.verdict.detail());
+    assert!(keeps(&own, &found, &["z"]));
+    let growth = finding(&own, GROWTH);
+    let detail = growth.verdict.detail();
+    assert!(detail.contains("growth vector is (2) "), "{detail}");
+}
+
+/// z' = sign(y) x' keeps z - x where y > 0 and z + x where y < 0; a loop through y = 0, to the right above and back below, adds to z.
+#[test]
+fn signs_of_the_place_are_corners() {
+    for constraint in ["z' - sign(y)*x'", "z' - y/sqrt(y^2)*x'"] {
+        let own = in_space(&[("c", constraint)]);
+        let found = finding(&own, WEAK);
+        let detail = found.verdict.detail();
+        let Verdict::Conditional { condition, .. } = &found.verdict else {
+            panic!("{constraint}: {detail}");
+        };
+        assert_eq!(condition, "y ≠ 0, on each side by itself");
+        assert!(keeps(&own, &found, &["z - x", "z + x"]), "{detail}");
+        let growth = finding(&own, GROWTH);
+        let detail = growth.verdict.detail();
+        assert!(
+            detail.contains("paths from one side to another may join more"),
+            "{detail}"
+        );
+    }
+}
+
+/// |y| has no corner where brackets are full on both sides, and what holds on both is said once.
+#[test]
+fn equal_sides_are_said_once() {
+    let found = finding(&in_space(&[("c", "z' - abs(y)*x'")]), GROWTH);
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "proved", "{detail}");
+    assert_eq!(
+        detail.matches("growth vector is (2, 3)").count(),
+        1,
+        "{detail}"
+    );
+    assert!(detail.contains("where y > 0, and where y < 0"), "{detail}");
+}
+
+/// Of y' = z' - y x' and z' = y x' neither is integrable: together they are y' = 0 and z' = y x'.
+#[test]
+fn pairs_of_four_constraints_are_looked_at() {
+    let constraints = [
+        ("a", "z' - y*x'"),
+        ("b", "y' - z' + y*x'"),
+        ("c", "u' - v*w'"),
+        ("d", "v' - u' + v*w'"),
+    ];
+    let own = system(
+        "x y z u v w",
+        "(x'^2 + y'^2 + z'^2 + u'^2 + v'^2 + w'^2)/2",
+        &constraints,
+    );
+    let found = finding(&own, WEAK);
+    let detail = found.verdict.detail();
+    assert!(
+        detail.contains("; integrable by themselves: {`a`, `b`}, {`c`, `d`}; not"),
+        "{detail}"
+    );
+    // Seven constraints have 126 proper subsets.
+    let names = ["p1", "p2", "p3", "p4", "p5", "p6", "p7"];
+    let rates: Vec<String> = names.iter().map(|p| format!("{p}' - y*x'")).collect();
+    let many: Vec<(&str, &str)> = names
+        .iter()
+        .copied()
+        .zip(rates.iter().map(String::as_str))
+        .collect();
+    let places = format!("x y {}", names.join(" "));
+    let squares: Vec<String> = names.iter().map(|p| format!("{p}'^2")).collect();
+    let own = system(
+        &places,
+        &format!("x'^2 + y'^2 + {}", squares.join(" + ")),
+        &many,
+    );
+    let detail = finding(&own, WEAK).verdict.detail().to_owned();
+    assert!(
+        detail.contains("those of one and of two constraints were looked at"),
+        "{detail}"
+    );
+}
+
+/// z' = y x' with u' = v v' in disguise; two equal velocities that are not constant; x y' + y x' = 0 as a combination.
+#[test]
+fn what_constraints_keep_that_are_not_integrable_is_named() {
+    for (coordinates, constraints, expected) in [
+        (
+            "x y z u v",
+            &[("a", "z' - y*x'"), ("b", "u' - v*v' - z' + y*x'")][..],
+            "u - v^2/2",
+        ),
+        ("x y z", &[("a", "x' - y"), ("b", "z' - y")], "x - z"),
+        (
+            "x y z u",
+            &[
+                ("a", "x*y' + y*x' + sin(z)*(z'*x - u')"),
+                ("b", "u' - z'*x - exp(u)*(x*y' + y*x')"),
+            ],
+            "x*y",
+        ),
+    ] {
+        let squares = coordinates.split_whitespace().map(|q| format!("{q}'^2/2"));
+        let energy = squares.collect::<Vec<String>>().join(" + ");
+        let own = system(coordinates, &energy, constraints);
+        let found = finding(&own, WEAK);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "refuted", "{detail}");
+        assert!(
+            detail.contains("1 function is kept in spite of it"),
+            "{detail}"
+        );
+        let g = &own.graph;
+        let kept = found.formulas.iter().filter(|f| f.caption.contains("keep"));
+        let kept: Vec<Expr> = kept.map(|f| f.right).collect();
+        assert_eq!(kept.len(), 1, "{detail}");
+        // Its gradient is parallel to that of the known one.
+        let places = own.coordinate_symbols();
+        let slopes = [kept[0], expr(g, expected)].map(|e| g.gradient(e, &places));
+        let at = values(g, &slopes.concat(), &anywhere(g, &slopes.concat(), 3));
+        let (a, b) = at.split_at(places.len());
+        let minors = (0..a.len()).flat_map(|i| (0..i).map(move |j| a[i] * b[j] - a[j] * b[i]));
+        assert!(minors.into_iter().all(|m| m.abs() < 1e-9), "{detail}");
+    }
+}
+
+/// Exact, linear and separable forms, and such on the leaves of what is kept already; each by hand.
+#[test]
+fn quadratures_find_what_exact_linear_and_separable_constraints_keep() {
+    for (constraints, known) in [
+        (
+            &[("c", "x*x' + y*y' - 1 - t")][..],
+            &["x^2 + y^2 - (1 + t)^2"][..],
+        ),
+        (&[("c", "y' - b - k*y")], &["(y + b/k)*exp(-k*t)"]),
+        (&[("c", "y' - (x + y)*x'")], &["(x + y + 1)*exp(-x)"]),
+        (&[("c", "y' - y^2*x'")], &["1/y + x"]),
+        (
+            &[("c", "cos(z)*z' - exp(x)*y^2*x' - 2*y*exp(x)*y'")],
+            &["sin(z) - y^2*exp(x)"],
+        ),
+        (&[("c", "z' - x^2*y^3*(3*y*x' + 4*x*y')")], &["z - x^3*y^4"]),
+        (
+            &[("c", "z' - cosh(x)*y' - y*sinh(x)*x'")],
+            &["z - y*cosh(x)"],
+        ),
+        (&[("c", "z' - tanh(x)*x'")], &["z - log(cosh(x))"]),
+        (
+            &[("c", "z' - cos(x)^4*x'")],
+            &["z - 3*x/8 - sin(2*x)/4 - sin(4*x)/32"],
+        ),
+        (
+            &[("a", "x' - l*cos(z)*y'"), ("b", "z'")],
+            &["z", "x - l*y*cos(z)"],
+        ),
+        (&[("a", "y'"), ("b", "z' - y*x'")], &["y", "z - x*y"]),
+    ] {
+        let own = in_space(constraints);
+        let found = finding(&own, WEAK);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "proved", "{detail}");
+        // With two the second is known up to functions of the first; here it is found as it stands.
+        assert!(keeps(&own, &found, known), "{constraints:?}: {detail}");
+    }
+}
+
+/// Cartan 1910: y' = p x', p' = q x', z' = q² x' have the growth (2, 3, 5), and the Pfaff system of three forms the derived systems of two and
+/// none; Goursat's normal form y' = p x', p' = q x', q' = r x' loses one at each step.
+#[test]
+fn derived_flags_are_those_of_cartan_and_goursat() {
+    let squares = "(x'^2 + y'^2 + p'^2 + q'^2 + z'^2)/2";
+    let (a, b) = (("a", "y' - p*x'"), ("b", "p' - q*x'"));
+    for (last, growth, flag) in [
+        (
+            "z' - q^2*x'",
+            "(2, 3, 5)",
+            "(2, 3, 5), that of the Pfaff system (3, 2, 0)",
+        ),
+        (
+            "q' - z*x'",
+            "(2, 3, 4, 5)",
+            "(2, 3, 4, 5), that of the Pfaff system (3, 2, 1, 0)",
+        ),
+    ] {
+        let own = system("x y p q z", squares, &[a, b, ("c", last)]);
+        let found = finding(&own, GROWTH);
+        let detail = found.verdict.detail();
+        assert!(
+            detail.contains(&format!("growth vector is {growth}")),
+            "{detail}"
+        );
+        assert!(detail.contains(&format!("ranks {flag}")), "{detail}");
+    }
+}
+
+/// z'² = y² x'² is z' = y x' or z' = -y x', each of which generates everything; x'⁴ = y'⁴ keeps other functions on each real component.
+#[test]
+fn growth_is_told_on_linear_components() {
+    let found = finding(&in_space(&[("c", "z'^2 - y^2*x'^2")]), GROWTH);
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "proved", "{detail}");
+    assert!(detail.contains("on the component"), "{detail}");
+    let found = finding(&in_space(&[("c", "exp(z' - y*x') - 1")]), GROWTH);
+    let detail = found.verdict.detail();
+    assert!(detail.contains("growth vector is (2, 3)"), "{detail}");
+    let found = finding(&in_space(&[("c", "x'^4 - y'^4")]), GROWTH);
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "not-applicable", "{detail}");
+    assert!(detail.contains("may join more"), "{detail}");
+    assert_eq!(
+        detail.matches("growth vector is (2) ").count(),
+        2,
+        "{detail}"
+    );
+}
+
+/// A function of the place with a corner, kept by a holonomic constraint, makes one for the others: w is constant where y < 0.
+#[test]
+fn corners_of_holonomic_constraints_count_for_brackets() {
+    let constraints = [("h", "w - (y + abs(y))^3"), ("c", "z' - w*x'")];
+    let own = system("x y z w", "(x'^2 + y'^2 + z'^2 + w'^2)/2", &constraints);
+    let found = finding(&own, GROWTH);
+    let detail = found.verdict.detail();
+    assert!(
+        detail.contains("where y > 0: the growth vector is (2, 3) "),
+        "{detail}"
+    );
+    assert!(
+        detail.contains("where y < 0: the growth vector is (2) "),
+        "{detail}"
+    );
 }

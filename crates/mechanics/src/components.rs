@@ -11,8 +11,10 @@ use crate::prover::assumptions;
 use crate::selection::Selection;
 use crate::system::{Assumption, Relation, System};
 use crate::terms::MotionTerms;
-use chetaev_symbolic::factors::factors;
-use chetaev_symbolic::{Expr, Function, Graph, Node, Rational, Symbol};
+use chetaev_symbolic::factors::{factored, factors};
+use chetaev_symbolic::zero::assumptions::SignSet;
+use chetaev_symbolic::zero::known_sign;
+use chetaev_symbolic::{rational, Expr, Function, Graph, Node, Rational, Symbol};
 
 /// The factors of a constraint function in which velocities of the highest order occur, where there are several.
 pub(crate) fn factors_of(system: &System, terms: &MotionTerms, row: usize) -> Vec<Expr> {
@@ -93,12 +95,27 @@ fn corner(g: &Graph, e: Expr) -> Option<(Expr, i64)> {
         } => Some((arguments[0], 0)),
         Node::Power { base, exponent } if g.as_integer(*exponent).is_none() => {
             let (inside, square) = g.base_exponent(*base);
+            let (inside, square) = match g.as_integer(square) {
+                Some(n) if n % 2 == 0 => (inside, square),
+                _ => (root_of_square(g, *base)?, g.integer(2)),
+            };
             let power = g.as_integer(g.mul(&[square, *exponent]))?;
-            let is_even = g.as_integer(square).is_some_and(|n| n % 2 == 0);
-            (is_even && power != 0).then_some((inside, power))
+            (power != 0).then_some((inside, power))
         }
         _ => None,
     }
+}
+
+/// What a sum is the square of, as `x - 1` of `x² - 2 x + 1`.
+fn root_of_square(g: &Graph, base: Expr) -> Option<Expr> {
+    if !matches!(g.node(base), Node::Sum { .. }) {
+        return None;
+    }
+    let parts = factored(g, base)?;
+    let root = rational::exact_root(&parts.coefficient, 2)?;
+    let is_square = parts.factors.iter().all(|(_, n)| n % 2 == 0);
+    let halves = parts.factors.iter().map(|&(f, n)| g.powi(f, n / 2));
+    is_square.then(|| g.scale(&root, g.mul(&halves.collect::<Vec<Expr>>())))
 }
 
 impl System {
@@ -146,31 +163,73 @@ impl System {
         found.collect::<Option<Vec<_>>>().unwrap_or_default()
     }
 
-    /// The systems on all sides of the corners of constraints, where an absolute value or a sign of velocities is written without it:
-    /// for `abs(x') = y'` those with x' = y' and x' > 0, and with -x' = y' and x' < 0. None where there are no corners, or too many.
+    /// The systems on all sides of the corners of constraints, where an absolute value or a sign is written without it:
+    /// for `abs(x') = y'` those with x' = y' and x' > 0, and with -x' = y' and x' < 0; for `z' = abs(y) x'` those with y > 0 and with
+    /// y < 0. Sides that the assumptions exclude are left out. None where there are no corners, or too many.
     pub fn sides(&self) -> Vec<OnComponent> {
-        let corners = self.corners();
+        self.sides_of(&self.corners())
+    }
+
+    /// As [`sides`](System::sides), with the corners of functions of the place that constraints keep at their values too.
+    pub fn all_sides(&self) -> Vec<OnComponent> {
+        let constraints = self.constraints.iter();
+        let all = constraints.flat_map(|c| [c.f, c.stated]);
+        self.sides_of(&self.all_corners(&all.collect::<Vec<Expr>>()))
+    }
+
+    fn sides_of(&self, corners: &[Corner]) -> Vec<OnComponent> {
         if corners.is_empty() || 1 << corners.len() > COMPONENTS {
             return Vec::new();
         }
+        let stated = assumptions(self);
+        let signs_known = corners
+            .iter()
+            .map(|c| known_sign(&self.graph, c.inside, &stated));
+        let known: Vec<_> = signs_known.collect();
         let all = 0..1_usize << corners.len();
-        let found = all.map(|number| {
-            let signs = (0..corners.len()).map(|i| number >> i & 1 == 0);
-            self.with_signs(&corners.iter().zip(signs).collect::<Vec<_>>())
+        let found = all.filter_map(|number| {
+            let signs: Vec<bool> = (0..corners.len()).map(|i| number >> i & 1 == 0).collect();
+            let is_excluded = |(&is_positive, sign): (&bool, &SignSet)| match is_positive {
+                true => sign.is_nonpositive(),
+                false => sign.is_nonnegative(),
+            };
+            let is_empty = signs.iter().zip(&known).any(is_excluded);
+            let pairs = || {
+                corners
+                    .iter()
+                    .zip(signs.iter().copied())
+                    .collect::<Vec<_>>()
+            };
+            (!is_empty).then(|| self.with_signs(&pairs()))
         });
         found.collect::<Option<Vec<_>>>().unwrap_or_default()
     }
 
-    /// The corners of the constraints in the velocities: absolute values, signs, and roots of squares.
+    /// At the zeros of which functions some expressions have a corner, in velocities or in the place: absolute values, signs, and
+    /// roots of squares. What the assumptions keep from zero is not among them.
+    pub fn corners_of(&self, es: &[Expr]) -> Vec<Expr> {
+        let stated = assumptions(self);
+        let own = self.all_corners(es).into_iter().map(|c| c.inside);
+        own.filter(|&e| !known_sign(&self.graph, e, &stated).is_nonzero())
+            .collect()
+    }
+
+    /// The corners of the constraints; a function of the place that one keeps at its value is kept over its corners.
     fn corners(&self) -> Vec<Corner> {
-        let (g, velocities) = (&self.graph, self.velocity_symbols());
-        let constraints: Vec<Expr> = self.constraints.iter().map(|c| c.f).collect();
+        let constraints = self.constraints.iter();
+        let on_velocities = constraints.filter(|c| c.kind != ConstraintKind::Holonomic);
+        self.all_corners(&on_velocities.map(|c| c.f).collect::<Vec<Expr>>())
+    }
+
+    fn all_corners(&self, es: &[Expr]) -> Vec<Corner> {
+        let g = &self.graph;
+        let moves = |s: Symbol| self.moves(g.symbol_name(s)) || g.symbol_name(s) == "t";
         let mut found: Vec<Corner> = Vec::new();
-        for e in g.reachable(&constraints) {
+        for e in g.reachable(es) {
             let Some((inside, power)) = corner(g, e) else {
                 continue;
             };
-            if !g.contains_any(inside, &velocities) {
+            if g.is_free_of(inside, &moves) {
                 continue;
             }
             match found.iter_mut().find(|own| own.inside == inside) {
@@ -187,7 +246,7 @@ impl System {
     /// The system where the insides of corners are positive, or negative.
     fn with_signs(&self, signs: &[(&Corner, bool)]) -> Option<OnComponent> {
         let (g, mut system) = (&self.graph, self.clone());
-        let (mut pairs, mut conditions) = (Vec::new(), Vec::new());
+        let mut pairs = Vec::new();
         for &(corner, is_positive) in signs {
             let inside = corner.inside;
             let own = if is_positive { inside } else { g.neg(inside) };
@@ -201,15 +260,21 @@ impl System {
                     },
                 ));
             }
-            system
-                .assumptions
-                .push(assumption(g, g.zero(), Relation::Less, own));
+        }
+        // The inside of a corner may contain another one.
+        let smooth = |e: Expr| signs.iter().fold(e, |e, _| g.substitute(e, &pairs));
+        let mut conditions = Vec::new();
+        for &(corner, is_positive) in signs {
+            let inside = smooth(corner.inside);
+            let own = if is_positive { inside } else { g.neg(inside) };
+            let own = assumption(g, g.zero(), Relation::Less, own);
+            system.assumptions.push(own);
             let relation = if is_positive { ">" } else { "<" };
             conditions.push(format!("{} {relation} 0", g.text(inside)));
         }
         for constraint in &mut system.constraints {
-            let f = g.substitute(constraint.f, &pairs);
-            *constraint = Constraint::classify(self, constraint.name.clone(), f).ok()?;
+            let name = constraint.name.clone();
+            *constraint = Constraint::classify(self, name, smooth(constraint.stated)).ok()?;
         }
         let condition = conditions.join(" and ");
         Some(OnComponent {

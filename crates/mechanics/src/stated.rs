@@ -54,12 +54,45 @@ impl System {
         self.for_values(self.stated_values())
     }
 
+    /// Pairs (parameter, definition) of the parameters that the model defines by others, of those that occur in the constraints. Definitions
+    /// are free of parameters that have definitions of their own.
+    pub fn definitions_in_constraints(&self) -> Vec<(Expr, Expr)> {
+        let occurring = self.occurring_in_constraints();
+        let own = self.definitions.iter();
+        own.filter(|(parameter, _)| occurring.contains(parameter))
+            .map(|&(parameter, e)| (parameter, self.with_definitions(e)))
+            .collect()
+    }
+
+    /// Pairs (parameter, value) of the parameters with values that occur in the constraints.
+    pub fn values_in_constraints(&self) -> Vec<(Expr, Expr)> {
+        let occurring = self.occurring_in_constraints();
+        let mut values = self.parameter_values();
+        values.retain(|(parameter, _)| occurring.contains(parameter));
+        values
+    }
+
+    fn occurring_in_constraints(&self) -> Vec<Expr> {
+        let stated: Vec<Expr> = self.constraints.iter().map(|c| c.stated).collect();
+        self.graph.reachable(&stated)
+    }
+
+    /// The system with what parameters in its constraints are put in, for questions about the constraints alone: laws of masses
+    /// keep their parameters. `None` where there are none, or it is no system then.
+    pub fn with_constraints_for(&self, values: Vec<(Expr, Expr)>) -> Option<System> {
+        (!values.is_empty()).then(|| self.put_in(values)).flatten()
+    }
+
     fn for_values(&self, values: Vec<(Expr, Expr)>) -> Option<System> {
         let thrust = |p: &crate::system::Particle| !matches!(p.thrust, Thrust::Isotropic);
         let vary = !self.masses.is_empty() || self.particles.iter().any(thrust);
         if values.is_empty() || vary {
             return None;
         }
+        self.put_in(values)
+    }
+
+    fn put_in(&self, values: Vec<(Expr, Expr)>) -> Option<System> {
         let values = self.with_rates(values);
         let g = self.graph.clone();
         let mut system = self.clone();
@@ -80,14 +113,14 @@ impl System {
         Some(system)
     }
 
-    /// Values of symbols with those of the derivatives of controls. Laws contain the time and parameters alone, some of which are zero.
+    /// Values of symbols with those of the derivatives of controls. Laws contain the time and parameters alone, some of which have values here.
     fn with_rates(&self, values: Vec<(Expr, Expr)>) -> Vec<(Expr, Expr)> {
         let g = &self.graph;
-        let (mut all, laws): (Vec<_>, Vec<_>) =
-            values.into_iter().partition(|(_, value)| g.is_zero(*value));
-        // A law that is zero has derivatives too.
         let controls = self.controls.iter().filter_map(|c| Some((&c.name, c.law?)));
-        let is_stated = |e: Expr| laws.iter().chain(&all).any(|&(own, _)| own == e);
+        let is_control = |e: Expr| self.controls.iter().any(|c| g.symbol(&c.name, 0) == e);
+        let (laws, mut all): (Vec<_>, Vec<_>) =
+            values.into_iter().partition(|&(own, _)| is_control(own));
+        let is_stated = |e: Expr| laws.iter().any(|&(own, _)| own == e);
         let mut rates = Vec::new();
         for (name, law) in controls.filter(|(name, _)| is_stated(g.symbol(name, 0))) {
             let mut value = g.substitute(law, &all);
@@ -96,7 +129,6 @@ impl System {
                 value = self.time_derivative(value);
             }
         }
-        all.retain(|(own, _)| !rates.iter().any(|(known, _)| known == own));
         all.extend(rates);
         all
     }

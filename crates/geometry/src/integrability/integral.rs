@@ -4,7 +4,9 @@
 //! logarithms is shown by its exponential: `ln y - k x` as `y exp(-k x)`, `ln y - k ln x` as `y x^(-k)`. So integrating factors
 //! that are functions of one coordinate, and separable constraints, are covered where their quadratures are in the family.
 
-use crate::flag::horizontal;
+use super::quadrature::{Fields, Variable};
+use crate::flag::{horizontal, Directed};
+use crate::growth::generated;
 use crate::noether::ansatz::Ansatz;
 use crate::noether::family::coefficients;
 use crate::noether::letters::{fixed_coordinates, Letters};
@@ -12,7 +14,7 @@ use crate::noether::motion::Motion;
 use crate::noether::shown::readable;
 use chetaev_mechanics::characteristics::derive_along;
 use chetaev_mechanics::components::OnComponent;
-use chetaev_mechanics::{Characteristics, Context, Manifold, Prepared, System};
+use chetaev_mechanics::{Characteristics, Context, Formula, Manifold, Prepared, System};
 use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::rational::content;
 use chetaev_symbolic::simplify::length;
@@ -29,6 +31,9 @@ const JACOBIAN: usize = 200;
 
 /// Larger denominators, in nodes, are not compared with those of arctangents.
 const DENOMINATOR: usize = 60;
+
+/// Larger results of quadratures, in nodes, are not proved.
+const QUADRATURE: usize = 600;
 
 /// The most factors of coefficients.
 const FACTORS: usize = 20;
@@ -51,7 +56,12 @@ pub(super) struct Kept {
     pub(super) place: Option<String>,
     /// Functions of (t, q).
     pub(super) functions: Vec<Expr>,
+    /// How many there are, where that is known.
+    pub(super) count: Option<usize>,
 }
+
+/// Longer functions are not printed within a sentence, in signs.
+const SHOWN: u64 = 160;
 
 /// What the context's constraints keep, on each component where they are products, on each side of corners; constraints that are
 /// functions of simpler ones are replaced by these.
@@ -64,19 +74,90 @@ pub(super) fn kept(cx: &Context<'_>) -> Vec<Kept> {
     if !sides.is_empty() {
         return on_each(cx, sides, "where ");
     }
-    let functions = functions(cx);
-    vec![Kept {
-        place: None,
-        functions,
-    }]
+    vec![own(cx, None)]
 }
 
+/// Whether it is known that smooth constraints keep nothing, or nothing can be known of their brackets.
+pub(super) fn is_nothing(cx: &Context<'_>) -> bool {
+    let divided = !cx.system.components().is_empty() || !cx.system.sides().is_empty();
+    !divided
+        && match &*generated(cx) {
+            Ok(generated) => generated.kept(cx) == Some(0),
+            Err(_) => cx.system.fixed_functions().is_empty(),
+        }
+}
+
+/// The same on each of several systems in the place of this one.
 fn on_each(cx: &Context<'_>, systems: Vec<OnComponent>, words: &str) -> Vec<Kept> {
-    let on = systems.into_iter().map(|on| Kept {
-        functions: on_its_own(cx, &on.system, functions).unwrap_or_default(),
-        place: on.condition.map(|condition| format!("{words}{condition}")),
+    let on = systems.into_iter().map(|on| {
+        let place = on.condition.map(|condition| format!("{words}{condition}"));
+        let unknown = || Kept {
+            place: place.clone(),
+            functions: Vec::new(),
+            count: None,
+        };
+        on_its_own(cx, &on.system, |own| self::own(own, place.clone())).unwrap_or_else(unknown)
     });
     on.collect()
+}
+
+/// What smooth constraints keep.
+fn own(cx: &Context<'_>, place: Option<String>) -> Kept {
+    let count = match &*generated(cx) {
+        Ok(generated) => generated.kept(cx),
+        Err(_) => None,
+    };
+    Kept {
+        place,
+        functions: found(cx, count).0.clone(),
+        count,
+    }
+}
+
+/// Kept functions, found once for all claims.
+struct FoundFunctions(Vec<Expr>);
+
+fn found(cx: &Context<'_>, count: Option<usize>) -> std::sync::Arc<FoundFunctions> {
+    cx.shared(|cx| FoundFunctions(functions(cx, count)))
+}
+
+/// What is kept of so many functions in words, and as formulas.
+pub(crate) fn named(cx: &Context<'_>, count: usize) -> (String, Vec<Formula>) {
+    let kept = own(cx, None);
+    (said(cx, &kept.functions, Some(count)), formulas(&kept))
+}
+
+/// Functions with what is missing of a number of them.
+pub(super) fn said(cx: &Context<'_>, functions: &[Expr], count: Option<usize>) -> String {
+    let g = &cx.system.graph;
+    let text = |&e: &Expr| {
+        let text = g.text(e);
+        match text.chars().count() as u64 > SHOWN {
+            true => "one that is too long for a sentence and stands with the formulas".to_owned(),
+            false => text,
+        }
+    };
+    let texts: Vec<String> = functions.iter().map(text).collect();
+    let missing = count.map_or(0, |count| count.saturating_sub(functions.len()));
+    let not_found = "not found among the functions that occur, their logarithms and arctangents, and by quadratures";
+    match (texts.is_empty(), missing) {
+        (true, _) => not_found.to_owned(),
+        (false, 0) => texts.join(", "),
+        (false, missing) => format!("{}, and {missing} more, not found", texts.join(", ")),
+    }
+}
+
+/// Functions as formulas.
+pub(super) fn formulas(kept: &Kept) -> Vec<Formula> {
+    let place = kept.place.iter().map(|place| format!(" {place}"));
+    let place: String = place.collect();
+    let caption = format!("a function of the positions that the constraints keep{place}");
+    let formula = |&right: &Expr| Formula {
+        caption: caption.clone(),
+        left: None,
+        right,
+    };
+    kept.functions.iter().map(formula).collect()
 }
 
 /// What is known of another system than the context's, with the work and the prover of this; `None` where it has no independent velocities.
@@ -88,22 +169,77 @@ pub(crate) fn on_its_own<T>(
     let prepared = Prepared::new(system).ok()?;
     let (terms, selection) = (&prepared.terms, &prepared.selection);
     let own = Context::new(system, terms, selection, cx.registry(), cx.prover.clone());
+    if cx.is_out_of_time() {
+        own.spend_time();
+    }
     Some(ask(&own.allowing(cx.work())))
 }
 
 /// Functions of (t, q) that the context's constraints keep, each proved, none a function of those before it: what holonomic
-/// constraints fix, then what is found.
-fn functions(cx: &Context<'_>) -> Vec<Expr> {
-    let (most, mut kept) = (cx.selection.rows.len(), cx.system.fixed_functions());
+/// constraints fix, then what is found among combinations, then what quadratures give.
+fn functions(cx: &Context<'_>, count: Option<usize>) -> Vec<Expr> {
+    let most = count.unwrap_or(cx.selection.rows.len());
+    let mut kept = cx.system.fixed_functions();
     let motion = match Motion::of(cx) {
         Ok(motion) if kept.len() < most && !cx.is_out_of_time() => motion,
         _ => return kept,
     };
     let fixed = fixed_coordinates(cx).into_iter().map(|c| c.q);
-    for candidate in fixed.chain(candidates(cx, &motion).unwrap_or_default()) {
+    let combined = fixed.chain(candidates(cx, &motion).unwrap_or_default());
+    add(cx, &motion, &mut kept, most, combined);
+    if kept.len() < most && !cx.is_out_of_time() {
+        add(cx, &motion, &mut kept, most, by_quadratures(cx).into_iter());
+    }
+    kept
+}
+
+/// What quadratures give for the fields that the admissible displacements generate.
+fn by_quadratures(cx: &Context<'_>) -> Vec<Expr> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let generated = generated(cx);
+    let Ok(generated) = &*generated else {
+        return Vec::new();
+    };
+    let Ok(flag) = &generated.flag else {
+        return Vec::new();
+    };
+    let time = generated.with_time.then_some(Variable::Time);
+    let places = system.coordinates.iter();
+    let places: Vec<Variable> = places.map(|c| Variable::Place(c.q_symbol)).collect();
+    let row = |field: &Directed| {
+        let time = generated.with_time.then_some(field.time);
+        time.into_iter()
+            .chain(field.place.iter().copied())
+            .collect()
+    };
+    // What was solved for is dependent, then what stands last.
+    let dependent = cx.selection.dependent.iter().map(|&i| places[i]);
+    let mut preferred: Vec<Variable> = dependent.collect();
+    let others = places.iter().rev().chain(&time).copied();
+    let others: Vec<Variable> = others.filter(|v| !preferred.contains(v)).collect();
+    preferred.extend(others);
+    let fields = Fields {
+        system,
+        variables: time.into_iter().chain(places).collect(),
+        rows: flag.fields.iter().map(row).collect(),
+        preferred,
+    };
+    let is_short = |e: Expr| g.reachable(&[e]).len() <= QUADRATURE;
+    fields.integrals(&|e| is_short(e) && is_kept(cx, e).unwrap_or(false))
+}
+
+/// Adds candidates that are proved and no functions of those before them, up to so many.
+fn add(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    kept: &mut Vec<Expr>,
+    most: usize,
+    candidates: impl Iterator<Item = Expr>,
+) {
+    for candidate in candidates {
         kept.push(candidate);
         let seed = cx.prover.points_seed();
-        let independent = motion.independent_functions(&kept, seed);
+        let independent = motion.independent_functions(kept, seed);
         let is_new = independent.is_some_and(|own| own.len() == kept.len());
         if !is_new || !is_kept(cx, candidate).unwrap_or(false) {
             kept.pop();
@@ -112,7 +248,6 @@ fn functions(cx: &Context<'_>) -> Vec<Expr> {
             break;
         }
     }
-    kept
 }
 
 /// Combinations that are kept at the points looked at.

@@ -1,0 +1,462 @@
+//! Antiderivatives in one variable: of polynomials, powers, sines, cosines and exponentials of linear functions, products of these, and
+//! what a substitution makes one of them.
+//!
+//! Nothing rests on them: whoever uses one proves what follows from it.
+
+use chetaev_symbolic::factors::factored;
+use chetaev_symbolic::simplify::{simplify, Options};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Rational, Symbol};
+
+/// So many substitutions and partial integrations stand inside each other at most.
+const DEPTH: usize = 5;
+
+/// The most terms of a product multiplied out.
+const TERMS: usize = 120;
+
+/// Larger expressions, in nodes, are not looked at.
+const NODES: usize = 300;
+
+/// An expression as short as it is made here; larger ones as they are.
+pub(super) fn tidy(g: &Graph, e: Expr) -> Expr {
+    match g.reachable(&[e]).len() <= NODES {
+        true => simplify(g, e, &Options::default()),
+        false => e,
+    }
+}
+
+/// A function with this derivative by `x`; `None` where none was found.
+pub(super) fn primitive(g: &Graph, e: Expr, x: Symbol) -> Option<Expr> {
+    of(g, e, x, DEPTH)
+}
+
+fn of(g: &Graph, e: Expr, x: Symbol, depth: usize) -> Option<Expr> {
+    if !g.contains_any(e, &[x]) {
+        return Some(g.mul(&[e, g.symbol_expr(x)]));
+    }
+    if depth == 0 || g.reachable(&[e]).len() > NODES {
+        return None;
+    }
+    termwise(g, expanded(g, e), x, depth)
+        .or_else(|| by_substitution(g, e, x, depth))
+        .or_else(|| {
+            let short = tidy(g, e);
+            (short != e).then(|| of(g, short, x, depth - 1)).flatten()
+        })
+}
+
+fn termwise(g: &Graph, e: Expr, x: Symbol, depth: usize) -> Option<Expr> {
+    let Node::Sum { constant, terms } = g.node(e) else {
+        return of_product(g, e, x, depth);
+    };
+    let mut parts = vec![g.scale(constant, g.symbol_expr(x))];
+    for (term, c) in terms.iter() {
+        parts.push(g.scale(c, of_product(g, *term, x, depth)?));
+    }
+    Some(g.add(&parts))
+}
+
+/// Products of sums multiplied out, where that is short.
+pub(super) fn expanded(g: &Graph, e: Expr) -> Expr {
+    let terms = terms_of(g, e);
+    match terms {
+        Some(terms) => g.add(&terms),
+        None => e,
+    }
+}
+
+fn terms_of(g: &Graph, e: Expr) -> Option<Vec<Expr>> {
+    match g.node(e) {
+        Node::Sum { constant, terms } => {
+            let mut all = vec![g.number(constant.clone())];
+            for (term, c) in terms.iter() {
+                all.extend(terms_of(g, *term)?.into_iter().map(|t| g.scale(c, t)));
+            }
+            (all.len() <= TERMS).then_some(all)
+        }
+        Node::Product {
+            coefficient,
+            factors,
+        } => {
+            let start = vec![g.number(coefficient.clone())];
+            factors.iter().try_fold(start, |all, &factor| {
+                multiplied(g, &all, &terms_of(g, factor)?)
+            })
+        }
+        Node::Power { base, exponent } => match g.as_integer(*exponent) {
+            Some(n @ 2..=6) if matches!(g.node(*base), Node::Sum { .. }) => {
+                let own = terms_of(g, *base)?;
+                (1..n).try_fold(own.clone(), |all, _| multiplied(g, &all, &own))
+            }
+            _ => Some(vec![e]),
+        },
+        _ => Some(vec![e]),
+    }
+}
+
+fn multiplied(g: &Graph, a: &[Expr], b: &[Expr]) -> Option<Vec<Expr>> {
+    let pairs = a
+        .iter()
+        .flat_map(|&x| b.iter().map(move |&y| g.mul(&[x, y])));
+    (a.len() * b.len() <= TERMS).then(|| pairs.collect())
+}
+
+/// Of a product: what `x` is not in stands before the integral.
+fn of_product(g: &Graph, e: Expr, x: Symbol, depth: usize) -> Option<Expr> {
+    let factors = match g.node(e) {
+        Node::Product {
+            coefficient,
+            factors,
+        } => {
+            let mut all = factors.to_vec();
+            all.push(g.number(coefficient.clone()));
+            all
+        }
+        _ => vec![e],
+    };
+    let (own, free): (Vec<Expr>, Vec<Expr>) =
+        factors.into_iter().partition(|&f| g.contains_any(f, &[x]));
+    let found = match own.as_slice() {
+        [] => Some(g.symbol_expr(x)),
+        [one] => of_factor(g, *one, x),
+        _ => None,
+    };
+    let whole = g.mul(&own);
+    let found = found
+        .or_else(|| circular(g, &own, x, depth))
+        .or_else(|| by_parts(g, &own, x, depth))
+        .or_else(|| exponential_circular(g, &own, x))
+        .or_else(|| by_substitution(g, whole, x, depth))
+        .or_else(|| partial_fractions(g, whole, x, depth))?;
+    Some(g.mul(&[g.mul(&free), found]))
+}
+
+/// The slope of a linear function of `x`.
+fn slope(g: &Graph, u: Expr, x: Symbol) -> Option<Expr> {
+    let by = g.diff(u, x);
+    let by = if g.contains_any(by, &[x]) {
+        tidy(g, by)
+    } else {
+        by
+    };
+    (!g.contains_any(by, &[x]) && !g.is_zero(by)).then_some(by)
+}
+
+/// Of a power or a function of a linear function of `x`.
+fn of_factor(g: &Graph, e: Expr, x: Symbol) -> Option<Expr> {
+    if let Node::Apply {
+        function,
+        arguments,
+    } = g.node(e)
+    {
+        let u = *arguments.first()?;
+        let by = slope(g, u, x)?;
+        return Some(g.div(of_function(g, *function, u)?, by));
+    }
+    let (u, n) = g.base_exponent(e);
+    if g.contains_any(n, &[x]) {
+        let by = slope(g, n, x)?;
+        return (!g.contains_any(u, &[x]))
+            .then(|| g.div(e, g.mul(&[by, g.apply(Function::Log, &[u])])));
+    }
+    if let Some(by) = slope(g, u, x) {
+        let minus_one = g.as_integer(n) == Some(-1);
+        g.as_number(n)?;
+        let next = g.add(&[n, g.one()]);
+        return Some(match minus_one {
+            true => g.div(g.apply(Function::Log, &[u]), by),
+            false => g.div(g.pow(u, next), g.mul(&[next, by])),
+        });
+    }
+    if let (
+        Node::Apply {
+            function,
+            arguments,
+        },
+        Some(power),
+    ) = (g.node(u), g.as_integer(n))
+    {
+        let by = slope(g, *arguments.first()?, x)?;
+        return Some(g.div(of_power(g, *function, arguments[0], power)?, by));
+    }
+    match g.as_integer(n) {
+        Some(-1) => inverse_quadratic(g, u, x),
+        _ => None,
+    }
+}
+
+fn of_function(g: &Graph, function: Function, u: Expr) -> Option<Expr> {
+    let log = |e: Expr| g.apply(Function::Log, &[e]);
+    Some(match function {
+        Function::Sin => g.neg(g.cos(u)),
+        Function::Cos => g.sin(u),
+        Function::Exp => g.exp(u),
+        Function::Sinh => g.apply(Function::Cosh, &[u]),
+        Function::Cosh => g.apply(Function::Sinh, &[u]),
+        Function::Tan => g.neg(log(g.cos(u))),
+        Function::Cot => log(g.sin(u)),
+        Function::Tanh => log(g.apply(Function::Cosh, &[u])),
+        Function::Log => g.sub(g.mul(&[u, log(u)]), u),
+        Function::Atan => {
+            let square = g.add(&[g.one(), g.powi(u, 2)]);
+            let half = g.div(log(square), g.integer(2));
+            g.sub(g.mul(&[u, g.apply(Function::Atan, &[u])]), half)
+        }
+        _ => return None,
+    })
+}
+
+/// Of 1/cos², 1/sin² and 1/cosh².
+fn of_power(g: &Graph, function: Function, u: Expr, power: i64) -> Option<Expr> {
+    let tangent = |f: Function| g.apply(f, &[u]);
+    match (function, power) {
+        (Function::Cos, -2) => Some(tangent(Function::Tan)),
+        (Function::Sin, -2) => Some(g.neg(tangent(Function::Cot))),
+        (Function::Cosh, -2) => Some(tangent(Function::Tanh)),
+        (Function::Tan, 2) => Some(g.sub(tangent(Function::Tan), u)),
+        _ => None,
+    }
+}
+
+/// Of `1/(a x² + b x + c)` with numbers in the discriminant, or `b = 0` and an arctangent.
+fn inverse_quadratic(g: &Graph, u: Expr, x: Symbol) -> Option<Expr> {
+    let twice = tidy(g, g.diff(g.diff(u, x), x));
+    if g.contains_any(twice, &[x]) || g.is_zero(twice) {
+        return None;
+    }
+    let at = |e: Expr| tidy(g, g.substitute(e, &[(g.symbol_expr(x), g.zero())]));
+    let (b, c) = (at(g.diff(u, x)), at(u));
+    // 4 a c - b²
+    let four = g.mul(&[g.integer(2), twice, c]);
+    let determinant = tidy(g, g.sub(four, g.powi(b, 2)));
+    let line = g.add(&[g.mul(&[twice, g.symbol_expr(x)]), b]);
+    let is_negative = g
+        .as_number(determinant)
+        .is_some_and(chetaev_symbolic::rational::is_negative);
+    if g.is_zero(determinant) {
+        return Some(g.div(g.integer(-2), line));
+    }
+    if is_negative {
+        let root = g.sqrt(g.neg(determinant));
+        let above = g.apply(Function::Log, &[g.sub(line, root)]);
+        let below = g.apply(Function::Log, &[g.add(&[line, root])]);
+        return Some(g.div(g.sub(above, below), root));
+    }
+    let root = g.sqrt(determinant);
+    let angle = g.apply(Function::Atan, &[g.div(line, root)]);
+    Some(g.div(g.mul(&[g.integer(2), angle]), root))
+}
+
+/// Products of sines and cosines of linear functions as sums of such.
+fn circular(g: &Graph, own: &[Expr], x: Symbol, depth: usize) -> Option<Expr> {
+    let mut sum: Vec<(Rational, bool, Expr)> = vec![(Rational::ONE, false, g.zero())];
+    let mut count = 0;
+    for &factor in own {
+        let (base, exponent) = g.base_exponent(factor);
+        let n = g.as_integer(exponent).filter(|n| (1..=8).contains(n))?;
+        let Node::Apply {
+            function,
+            arguments,
+        } = g.node(base)
+        else {
+            return None;
+        };
+        let is_sine = match function {
+            Function::Sin => true,
+            Function::Cos => false,
+            _ => return None,
+        };
+        slope(g, arguments[0], x)?;
+        for _ in 0..n {
+            count += 1;
+            sum = sum
+                .into_iter()
+                .flat_map(|own| times(g, own, (is_sine, arguments[0])))
+                .collect();
+        }
+    }
+    if !(2..=8).contains(&count) {
+        return None;
+    }
+    let terms: Vec<Expr> = sum
+        .into_iter()
+        .map(|(c, is_sine, u)| {
+            let own = if is_sine { g.sin(u) } else { g.cos(u) };
+            g.scale(&c, own)
+        })
+        .collect();
+    termwise(g, g.add(&terms), x, depth.checked_sub(1)?)
+}
+
+/// A sine or cosine times another as two.
+fn times(
+    g: &Graph,
+    (c, is_sine, u): (Rational, bool, Expr),
+    (by_sine, w): (bool, Expr),
+) -> [(Rational, bool, Expr); 2] {
+    let half = c / Rational::from(2);
+    let (plus, minus) = (g.add(&[u, w]), g.sub(u, w));
+    match (is_sine, by_sine) {
+        (false, false) => [(half.clone(), false, plus), (half, false, minus)],
+        (true, true) => [(-half.clone(), false, plus), (half, false, minus)],
+        (true, false) => [(half.clone(), true, plus), (half, true, minus)],
+        (false, true) => [(half.clone(), true, plus), (-half, true, minus)],
+    }
+}
+
+/// `∫ p f = p F - ∫ p' F` for powers p of x, and `∫ p ln u = P ln u - ∫ P u'/u`.
+fn by_parts(g: &Graph, own: &[Expr], x: Symbol, depth: usize) -> Option<Expr> {
+    let depth = depth.checked_sub(1)?;
+    let is_power = |&&f: &&Expr| {
+        let (base, n) = g.base_exponent(f);
+        g.as_symbol(base) == Some(x) && g.as_integer(n).is_some_and(|n| n > 0)
+    };
+    let is_inner = |&&f: &&Expr| {
+        let inner = [Function::Log, Function::Atan];
+        matches!(g.node(f), Node::Apply { function, .. } if inner.contains(function))
+    };
+    let (stays, rest): (Expr, Vec<Expr>) = match own.iter().find(is_inner) {
+        Some(&f) => (f, own.iter().copied().filter(|&e| e != f).collect()),
+        None => {
+            let &f = own.iter().find(is_power)?;
+            (f, own.iter().copied().filter(|&e| e != f).collect())
+        }
+    };
+    let integrated = of(g, g.mul(&rest), x, depth)?;
+    let left = tidy(g, g.mul(&[g.diff(stays, x), integrated]));
+    Some(g.sub(g.mul(&[stays, integrated]), of(g, left, x, depth)?))
+}
+
+/// `∫ exp(a x) sin(b x)` and with a cosine.
+fn exponential_circular(g: &Graph, own: &[Expr], x: Symbol) -> Option<Expr> {
+    let [a, b] = own else {
+        return None;
+    };
+    let argument = |e: Expr, wanted: &[Function]| match g.node(e) {
+        Node::Apply {
+            function,
+            arguments,
+        } if wanted.contains(function) => Some((*function, arguments[0])),
+        _ => None,
+    };
+    let circles = [Function::Sin, Function::Cos];
+    let pair =
+        |e: Expr, other: Expr| Some((argument(e, &[Function::Exp])?, argument(other, &circles)?));
+    let ((_, u), (function, w)) = pair(*a, *b).or_else(|| pair(*b, *a))?;
+    let (p, q) = (slope(g, u, x)?, slope(g, w, x)?);
+    let (sin, cos) = (g.sin(w), g.cos(w));
+    let inner = match function {
+        Function::Sin => g.sub(g.mul(&[p, sin]), g.mul(&[q, cos])),
+        _ => g.add(&[g.mul(&[p, cos]), g.mul(&[q, sin])]),
+    };
+    let by = g.add(&[g.powi(p, 2), g.powi(q, 2)]);
+    Some(g.div(g.mul(&[g.exp(u), inner]), by))
+}
+
+/// `∫ h(u) u' dx = ∫ h du` for a part u of the expression.
+fn by_substitution(g: &Graph, e: Expr, x: Symbol, depth: usize) -> Option<Expr> {
+    let depth = depth.checked_sub(1)?;
+    let own = g.symbol_expr(x);
+    let fresh = g.symbol(&format!("part[{depth}]"), 0);
+    let new = g.as_symbol(fresh)?;
+    let parts = g.reachable(&[e]).into_iter().rev();
+    let inner = parts.filter(|&u| u != e && u != own && g.contains_any(u, &[x]));
+    for u in inner.take(12) {
+        let by = g.diff(u, x);
+        if g.is_zero(by) {
+            continue;
+        }
+        let rest = tidy(g, g.div(e, by));
+        let rest = g.substitute(rest, &[(u, fresh)]);
+        if g.contains_any(rest, &[x]) {
+            continue;
+        }
+        if let Some(found) = of(g, rest, new, depth) {
+            return Some(g.substitute(found, &[(fresh, u)]));
+        }
+    }
+    None
+}
+
+/// Rational functions whose denominator is a product of different linear functions of `x`.
+fn partial_fractions(g: &Graph, e: Expr, x: Symbol, depth: usize) -> Option<Expr> {
+    let own = g.symbol_expr(x);
+    let parts = factored(g, e)?;
+    let below = parts
+        .factors
+        .iter()
+        .filter(|(f, n)| *n < 0 && g.contains_any(*f, &[x]));
+    let below: Vec<(Expr, i64)> = below.copied().collect();
+    let above = parts
+        .factors
+        .iter()
+        .filter(|(f, n)| *n > 0 && g.contains_any(*f, &[x]));
+    let degree: i64 = above
+        .map(|&(f, n)| slope(g, f, x).map(|_| n))
+        .sum::<Option<i64>>()?;
+    if depth == 0
+        || below.len() < 2
+        || below.iter().any(|&(_, n)| n != -1)
+        || degree >= below.len() as i64
+    {
+        return None;
+    }
+    let mut sum = Vec::new();
+    for &(f, _) in &below {
+        let by = slope(g, f, x)?;
+        let start = g.substitute(f, &[(own, g.zero())]);
+        let root = tidy(g, g.neg(g.div(start, by)));
+        let rest = tidy(g, g.mul(&[e, f]));
+        let residue = tidy(g, g.div(g.substitute(rest, &[(own, root)]), by));
+        sum.push(g.mul(&[residue, g.apply(Function::Log, &[f])]));
+    }
+    Some(g.add(&sum))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{primitive, tidy};
+    use chetaev_symbolic::{Expr, Function, Graph};
+
+    /// Each integrand by hand; the derivative of what is found is compared with it at a point.
+    #[test]
+    fn derivatives_of_what_is_found_are_what_was_given() {
+        let g = Graph::new();
+        let (x, k) = (g.symbol("x", 0), g.symbol("k", 0));
+        let symbol = g.intern_symbol("x", 0);
+        let f = |function, e: Expr| g.apply(function, &[e]);
+        let square = g.powi(x, 2);
+        let given = [
+            g.powi(x, 9),
+            g.powi(x, -1),
+            g.mul(&[x, g.exp(g.mul(&[k, x]))]),
+            g.mul(&[g.powi(g.sin(x), 3), g.powi(g.cos(x), 2)]),
+            g.powi(g.cos(x), 4),
+            g.mul(&[g.exp(x), g.sin(g.mul(&[k, x]))]),
+            f(Function::Tanh, x),
+            g.powi(g.sub(square, g.one()), -1),
+            g.powi(g.add(&[square, x, g.one()]), -1),
+            g.mul(&[x, g.powi(g.add(&[square, g.one()]), -1)]),
+            g.mul(&[x, g.exp(square)]),
+            g.mul(&[x, f(Function::Log, x)]),
+            g.mul(&[x, g.sqrt(g.add(&[square, k]))]),
+            g.mul(&[x, x, f(Function::Sinh, x)]),
+        ];
+        for e in given {
+            let found = primitive(&g, e, symbol);
+            let found = found.unwrap_or_else(|| panic!("nothing was found for {}", g.text(e)));
+            let rest = tidy(&g, g.sub(g.diff(found, symbol), e));
+            let at = |s| if s == symbol { Some(1.7) } else { Some(0.6) };
+            let value = g.evaluate_f64(&[rest], &at).map(|v| v[0]);
+            assert!(value.is_ok_and(|v| v.abs() < 1e-9), "{}", g.text(e));
+        }
+    }
+
+    /// exp(x²) has no elementary antiderivative.
+    #[test]
+    fn nothing_is_said_where_nothing_is_found() {
+        let g = Graph::new();
+        let x = g.symbol("x", 0);
+        let symbol = g.intern_symbol("x", 0);
+        assert!(primitive(&g, g.exp(g.powi(x, 2)), symbol).is_none());
+    }
+}
