@@ -16,7 +16,9 @@ mod angles;
 mod excluded;
 mod flow;
 mod formula;
+mod jumps;
 mod products;
+mod states;
 
 use crate::flag::{horizontal, Directed, Flag, Obstacle};
 use crate::noether::shown::readable;
@@ -71,7 +73,7 @@ pub fn measure(cx: &Context<'_>) -> Arc<Result<Measure, String>> {
             return Err("the time for claims was spent before it".into());
         }
         let flow = Flow::of(cx)?;
-        Ok(decided(cx, &flow))
+        Ok(jumps::limited(cx, &flow, decided(cx, &flow)))
     })
 }
 
@@ -80,15 +82,19 @@ pub fn measure(cx: &Context<'_>) -> Arc<Result<Measure, String>> {
 fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
     let (mut measure, g) = (searched(cx, flow), &cx.system.graph);
     let (Some(density), Some(kept)) = (measure.density, measure.kept.clone()) else {
+        // Brackets tell of almost every place, and the states may be the others.
+        let is_local = matches!(measure.verdict, Verdict::Proved(_));
+        if let Some(verdict) = excluded::at_states(cx, flow).filter(|_| is_local) {
+            measure.verdict = verdict;
+        }
         return measure.or_exponential(cx, flow);
     };
-    if g.as_number(density).is_some() {
-        return measure;
-    }
     if let Some(mut verdict) = excluded::at_states(cx, flow) {
         if let Verdict::Refuted(found) = &mut verdict {
             let (n, text) = (density_letter(cx), g.text(density));
-            let more = format!("; {n} = {text} is kept only where it is neither zero nor infinite");
+            let more = format!(
+                "; {n} = {text} is kept near places only where it is neither zero nor infinite"
+            );
             found.detail.push_str(&more);
         }
         measure.density = None;
@@ -96,7 +102,7 @@ fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
         return measure;
     }
     measure.edges = formula::edges(cx, flow, density);
-    let density = formula::positive_beyond(g, density, &measure.edges);
+    let density = formula::positive_beyond(cx, density);
     measure.density = Some(density);
     measure.unrolled = angles::unrolled(cx, flow, density);
     measure.verdict = angles::returning(cx, flow, density, kept);
@@ -114,10 +120,15 @@ impl Measure {
             return self;
         }
         if let Some((density, kept)) = flow.exponential(cx) {
+            let edges = formula::edges(cx, flow, density);
+            // Another density that ends says no more than the one found.
+            if self.density.is_some() && !edges.of_density.is_empty() {
+                return self;
+            }
             self.verdict = angles::returning(cx, flow, density, kept.clone());
             self.kept = Some(kept);
             self.density = Some(density);
-            self.edges = formula::Edges::default();
+            self.edges = edges;
             self.unrolled = angles::unrolled(cx, flow, density);
             self.words = WORDS[0];
         }
@@ -212,19 +223,27 @@ fn without_formula(
 }
 
 /// Whether a density exists that does not contain some of the coordinates, and follows by a quadrature: the admissible fields and
-/// their brackets have to give the derivatives of its logarithm in all directions.
+/// their brackets have to give the derivatives of its logarithm in all directions along which `integrals` without velocities are
+/// kept.
 ///
 /// # Errors
 /// A sentence that says why the motion is not known.
-pub fn free_of(cx: &Context<'_>, coordinates: &[usize]) -> Result<Verdict, String> {
+pub fn free_of(
+    cx: &Context<'_>,
+    coordinates: &[usize],
+    integrals: &[Expr],
+) -> Result<Verdict, String> {
     let flow = Flow::of(cx)?;
-    let full = cx.system.n() + usize::from(!flow.autonomous);
-    Ok(match flag(cx, &flow, coordinates) {
-        Ok(Some(flag)) if flag.fields.len() == full => exists(flag),
+    // Integrals without velocities are kept along all fields: on their levels so many directions less are missing.
+    let leaves = flow.independent_of_velocities(cx, integrals);
+    let full = (cx.system.n() + flow.masses.len() + usize::from(!flow.autonomous)).saturating_sub(leaves);
+    let verdict = match flag(cx, &flow, coordinates) {
+        Ok(Some(flag)) if flag.fields.len() >= full => exists(flag),
         Ok(Some(_)) => Verdict::undecided("the brackets do not determine the density"),
         Ok(None) => not_affine(cx, &flow),
         Err(verdict) => *verdict,
-    })
+    };
+    Ok(jumps::beside_all(cx, &flow, verdict))
 }
 
 /// Whether a density exists, without its formula; free of the coordinates with these indices.
@@ -431,7 +450,7 @@ impl Claim for InvariantMeasure {
                 left: None,
                 right: density,
             });
-            if let Verdict::Proved(proof) = &mut verdict {
+            if let Verdict::Proved(proof) | Verdict::Conditional { proof, .. } = &mut verdict {
                 let text = g.text(density);
                 let what = match text.chars().count() <= LONGEST {
                     true => format!("for {n} = {text}"),
@@ -472,7 +491,11 @@ fn within(cx: &Context<'_>, proof: &mut Proof, edges: &formula::Edges, n: &str) 
     let g = &cx.system.graph;
     let all = [&edges.of_chart[..], &edges.of_density].concat();
     let texts = |edges: &[Expr], join: &str| formula::Edges::texts(g, edges, "=", join);
-    if all.is_empty() || texts(&all, "").chars().count() > LONGEST {
+    if all.is_empty() {
+        return;
+    }
+    if texts(&all, "").chars().count() > LONGEST {
+        proof.on = format!("on the constraint manifold, where {n} is neither zero nor infinite");
         return;
     }
     proof.on = format!(
@@ -481,7 +504,7 @@ fn within(cx: &Context<'_>, proof: &mut Proof, edges: &formula::Edges, n: &str) 
     );
     if !edges.of_chart.is_empty() {
         proof.detail.push_str(&format!(
-            "; where {} these variables do not determine the motion",
+            "; where {} these variables or the motion are not determined, and {n} by det W det W̄ is neither zero nor infinite",
             texts(&edges.of_chart, " or ")
         ));
     }
