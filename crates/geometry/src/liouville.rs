@@ -237,10 +237,7 @@ fn counted_for(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
         ),
     };
     // Where rates jump the quadratures go on from one side to the other.
-    let usable = matches!(
-        evidence,
-        Verdict::Proved(_) | Verdict::Conditional { .. }
-    );
+    let usable = matches!(evidence, Verdict::Proved(_) | Verdict::Conditional { .. });
     let missing = m - 2 - many.min(m - 2);
     Ok(match (missing, usable) {
         (0, true) => {

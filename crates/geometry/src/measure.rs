@@ -19,6 +19,7 @@ mod formula;
 mod jumps;
 mod products;
 mod states;
+mod valued;
 
 use crate::flag::{horizontal, Directed, Flag, Obstacle};
 use crate::noether::shown::readable;
@@ -73,7 +74,8 @@ pub fn measure(cx: &Context<'_>) -> Arc<Result<Measure, String>> {
             return Err("the time for claims was spent before it".into());
         }
         let flow = Flow::of(cx)?;
-        Ok(jumps::limited(cx, &flow, decided(cx, &flow)))
+        let measure = jumps::limited(cx, &flow, decided(cx, &flow));
+        Ok(valued::as_stated(cx, &flow, measure))
     })
 }
 
@@ -236,7 +238,8 @@ pub fn free_of(
     let flow = Flow::of(cx)?;
     // Integrals without velocities are kept along all fields: on their levels so many directions less are missing.
     let leaves = flow.independent_of_velocities(cx, integrals);
-    let full = (cx.system.n() + flow.masses.len() + usize::from(!flow.autonomous)).saturating_sub(leaves);
+    let full =
+        (cx.system.n() + flow.masses.len() + usize::from(!flow.autonomous)).saturating_sub(leaves);
     let verdict = match flag(cx, &flow, coordinates) {
         Ok(Some(flag)) if flag.fields.len() >= full => exists(flag),
         Ok(Some(_)) => Verdict::undecided("the brackets do not determine the density"),
@@ -409,7 +412,7 @@ impl Claim for InvariantMeasure {
     }
 
     fn explanation(&self) -> &'static str {
-        "On the constraint manifold with coordinates q and independent (quasi-)velocities η, which the verdict names, the measure N dq dη is invariant when X̄ ln N = -div X̄ (N dq dη dM with masses M that have a law of their own). For a motion free of the time N is free of it too, as a density that changes with the time can always be carried along. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved; then among products of powers of these and of the factors of det W̄, the determinant of the mass matrix on admissible velocities, whose exponents are solved for; where such a factor may be negative and its exponent is not whole its absolute value stands in N. Where none of these is smooth and positive everywhere an exponential of polynomials in the velocities with such coefficients is looked for. Where N may be zero or infinite is stated: where the variables chosen do not determine the motion it does not matter, elsewhere N is a density on each side by itself. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). The claim is refuted only where no smooth positive density N(q, η) exists at all, rest included: where the divergence does not vanish at states of rest or on a steady motion that only turns angles, whatever formula holds elsewhere; where ln N would change over a turn of an angle; and where rest is admissible, the accelerations have there neither terms without velocities nor linear ones, and the brackets contradict each other: then the terms of its equation that are linear in the velocities are those for N at rest. Where brackets contradict each other otherwise, densities that contain velocities are not excluded, and the claim is undecided."
+        "On the constraint manifold with coordinates q and independent (quasi-)velocities η, which the verdict names, the measure N dq dη is invariant when X̄ ln N = -div X̄ (N dq dη dM with masses M that have a law of their own). For a motion free of the time N is free of it too, as a density that changes with the time can always be carried along. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved; then among products of powers of these and of the factors of det W̄, the determinant of the mass matrix on admissible velocities, whose exponents are solved for; where such a factor may be negative and its exponent is not whole its absolute value stands in N. Where none of these is smooth and positive everywhere an exponential of polynomials in the velocities with such coefficients is looked for, by itself and times the root of det W det W̄. Where N may be zero or infinite is stated. N²/(det W det W̄) is the same function whatever the variables: where it is neither zero nor infinite though N is, these variables end and N in others does not; elsewhere N is a density on each side by itself. Where the rates jump, as by dry friction -sign(x'), what is proved is conditional: a continuous density is kept across only where its flux is the same from both sides. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). The claim is refuted only where no smooth positive density N(q, η) exists at all, rest included: where the divergence does not vanish at states of rest or on a steady motion that only turns angles, whatever formula holds elsewhere (such states are looked for by Newton's iteration for the values that the model states, and proved to exist by its interval form); where ln N would change over a turn of an angle; and where rest is admissible, the accelerations have there neither terms without velocities nor linear ones, and the brackets contradict each other: then the terms of its equation that are linear in the velocities are those for N at rest. Where brackets contradict each other otherwise, densities that contain velocities are not excluded, and the claim is undecided. Parameters are arbitrary, but those that others define; where the values that the model states decide otherwise the verdict is conditional on them."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -504,7 +507,7 @@ fn within(cx: &Context<'_>, proof: &mut Proof, edges: &formula::Edges, n: &str) 
     );
     if !edges.of_chart.is_empty() {
         proof.detail.push_str(&format!(
-            "; where {} these variables or the motion are not determined, and {n} by det W det W̄ is neither zero nor infinite",
+            "; where {} these variables do not determine the motion; in others {n} is neither zero nor infinite there wherever the mass matrices are regular",
             texts(&edges.of_chart, " or ")
         ));
     }

@@ -30,7 +30,10 @@ impl System {
         });
         let defined: Vec<(Expr, Expr)> = defined
             .map(|&(parameter, definition)| {
-                (parameter, g.substitute(self.with_definitions(definition), &zeros))
+                (
+                    parameter,
+                    g.substitute(self.with_definitions(definition), &zeros),
+                )
             })
             .collect();
         [zeros, defined].concat()

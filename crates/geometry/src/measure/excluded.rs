@@ -72,6 +72,7 @@ fn at_rest(cx: &Context<'_>, flow: &Flow<'_>) -> Option<Verdict> {
         .substitute(flow.divergence, &rest(flow, system));
     does_not_vanish(
         cx,
+        flow,
         divergence,
         "the system may stay at rest, and the divergence of the motion is not zero there",
     )
@@ -187,12 +188,16 @@ fn steady_with(cx: &Context<'_>, flow: &Flow<'_>, one: Option<usize>) -> Option<
     let sentence = format!(
         "the motion {moving} at the origin of the coordinates is steady{why}, and the divergence of the motion is constant and not zero on it"
     );
-    does_not_vanish(cx, divergence, &sentence)
+    does_not_vanish(cx, flow, divergence, &sentence)
 }
 
 /// A refutation where an expression is not zero.
-fn does_not_vanish(cx: &Context<'_>, e: Expr, sentence: &str) -> Option<Verdict> {
+fn does_not_vanish(cx: &Context<'_>, flow: &Flow<'_>, e: Expr, sentence: &str) -> Option<Verdict> {
     let nowhere = chetaev_mechanics::Manifold::default();
+    let valued = cx.system.graph.substitute(e, &cx.system.parameter_values());
+    let as_stated = cx.prover.identity(cx.system, &[valued], &nowhere, "");
+    flow.refuted_as_stated
+        .set(matches!(as_stated, Verdict::Refuted(_)));
     match cx.prover.identity(cx.system, &[e], &nowhere, "") {
         Verdict::Refuted(mut found) => {
             found.detail = format!(

@@ -1,6 +1,6 @@
 //! The motion in a chart of the constraint manifold, and densities in the families of functions that occur.
 
-use super::{formula, WORDS};
+use super::{formula, products, WORDS};
 use crate::noether::ansatz::Ansatz;
 use crate::noether::family::{coefficients, CoefficientLetter, Letter, ANY};
 use crate::noether::letters::Letters;
@@ -11,8 +11,9 @@ use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::{Characteristics, Context, System};
 use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::simplify::{simplify, Options};
 use chetaev_symbolic::{Expr, Node, Symbol, Verdict};
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 
 /// Determinants of larger matrices are not formed.
 const DETERMINANT: usize = 8;
@@ -35,6 +36,8 @@ pub(super) struct Flow<'a> {
     pub(super) autonomous: bool,
     /// What states of rest and steady motions refute, once it was asked.
     pub(super) at_states: OnceCell<Option<Verdict>>,
+    /// Whether what is refuted is so for the values of parameters that the model states.
+    pub(super) refuted_as_stated: Cell<bool>,
 }
 
 impl<'a> Flow<'a> {
@@ -79,6 +82,7 @@ impl<'a> Flow<'a> {
             divergence,
             autonomous,
             at_states: OnceCell::new(),
+            refuted_as_stated: Cell::new(false),
         })
     }
 
@@ -314,10 +318,7 @@ impl<'a> Flow<'a> {
             .map(|e| vec![e])
             .collect();
         let rate = self.rates_of(system, &[square])[0];
-        let missing = g.add(&[
-            self.divergence,
-            g.div(rate, g.mul(&[g.integer(2), square])),
-        ]);
+        let missing = g.add(&[self.divergence, g.div(rate, g.mul(&[g.integer(2), square]))]);
         columns.push(vec![missing]);
         let (manifold, own) = (&self.chart.manifold, self.symbols());
         let seed = cx.prover.points_seed();
@@ -438,7 +439,8 @@ impl<'a> Flow<'a> {
             0 => g.one(),
             _ => self.determinant(cx)?,
         };
-        let both = [whole, restricted].map(|e| readable(g, e));
+        let both =
+            [whole, restricted].map(|e| products::shorter(g, simplify(g, e, &Options::default())));
         let vanishes = |e: Expr| {
             let verdict = cx.prover.identity(system, &[e], &self.chart.manifold, "");
             !matches!(verdict, Verdict::Refuted(_))

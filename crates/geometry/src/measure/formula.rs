@@ -151,7 +151,8 @@ fn is_fixed(cx: &Context<'_>, flow: &Flow<'_>, e: Expr) -> bool {
     let slopes: Vec<Expr> = moving.map(|s| g.diff(e, s)).collect();
     flow.chart.implicit().next().is_none()
         && matches!(
-            cx.prover.identity(cx.system, &slopes, &flow.chart.manifold, ""),
+            cx.prover
+                .identity(cx.system, &slopes, &flow.chart.manifold, ""),
             Verdict::Proved(_)
         )
 }
@@ -195,15 +196,18 @@ fn zeros_and_poles(cx: &Context<'_>, flow: &Flow<'_>, e: Expr) -> Vec<Expr> {
             found.push(e);
         }
     };
-    for factor in factors_by_form(g, e) {
-        let base = without_absolute_value(g, g.base_exponent(factor).0);
-        let parts = products::quotient(g, base);
-        for &part in &parts {
+    let parts = products::quotient(g, e).into_iter();
+    let parts: Vec<Expr> = parts.flat_map(|part| factors_by_form(g, part)).collect();
+    for &part in &parts {
+        let base = without_absolute_value(g, g.base_exponent(part).0);
+        for part in products::quotient(g, base) {
             add(g.base_exponent(part).0);
         }
-        for inner in g.reachable(&parts) {
+        for inner in g.reachable(&[base]) {
             match g.node(inner) {
-                Node::Power { base, exponent } if !is_nonnegative_number(g, *exponent) => add(*base),
+                Node::Power { base, exponent } if !is_nonnegative_number(g, *exponent) => {
+                    add(*base)
+                }
                 Node::Apply {
                     function: Function::Log,
                     arguments,
@@ -250,14 +254,25 @@ fn is_of_one_sign(cx: &Context<'_>, e: Expr) -> bool {
 
 /// Whether an expression is seen to vanish nowhere, under the assumptions or for the values of the parameters.
 fn is_nowhere_zero(cx: &Context<'_>, e: Expr) -> bool {
-    forms(cx, e).any(|sign| sign.is_nonzero())
+    let g = &cx.system.graph;
+    let is_one = |e: Expr| forms(cx, e).any(|sign| sign.is_nonzero());
+    // Over the common denominator what is assumed may be seen.
+    let parts = || products::quotient(g, e);
+    is_one(e)
+        || parts()
+            .into_iter()
+            .all(|part| is_one(g.base_exponent(part).0))
 }
 
 /// What a model assumes of velocities, in the independent ones.
 fn on_manifold(cx: &Context<'_>) -> Option<Assumptions> {
     let (system, g) = (cx.system, &cx.system.graph);
     let stated = assumptions(system);
-    let sides: Vec<Expr> = stated.list().iter().flat_map(|a| [a.left, a.right]).collect();
+    let sides: Vec<Expr> = stated
+        .list()
+        .iter()
+        .flat_map(|a| [a.left, a.right])
+        .collect();
     if !g.any_contains_any(&sides, &system.velocity_symbols()) {
         return None;
     }
@@ -273,7 +288,11 @@ fn on_manifold(cx: &Context<'_>) -> Option<Assumptions> {
 /// What its forms tell of the sign of an expression.
 fn forms<'c>(cx: &'c Context<'_>, e: Expr) -> impl Iterator<Item = SignSet> + 'c {
     let g = &cx.system.graph;
-    let stated = assumptions(cx.system);
+    let mut stated = assumptions(cx.system);
+    // A motion ends where a mass does.
+    for mass in &cx.system.masses {
+        stated.positive(g, g.symbol_expr(mass.symbol));
+    }
     let values = cx.system.parameter_values();
     let mut both = vec![(e, stated.clone()), (g.substitute(e, &values), stated)];
     if let Some(on_manifold) = on_manifold(cx) {
@@ -283,6 +302,11 @@ fn forms<'c>(cx: &'c Context<'_>, e: Expr) -> impl Iterator<Item = SignSet> + 'c
         let forms = [e, by_square(g, e, true), by_square(g, e, false)];
         forms.map(|e| known_sign(g, e, &stated))
     })
+}
+
+/// Whether an expression has no value at any sampled state, for the values of the parameters.
+pub(super) fn is_undefined(cx: &Context<'_>, e: Expr) -> bool {
+    !values(cx, e).iter().any(|v| v.is_finite() && *v != 0.0)
 }
 
 /// Whether an expression is positive, or negative, at all sampled states.

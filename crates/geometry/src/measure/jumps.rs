@@ -42,7 +42,9 @@ fn beside(cx: &Context<'_>, jumps: &[Jump], verdict: Verdict) -> Verdict {
     };
     let g = &cx.system.graph;
     let all = |relation: &str, join: &str| {
-        let texts = jumps.iter().map(|j| format!("{} {relation} 0", g.text(j.at)));
+        let texts = jumps
+            .iter()
+            .map(|j| format!("{} {relation} 0", g.text(j.at)));
         texts.collect::<Vec<String>>().join(join)
     };
     let does = match jumps.iter().all(|j| j.found.is_some()) {
@@ -87,7 +89,9 @@ fn jump(cx: &Context<'_>, flow: &Flow<'_>, at: Expr) -> Option<Jump> {
     let moving = own.filter(|&s| flow.motion.moves(s) || flow.symbols().contains(&s));
     // A symbol in which the edge has a slope determines it.
     let is_steep = |s: &Symbol| !g.is_zero(g.diff(at, *s));
-    manifold.implicit.extend(moving.last().filter(is_steep).map(|s| (at, s)));
+    manifold
+        .implicit
+        .extend(moving.last().filter(is_steep).map(|s| (at, s)));
     match cx.prover.identity(system, &[jump], &manifold, "") {
         Verdict::Proved(_) => None,
         Verdict::Refuted(mut found) => {

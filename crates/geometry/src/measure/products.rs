@@ -134,7 +134,11 @@ fn bases(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Expr> {
     let mut products: Vec<Expr> = flow.determinant(cx).into_iter().collect();
     // What drives states to its zeros.
     let drift = flow.chart.velocities.iter();
-    products.extend(drift.map(|&e| flow.at(cx.system, e, None)).filter(|&e| !g.is_zero(e)));
+    products.extend(
+        drift
+            .map(|&e| flow.at(cx.system, e, None))
+            .filter(|&e| !g.is_zero(e)),
+    );
     let below = factored(g, flow.divergence).map(|f| f.factors);
     let below = below.unwrap_or_default().into_iter();
     products.extend(below.filter(|(_, n)| *n < 0).map(|(f, _)| f));

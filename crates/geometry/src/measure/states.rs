@@ -175,7 +175,9 @@ impl Sought {
                 asked.extend((!fails).then_some(pivots));
                 return None;
             }
-            self.verified(g, &conditions, &pivots, &point)
+            let found = self.verified(g, &conditions, &pivots, &point)?;
+            flow.refuted_as_stated.set(true);
+            Some(found)
         })
     }
 
@@ -308,7 +310,10 @@ fn least_step(residuals: &[f64], slopes: &[f64], columns: usize) -> Option<Vec<f
         }
         for (_, other) in matrix.iter_mut().enumerate().filter(|(j, _)| *j != i) {
             let factor = other[i] / line[i];
-            other.iter_mut().zip(&line).for_each(|(a, b)| *a -= factor * b);
+            other
+                .iter_mut()
+                .zip(&line)
+                .for_each(|(a, b)| *a -= factor * b);
         }
     }
     let multipliers: Vec<f64> = (0..rows).map(|i| matrix[i][rows] / matrix[i][i]).collect();
@@ -335,7 +340,10 @@ fn pivots(slopes: &[f64], rows: usize, columns: usize) -> Vec<(usize, usize)> {
         for (j, other) in matrix.iter_mut().enumerate() {
             if !found.iter().any(|(row, _)| *row == j) {
                 let factor = other[c] / line[c];
-                other.iter_mut().zip(&line).for_each(|(a, b)| *a -= factor * b);
+                other
+                    .iter_mut()
+                    .zip(&line)
+                    .for_each(|(a, b)| *a -= factor * b);
             }
         }
     }
