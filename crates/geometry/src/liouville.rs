@@ -232,17 +232,32 @@ fn counted_for(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
             "the measure N dt dq dη of `measure.invariant` is kept",
         ),
         _ => (
-            free_of(cx, &reduced.ignorable)?,
+            free_of(cx, &reduced.ignorable, &values)?,
             "a measure near every place is kept, whose density is a quadrature",
         ),
     };
-    let usable = matches!(evidence, Verdict::Proved(_));
+    // Where rates jump the quadratures go on from one side to the other.
+    let usable = matches!(evidence, Verdict::Proved(_) | Verdict::Conditional { .. });
     let missing = m - 2 - many.min(m - 2);
     Ok(match (missing, usable) {
         (0, true) => {
             let detail = format!("{about}; {kept}");
             let on = "where the integrals are independent";
-            Verdict::Proved(Proof::exact(on, detail)).and(evidence)
+            match evidence {
+                Verdict::Conditional {
+                    condition,
+                    mut proof,
+                    counterexample,
+                } => {
+                    proof.detail = format!("{detail}; {}", proof.detail);
+                    Verdict::Conditional {
+                        condition,
+                        proof,
+                        counterexample,
+                    }
+                }
+                other => Verdict::Proved(Proof::exact(on, detail)).and(other),
+            }
         }
         (0, false) => Verdict::undecided(format!(
             "{about}; an invariant measure of the reduced motion is missing (`measure.invariant`)"

@@ -16,7 +16,10 @@ mod angles;
 mod excluded;
 mod flow;
 mod formula;
+mod jumps;
 mod products;
+mod states;
+mod valued;
 
 use crate::flag::{horizontal, Directed, Flag, Obstacle};
 use crate::noether::shown::readable;
@@ -71,7 +74,8 @@ pub fn measure(cx: &Context<'_>) -> Arc<Result<Measure, String>> {
             return Err("the time for claims was spent before it".into());
         }
         let flow = Flow::of(cx)?;
-        Ok(decided(cx, &flow))
+        let measure = jumps::limited(cx, &flow, decided(cx, &flow));
+        Ok(valued::as_stated(cx, &flow, measure))
     })
 }
 
@@ -80,15 +84,19 @@ pub fn measure(cx: &Context<'_>) -> Arc<Result<Measure, String>> {
 fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
     let (mut measure, g) = (searched(cx, flow), &cx.system.graph);
     let (Some(density), Some(kept)) = (measure.density, measure.kept.clone()) else {
+        // Brackets tell of almost every place, and the states may be the others.
+        let is_local = matches!(measure.verdict, Verdict::Proved(_));
+        if let Some(verdict) = excluded::at_states(cx, flow).filter(|_| is_local) {
+            measure.verdict = verdict;
+        }
         return measure.or_exponential(cx, flow);
     };
-    if g.as_number(density).is_some() {
-        return measure;
-    }
     if let Some(mut verdict) = excluded::at_states(cx, flow) {
         if let Verdict::Refuted(found) = &mut verdict {
             let (n, text) = (density_letter(cx), g.text(density));
-            let more = format!("; {n} = {text} is kept only where it is neither zero nor infinite");
+            let more = format!(
+                "; {n} = {text} is kept near places only where it is neither zero nor infinite"
+            );
             found.detail.push_str(&more);
         }
         measure.density = None;
@@ -96,7 +104,7 @@ fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
         return measure;
     }
     measure.edges = formula::edges(cx, flow, density);
-    let density = formula::positive_beyond(g, density, &measure.edges);
+    let density = formula::positive_beyond(cx, density);
     measure.density = Some(density);
     measure.unrolled = angles::unrolled(cx, flow, density);
     measure.verdict = angles::returning(cx, flow, density, kept);
@@ -114,10 +122,15 @@ impl Measure {
             return self;
         }
         if let Some((density, kept)) = flow.exponential(cx) {
+            let edges = formula::edges(cx, flow, density);
+            // Another density that ends says no more than the one found.
+            if self.density.is_some() && !edges.of_density.is_empty() {
+                return self;
+            }
             self.verdict = angles::returning(cx, flow, density, kept.clone());
             self.kept = Some(kept);
             self.density = Some(density);
-            self.edges = formula::Edges::default();
+            self.edges = edges;
             self.unrolled = angles::unrolled(cx, flow, density);
             self.words = WORDS[0];
         }
@@ -212,19 +225,28 @@ fn without_formula(
 }
 
 /// Whether a density exists that does not contain some of the coordinates, and follows by a quadrature: the admissible fields and
-/// their brackets have to give the derivatives of its logarithm in all directions.
+/// their brackets have to give the derivatives of its logarithm in all directions along which `integrals` without velocities are
+/// kept.
 ///
 /// # Errors
 /// A sentence that says why the motion is not known.
-pub fn free_of(cx: &Context<'_>, coordinates: &[usize]) -> Result<Verdict, String> {
+pub fn free_of(
+    cx: &Context<'_>,
+    coordinates: &[usize],
+    integrals: &[Expr],
+) -> Result<Verdict, String> {
     let flow = Flow::of(cx)?;
-    let full = cx.system.n() + usize::from(!flow.autonomous);
-    Ok(match flag(cx, &flow, coordinates) {
-        Ok(Some(flag)) if flag.fields.len() == full => exists(flag),
+    // Integrals without velocities are kept along all fields: on their levels so many directions less are missing.
+    let leaves = flow.independent_of_velocities(cx, integrals);
+    let full =
+        (cx.system.n() + flow.masses.len() + usize::from(!flow.autonomous)).saturating_sub(leaves);
+    let verdict = match flag(cx, &flow, coordinates) {
+        Ok(Some(flag)) if flag.fields.len() >= full => exists(flag),
         Ok(Some(_)) => Verdict::undecided("the brackets do not determine the density"),
         Ok(None) => not_affine(cx, &flow),
         Err(verdict) => *verdict,
-    })
+    };
+    Ok(jumps::beside_all(cx, &flow, verdict))
 }
 
 /// Whether a density exists, without its formula; free of the coordinates with these indices.
@@ -390,7 +412,7 @@ impl Claim for InvariantMeasure {
     }
 
     fn explanation(&self) -> &'static str {
-        "On the constraint manifold with coordinates q and independent (quasi-)velocities η, which the verdict names, the measure N dq dη is invariant when X̄ ln N = -div X̄ (N dq dη dM with masses M that have a law of their own). For a motion free of the time N is free of it too, as a density that changes with the time can always be carried along. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved; then among products of powers of these and of the factors of det W̄, the determinant of the mass matrix on admissible velocities, whose exponents are solved for; where such a factor may be negative and its exponent is not whole its absolute value stands in N. Where none of these is smooth and positive everywhere an exponential of polynomials in the velocities with such coefficients is looked for. Where N may be zero or infinite is stated: where the variables chosen do not determine the motion it does not matter, elsewhere N is a density on each side by itself. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). The claim is refuted only where no smooth positive density N(q, η) exists at all, rest included: where the divergence does not vanish at states of rest or on a steady motion that only turns angles, whatever formula holds elsewhere; where ln N would change over a turn of an angle; and where rest is admissible, the accelerations have there neither terms without velocities nor linear ones, and the brackets contradict each other: then the terms of its equation that are linear in the velocities are those for N at rest. Where brackets contradict each other otherwise, densities that contain velocities are not excluded, and the claim is undecided."
+        "On the constraint manifold with coordinates q and independent (quasi-)velocities η, which the verdict names, the measure N dq dη is invariant when X̄ ln N = -div X̄ (N dq dη dM with masses M that have a law of their own). For a motion free of the time N is free of it too, as a density that changes with the time can always be carried along. A density N(q), N(t, q) for motions that contain the time, is searched among functions that occur in the model, by linear equations, and proved; then among products of powers of these and of the factors of det W̄, the determinant of the mass matrix on admissible velocities, whose exponents are solved for; where such a factor may be negative and its exponent is not whole its absolute value stands in N. Where none of these is smooth and positive everywhere an exponential of polynomials in the velocities with such coefficients is looked for, by itself and times the root of det W det W̄. Where N may be zero or infinite is stated. N²/(det W det W̄) is the same function whatever the variables: where it is neither zero nor infinite though N is, these variables end and N in others does not; elsewhere N is a density on each side by itself. Where the rates jump, as by dry friction -sign(x'), what is proved is conditional: a continuous density is kept across only where its flux is the same from both sides. Without a formula the claim is decided by brackets: the divergence must be affine in the velocities, it then prescribes the derivatives of ln N along the admissible fields, and a density exists near almost every place exactly when these values agree on all brackets. For Suslov's problem this is Kozlov's condition (1988; Jovanović 1998), for Chaplygin's systems that of Stanchenko (1989) and of Cantrijn, Cortés, de León and Martín de Diego (2002). The claim is refuted only where no smooth positive density N(q, η) exists at all, rest included: where the divergence does not vanish at states of rest or on a steady motion that only turns angles, whatever formula holds elsewhere (such states are looked for by Newton's iteration for the values that the model states, and proved to exist by its interval form); where ln N would change over a turn of an angle; and where rest is admissible, the accelerations have there neither terms without velocities nor linear ones, and the brackets contradict each other: then the terms of its equation that are linear in the velocities are those for N at rest. Where brackets contradict each other otherwise, densities that contain velocities are not excluded, and the claim is undecided. Parameters are arbitrary, but those that others define; where the values that the model states decide otherwise the verdict is conditional on them."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -431,7 +453,7 @@ impl Claim for InvariantMeasure {
                 left: None,
                 right: density,
             });
-            if let Verdict::Proved(proof) = &mut verdict {
+            if let Verdict::Proved(proof) | Verdict::Conditional { proof, .. } = &mut verdict {
                 let text = g.text(density);
                 let what = match text.chars().count() <= LONGEST {
                     true => format!("for {n} = {text}"),
@@ -472,7 +494,11 @@ fn within(cx: &Context<'_>, proof: &mut Proof, edges: &formula::Edges, n: &str) 
     let g = &cx.system.graph;
     let all = [&edges.of_chart[..], &edges.of_density].concat();
     let texts = |edges: &[Expr], join: &str| formula::Edges::texts(g, edges, "=", join);
-    if all.is_empty() || texts(&all, "").chars().count() > LONGEST {
+    if all.is_empty() {
+        return;
+    }
+    if texts(&all, "").chars().count() > LONGEST {
+        proof.on = format!("on the constraint manifold, where {n} is neither zero nor infinite");
         return;
     }
     proof.on = format!(
@@ -481,7 +507,7 @@ fn within(cx: &Context<'_>, proof: &mut Proof, edges: &formula::Edges, n: &str) 
     );
     if !edges.of_chart.is_empty() {
         proof.detail.push_str(&format!(
-            "; where {} these variables do not determine the motion",
+            "; where {} these variables do not determine the motion; in others {n} is neither zero nor infinite there wherever the mass matrices are regular",
             texts(&edges.of_chart, " or ")
         ));
     }

@@ -2,7 +2,8 @@
 //!
 //! Claims are decided for arbitrary parameters, so that one verdict holds for a family of systems. A parameter that is stated to
 //! be zero is an exception: a plane without slope, a drift switched off. What a model with it says is asked about that system.
-//! So it is with a control: z' = u x' with u = 2 is integrable, although with most u(t) it is not.
+//! So it is with a parameter that others define, which never has another value, and with a control: z' = u x' with u = 2 is
+//! integrable, although with most u(t) it is not.
 
 use crate::constraint::Constraint;
 use crate::system::{System, Thrust};
@@ -12,12 +13,35 @@ use chetaev_symbolic::Expr;
 const HIGHEST: u32 = 8;
 
 impl System {
-    /// Pairs (parameter, 0) of the parameters that the model states to be zero, of those that occur in L, the forces or the constraints.
+    /// Pairs (parameter, 0) of the parameters that the model states to be zero, and (parameter, definition) of those that others define,
+    /// of those that occur in L, the forces or the constraints.
     pub fn stated_zeros(&self) -> Vec<(Expr, Expr)> {
         let (g, occurring) = (&self.graph, self.occurring());
-        let mut values = self.parameter_values();
-        values.retain(|(parameter, value)| g.is_zero(*value) && occurring.contains(parameter));
-        values
+        let defined = self.definitions.iter();
+        let occurs: Vec<Expr> = defined
+            .filter(|(parameter, _)| occurring.contains(parameter))
+            .map(|(_, definition)| self.with_definitions(*definition))
+            .collect();
+        let occurring = [occurring, g.reachable(&occurs)].concat();
+        let mut zeros = self.parameter_values();
+        zeros.retain(|(parameter, value)| g.is_zero(*value) && occurring.contains(parameter));
+        let defined = self.definitions.iter().filter(|(parameter, _)| {
+            occurring.contains(parameter) && !zeros.iter().any(|(zero, _)| zero == parameter)
+        });
+        let defined: Vec<(Expr, Expr)> = defined
+            .map(|&(parameter, definition)| {
+                (
+                    parameter,
+                    g.substitute(self.with_definitions(definition), &zeros),
+                )
+            })
+            .collect();
+        [zeros, defined].concat()
+    }
+
+    /// The system with the values of all parameters that have one. `None` where masses vary, or where it is no system then.
+    pub fn for_parameter_values(&self) -> Option<System> {
+        self.for_values(self.parameter_values())
     }
 
     /// What occurs in L, the forces or the constraints.
@@ -44,7 +68,7 @@ impl System {
         values
     }
 
-    /// The system with the parameters put in that are stated to be zero. `None` as for [`System::for_stated_values`].
+    /// The system with the parameters put in that are stated to be zero or defined by others. `None` as for [`System::for_stated_values`].
     pub fn for_stated_zeros(&self) -> Option<System> {
         self.for_values(self.stated_zeros())
     }

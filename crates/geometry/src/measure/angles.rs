@@ -6,7 +6,7 @@ use chetaev_mechanics::{Context, Manifold};
 use chetaev_symbolic::{Expr, Node, Verdict};
 
 /// Coordinates that are angles and that no assumption bounds.
-fn closed_angles(cx: &Context<'_>) -> Vec<usize> {
+pub(super) fn closed_angles(cx: &Context<'_>) -> Vec<usize> {
     let (system, g) = (cx.system, &cx.system.graph);
     let sides: Vec<Expr> = system
         .assumptions

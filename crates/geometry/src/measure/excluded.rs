@@ -9,7 +9,7 @@
 //!    density at rest is a function of the coordinates with prescribed derivatives along the admissible fields. That is the
 //!    argument by which the conditions of Kozlov (1988) and others on densities of the coordinates decide on all of them.
 
-use super::{closed, Flow, CONTRADICTION};
+use super::{closed, states, Flow, CONTRADICTION};
 use crate::flag::{horizontal, Directed};
 use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{sample, Context, System};
@@ -29,14 +29,17 @@ pub(super) fn excluded(cx: &Context<'_>, flow: &Flow<'_>) -> Option<Verdict> {
 /// A refutation by the divergence at states of rest or on steady motions alone, which formulas of densities cannot tell: they
 /// may be infinite there.
 pub(super) fn at_states(cx: &Context<'_>, flow: &Flow<'_>) -> Option<Verdict> {
-    match flow.autonomous {
-        true => at_rest(cx, flow).or_else(|| steady(cx, flow)),
+    let look = || match flow.autonomous {
+        true => at_rest(cx, flow)
+            .or_else(|| steady(cx, flow))
+            .or_else(|| states::refuted(cx, flow)),
         false => None,
-    }
+    };
+    flow.at_states.get_or_init(look).clone()
 }
 
 /// η = 0, anywhere.
-fn rest(flow: &Flow<'_>, system: &System) -> State {
+pub(super) fn rest(flow: &Flow<'_>, system: &System) -> State {
     let own = flow.chart.parameters.iter();
     own.map(|p| (p.value, system.graph.zero())).collect()
 }
@@ -69,6 +72,7 @@ fn at_rest(cx: &Context<'_>, flow: &Flow<'_>) -> Option<Verdict> {
         .substitute(flow.divergence, &rest(flow, system));
     does_not_vanish(
         cx,
+        flow,
         divergence,
         "the system may stay at rest, and the divergence of the motion is not zero there",
     )
@@ -184,12 +188,16 @@ fn steady_with(cx: &Context<'_>, flow: &Flow<'_>, one: Option<usize>) -> Option<
     let sentence = format!(
         "the motion {moving} at the origin of the coordinates is steady{why}, and the divergence of the motion is constant and not zero on it"
     );
-    does_not_vanish(cx, divergence, &sentence)
+    does_not_vanish(cx, flow, divergence, &sentence)
 }
 
 /// A refutation where an expression is not zero.
-fn does_not_vanish(cx: &Context<'_>, e: Expr, sentence: &str) -> Option<Verdict> {
+fn does_not_vanish(cx: &Context<'_>, flow: &Flow<'_>, e: Expr, sentence: &str) -> Option<Verdict> {
     let nowhere = chetaev_mechanics::Manifold::default();
+    let valued = cx.system.graph.substitute(e, &cx.system.parameter_values());
+    let as_stated = cx.prover.identity(cx.system, &[valued], &nowhere, "");
+    flow.refuted_as_stated
+        .set(matches!(as_stated, Verdict::Refuted(_)));
     match cx.prover.identity(cx.system, &[e], &nowhere, "") {
         Verdict::Refuted(mut found) => {
             found.detail = format!(
@@ -202,7 +210,7 @@ fn does_not_vanish(cx: &Context<'_>, e: Expr, sentence: &str) -> Option<Verdict>
     }
 }
 
-fn vanishes(cx: &Context<'_>, e: Expr) -> bool {
+pub(super) fn vanishes(cx: &Context<'_>, e: Expr) -> bool {
     let nowhere = chetaev_mechanics::Manifold::default();
     cx.system.graph.is_zero(e)
         || matches!(

@@ -1,6 +1,6 @@
 //! The motion in a chart of the constraint manifold, and densities in the families of functions that occur.
 
-use super::{formula, WORDS};
+use super::{formula, products, WORDS};
 use crate::noether::ansatz::Ansatz;
 use crate::noether::family::{coefficients, CoefficientLetter, Letter, ANY};
 use crate::noether::letters::Letters;
@@ -11,10 +11,12 @@ use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::{Characteristics, Context, System};
 use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::simplify::{simplify, Options};
 use chetaev_symbolic::{Expr, Node, Symbol, Verdict};
+use std::cell::{Cell, OnceCell};
 
 /// Determinants of larger matrices are not formed.
-const DETERMINANT: usize = 4;
+const DETERMINANT: usize = 8;
 
 /// The highest weight of these functions.
 const WEIGHT: u32 = 4;
@@ -32,6 +34,10 @@ pub(super) struct Flow<'a> {
     pub(super) masses: Vec<(Symbol, Expr)>,
     pub(super) divergence: Expr,
     pub(super) autonomous: bool,
+    /// What states of rest and steady motions refute, once it was asked.
+    pub(super) at_states: OnceCell<Option<Verdict>>,
+    /// Whether what is refuted is so for the values of parameters that the model states.
+    pub(super) refuted_as_stated: Cell<bool>,
 }
 
 impl<'a> Flow<'a> {
@@ -75,7 +81,16 @@ impl<'a> Flow<'a> {
             masses,
             divergence,
             autonomous,
+            at_states: OnceCell::new(),
+            refuted_as_stated: Cell::new(false),
         })
+    }
+
+    /// The rates of all variables.
+    pub(super) fn field(&self) -> Vec<Expr> {
+        let masses = self.masses.iter().map(|(_, rate)| *rate);
+        let own = self.chart.velocities.iter().chain(&self.rates).copied();
+        own.chain(masses).collect()
     }
 
     pub(super) fn symbols(&self) -> Vec<Symbol> {
@@ -281,9 +296,20 @@ impl<'a> Flow<'a> {
         letters.collect()
     }
 
-    /// A density `N = exp(σ)` with a σ(q, η) for which `X̄σ = -div X̄`, that is a combination of products of velocities with functions
-    /// that occur: such a density is smooth and positive wherever these are. With the proof that it is kept.
+    /// A density `N = √(det W det W̄) exp(σ)` with a σ(q, η) for which `X̄ ln N = -div X̄`, that is a combination of products of
+    /// velocities with functions that occur: such a density is smooth and positive wherever these and the mass matrices are, whatever
+    /// the variables. With the proof that it is kept. Without the root where that is not found.
     pub(super) fn exponential(&self, cx: &Context<'_>) -> Option<(Expr, Verdict)> {
+        let (g, own) = (&cx.system.graph, self.symbols());
+        let moves = |e: Expr| !g.is_free_of(e, &|s| self.motion.moves(s) || own.contains(&s));
+        let masses = self.masses_of_states(cx);
+        let masses = masses.filter(|&e| moves(e) && self.is_wanted(e));
+        let with = masses.and_then(|masses| self.exponential_by(cx, masses));
+        with.or_else(|| self.exponential_by(cx, g.one()))
+    }
+
+    /// As [`Flow::exponential`], with the root of a function for that of the determinants.
+    fn exponential_by(&self, cx: &Context<'_>, square: Expr) -> Option<(Expr, Verdict)> {
         let (system, g) = (cx.system, &cx.system.graph);
         let members = self.with_velocities(cx);
         let mut columns: Vec<Vec<Expr>> = self
@@ -291,7 +317,9 @@ impl<'a> Flow<'a> {
             .into_iter()
             .map(|e| vec![e])
             .collect();
-        columns.push(vec![self.divergence]);
+        let rate = self.rates_of(system, &[square])[0];
+        let missing = g.add(&[self.divergence, g.div(rate, g.mul(&[g.integer(2), square]))]);
+        columns.push(vec![missing]);
         let (manifold, own) = (&self.chart.manifold, self.symbols());
         let seed = cx.prover.points_seed();
         let ansatz = Ansatz::new(&self.motion, &columns, manifold, &own, seed).ok()?;
@@ -302,11 +330,16 @@ impl<'a> Flow<'a> {
             .map(|(&c, &e)| g.mul(&[readable(g, g.div(c, last)), e]))
             .collect();
         let exponent = g.add(&parts);
-        let defect = g.add(&[self.rates_of(system, &[exponent])[0], self.divergence]);
+        let defect = g.add(&[self.rates_of(system, &[exponent])[0], missing]);
         let on = "on the constraint manifold";
         let verdict = cx.prover.identity(system, &[defect], manifold, on);
         let verdict = verdict.prefixed("the rate of its logarithm is the negative divergence");
-        matches!(verdict, Verdict::Proved(_)).then(|| (g.exp(exponent), verdict))
+        let density = g.mul(&[g.sqrt(square), g.exp(exponent)]);
+        let density = match g.is_one(square) {
+            true => density,
+            false => formula::plain(cx, self, density),
+        };
+        matches!(verdict, Verdict::Proved(_)).then_some((density, verdict))
     }
 
     /// Products of velocities η and functions of the coordinates that occur, simple ones first.
@@ -340,7 +373,7 @@ impl<'a> Flow<'a> {
     }
 
     /// X̄ of functions on N.
-    fn rates_of(&self, system: &System, functions: &[Expr]) -> Vec<Expr> {
+    pub(super) fn rates_of(&self, system: &System, functions: &[Expr]) -> Vec<Expr> {
         let direction = Direction {
             time: system.graph.one(),
             coordinates: self.chart.velocities.clone(),
@@ -372,6 +405,47 @@ impl<'a> Flow<'a> {
             exponents: (-1, 2),
             weight: 1,
         })
+    }
+
+    /// How many independent ones of functions on N contain no velocities.
+    pub(super) fn independent_of_velocities(&self, cx: &Context<'_>, all: &[Expr]) -> usize {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let own = self.symbols();
+        let places = g.symbols_in(all).into_iter();
+        let places: Vec<Symbol> = places
+            .filter(|&s| self.motion.moves(s) && !own.contains(&s))
+            .collect();
+        let free = all.iter().filter(|&&e| !g.contains_any(e, &own));
+        let slopes: Vec<Vec<Expr>> = free.map(|&e| g.gradient(e, &places)).collect();
+        if slopes.is_empty() || places.is_empty() || self.chart.implicit().next().is_some() {
+            return 0;
+        }
+        let rank = cx.prover.rank(system, &slopes, &self.chart.manifold);
+        rank.map_or(0, |rank| match rank.at_least {
+            Verdict::Proved(_) => rank.minimum,
+            _ => 0,
+        })
+    }
+
+    /// det W det W̄ on N, where it is regular and small.
+    pub(super) fn masses_of_states(&self, cx: &Context<'_>) -> Option<Expr> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        if system.n() > DETERMINANT {
+            return None;
+        }
+        let whole = determinant(g, &cx.terms.mass_matrix);
+        let whole = self.chart.restrict(system, &[whole])[0];
+        let restricted = match self.chart.k() {
+            0 => g.one(),
+            _ => self.determinant(cx)?,
+        };
+        let both =
+            [whole, restricted].map(|e| products::shorter(g, simplify(g, e, &Options::default())));
+        let vanishes = |e: Expr| {
+            let verdict = cx.prover.identity(system, &[e], &self.chart.manifold, "");
+            !matches!(verdict, Verdict::Refuted(_))
+        };
+        (!both.iter().any(|&e| vanishes(e))).then(|| g.mul(&both))
     }
 
     /// det Bᵀ W B, of few velocities.

@@ -3,12 +3,14 @@
 
 use super::{products, Flow};
 use crate::noether::shown::readable;
+use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::system::Coordinate;
-use chetaev_mechanics::{sample, Context};
+use chetaev_mechanics::{sample, Context, Manifold};
 use chetaev_symbolic::simplify::{by_square, length};
+use chetaev_symbolic::zero::assumptions::{Assumptions, SignSet};
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{Expr, Function, Graph, Node, Verdict};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol, Verdict};
 
 /// The states at which the sign of a density is looked at, and where their draws begin.
 const SAMPLES: u64 = 8;
@@ -18,6 +20,7 @@ const SEED: u64 = 0x64_65_6e;
 pub(super) fn plain(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Expr {
     let g = &cx.system.graph;
     let without = without_constants(flow, in_differences(cx, flow, density));
+    let without = without_constants(flow, products::shorter(g, without));
     let outside = outside_roots(g, without);
     // Outside a root the sign of a base counts, which is one for all states where it has to be.
     match signs(cx, outside) {
@@ -63,12 +66,15 @@ pub(crate) fn on_both_sides(cx: &Context<'_>, density: Expr) -> Expr {
     g.mul(&real.collect::<Vec<Expr>>())
 }
 
-/// Where a density may be zero or infinite: the bases of its factors that are not seen to be of one sign.
+/// Where a density may be zero or infinite.
+///
+/// `ρ = N²/(det W det W̄)` is a function of the states, whatever variables describe them, as densities and determinants change by the
+/// same Jacobians. Where the mass matrices are regular in some variables N is smooth and positive in these exactly where ρ is.
 #[derive(Clone, Debug, Default)]
 pub struct Edges {
-    /// Where the velocities η do not determine the motion or its mass matrix is singular: there the chart ends.
+    /// Where N is zero or infinite and ρ is not: there the variables end, or the motion is not determined.
     pub of_chart: Vec<Expr>,
-    /// Where the motion goes on: there the density ends.
+    /// Where ρ may be zero or infinite: there the density ends.
     pub of_density: Vec<Expr>,
 }
 
@@ -80,16 +86,20 @@ impl Edges {
     }
 }
 
-/// A density with the absolute values of what it changes its sign with.
-pub(super) fn positive_beyond(g: &Graph, density: Expr, edges: &Edges) -> Expr {
-    let factors = match g.node(density) {
-        Node::Product { factors, .. } => factors.to_vec(),
-        _ => vec![density],
-    };
-    let real = factors.into_iter().map(|factor| {
+/// A density with the absolute values of what it may change its sign with.
+pub(super) fn positive_beyond(cx: &Context<'_>, density: Expr) -> Expr {
+    let g = &cx.system.graph;
+    let real = factors_by_form(g, density).into_iter().map(|factor| {
         let (base, exponent) = g.base_exponent(factor);
         let is_odd = g.as_integer(exponent).is_some_and(|n| n % 2 != 0);
-        match is_odd && edges.of_density.contains(&base) {
+        let is_function = matches!(
+            g.node(base),
+            Node::Apply {
+                function: Function::Exp | Function::Abs,
+                ..
+            }
+        );
+        match is_odd && !is_function && !is_of_one_sign(cx, base) {
             true => g.pow(g.abs(base), exponent),
             false => factor,
         }
@@ -97,52 +107,129 @@ pub(super) fn positive_beyond(g: &Graph, density: Expr, edges: &Edges) -> Expr {
     g.mul(&real.collect::<Vec<Expr>>())
 }
 
+fn factors_by_form(g: &Graph, e: Expr) -> Vec<Expr> {
+    match g.node(e) {
+        Node::Product { factors, .. } => factors.to_vec(),
+        _ => vec![e],
+    }
+}
+
 /// The edges of the domain of a density.
 pub(super) fn edges(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Edges {
     let g = &cx.system.graph;
-    let factors = match g.node(density) {
-        Node::Product { factors, .. } => factors.to_vec(),
-        _ => vec![density],
-    };
-    let mut moving = cx.system.coordinate_symbols();
-    moving.extend(cx.system.velocity_symbols());
-    moving.extend(flow.symbols());
-    let bases = factors.into_iter().map(|factor| {
-        let base = g.base_exponent(factor).0;
-        match g.node(base) {
-            Node::Apply {
-                function: Function::Abs,
-                arguments,
-            } => arguments[0],
-            _ => base,
+    let of_formula = zeros_and_poles(cx, flow, density);
+    let on_states = flow.masses_of_states(cx).map(|masses| {
+        let ratio = g.mul(&[g.powi(density, 2), g.powi(masses, -1)]);
+        match is_fixed(cx, flow, ratio) {
+            true => Vec::new(),
+            false => zeros_and_poles(cx, flow, ratio),
         }
     });
-    let vanishes = |&base: &Expr| {
-        let is_exponential = matches!(
-            g.node(base),
-            Node::Apply {
-                function: Function::Exp,
-                ..
-            }
-        );
-        !is_exponential && g.any_contains_any(&[base], &moving) && !is_of_one_sign(cx, base)
+    let Some(of_density) = on_states else {
+        return Edges {
+            of_chart: Vec::new(),
+            of_density: of_formula,
+        };
     };
-    let bases: Vec<Expr> = bases.filter(vanishes).collect();
-    let singular = match bases.is_empty() {
-        true => Vec::new(),
-        false => products::singular(cx, flow),
-    };
-    let is_of_chart = |&base: &Expr| {
-        let own = products::factors_of(g, base, &moving);
-        !own.is_empty()
-            && own
-                .iter()
-                .all(|f| singular.contains(f) || singular.contains(&g.neg(*f)))
-    };
-    let (of_chart, of_density) = bases.into_iter().partition(is_of_chart);
+    let ends_there = |&edge: &Expr| of_density.iter().any(|&h| is_zero_where(cx, h, edge));
+    let of_chart = of_formula.into_iter().filter(|edge| {
+        // A sum that is positive at all states sampled may be nowhere zero, and the motion is not determined where it is.
+        let is_sum = matches!(g.node(*edge), Node::Sum { .. });
+        !ends_there(edge) && !(is_sum && signs(cx, *edge).is_some())
+    });
     Edges {
-        of_chart,
+        of_chart: of_chart.collect(),
         of_density,
+    }
+}
+
+/// Whether nothing that moves changes a function on the constraint manifold; one that its letters hide is not seen by its form.
+fn is_fixed(cx: &Context<'_>, flow: &Flow<'_>, e: Expr) -> bool {
+    let g = &cx.system.graph;
+    let own = g.symbols_in(&[e]).into_iter();
+    let moving = own.filter(|&s| flow.motion.moves(s) || flow.symbols().contains(&s));
+    let slopes: Vec<Expr> = moving.map(|s| g.diff(e, s)).collect();
+    flow.chart.implicit().next().is_none()
+        && matches!(
+            cx.prover
+                .identity(cx.system, &slopes, &flow.chart.manifold, ""),
+            Verdict::Proved(_)
+        )
+}
+
+/// Whether a function may vanish wherever another one does.
+fn is_zero_where(cx: &Context<'_>, e: Expr, edge: Expr) -> bool {
+    let (system, g) = (cx.system, &cx.system.graph);
+    if e == edge {
+        return true;
+    }
+    let steep = g.symbols_in(&[edge]).into_iter();
+    let mut steep = steep.filter(|&s| !g.is_zero(g.diff(edge, s)) && g.contains_any(e, &[s]));
+    let Some(symbol) = steep.next_back() else {
+        return false;
+    };
+    let manifold = Manifold {
+        solved: Vec::new(),
+        implicit: vec![(edge, symbol)],
+    };
+    !matches!(
+        cx.prover.identity(system, &[e], &manifold, ""),
+        Verdict::Refuted(_)
+    )
+}
+
+/// Where an expression may be zero or infinite: the factors above and below its common denominator, and what is divided by inside
+/// functions, that are not seen to keep their signs.
+fn zeros_and_poles(cx: &Context<'_>, flow: &Flow<'_>, e: Expr) -> Vec<Expr> {
+    let g = &cx.system.graph;
+    let moving: Vec<Symbol> = g
+        .symbols_in(&[e])
+        .into_iter()
+        .filter(|&s| flow.motion.moves(s) || flow.symbols().contains(&s))
+        .collect();
+    let mut found: Vec<Expr> = Vec::new();
+    let mut add = |e: Expr| {
+        let e = without_absolute_value(g, e);
+        let is_one = g.contains_any(e, &moving) && !is_nowhere_zero(cx, e);
+        let known = |f: &Expr| *f == e || *f == g.neg(e);
+        if is_one && !found.iter().any(known) {
+            found.push(e);
+        }
+    };
+    let parts = products::quotient(g, e).into_iter();
+    let parts: Vec<Expr> = parts.flat_map(|part| factors_by_form(g, part)).collect();
+    for &part in &parts {
+        let base = without_absolute_value(g, g.base_exponent(part).0);
+        for part in products::quotient(g, base) {
+            add(g.base_exponent(part).0);
+        }
+        for inner in g.reachable(&[base]) {
+            match g.node(inner) {
+                Node::Power { base, exponent } if !is_nonnegative_number(g, *exponent) => {
+                    add(*base)
+                }
+                Node::Apply {
+                    function: Function::Log,
+                    arguments,
+                } => add(arguments[0]),
+                _ => {}
+            }
+        }
+    }
+    found
+}
+
+fn is_nonnegative_number(g: &Graph, e: Expr) -> bool {
+    known_sign(g, e, &Assumptions::new()).is_nonnegative()
+}
+
+fn without_absolute_value(g: &Graph, e: Expr) -> Expr {
+    match g.node(e) {
+        Node::Apply {
+            function: Function::Abs,
+            arguments,
+        } => arguments[0],
+        _ => e,
     }
 }
 
@@ -160,18 +247,66 @@ fn bases_of_broken_powers(cx: &Context<'_>) -> Vec<Expr> {
     powers.collect()
 }
 
-/// Whether an expression is seen to be nowhere negative, under the assumptions or for the values of the parameters; a composed one also
-/// where it is positive at all sampled states: factors of det W̄ keep their signs where the mass matrix is regular.
+/// Whether an expression is seen to be nowhere negative, under the assumptions or for the values of the parameters.
 fn is_of_one_sign(cx: &Context<'_>, e: Expr) -> bool {
+    forms(cx, e).any(|sign| sign.is_nonnegative())
+}
+
+/// Whether an expression is seen to vanish nowhere, under the assumptions or for the values of the parameters.
+fn is_nowhere_zero(cx: &Context<'_>, e: Expr) -> bool {
     let g = &cx.system.graph;
-    if matches!(g.node(e), Node::Sum { .. }) && signs(cx, e) == Some(true) {
-        return true;
+    let is_one = |e: Expr| forms(cx, e).any(|sign| sign.is_nonzero());
+    // Over the common denominator what is assumed may be seen.
+    let parts = || products::quotient(g, e);
+    is_one(e)
+        || parts()
+            .into_iter()
+            .all(|part| is_one(g.base_exponent(part).0))
+}
+
+/// What a model assumes of velocities, in the independent ones.
+fn on_manifold(cx: &Context<'_>) -> Option<Assumptions> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let stated = assumptions(system);
+    let sides: Vec<Expr> = stated
+        .list()
+        .iter()
+        .flat_map(|a| [a.left, a.right])
+        .collect();
+    if !g.any_contains_any(&sides, &system.velocity_symbols()) {
+        return None;
     }
-    let stated = assumptions(cx.system);
-    let valued = g.substitute(e, &cx.system.parameter_values());
-    let forms = [e, valued].into_iter();
-    let mut forms = forms.flat_map(|e| [e, by_square(g, e, true), by_square(g, e, false)]);
-    forms.any(|e| known_sign(g, e, &stated).is_nonnegative())
+    let chart = basis(cx).characteristics().ok()?;
+    let mut list = Assumptions::new();
+    for a in stated.list() {
+        let both = chart.restrict(system, &[a.left, a.right]);
+        list.assume(readable(g, both[0]), a.relation, readable(g, both[1]));
+    }
+    Some(list)
+}
+
+/// What its forms tell of the sign of an expression.
+fn forms<'c>(cx: &'c Context<'_>, e: Expr) -> impl Iterator<Item = SignSet> + 'c {
+    let g = &cx.system.graph;
+    let mut stated = assumptions(cx.system);
+    // A motion ends where a mass does.
+    for mass in &cx.system.masses {
+        stated.positive(g, g.symbol_expr(mass.symbol));
+    }
+    let values = cx.system.parameter_values();
+    let mut both = vec![(e, stated.clone()), (g.substitute(e, &values), stated)];
+    if let Some(on_manifold) = on_manifold(cx) {
+        both.push((e, on_manifold));
+    }
+    both.into_iter().flat_map(move |(e, stated)| {
+        let forms = [e, by_square(g, e, true), by_square(g, e, false)];
+        forms.map(|e| known_sign(g, e, &stated))
+    })
+}
+
+/// Whether an expression has no value at any sampled state, for the values of the parameters.
+pub(super) fn is_undefined(cx: &Context<'_>, e: Expr) -> bool {
+    !values(cx, e).iter().any(|v| v.is_finite() && *v != 0.0)
 }
 
 /// Whether an expression is positive, or negative, at all sampled states.

@@ -11,6 +11,7 @@ use crate::noether::family::coefficients;
 use crate::noether::shown::readable;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::factors::{factored, factors};
+use chetaev_symbolic::simplify::length;
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol, Verdict};
 
 /// The most bases, and the most functions in the exponential.
@@ -131,6 +132,13 @@ fn bases(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Expr> {
         ));
     }
     let mut products: Vec<Expr> = flow.determinant(cx).into_iter().collect();
+    // What drives states to its zeros.
+    let drift = flow.chart.velocities.iter();
+    products.extend(
+        drift
+            .map(|&e| flow.at(cx.system, e, None))
+            .filter(|&e| !g.is_zero(e)),
+    );
     let below = factored(g, flow.divergence).map(|f| f.factors);
     let below = below.unwrap_or_default().into_iter();
     products.extend(below.filter(|(_, n)| *n < 0).map(|(f, _)| f));
@@ -145,49 +153,31 @@ fn bases(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Expr> {
     found
 }
 
-/// The factors of an expression in every form that is looked at; itself where it is not factored.
-pub(super) fn factors_of(g: &Graph, e: Expr, moving: &[Symbol]) -> Vec<Expr> {
+/// The powers that an expression is a product of once it is over a common denominator; itself where that is not found.
+pub(super) fn quotient(g: &Graph, e: Expr) -> Vec<Expr> {
     let is_simple = matches!(g.node(e), Node::Symbol(_) | Node::Apply { .. });
     if is_simple || g.reachable(&[e]).len() > FACTORED {
         return vec![e];
     }
-    let found = factors(g, e, moving).unwrap_or_default();
-    match found.is_empty() {
-        true => vec![e],
-        false => found.into_iter().map(|(f, _)| f).collect(),
+    match factored(g, e) {
+        Some(found) if !found.factors.is_empty() => {
+            let powers = found.factors.into_iter();
+            powers.map(|(base, n)| g.powi(base, n)).collect()
+        }
+        _ => vec![e],
     }
 }
 
-/// Factors of det W̄ and of what velocities and accelerations are divided by: where they vanish the chart ends.
-pub(super) fn singular(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Expr> {
-    let g = &cx.system.graph;
-    let mut moving = cx.system.coordinate_symbols();
-    moving.extend(flow.symbols());
-    let mut all = flow.chart.velocities.clone();
-    all.extend(&flow.rates);
-    let mut products: Vec<Expr> = flow.determinant(cx).into_iter().collect();
-    for e in all {
-        // Negative powers by their form, and what is divided by once all is over one denominator.
-        let below = g.reachable(&[e]).into_iter().filter_map(|part| {
-            let (base, exponent) = g.base_exponent(part);
-            let is_negative = g.as_integer(exponent).is_some_and(|n| n < 0);
-            is_negative.then_some(base)
-        });
-        products.extend(below);
+/// A sum as the product of its factors over a common denominator, where that is shorter.
+pub(super) fn shorter(g: &Graph, e: Expr) -> Expr {
+    if !matches!(g.node(e), Node::Sum { .. }) || g.reachable(&[e]).len() > FACTORED {
+        return e;
     }
-    let mut found: Vec<Expr> = Vec::new();
-    for product in products {
-        if g.reachable(&[product]).len() > FACTORED {
-            continue;
-        }
-        let own = all_factors(g, product, &moving).into_iter().map(|(f, _)| f);
-        for factor in own.chain([product]) {
-            if !found.contains(&factor) {
-                found.push(factor);
-            }
-        }
+    let product = readable(g, g.mul(&quotient(g, e)));
+    match length(g, product) < length(g, e) {
+        true => product,
+        false => e,
     }
-    found
 }
 
 /// Factors of a function as it is, as a polynomial in cosines, and as one in sines.

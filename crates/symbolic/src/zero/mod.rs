@@ -46,5 +46,24 @@ pub fn known_sign(
     signs::Signs::new(graph, assumptions).sign(e)
 }
 
+/// A point near a given one at which `constraints`, each with the symbol it determines, hold under `assumptions` and the residual does
+/// not vanish. That there is one solution near is proved by the interval Newton operator, and the residual is enclosed away from
+/// zero; all other symbols are rounded to multiples of 1/1024. `None` where that fails.
+pub fn refuted_near(
+    graph: &crate::Graph,
+    residual: crate::Expr,
+    constraints: &[(crate::Expr, crate::Symbol)],
+    assumptions: &assumptions::Assumptions,
+    near: &dyn Fn(crate::Symbol) -> Option<f64>,
+) -> Option<crate::verdict::Counterexample> {
+    let claim = refute::Claim {
+        residuals: &[residual],
+        constraints,
+        solved: &[],
+        assumptions,
+    };
+    refute::near(graph, &claim, near)
+}
+
 #[cfg(test)]
 mod tests;

@@ -130,6 +130,27 @@ pub(super) fn search(graph: &Graph, claim: &Claim<'_>, seed: u64) -> Search {
     }
 }
 
+/// A point near a given one where constraints hold and the residual is not zero: the independent data are rounded, the dependent
+/// ones enclosed.
+pub(super) fn near(
+    graph: &Graph,
+    claim: &Claim<'_>,
+    near: &dyn Fn(Symbol) -> Option<f64>,
+) -> Option<Counterexample> {
+    let hunt = Hunt::new(graph, claim, 0);
+    let data = hunt.independent.iter().map(|&symbol| {
+        let numerator = (near(symbol)? * ROUNDED_TO).round();
+        let is_small = numerator.abs() < 1e15;
+        is_small.then(|| (symbol, ratio(numerator as i64, ROUNDED_TO as i64)))
+    });
+    let data: Vec<(Symbol, Rational)> = data.collect::<Option<_>>()?;
+    let dependent = claim.constraints.iter().map(|&(_, symbol)| near(symbol));
+    match hunt.attempt_at(&data, &dependent.collect::<Option<Vec<f64>>>()?) {
+        Attempt::Found(found) => Some(*found),
+        _ => None,
+    }
+}
+
 /// Is the square matrix regular at some point with small rational data? Verified by elimination in balls.
 pub(super) fn is_regular_somewhere(
     graph: &Graph,
@@ -224,11 +245,16 @@ impl<'a> Hunt<'a> {
         if led && !self.lead(&mut data, &mut start) {
             return Attempt::Unusable;
         }
+        self.attempt_at(&data, &start)
+    }
+
+    /// At the solution of the constraints near `start`, for these independent data.
+    fn attempt_at(&self, data: &[(Symbol, Rational)], start: &[f64]) -> Attempt {
         let mut bits = FIRST_PRECISION;
         let mut bound = None;
         for _ in 0..MOST_PRECISIONS {
             let precision = Precision::new(bits);
-            let Some(point) = self.point(&precision, &data, &start) else {
+            let Some(point) = self.point(&precision, data, start) else {
                 break;
             };
             if !self.assumptions_hold(&precision, &point) {
@@ -238,7 +264,7 @@ impl<'a> Hunt<'a> {
             match self.evaluate(&precision, self.claim.residuals, &point) {
                 Ok(values) => {
                     if let Some(index) = values.iter().position(Ball::excludes_zero) {
-                        let report = self.report(&precision, &data, &point, index, &values[index]);
+                        let report = self.report(&precision, data, &point, index, &values[index]);
                         return Attempt::Found(Box::new(report));
                     }
                     let width = values
