@@ -279,3 +279,60 @@ fn the_energy_is_shown_as_the_model_states_it() {
         assert_eq!(g.text(energy.shown), g.text(expected));
     });
 }
+
+/// The special cases: no constraints with and without a frame; `[X, Y] ≠ 0` across `z' = y x'`; `x x' + y y' = 0`, whose fields commute; a
+/// cone in the velocities, which is none of them.
+#[test]
+fn special_cases_of_the_embedded_equations_are_named() {
+    let says = |system: &System| {
+        let verdict = finding(system, "noether.embedded").verdict.clone();
+        assert_eq!(verdict.word(), "proved", "{}", verdict.detail());
+        let detail = verdict.detail().to_owned();
+        assert!(detail.contains("its kernel is the line of X̄"), "{detail}");
+        detail
+    };
+    let kinetic = "(x'^2 + y'^2 + z'^2)/2";
+    let free = says(&system("x y z", kinetic, &[]));
+    assert!(
+        free.contains("the natural basis without constraints"),
+        "{free}"
+    );
+    let turned = framed("x", "x'^2/2 - x", &[], &[("u", "x'*exp(x)")], &[]);
+    let turned = says(&turned);
+    assert!(
+        turned.contains("quasi-velocities without constraints"),
+        "{turned}"
+    );
+    let contact = says(&system("x y z", kinetic, &[("c", "z' - y*x'")]));
+    assert!(
+        contact.contains("the case of an adapted frame"),
+        "{contact}"
+    );
+    let circles = says(&system("x y z", kinetic, &[("c", "x*x' + y*y'")]));
+    assert!(circles.contains("the holonomic case"), "{circles}");
+    let cone = says(&system("x y z", kinetic, &[("c", "z'^2 - x'^2 - y'^2")]));
+    assert!(cone.contains("none of the special cases"), "{cone}");
+}
+
+/// What was found is one short sentence; each family that was exhausted is a part of its own, in which none of it is lost.
+#[test]
+fn families_are_listed_after_a_short_sentence() {
+    let contact = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &[("c", "z' - y*x'")]);
+    with_context(&contact, |cx| {
+        let found = found(cx);
+        let found: &Found = found.as_ref().as_ref().unwrap();
+        let detail = cx.finding("noether.family").verdict.detail().to_owned();
+        let mut parts = detail.split("; exhausted: ");
+        let first = parts.next().unwrap();
+        assert!(first.chars().count() < 400, "{first}");
+        let parts: Vec<&str> = parts.collect();
+        for (searched, part) in found.families.iter().zip(&parts) {
+            assert!(part.starts_with(&searched.family.words), "{part}");
+            assert!(
+                part.ends_with(&format!("dimension {}", searched.dimension)),
+                "{part}"
+            );
+        }
+        assert!(parts.len() >= found.families.len());
+    });
+}
