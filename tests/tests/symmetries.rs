@@ -298,6 +298,46 @@ fn found_integrals_are_followed_and_kept() {
     assert!(kept < 1e-13, "{kept}");
 }
 
+/// The energy among the integrals found is followed under its own number, and the families that were exhausted stand in lines of their own
+/// below what was found.
+#[test]
+fn every_integral_found_has_its_drift_and_every_family_its_line() {
+    let falling = model(
+        "name = \"falling\"\ncoordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2 - y^3\"\n[initial]\nx = 1\n\"y'\" = 0.5\n",
+    );
+    let study = studied(
+        &falling,
+        &["motion", "noether.family", "noether.integral"],
+        false,
+    );
+    let numbers = |claim: &str| -> Vec<&str> {
+        let own = study.verdicts.iter().filter(|d| d.claim == claim);
+        own.filter_map(|d| d.subject.as_deref()).collect()
+    };
+    let all = numbers("noether.integral");
+    assert!(all.len() > 1, "{all:?}");
+    assert_eq!(all, numbers("motion.integral-drift"));
+    let energy = study.verdicts.iter().find(|d| {
+        d.claim == "motion.integral-drift"
+            && d.finding.verdict.detail().contains("motion.energy-drift")
+    });
+    let energy = &energy.expect("the energy").finding.verdict;
+    assert_eq!(energy.word(), "numerical", "{}", energy.detail());
+    // (1/2)² / 2 at the start.
+    assert!(
+        energy.detail().contains("0.125000 at the start"),
+        "{}",
+        energy.detail()
+    );
+    let text = chetaev::study::summary::summary(&study, chetaev::study::summary::Style::Plain);
+    let said = text.lines().find(|line| line.contains("noether.family"));
+    assert!(!said.expect("a line").contains("exhausted: "), "{text}");
+    let lines = text
+        .lines()
+        .filter(|line| line.starts_with("    exhausted: "));
+    assert!(lines.count() > 2, "{text}");
+}
+
 /// Keeping the integrals changes the run of Routh's equations and no other: whether the forms agree is asked of free runs.
 #[test]
 fn formulations_agree_with_kept_integrals() {

@@ -1,11 +1,11 @@
 //! Momenta along moving directions and moments of momentum about moving axes, searched (T3 §8.3).
 
-#![allow(clippy::unwrap_used)] // a panic is how a test fails
+#![allow(clippy::unwrap_used, clippy::panic)] // a panic is how a test fails
 
 mod common;
 
 use chetaev_geometry::noether::moving::{axes, directions, Kept};
-use chetaev_mechanics::system::{Particle, Thrust};
+use chetaev_mechanics::system::{Parameter, Particle, Thrust};
 use chetaev_mechanics::{System, SystemParts};
 use chetaev_symbolic::{Expr, Graph, Verdict};
 use common::{expr, finding, with_context, with_motion};
@@ -131,4 +131,39 @@ fn what_is_the_same_is_named_once() {
             kept.direction
         );
     }
+}
+
+/// Two particles whose velocities add up to one along the line between them, with forces along that line: the momentum along it,
+/// (M p' + m q')·e, changes as the sum of momenta across it times the turning of e; for M = m that sum vanishes by the constraint.
+#[test]
+fn momenta_that_equal_masses_keep() {
+    let mut two = particles(
+        "x y u v",
+        "(M (x'^2 + y'^2) + m (u'^2 + v'^2))/2 - k ((x - u)^2 + (y - v)^2)^2",
+        &[("p", "M", &["x", "y"]), ("q", "m", &["u", "v"])],
+        &[("c", "(x' + u') (y - v) - (y' + v') (x - u)")],
+        &[],
+    );
+    let g = Arc::clone(&two.graph);
+    let of = |system: &System| {
+        let found = with_context(system, |cx| directions(cx).unwrap().kept);
+        let line = found
+            .into_iter()
+            .find(|k| k.direction == "the line from p to q");
+        line.map(|k| k.as_stated)
+    };
+    assert_eq!(of(&two), None);
+    for (name, value) in [("M", "1"), ("m", "1")] {
+        two.parameters.push(Parameter {
+            name: name.into(),
+            expr: expr(&g, name),
+            value: Some(expr(&g, value)),
+        });
+    }
+    assert_eq!(of(&two), Some(true));
+    let found = finding(&two, "noether.moving-direction#1");
+    let Verdict::Conditional { condition, .. } = &found.verdict else {
+        panic!("{:?}", found.verdict);
+    };
+    assert_eq!(condition, "m = M");
 }

@@ -246,3 +246,147 @@ fn functions_that_are_defined_nowhere() {
         "{why}"
     );
 }
+
+/// The system with values of its parameters.
+fn with_values(mut system: System, values: &[(&str, &str)]) -> System {
+    let g = system.graph.clone();
+    for (name, value) in values {
+        system.parameters.push(Parameter {
+            name: (*name).into(),
+            expr: expr(&g, name),
+            value: Some(expr(&g, value)),
+        });
+    }
+    system
+}
+
+/// Angles of two arguments jump once in a turn, whether the integral holds for all parameters or for those stated; with a second argument
+/// that is positive they do not. The inverse tangent of a quotient jumps where its denominator vanishes.
+#[test]
+fn jumps_are_part_of_the_condition() {
+    let spring = system("x", "(x'^2 - k*x^2)/2", &[]);
+    let values: &[(&str, &[&str])] = &[
+        ("atan2(2*x, x') - 2*t", &[]),
+        ("atan2(sqrt(k)*x, x') - sqrt(k)*t", &[]),
+        ("atan2(x'^2 + k*x^2, 1)", &[]),
+        ("atan(2*x/x') - 2*t", &[]),
+    ];
+    let spring = with_values(stating(spring, values), &[("k", "4")]);
+    expect(
+        &spring,
+        &["conditional", "conditional", "proved", "conditional"],
+    );
+    for (place, needs_value) in [(0, true), (1, false), (3, true)] {
+        let (_, condition) = word(&spring, &format!("noether.inverse#{place}"));
+        assert!(condition.contains("does not jump"), "{condition}");
+        assert_eq!(condition.contains("k = 4"), needs_value, "{condition}");
+    }
+}
+
+/// On x' = -y, y' = x the rate of x² + y² vanishes, but only for k = r³ do motions stay there: the second derivative,
+/// 2 (x'² + y'² - k/r) = 2 (r² - k/r), does not vanish. With k/r³ for the square of the rate they stay. On a line through the centre
+/// motions leave every point with a velocity, and the energy there is kept all the same: nothing is said of that.
+#[test]
+fn parts_that_motions_leave() {
+    let kepler = system("x y", "(x'^2 + y'^2)/2 + k/sqrt(x^2 + y^2)", &[]);
+    let turning: &[&str] = &[
+        "x' = -y*sqrt(k)/(x^2 + y^2)^(3/4)",
+        "y' = x*sqrt(k)/(x^2 + y^2)^(3/4)",
+    ];
+    let values: &[(&str, &[&str])] = &[
+        ("x^2 + y^2", &["x' = -y", "y' = x"]),
+        ("x^2 + y^2", turning),
+        ("x'^2/2 - k/abs(x)", &["y = 0", "y' = 0", "x = 1"]),
+    ];
+    let kepler = stating(kepler, values);
+    expect(&kepler, &["refuted", "conditional", "not-applicable"]);
+    let finding = |place: usize| finding(&kepler, &format!("noether.inverse#{place}"));
+    let left = finding(0).verdict.detail().to_owned();
+    assert!(left.contains("its second derivative in time"), "{left}");
+    // The generator is that of x² + y², which contains no velocity: nothing but a gauge.
+    assert!(!finding(1).formulas.is_empty());
+}
+
+/// What is an integral under a condition has its field under the condition: of x y' - y x' for two equal springs χ = -∂G/∂v = (y, -x), and
+/// on the component z' = x' of (z' - x') (z' - y') = 0 with V = 0, on positions that a circle allows, and on each side of a corner there is
+/// one too.
+#[test]
+fn conditions_have_generators() {
+    let springs = system("x y", "(x'^2 + y'^2 - a*x^2 - b*y^2)/2", &[]);
+    let springs = stating(springs, &[("x*y' - y*x'", &[])]);
+    let springs = with_values(springs, &[("a", "1"), ("b", "1")]);
+    let found = finding(&springs, "noether.inverse#0");
+    assert_eq!(found.verdict.word(), "conditional");
+    let g = &springs.graph;
+    let along: Vec<String> = found
+        .formulas
+        .iter()
+        .filter(|f| f.caption.contains("component ξ"))
+        .map(|f| g.text(f.right))
+        .collect();
+    assert_eq!(along, ["y", "-x"]);
+    let product = system(
+        "x y z",
+        "(x'^2 + y'^2 + z'^2)/2 - z",
+        &[("f", "(z' - x')*(z' - y')")],
+    );
+    let product = stating(product, &[("y'", &[])]);
+    let circle = system("x y", "(x'^2 + y'^2)/2 - y", &[("f", "x^2 + y^2 - 1")]);
+    let circle = stating(circle, &[("(x*y' - y*x')^2/2 + y", &[])]);
+    let corner = system("x y", "(x'^2 + y'^2)/2", &[("f", "y' - abs(x')")]);
+    let corner = stating(corner, &[("y - x", &[])]);
+    for (system, expected) in [
+        (product, "conditional"),
+        (circle, "proved"),
+        (corner, "conditional"),
+    ] {
+        let found = finding(&system, "noether.inverse#0");
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), expected, "{detail}");
+        assert!(!found.formulas.is_empty(), "{detail}");
+        assert!(!detail.contains("it vanishes on"), "{detail}");
+    }
+}
+
+/// On y (1 + x²) = 0 there is y = 0 alone, where Z f = 2 x y' + 2 y x' vanishes for Z = ∂/∂x: off it nothing is admissible, and none of
+/// its values refutes. On a sphere Z f = 2 x' changes, at points of the sphere.
+#[test]
+fn reduced_symmetries_are_asked_on_the_positions_that_are_allowed() {
+    let line = system(
+        "x y z",
+        "(x'^2 + y'^2 + z'^2)/2 - y - z",
+        &[("c", "y*(1 + x^2)")],
+    );
+    let found = finding(&line, "noether.reduced-symmetry#1").verdict.clone();
+    assert_eq!(found.word(), "undecided", "{}", found.detail());
+    assert!(
+        found.detail().contains("keeps its value on motions"),
+        "{}",
+        found.detail()
+    );
+    let sphere = system(
+        "x y z",
+        "(x'^2 + y'^2 + z'^2)/2 - z",
+        &[("c", "x^2 + y^2 + z^2 - 1")],
+    );
+    let found = finding(&sphere, "noether.reduced-symmetry#1")
+        .verdict
+        .clone();
+    let Verdict::Refuted(found) = found else {
+        panic!("{}", found.detail());
+    };
+    let at = |name: &str| {
+        let value = found.point.iter().find(|p| p.name == name).expect("stated");
+        match (&value.exact, &value.enclosure) {
+            (Some(exact), _) => {
+                let text = exact.to_string();
+                let (n, d) = text.split_once('/').unwrap_or((&text, "1"));
+                n.parse::<f64>().unwrap() / d.parse::<f64>().unwrap()
+            }
+            (_, Some((low, _))) => low.parse().unwrap(),
+            _ => panic!("{value:?}"),
+        }
+    };
+    let square: f64 = ["x", "y", "z"].iter().map(|name| at(name).powi(2)).sum();
+    assert!((square - 1.0).abs() < 1e-9, "{:?}", found.point);
+}

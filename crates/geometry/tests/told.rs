@@ -49,7 +49,27 @@ fn constants_are_trivial() {
     assert!(!detail.contains("trivial"), "{detail}");
 }
 
-/// `ρ x'` of `z' = y x'` belongs to a field that is no shift: `∂x + y ∂z` times a function; y' to the shift along y.
+/// On a circle x² + y² is fixed, and so are functions of it and of its rate; x is not.
+#[test]
+fn what_holonomic_constraints_fix_is_trivial() {
+    let pendulum = || system("x y", "(x'^2 + y'^2)/2 - 3*y", &[("c", "x^2 + y^2 - 4")]);
+    for value in [
+        "x^2 + y^2",
+        "exp(x^2 + y^2) + x*x' + y*y'",
+        "(x^2 + y^2 - 4)*x'",
+    ] {
+        let (word, detail) = stated(pendulum(), value);
+        assert_eq!(word, "proved", "{value}: {detail}");
+        assert!(detail.starts_with("trivial"), "{value}: {detail}");
+    }
+    let (word, detail) = stated(pendulum(), "(x'^2 + y'^2)/2 + 3*y");
+    assert_eq!(word, "proved", "{detail}");
+    assert!(!detail.contains("trivial"), "{detail}");
+    assert_eq!(stated(pendulum(), "x").0, "refuted");
+}
+
+/// `ρ x'` of `z' = y x'` belongs to a field that is no shift: `∂x + y ∂z` times a function; y' to virtual displacements along y, which
+/// are no symmetry of the system, as its constraint contains y.
 #[test]
 fn symmetries_are_named_as_what_they_are() {
     let particle = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &[("f", "z' - y*x'")]);
@@ -60,10 +80,9 @@ fn symmetries_are_named_as_what_they_are() {
         })
         .collect();
     let says = |words: &str| said.iter().any(|detail| detail.contains(words));
-    assert!(
-        says("it belongs to the symmetry under shifts of y"),
-        "{said:#?}"
-    );
+    let along_y = "it belongs to the virtual displacements along y, which change neither L nor the forces; the constraint `f` contains y";
+    assert!(says(along_y), "{said:#?}");
+    assert!(!says("the symmetry under shifts of y"), "{said:#?}");
     assert!(says("∂/∂x") && says("∂/∂z"), "{said:#?}");
     assert!(!says("under shifts of x"), "{said:#?}");
     // A body's angular velocity is the speed of no coordinate.
@@ -89,6 +108,64 @@ fn symmetries_are_named_as_what_they_are() {
             assert!(known.iter().any(|k| detail.contains(k)), "{detail}");
         }
     });
+}
+
+/// What is said of the integral of a system that is a certain function.
+fn said_of(system: &System, function: &str) -> String {
+    let g = &system.graph;
+    with_context(system, |cx| {
+        let found = found(cx);
+        let found: &Found = found.as_ref().as_ref().unwrap();
+        let wanted = expr(g, function);
+        let is_it = |shown| g.is_zero(g.sub(shown, wanted)) || g.is_zero(g.add(&[shown, wanted]));
+        let place = found.integrals.iter().position(|i| is_it(i.shown));
+        let place = place.unwrap_or_else(|| panic!("{function} was not found"));
+        let finding = cx.finding(&format!("noether.integral#{}", place + 1));
+        finding.verdict.detail().to_owned()
+    })
+}
+
+/// The energy is kept where constraints are homogeneous, though they contain the time: the system has no symmetry under its shifts. Of
+/// `z' + t` under gravity the motion has one under shifts of z, though L changes by a constant; a constraint `y = t` is another one later.
+#[test]
+fn symmetries_are_those_of_the_system() {
+    let turning = system("x y", "(x'^2 + y'^2)/2 - g*y", &[("c", "y' - a*t*x'")]);
+    let energy = said_of(&turning, "x'^2/2 + y'^2/2 + g*y");
+    assert!(
+        energy.contains("the constraint `c` contains t, so that the system has no symmetry under shifts of time"),
+        "{energy}"
+    );
+    let resting = system("x y", "(x'^2 + y'^2)/2 - g*y", &[("c", "y' - a*y*x'")]);
+    let energy = said_of(&resting, "x'^2/2 + y'^2/2 + g*y");
+    assert!(
+        energy.contains("it belongs to the symmetry under shifts of time"),
+        "{energy}"
+    );
+    let falling = system("x y z", "(x'^2 + y'^2 + z'^2)/2 - z", &[("c", "y' - x*x'")]);
+    let momentum = said_of(&falling, "z' + t");
+    assert!(
+        momentum.contains("it belongs to the symmetry under shifts of z"),
+        "{momentum}"
+    );
+    let moved = system("x y", "(x'^2 + y'^2)/2", &[("c", "y - t")]);
+    let stated = with_context(&moved, |cx| {
+        let found = found(cx);
+        let found: &Found = found.as_ref().as_ref().unwrap();
+        (1..=found.integrals.len())
+            .map(|j| {
+                cx.finding(&format!("noether.integral#{j}"))
+                    .verdict
+                    .detail()
+                    .to_owned()
+            })
+            .collect::<Vec<String>>()
+    });
+    assert!(
+        !stated
+            .iter()
+            .any(|s| s.contains("the symmetry under shifts of time")),
+        "{stated:#?}"
+    );
 }
 
 /// One more is one more.
@@ -200,5 +277,62 @@ fn the_energy_is_shown_as_the_model_states_it() {
         let energy = found.integrals.iter().find(|i| i.name == name).unwrap();
         let expected = expr(g, &format!("{kinetic} + m*g*y"));
         assert_eq!(g.text(energy.shown), g.text(expected));
+    });
+}
+
+/// The special cases: no constraints with and without a frame; `[X, Y] ≠ 0` across `z' = y x'`; `x x' + y y' = 0`, whose fields commute; a
+/// cone in the velocities, which is none of them.
+#[test]
+fn special_cases_of_the_embedded_equations_are_named() {
+    let says = |system: &System| {
+        let verdict = finding(system, "noether.embedded").verdict.clone();
+        assert_eq!(verdict.word(), "proved", "{}", verdict.detail());
+        let detail = verdict.detail().to_owned();
+        assert!(detail.contains("its kernel is the line of X̄"), "{detail}");
+        detail
+    };
+    let kinetic = "(x'^2 + y'^2 + z'^2)/2";
+    let free = says(&system("x y z", kinetic, &[]));
+    assert!(
+        free.contains("the natural basis without constraints"),
+        "{free}"
+    );
+    let turned = framed("x", "x'^2/2 - x", &[], &[("u", "x'*exp(x)")], &[]);
+    let turned = says(&turned);
+    assert!(
+        turned.contains("quasi-velocities without constraints"),
+        "{turned}"
+    );
+    let contact = says(&system("x y z", kinetic, &[("c", "z' - y*x'")]));
+    assert!(
+        contact.contains("the case of an adapted frame"),
+        "{contact}"
+    );
+    let circles = says(&system("x y z", kinetic, &[("c", "x*x' + y*y'")]));
+    assert!(circles.contains("the holonomic case"), "{circles}");
+    let cone = says(&system("x y z", kinetic, &[("c", "z'^2 - x'^2 - y'^2")]));
+    assert!(cone.contains("none of the special cases"), "{cone}");
+}
+
+/// What was found is one short sentence; each family that was exhausted is a part of its own, in which none of it is lost.
+#[test]
+fn families_are_listed_after_a_short_sentence() {
+    let contact = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &[("c", "z' - y*x'")]);
+    with_context(&contact, |cx| {
+        let found = found(cx);
+        let found: &Found = found.as_ref().as_ref().unwrap();
+        let detail = cx.finding("noether.family").verdict.detail().to_owned();
+        let mut parts = detail.split("; exhausted: ");
+        let first = parts.next().unwrap();
+        assert!(first.chars().count() < 400, "{first}");
+        let parts: Vec<&str> = parts.collect();
+        for (searched, part) in found.families.iter().zip(&parts) {
+            assert!(part.starts_with(&searched.family.words), "{part}");
+            assert!(
+                part.ends_with(&format!("dimension {}", searched.dimension)),
+                "{part}"
+            );
+        }
+        assert!(parts.len() >= found.families.len());
     });
 }

@@ -37,7 +37,7 @@ pub struct Manifold {
 
 impl Manifold {
     /// The manifold for these values of parameters.
-    pub(crate) fn substituted(&self, g: &Graph, values: &[(Expr, Expr)]) -> Manifold {
+    pub fn substituted(&self, g: &Graph, values: &[(Expr, Expr)]) -> Manifold {
         let solved = self.solved.iter();
         let implicit = self.implicit.iter();
         Manifold {

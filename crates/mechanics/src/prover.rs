@@ -99,7 +99,7 @@ impl Prover {
             } => Verdict::Conditional {
                 proof: Proof {
                     detail: format!(
-                        "it vanishes on the component {condition} alone; {}",
+                        "this is so on the component {condition} alone; {}",
                         proof.detail
                     ),
                     ..proof

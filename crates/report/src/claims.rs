@@ -158,6 +158,15 @@ fn one(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
         html.raw("</div>\n");
         definitions(html, &equation.definitions, words);
     }
+    if !claim.lines.is_empty() {
+        html.raw("<ul>\n");
+        for line in &claim.lines {
+            html.raw("<li>");
+            capitalized(html, &shortened(line));
+            html.raw("</li>\n");
+        }
+        html.raw("</ul>\n");
+    }
     html.raw("<dl>\n");
     evidence(html, claim, report, words);
     html.raw("</dl>\n<p class=\"permalink\"><a")

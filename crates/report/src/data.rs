@@ -222,6 +222,8 @@ pub struct Claim {
     pub on: Option<String>,
     /// One sentence a person understands.
     pub detail: String,
+    /// What belongs to the sentence and stands in lines of its own, for example each family that was searched.
+    pub lines: Vec<String>,
     /// How it was computed, for those who check it.
     pub computed: Option<String>,
     /// Proven bound on the probability of error, for example "2^-104".

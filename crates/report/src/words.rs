@@ -216,7 +216,7 @@ static ENGLISH: Words = Words {
     expand: "Show all evidence",
     link_to_claim: "Link to this claim",
     method: "Method",
-    computed: "Computed by",
+    computed: "How it was computed",
     on: "Where it holds",
     error_bound: "Probability of error",
     samples: "Samples",

@@ -6,6 +6,8 @@
 use crate::method_order::Orders;
 use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
 use chetaev_geometry::noether::found::if_searched;
+use chetaev_geometry::noether::letters::ENERGY;
+use chetaev_geometry::noether::search::Integral;
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::claims::formulation::{derive, REFERENCE};
 use chetaev_mechanics::claims::order::dimension;
@@ -395,7 +397,7 @@ impl Claim for IntegralDrift {
         Group::Motion,
         "The computed motion keeps an integral",
         "The largest deviation of an integral from its initial value, along the computed motion: of those that the model \
-         states, by their names, and of those that the search found, by their numbers (`noether.integral`). \
+         states, by their names, and of those that the search found, by their numbers (`noether.integral`), the energy among them with its own number too. \
          That the quantity is an integral is not proved here: a drift within the tolerance is evidence, a larger one \
          refutes the statement or the accuracy."
     );
@@ -410,8 +412,11 @@ impl Claim for IntegralDrift {
         };
         let found = found_along(cx);
         let found = found.iter().flat_map(|found| &found.0);
-        let all = evidence.integrals.iter().chain(found);
-        all.map(|i| Some(i.name.clone())).collect()
+        let mut numbers: Vec<String> = found.map(|f| f.name.clone()).collect();
+        numbers.extend(number_of_energy(cx).map(|j| j.to_string()));
+        numbers.sort_by_key(|name| name.parse::<usize>().unwrap_or(usize::MAX));
+        let stated = evidence.integrals.iter().map(|i| i.name.clone());
+        stated.chain(numbers).map(Some).collect()
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
@@ -422,6 +427,21 @@ impl Claim for IntegralDrift {
             return other;
         }
         let named = |i: &&Followed| Some(i.name.as_str()) == subject;
+        let number = number_of_energy(cx).map(|j| j.to_string());
+        if number.is_some() && number.as_deref() == subject {
+            // It is followed anyway.
+            let energy = Followed {
+                name: number.unwrap_or_default(),
+                ..evidence.energy.clone()
+            };
+            let what = format!(
+                "{}, the energy as in `motion.energy-drift`",
+                words_of_found(cx, &energy)
+            );
+            let verdict = no_value(&energy, &what)
+                .unwrap_or_else(|| followed_verdict(&evidence, &energy, &what));
+            return on_its_component(cx, &energy, verdict).into();
+        }
         if let Some(found) = found_along(cx) {
             if let Some(followed) = found.0.iter().find(named) {
                 let what = words_of_found(cx, followed);
@@ -479,6 +499,14 @@ fn found_along(cx: &Context<'_>) -> Option<Arc<FoundIntegrals>> {
     let found = found.as_ref().as_ref().ok()?;
     let evidence = evidence(cx)?;
     Some(cx.shared(|cx| FoundIntegrals::new(cx.system, cx.terms, &evidence, found)))
+}
+
+/// The number of the energy among the integrals that a search has found.
+fn number_of_energy(cx: &Context<'_>) -> Option<usize> {
+    let found = if_searched(cx)?;
+    let found = found.as_ref().as_ref().ok()?;
+    let is_energy = |i: &Integral| i.name.as_deref() == Some(ENERGY);
+    Some(found.integrals.iter().position(is_energy)? + 1)
 }
 
 /// The integral with its value at the start.

@@ -30,9 +30,21 @@ fn is_technique(part: &str) -> bool {
     begins(&TECHNIQUES) || begins(&RESIDUALS) || is_numbered("rank ") || is_numbered("residual ")
 }
 
+/// What stands before each part of a detail that is shown in a line of its own.
+const LISTED: &str = "; exhausted: ";
+
+/// A detail without the parts that are shown in lines of their own, and these.
+pub(crate) fn listed(detail: &str) -> (String, Vec<String>) {
+    let detail = detail.replace('\n', " ");
+    let mut parts = detail.split(LISTED).map(str::to_owned);
+    let first = parts.next().unwrap_or_default();
+    let begin = LISTED.trim_start_matches("; ");
+    (first, parts.map(|part| format!("{begin}{part}")).collect())
+}
+
 /// A detail in two: the sentence for everybody, and how it was computed. A detail that only says how is the sentence.
 pub(crate) fn told(detail: &str) -> (String, String) {
-    let detail = detail.replace('\n', " ");
+    let (detail, _) = listed(detail);
     let (how, told): (Vec<&str>, Vec<&str>) =
         detail.split("; ").partition(|part| is_technique(part));
     // "…: a minor of size 3 is not zero …" within a part.
@@ -100,7 +112,20 @@ fn next_delta(text: &str) -> Option<(usize, char)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{told, with_deltas};
+    use super::{listed, told, with_deltas};
+
+    #[test]
+    fn families_stand_in_lines_of_their_own() {
+        let detail = "two in the families; exhausted: polynomials of x (1 each); t (2 each): dimension 2; exhausted: quotients";
+        let (sentence, lines) = listed(detail);
+        assert_eq!(sentence, "two in the families");
+        let expected = [
+            "exhausted: polynomials of x (1 each); t (2 each): dimension 2",
+            "exhausted: quotients",
+        ];
+        assert_eq!(lines, expected);
+        assert_eq!(told(detail).0, sentence);
+    }
 
     #[test]
     fn what_was_found_stands_apart_from_how() {

@@ -1,6 +1,7 @@
 //! The summary for a terminal.
 
 use crate::page::independent;
+use crate::plain;
 use crate::record::zero_word;
 use crate::study::{Decided, Motion, Study};
 use chetaev_mechanics::Group;
@@ -102,13 +103,17 @@ fn claims(text: &mut String, study: &Study, style: Style) {
         for decided in of_group {
             let word = decided.finding.verdict.word();
             let mark = if decided.is_as_expected() { " " } else { "!" };
+            let (said, lines) = plain::listed(decided.finding.verdict.detail());
             let _ = writeln!(
                 text,
                 "{mark} {:<width$} {}  {}",
                 decided.full_id(),
                 coloured(style, word),
-                for_width(style, &detail(decided))
+                for_width(style, &said)
             );
+            for line in lines {
+                let _ = writeln!(text, "    {}", for_width(style, &line));
+            }
             if !decided.is_as_expected() {
                 let _ = writeln!(
                     text,
@@ -141,10 +146,6 @@ pub(crate) fn coloured(style: Style, word: &str) -> String {
         _ => 90,
     };
     format!("\u{1b}[{colour}m{padded}\u{1b}[0m")
-}
-
-fn detail(decided: &Decided) -> String {
-    decided.finding.verdict.detail().replace('\n', " ")
 }
 
 /// Events that are shown of each kind; all are in the record.

@@ -144,12 +144,22 @@ impl<'a> Motion<'a> {
     /// # Errors
     /// A sentence that says why they cannot be.
     pub fn points(&self, outputs: &[Expr]) -> Result<Points, String> {
+        self.points_with(outputs, &[])
+    }
+
+    /// The same for given values of parameters.
+    ///
+    /// # Errors
+    /// A sentence that says why they cannot be.
+    pub fn points_with(&self, outputs: &[Expr], values: &[(Expr, Expr)]) -> Result<Points, String> {
+        let g = &self.system.graph;
+        let manifold = self.manifold.substituted(g, values);
         Points::new(
-            &self.system.graph,
+            g,
             &PointsOf {
-                outputs,
-                solved: &self.manifold.solved,
-                implicit: &self.manifold.implicit,
+                outputs: &g.substitute_all(outputs, values),
+                solved: &manifold.solved,
+                implicit: &manifold.implicit,
                 assumptions: &prover::assumptions(self.system),
                 moves: &|symbol| self.moves(symbol),
             },
@@ -164,6 +174,8 @@ impl<'a> Motion<'a> {
         } else {
             "on the constraint manifold outside the singular set of the linear systems"
         };
-        cx.prover.identity(self.system, &rate, &self.manifold, on)
+        let named: Vec<(String, Expr)> = rate.iter().map(|&e| ("its rate".into(), e)).collect();
+        cx.prover
+            .named_identity(self.system, &named, &self.manifold, on)
     }
 }

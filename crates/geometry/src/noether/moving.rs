@@ -29,6 +29,8 @@ pub struct Kept {
     pub value: Expr,
     /// The left side of (18a) or (18) on the motion.
     pub rate: Expr,
+    /// Whether it is kept for the values of parameters that the model states, and not in general.
+    pub as_stated: bool,
     /// Whether its direction contains a root.
     rooted: bool,
     /// Other directions, and points of axes, for which it is the same up to a constant factor.
@@ -281,6 +283,7 @@ impl<'a> Swarm<'a> {
             rate: g.add(&[dot(g, &momentum, &turned), dot(g, &force, &e.value)]),
             direction: e.words,
             point: None,
+            as_stated: false,
             rooted: is_rooted(g, &e.value),
             also: Vec::new(),
         }
@@ -311,6 +314,7 @@ impl<'a> Swarm<'a> {
         Kept {
             direction: e.words.clone(),
             point: Some(a.words.clone()),
+            as_stated: false,
             rooted: is_rooted(g, &e.value),
             also: Vec::new(),
             value: dot(g, &moment, &e.value),
@@ -435,14 +439,50 @@ pub(crate) fn masses_are_constant(cx: &Context<'_>) -> bool {
         && cx.system.particles.iter().all(|p| is_constant(p.mass))
 }
 
-/// The candidates whose rate vanishes at points of the manifold and whose value is not the same at all of them; those that are multiples
-/// of one before them are named beside it. Few points have a square under each of many roots, so directions with roots are looked at one
-/// by one.
+/// The candidates that are kept in general, then those that are for the values of parameters that the model states.
 fn kept(cx: &Context<'_>, motion: &Motion<'_>, candidates: Vec<Kept>) -> Result<Searched, String> {
     let tried = candidates.len();
+    let mut all = kept_with(cx, motion, candidates.clone(), &[])?;
+    let values = stated_values(cx);
+    if values.is_empty() {
+        return Ok(Searched { kept: all, tried });
+    }
+    let is_new = |c: &Kept| {
+        let name = (&c.direction, &c.point);
+        let is_same = |k: &Kept| {
+            (&k.direction, &k.point) == name || k.also.iter().any(|(e, a)| (e, a) == name)
+        };
+        !all.iter().any(is_same)
+    };
+    let others = candidates.into_iter().filter(is_new).collect();
+    // Where the stated values leave no points nothing is said of them.
+    let stated = kept_with(cx, motion, others, &values).unwrap_or_default();
+    all.extend(stated.into_iter().map(|kept| Kept {
+        as_stated: true,
+        ..kept
+    }));
+    Ok(Searched { kept: all, tried })
+}
+
+/// The values of parameters that the model states as numbers.
+fn stated_values(cx: &Context<'_>) -> Vec<(Expr, Expr)> {
+    let mut values = cx.system.parameter_values();
+    values.retain(|(_, value)| cx.system.graph.symbols_in(&[*value]).is_empty());
+    values
+}
+
+/// The candidates whose rate vanishes at points of the manifold, for given values of parameters, and whose value is not the same at all of
+/// them; those that are multiples of one before them are named beside it. Few points have a square under each of many roots, so directions
+/// with roots are looked at one by one.
+fn kept_with(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    candidates: Vec<Kept>,
+    stated: &[(Expr, Expr)],
+) -> Result<Vec<Kept>, String> {
     let (single, together): (Vec<Kept>, Vec<Kept>) = candidates.into_iter().partition(|c| c.rooted);
     let mut different: Vec<WithValues> = Vec::new();
-    let (field, found) = kept_together(cx, motion, together)?;
+    let (field, found) = kept_together(cx, motion, together, stated)?;
     let is_multiple = |a: &[Residue], b: &[Residue]| {
         let mut pairs = a.iter().zip(b);
         pairs.all(|(&x, &y)| field.mul(x, b[0]) == field.mul(y, a[0]))
@@ -459,11 +499,11 @@ fn kept(cx: &Context<'_>, motion: &Motion<'_>, candidates: Vec<Kept>) -> Result<
     let mut kept: Vec<Kept> = different.into_iter().map(|(kept, _)| kept).collect();
     for candidate in single {
         // Where there are no points for a direction nothing is said of it.
-        if let Ok((_, found)) = kept_together(cx, motion, vec![candidate]) {
+        if let Ok((_, found)) = kept_together(cx, motion, vec![candidate], stated) {
             kept.extend(found.into_iter().map(|(kept, _)| kept));
         }
     }
-    Ok(Searched { kept, tried })
+    Ok(kept)
 }
 
 /// What is kept, with its values at some points.
@@ -474,9 +514,10 @@ fn kept_together(
     cx: &Context<'_>,
     motion: &Motion<'_>,
     candidates: Vec<Kept>,
+    stated: &[(Expr, Expr)],
 ) -> Result<(PrimeField, Vec<WithValues>), String> {
     let outputs: Vec<Expr> = candidates.iter().flat_map(|c| [c.rate, c.value]).collect();
-    let points = motion.points(&outputs)?;
+    let points = motion.points_with(&outputs, stated)?;
     let mut random = Random::stream(cx.prover.points_seed(), 1 << 22);
     let none = "no points of the constraint manifold were found over a prime field";
     let draw = draw_with_points(&points, &mut random).ok_or(none)?;

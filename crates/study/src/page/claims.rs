@@ -24,7 +24,9 @@ pub(super) fn claim(decided: &Decided, set: &Typesetter<'_>) -> Claim {
     let finding: &Finding = &decided.finding;
     let written = |text: &str| plain::written(set.system(), text);
     let (told, how) = plain::told(finding.verdict.detail());
+    let (_, lines) = plain::listed(finding.verdict.detail());
     let mut claim = Claim {
+        lines: lines.iter().map(|line| written(line)).collect(),
         claim: decided.claim.into(),
         subject: decided.subject.clone(),
         title: Some(decided.title.into()),

@@ -506,7 +506,7 @@ impl<'a> Hunt<'a> {
         Counterexample {
             point: values,
             detail: format!(
-                "{quantity} {where_} at the point stated, whatever the variables not stated there, not zero"
+                "{quantity} {where_}, not zero, at the point stated, in which variables that are not stated may have any value"
             ),
             quantity,
             residual: (lower, upper),

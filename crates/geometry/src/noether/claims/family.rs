@@ -15,6 +15,9 @@ pub struct FamilySearched;
 /// The claim that searches.
 pub(crate) const ID: &str = "noether.family";
 
+/// How the parts of a detail begin that name a family that was searched to its end.
+pub(crate) const EXHAUSTED: &str = "exhausted: ";
+
 /// The bound that a proof needs, as log2.
 const PROOF_LOG2: f64 = -100.0;
 
@@ -83,10 +86,13 @@ fn verdict(cx: &Context<'_>, found: &Found) -> Verdict {
         .fold(f64::NEG_INFINITY, f64::max)
         + 2.0;
     let samples = found.families.iter().map(|f| f.draws).min().unwrap_or(0);
+    let families = families(cx, found);
     if found.open > 0 {
-        return Verdict::undecided(sentence);
+        return Verdict::undecided(format!("{sentence}{families}"));
     }
-    let rest = format!("each integral is proved by itself, and a dimension is larger with probability below 2^{bound:.0} only");
+    let rest = format!(
+        "each integral is proved by itself, and a dimension is larger with probability below 2^{bound:.0} only"
+    );
     if bound > PROOF_LOG2 {
         return Verdict::Numerical(Evidence {
             samples,
@@ -94,7 +100,9 @@ fn verdict(cx: &Context<'_>, found: &Found) -> Verdict {
             digits: 18,
             residual: 0.0,
             seed: Some(cx.prover.seed),
-            why_no_proof: format!("{sentence}; {rest}, which is more than a proof allows"),
+            why_no_proof: format!(
+                "{sentence}; {rest}, which is more than a proof allows{families}"
+            ),
         });
     }
     let proof = Proof {
@@ -102,17 +110,24 @@ fn verdict(cx: &Context<'_>, found: &Found) -> Verdict {
         error_bound_log2: Some(bound),
         samples: samples.max(1),
         seed: Some(cx.prover.seed),
-        ..Proof::exact("for general values of the parameters", rest)
+        ..Proof::exact(
+            "for general values of the parameters",
+            format!("{rest}{families}"),
+        )
     };
     Verdict::Proved(proof).prefixed(&sentence)
 }
 
+/// What was found, in general and at special values.
 fn sentence(cx: &Context<'_>, found: &Found) -> String {
-    let many = counted(
-        found.integrals.len(),
-        "functionally independent first integral",
-        "functionally independent first integrals",
-    );
+    let many = match found.integrals.len() {
+        0 => "no first integral was found".to_owned(),
+        count => counted(
+            count,
+            "functionally independent first integral",
+            "functionally independent first integrals",
+        ),
+    };
     let open = match found.open {
         0 => String::new(),
         open => format!(
@@ -120,7 +135,15 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
             counted(open, "more was", "more were")
         ),
     };
-    let dependent = dependent(cx, found);
+    format!(
+        "{many} in the families searched, of which those of polynomials are larger with a larger time budget{}{open}{}",
+        dependent(cx, found),
+        at_special_values(cx, found)
+    )
+}
+
+/// The families that were exhausted, each a part of the detail that begins with [`EXHAUSTED`], so that it can be shown in a line of its own.
+fn families(cx: &Context<'_>, found: &Found) -> String {
     let mut families: Vec<String> = found.families.iter().map(exhausted).collect();
     families.extend(found.momenta.iter().map(|momenta| {
         format!(
@@ -148,7 +171,35 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
     families.extend(functions.map(|functions| format!(
         "{functions} of velocities and coordinates times exponentials of the time, where these functions are mapped into themselves by the motion, with eigenvalues of equations of degree one or two that are seen to be real, or as quadratic forms of two functions that belong to others"
     )));
+    let each = families.into_iter();
+    each.map(|family| format!("; {EXHAUSTED}{family}"))
+        .collect()
+}
+
+/// What there is more of at special values of parameters, and at which of them that was asked.
+fn at_special_values(cx: &Context<'_>, found: &Found) -> String {
+    let places = match found.special.looked {
+        Looked::Nothing => return String::new(),
+        Looked::Not => return "; special values of parameters were not looked at".to_owned(),
+        Looked::All => "where parameters are equal or zero or as stated".to_owned(),
+        Looked::Some(0) => "where parameters have some special values".to_owned(),
+        Looked::Some(some) => format!(
+            "at {some} of the places where parameters are equal or zero, and where they are as stated"
+        ),
+    };
+    let places = format!("{places}{}", at_critical_values(cx, found));
     let special: Vec<String> = found.special.found.iter().map(|s| special(cx, s)).collect();
+    match special.is_empty() {
+        true => format!("; no more were found in a small family, looked at {places}"),
+        false => format!(
+            "; there are further or simpler ones {}; a small family was looked at {places}",
+            special.join("; ")
+        ),
+    }
+}
+
+/// The values of one parameter that were searched rather than stated.
+fn at_critical_values(cx: &Context<'_>, found: &Found) -> String {
     let looked = &found.special.critical;
     let size = looked.functions;
     let names: Vec<&str> = looked
@@ -166,33 +217,10 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
             all.join(", ")
         ),
     };
-    let beside = match looked.equal {
-        true => ", or so where two others are equal",
-        false => "",
-    };
-    let places = match found.special.looked {
-        Looked::All => "where parameters are equal or zero or as stated".to_owned(),
-        Looked::Some(0) => "at special values of parameters".to_owned(),
-        Looked::Some(some) => format!(
-            "at {some} of the places where parameters are equal or zero, and where they are as stated"
-        ),
-        Looked::Not | Looked::Nothing => String::new(),
-    };
-    let special = match (found.special.looked, special.is_empty()) {
-        (Looked::Nothing, _) => String::new(),
-        (Looked::Not, _) => "; special values of parameters were not looked at".to_owned(),
-        (_, true) => {
-            format!("; looked at {places}{critical}{beside}, no more were found in a small family")
-        }
-        (_, false) => format!(
-            "; looked at {places}{critical}{beside}, there are further or simpler ones {}",
-            special.join("; ")
-        ),
-    };
-    format!(
-        "{many} in the families searched{dependent}{open}{special}; exhausted, those of polynomials larger with a larger time budget: {}",
-        families.join("; ")
-    )
+    match looked.equal {
+        true => format!("{critical}, or so where two others are equal"),
+        false => critical,
+    }
 }
 
 /// What was found beside the independent ones, in words.

@@ -4,9 +4,12 @@ use super::{generator, generator_formulas, integral, requirements, subjects};
 use crate::noether::embedded::Embedded;
 use crate::noether::generator::Generator;
 use crate::noether::letters::ENERGY;
+use crate::noether::motion::Motion;
 use crate::noether::shown::{is_constant, readable};
+use crate::noether::written::in_quasi_velocities;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
-use chetaev_symbolic::{Expr, Graph, Node, Verdict};
+use chetaev_mechanics::{words, Manifold};
+use chetaev_symbolic::{Expr, Node, Symbol, Verdict};
 
 /// `noether.integral#j`.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +33,9 @@ impl Claim for FirstIntegral {
          along the field of the motion, X̄G, vanishes on the constraint manifold, with the accelerations of Routh's \
          equations. By Noether's theorem it belongs to a field Ȳ = δ Y_0 + ξ Y + ζ ∂/∂η and a gauge function g with \
          G = g - L̄ δ - p (ξ - η δ); δ may be prescribed, as multiples of the motion itself change nothing. The field is shown \
-         with δ = 1 for the energy and δ = 0 for the others."
+         with δ = 1 for the energy and δ = 0 for the others. Noether's theorem asks for virtual displacements, which need not map \
+         motions into motions: shifts are called a symmetry where neither the constraints nor the accelerations contain what is \
+         shifted, else it is said which of them does."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -56,8 +61,8 @@ impl Claim for FirstIntegral {
         }];
         let mut sentence = format!("{} keeps its value on every motion", g.text(integral.shown));
         if let Ok((_, n, generator)) = generator(cx, subject) {
-            formulas.extend(generator_formulas(&n, &generator));
-            sentence = format!("{sentence}; {}", symmetry(&n, &generator, name));
+            formulas.extend(generator_formulas(cx, &n, &generator));
+            sentence = format!("{sentence}; {}", symmetry(cx, &n, &generator, name));
         }
         Finding {
             verdict: integral.verdict.prefixed(&sentence),
@@ -67,15 +72,21 @@ impl Claim for FirstIntegral {
 }
 
 /// What the symmetry is, in words.
-fn symmetry(n: &Embedded<'_>, generator: &Generator, name: Option<&str>) -> String {
+fn symmetry(
+    cx: &Context<'_>,
+    n: &Embedded<'_>,
+    generator: &Generator,
+    name: Option<&str>,
+) -> String {
     let (system, g) = (n.system, &n.system.graph);
     if name == Some(ENERGY) {
-        return "it belongs to the symmetry under shifts of time".into();
+        let time = g.as_symbol(g.symbol("t", 0));
+        return time.map_or(String::new(), |t| under_shifts(cx, "time", t));
     }
     let speeds = n.embedding.chart.parameters.iter().zip(&generator.xi);
-    let along: Vec<(&str, Expr)> = speeds
-        .map(|(speed, &xi)| (&speed.name[..], readable(g, xi)))
-        .filter(|(_, xi)| !g.is_zero(*xi))
+    let along: Vec<&str> = speeds
+        .filter(|(_, &xi)| !g.is_zero(readable(g, xi)))
+        .map(|(speed, _)| &speed.name[..])
         .collect();
     if along.is_empty() {
         return match system.constraints.is_empty() {
@@ -84,44 +95,91 @@ fn symmetry(n: &Embedded<'_>, generator: &Generator, name: Option<&str>) -> Stri
                 .into(),
         };
     }
-    // ξ^i Y_i in the coordinates; shifts are what moves them by constants.
-    let moved: Vec<(&str, Expr)> = system
-        .coordinates
-        .iter()
-        .zip(&n.embedding.chart.basis)
-        .map(|(c, row)| {
-            let parts = row.iter().zip(&generator.xi);
-            let parts: Vec<Expr> = parts.map(|(&b, &xi)| g.mul(&[b, xi])).collect();
-            (&c.name[..], readable(g, g.add(&parts)))
-        })
-        .filter(|(_, e)| !g.is_zero(*e))
-        .collect();
+    let moved = displacements(cx, n, generator);
     match &moved[..] {
-        [(coordinate, by)] if is_constant(system, *by) => {
-            format!("it belongs to the symmetry under shifts of {coordinate}")
+        [(place, by)] if is_constant(system, *by) => {
+            let moved = &system.coordinates[*place];
+            under_shifts(cx, &moved.name, moved.q_symbol)
         }
-        _ => match field(g, &moved) {
+        _ => match field(cx, &moved) {
             text if text.chars().count() <= LONGEST => {
                 format!("by Noether's theorem it belongs to the displacements along {text}")
             }
-            _ => {
-                let own = along.iter().map(|(speed, _)| *speed);
-                format!(
-                    "by Noether's theorem it belongs to displacements that change {} at once, with the components given below",
-                    own.collect::<Vec<&str>>().join(", ")
-                )
-            }
+            _ => format!(
+                "by Noether's theorem it belongs to displacements that change {} at once, with the components given below",
+                along.join(", ")
+            ),
         },
     }
+}
+
+/// ξ^i Y_i in the coordinates, by their places, without what is zero; shifts are what moves them by constants.
+fn displacements(cx: &Context<'_>, n: &Embedded<'_>, generator: &Generator) -> Vec<(usize, Expr)> {
+    let g = &n.system.graph;
+    let all = n.embedding.chart.basis.iter().map(|row| {
+        let parts = row.iter().zip(&generator.xi);
+        let parts: Vec<Expr> = parts.map(|(&b, &xi)| g.mul(&[b, xi])).collect();
+        readable(g, g.add(&parts))
+    });
+    let all: Vec<Expr> = all.collect();
+    let shown = in_quasi_velocities(cx, &all);
+    let numbered = shown.into_iter().enumerate();
+    numbered.filter(|(_, e)| !g.is_zero(*e)).collect()
+}
+
+/// Shifts of the time or of a coordinate are a symmetry where neither the constraints nor the motion contain it. L may keep its form under
+/// them though constraints do not: displacements are virtual, so that Noether's theorem asks nothing of the constraints.
+fn under_shifts(cx: &Context<'_>, name: &str, symbol: Symbol) -> String {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let Ok(motion) = Motion::of(cx) else {
+        return format!("by Noether's theorem it belongs to shifts of {name}");
+    };
+    let contains = |es: &[Expr], manifold: &Manifold| {
+        let slopes: Vec<Expr> = es.iter().map(|&e| g.diff(e, symbol)).collect();
+        let verdict = cx.prover.identity(system, &slopes, manifold, "");
+        !matches!(verdict, Verdict::Proved(_))
+    };
+    // Holonomic constraints hold themselves too, not only their derivatives.
+    let constraints = cx.terms.constraint_index.iter().zip(&cx.terms.constraints);
+    let changed: Vec<&str> = constraints
+        .map(|(&l, &f)| (&system.constraints[l], f))
+        .filter(|(c, f)| {
+            let own = [*f, c.stated];
+            let count = if c.order == 0 { 2 } else { 1 };
+            contains(&own[..count], &motion.manifold)
+        })
+        .map(|(c, _)| &c.name[..])
+        .collect();
+    if changed.is_empty() && !contains(&motion.accelerations, &motion.manifold) {
+        return format!("it belongs to the symmetry under shifts of {name}");
+    }
+    let mut active = system.forces.clone();
+    active.push(system.lagrangian);
+    let kept = match contains(&active, &Manifold::default()) {
+        true => "",
+        false => ", which change neither L nor the forces",
+    };
+    let what = match name {
+        "time" => "shifts of time".to_owned(),
+        _ => format!("the virtual displacements along {name}"),
+    };
+    let which = match &changed[..] {
+        [] => "the accelerations contain".to_owned(),
+        [one] => format!("the constraint `{one}` contains"),
+        all => format!("the constraints {} contain", words::quoted(all)),
+    };
+    format!("by Noether's theorem it belongs to {what}{kept}; {which} {symbol_text}, so that the system has no symmetry under shifts of {name}", symbol_text = g.symbol_text(symbol))
 }
 
 /// A longer field is not written out in a sentence.
 const LONGEST: usize = 120;
 
 /// `x ∂/∂y - y ∂/∂x`.
-fn field(g: &Graph, moved: &[(&str, Expr)]) -> String {
+fn field(cx: &Context<'_>, moved: &[(usize, Expr)]) -> String {
+    let (system, g) = (cx.system, &cx.system.graph);
     let mut text = String::new();
-    for (coordinate, e) in moved {
+    for (place, e) in moved {
+        let coordinate = &system.coordinates[*place].name;
         let negative = g.neg(*e);
         let begins_with_minus = |e: Expr| g.text(e).starts_with('-');
         let is_sum = |e: Expr| matches!(g.node(e), Node::Sum { .. });

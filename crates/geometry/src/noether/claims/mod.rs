@@ -10,7 +10,11 @@ mod killing;
 mod moving;
 mod parts;
 mod reduced;
+mod states;
 mod structure;
+mod symmetry;
+mod trivial;
+mod values;
 
 pub use contraction::Contraction;
 pub use embedded::EmbeddedField;
@@ -28,6 +32,7 @@ use super::generator::Generator;
 use super::search::Integral;
 use crate::noether::letters::ENERGY;
 use crate::noether::shown::readable;
+use crate::noether::written::in_quasi_velocities;
 use chetaev_mechanics::claims::{Finding, Formula};
 use chetaev_mechanics::Context;
 use chetaev_symbolic::simplify::length;
@@ -117,7 +122,7 @@ fn of_generator(
 }
 
 /// The components of the generator and the gauge, as formulas.
-fn generator_formulas(n: &Embedded<'_>, generator: &Generator) -> Vec<Formula> {
+fn generator_formulas(cx: &Context<'_>, n: &Embedded<'_>, generator: &Generator) -> Vec<Formula> {
     let g = &n.system.graph;
     let speeds = &n.embedding.chart.parameters;
     let mut stated: Vec<(String, Expr)> = vec![(
@@ -140,6 +145,7 @@ fn generator_formulas(n: &Embedded<'_>, generator: &Generator) -> Vec<Formula> {
     stated.push(("the gauge function of the symmetry".into(), generator.gauge));
     let values: Vec<Expr> = stated.iter().map(|(_, e)| *e).collect();
     let values: Vec<Expr> = values.iter().map(|&e| readable(g, e)).collect();
+    let values = in_quasi_velocities(cx, &values);
     stated
         .into_iter()
         .zip(values)

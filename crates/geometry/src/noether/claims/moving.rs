@@ -2,6 +2,7 @@
 
 use super::parts::{parts, Part};
 use super::requirements;
+use super::values::by_values;
 use crate::noether::motion::Motion;
 use crate::noether::moving::{axes, directions, masses_are_constant, Kept, Searched};
 use crate::noether::shown::readable;
@@ -42,7 +43,7 @@ fn decide(cx: &Context<'_>, searched: &Result<Searched, String>, subject: Option
     match number.checked_sub(1).and_then(|i| searched.kept.get(i)) {
         Some(kept) => proved(cx, kept),
         None => Verdict::undecided(format!(
-            "none of {} candidates is kept: the axes, directions that turn with an angle of the model or of the time, and those from particle to particle; points at rest, on particles, at the centre of mass and carried along by the coordinates",
+            "none of {} candidates is kept, in general or for the values of parameters that the model states: the axes, directions that turn with an angle of the model or of the time, and those from particle to particle; points at rest, on particles, at the centre of mass and carried along by the coordinates",
             searched.tried
         ))
         .into(),
@@ -55,11 +56,22 @@ fn proved(cx: &Context<'_>, kept: &Kept) -> Finding {
         Ok(motion) => motion,
         Err(why) => return Verdict::undecided(why).into(),
     };
-    let mut residuals = vec![kept.rate];
     let rate = motion.derivatives(&[kept.value]);
-    residuals.extend(rate.iter().map(|&rate| g.sub(rate, kept.rate)));
+    let mut residuals: Vec<Expr> = rate.iter().map(|&rate| g.sub(rate, kept.rate)).collect();
+    if !kept.as_stated {
+        residuals.push(kept.rate);
+    }
     let on = "on the constraint manifold";
-    let verdict = cx.prover.identity(system, &residuals, &motion.manifold, on);
+    let balance = cx.prover.identity(system, &residuals, &motion.manifold, on);
+    let verdict = match kept.as_stated {
+        false => balance,
+        true => match by_values(cx, &motion, kept.value) {
+            Some(found) => found.verdict.and(balance),
+            None => Verdict::undecided(
+                "for the values stated its rate vanishes at the points drawn, which was not proved",
+            ),
+        },
+    };
     let shown = readable(g, kept.value);
     let words = |direction: &str, point: Option<&str>| match point {
         None => format!("along {direction}"),
@@ -124,7 +136,7 @@ impl Claim for MovingDirection {
     }
 
     fn explanation(&self) -> &'static str {
-        "The momentum K of particles along a direction e, a function of the state, changes at the rate K·e' + F·e with all forces F on the particles, reactions among them. Where a translation along e is a virtual displacement, reactions do no work on it and active forces suffice; otherwise they are needed, and are taken from the motion. Directions are searched among the axes, those that turn with an angle whose sine or cosine occurs, of the place, the time or a control, and unit vectors from particle to particle."
+        "The momentum K of particles along a direction e, a function of the state, changes at the rate K·e' + F·e with all forces F on the particles, reactions among them. Where a translation along e is a virtual displacement, reactions do no work on it and active forces suffice; otherwise they are needed, and are taken from the motion. Directions are searched among the axes, those that turn with an angle whose sine or cosine occurs, of the place, the time or a control, and unit vectors from particle to particle. `conditional` says that it is kept for the values of parameters that the model states, and which of them it takes."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {

@@ -5,8 +5,9 @@
 
 use crate::noether::motion::Motion;
 use chetaev_mechanics::claims::Context;
-use chetaev_mechanics::Manifold;
+use chetaev_mechanics::{prover, Manifold};
 use chetaev_symbolic::factors::factors;
+use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol, Verdict};
 
 /// Where the equations hold and the gradients of the constraints do not vanish.
@@ -55,6 +56,9 @@ pub(super) fn parts(
     Ok(found)
 }
 
+/// What it costs at least to divide by what may vanish.
+const DIVIDING: usize = 2000;
+
 /// What one equation more brings.
 enum Step {
     Done(Part),
@@ -77,6 +81,9 @@ impl Parting<'_, '_> {
             return Err(format!("{} is not defined there", self.graph().text(e)));
         }
         equations.retain(|&e| !self.vanishes(e, &part));
+        if equations.iter().any(|&e| self.vanishes_nowhere(e)) {
+            return Ok(Step::Open(Vec::new()));
+        }
         if equations.is_empty() {
             return Ok(Step::Done(part));
         }
@@ -95,18 +102,23 @@ impl Parting<'_, '_> {
                 )),
             };
         }
-        // What gives a symbol by itself first; it makes the others shorter.
+        // What gives a symbol by itself first; it makes the others shorter. Then products: one of their factors may be that by which
+        // another equation would have to be divided.
         let rank = |e: Expr| moving(e).into_iter().filter_map(|s| self.cost(e, s)).min();
         let costs = equations.iter().map(|&e| rank(e).unwrap_or(usize::MAX));
-        let place = costs
-            .enumerate()
-            .min_by_key(|&(i, cost)| (cost, i))
-            .map_or(0, |(i, _)| i);
+        let least = costs.enumerate().min_by_key(|&(i, cost)| (cost, i));
+        let place = match least {
+            Some((place, cost)) if cost < DIVIDING => place,
+            least => {
+                let is_product = |&e: &Expr| self.several(e, &moving(e)).is_some();
+                let product = equations.iter().position(is_product);
+                product.or(least.map(|(place, _)| place)).unwrap_or(0)
+            }
+        };
         let equation = equations.remove(place);
         let symbols = moving(equation);
-        let several = factors(self.graph(), equation, &symbols).unwrap_or_default();
-        if several.len() > 1 {
-            let next = several.into_iter().map(|(factor, _)| {
+        if let Some(several) = self.several(equation, &symbols) {
+            let next = several.into_iter().map(|factor| {
                 let mut part = part.clone();
                 part.chosen
                     .push(format!("{} = 0", self.graph().text(factor)));
@@ -121,20 +133,27 @@ impl Parting<'_, '_> {
         ]))
     }
 
-    /// What it costs to solve for a symbol in which the equation is affine.
+    /// The factors of a product.
+    fn several(&self, equation: Expr, symbols: &[Symbol]) -> Option<Vec<Expr>> {
+        let several = factors(self.graph(), equation, symbols).unwrap_or_default();
+        (several.len() > 1).then(|| several.into_iter().map(|(factor, _)| factor).collect())
+    }
+
+    /// What it costs to solve for a symbol in which the equation is affine: from [`DIVIDING`] on its slope may vanish.
     fn cost(&self, equation: Expr, symbol: Symbol) -> Option<usize> {
         let g = self.graph();
         let slope = g.diff(equation, symbol);
         if g.contains_any(slope, &[symbol]) || g.is_zero(slope) {
             return None;
         }
-        let kind = match (g.as_number(slope), g.symbol_order(symbol)) {
-            (Some(_), 0) => 0,
-            (Some(_), _) => 1,
-            (None, 0) => 3,
-            (None, _) => 2,
+        let is_fixed = g.as_number(slope).is_some() || self.vanishes_nowhere(slope);
+        let kind = match (is_fixed, g.symbol_order(symbol)) {
+            (true, 0) => 0,
+            (true, _) => 1,
+            (false, 0) => 3,
+            (false, _) => 2,
         };
-        Some(1000 * kind + g.reachable(&[equation]).len().min(999))
+        Some(DIVIDING / 2 * kind + g.reachable(&[equation]).len().min(999))
     }
 
     /// The part with the equation solved for the symbol that costs least, or kept.
@@ -192,6 +211,12 @@ impl Parting<'_, '_> {
             },
             _ => false,
         })
+    }
+
+    /// Whether an equation has no real solution by the signs that its structure allows, as 1 + x² = 0.
+    fn vanishes_nowhere(&self, e: Expr) -> bool {
+        let assumptions = prover::assumptions(self.cx.system);
+        known_sign(self.graph(), e, &assumptions).is_nonzero()
     }
 
     fn vanishes(&self, e: Expr, part: &Part) -> bool {

@@ -1,11 +1,12 @@
 //! `noether.reduced-symmetry#j`: Z f is a first integral for a symmetry Z of the reduced 2-form.
 
 use super::requirements;
+use super::states::rates_on_positions;
 use crate::noether::motion::Motion;
 use crate::noether::reduced::{candidates, symmetries, Symmetry};
 use crate::noether::shown::readable;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
-use chetaev_symbolic::Verdict;
+use chetaev_symbolic::{Expr, Verdict};
 use std::sync::Arc;
 
 /// `noether.reduced-symmetry#j`.
@@ -32,7 +33,7 @@ impl Claim for ReducedSymmetry {
     }
 
     fn explanation(&self) -> &'static str {
-        "Off the constraints the forces may be chosen: let them be extended so that every constraint function f keeps its value at all states. If a field Z is then a symmetry of the 2-form Ω̃ = dΘ(L) + E θ∧dt of the unconstrained system with these forces, Z f is a first integral, as Z carries motions into motions (Zhao, proposition 4). Whether Z is a symmetry depends on the extension, which is searched: for Z = ∂/∂q along a coordinate that L and the forces do not contain, among polynomials of the second degree in the velocities. The reaction λ ∂f/∂v itself is an extension of that kind for few systems only; for the sled it is not."
+        "Off the constraints the forces may be chosen: let them be extended so that every constraint function f keeps its value at all states. If a field Z is then a symmetry of the 2-form Ω̃ = dΘ(L) + E θ∧dt of the unconstrained system with these forces, Z f is a first integral, as Z carries motions into motions (Zhao, proposition 4). Whether Z is a symmetry depends on the extension, which is searched: for Z = ∂/∂q along a coordinate that L and the forces do not contain, among polynomials of the second degree in the velocities. Where constraints are holonomic Z f is asked on the positions that they allow, not on others. The reaction λ ∂f/∂v itself is an extension of that kind for few systems only; for the sled it is not."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -73,9 +74,7 @@ fn integral(cx: &Context<'_>, symmetry: &Symmetry) -> Finding {
     };
     let name = &system.coordinates[symmetry.coordinate].name;
     let values: Vec<_> = symmetry.integrals.iter().map(|(_, e)| *e).collect();
-    let rates = motion.derivatives(&values);
-    let on = "on the constraint manifold";
-    let kept = cx.prover.identity(system, &rates, &motion.manifold, on);
+    let kept = kept(cx, &motion, &values);
     let shown: Vec<String> = values.iter().map(|&e| g.text(readable(g, e))).collect();
     let of_holonomic = match system.fixed_functions().is_empty() {
         true => "",
@@ -85,13 +84,28 @@ fn integral(cx: &Context<'_>, symmetry: &Symmetry) -> Finding {
     let (extension, verdict) = match &symmetry.extension {
         Ok(found) => found,
         Err(searched) => {
+            let moves = format!("for Z = ∂/∂{name}, Z f = {shown}");
             return match kept {
-                Verdict::Refuted(_) => kept.prefixed(
-                    &format!("Z f = {shown} does not keep its value for Z = ∂/∂{name}, so no extension of the forces makes Z a symmetry"),
-                ),
-                _ => Verdict::undecided(format!("for Z = ∂/∂{name} {searched}")),
+                Verdict::Refuted(_) => kept.prefixed(&format!(
+                    "{moves} does not keep its value on motions, so no extension of the forces makes Z a symmetry"
+                )),
+                // Not on all components of the constraints.
+                Verdict::Conditional {
+                    condition,
+                    counterexample: Some(found),
+                    ..
+                } => Verdict::Refuted(found).prefixed(&format!(
+                    "{moves} keeps its value with {condition} alone, so no extension of the forces makes Z a symmetry"
+                )),
+                Verdict::Proved(_) => Verdict::undecided(format!(
+                    "{moves} keeps its value on motions, but {searched}: whether Z is a symmetry is open"
+                )),
+                _ => Verdict::undecided(format!(
+                    "{moves}: {searched}, and whether it keeps its value was not decided: {}",
+                    kept.detail()
+                )),
             }
-            .into()
+            .into();
         }
     };
     let sentence = format!("Z = ∂/∂{name} is a symmetry of the reduced 2-form with the forces extended as stated, so that Z f = {shown} keeps its value");
@@ -114,4 +128,23 @@ fn integral(cx: &Context<'_>, symmetry: &Symmetry) -> Finding {
         verdict: verdict.clone().and(kept).prefixed(&sentence),
         formulas,
     }
+}
+
+/// Whether functions keep their values on motions, which satisfy the holonomic constraints themselves.
+fn kept(cx: &Context<'_>, motion: &Motion<'_>, values: &[Expr]) -> Verdict {
+    if !cx.system.fixed_functions().is_empty() {
+        return match rates_on_positions(cx, motion, values) {
+            Some((verdict, _)) => verdict,
+            None => Verdict::undecided("the positions that the constraints allow were not found"),
+        };
+    }
+    let g = &cx.system.graph;
+    let rates = motion.derivatives(values);
+    let named = values.iter().zip(rates);
+    let named: Vec<(String, Expr)> = named
+        .map(|(&e, rate)| (format!("the rate of {}", g.text(readable(g, e))), rate))
+        .collect();
+    let on = "on the constraint manifold";
+    cx.prover
+        .named_identity(cx.system, &named, &motion.manifold, on)
 }
