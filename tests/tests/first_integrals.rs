@@ -922,7 +922,10 @@ fn special_values_in_functions_and_simpler_integrals() {
     let [(tie, integrals)] = &found[..] else {
         panic!("{found:?}");
     };
-    assert_eq!((&tie[..], &integrals[..]), ("D = 0", &["x'^2 + A x^2".to_owned()][..]));
+    assert_eq!(
+        (&tie[..], &integrals[..]),
+        ("D = 0", &["x'^2 + A x^2".to_owned()][..])
+    );
 }
 
 /// x' √(1 + 2 K y + y²) with K free: near K = 0 the root is real.
@@ -963,5 +966,41 @@ fn integrals_in_independent_velocities_where_these_are_shorter() {
         let shown: Vec<String> = found.integrals.iter().map(|i| g.text(i.shown)).collect();
         let own = shown.iter().find(|e| e.contains("x' y'"));
         assert!(own.is_some_and(|e| !e.contains("z'")), "{shown:?}");
+    });
+}
+
+/// (x x' + y y')² + x x' + y y' = 0 has two components, on which points of a search would be mixed: what is kept is said of each by itself,
+/// x² + y² on the first and x y' - y x' (or a function of both) there too.
+#[test]
+fn components_are_searched_one_by_one() {
+    let text = "name = \"branches\"\ncoordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2\"\n[constraints]\nc = \"(x x' + y y')^2 + x x' + y y' = 0\"\n[initial]\nx = 1\n\"y'\" = 1\n";
+    in_context(&made_up(text), |cx| {
+        let finding = cx.finding("noether.family");
+        let detail = finding.verdict.detail();
+        assert_eq!(finding.verdict.word(), "proved", "{detail}");
+        let components = [
+            "on the component x x' + y y' = 0",
+            "on the component x x' + y y' + 1 = 0",
+        ];
+        assert!(components.iter().all(|c| detail.contains(c)), "{detail}");
+        let g = &cx.system.graph;
+        let shown: Vec<String> = finding.formulas.iter().map(|f| g.text(f.right)).collect();
+        assert!(shown.iter().any(|e| e == "x^2 + y^2"), "{shown:?}");
+        assert!(shown.len() >= 4, "{shown:?}");
+    });
+}
+
+/// z' = sign(y) x' keeps x z' - z x' on either side of y = 0; where y passes through 0 z' jumps, and so does it.
+#[test]
+fn integrals_under_constraints_that_jump() {
+    let text = "name = \"jump\"\ncoordinates = [\"x\", \"y\", \"z\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2\"\n[constraints]\nc = \"z' = sign(y) x'\"\n";
+    in_context(&made_up(text), |cx| {
+        let count = found(cx).as_ref().as_ref().map_or(0, |f| f.integrals.len());
+        assert!(count > 0);
+        for j in 1..=count {
+            let finding = cx.finding(&format!("noether.integral#{j}"));
+            let detail = finding.verdict.detail();
+            assert!(detail.contains("while y keeps its sign"), "{detail}");
+        }
     });
 }

@@ -20,6 +20,7 @@ mod lifting;
 pub mod motion;
 pub mod moving;
 pub(crate) mod occurring;
+mod parallel;
 mod plain;
 mod powers;
 pub mod reduced;

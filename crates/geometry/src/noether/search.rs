@@ -12,13 +12,13 @@
 use super::constants::constants;
 use super::family::{Family, Letter, Member};
 use super::motion::{draw_with_points, Motion, DRAWS};
+use super::parallel::in_parallel;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::number::modular_matrix::{null_space, NullSpace};
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::zero::points::{Draw, Points};
 use chetaev_symbolic::{Expr, Verdict};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// More points than members.
 pub(super) const SURPLUS: usize = 10;
@@ -243,36 +243,8 @@ impl<'a> Table<'a> {
     /// # Errors
     /// A sentence that says why one of them is not known.
     pub(super) fn spaces(&self, families: &[Family]) -> Result<Vec<Space>, String> {
-        let workers = std::thread::available_parallelism().map_or(1, usize::from);
-        if workers == 1 || families.len() < 2 {
-            return families.iter().map(|family| self.space(family)).collect();
-        }
-        let next = AtomicUsize::new(0);
-        let work = || {
-            let mut own = Vec::new();
-            loop {
-                let place = next.fetch_add(1, Ordering::Relaxed);
-                match families.get(place) {
-                    Some(family) => own.push((place, self.space(family))),
-                    None => return own,
-                }
-            }
-        };
-        let mut found: Vec<(usize, Result<Space, String>)> = std::thread::scope(|scope| {
-            let all: Vec<_> = (1..workers.min(families.len()))
-                .map(|_| scope.spawn(work))
-                .collect();
-            let mut found = work();
-            for worker in all {
-                match worker.join() {
-                    Ok(own) => found.extend(own),
-                    Err(panic) => std::panic::resume_unwind(panic),
-                }
-            }
-            found
-        });
-        found.sort_by_key(|(place, _)| *place);
-        found.into_iter().map(|(_, space)| space).collect()
+        let spaces = in_parallel(families.len(), |i| self.space(&families[i]));
+        spaces.into_iter().collect()
     }
 
     /// The null vectors of the first draw that are integrals, and the members of each relation, the leading one last.

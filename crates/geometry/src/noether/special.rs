@@ -4,7 +4,8 @@ use super::family::Family;
 use super::letters::Letters;
 use super::motion::Motion;
 use super::occurring::congruent;
-use super::search::{Integral, Table};
+use super::parallel::in_parallel;
+use super::search::{Integral, Table, Vector};
 use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{Characteristics, Context, Manifold};
@@ -153,18 +154,8 @@ impl Table<'_> {
         let mut found: Vec<Special> = Vec::new();
         let mut missed = 0;
         let inside = self.inside_functions();
-        for tie in ties {
-            // Points where w is zero and sin(w t) is not are none.
-            let is_inside = |(s, _): &(Expr, Expr)| inside.contains(s);
-            let drawn = match tie.pairs(&self.motion.system.graph).iter().any(is_inside) {
-                true => None,
-                false => self.draw(0),
-            };
-            let tied = drawn.and_then(|(draw, random)| Some((self.tied(&draw, tie)?, random)));
-            let at = tied.and_then(|(draw, mut random)| {
-                let (vectors, _) = self.vectors_at(family, &draw, &mut random)?;
-                Some((draw, vectors))
-            });
+        let at = in_parallel(ties.len(), |i| self.vectors_on(family, &ties[i], &inside));
+        for (tie, at) in ties.iter().zip(at) {
             let Some((draw, vectors)) = at else {
                 missed += 1;
                 continue;
@@ -200,6 +191,24 @@ impl Table<'_> {
             }
         }
         (found, missed)
+    }
+
+    /// The integrals of a family at a special value, modulo the prime of the draw that is given too; `None` where it has no points.
+    fn vectors_on(
+        &self,
+        family: &Family,
+        tie: &Tie,
+        inside: &[Expr],
+    ) -> Option<(Draw, Vec<Vector>)> {
+        // Points where w is zero and sin(w t) is not are none.
+        let pairs = tie.pairs(&self.motion.system.graph);
+        if pairs.iter().any(|(s, _)| inside.contains(s)) {
+            return None;
+        }
+        let (draw, mut random) = self.draw(0)?;
+        let draw = self.tied(&draw, tie)?;
+        let (vectors, _) = self.vectors_at(family, &draw, &mut random)?;
+        Some((draw, vectors))
     }
 
     /// The parameters in arguments of functions, which are letters of their own at points over prime fields.

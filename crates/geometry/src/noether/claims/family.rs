@@ -1,6 +1,7 @@
 //! `noether.family`: the families searched, and the dimension found.
 
 use super::requirements;
+use crate::integrability::on_its_own;
 use crate::noether::found::{found, Found, Searched};
 use crate::noether::special::{is_stated, Looked, Special};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
@@ -72,9 +73,73 @@ impl Claim for FamilySearched {
                     })
                     .collect(),
             },
-            Err(why) => Verdict::undecided(format!("the search was not made: {why}")).into(),
+            Err(why) => on_components(cx).unwrap_or_else(|| {
+                Verdict::undecided(format!("the search was not made: {why}")).into()
+            }),
         }
     }
+}
+
+/// The search on each component of constraints that are products, or functions of simpler ones; `None` where there are none, or one of the
+/// searches is not made or not complete.
+fn on_components(cx: &Context<'_>) -> Option<Finding> {
+    let g = &cx.system.graph;
+    let (mut formulas, mut sentences, mut proofs) = (Vec::new(), Vec::new(), Vec::new());
+    let mut exhausted = String::new();
+    for component in cx.system.components() {
+        let (found, told) = on_its_own(cx, &component.system, |own| {
+            let found = found(own);
+            let told = found.as_ref().as_ref().ok().map(|found| {
+                let words = (sentence(own, found), families(own, found));
+                (verdict(own, found), words)
+            });
+            (found.clone(), told)
+        })?;
+        let (Ok(found), Some((Verdict::Proved(proof), (sentence, searched)))) = (&*found, told)
+        else {
+            return None;
+        };
+        let place = match component.condition {
+            Some(condition) => format!("on the component {condition}"),
+            None => component.sentence,
+        };
+        let own = found
+            .integrals
+            .iter()
+            .map(|integral| g.text(integral.shown));
+        let own = own.collect::<Vec<String>>().join(", ");
+        let own = if own.is_empty() {
+            "none".to_owned()
+        } else {
+            own
+        };
+        sentences.push(format!(
+            "{place} the first integrals are functions of: {own}; {sentence}"
+        ));
+        exhausted.push_str(&searched);
+        formulas.extend(found.integrals.iter().map(|integral| Formula {
+            caption: format!("a first integral {place}"),
+            left: None,
+            right: integral.shown,
+        }));
+        proofs.push(proof);
+    }
+    let bounds = proofs.iter().filter_map(|proof| proof.error_bound_log2);
+    let bound = bounds.fold(f64::NEG_INFINITY, f64::max);
+    let samples = proofs.iter().map(|proof| proof.samples).min()?;
+    Some(Finding {
+        verdict: Verdict::Proved(Proof {
+            method: Method::Modular,
+            error_bound_log2: Some(bound + (proofs.len() as f64).log2()),
+            samples,
+            seed: Some(cx.prover.seed),
+            ..Proof::exact(
+                "on each component by itself",
+                format!("{}{exhausted}", sentences.join("; ")),
+            )
+        }),
+        formulas,
+    })
 }
 
 fn verdict(cx: &Context<'_>, found: &Found) -> Verdict {
@@ -230,36 +295,33 @@ fn dependent(cx: &Context<'_>, found: &Found) -> String {
         true => "",
         false => " and of what the constraints fix",
     };
-    // With one integral there is one product of two.
-    let these = match found.integrals.len() {
-        1 => ("its square", "a function of it"),
-        _ => ("a product of two of these", "a function of these"),
+    // Of the second degree: sums of products of two, and of these themselves.
+    let (second, several) = match found.integrals.len() {
+        1 => ("of second degree in it", "functions of it"),
+        _ => ("of second degree in these", "functions of these"),
     };
-    let several = match found.integrals.len() {
-        1 => "functions of it",
-        _ => "functions of these",
+    let are = |count: usize| match count {
+        1 => "one more is".to_owned(),
+        _ => format!("{count} more are"),
     };
     match (products, others) {
         (0, 0) => String::new(),
-        (1, 0) => format!("; one more is {}", these.0),
-        (0, 1) => format!("; one more is {}{constraints}", these.1),
-        (products, 0) => format!("; {products} more are products of two of these"),
-        (0, others) => format!("; {others} more are {several}{constraints}"),
-        (products, others) => {
-            let products = match products {
-                1 => format!("one is {}", these.0),
-                _ => format!("{products} are products of two of these"),
-            };
-            let others = match others {
-                1 => "one is another function",
-                _ => &format!("{others} are other functions"),
-            };
-            let of = match found.integrals.len() {
-                1 => "of it",
-                _ => "of these",
-            };
-            format!("; of the further ones {products} and {others} {of}{constraints}")
-        }
+        (products, 0) => format!("; {} {second}{constraints}", are(products)),
+        (0, 1) => format!(
+            "; {} a {}{constraints}",
+            are(1),
+            &several.replacen("functions", "function", 1)
+        ),
+        (0, others) => format!("; {} {several}{constraints}", are(others)),
+        (products, 1) => format!(
+            "; {} {second}, one is another {}{constraints}",
+            are(products),
+            &several.replacen("functions", "function", 1)
+        ),
+        (products, others) => format!(
+            "; {} {second}, {others} are other {several}{constraints}",
+            are(products)
+        ),
     }
 }
 

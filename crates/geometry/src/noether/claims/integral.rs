@@ -64,11 +64,35 @@ impl Claim for FirstIntegral {
             formulas.extend(generator_formulas(cx, &n, &generator));
             sentence = format!("{sentence}; {}", symmetry(cx, &n, &generator, name));
         }
-        Finding {
-            verdict: integral.verdict.prefixed(&sentence),
-            formulas,
+        let mut verdict = integral.verdict.prefixed(&sentence);
+        if let (Some(jumps), Verdict::Proved(proof)) = (jumps(cx, integral.value), &mut verdict) {
+            proof.on = format!("{}, while {jumps}", proof.on);
+            let more = format!(
+                "; it holds while {jumps}, as the velocities or the function may jump beyond"
+            );
+            proof.detail.push_str(&more);
         }
+        Finding { verdict, formulas }
     }
+}
+
+/// Where velocities that constraints tie, or the function itself, may jump, in words: at the zeros of what signs are taken of.
+fn jumps(cx: &Context<'_>, value: Expr) -> Option<String> {
+    let g = &cx.system.graph;
+    let mut all: Vec<Expr> = cx.system.constraints.iter().map(|c| c.f).collect();
+    all.push(value);
+    let inside = g
+        .reachable(&all)
+        .into_iter()
+        .filter_map(|e| match g.node(e) {
+            Node::Apply {
+                function: Function::Sign,
+                arguments,
+            } => Some(format!("{} keeps its sign", g.text(arguments[0]))),
+            _ => None,
+        });
+    let texts: Vec<String> = inside.collect();
+    (!texts.is_empty()).then(|| texts.join(" and "))
 }
 
 /// What the symmetry is, in words.
