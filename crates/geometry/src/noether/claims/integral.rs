@@ -9,7 +9,7 @@ use crate::noether::shown::{is_constant, readable};
 use crate::noether::written::in_quasi_velocities;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::{words, Manifold};
-use chetaev_symbolic::{Expr, Node, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Function, Node, Symbol, Verdict};
 
 /// `noether.integral#j`.
 #[derive(Clone, Copy, Debug)]
