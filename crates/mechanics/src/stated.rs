@@ -17,26 +17,40 @@ impl System {
     /// of those that occur in L, the forces or the constraints.
     pub fn stated_zeros(&self) -> Vec<(Expr, Expr)> {
         let (g, occurring) = (&self.graph, self.occurring());
-        let defined = self.definitions.iter();
-        let occurs: Vec<Expr> = defined
-            .filter(|(parameter, _)| occurring.contains(parameter))
-            .map(|(_, definition)| self.with_definitions(*definition))
-            .collect();
-        let occurring = [occurring, g.reachable(&occurs)].concat();
+        let tied = self.tied(&occurring);
+        let inside: Vec<Expr> = tied.iter().map(|&(_, definition)| definition).collect();
+        let all = [occurring, g.reachable(&inside)].concat();
         let mut zeros = self.parameter_values();
-        zeros.retain(|(parameter, value)| g.is_zero(*value) && occurring.contains(parameter));
-        let defined = self.definitions.iter().filter(|(parameter, _)| {
-            occurring.contains(parameter) && !zeros.iter().any(|(zero, _)| zero == parameter)
-        });
-        let defined: Vec<(Expr, Expr)> = defined
-            .map(|&(parameter, definition)| {
-                (
-                    parameter,
-                    g.substitute(self.with_definitions(definition), &zeros),
-                )
-            })
+        zeros.retain(|(parameter, value)| g.is_zero(*value) && all.contains(parameter));
+        let is_zero = |e: Expr| zeros.iter().any(|&(zero, _)| zero == e);
+        let others = tied
+            .into_iter()
+            .filter(|&(parameter, _)| !is_zero(parameter));
+        let defined: Vec<(Expr, Expr)> = others
+            .map(|(parameter, definition)| (parameter, g.substitute(definition, &zeros)))
             .collect();
         [zeros, defined].concat()
+    }
+
+    /// Of the parameters that occur those that their definitions tie to others that occur, with these definitions, free of parameters that
+    /// have their own. A parameter whose definition contains one that stands nowhere else, as an initial value, is as free as that.
+    fn tied(&self, occurring: &[Expr]) -> Vec<(Expr, Expr)> {
+        let g = &self.graph;
+        let own = self.definitions.iter();
+        let all: Vec<(Expr, Expr)> = own
+            .filter(|(parameter, _)| occurring.contains(parameter))
+            .map(|&(parameter, definition)| (parameter, self.with_definitions(definition)))
+            .collect();
+        let symbols = |e: Expr| g.symbols_in(&[e]).into_iter().map(|s| g.symbol_expr(s));
+        let is_free = |place: usize| {
+            let mut own = symbols(all[place].1);
+            own.any(|s| {
+                let mut others = all.iter().enumerate().filter(|(other, _)| *other != place);
+                !occurring.contains(&s) && !others.any(|(_, &(_, e))| symbols(e).any(|o| o == s))
+            })
+        };
+        let places = (0..all.len()).filter(|&place| !is_free(place));
+        places.map(|place| all[place]).collect()
     }
 
     /// The system with the values of all parameters that have one. `None` where masses vary, or where it is no system then.
@@ -81,11 +95,7 @@ impl System {
     /// Pairs (parameter, definition) of the parameters that the model defines by others, of those that occur in the constraints. Definitions
     /// are free of parameters that have definitions of their own.
     pub fn definitions_in_constraints(&self) -> Vec<(Expr, Expr)> {
-        let occurring = self.occurring_in_constraints();
-        let own = self.definitions.iter();
-        own.filter(|(parameter, _)| occurring.contains(parameter))
-            .map(|&(parameter, e)| (parameter, self.with_definitions(e)))
-            .collect()
+        self.tied(&self.occurring_in_constraints())
     }
 
     /// Pairs (parameter, value) of the parameters with values that occur in the constraints.

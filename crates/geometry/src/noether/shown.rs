@@ -45,7 +45,9 @@ pub(super) fn on_constraints(
         return integral;
     }
     let own = readable(g, g.substitute(integral.value, &solved));
-    if length(g, own) >= length(g, integral.shown) {
+    let known = divisors(cx, &[integral.shown, integral.value]);
+    let has_poles = divisors(cx, &[own]).iter().any(|e| !known.contains(e));
+    if has_poles || length(g, own) >= length(g, integral.shown) {
         return integral;
     }
     match motion.is_integral(cx, own) {
@@ -57,6 +59,18 @@ pub(super) fn on_constraints(
         },
         _ => integral,
     }
+}
+
+/// What is divided by and moves.
+fn divisors(cx: &Context<'_>, es: &[Expr]) -> Vec<Expr> {
+    let g = &cx.system.graph;
+    let parts = g.reachable(es).into_iter();
+    let bases = parts.filter_map(|e| {
+        let (base, exponent) = g.base_exponent(e);
+        let is_whole = g.as_integer(exponent).is_some_and(|n| n > 0);
+        (!is_whole && !is_constant(cx.system, base)).then_some(base)
+    });
+    bases.collect()
 }
 
 /// The integral divided by what all its terms share and nothing moves, as (1 + a²)^(3/2).
