@@ -135,7 +135,7 @@ pub(super) fn edges(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Edges {
     let of_chart = of_formula.into_iter().filter(|edge| {
         // A sum that is positive at all states sampled may be nowhere zero, and the motion is not determined where it is.
         let is_sum = matches!(g.node(*edge), Node::Sum { .. });
-        !ends_there(edge) && !(is_sum && signs(cx, *edge).is_some())
+        !(ends_there(edge) || is_sum && signs(cx, *edge).is_some())
     });
     Edges {
         of_chart: of_chart.collect(),

@@ -206,7 +206,7 @@ impl Sought {
         let all = [&self.equations[..], &[self.divergence]].concat();
         let assumed = system.assumptions.iter().flat_map(|a| [a.left, a.right]);
         let symbols = g.symbols_in(&all.into_iter().chain(assumed).collect::<Vec<Expr>>());
-        let reach = [0.0, 1.0, 3.0, 10.0][(number + 7) / 8];
+        let reach = [0.0, 1.0, 3.0, 10.0][number.div_ceil(8)];
         let others = symbols.into_iter().filter(|s| !self.unknowns.contains(s));
         let mut point: Point = others.map(|s| (s, generator.between(0.5, 2.0))).collect();
         for &s in &self.unknowns {

@@ -265,7 +265,10 @@ fn independent(cx: &Context<'_>, motion: &Motion<'_>, all: Vec<Expr>) -> Option<
 }
 
 /// Combinations with their rates, both in the same functions.
-type Pairs = Vec<(Vec<Expr>, Vec<Expr>)>;
+type Pairs = Vec<Pair>;
+
+/// A combination with its rate.
+type Pair = (Vec<Expr>, Vec<Expr>);
 
 /// Those of the span of combinations whose rates are in it, and their rates by all combinations given.
 fn mapped_inside(g: &Graph, pairs: &Pairs) -> Option<(Pairs, Vec<Vec<Expr>>)> {
@@ -278,7 +281,7 @@ fn mapped_inside(g: &Graph, pairs: &Pairs) -> Option<(Pairs, Vec<Vec<Expr>>)> {
         })
         .collect();
     let found = null_space(g, &rows, 2 * count).ok()?;
-    let sum = |weights: &[Expr], of: fn(&(Vec<Expr>, Vec<Expr>)) -> &Vec<Expr>| -> Vec<Expr> {
+    let sum = |weights: &[Expr], of: fn(&Pair) -> &Vec<Expr>| -> Vec<Expr> {
         let entry = |i: usize| {
             let own = weights
                 .iter()
@@ -345,9 +348,8 @@ fn is_nonnegative(cx: &Context<'_>, e: Expr) -> bool {
     let g = &cx.system.graph;
     let valued = g.substitute(e, &cx.system.parameter_values());
     let stated = assumptions(cx.system);
-    [e, valued]
-        .iter()
-        .any(|&e| known_sign(g, e, &stated).is_nonnegative())
+    // Where it is zero only for the values stated, what is made of its root may have no value there.
+    known_sign(g, e, &stated).is_nonnegative() || known_sign(g, valued, &stated).is_positive()
 }
 
 /// √e or its negative: squares stand before the root.
@@ -357,7 +359,6 @@ fn root_or_negative(g: &Graph, e: Expr) -> Expr {
     };
     let (mut outside, mut inside) = (Vec::new(), vec![g.number(own.coefficient)]);
     for (factor, power) in own.factors {
-        let power = i64::from(power);
         outside.push(g.powi(factor, power.div_euclid(2)));
         inside.push(g.powi(factor, power.rem_euclid(2)));
     }
