@@ -1004,3 +1004,19 @@ fn integrals_under_constraints_that_jump() {
         }
     });
 }
+
+/// L = (x'² + y'²)/2 + sign(x) x' y: x' + y sign(x) jumps by 2 y where x passes through 0, as x' does not. Dry friction: |x'| + µ t is kept
+/// until the motion stops.
+#[test]
+fn integrals_of_motions_that_jump() {
+    let step = "name = \"step\"\ncoordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2 + sign(x) x' y\"\n[integrals]\nenergy = \"(x'^2 + y'^2)/2\"\n";
+    let friction = "name = \"friction\"\ncoordinates = [\"x\"]\nparameters = { mu = 1 }\nassumptions = [\"mu > 0\"]\nlagrangian = \"x'^2/2\"\n[forces]\nx = \"-mu sign(x')\"\n[integrals]\na = \"abs(x') + mu t\"\n";
+    for (text, name, argument) in [(step, "energy", "x"), (friction, "a", "x'")] {
+        in_context(&made_up(text), |cx| {
+            let finding = cx.finding(&format!("noether.inverse#{name}"));
+            let detail = finding.verdict.detail();
+            let expected = format!("while {argument} keeps its sign");
+            assert!(detail.contains(&expected), "{detail}");
+        });
+    }
+}

@@ -63,8 +63,22 @@ fn beside(cx: &Context<'_>, jumps: &[Jump], verdict: Verdict) -> Verdict {
 }
 
 fn jumps(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Jump> {
+    let of_rates = arguments_of_signs(cx, &flow.field()).into_iter();
+    let mut all: Vec<Jump> = of_rates.filter_map(|at| jump(cx, flow, at)).collect();
+    // Where L or a constraint jumps, velocities do.
+    let mut stated: Vec<Expr> = cx.system.constraints.iter().map(|c| c.f).collect();
+    stated.push(cx.system.lagrangian);
+    for at in arguments_of_signs(cx, &stated) {
+        if all.iter().all(|jump| jump.at != at) {
+            all.push(Jump { at, found: None });
+        }
+    }
+    all
+}
+
+fn arguments_of_signs(cx: &Context<'_>, es: &[Expr]) -> Vec<Expr> {
     let g = &cx.system.graph;
-    let signs = g.reachable(&flow.field()).into_iter();
+    let signs = g.reachable(es).into_iter();
     let arguments = signs.filter_map(|e| match g.node(e) {
         Node::Apply {
             function: Function::Sign,
@@ -72,7 +86,7 @@ fn jumps(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Jump> {
         } => Some(arguments[0]),
         _ => None,
     });
-    arguments.filter_map(|at| jump(cx, flow, at)).collect()
+    arguments.collect()
 }
 
 fn jump(cx: &Context<'_>, flow: &Flow<'_>, at: Expr) -> Option<Jump> {

@@ -11,7 +11,7 @@ use super::ansatz::Ansatz;
 use super::letters::Letters;
 use super::motion::Motion;
 use super::search::Integral;
-use super::shown::readable;
+use super::shown::{is_constant, readable};
 use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::factors::{coefficients, factored, factors};
@@ -389,6 +389,7 @@ fn proved(
     }
     let time = g.symbol("t", 0);
     let decay = g.exp(g.neg(g.mul(&[value, time])));
+    let verdict = real_where(cx, verdict, &[value, function, lower]);
     let (integral, rational) = match g.is_zero(lower) {
         true => (
             g.mul(&[function, decay]),
@@ -469,12 +470,44 @@ fn pair(
         ]);
         let turned = readable(g, turned);
         let slope = g.div(other, g.mul(&[frequency, first]));
+        let value = g.mul(&[turned, g.exp(g.neg(g.mul(&[decay, time])))]);
+        let verdict = real_where(cx, verdict.clone(), &[value]);
         found.push(Eigenfunction {
-            integral: integral(g.mul(&[turned, g.exp(g.neg(g.mul(&[decay, time])))])),
+            integral: Integral {
+                verdict,
+                ..integral(value)
+            },
             rational: g.add(&[g.apply(Function::Atan, &[slope]), angle]),
         });
     }
     Some(found)
+}
+
+/// A verdict on what contains roots of functions of the parameters that are seen to be positive for the stated values only: it says where
+/// they are real.
+fn real_where(cx: &Context<'_>, mut verdict: Verdict, es: &[Expr]) -> Verdict {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let stated = assumptions(system);
+    let mut under_roots: Vec<String> = Vec::new();
+    for e in g.reachable(es) {
+        let (base, exponent) = g.base_exponent(e);
+        let is_root = g.as_number(exponent).is_some_and(|n| !n.is_int());
+        if is_root && is_constant(system, base) && !known_sign(g, base, &stated).is_nonnegative() {
+            let text = format!("{} > 0", g.text(base));
+            if !under_roots.contains(&text) {
+                under_roots.push(text);
+            }
+        }
+    }
+    if let (Verdict::Proved(proof), false) = (&mut verdict, under_roots.is_empty()) {
+        let texts = under_roots.join(" and ");
+        proof.on = format!("{}, where {texts}", proof.on);
+        proof.detail = format!(
+            "it is real where {texts}, as for the values that the model states; {}",
+            proof.detail
+        );
+    }
+    verdict
 }
 
 /// A square matrix less a multiple of the unit matrix.

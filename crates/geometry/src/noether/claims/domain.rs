@@ -117,3 +117,40 @@ fn demands(g: &Graph, value: Expr) -> Vec<Demand> {
     }
     found
 }
+
+/// How long what is proved of a function holds, in words; `None` where nothing that it depends on jumps. Velocities may jump at zeros of
+/// what the constraints or L take signs of, accelerations at those of velocities in forces, where dry friction ends the motion.
+pub(super) fn lasting(cx: &Context<'_>, value: Expr) -> Option<String> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let mut all: Vec<Expr> = system.constraints.iter().map(|c| c.f).collect();
+    all.extend([value, system.lagrangian]);
+    let velocities = system.velocity_symbols();
+    let of_forces = arguments_of_signs(g, &system.forces).into_iter();
+    let of_forces = of_forces.filter(|&e| g.contains_any(e, &velocities));
+    let mut own = arguments_of_signs(g, &all);
+    own.extend(of_forces);
+    own.sort_unstable();
+    own.dedup();
+    let texts = own.iter().map(|&e| format!("{} keeps its sign", g.text(e)));
+    let texts: Vec<String> = texts.collect();
+    (!texts.is_empty()).then(|| texts.join(" and "))
+}
+
+/// Adds to where something is proved how long it holds.
+pub(super) fn while_it_lasts(verdict: &mut Verdict, lasting: Option<&String>) {
+    if let (Verdict::Proved(proof), Some(lasting)) = (verdict, lasting) {
+        proof.on = format!("{}, while {lasting}", proof.on);
+    }
+}
+
+fn arguments_of_signs(g: &Graph, es: &[Expr]) -> Vec<Expr> {
+    let parts = g.reachable(es).into_iter();
+    let arguments = parts.filter_map(|e| match g.node(e) {
+        Node::Apply {
+            function: Function::Sign,
+            arguments,
+        } => Some(arguments[0]),
+        _ => None,
+    });
+    arguments.collect()
+}

@@ -1,5 +1,6 @@
 //! `noether.integral#j`: a first integral that was found, with its generator.
 
+use super::domain::{lasting, while_it_lasts};
 use super::{generator, generator_formulas, integral, requirements, subjects};
 use crate::noether::embedded::Embedded;
 use crate::noether::generator::Generator;
@@ -9,7 +10,7 @@ use crate::noether::shown::{is_constant, readable};
 use crate::noether::written::in_quasi_velocities;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::{words, Manifold};
-use chetaev_symbolic::{Expr, Function, Node, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Node, Symbol, Verdict};
 
 /// `noether.integral#j`.
 #[derive(Clone, Copy, Debug)]
@@ -59,40 +60,20 @@ impl Claim for FirstIntegral {
             left: None,
             right: integral.shown,
         }];
-        let mut sentence = format!("{} keeps its value on every motion", g.text(integral.shown));
+        let lasting = lasting(cx, integral.value);
+        let always = match &lasting {
+            Some(lasting) => format!("while {lasting}"),
+            None => "on every motion".to_owned(),
+        };
+        let mut sentence = format!("{} keeps its value {always}", g.text(integral.shown));
         if let Ok((_, n, generator)) = generator(cx, subject) {
             formulas.extend(generator_formulas(cx, &n, &generator));
             sentence = format!("{sentence}; {}", symmetry(cx, &n, &generator, name));
         }
         let mut verdict = integral.verdict.prefixed(&sentence);
-        if let (Some(jumps), Verdict::Proved(proof)) = (jumps(cx, integral.value), &mut verdict) {
-            proof.on = format!("{}, while {jumps}", proof.on);
-            let more = format!(
-                "; it holds while {jumps}, as the velocities or the function may jump beyond"
-            );
-            proof.detail.push_str(&more);
-        }
+        while_it_lasts(&mut verdict, lasting.as_ref());
         Finding { verdict, formulas }
     }
-}
-
-/// Where velocities that constraints tie, or the function itself, may jump, in words: at the zeros of what signs are taken of.
-fn jumps(cx: &Context<'_>, value: Expr) -> Option<String> {
-    let g = &cx.system.graph;
-    let mut all: Vec<Expr> = cx.system.constraints.iter().map(|c| c.f).collect();
-    all.push(value);
-    let inside = g
-        .reachable(&all)
-        .into_iter()
-        .filter_map(|e| match g.node(e) {
-            Node::Apply {
-                function: Function::Sign,
-                arguments,
-            } => Some(format!("{} keeps its sign", g.text(arguments[0]))),
-            _ => None,
-        });
-    let texts: Vec<String> = inside.collect();
-    (!texts.is_empty()).then(|| texts.join(" and "))
 }
 
 /// What the symmetry is, in words.

@@ -1,6 +1,6 @@
 //! `noether.inverse#NAME`: an integral that the model states is one, and its generator.
 
-use super::domain::{nowhere, undefined_at_samples};
+use super::domain::{lasting, nowhere, undefined_at_samples, while_it_lasts};
 use super::requirements;
 use super::states::{on_part, on_positions, on_sides};
 use super::symmetry::{symmetry, with_symmetry};
@@ -85,11 +85,14 @@ fn decided(
         Verdict::Proved(proof) => match trivial(cx, motion, value, &proof) {
             Some(verdict) => verdict.into(),
             None => {
-                let words = match jumps.is_empty() {
-                    true => "it keeps its value on every motion",
-                    false => "it keeps its value on motions where it does not jump",
+                let lasting = lasting(cx, value);
+                let words = match (&lasting, jumps.is_empty()) {
+                    (_, false) => "it keeps its value on motions where it does not jump".into(),
+                    (Some(lasting), _) => format!("it keeps its value while {lasting}"),
+                    (None, _) => "it keeps its value on every motion".to_owned(),
                 };
-                let verdict = Verdict::Proved(proof).prefixed(words);
+                let mut verdict = Verdict::Proved(proof).prefixed(&words);
+                while_it_lasts(&mut verdict, lasting.as_ref());
                 let (killing, formulas) = symmetry(cx, value);
                 let killing = killing.prefixed("the Killing-type equations hold for its symmetry");
                 Finding {
