@@ -248,7 +248,7 @@ fn integrals_on_a_part_of_the_states() {
         &pendulum("1"),
         "noether.inverse#angle",
         "refuted",
-        "stay such",
+        "which do not stay there",
     );
 }
 
