@@ -29,6 +29,7 @@ use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 use flow::Flow;
 pub(crate) use formula::on_both_sides;
+pub(crate) use jumps::arguments_of_signs;
 use std::sync::Arc;
 
 /// `measure.invariant`.

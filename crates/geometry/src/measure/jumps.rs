@@ -6,7 +6,7 @@
 use super::{Flow, Measure};
 use chetaev_mechanics::claims::Context;
 use chetaev_symbolic::verdict::Counterexample;
-use chetaev_symbolic::{Expr, Function, Node, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol, Verdict};
 
 /// A function at whose zeros its own rate jumps, with a state where it does, if one was found.
 struct Jump {
@@ -63,12 +63,12 @@ fn beside(cx: &Context<'_>, jumps: &[Jump], verdict: Verdict) -> Verdict {
 }
 
 fn jumps(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Jump> {
-    let of_rates = arguments_of_signs(cx, &flow.field()).into_iter();
+    let of_rates = arguments_of_signs(&cx.system.graph, &flow.field()).into_iter();
     let mut all: Vec<Jump> = of_rates.filter_map(|at| jump(cx, flow, at)).collect();
     // Where L or a constraint jumps, velocities do.
     let mut stated: Vec<Expr> = cx.system.constraints.iter().map(|c| c.f).collect();
     stated.push(cx.system.lagrangian);
-    for at in arguments_of_signs(cx, &stated) {
+    for at in arguments_of_signs(&cx.system.graph, &stated) {
         if all.iter().all(|jump| jump.at != at) {
             all.push(Jump { at, found: None });
         }
@@ -76,8 +76,8 @@ fn jumps(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Jump> {
     all
 }
 
-fn arguments_of_signs(cx: &Context<'_>, es: &[Expr]) -> Vec<Expr> {
-    let g = &cx.system.graph;
+/// What signs are taken of in expressions.
+pub(crate) fn arguments_of_signs(g: &Graph, es: &[Expr]) -> Vec<Expr> {
     let signs = g.reachable(es).into_iter();
     let arguments = signs.filter_map(|e| match g.node(e) {
         Node::Apply {

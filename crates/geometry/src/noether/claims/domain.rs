@@ -3,6 +3,7 @@
 //! What a root, a logarithm or an inverse function demands of its argument is compared with the signs that the argument can have by
 //! its structure and by what the model assumes. That decides only what is certain; else states are drawn.
 
+use crate::measure::arguments_of_signs;
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::{prover, sample};
 use chetaev_symbolic::zero::known_sign;
@@ -141,16 +142,4 @@ pub(super) fn while_it_lasts(verdict: &mut Verdict, lasting: Option<&String>) {
     if let (Verdict::Proved(proof), Some(lasting)) = (verdict, lasting) {
         proof.on = format!("{}, while {lasting}", proof.on);
     }
-}
-
-fn arguments_of_signs(g: &Graph, es: &[Expr]) -> Vec<Expr> {
-    let parts = g.reachable(es).into_iter();
-    let arguments = parts.filter_map(|e| match g.node(e) {
-        Node::Apply {
-            function: Function::Sign,
-            arguments,
-        } => Some(arguments[0]),
-        _ => None,
-    });
-    arguments.collect()
 }
