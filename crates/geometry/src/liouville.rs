@@ -6,6 +6,8 @@
 //! follow by quadratures at the end. Masses with a law of their own are variables like the coordinates.
 
 use crate::measure::{free_of, measure};
+use crate::noether::cyclic::cyclic;
+use crate::noether::embedded::Embedded;
 use crate::noether::found::found;
 use crate::noether::motion::Motion;
 use chetaev_mechanics::characteristics::Direction;
@@ -25,8 +27,10 @@ pub struct Liouville;
 pub struct Reduced {
     /// Indices of the coordinates left out, and of masses with a law of their own, which count from n on.
     pub ignorable: Vec<usize>,
-    /// Numbers of independent (quasi-)velocities that keep their values and occur alone, as symbols.
+    /// The independent (quasi-)velocities that keep their values.
     pub constant: Vec<String>,
+    /// The independent (quasi-)velocities whose momenta keep their values, since nothing drives them.
+    pub cyclic: Vec<String>,
     /// m.
     pub variables: usize,
     /// Whether the time is one of them.
@@ -75,6 +79,7 @@ impl Reduced {
             .filter(|(_, &rate)| vanishes(cx, &chart, rate))
             .map(|(p, _)| p.name.clone())
             .collect();
+        let cyclic = cyclic_velocities(cx).unwrap_or_default();
         let mut all = rates;
         let rest = (0..moving.len()).filter(|i| !ignorable.contains(i));
         all.extend(rest.map(|i| moving[i].1).chain(ties));
@@ -89,10 +94,19 @@ impl Reduced {
             variables: moving.len() - ignorable.len() + chart.k() + usize::from(timed),
             ignorable,
             constant,
+            cyclic,
             timed,
             chart,
         })
     }
+}
+
+/// The names of the cyclic velocities; a system without an embedded form names none.
+fn cyclic_velocities(cx: &Context<'_>) -> Result<Vec<String>, String> {
+    let embedded = Embedded::of(cx)?;
+    let speeds = &embedded.embedding.chart.parameters;
+    let all = cyclic(cx, &embedded)?.into_iter();
+    Ok(all.map(|i| speeds[i].name.clone()).collect())
 }
 
 /// The name and the symbol of a coordinate, or of a mass, which count from n on.
@@ -146,7 +160,7 @@ impl Claim for Liouville {
     }
 
     fn explanation(&self) -> &'static str {
-        "A motion of m variables with m - 2 independent first integrals and an invariant measure is integrated by quadratures (Euler, Jacobi's last multiplier); with m - 1 integrals the measure is not needed. Coordinates on which no rate depends are left out before, and follow by quadratures at the end. The integrals counted are the functions of those that the search found which contain neither these coordinates nor, for a motion free of it, the time. What is missing is stated; that no more integrals exist is never said."
+        "A motion of m variables with m - 2 independent first integrals and an invariant measure is integrated by quadratures (Euler, Jacobi's last multiplier); with m - 1 integrals the measure is not needed. Coordinates on which no rate depends are left out before, and follow by quadratures at the end; independent velocities are called cyclic where nothing drives their momenta, which are integrals then, as those of ignorable coordinates are. The integrals counted are the functions of those that the search found which contain neither these coordinates nor, for a motion free of it, the time. What is missing is stated; that no more integrals exist is never said."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -347,22 +361,31 @@ fn about(cx: &Context<'_>, reduced: &Reduced, many: usize) -> String {
             }
         }),
     };
-    let constant = match reduced.constant.is_empty() {
+    let of_cyclic = reduced
+        .constant
+        .iter()
+        .filter(|&c| !reduced.cyclic.contains(c));
+    let constant: Vec<&str> = of_cyclic.map(String::as_str).collect();
+    let keeps = match &constant[..] {
+        [] => None,
+        [one] => Some(format!("{one} keeps its value by itself")),
+        all => Some(format!(
+            "{} keep their values by themselves",
+            all.join(", ")
+        )),
+    };
+    let cyclic = match &reduced.cyclic[..] {
+        [] => None,
+        [one] => Some(format!("the independent velocity {one} is cyclic")),
+        all => Some(format!(
+            "the independent velocities {} are cyclic",
+            all.join(", ")
+        )),
+    };
+    let kept: Vec<String> = cyclic.into_iter().chain(keeps).collect();
+    let kept = match kept.is_empty() {
         true => String::new(),
-        false => format!(
-            " ({} by {})",
-            {
-                let list = reduced.constant.join(", ");
-                match reduced.constant.len() {
-                    1 => format!("{list} keeps its value"),
-                    _ => format!("{list} keep their values"),
-                }
-            },
-            match reduced.constant.len() {
-                1 => "itself",
-                _ => "themselves",
-            }
-        ),
+        false => format!(" ({})", kept.join("; ")),
     };
     let found = match many {
         1 => "1 integral".to_owned(),
@@ -377,7 +400,7 @@ fn about(cx: &Context<'_>, reduced: &Reduced, many: usize) -> String {
         false => "",
     };
     format!(
-        "the motion has {}{time}{left_out}{constant}, with {found} of them{fixed}",
+        "the motion has {}{time}{left_out}{kept}, with {found} of them{fixed}",
         counted(reduced.variables, "variable", "variables"),
     )
 }

@@ -110,6 +110,56 @@ fn symmetries_are_named_as_what_they_are() {
     });
 }
 
+/// Which independent velocities are cyclic, by hand: on the level skate both `3 w` and `2 u` are driven by nothing, on a slope only
+/// `3 w`; beside the blade the mass centre drives both; of Euler's top `w3` where A = B; of `z' = y x'` the momentum `y'` only, as
+/// `((1 + y²) x')' = y x' y'`.
+#[test]
+fn cyclic_velocities_are_named() {
+    let skate = |lagrangian: &str| {
+        let blade = [("blade", "x'*sin(phi) - y'*cos(phi)")];
+        let speeds = [("u", "x'*cos(phi) + y'*sin(phi)"), ("w", "phi'")];
+        framed("x y phi", lagrangian, &blade, &speeds, &[])
+    };
+    let top = |second: &str| {
+        let lagrangian = format!("(A*w1^2 + {second}*w2^2 + C*w3^2)/2")
+            .replace("w1", "(phi'*sin(theta)*sin(psi) + theta'*cos(psi))")
+            .replace("w2", "(phi'*sin(theta)*cos(psi) - theta'*sin(psi))")
+            .replace("w3", "(phi'*cos(theta) + psi')");
+        let speeds = [
+            ("w1", "phi'*sin(theta)*sin(psi) + theta'*cos(psi)"),
+            ("w2", "phi'*sin(theta)*cos(psi) - theta'*sin(psi)"),
+            ("w3", "phi'*cos(theta) + psi'"),
+        ];
+        framed("phi theta psi", &lagrangian, &[], &speeds, &[])
+    };
+    let particle = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &[("f", "z' - y*x'")]);
+    let level = "x'^2 + y'^2 + 3*phi'^2/2";
+    for (own, all) in [
+        (skate(level), "the independent velocities u, w are cyclic"),
+        (
+            skate(&format!("{level} + x")),
+            "the independent velocity w is cyclic",
+        ),
+        (
+            skate(&format!("{level} + phi'*(y'*cos(phi) - x'*sin(phi))")),
+            "",
+        ),
+        (top("B"), ""),
+        (top("A"), "the independent velocity w3 is cyclic"),
+        (particle, "the independent velocity y' is cyclic"),
+    ] {
+        let found = finding(&own, "liouville.integrable");
+        let detail = found.verdict.detail();
+        match all {
+            "" => assert!(!detail.contains("cyclic"), "{detail}"),
+            all => assert!(detail.contains(all), "{detail}"),
+        }
+    }
+    let said = said_of(&skate(level), "u");
+    let cyclic = "the momentum of the cyclic independent velocity u, which nothing drives";
+    assert!(said.contains(cyclic), "{said}");
+}
+
 /// What is said of the integral of a system that is a certain function.
 fn said_of(system: &System, function: &str) -> String {
     let g = &system.graph;

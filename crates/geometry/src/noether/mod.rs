@@ -7,6 +7,7 @@ pub mod claims;
 mod conjugate;
 mod constants;
 mod critical;
+pub(crate) mod cyclic;
 mod dependence;
 mod eigenfunctions;
 pub mod embedded;

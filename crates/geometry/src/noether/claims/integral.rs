@@ -1,7 +1,8 @@
 //! `noether.integral#j`: a first integral that was found, with its generator.
 
 use super::domain::{lasting, while_it_lasts};
-use super::{generator, generator_formulas, integral, requirements, subjects};
+use super::{generator, generator_formulas, integral, on_manifold, requirements, subjects};
+use crate::noether::cyclic::cyclic;
 use crate::noether::embedded::Embedded;
 use crate::noether::generator::Generator;
 use crate::noether::letters::ENERGY;
@@ -69,10 +70,38 @@ impl Claim for FirstIntegral {
         if let Ok((_, n, generator)) = generator(cx, subject) {
             formulas.extend(generator_formulas(cx, &n, &generator));
             sentence = format!("{sentence}; {}", symmetry(cx, &n, &generator, name));
+            if let Some(speed) = momentum_of_cyclic(cx, &n, &generator) {
+                sentence = format!("{sentence}; up to a factor it is the momentum of the cyclic independent velocity {speed}, which nothing drives");
+            }
         }
         let mut verdict = integral.verdict.prefixed(&sentence);
         while_it_lasts(&mut verdict, lasting.as_ref());
         Finding { verdict, formulas }
+    }
+}
+
+/// The cyclic velocity whose momentum the integral is, up to a factor.
+fn momentum_of_cyclic<'a>(
+    cx: &Context<'_>,
+    n: &'a Embedded<'_>,
+    generator: &Generator,
+) -> Option<&'a str> {
+    let (system, g) = (n.system, &n.system.graph);
+    let shown: Vec<Expr> = generator.xi.iter().map(|&xi| readable(g, xi)).collect();
+    let moved: Vec<usize> = (0..n.k()).filter(|&i| !g.is_zero(shown[i])).collect();
+    let without_gauge = || {
+        let verdict = on_manifold(cx, n, &[generator.gauge]);
+        matches!(verdict, Verdict::Proved(_))
+    };
+    match moved[..] {
+        [i] if g.is_zero(generator.delta)
+            && is_constant(system, shown[i])
+            && without_gauge()
+            && cyclic(cx, n).is_ok_and(|all| all.contains(&i)) =>
+        {
+            Some(&n.embedding.chart.parameters[i].name)
+        }
+        _ => None,
     }
 }
 
