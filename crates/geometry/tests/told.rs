@@ -283,6 +283,44 @@ fn functions_of_the_model_are_additional() {
     assert_eq!(every[..momenta.len()], momenta[..]);
 }
 
+/// Of `z' = y x'` the functions of degree two are y', ρ x', ρ = √(1 + y²), and their three products (T3 §8.2); of a free particle in a plane
+/// under gravity x'² is one, while x' times the energy is of degree three.
+#[test]
+fn products_are_marked() {
+    let products = |own: &System, factors: [&str; 2]| {
+        let g = &own.graph;
+        with_context(own, |cx| {
+            let found = found(cx);
+            let found: &Found = found.as_ref().as_ref().unwrap();
+            let place = |text: &str| {
+                let wanted = expr(g, text);
+                let at = |i: &chetaev_geometry::noether::search::Integral| {
+                    g.is_zero(g.sub(i.shown, wanted))
+                };
+                found.integrals.iter().position(at).unwrap()
+            };
+            let [a, b] = factors.map(place);
+            let detail = cx.finding("noether.family").verdict.detail().to_owned();
+            let marked = |i: usize, j: usize| {
+                let (i, j) = (i.min(j), i.max(j));
+                let named = match i == j {
+                    true => format!("G{}^2", i + 1),
+                    false => format!("G{} G{}", i + 1, j + 1),
+                };
+                let listed = found.dependent.products.contains(&(i, j));
+                assert_eq!(detail.contains(&named), listed, "{named}: {detail}");
+                listed
+            };
+            [marked(a, a), marked(a, b), marked(b, b)]
+        })
+    };
+    let particle = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &[("f", "z' - y*x'")]);
+    assert_eq!(products(&particle, ["y'", "x'*sqrt(1 + y^2)"]), [true; 3]);
+    let falling = system("x y", "(x'^2 + y'^2)/2 - y", &[]);
+    let energy = "(x'^2 + y'^2)/2 + y";
+    assert_eq!(products(&falling, ["x'", energy]), [true, false, false]);
+}
+
 /// Four times the work looks among more quotients and more generalized momenta.
 #[test]
 fn quotients_and_momenta_grow_with_the_budget() {

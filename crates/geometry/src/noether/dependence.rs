@@ -7,11 +7,48 @@ use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::zero::points::Draw;
 
+/// Of columns 1 and G_i, G_i G_j, and of candidates: how many candidates are new beside the first, by products or otherwise, and which
+/// products are combinations of candidates.
+fn told_apart(
+    field: &PrimeField,
+    first: &[Vec<Residue>],
+    squares: &[Vec<Residue>],
+    candidates: &[Vec<Residue>],
+    pairs: &[(usize, usize)],
+) -> Dependent {
+    let rank = |columns: &[&[Vec<Residue>]]| independent_columns(field, &columns.concat()).len();
+    let (plain, with_squares) = (first.len(), rank(&[first, squares]));
+    let space = rank(&[first, candidates]);
+    let whole = rank(&[first, squares, candidates]);
+    let others = whole - with_squares;
+    let second_degree = (space - plain).saturating_sub(others);
+    let is_combination = |place: &usize| {
+        second_degree > 0 && rank(&[first, candidates, &squares[*place..=*place]]) == space
+    };
+    let products = (0..pairs.len()).filter(is_combination);
+    Dependent {
+        second_degree,
+        others,
+        products: products.map(|place| pairs[place]).collect(),
+    }
+}
+
 /// Which columns are independent of those before them: the pivots of the matrix with these columns.
 fn independent_columns(field: &PrimeField, columns: &[Vec<Residue>]) -> Vec<usize> {
     let height = columns.first().map_or(0, Vec::len);
     let rows = (0..height).flat_map(|d| columns.iter().map(move |column| column[d]));
     null_space(field, columns.len(), rows.collect()).pivots
+}
+
+/// What families contain beside integrals `G_1, G_2, …` that are independent: new functions of these, constants aside.
+#[derive(Clone, Debug, Default)]
+pub struct Dependent {
+    /// How many are of second degree in them.
+    pub second_degree: usize,
+    /// How many are others.
+    pub others: usize,
+    /// The products `G_i G_j`, i ≤ j, that are combinations of what the families contain.
+    pub products: Vec<(usize, usize)>,
 }
 
 impl Table<'_> {
@@ -86,20 +123,21 @@ impl Table<'_> {
         degrees.sum()
     }
 
-    /// How many of the candidates are new functions, constants aside, beside the first of them at the places `independent`: as
-    /// (products of these, others).
+    /// What the candidates are beside the first of them at the places `independent`.
     pub fn others(
         &self,
         candidates: &[(&Family, &[(usize, Residue)])],
         independent: &[usize],
-    ) -> Option<(usize, usize)> {
+    ) -> Option<Dependent> {
         let (draw, _) = self.draw(0)?;
         let mut random = Random::stream(self.seed, 1 << 22);
         let field = &draw.field;
-        let pairs = independent.len() * (independent.len() + 1) / 2;
-        let columns = 1 + independent.len() + pairs + candidates.len();
-        let mut matrix = Vec::with_capacity(columns * (columns + SURPLUS));
-        for _ in 0..columns + SURPLUS {
+        let pairs: Vec<(usize, usize)> = (0..independent.len())
+            .flat_map(|j| (0..=j).map(move |i| (i, j)))
+            .collect();
+        let height = 1 + independent.len() + pairs.len() + candidates.len() + SURPLUS;
+        let mut of_candidates = Vec::with_capacity(height);
+        for _ in 0..height {
             let at = self.at(&draw, &mut random)?;
             let value = |(family, vector): &(&Family, &[(usize, Residue)])| {
                 vector.iter().fold(Residue::ZERO, |sum, &(member, c)| {
@@ -107,36 +145,24 @@ impl Table<'_> {
                     field.add(sum, field.mul(c, value))
                 })
             };
-            let values: Vec<Residue> = candidates.iter().map(value).collect();
-            let first: Vec<Residue> = independent.iter().map(|&i| values[i]).collect();
-            matrix.push(field.one());
-            matrix.extend(&first);
-            for (i, &a) in first.iter().enumerate() {
-                matrix.extend(first[..=i].iter().map(|&b| field.mul(a, b)));
-            }
-            matrix.extend(values);
+            of_candidates.push(candidates.iter().map(value).collect::<Vec<Residue>>());
         }
-        self.counted(field, columns, matrix, independent.len(), pairs)
-    }
-
-    /// Of columns 1, G_i, G_i G_j and candidates: how many candidates are new beside the G_i, by products or otherwise.
-    fn counted(
-        &self,
-        field: &PrimeField,
-        columns: usize,
-        matrix: Vec<Residue>,
-        first: usize,
-        pairs: usize,
-    ) -> Option<(usize, usize)> {
-        let known = 1 + first + pairs;
-        let pivots = null_space(field, columns, matrix.clone()).pivots;
-        let others = pivots.iter().filter(|&&i| i >= known).count();
-        let kept: Vec<usize> = (0..=first).chain(known..columns).collect();
-        let rows = matrix.chunks(columns);
-        let without: Vec<Residue> = rows.flat_map(|row| kept.iter().map(|&i| row[i])).collect();
-        let pivots = null_space(field, kept.len(), without).pivots;
-        let new = pivots.iter().filter(|&&i| i > first).count();
-        Some((new.checked_sub(others)?, others))
+        let column = |value: &dyn Fn(&[Residue]) -> Residue| {
+            of_candidates
+                .iter()
+                .map(|row| value(row))
+                .collect::<Vec<Residue>>()
+        };
+        let mut first = vec![column(&|_| field.one())];
+        first.extend(independent.iter().map(|&i| column(&|row| row[i])));
+        let squares = pairs
+            .iter()
+            .map(|&(i, j)| column(&|row| field.mul(row[independent[i]], row[independent[j]])));
+        let squares: Vec<Vec<Residue>> = squares.collect();
+        let all: Vec<Vec<Residue>> = (0..candidates.len())
+            .map(|i| column(&|row| row[i]))
+            .collect();
+        Some(told_apart(field, &first, &squares, &all, &pairs))
     }
 
     fn gradient(

@@ -1,6 +1,7 @@
 //! The first integrals of a system in the families that are chosen for it, computed once for all claims about them.
 
 use super::automatic::{allowed, families, grown};
+use super::dependence::Dependent;
 use super::eigenfunctions::eigenfunctions;
 use super::embedded::Embedded;
 use super::family::{Family, Member};
@@ -49,8 +50,9 @@ pub struct Found {
     pub exponentials: u8,
     /// Functionally independent first integrals, each proved.
     pub integrals: Vec<Integral>,
-    /// Further integrals that are functions of `integrals`, linearly independent ones: products of two of these, and others.
-    pub dependent: (usize, usize),
+    /// Further integrals that are functions of `integrals`, linearly independent ones; products by the places of their factors in
+    /// `integrals`.
+    pub dependent: Dependent,
     /// What there is more of at special values of the parameters, in small families.
     pub special: Specials,
     /// Independent integrals modulo p that could not be lifted or proved.
@@ -350,7 +352,7 @@ fn chosen(
     motion: &Motion<'_>,
     table: &Table<'_>,
     candidates: &[Candidate<'_>],
-) -> (Vec<Integral>, (usize, usize), usize) {
+) -> (Vec<Integral>, Dependent, usize) {
     let vectors: Vec<(&Family, &[(usize, Residue)])> = candidates
         .iter()
         .map(|c| (c.family, &c.vector[..]))
@@ -358,6 +360,8 @@ fn chosen(
     let independent = table.independent(&vectors).unwrap_or_default();
     let mut integrals = Vec::new();
     let mut linear: Vec<Integral> = Vec::new();
+    // The places of integrals that are those of the family, up to factors and constants.
+    let mut same: Vec<Option<usize>> = Vec::new();
     let mut open = 0;
     for &i in &independent {
         let candidate = &candidates[i];
@@ -379,18 +383,27 @@ fn chosen(
                 if candidate.is_linear {
                     linear.push(integral.clone());
                 }
+                let value = integral.value;
                 let integral = match integral.name.is_none() && !candidate.is_linear {
                     true => shorter(cx, motion, integral, &linear),
                     false => integral,
                 };
+                same.push((integral.value == value).then_some(integrals.len()));
                 integrals.push(match integral.name.is_none() {
                     true => with_power(cx, motion, integral),
                     false => integral,
                 });
             }
-            None => open += 1,
+            None => {
+                same.push(None);
+                open += 1;
+            }
         }
     }
-    let others = table.others(&vectors, &independent);
-    (integrals, others.unwrap_or_default(), open)
+    let mut others = table.others(&vectors, &independent).unwrap_or_default();
+    let products = others.products.into_iter();
+    others.products = products
+        .filter_map(|(i, j)| Some((same[i]?, same[j]?)))
+        .collect();
+    (integrals, others, open)
 }

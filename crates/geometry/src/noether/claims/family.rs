@@ -290,7 +290,8 @@ fn at_critical_values(cx: &Context<'_>, found: &Found) -> String {
 
 /// What was found beside the independent ones, in words.
 fn dependent(cx: &Context<'_>, found: &Found) -> String {
-    let (products, others) = found.dependent;
+    let (products, others) = (found.dependent.second_degree, found.dependent.others);
+    let named = products_named(&found.dependent.products);
     let constraints = match cx.system.fixed_functions().is_empty() {
         true => "",
         false => " and of what the constraints fix",
@@ -300,13 +301,14 @@ fn dependent(cx: &Context<'_>, found: &Found) -> String {
         1 => ("of second degree in it", "functions of it"),
         _ => ("of second degree in these", "functions of these"),
     };
+    let second = format!("{second}{constraints}{named}");
     let are = |count: usize| match count {
         1 => "one more is".to_owned(),
         _ => format!("{count} more are"),
     };
     match (products, others) {
         (0, 0) => String::new(),
-        (products, 0) => format!("; {} {second}{constraints}", are(products)),
+        (products, 0) => format!("; {} {second}", are(products)),
         (0, 1) => format!(
             "; {} a {}{constraints}",
             are(1),
@@ -314,14 +316,26 @@ fn dependent(cx: &Context<'_>, found: &Found) -> String {
         ),
         (0, others) => format!("; {} {several}{constraints}", are(others)),
         (products, 1) => format!(
-            "; {} {second}, one is another {}{constraints}",
+            "; {} {second}; one is another {}{constraints}",
             are(products),
             &several.replacen("functions", "function", 1)
         ),
         (products, others) => format!(
-            "; {} {second}, {others} are other {several}{constraints}",
+            "; {} {second}; {others} are other {several}{constraints}",
             are(products)
         ),
+    }
+}
+
+/// Which products of two integrals are among those of second degree, by the numbers of `noether.integral`.
+fn products_named(products: &[(usize, usize)]) -> String {
+    let named = products.iter().map(|&(i, j)| match i == j {
+        true => format!("G{}^2", i + 1),
+        false => format!("G{} G{}", i + 1, j + 1),
+    });
+    match named.collect::<Vec<String>>() {
+        all if all.is_empty() => String::new(),
+        all => format!(" (products: {})", all.join(", ")),
     }
 }
 
