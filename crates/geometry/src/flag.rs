@@ -290,10 +290,32 @@ impl<'c, 'a> Growing<'c, 'a> {
         // That a set is independent is proved once, for all of it.
         if rank.maximum < matrix.len() {
             self.dependent.push(rank.at_most);
-        } else {
+        } else if rank.minimum == rank.maximum {
             self.independent = Some(rank.at_least);
+        } else {
+            self.independent = Some(self.at_a_point(&matrix, &rank.pivots.columns)?);
         }
         Ok((rank.maximum, rank.pivots.columns))
+    }
+
+    /// Roots in the fields may have relations, as √(3 - 2√2) = √2 - 1: over a prime field they have either sign, and the rank differs. A real
+    /// point decides.
+    fn at_a_point(&self, matrix: &[Vec<Expr>], columns: &[usize]) -> Result<Verdict, Obstacle> {
+        let cx = self.cx;
+        let minor = matrix
+            .iter()
+            .map(|row| columns.iter().map(|&c| row[c]).collect());
+        let minor: Vec<Vec<Expr>> = minor.collect();
+        let what = "a minor of the fields and their brackets";
+        let found = cx
+            .prover
+            .determinant_at_a_point(cx.system, &minor, &Manifold::default(), what);
+        match found {
+            Some(verdict @ Verdict::Proved(_)) => Ok(verdict),
+            _ => Err(Obstacle::Undecided(
+                "the rank of the fields depends on the signs of roots that occur, and no real point was found that decides".into(),
+            )),
+        }
     }
 
     /// The minor that would vanish if the values agreed.

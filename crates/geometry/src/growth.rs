@@ -1,6 +1,7 @@
 //! `distribution.growth`: the growth vector of the admissible velocities, and what can be reached.
 
 use crate::flag::{derived, horizontal, Directed, Flag, Obstacle};
+use crate::integrability::components::{are_apart, components};
 use crate::integrability::{integral, on_its_own};
 use crate::parameters;
 use chetaev_mechanics::claims::formulation::basis;
@@ -41,6 +42,11 @@ impl Claim for Growth {
             "model.accelerations-unique".into(),
             "model.frame-regular".into(),
         ]
+    }
+
+    fn speaks_of_motions(&self) -> bool {
+        // Components are looked at one by one here.
+        false
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
@@ -136,6 +142,10 @@ fn with_corners_left() -> Finding {
 
 /// Where the constraints are smooth: one system, or the components of constraints that are products.
 fn smooth(cx: &Context<'_>) -> Finding {
+    if are_apart(cx) {
+        let why = "the constraints are not affine in the velocities";
+        return on_components(cx, Verdict::not_applicable("model.constraints-linear", why));
+    }
     let generated = generated(cx);
     let generated = match &*generated {
         Ok(generated) => generated,
@@ -229,7 +239,7 @@ fn said_of(all: &[(String, Finding)], words: &str) -> String {
 /// On the components of constraints that are products, where these are affine: what all of them generate each of them does; where one
 /// does not, paths that go over from one to another may. Constraints that are functions of affine ones are replaced by these.
 fn on_components(cx: &Context<'_>, none: Verdict) -> Finding {
-    let components = cx.system.components();
+    let components = components(cx);
     if let [only] = components.as_slice() {
         let own = on_its_own(cx, &only.system, decided);
         let known = own.filter(|own| !matches!(own.verdict, Verdict::NotApplicable { .. }));

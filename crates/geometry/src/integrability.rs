@@ -17,6 +17,7 @@
 //! Where the pairs are too many, `dΘ(U, V) = 0` is tested for U and V with indeterminate coefficients in the basis: an
 //! identity in these coefficients is the same statement, one residual for each constraint.
 
+pub(crate) mod components;
 pub(crate) mod integral;
 mod primitive;
 mod quadrature;
@@ -226,10 +227,6 @@ impl Claim for ConstraintsIntegrable {
         Group::Model
     }
 
-    fn speaks_of_motions(&self) -> bool {
-        true
-    }
-
     fn title(&self) -> &'static str {
         "The constraints are integrable"
     }
@@ -291,13 +288,22 @@ fn decided(cx: &Context<'_>, strength: Strength) -> Finding {
         sentences.extend(said);
         finding.formulas.extend(formulas);
     }
-    sentences.extend(subsystems::told(cx, strength));
+    if strength == Strength::Strong || !components::are_apart(cx) {
+        sentences.extend(subsystems::told(cx, strength));
+    }
     finding.verdict = finding.verdict.prefixed(&sentences.join("; "));
     finding
 }
 
-/// Frobenius' condition for all constraints, on each side of their corners.
+/// Frobenius' condition for all constraints, on each of their components and each side of their corners.
 fn answered(cx: &Context<'_>, strength: Strength) -> Finding {
+    let on_components = match strength {
+        Strength::Weak => components::on_components(cx),
+        Strength::Strong => None,
+    };
+    if let Some(verdict) = on_components {
+        return verdict.into();
+    }
     let pfaff = PfaffSystem::new(cx.system, cx.terms, cx.selection.clone());
     let mut finding = decide(cx, &pfaff, strength);
     finding.verdict = on_each_side(cx, &cx.selection.rows, finding.verdict);

@@ -4,6 +4,7 @@
 //! logarithms is shown by its exponential: `ln y - k x` as `y exp(-k x)`, `ln y - k ln x` as `y x^(-k)`. So integrating factors
 //! that are functions of one coordinate, and separable constraints, are covered where their quadratures are in the family.
 
+use super::components::components;
 use super::quadrature::{Fields, Variable};
 use crate::flag::{horizontal, Directed};
 use crate::growth::generated;
@@ -66,7 +67,7 @@ const SHOWN: u64 = 160;
 /// What the context's constraints keep, on each component where they are products, on each side of corners; constraints that are
 /// functions of simpler ones are replaced by these.
 pub(super) fn kept(cx: &Context<'_>) -> Vec<Kept> {
-    let components = cx.system.components();
+    let components = components(cx);
     if !components.is_empty() {
         return on_each(cx, components, "on the component ");
     }

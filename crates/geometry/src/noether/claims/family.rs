@@ -1,6 +1,7 @@
 //! `noether.family`: the families searched, and the dimension found.
 
 use super::requirements;
+use crate::integrability::components::components;
 use crate::integrability::on_its_own;
 use crate::noether::found::{found, Found, Searched};
 use crate::noether::special::{is_stated, Looked, Special};
@@ -86,7 +87,7 @@ fn on_components(cx: &Context<'_>) -> Option<Finding> {
     let g = &cx.system.graph;
     let (mut formulas, mut sentences, mut proofs) = (Vec::new(), Vec::new(), Vec::new());
     let mut exhausted = String::new();
-    for component in cx.system.components() {
+    for component in components(cx) {
         let (found, told) = on_its_own(cx, &component.system, |own| {
             let found = found(own);
             let told = found.as_ref().as_ref().ok().map(|found| {
