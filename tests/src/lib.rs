@@ -14,5 +14,6 @@ pub mod program;
 pub mod rejections;
 pub mod runs;
 pub mod schema;
+pub mod searched;
 pub mod studied;
 pub mod words;

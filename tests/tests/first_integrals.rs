@@ -5,12 +5,10 @@
     reason = "test code fails where it stands"
 )]
 
-use chetaev::geometry::noether::found::{found, Found};
-use chetaev::geometry::noether::motion::Motion;
-use chetaev::mechanics::{Context, Prepared, Prover, System};
-use chetaev::model::{load, Model, NoFiles, Style};
-use chetaev::study::registry;
+use chetaev::geometry::noether::found::Found;
+use chetaev::mechanics::Context;
 use chetaev::symbolic::{Expr, Function, Verdict};
+use chetaev_tests::searched::{in_context, made_up, rank, within};
 use chetaev_tests::studied::{gallery_path, loaded};
 use chetaev_tests::words::{in_parallel, none};
 
@@ -49,30 +47,6 @@ const SYSTEMS: &[(&str, usize, &[&str])] = &[
 fn with<T>(name: &str, ask: impl FnOnce(&Context<'_>, &Found) -> T) -> T {
     let model = loaded(&gallery_path(&format!("{name}/model.toml")), &[]).model;
     within(&model.expect("the model is right"), ask)
-}
-
-fn within<T>(model: &Model, ask: impl FnOnce(&Context<'_>, &Found) -> T) -> T {
-    in_context(model, |cx| {
-        let found = found(cx);
-        ask(cx, found.as_ref().as_ref().expect("a search"))
-    })
-}
-
-fn in_context<T>(model: &Model, ask: impl FnOnce(&Context<'_>) -> T) -> T {
-    let system = System::from_model(model).expect("a system");
-    let prepared = Prepared::new(&system).expect("independent velocities");
-    let known = registry();
-    let (terms, selection) = (&prepared.terms, &prepared.selection);
-    let cx = Context::new(&system, terms, selection, &known, Prover::default());
-    ask(&cx)
-}
-
-/// The rank of the derivatives of functions along the constraint manifold.
-fn rank(cx: &Context<'_>, functions: &[Expr]) -> usize {
-    let motion = Motion::of(cx).expect("accelerations");
-    let matrix = motion.gradients(functions);
-    let rank = cx.prover.rank(cx.system, &matrix, &motion.manifold);
-    rank.expect("a rank").maximum
 }
 
 #[test]
@@ -161,13 +135,6 @@ fn the_search_of_small_systems_stays_within_its_work() {
         })
     });
     none(failures.into_iter().flatten().collect());
-}
-
-fn made_up(text: &str) -> Model {
-    match load("model.toml", text, &NoFiles, &[]).into_result() {
-        Ok((model, _)) => model,
-        Err(problems) => panic!("{text}{}", problems.render(Style::Plain)),
-    }
 }
 
 /// What a model made up states is a function of at most so many integrals that are found.
@@ -638,28 +605,6 @@ contact = "z' = (x y' - y x' + u v' - v u')/2"
     });
 }
 
-/// Chaplygin's sleigh whose inertia J > 0 has no value: at J = 3 a² there is a further integral (checked by hand), at J = -3 a²/4 too,
-/// which the assumption excludes.
-#[test]
-fn special_values_without_the_others_values_satisfy_the_assumptions() {
-    let text = "name = \"sleigh\"\ncoordinates = [\"x\", \"y\", \"phi\"]\nparameters = {a = {}, J = {}}\nassumptions = [\"J > 0\", \"a > 0\"]\n\
-        lagrangian = \"((x' - a phi' sin(phi))^2 + (y' + a phi' cos(phi))^2 + J phi'^2)/2\"\n[constraints]\nb = \"x' sin(phi) = y' cos(phi)\"\n";
-    let loaded = load("model.toml", text, &NoFiles, &[]);
-    let Ok((model, _)) = loaded.into_result() else {
-        panic!("the model is right");
-    };
-    within(&model, |cx, found| {
-        let g = &cx.system.graph;
-        let specials = found.special.found.iter();
-        let values: Vec<f64> = specials
-            .flat_map(|special| special.tie.pairs(g))
-            .flat_map(|(_, value)| g.evaluate_f64(&[value], &|_| Some(1.0)).expect("a value"))
-            .collect();
-        assert!(values.contains(&3.0), "{values:?}");
-        assert!(values.iter().all(|&value| value > 0.0), "{values:?}");
-    });
-}
-
 /// Linear motions: (x ± y) e^(∓t) of x' = y, y' = x; the eigenvalues (-3 ± √5)/2 and the double one -1 of damped springs; the speed
 /// under drag and gravity, m y' + m²g/c, falls as e^(-c t/m).
 #[test]
@@ -856,75 +801,6 @@ fn rates_that_vanish_speeds_and_reciprocals() {
             "lagrangian = \"x'^2/2\"\n[controls]\nu = \"sin(3 t)\"\n[forces]\nx = \"u'\"\n[integrals]\na = \"x' - u\"",
         ),
         1,
-    );
-}
-
-/// The special values of a model, with what is found there, as text.
-fn specials(text: &str) -> Vec<(String, Vec<String>)> {
-    within(&made_up(text), |cx, found| {
-        let g = &cx.system.graph;
-        let special = found.special.found.iter().map(|special| {
-            let pairs = special.tie.pairs(g).into_iter();
-            let pairs = pairs.map(|(a, b)| format!("{} = {}", g.text(a), g.text(b)));
-            let pairs: Vec<String> = pairs.collect();
-            let integrals = special.integrals.iter().map(|&e| g.text(e));
-            (pairs.join(", "), integrals.collect())
-        });
-        special.collect()
-    })
-}
-
-/// Suslov's body with w3 = 0: at K = 0, where a momentum vanishes, w1' = w2' = 0; where I2 = 1 + K² the reaction vanishes, and the moment of
-/// momentum is constant in space. The skate under drag keeps u θ' where d/J = -c/m. All by hand.
-#[test]
-fn special_values_that_are_sums_or_make_momenta_vanish() {
-    let suslov = "name = \"suslov\"\nparameters = [\"I2\", \"K\"]\nassumptions = [\"0 < theta < pi\"]\n[coordinates]\nphi = { unit = \"rad\" }\ntheta = { unit = \"rad\" }\npsi = { unit = \"rad\" }\n\
-        [quasi_velocities]\nw1 = \"phi' sin(theta) sin(psi) + theta' cos(psi)\"\nw2 = \"phi' sin(theta) cos(psi) - theta' sin(psi)\"\n[define]\nw3 = \"phi' cos(theta) + psi'\"\n\
-        [lagrangian]\nT = \"1/2 (w1^2 + I2 w2^2 + w3^2) + K w1 w3\"\n[constraints]\nc = \"w3 = 0\"\n";
-    let found = specials(suslov);
-    let at = |tie: &str| found.iter().find(|(own, _)| own == tie).map(|(_, own)| own);
-    let zero = at("K = 0").unwrap_or_else(|| panic!("{found:?}"));
-    assert!(
-        zero.iter().any(|e| e == "w1") && zero.iter().any(|e| e == "w2"),
-        "{zero:?}"
-    );
-    assert!(at("I2 = 1 + K^2").is_some(), "{found:?}");
-    let skate = "name = \"skate\"\ncoordinates = [\"x\", \"y\", \"th\"]\nparameters = [\"m\", \"J\", \"c\", \"d\"]\nlagrangian = \"m (x'^2 + y'^2)/2 + J th'^2/2\"\n\
-        [forces]\nx = \"-c x'\"\ny = \"-c y'\"\nth = \"-d th'\"\n[constraints]\nb = \"x' sin(th) = y' cos(th)\"\n";
-    let found = specials(skate);
-    let others: Vec<&String> = found
-        .iter()
-        .map(|(tie, _)| tie)
-        .filter(|tie| !["c = 0", "d = 0"].contains(&&tie[..]))
-        .collect();
-    assert_eq!(others, ["J = -m d/c"], "{found:?}");
-}
-
-/// Springs between M > 0 and m > 0: M = -m is excluded whatever k is. Where y has no inertia no motion is determined: nothing is kept at
-/// e = 0.
-#[test]
-fn special_values_that_are_none() {
-    let springs = "name = \"springs\"\ncoordinates = [\"x\", \"y\"]\nparameters = [\"M\", \"m\", \"k\"]\nassumptions = [\"M > 0\", \"m > 0\"]\nlagrangian = \"M x'^2/2 + m y'^2/2 - k M m (x - y)^2/2\"\n";
-    let ties: Vec<String> = specials(springs).into_iter().map(|(tie, _)| tie).collect();
-    assert_eq!(ties, ["k = 0"]);
-    let massless = "name = \"massless\"\ncoordinates = [\"x\", \"y\"]\nparameters = [\"e\"]\nlagrangian = \"(x'^2 + e y'^2)/2 - e x y\"\n";
-    assert_eq!(specials(massless), []);
-}
-
-/// x'' = sin(w t): where w = 0 nothing is known at points where sin(w t) is a letter of its own, and nothing is said. Hénon and Heiles'
-/// system of the 16 : 1 case (Kasperczuk 1994) falls apart at D = 0, where x'² + A x² is simpler than the integral of degree four.
-#[test]
-fn special_values_in_functions_and_simpler_integrals() {
-    let forced = "name = \"forced\"\ncoordinates = [\"x\"]\nparameters = [\"w\"]\nlagrangian = \"x'^2/2 + x sin(w t)\"\n";
-    assert_eq!(specials(forced), []);
-    let quartic = "name = \"quartic\"\ncoordinates = [\"x\", \"y\"]\nparameters = [\"A\", \"D\"]\n[lagrangian]\nT = \"1/2 (x'^2 + y'^2)\"\nV = \"1/2 A x^2 + 8 A y^2 + D x^2 y + 16/3 D y^3\"\n[search]\ndegree = 4\n";
-    let found = specials(quartic);
-    let [(tie, integrals)] = &found[..] else {
-        panic!("{found:?}");
-    };
-    assert_eq!(
-        (&tie[..], &integrals[..]),
-        ("D = 0", &["x'^2 + A x^2".to_owned()][..])
     );
 }
 

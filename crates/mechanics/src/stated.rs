@@ -68,18 +68,26 @@ impl System {
 
     /// [`System::stated_zeros`], and (control, law) of the controls that occur.
     pub fn stated_values(&self) -> Vec<(Expr, Expr)> {
-        let (g, occurring) = (&self.graph, self.occurring());
         let mut values = self.stated_zeros();
-        for control in &self.controls {
-            let orders = (0..=HIGHEST).map(|order| g.symbol(&control.name, order));
-            if let (Some(law), true) = (
-                control.law,
-                orders.into_iter().any(|u| occurring.contains(&u)),
-            ) {
-                values.push((g.symbol(&control.name, 0), law));
-            }
-        }
+        values.extend(self.laws_of_controls());
         values
+    }
+
+    /// Pairs (control, law) of the controls that occur, where the model states a law.
+    pub fn laws_of_controls(&self) -> Vec<(Expr, Expr)> {
+        let (g, occurring) = (&self.graph, self.occurring());
+        let occurs = |name: &str| {
+            let mut orders = (0..=HIGHEST).map(|order| g.symbol(name, order));
+            orders.any(|u| occurring.contains(&u))
+        };
+        let controls = self.controls.iter().filter(|control| occurs(&control.name));
+        let laws = controls.filter_map(|u| Some((g.symbol(&u.name, 0), u.law?)));
+        laws.collect()
+    }
+
+    /// The system with the laws of controls put in that the model states. `None` as for [`System::for_stated_values`].
+    pub fn for_laws_of_controls(&self) -> Option<System> {
+        self.for_values(self.laws_of_controls())
     }
 
     /// The system with the parameters put in that are stated to be zero or defined by others. `None` as for [`System::for_stated_values`].

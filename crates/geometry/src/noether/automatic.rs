@@ -85,21 +85,35 @@ fn usual_families(cx: &Context<'_>, letters: &Letters) -> Vec<Family> {
     families.extend(plain::largest(cx, letters));
     families.extend(turned(cx, letters));
     families.extend(conjugate::families(cx, letters));
-    families.extend(letters.polar.iter().map(|polar| waves(cx, letters, polar)));
+    let polar = letters.polar.iter();
+    families.extend(polar.map(|polar| waves(cx, letters, polar, allowed(cx, WAVES))));
     if letters.velocities.len() > 1 {
-        let make = |weight| letters.quotients(cx.system, weight);
-        let grown = grown(allowed(cx, QUOTIENTS), 0, make, members);
-        let (weight, mut quotients) = grown.unwrap_or_else(|| (0, letters.quotients(cx.system, 0)));
-        quotients.words = match weight {
-            0 => "quotients of two velocities".into(),
-            _ => format!(
-                "quotients of two velocities times coefficients free of the time of weight up to {weight}"
-            ),
-        };
-        families.push(quotients);
+        let smallest = || letters.quotients(cx.system, 0);
+        let own = quotients(cx, letters, allowed(cx, QUOTIENTS));
+        families.push(own.unwrap_or_else(|| without_coefficients(smallest())));
     }
     families.extend(reciprocals(cx, letters));
     families
+}
+
+fn without_coefficients(quotients: Family) -> Family {
+    Family {
+        words: "quotients of two velocities".into(),
+        ..quotients
+    }
+}
+
+/// The largest family of quotients of velocities with at most so many members.
+pub(super) fn quotients(cx: &Context<'_>, letters: &Letters, most: usize) -> Option<Family> {
+    let make = |weight| letters.quotients(cx.system, weight);
+    let (weight, mut quotients) = grown(most, 0, make, members)?;
+    if weight == 0 {
+        return Some(without_coefficients(quotients));
+    }
+    quotients.words = format!(
+        "quotients of two velocities times coefficients free of the time of weight up to {weight}"
+    );
+    Some(quotients)
 }
 
 /// Reciprocals of velocities with the largest coefficients for the work allowed.
@@ -183,10 +197,10 @@ fn turned(cx: &Context<'_>, letters: &Letters) -> Option<Family> {
 }
 
 /// The family with sines and cosines of multiples of a polar angle.
-fn waves(cx: &Context<'_>, letters: &Letters, polar: &Polar) -> Family {
+pub(super) fn waves(cx: &Context<'_>, letters: &Letters, polar: &Polar, most: usize) -> Family {
     let g = &cx.system.graph;
     let make = |weight| letters.waves(cx.system, polar, weight);
-    let grown = grown(allowed(cx, WAVES), 0, make, members);
+    let grown = grown(most, 0, make, members);
     let (weight, mut family) = grown.unwrap_or_else(|| (0, make(0)));
     let list = |es: Vec<Expr>| {
         es.iter()
@@ -218,7 +232,12 @@ fn waves(cx: &Context<'_>, letters: &Letters, polar: &Polar) -> Family {
     family
 }
 
-fn words(cx: &Context<'_>, letters: &Letters, (degree, step): (u32, u32), weight: u32) -> String {
+pub(super) fn words(
+    cx: &Context<'_>,
+    letters: &Letters,
+    (degree, step): (u32, u32),
+    weight: u32,
+) -> String {
     let g = &cx.system.graph;
     let list = |weight: u32| {
         let numbered = letters.coefficients.iter().enumerate();

@@ -16,6 +16,7 @@ use super::special::{special, Specials};
 use super::written::in_quasi_velocities;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::number::prime_field::Residue;
+use chetaev_symbolic::simplify::length;
 use chetaev_symbolic::{Expr, Verdict};
 use std::sync::Arc;
 
@@ -346,6 +347,39 @@ fn momenta(
     })
 }
 
+/// Puts the energy in the place of the longest integral that is longer and a function of it and the others: a root of it, as it is
+/// linear in the velocities where these have one direction, need not be what a person writes. Returns its place.
+fn with_energy(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    table: &Table<'_>,
+    candidates: &[Candidate<'_>],
+    integrals: &mut [Integral],
+) -> Option<usize> {
+    let is_energy = |name: &Option<String>| name.as_deref() == Some(ENERGY);
+    let energy = candidates.iter().find(|c| is_energy(&c.name));
+    let energy = energy.filter(|_| !integrals.iter().any(|i| is_energy(&i.name)))?;
+    let energy = table.proved(cx, energy.family, &energy.vector)?;
+    let energy = Integral {
+        shown: shortest(cx, &energy),
+        name: Some(ENERGY.into()),
+        ..energy
+    };
+    let size = |i: &Integral| length(&cx.system.graph, i.shown);
+    let longer = (0..integrals.len()).filter(|&i| size(&integrals[i]) > size(&energy));
+    let mut longer: Vec<usize> = longer.filter(|&i| integrals[i].name.is_none()).collect();
+    longer.sort_by_key(|&i| std::cmp::Reverse(size(&integrals[i])));
+    for place in longer {
+        let mut others = integrals.to_vec();
+        others.remove(place);
+        if is_new(cx, motion, &others, energy.value) {
+            integrals[place] = energy;
+            return Some(place);
+        }
+    }
+    None
+}
+
 /// The functionally independent candidates, lifted and proved; how many depend on them, and how many stay open.
 fn chosen(
     cx: &Context<'_>,
@@ -398,6 +432,11 @@ fn chosen(
                 same.push(None);
                 open += 1;
             }
+        }
+    }
+    if let Some(replaced) = with_energy(cx, motion, table, candidates, &mut integrals) {
+        for place in &mut same {
+            *place = place.filter(|&i| i != replaced);
         }
     }
     let mut others = table.others(&vectors, &independent).unwrap_or_default();

@@ -388,7 +388,8 @@ fn velocities(cx: &Context<'_>) -> Vec<Letter> {
     let natural = |i: usize| Letter::plain(system.coordinates[i].v);
     let quasi = match Frame::stated(system, cx.terms, cx.selection) {
         Some(Ok((frame, _))) => definitions(system, &frame),
-        _ => Vec::new(),
+        // Some of them are tied by the constraints: integrals may be short in them all the same.
+        _ => tied(system),
     };
     if quasi.is_empty() {
         let mut all: Vec<Letter> = cx
@@ -413,6 +414,15 @@ fn velocities(cx: &Context<'_>) -> Vec<Letter> {
         is_new
     });
     all
+}
+
+/// The quasi-velocities of a model that are no independent velocities.
+fn tied(system: &System) -> Vec<Letter> {
+    let all = system.quasi_velocities.iter().map(|quasi| Letter {
+        value: quasi.definition,
+        shown: system.graph.symbol(&quasi.name, 0),
+    });
+    all.collect()
 }
 
 /// Roots of quadratic forms in the velocities that occur in forces, as the speed does in drag.

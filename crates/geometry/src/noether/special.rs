@@ -1,7 +1,9 @@
 //! Special values of parameters at which a family contains more integrals.
 
+use super::automatic::{grown, members, quotients, waves, words};
+use super::conjugate;
 use super::family::Family;
-use super::letters::Letters;
+use super::letters::{Letters, Polar};
 use super::motion::Motion;
 use super::occurring::congruent;
 use super::parallel::in_parallel;
@@ -138,52 +140,54 @@ impl Table<'_> {
             .collect()
     }
 
-    /// What a family has more of at special values of the parameters, each integral proved there, and at how many of these it could not
+    /// What families have more of at special values of the parameters, each integral proved there, and at which of these they could not
     /// be looked at, as nothing has a value there.
     /// Beside two conditions at once those count too that add something by themselves and follow from both.
     pub fn special(
         &self,
         cx: &Context<'_>,
-        family: &Family,
+        families: &[Family],
         ties: &[Tie],
         adding: &[Tie],
-    ) -> (Vec<Special>, usize) {
-        let Some((general, _)) = self.vectors(family) else {
-            return (Vec::new(), ties.len());
+    ) -> (Vec<Special>, Vec<Tie>) {
+        let general = families
+            .iter()
+            .map(|family| Some(self.vectors(family)?.0.len()));
+        let Some(general) = general.collect::<Option<Vec<usize>>>() else {
+            return (Vec::new(), ties.to_vec());
         };
         let mut found: Vec<Special> = Vec::new();
-        let mut missed = 0;
+        let mut missed = Vec::new();
         let inside = self.inside_functions();
-        let at = in_parallel(ties.len(), |i| self.vectors_on(family, &ties[i], &inside));
+        let at = in_parallel(ties.len(), |i| {
+            let each = families.iter();
+            let each = each.map(|family| self.vectors_on(family, &ties[i], &inside));
+            each.collect::<Option<Vec<_>>>()
+        });
         for (tie, at) in ties.iter().zip(at) {
-            let Some((draw, vectors)) = at else {
-                missed += 1;
+            let Some(at) = at else {
+                missed.push(tie.clone());
                 continue;
             };
-            let without = match tie {
-                Tie::Both(first, second) => {
-                    let follow = adding.iter().filter(|tie| self.holds(&draw, tie));
-                    let all = follow.chain([&**first, &**second]);
-                    let alone = |tie: &Tie| self.dimension_at(family, tie).unwrap_or(usize::MAX);
-                    all.map(alone).max().unwrap_or(usize::MAX)
+            let mut candidates: Vec<(&Family, &[(usize, Residue)])> = Vec::new();
+            for ((family, (draw, vectors)), &general) in families.iter().zip(&at).zip(&general) {
+                if vectors.len() > self.without(family, draw, tie, (general, adding)) {
+                    candidates.extend(vectors.iter().map(|v| (family, &v[..])));
                 }
-                _ => general.len(),
-            };
-            if vectors.len() <= without {
-                continue;
             }
-            let candidates: Vec<(&Family, &[(usize, Residue)])> =
-                vectors.iter().map(|v| (family, &v[..])).collect();
-            let independent = self.new_or_simpler(&draw, &candidates).unwrap_or_default();
+            let Some((draw, _)) = at.first().filter(|_| !candidates.is_empty()) else {
+                continue;
+            };
+            let independent = self.new_or_simpler(draw, &candidates).unwrap_or_default();
             let integrals: Vec<Expr> = independent
                 .iter()
-                .filter_map(|&i| self.proved_on(cx, family, &vectors[i], tie))
+                .filter_map(|&i| self.proved_on(cx, candidates[i].0, candidates[i].1, tie))
                 .collect();
             if integrals.is_empty() {
                 continue;
             }
             match leaves_no_motion(cx, tie) {
-                true => missed += 1,
+                true => missed.push(tie.clone()),
                 false => found.push(Special {
                     tie: tie.clone(),
                     integrals,
@@ -191,6 +195,23 @@ impl Table<'_> {
             }
         }
         (found, missed)
+    }
+
+    /// How many integrals of a family a special value has to exceed: those for all values, and those of each of two conditions.
+    fn without(
+        &self,
+        family: &Family,
+        draw: &Draw,
+        tie: &Tie,
+        (general, adding): (usize, &[Tie]),
+    ) -> usize {
+        let Tie::Both(first, second) = tie else {
+            return general;
+        };
+        let follow = adding.iter().filter(|tie| self.holds(draw, tie));
+        let all = follow.chain([&**first, &**second]);
+        let alone = |tie: &Tie| self.dimension_at(family, tie).unwrap_or(usize::MAX);
+        all.map(alone).max().unwrap_or(usize::MAX)
     }
 
     /// The integrals of a family at a special value, modulo the prime of the draw that is given too; `None` where it has no points.
@@ -295,8 +316,15 @@ fn leaves_no_motion(cx: &Context<'_>, tie: &Tie) -> bool {
     matches!(verdict, Verdict::Proved(_))
 }
 
-/// The most members of a family that is searched at special values, and the most special values.
-const SMALL: (usize, usize) = (130, 36);
+/// The most special values that are looked at one by one.
+const TIES: usize = 36;
+
+/// The multiplications that are spent on all of them in a family, and the least and the largest size of one.
+const SPENT: usize = 200_000_000;
+const SIZES: (usize, usize) = (130, 320);
+
+/// The most quotients of velocities with coefficients at special values.
+const QUOTIENTS: usize = 40;
 
 /// Further integrals in small families where two parameters are equal, or one is zero that is not assumed otherwise, and for the
 /// values that the model states.
@@ -319,26 +347,29 @@ pub(super) fn special(
             ..Specials::default()
         });
     }
-    let (ties, all) = ties(cx, &parameters);
-    let at = special_at(cx, table, letters, &parameters, &ties);
-    let mut looked = match (&at, all) {
+    let (mut ties, all) = ties(cx, &parameters);
+    let own = families_at(cx, letters, ties.len());
+    let at = special_at(cx, table, &own, &parameters, &ties);
+    let looked = match (&at, all) {
         (None, _) => Looked::Not,
-        (Some((_, 0)), true) => Looked::All,
-        (Some((_, missed)), _) => Looked::Some(ties.len() - missed),
+        (Some((_, missed)), true) if missed.is_empty() => Looked::All,
+        (Some((_, missed)), _) => {
+            ties.retain(|tie| !missed.contains(tie));
+            Looked::Some(ties.clone())
+        }
     };
+    let words = at.iter().flat_map(|_| own.iter().map(in_words)).collect();
     let (mut found, _) = at.unwrap_or_default();
     let g = &cx.system.graph;
     let mut parameters = parameters;
     parameters.sort_by_key(|&s| g.symbol_name(s).to_owned());
     let (further, critical) = critical(cx, table, letters, &parameters, (&ties, &found));
     found.extend(further);
-    if looked == Looked::Not && !critical.parameters.is_empty() {
-        looked = Looked::Some(0);
-    }
     Ok(Specials {
         found,
         critical,
         looked,
+        families: words,
     })
 }
 
@@ -351,18 +382,20 @@ pub struct Specials {
     pub critical: Critical,
     /// Whether parameters that are equal or zero or as stated were looked at.
     pub looked: Looked,
+    /// The families that were looked at there, in words.
+    pub families: Vec<String>,
 }
 
 /// Which special values of parameters were looked at.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Looked {
     /// None, as the families are too large for it, or have no points over prime fields.
     #[default]
     Not,
     /// The motion contains no parameters.
     Nothing,
-    /// So many of those where two parameters are equal or one is zero.
-    Some(usize),
+    /// These of those where two parameters are equal or one is zero.
+    Some(Vec<Tie>),
     /// All of those.
     All,
 }
@@ -374,8 +407,8 @@ pub struct Critical {
     pub parameters: Vec<Symbol>,
     /// Whether those were too that need the equality of two further parameters.
     pub equal: bool,
-    /// Among how many functions integrals were searched.
-    pub functions: usize,
+    /// Among which functions integrals were searched, in words.
+    pub words: String,
 }
 
 /// The most members of a family whose equations are looked at as functions of a parameter.
@@ -383,6 +416,17 @@ const CRITICAL: usize = 60;
 
 /// The multiplications that are spent on it.
 const WORK: u64 = 60_000_000;
+
+/// The family whose equations are looked at as functions of a parameter: free of the time, of degree two in the velocities, and its weight.
+fn critical_family(cx: &Context<'_>, letters: &Letters) -> Option<(u32, Family)> {
+    let letters = letters.without_time(cx.system);
+    let families = (0..=4).map(|weight| (weight, letters.polynomials(2, weight)));
+    let (weight, mut family) = families
+        .take_while(|(_, family)| family.members.len() <= CRITICAL)
+        .last()?;
+    family.words = words(cx, &letters, (2, 1), weight);
+    Some((weight, family))
+}
 
 /// Further integrals, quadratic in the velocities and free of the time, at special values of one parameter each.
 fn critical(
@@ -392,12 +436,7 @@ fn critical(
     parameters: &[Symbol],
     (known, at): (&[Tie], &[Special]),
 ) -> (Vec<Special>, Critical) {
-    let letters = letters.without_time(cx.system);
-    let families = (0..=4).map(|weight| letters.polynomials(2, weight));
-    let family = families
-        .take_while(|family| family.members.len() <= CRITICAL)
-        .last();
-    let Some(family) = family else {
+    let Some((_, family)) = critical_family(cx, letters) else {
         return Default::default();
     };
     let mut search = CriticalSearch {
@@ -414,17 +453,35 @@ fn critical(
     looked.retain(|&parameter| {
         !inside.contains(&g.symbol_expr(parameter)) && search.looked_at(None, parameter)
     });
-    let (mut found, _) = table.special(cx, &family, &search.ties, &[]);
+    let mut families = vec![family.clone()];
+    if letters.velocities.len() > 1 {
+        families.extend(quotients(cx, letters, CRITICAL));
+    }
+    // Quotients may be kept where no polynomial is, as where two velocities fade alike.
+    if let [_, quotients] = &families[..] {
+        search.family = quotients;
+        looked.retain(|&parameter| search.looked_at(None, parameter));
+        search.family = &family;
+    }
+    let (mut found, _) = table.special(cx, &families, &search.ties, &[]);
     // Two conditions at once: an equality that adds nothing by itself, and a value of another parameter.
     let alone = search.ties.len();
     let mut pairs: Vec<Tie> = known.to_vec();
     pairs.retain(|tie| matches!(tie, Tie::Equal(..)) && !at.iter().any(|s| s.tie == *tie));
     let all = pairs.iter().all(|pair| search.looked_beside(pair));
     let adding: Vec<Tie> = at.iter().chain(&found).map(|s| s.tie.clone()).collect();
-    found.extend(table.special(cx, &family, &search.ties[alone..], &adding).0);
+    found.extend(
+        table
+            .special(cx, &families, &search.ties[alone..], &adding)
+            .0,
+    );
     let critical = Critical {
         equal: all && !pairs.is_empty() && parameters.len() > 2,
-        functions: family.members.len() - 1,
+        words: families
+            .iter()
+            .map(in_words)
+            .collect::<Vec<String>>()
+            .join(", "),
         parameters: looked,
     };
     (found, critical)
@@ -513,32 +570,70 @@ fn is_admitted(cx: &Context<'_>, tie: &Tie) -> bool {
     })
 }
 
-/// At the special values listed; `None` where the smallest family is too large for it, or nothing is to be looked at.
+/// A family with its size.
+fn in_words(family: &Family) -> String {
+    format!("{} ({} functions)", family.words, family.members.len() - 1)
+}
+
+/// The families for so many special values: polynomials of degree two in the velocities as large as the work allows, quotients, and those
+/// with multiples of a polar angle; none where the smallest is too large.
+fn families_at(cx: &Context<'_>, letters: &Letters, ties: usize) -> Vec<Family> {
+    let most = (SPENT as f64 / (ties + 1) as f64).cbrt() as usize;
+    let most = most.clamp(SIZES.0, SIZES.1);
+    let make = |weight| letters.polynomials(2, weight);
+    let (mut all, weight) = match grown(most, 0, make, members) {
+        Some((weight, mut family)) => {
+            family.words = words(cx, letters, (2, 1), weight);
+            (vec![family], Some(weight))
+        }
+        None => {
+            let mut family = letters.polynomials(1, 0);
+            family.words = words(cx, letters, (1, 1), 0);
+            (vec![family], None)
+        }
+    };
+    if weight.is_none() && members(&all[0]) > SIZES.0 {
+        return Vec::new();
+    }
+    let heavier = critical_family(cx, letters);
+    all.extend(
+        heavier
+            .filter(|(own, _)| Some(*own) > weight)
+            .map(|(_, family)| family),
+    );
+    if letters.velocities.len() > 1 {
+        all.extend(quotients(cx, letters, QUOTIENTS));
+    }
+    // The sine and the cosine of the angle, without those of its double.
+    let polar = letters.polar.iter().map(|polar| Polar {
+        places: polar.places.iter().copied().take(2).collect(),
+        ..polar.clone()
+    });
+    all.extend(polar.map(|polar| waves(cx, letters, &polar, most)));
+    all.extend(conjugate::families(cx, letters));
+    all.retain(|family| family.members.len() <= SIZES.1);
+    all
+}
+
+/// At the special values listed; `None` where no family is small enough for it, or nothing is to be looked at.
 fn special_at(
     cx: &Context<'_>,
     table: &Table<'_>,
-    letters: &Letters,
+    families: &[Family],
     parameters: &[Symbol],
     ties: &[Tie],
-) -> Option<(Vec<Special>, usize)> {
-    let family = [
-        letters.polynomials(2, 1),
-        letters.polynomials(2, 0),
-        letters.polynomials(1, 0),
-    ]
-    .into_iter()
-    .find(|family| family.members.len() <= SMALL.0)?;
-    let (mut found, missed) = table.special(cx, &family, ties, &[]);
+) -> Option<(Vec<Special>, Vec<Tie>)> {
     let values: Vec<(Symbol, Rational)> = parameters
         .iter()
         .filter_map(|&s| Some((s, stated(cx, s)?)))
         .collect();
-    if ties.is_empty() && values.is_empty() {
+    if families.is_empty() || (ties.is_empty() && values.is_empty()) {
         return None;
     }
+    let (mut found, missed) = table.special(cx, families, ties, &[]);
     let seen = found.iter().any(|special| is_stated(cx, &special.tie));
     if !seen && !values.is_empty() {
-        found.extend(table.special(cx, &family, &[Tie::Values(values)], &[]).0);
+        found.extend(table.special(cx, families, &[Tie::Values(values)], &[]).0);
     }
     Some((found, missed))
 }
@@ -558,8 +653,8 @@ fn ties(cx: &Context<'_>, parameters: &[Symbol]) -> (Vec<Tie>, bool) {
     }));
     ties.retain(|tie| is_stated(cx, tie) || is_admitted(cx, tie));
     ties.sort_by_key(|tie| !is_stated(cx, tie));
-    let all = ties.len() <= SMALL.1;
-    ties.truncate(SMALL.1);
+    let all = ties.len() <= TIES;
+    ties.truncate(TIES);
     (ties, all)
 }
 

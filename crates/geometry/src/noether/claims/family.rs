@@ -1,14 +1,15 @@
 //! `noether.family`: the families searched, and the dimension found.
 
+use super::controls::for_laws;
 use super::requirements;
 use crate::integrability::components::components;
 use crate::integrability::on_its_own;
 use crate::noether::found::{found, Found, Searched};
-use crate::noether::special::{is_stated, Looked, Special};
+use crate::noether::special::{is_stated, Looked, Special, Tie};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::words::counted;
 use chetaev_symbolic::verdict::{Evidence, Method, Proof};
-use chetaev_symbolic::Verdict;
+use chetaev_symbolic::{Expr, Verdict};
 
 /// `noether.family`.
 #[derive(Clone, Copy, Debug)]
@@ -201,8 +202,10 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
             counted(open, "more was", "more were")
         ),
     };
+    let shown: Vec<Expr> = found.integrals.iter().map(|i| i.shown).collect();
+    let controls = for_laws(cx, &shown).map_or(String::new(), |said| format!("; {said}"));
     format!(
-        "{many} in the families searched, of which those of polynomials are larger with a larger time budget{}{open}{}",
+        "{many} in the families searched, of which those of polynomials are larger with a larger time budget{}{open}{controls}{}",
         dependent(cx, found),
         at_special_values(cx, found)
     )
@@ -237,56 +240,70 @@ fn families(cx: &Context<'_>, found: &Found) -> String {
     families.extend(functions.map(|functions| format!(
         "{functions} of velocities and coordinates times exponentials of the time, where these functions are mapped into themselves by the motion, with eigenvalues of equations of degree one or two that are seen to be real, or as quadratic forms of two functions that belong to others"
     )));
+    families.extend(families_at_special_values(cx, found));
     let each = families.into_iter();
     each.map(|family| format!("; {EXHAUSTED}{family}"))
         .collect()
 }
 
-/// What there is more of at special values of parameters, and at which of them that was asked.
+/// What there is more of at special values of parameters.
 fn at_special_values(cx: &Context<'_>, found: &Found) -> String {
-    let places = match found.special.looked {
-        Looked::Nothing => return String::new(),
-        Looked::Not => return "; special values of parameters were not looked at".to_owned(),
-        Looked::All => "where parameters are equal or zero or as stated".to_owned(),
-        Looked::Some(0) => "where parameters have some special values".to_owned(),
-        Looked::Some(some) => format!(
-            "at {some} of the places where parameters are equal or zero, and where they are as stated"
-        ),
-    };
-    let places = format!("{places}{}", at_critical_values(cx, found));
-    let special: Vec<String> = found.special.found.iter().map(|s| special(cx, s)).collect();
-    match special.is_empty() {
-        true => format!("; no more were found in a small family, looked at {places}"),
-        false => format!(
-            "; there are further or simpler ones {}; a small family was looked at {places}",
-            special.join("; ")
-        ),
+    let special = &found.special;
+    if special.looked == Looked::Nothing {
+        return String::new();
+    }
+    let is_open = special.looked == Looked::Not && special.critical.parameters.is_empty();
+    if is_open {
+        return "; special values of parameters were not looked at".to_owned();
+    }
+    let more: Vec<String> = special.found.iter().map(|s| self::special(cx, s)).collect();
+    match more.is_empty() {
+        true => "; no more were found at special values of parameters".to_owned(),
+        false => format!("; there are further or simpler ones {}", more.join("; ")),
     }
 }
 
+/// The families that were exhausted at special values of parameters, and at which.
+fn families_at_special_values(cx: &Context<'_>, found: &Found) -> Vec<String> {
+    let special = &found.special;
+    let places = match &special.looked {
+        Looked::Nothing | Looked::Not => None,
+        Looked::All => Some("where parameters are equal or zero or as stated".to_owned()),
+        Looked::Some(ties) => {
+            let ties = ties.iter().map(|tie| equations(cx, tie));
+            let all: Vec<String> = ties.chain(["as stated".to_owned()]).collect();
+            Some(format!(
+                "where parameters are so, and not at other equalities or zeros: {}",
+                all.join("; ")
+            ))
+        }
+    };
+    let simple = places.map(|places| format!("{places}, {}", special.families.join(", ")));
+    let critical = at_critical_values(cx, found);
+    simple.into_iter().chain(critical).collect()
+}
+
 /// The values of one parameter that were searched rather than stated.
-fn at_critical_values(cx: &Context<'_>, found: &Found) -> String {
+fn at_critical_values(cx: &Context<'_>, found: &Found) -> Option<String> {
     let looked = &found.special.critical;
-    let size = looked.functions;
     let names: Vec<&str> = looked
         .parameters
         .iter()
         .map(|&s| cx.system.graph.symbol_name(s))
         .collect();
     let critical = match &names[..] {
-        [] => String::new(),
-        [one] => {
-            format!(", and, with {size} functions free of the time, where {one} is a simple rational number")
-        }
+        [] => return None,
+        [one] => format!("where {one} is a simple rational number"),
         all => format!(
-            ", and, with {size} functions free of the time, where one of {} is a simple rational multiple of a product of powers of others or a sum of two of these",
+            "where one of {} is a simple rational multiple of a product of powers of others or a sum of two of these",
             all.join(", ")
         ),
     };
-    match looked.equal {
-        true => format!("{critical}, or so where two others are equal"),
-        false => critical,
-    }
+    let equal = match looked.equal {
+        true => ", or so where two others are equal",
+        false => "",
+    };
+    Some(format!("{critical}{equal}, {}", looked.words))
 }
 
 /// What was found beside the independent ones, in words.
@@ -343,12 +360,6 @@ fn products_named(products: &[(usize, usize)]) -> String {
 /// Special values of parameters with what they add, in words.
 fn special(cx: &Context<'_>, special: &Special) -> String {
     let g = &cx.system.graph;
-    let equations: Vec<String> = special
-        .tie
-        .pairs(g)
-        .into_iter()
-        .map(|(a, b)| format!("{} = {}", g.text(a), g.text(b)))
-        .collect();
     let integrals: Vec<String> = special.integrals.iter().map(|&e| g.text(e)).collect();
     let here = match is_stated(cx, &special.tie) {
         true => ", as the model states",
@@ -356,9 +367,17 @@ fn special(cx: &Context<'_>, special: &Special) -> String {
     };
     format!(
         "where {}{here}: {}",
-        equations.join(", "),
+        equations(cx, &special.tie),
         integrals.join(", ")
     )
+}
+
+/// `a = b, c = 0`.
+fn equations(cx: &Context<'_>, tie: &Tie) -> String {
+    let g = &cx.system.graph;
+    let pairs = tie.pairs(g).into_iter();
+    let texts = pairs.map(|(a, b)| format!("{} = {}", g.text(a), g.text(b)));
+    texts.collect::<Vec<String>>().join(", ")
 }
 
 fn exhausted(searched: &Searched) -> String {

@@ -168,8 +168,15 @@ fn under_shifts(cx: &Context<'_>, name: &str, symbol: Symbol) -> String {
     let Ok(motion) = Motion::of(cx) else {
         return format!("by Noether's theorem it belongs to shifts of {name}");
     };
+    // Controls are functions of the time; masses with a law of their own are states.
+    let is_control = |s: Symbol| system.controls.iter().any(|u| u.name == g.symbol_name(s));
+    let along_time = |s| (s == symbol || is_control(s)).then(|| system.prescribed_rate(s))?;
+    let slope = |e: Expr| match name {
+        "time" => g.derive(&[e], &along_time).swap_remove(0),
+        _ => g.diff(e, symbol),
+    };
     let contains = |es: &[Expr], manifold: &Manifold| {
-        let slopes: Vec<Expr> = es.iter().map(|&e| g.diff(e, symbol)).collect();
+        let slopes: Vec<Expr> = es.iter().map(|&e| slope(e)).collect();
         let verdict = cx.prover.identity(system, &slopes, manifold, "");
         !matches!(verdict, Verdict::Proved(_))
     };
@@ -202,7 +209,11 @@ fn under_shifts(cx: &Context<'_>, name: &str, symbol: Symbol) -> String {
         [one] => format!("the constraint `{one}` contains"),
         all => format!("the constraints {} contain", words::quoted(all)),
     };
-    format!("by Noether's theorem it belongs to {what}{kept}; {which} {symbol_text}, so that the system has no symmetry under shifts of {name}", symbol_text = g.symbol_text(symbol))
+    let shifted = match name {
+        "time" if !system.controls.is_empty() => "the time or a control".to_owned(),
+        _ => g.symbol_text(symbol),
+    };
+    format!("by Noether's theorem it belongs to {what}{kept}; {which} {shifted}, so that the system has no symmetry under shifts of {name}")
 }
 
 /// A longer field is not written out in a sentence.

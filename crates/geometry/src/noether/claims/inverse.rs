@@ -1,5 +1,6 @@
 //! `noether.inverse#NAME`: an integral that the model states is one, and its generator.
 
+use super::controls::by_laws;
 use super::domain::{lasting, nowhere, undefined_at_samples, while_it_lasts};
 use super::requirements;
 use super::states::{on_part, on_positions, on_sides};
@@ -31,7 +32,7 @@ impl Claim for Inverse {
         "A function G stated under [integrals] keeps its value along every motion: X̄G = 0 on the constraint manifold. If so, the inverse of \
          Noether's theorem gives its field: χ = -W̄⁻¹ ∂G, here with δ = 0, and the gauge g = G + p χ; the Killing-type equations are \
          proved for them. `conditional` says that it is one for parameters as the model defines them by others, not for \
-         independent ones, or for the values that it states, or as long as the function does not jump, or on the part of the states that \
+         independent ones, or for the values or the laws of controls that it states, or as long as the function does not jump, or on the part of the states that \
          the model states with `on`, which is proved to be invariant, or on one component of constraints that are products, or on one \
          side of the corners of constraints; the field is given and its equations are proved for these. `refuted` comes with an \
          admissible state at which the rate of G is not zero, or, where motions leave the part stated with `on`, its second or third \
@@ -111,6 +112,7 @@ fn decided(
             .or_else(|| by_definitions(cx, motion, value))
             .or_else(|| by_values(cx, motion, value))
             .or_else(|| on_positions(cx, motion, value))
+            .or_else(|| by_laws(cx, name))
             .unwrap_or_else(|| {
                 let words = match other {
                     Verdict::Refuted(_) => "it changes on motions",

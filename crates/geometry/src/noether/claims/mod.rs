@@ -1,6 +1,7 @@
 //! The claims about first integrals (claims.md §6), one file each.
 
 mod contraction;
+mod controls;
 mod domain;
 mod embedded;
 pub(super) mod family;
