@@ -4,7 +4,7 @@
 
 mod common;
 
-use chetaev_geometry::noether::moving::{axes, directions, Kept};
+use chetaev_geometry::noether::moving::{axes, directions, Kept, Searched};
 use chetaev_mechanics::system::{Parameter, Particle, Thrust};
 use chetaev_mechanics::{System, SystemParts};
 use chetaev_symbolic::{Expr, Graph, Verdict};
@@ -166,4 +166,197 @@ fn momenta_that_equal_masses_keep() {
         panic!("{:?}", found.verdict);
     };
     assert_eq!(condition, "m = M");
+}
+
+/// One particle of mass m in the plane or in space, with the force that a function of the position gives.
+fn one(names: &[&str], force_function: &str, constraints: &[(&str, &str)]) -> System {
+    let squares: Vec<String> = names.iter().map(|x| format!("{x}'^2")).collect();
+    let lagrangian = format!("m ({})/2 + {force_function}", squares.join(" + "));
+    particles(
+        &names.join(" "),
+        &lagrangian,
+        &[("a", "m", names)],
+        constraints,
+        &[],
+    )
+}
+
+/// What is kept, as directions and points in words with the value.
+fn listed(system: &System, search: Search) -> Vec<(String, Option<String>, String)> {
+    with_context(system, |cx| {
+        let kept = search(cx).unwrap().kept;
+        let own = kept.into_iter();
+        own.map(|k| (k.direction, k.point, system.graph.text(k.shown)))
+            .collect()
+    })
+}
+
+type Search = fn(&chetaev_mechanics::Context<'_>) -> Result<Searched, String>;
+
+fn is_proved(system: &System, claim: &str) {
+    let verdict = &finding(system, claim).verdict;
+    assert!(matches!(verdict, Verdict::Proved(_)), "{verdict:?}");
+}
+
+/// A force (3 k, 4 k) has no part along (4, -3); one along (1, -1) has none along (1, 1); on a slope of the angle s gravity has none
+/// along (cos s, sin s) where it is (-m g sin s, m g cos s).
+#[test]
+fn oblique_directions_in_the_plane() {
+    for (force, direction, momentum) in [
+        ("3 k x + 4 k y", "(4, -3)", "m (4 x' - 3 y')"),
+        ("-k (x - y)^2/2", "(1, 1)", "m (x' + y')"),
+        (
+            "m g (y cos(s) - x sin(s))",
+            "(cos(s), sin(s))",
+            "m (x' cos(s) + y' sin(s))",
+        ),
+        ("p x + q y", "(q, -p)", "m (q x' - p y')"),
+    ] {
+        let system = one(&["x", "y"], force, &[]);
+        let kept = only_momentum(&system, momentum);
+        assert_eq!(kept.direction, direction);
+    }
+}
+
+/// Without forces the axes are what a person names, and nothing is listed beside them.
+#[test]
+fn axes_are_listed_once() {
+    let free = one(&["x", "y", "z"], "0", &[]);
+    let names = |search: Search| -> Vec<String> {
+        let all = listed(&free, search).into_iter();
+        all.map(|(direction, _, _)| direction).collect()
+    };
+    let all = ["the x axis", "the y axis", "the z axis"];
+    assert_eq!(names(directions), all);
+    assert_eq!(names(axes), all);
+}
+
+/// The force of V = k (x + y + z)²/2 is -k (x + y + z) (1, 1, 1): it has no part along (1, -1, 0) and (0, 1, -1) and no moment about
+/// the axis (1, 1, 1) through the origin.
+#[test]
+fn oblique_directions_and_axes_in_space() {
+    let system = one(&["x", "y", "z"], "-k (x + y + z)^2/2", &[]);
+    let found = listed(&system, directions);
+    let names: Vec<&str> = found.iter().map(|(e, _, _)| &e[..]).collect();
+    assert_eq!(names, ["(1, -1, 0)", "(0, 1, -1)"]);
+    let [(direction, point, _)] = &listed(&system, axes)[..] else {
+        panic!("one axis");
+    };
+    assert_eq!(direction, "(1, 1, 1)");
+    assert_eq!(point.as_deref(), Some("the origin"));
+    for claim in ["direction#1", "direction#2", "axis#1"] {
+        is_proved(&system, &format!("noether.moving-{claim}"));
+    }
+}
+
+/// The line through the origin along (1, 1, 0) has the distance of which ((x - y)² + 2 z²)/2 is the square, and its functions do not change
+/// in turns about it; moved by c along x it goes through (c, 0, 0), and its point nearest to the origin is (c/2, -c/2, 0). Along
+/// (1, 1, 0) the momentum is kept.
+#[test]
+fn an_oblique_axis_off_the_origin() {
+    let system = one(&["x", "y", "z"], "-k ((x - c - y)^2 + 2 z^2)^2", &[]);
+    let found = listed(&system, axes);
+    let [(direction, point, _)] = &found[..] else {
+        panic!("{found:?}");
+    };
+    assert_eq!(direction, "(1, 1, 0)");
+    assert_eq!(point.as_deref(), Some("the point (c/2, -c/2, 0)"));
+    is_proved(&system, "noether.moving-axis#1");
+    let found = listed(&system, directions);
+    let names: Vec<&str> = found.iter().map(|(e, _, _)| &e[..]).collect();
+    assert_eq!(names, ["(1, 1, 0)"]);
+}
+
+/// V = k (x cos(z/h) + y sin(z/h)) = k ρ cos(φ - z/h) does not change in a screw of h along z for a radian about z:
+/// m (x y' - y x') + m h z' is kept, neither part by itself.
+#[test]
+fn screws() {
+    let system = one(&["x", "y", "z"], "-k (x cos(z/h) + y sin(z/h))", &[]);
+    let found = listed(&system, axes);
+    let [(direction, point, _)] = &found[..] else {
+        panic!("{found:?}");
+    };
+    assert_eq!(direction, "the z axis");
+    assert_eq!(
+        point.as_deref(),
+        Some("the origin with h times the momentum along it (a screw)")
+    );
+    with_motion(&system, |cx, _| {
+        let g = &system.graph;
+        let value = axes(cx).unwrap().kept[0].value;
+        let difference = g.sub(value, expr(g, "m (x y' - y x' + h z')"));
+        let same = cx
+            .prover
+            .identity(&system, &[difference], &Default::default(), "");
+        assert!(matches!(same, Verdict::Proved(_)), "{same:?}");
+    });
+    is_proved(&system, "noether.moving-axis#1");
+    assert!(listed(&system, directions).is_empty());
+}
+
+/// A force to the point (a, b) keeps the moment about it, written without a minus in front of its terms.
+#[test]
+fn moments_are_written_with_arms() {
+    let system = one(&["x", "y"], "-k ((x - a)^2 + (y - b)^2)^2", &[]);
+    let [(direction, point, value)] = &listed(&system, axes)[..] else {
+        panic!("one axis");
+    };
+    assert_eq!(direction, "the axis across the plane");
+    assert_eq!(point.as_deref(), Some("the point (a, b)"));
+    assert_eq!(value, "m ((b - y) x' + (x - a) y')");
+    let detail = finding(&system, "noether.moving-axis#1");
+    let detail = detail.verdict.detail().to_owned();
+    assert!(detail.contains("m ((b - y) x' + (x - a) y')"), "{detail}");
+}
+
+/// x' = v leaves m v of the momentum along x, x y' - y x' = h leaves m h of the moment about the origin, and phi' = w leaves 2 m l² w of
+/// that about the centre of mass.
+#[test]
+fn what_constraints_make_constant_is_named() {
+    let falling = one(&["x", "y"], "-m g y", &[("c", "x' - v")]);
+    let turning = one(&["x", "y"], "0", &[("c", "x y' - y x' - h")]);
+    let skate = particles(
+        "x y phi",
+        "m (x'^2 + y'^2 + l^2 phi'^2)",
+        &[
+            ("a", "m", &["x + l cos(phi)", "y + l sin(phi)"]),
+            ("b", "m", &["x - l cos(phi)", "y - l sin(phi)"]),
+        ],
+        &[("blade", "y' cos(phi) - x' sin(phi)"), ("turn", "phi' - w")],
+        &[],
+    );
+    for (system, claim, what) in [
+        (&falling, "direction", "along the x axis (m v)"),
+        (&turning, "axis", "through the origin (m h)"),
+        (&skate, "axis", "through the centre of mass"),
+        (&skate, "axis", "(2 m l^2 w)"),
+    ] {
+        let verdict = finding(system, &format!("noether.moving-{claim}"));
+        let detail = verdict.verdict.detail();
+        assert!(detail.contains(what), "{detail}");
+        assert!(detail.contains("trivial"), "{detail}");
+    }
+}
+
+/// Each claim speaks of what it tried.
+#[test]
+fn each_claim_speaks_of_its_own_candidates() {
+    let wind = one(&["x", "y"], "x^3 - x y^4", &[]);
+    let said = |claim: &str| finding(&wind, claim).verdict.detail().to_owned();
+    let (along, about) = (
+        said("noether.moving-direction"),
+        said("noether.moving-axis"),
+    );
+    assert!(along.contains("none of 2 candidates"), "{along}");
+    assert!(
+        !along.contains("point") && !along.contains("centre"),
+        "{along}"
+    );
+    assert!(along.contains("any other fixed direction"), "{along}");
+    assert!(about.contains("none of 2 candidates"), "{about}");
+    assert!(
+        about.contains("the origin") && !about.contains("from particle to"),
+        "{about}"
+    );
+    assert!(about.contains("any other fixed point"), "{about}");
 }

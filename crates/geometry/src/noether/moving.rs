@@ -3,20 +3,18 @@
 //! With the forces `F_a = m_a r_a''` on the particles, reactions among them, `K = Σ m r'`, `H_A = Σ (r - r_A) × m r'`:
 //! `d/dt (K·e) = K·e' + F·e` (18a) and `d/dt (H_A·e) = K·(r_A' × e) + H_A·e' + M_A·e` (18), for any e and A that are functions of the
 //! state. Directions e are searched among the axes, the directions that turn with an angle that occurs in sines and cosines, as φ or ωt,
-//! and those from particle to particle; points A among the origin, the particles, the centre of mass, the point whose coordinates carry
-//! all particles along, as that of contact of a blade, and all points at rest.
+//! and those from particle to particle; points A among the origin, the particles, the centre of mass and the point whose coordinates
+//! carry all particles along, as that of contact of a blade. All other fixed directions and axes come from linear equations.
 
-use super::ansatz::Ansatz;
+use super::fixed::{Axis, Fixed};
 use super::motion::{draw_with_points, Motion};
 use super::shown::readable;
-use chetaev_mechanics::{mass, particles, Context, System};
+use super::vectors::{axis_of, cross, difference, dot, is_zero, padded, text, Vector};
+use chetaev_mechanics::{mass, particles, Context, Manifold, System};
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::simplify::length;
-use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
-
-/// Three components.
-type Vector = [Expr; 3];
+use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol, Verdict};
 
 /// A direction or an axis with what is kept.
 #[derive(Clone, Debug)]
@@ -27,6 +25,8 @@ pub struct Kept {
     pub point: Option<String>,
     /// K·e or H_A·e.
     pub value: Expr,
+    /// The same as a person writes it.
+    pub shown: Expr,
     /// The left side of (18a) or (18) on the motion.
     pub rate: Expr,
     /// Whether it is kept for the values of parameters that the model states, and not in general.
@@ -38,10 +38,14 @@ pub struct Kept {
 }
 
 impl Kept {
+    /// The direction, and the point of an axis.
+    pub(crate) fn names(&self) -> (&str, Option<&str>) {
+        (&self.direction, self.point.as_deref())
+    }
+
     /// Names another candidate that is a multiple of this one; the one that is written shorter stands first.
     fn beside(&mut self, system: &System, mut other: Kept) {
-        let g = &system.graph;
-        let size = |kept: &Kept| length(g, readable(g, kept.value));
+        let size = |kept: &Kept| length(&system.graph, kept.shown);
         if size(&other) < size(self) {
             std::mem::swap(self, &mut other);
             std::mem::swap(&mut self.also, &mut other.also);
@@ -55,8 +59,12 @@ impl Kept {
 pub struct Searched {
     /// Directions or axes with an integral, not proved yet.
     pub kept: Vec<Kept>,
+    /// Those that the constraints make constant, where nothing is kept otherwise.
+    pub constant: Vec<Kept>,
     /// How many were tried.
     pub tried: usize,
+    /// Whether all other fixed directions or axes were looked at too.
+    pub all_fixed: bool,
 }
 
 /// Names what is moved.
@@ -64,6 +72,10 @@ struct Named<T> {
     words: String,
     value: T,
 }
+
+const AXES: [&str; 3] = ["the x axis", "the y axis", "the z axis"];
+const ACROSS: &str = "the axis across the plane";
+const ORIGIN: &str = "the origin";
 
 /// The particles of a system with their motion.
 struct Swarm<'a> {
@@ -74,23 +86,6 @@ struct Swarm<'a> {
     /// m r''.
     forces: Vec<Vector>,
     names: Vec<String>,
-}
-
-fn padded(g: &Graph, components: &[Expr]) -> Vector {
-    [0, 1, 2].map(|i| components.get(i).copied().unwrap_or(g.zero()))
-}
-
-fn dot(g: &Graph, a: &Vector, b: &Vector) -> Expr {
-    let parts: Vec<Expr> = (0..3).map(|i| g.mul(&[a[i], b[i]])).collect();
-    g.add(&parts)
-}
-
-fn cross(g: &Graph, a: &Vector, b: &Vector) -> Vector {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| g.sub(g.mul(&[a[i], b[j]]), g.mul(&[a[j], b[i]])))
-}
-
-fn difference(g: &Graph, a: &Vector, b: &Vector) -> Vector {
-    [0, 1, 2].map(|i| g.sub(a[i], b[i]))
 }
 
 impl<'a> Swarm<'a> {
@@ -142,7 +137,7 @@ impl<'a> Swarm<'a> {
                 let mut e = [zero; 3];
                 e[i] = one;
                 Named {
-                    words: format!("the {} axis", ["x", "y", "z"][i]),
+                    words: AXES[i].into(),
                     value: e,
                 }
             })
@@ -177,7 +172,7 @@ impl<'a> Swarm<'a> {
         match self.dimension(motion) {
             0 | 1 => Vec::new(),
             2 => vec![Named {
-                words: "the axis across the plane".into(),
+                words: ACROSS.into(),
                 value: [g.zero(), g.zero(), g.one()],
             }],
             _ => self.directions(motion),
@@ -202,13 +197,9 @@ impl<'a> Swarm<'a> {
             }
         }
         let given = value.iter().filter(|&&x| !g.is_zero(x)).count();
-        let texts: Vec<String> = value[..self.dimension(motion)]
-            .iter()
-            .map(|&x| g.text(x))
-            .collect();
         let is_new = given > 1 && !self.positions.contains(&value);
         is_new.then(|| Named {
-            words: format!("the point ({})", texts.join(", ")),
+            words: format!("the point {}", text(g, &value, self.dimension(motion))),
             value,
         })
     }
@@ -216,7 +207,7 @@ impl<'a> Swarm<'a> {
     fn points(&self) -> Vec<Named<Vector>> {
         let g = self.g;
         let mut found = vec![Named {
-            words: "the origin".into(),
+            words: ORIGIN.into(),
             value: [g.zero(); 3],
         }];
         let named = self.names.iter().zip(&self.positions);
@@ -235,41 +226,63 @@ impl<'a> Swarm<'a> {
         found
     }
 
-    /// A point at rest about which the moment along a fixed direction is kept, where it is not the origin: for points A at rest
-    /// (18) is `(Σ r × F)·e = A·(F × e)`, linear in A.
-    fn at_rest(
-        &self,
-        cx: &Context<'_>,
-        motion: &Motion<'_>,
-        e: &Named<Vector>,
-    ) -> Option<Named<Vector>> {
-        let g = self.g;
-        let moves = |s| motion.moves(s);
-        if !e.value.iter().all(|&x| g.is_free_of(x, &moves)) {
+    /// All fixed directions and axes.
+    fn fixed(&self, cx: &Context<'_>, motion: &Motion<'_>) -> Fixed {
+        let own = self.positions.iter().zip(&self.forces);
+        let moment = self.sum(own.map(|(r, f)| cross(self.g, r, f)));
+        let force = self.sum(self.forces.iter().copied());
+        Fixed::of(cx, motion, &force, &moment, self.dimension(motion))
+    }
+
+    /// The moment about a fixed axis, with what belongs to it in a screw; `None` for one that is among the candidates anyway.
+    fn about_fixed(&self, motion: &Motion<'_>, axis: &Axis) -> Option<Kept> {
+        let (g, dimension) = (self.g, self.dimension(motion));
+        let own = axis_of(g, &axis.direction);
+        let (at_origin, is_screw) = (is_zero(g, &axis.point), !g.is_zero(axis.pitch));
+        if own.is_some() && at_origin && !is_screw {
             return None;
         }
-        let own = self.positions.iter().zip(&self.forces);
-        let moment = self.sum(own.map(|(r, f)| cross(g, r, f)));
-        let force = self.sum(self.forces.iter().copied());
-        let across = cross(g, &force, &e.value);
-        let used: Vec<usize> = (0..3).filter(|&i| !g.is_zero(across[i])).collect();
-        let mut columns: Vec<Vec<Expr>> = used.iter().map(|&i| vec![across[i]]).collect();
-        columns.push(vec![dot(g, &moment, &e.value)]);
-        let seed = cx.prover.points_seed();
-        let ansatz = Ansatz::new(motion, &columns, &motion.manifold, &[], seed).ok()?;
-        let found = ansatz.with_last()?;
-        let (&last, others) = found.split_last()?;
-        let mut value = [g.zero(); 3];
-        for (&i, &c) in used.iter().zip(others) {
-            value[i] = readable(g, g.neg(g.div(c, last)));
-        }
-        let texts: Vec<String> = (0..self.dimension(motion))
-            .map(|i| g.text(value[i]))
-            .collect();
-        value.iter().any(|&x| !g.is_zero(x)).then(|| Named {
-            words: format!("the point ({})", texts.join(", ")),
-            value,
+        let e = Named {
+            words: match own {
+                Some(_) if dimension == 2 => ACROSS.to_owned(),
+                Some(i) => AXES[i].to_owned(),
+                None => text(g, &axis.direction, dimension),
+            },
+            value: axis.direction,
+        };
+        let a = Named {
+            words: match at_origin {
+                true => ORIGIN.to_owned(),
+                false => format!("the point {}", text(g, &axis.point, dimension)),
+            },
+            value: axis.point,
+        };
+        let moment = self.about(motion, &e, &a);
+        Some(match is_screw {
+            true => self.screw(moment, &self.along(motion, e), axis.pitch),
+            false => moment,
         })
+    }
+
+    /// A moment with a multiple of the momentum along its axis.
+    fn screw(&self, moment: Kept, momentum: &Kept, pitch: Expr) -> Kept {
+        let g = self.g;
+        let times = match g.is_one(pitch) {
+            true => String::new(),
+            false => format!("{} times ", g.text(pitch)),
+        };
+        let with = |own: Expr, more: Expr| g.add(&[own, g.mul(&[pitch, more])]);
+        let value = with(moment.value, momentum.value);
+        let point = moment
+            .point
+            .map(|a| format!("{a} with {times}the momentum along it (a screw)"));
+        Kept {
+            point,
+            value,
+            shown: readable(g, value),
+            rate: with(moment.rate, momentum.rate),
+            ..moment
+        }
     }
 
     /// K·e with the left side of (18a).
@@ -278,8 +291,10 @@ impl<'a> Swarm<'a> {
         let momentum = self.weighted(&self.velocities);
         let force = self.sum(self.forces.iter().copied());
         let turned = padded(g, &motion.derivatives(&e.value));
+        let value = dot(g, &momentum, &e.value);
         Kept {
-            value: dot(g, &momentum, &e.value),
+            value,
+            shown: readable(g, value),
             rate: g.add(&[dot(g, &momentum, &turned), dot(g, &force, &e.value)]),
             direction: e.words,
             point: None,
@@ -311,13 +326,15 @@ impl<'a> Swarm<'a> {
         let momentum = self.weighted(&self.velocities);
         let turned = padded(g, &motion.derivatives(&e.value));
         let moved = padded(g, &motion.derivatives(&a.value));
+        let value = dot(g, &moment, &e.value);
         Kept {
             direction: e.words.clone(),
             point: Some(a.words.clone()),
             as_stated: false,
             rooted: is_rooted(g, &e.value),
             also: Vec::new(),
-            value: dot(g, &moment, &e.value),
+            value,
+            shown: readable(g, value),
             rate: g.add(&[
                 dot(g, &momentum, &cross(g, &moved, &e.value)),
                 dot(g, &moment, &turned),
@@ -403,7 +420,15 @@ pub fn directions(cx: &Context<'_>) -> Result<Searched, String> {
     let swarm = Swarm::of(&motion);
     let all = swarm.directions(&motion).into_iter().take(CANDIDATES);
     let candidates = all.map(|e| swarm.along(&motion, e)).collect();
-    kept(cx, &motion, candidates)
+    let fixed = swarm.fixed(cx, &motion);
+    let oblique = fixed.directions.into_iter();
+    let oblique = oblique.filter(|e| axis_of(swarm.g, e).is_none());
+    let named = oblique.map(|value| Named {
+        words: text(swarm.g, &value, swarm.dimension(&motion)),
+        value,
+    });
+    let beside = named.map(|e| swarm.along(&motion, e)).collect();
+    kept(cx, &motion, candidates, (beside, fixed.is_all))
 }
 
 /// Moments of momentum about axes that are kept, likewise.
@@ -416,15 +441,14 @@ pub fn axes(cx: &Context<'_>) -> Result<Searched, String> {
     let (axes, mut points) = (swarm.axes(&motion), swarm.points());
     points.extend(swarm.carried(&motion));
     let pairs = axes.iter().flat_map(|e| points.iter().map(move |a| (e, a)));
-    let mut candidates: Vec<Kept> = pairs
+    let candidates = pairs
         .take(CANDIDATES)
         .map(|(e, a)| swarm.about(&motion, e, a))
         .collect();
-    for e in &axes {
-        let point = swarm.at_rest(cx, &motion, e);
-        candidates.extend(point.map(|a| swarm.about(&motion, e, &a)));
-    }
-    kept(cx, &motion, candidates)
+    let fixed = swarm.fixed(cx, &motion);
+    let beside = fixed.axes.iter();
+    let beside = beside.filter_map(|axis| swarm.about_fixed(&motion, axis));
+    kept(cx, &motion, candidates, (beside.collect(), fixed.is_all))
 }
 
 /// Whether the masses are constant, as the theorems on momenta suppose.
@@ -439,29 +463,91 @@ pub(crate) fn masses_are_constant(cx: &Context<'_>) -> bool {
         && cx.system.particles.iter().all(|p| is_constant(p.mass))
 }
 
-/// The candidates that are kept in general, then those that are for the values of parameters that the model states.
-fn kept(cx: &Context<'_>, motion: &Motion<'_>, candidates: Vec<Kept>) -> Result<Searched, String> {
+/// The candidates, and the fixed ones found beside them, which may be all of these, that are kept in general; then those that are for the
+/// values of parameters that the model states.
+fn kept(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    mut candidates: Vec<Kept>,
+    (fixed, all_fixed): (Vec<Kept>, bool),
+) -> Result<Searched, String> {
     let tried = candidates.len();
-    let mut all = kept_with(cx, motion, candidates.clone(), &[])?;
+    candidates.extend(fixed);
+    let found = kept_with(cx, motion, candidates.clone(), &[])?;
+    let mut searched = Searched {
+        constant: Vec::new(),
+        kept: found.moving,
+        tried,
+        all_fixed,
+    };
+    let stated = as_stated(cx, motion, &searched, candidates);
+    searched.kept.extend(stated);
+    if searched.kept.is_empty() {
+        searched.constant = by_constraints(cx, motion, found.constant);
+    }
+    Ok(searched)
+}
+
+/// The candidates that are kept for the values of parameters that the model states, beside those that are in general.
+fn as_stated(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    general: &Searched,
+    candidates: Vec<Kept>,
+) -> Vec<Kept> {
     let values = stated_values(cx);
     if values.is_empty() {
-        return Ok(Searched { kept: all, tried });
+        return Vec::new();
     }
     let is_new = |c: &Kept| {
-        let name = (&c.direction, &c.point);
         let is_same = |k: &Kept| {
-            (&k.direction, &k.point) == name || k.also.iter().any(|(e, a)| (e, a) == name)
+            let mut also = k.also.iter();
+            k.names() == c.names() || also.any(|(e, a)| (&e[..], a.as_deref()) == c.names())
         };
-        !all.iter().any(is_same)
+        !general.kept.iter().any(is_same)
     };
     let others = candidates.into_iter().filter(is_new).collect();
     // Where the stated values leave no points nothing is said of them.
     let stated = kept_with(cx, motion, others, &values).unwrap_or_default();
-    all.extend(stated.into_iter().map(|kept| Kept {
+    let own = stated.moving.into_iter();
+    own.map(|kept| Kept {
         as_stated: true,
         ..kept
-    }));
-    Ok(Searched { kept: all, tried })
+    })
+    .collect()
+}
+
+/// Those of some candidates constant on the constraint manifold that contain velocities elsewhere, each value once.
+fn by_constraints(cx: &Context<'_>, motion: &Motion<'_>, constant: Vec<Kept>) -> Vec<Kept> {
+    let g = &motion.system.graph;
+    if motion.system.constraints.is_empty() {
+        return Vec::new();
+    }
+    let solved = motion.manifold.solved.iter();
+    let solved: Vec<(Expr, Expr)> = solved.map(|&(s, e)| (g.symbol_expr(s), e)).collect();
+    let is_still = |value: Expr| {
+        let velocities = motion.system.velocity_symbols().into_iter();
+        let slopes: Vec<Expr> = velocities.map(|v| g.diff(value, v)).collect();
+        let everywhere = Manifold::default();
+        let verdict = cx.prover.identity(motion.system, &slopes, &everywhere, "");
+        matches!(verdict, Verdict::Proved(_))
+    };
+    let mut different: Vec<Kept> = Vec::new();
+    for mut candidate in constant {
+        if is_still(candidate.value) {
+            continue;
+        }
+        candidate.shown = readable(g, g.substitute(candidate.value, &solved));
+        let same = different.iter_mut().find(|own| {
+            let sum = readable(g, g.add(&[own.shown, candidate.shown]));
+            own.shown == candidate.shown || g.is_zero(sum)
+        });
+        match same {
+            Some(own) => own.beside(motion.system, candidate),
+            None => different.push(candidate),
+        }
+    }
+    different
 }
 
 /// The values of parameters that the model states as numbers.
@@ -471,23 +557,38 @@ fn stated_values(cx: &Context<'_>) -> Vec<(Expr, Expr)> {
     values
 }
 
-/// The candidates whose rate vanishes at points of the manifold, for given values of parameters, and whose value is not the same at all of
-/// them; those that are multiples of one before them are named beside it. Few points have a square under each of many roots, so directions
-/// with roots are looked at one by one.
+/// Candidates whose rate vanishes at points of the manifold.
+#[derive(Default)]
+struct Found {
+    /// Those whose value is not the same at all points.
+    moving: Vec<Kept>,
+    /// The others.
+    constant: Vec<Kept>,
+}
+
+/// The candidates whose rate vanishes at points of the manifold, for given values of parameters; of those whose value is not the same at
+/// all of them, those that are multiples of one before them are named beside it. Few points have a square under each of many roots, so
+/// directions with roots are looked at one by one.
 fn kept_with(
     cx: &Context<'_>,
     motion: &Motion<'_>,
     candidates: Vec<Kept>,
     stated: &[(Expr, Expr)],
-) -> Result<Vec<Kept>, String> {
+) -> Result<Found, String> {
     let (single, together): (Vec<Kept>, Vec<Kept>) = candidates.into_iter().partition(|c| c.rooted);
     let mut different: Vec<WithValues> = Vec::new();
+    let mut constant = Vec::new();
+    let is_constant = |values: &[Residue]| values.iter().all(|&value| value == values[0]);
     let (field, found) = kept_together(cx, motion, together, stated)?;
     let is_multiple = |a: &[Residue], b: &[Residue]| {
         let mut pairs = a.iter().zip(b);
         pairs.all(|(&x, &y)| field.mul(x, b[0]) == field.mul(y, a[0]))
     };
     for (candidate, values) in found {
+        if is_constant(&values) {
+            constant.push(candidate);
+            continue;
+        }
         let same = different
             .iter_mut()
             .find(|(_, own)| is_multiple(own, &values));
@@ -496,14 +597,20 @@ fn kept_with(
             None => different.push((candidate, values)),
         }
     }
-    let mut kept: Vec<Kept> = different.into_iter().map(|(kept, _)| kept).collect();
+    let mut moving: Vec<Kept> = different.into_iter().map(|(kept, _)| kept).collect();
     for candidate in single {
         // Where there are no points for a direction nothing is said of it.
-        if let Ok((_, found)) = kept_together(cx, motion, vec![candidate], stated) {
-            kept.extend(found.into_iter().map(|(kept, _)| kept));
+        let Ok((_, found)) = kept_together(cx, motion, vec![candidate], stated) else {
+            continue;
+        };
+        for (kept, values) in found {
+            match is_constant(&values) {
+                true => constant.push(kept),
+                false => moving.push(kept),
+            }
         }
     }
-    Ok(kept)
+    Ok(Found { moving, constant })
 }
 
 /// What is kept, with its values at some points.
@@ -529,8 +636,7 @@ fn kept_together(
     let kept = numbered.filter_map(|(i, candidate)| {
         let vanishes = all.iter().all(|at| at[2 * i].is_zero());
         let values: Vec<Residue> = all.iter().map(|at| at[2 * i + 1]).collect();
-        let moves = values.iter().any(|&value| value != values[0]);
-        (vanishes && moves).then_some((candidate, values))
+        vanishes.then_some((candidate, values))
     });
     Ok((draw.field, kept.collect()))
 }

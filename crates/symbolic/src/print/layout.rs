@@ -132,14 +132,16 @@ impl Layout<'_> {
         let terms = sorted
             .into_iter()
             .map(|(_, term, coefficient)| {
-                let (negative, value) = match term {
-                    Some(term) => self.scaled(coefficient, term),
-                    None => Formula::number(coefficient),
+                // The sign first: whether a factor is written with the opposite sign depends on it.
+                let coefficient = match opposite {
+                    true => -coefficient,
+                    false => coefficient.clone(),
                 };
-                Term {
-                    negative: negative != opposite,
-                    value,
-                }
+                let (negative, value) = match term {
+                    Some(term) => self.scaled(&coefficient, term),
+                    None => Formula::number(&coefficient),
+                };
+                Term { negative, value }
             })
             .collect();
         Formula::Sum(terms)

@@ -5,7 +5,6 @@ use super::requirements;
 use super::values::by_values;
 use crate::noether::motion::Motion;
 use crate::noether::moving::{axes, directions, masses_are_constant, Kept, Searched};
-use crate::noether::shown::readable;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_symbolic::{Expr, Verdict};
 use std::sync::Arc;
@@ -34,7 +33,35 @@ fn subjects(cx: &Context<'_>, id: &str, count: impl FnOnce() -> usize) -> Vec<Op
     }
 }
 
-fn decide(cx: &Context<'_>, searched: &Result<Searched, String>, subject: Option<&str>) -> Finding {
+/// What a claim tried.
+struct Tried {
+    /// The candidates, in words.
+    candidates: &'static str,
+    /// Everything else that is fixed.
+    fixed: &'static str,
+}
+
+const DIRECTIONS: Tried = Tried {
+    candidates: "directions of the axes, those that turn with an angle of the model or of the time, and those from particle to particle",
+    fixed: "along any other fixed direction",
+};
+
+const AXES_IN_PLANE: Tried = Tried {
+    candidates: "the axis across the plane through the origin, the particles, the centre of mass and the point that the coordinates carry along",
+    fixed: "about any other fixed point",
+};
+
+const AXES: Tried = Tried {
+    candidates: "axes along the coordinate axes, along directions that turn with an angle of the model or of the time and from particle to particle, through the origin, the particles, the centre of mass and the point that the coordinates carry along",
+    fixed: "about any other fixed axis, screws among them",
+};
+
+fn decide(
+    cx: &Context<'_>,
+    searched: &Result<Searched, String>,
+    subject: Option<&str>,
+    tried: &Tried,
+) -> Finding {
     let searched = match searched {
         Ok(searched) => searched,
         Err(why) => return Verdict::undecided(why.clone()).into(),
@@ -42,11 +69,70 @@ fn decide(cx: &Context<'_>, searched: &Result<Searched, String>, subject: Option
     let number = subject.and_then(|s| s.parse::<usize>().ok()).unwrap_or(0);
     match number.checked_sub(1).and_then(|i| searched.kept.get(i)) {
         Some(kept) => proved(cx, kept),
-        None => Verdict::undecided(format!(
-            "none of {} candidates is kept, in general or for the values of parameters that the model states: the axes, directions that turn with an angle of the model or of the time, and those from particle to particle; points at rest, on particles, at the centre of mass and carried along by the coordinates",
-            searched.tried
-        ))
-        .into(),
+        None => Verdict::undecided(none(cx, searched, tried)).into(),
+    }
+}
+
+/// What is said where nothing is kept that the constraints do not make constant.
+fn none(cx: &Context<'_>, searched: &Searched, tried: &Tried) -> String {
+    let trivial = trivial(cx, searched);
+    let (but, which) = match trivial.is_empty() {
+        true => ("", String::new()),
+        false => (
+            ", other than those that are trivial",
+            format!(
+                "; trivial, as the constraints make it constant: {}",
+                trivial.join(", ")
+            ),
+        ),
+    };
+    let fixed = match searched.all_fixed {
+        true => format!("; nor is one {} for all values of parameters", tried.fixed),
+        false => String::new(),
+    };
+    format!(
+        "none of {} candidates is kept, in general or for the values of parameters that the model states{but}: {}{fixed}{which}",
+        searched.tried, tried.candidates
+    )
+}
+
+/// What the constraints make constant, with its value there.
+fn trivial(cx: &Context<'_>, searched: &Searched) -> Vec<String> {
+    let Ok(motion) = Motion::of(cx) else {
+        return Vec::new();
+    };
+    let g = &cx.system.graph;
+    let is_constant = |kept: &&Kept| {
+        let slopes = motion.gradients(&[kept.value]).concat();
+        let on = "on the constraint manifold";
+        let verdict = cx.prover.identity(cx.system, &slopes, &motion.manifold, on);
+        matches!(verdict, Verdict::Proved(_))
+    };
+    let named = |kept: &Kept| {
+        let others = kept.also.iter().take(MOST_TRIVIAL);
+        let others = others.map(|(e, a)| format!(", {}", words((e, a.as_deref()))));
+        let others: String = others.collect();
+        format!("{}{others} ({})", what(kept), g.text(kept.shown))
+    };
+    let all = searched.constant.iter().filter(is_constant);
+    all.take(MOST_TRIVIAL).map(named).collect()
+}
+
+/// More of what is trivial is not named, nor more places for which it is the same.
+const MOST_TRIVIAL: usize = 4;
+
+fn what(kept: &Kept) -> String {
+    let kind = match &kept.point {
+        None => "the momentum",
+        Some(_) => "the moment of momentum",
+    };
+    format!("{kind} {}", words(kept.names()))
+}
+
+fn words((direction, point): (&str, Option<&str>)) -> String {
+    match point {
+        None => format!("along {direction}"),
+        Some(point) => format!("about {direction} through {point}"),
     }
 }
 
@@ -72,18 +158,9 @@ fn proved(cx: &Context<'_>, kept: &Kept) -> Finding {
             ),
         },
     };
-    let shown = readable(g, kept.value);
-    let words = |direction: &str, point: Option<&str>| match point {
-        None => format!("along {direction}"),
-        Some(point) => format!("about {direction} through {point}"),
-    };
-    let what = match &kept.point {
-        None => "the momentum ",
-        Some(_) => "the moment of momentum ",
-    };
-    let what = format!("{what}{}", words(&kept.direction, kept.point.as_deref()));
+    let what = what(kept);
     let also = kept.also.iter();
-    let also: Vec<String> = also.map(|(e, a)| words(e, a.as_deref())).collect();
+    let also: Vec<String> = also.map(|(e, a)| words((e, a.as_deref()))).collect();
     let also = match also.is_empty() {
         true => String::new(),
         false => format!(
@@ -95,13 +172,13 @@ fn proved(cx: &Context<'_>, kept: &Kept) -> Finding {
         true => " (trivial, as it vanishes on the holonomic constraints)",
         false => "",
     };
-    let sentence = format!("{what} is kept: {}{trivial}{also}", g.text(shown));
+    let sentence = format!("{what} is kept: {}{trivial}{also}", g.text(kept.shown));
     Finding {
         verdict: verdict.prefixed(&sentence),
         formulas: vec![Formula {
             caption: what,
             left: None,
-            right: shown,
+            right: kept.shown,
         }],
     }
 }
@@ -136,7 +213,7 @@ impl Claim for MovingDirection {
     }
 
     fn explanation(&self) -> &'static str {
-        "The momentum K of particles along a direction e, a function of the state, changes at the rate K·e' + F·e with all forces F on the particles, reactions among them. Where a translation along e is a virtual displacement, reactions do no work on it and active forces suffice; otherwise they are needed, and are taken from the motion. Directions are searched among the axes, those that turn with an angle whose sine or cosine occurs, of the place, the time or a control, and unit vectors from particle to particle. `conditional` says that it is kept for the values of parameters that the model states, and which of them it takes."
+        "The momentum K of particles along a direction e, a function of the state, changes at the rate K·e' + F·e with all forces F on the particles, reactions among them. Where a translation along e is a virtual displacement, reactions do no work on it and active forces suffice; otherwise they are needed, and are taken from the motion. Directions are searched among the axes, those that turn with an angle whose sine or cosine occurs, of the place, the time or a control, and unit vectors from particle to particle; all fixed directions, oblique ones as (4, -3) too, follow from linear equations for the components of e, whose coefficients may contain parameters. What the constraints make constant, as m v where x' = v, is trivial and is named where nothing else is kept. `conditional` says that it is kept for the values of parameters that the model states, and which of them it takes."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -150,7 +227,7 @@ impl Claim for MovingDirection {
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        decide(cx, &of_directions(cx).0, subject)
+        decide(cx, &of_directions(cx).0, subject, &DIRECTIONS)
     }
 }
 
@@ -168,7 +245,7 @@ impl Claim for MovingAxis {
     }
 
     fn explanation(&self) -> &'static str {
-        "The moment of momentum of particles about an axis e through a point A, both functions of the state, changes at the rate K·(r_A' × e) + H_A·e' + M_A·e with the moment M_A of all forces, reactions among them. Axes are searched among those of the directions of `noether.moving-direction`, in the plane the one across it; points among the origin, the particles, the centre of mass and the point that the coordinates carry along, as that of contact of a blade."
+        "The moment of momentum of particles about an axis e through a point A, both functions of the state, changes at the rate K·(r_A' × e) + H_A·e' + M_A·e with the moment M_A of all forces, reactions among them. Axes are searched among those of the directions of `noether.moving-direction`, in the plane the one across it; points among the origin, the particles, the centre of mass and the point that the coordinates carry along, as that of contact of a blade. All fixed axes follow from linear equations: the combinations a·K + b·H_O with constant a and b that keep their values are moments about b through b × a/b² where a·b = 0, and in others a·b/b² times the momentum along b stands beside the moment, which is a screw. What the constraints make constant is trivial and is named where nothing else is kept."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -182,7 +259,13 @@ impl Claim for MovingAxis {
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        decide(cx, &of_axes(cx).0, subject)
+        let particles = cx.system.particles.iter();
+        let dimension = particles.map(|p| p.position.len()).max();
+        let tried = match dimension {
+            Some(2) => &AXES_IN_PLANE,
+            _ => &AXES,
+        };
+        decide(cx, &of_axes(cx).0, subject, tried)
     }
 }
 
