@@ -5,7 +5,7 @@
     reason = "test code fails where it stands"
 )]
 
-use chetaev::geometry::noether::found::Found;
+use chetaev::geometry::noether::found::{found, Found};
 use chetaev::mechanics::Context;
 use chetaev::symbolic::{Expr, Function, Verdict};
 use chetaev_tests::searched::{in_context, made_up, rank, within};
@@ -895,4 +895,65 @@ fn integrals_of_motions_that_jump() {
             assert!(detail.contains(&expected), "{detail}");
         });
     }
+}
+
+/// A sphere that rolls and does not spin is Veselova's body with J = I + m r² (Koiller, Ehlers, Rios and Cabral 2005): its moment of
+/// momentum keeps two components. The model's quasi-velocities are tied by its constraints.
+#[test]
+fn a_sphere_that_does_not_spin() {
+    let text = r#"
+name = "rubber"
+assumptions = ["0 < theta < pi"]
+parameters = { I1 = 1, I2 = 2, I3 = 3, m = 0.7, r = 1 }
+[coordinates]
+x = { unit = "m" }
+y = { unit = "m" }
+phi = { unit = "rad" }
+theta = { unit = "rad" }
+psi = { unit = "rad" }
+[quasi_velocities]
+w1 = "phi' sin(theta) sin(psi) + theta' cos(psi)"
+w2 = "phi' sin(theta) cos(psi) - theta' sin(psi)"
+w3 = "phi' cos(theta) + psi'"
+[lagrangian]
+T = "1/2 m (x'^2 + y'^2) + 1/2 (I1 w1^2 + I2 w2^2 + I3 w3^2)"
+[constraints]
+rx = "x' = r (theta' sin(phi) - psi' sin(theta) cos(phi))"
+ry = "y' = -r (theta' cos(phi) + psi' sin(theta) sin(phi))"
+rub = "phi' + psi' cos(theta) = 0"
+[integrals]
+Mx = "(I1 + m r^2) w1 (cos(psi) cos(phi) - cos(theta) sin(phi) sin(psi)) - (I2 + m r^2) w2 (sin(psi) cos(phi) + cos(theta) sin(phi) cos(psi)) + (I3 + m r^2) w3 sin(theta) sin(phi)"
+My = "(I1 + m r^2) w1 (cos(psi) sin(phi) + cos(theta) cos(phi) sin(psi)) + (I2 + m r^2) w2 (cos(theta) cos(phi) cos(psi) - sin(psi) sin(phi)) - (I3 + m r^2) w3 sin(theta) cos(phi)"
+"#;
+    contains(text, 3);
+}
+
+/// A bicycle's energy stands for itself in the place of a root of it that is linear in the velocities, as it is shorter.
+#[test]
+fn the_energy_in_the_place_of_its_roots() {
+    let text = r#"
+name = "bicycle"
+coordinates = ["x", "y", "th", "be"]
+parameters = ["m", "J", "I", "l"]
+[lagrangian]
+T = "1/2 m (x'^2 + y'^2) + 1/2 J th'^2 + 1/2 I (th' + be')^2"
+[constraints]
+r1 = "x' sin(th) = y' cos(th)"
+r2 = "x' sin(th + be) - y' cos(th + be) - l th' cos(be) = 0"
+"#;
+    within(&made_up(text), |_, found| {
+        let names = found.integrals.iter().map(|i| i.name.as_deref());
+        let names: Vec<Option<&str>> = names.collect();
+        assert!(names.contains(&Some("the energy")), "{names:?}");
+    });
+    // Of the level skate both speeds are kept, and the energy is a function of these.
+    with("skate-level", |cx, found| {
+        let family = cx.finding("noether.family");
+        let said = family.verdict.detail();
+        assert!(said.contains("the energy is a function of these"), "{said}");
+        assert!(found
+            .integrals
+            .iter()
+            .all(|i| i.name.as_deref() != Some("the energy")));
+    });
 }

@@ -5,6 +5,7 @@
     reason = "test code fails where it stands"
 )]
 
+use chetaev::symbolic::Verdict;
 use chetaev_tests::searched::{made_up, within};
 
 /// The special values of a model, with what is found there, as text.
@@ -153,5 +154,35 @@ fn special_values_without_the_others_values_satisfy_the_assumptions() {
             .collect();
         assert!(values.contains(&3.0), "{values:?}");
         assert!(values.iter().all(|&value| value > 0.0), "{values:?}");
+    });
+}
+
+/// For all u(t) only y' and t y' - y are kept of x'' = u; for u = sin(3 t) also x' + cos(3 t)/3, which is no integral for other u.
+#[test]
+fn laws_of_controls_are_special_values() {
+    let text = "name = \"driven\"\ncoordinates = [\"x\", \"y\"]\ncontrols = {u = \"sin(3 t)\"}\nlagrangian = \"(x'^2 + y'^2)/2\"\n[forces]\nx = \"u\"\n[integrals]\nG = \"x' + cos(3 t)/3\"\nF = \"x' + cos(2 t)/2\"\n";
+    within(&made_up(text), |cx, found| {
+        let family = cx.finding("noether.family");
+        let said = family.verdict.detail();
+        assert!(said.contains("this is for any function u(t)"), "{said}");
+        let law = "for u = sin(3 t), as the model states: 3 x' + cos(3 t), ";
+        assert!(said.contains(law), "{said}");
+        assert_eq!(found.integrals.len(), 2, "{said}");
+        match &cx.finding("noether.inverse#G").verdict {
+            Verdict::Conditional { condition, .. } => assert_eq!(condition, "u = sin(3 t)"),
+            other => panic!("{other:?}"),
+        }
+        assert_eq!(cx.finding("noether.inverse#F").verdict.word(), "refuted");
+    });
+}
+
+/// `y' = u x'` is homogeneous: the energy is kept, but a control is a function of the time, whose shifts are no symmetry.
+#[test]
+fn controls_are_functions_of_the_time() {
+    let text = "name = \"driven\"\ncoordinates = [\"x\", \"y\"]\ncontrols = {u = {}}\nlagrangian = \"(x'^2 + y'^2)/2 - y\"\n[constraints]\nc = \"y' = u x'\"\n";
+    within(&made_up(text), |cx, _| {
+        let found = cx.finding("noether.integral#1");
+        let said = found.verdict.detail();
+        assert!(said.contains("no symmetry under shifts of time"), "{said}");
     });
 }

@@ -89,6 +89,26 @@ impl Coframe {
         found
     }
 
+    /// The components `e^a(X)` of a field along the fields of this basis.
+    pub fn field_components(&self, space: &Space<'_>, field: &Field) -> Vec<Expr> {
+        let g = space.graph();
+        let forms = self.forms.iter();
+        forms.map(|form| form.on(g, &[field])).collect()
+    }
+
+    /// The field with given components along the fields of this basis.
+    pub fn field(&self, space: &Space<'_>, components: &[Expr]) -> Field {
+        let g = space.graph();
+        let along = |place: usize| {
+            let pairs = components.iter().zip(&self.fields);
+            let parts = pairs.map(|(&c, field)| g.mul(&[c, field.components[place]]));
+            g.add(&parts.collect::<Vec<Expr>>())
+        };
+        Field {
+            components: (0..space.dimension()).map(along).collect(),
+        }
+    }
+
     /// The form with given components in this basis.
     pub fn form(
         &self,

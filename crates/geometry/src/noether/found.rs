@@ -17,7 +17,7 @@ use super::written::in_quasi_velocities;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::number::prime_field::Residue;
 use chetaev_symbolic::simplify::length;
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Node, Verdict};
 use std::sync::Arc;
 
 /// A family that was searched, and what was found there.
@@ -54,7 +54,9 @@ pub struct Found {
     /// Further integrals that are functions of `integrals`, linearly independent ones; products by the places of their factors in
     /// `integrals`.
     pub dependent: Dependent,
-    /// What there is more of at special values of the parameters, in small families.
+    /// Whether the energy is kept and stands for itself among none of them, being a function of these.
+    pub energy_depends: bool,
+    /// What there is more of at special values of the parameters.
     pub special: Specials,
     /// Independent integrals modulo p that could not be lifted or proved.
     pub open: usize,
@@ -148,6 +150,9 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
     candidates.sort_by_key(|c| c.order);
     let (mut integrals, dependent, open) = chosen(cx, motion, &table, &candidates);
     kept_by_constraints(cx, motion, &mut integrals);
+    let is_energy = |name: Option<&str>| name == Some(ENERGY);
+    let energy_depends = candidates.iter().any(|c| is_energy(c.name.as_deref()))
+        && !integrals.iter().any(|i| is_energy(i.name.as_deref()));
     let usual = letters.usual_only();
     let mut all_momenta: Vec<Momenta> = Vec::new();
     all_momenta.extend(momenta(cx, motion, &usual, &mut integrals));
@@ -167,6 +172,7 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
         integrals,
         special,
         dependent,
+        energy_depends,
         open,
     })
 }
@@ -365,8 +371,18 @@ fn with_energy(
         name: Some(ENERGY.into()),
         ..energy
     };
-    let size = |i: &Integral| length(&cx.system.graph, i.shown);
-    let longer = (0..integrals.len()).filter(|&i| size(&integrals[i]) > size(&energy));
+    let g = &cx.system.graph;
+    let size = |i: &Integral| length(g, i.shown);
+    let is_root = |e: &Expr| match g.node(*e) {
+        Node::Power { exponent, .. } => g.as_integer(*exponent).is_none(),
+        _ => false,
+    };
+    // Linear ones without roots are worth more: the moments of a body on a sphere.
+    let allowed = |i: &Integral| match g.reachable(&[i.shown]).iter().any(is_root) {
+        true => size(&energy),
+        false => 2 * size(&energy),
+    };
+    let longer = (0..integrals.len()).filter(|&i| size(&integrals[i]) > allowed(&integrals[i]));
     let mut longer: Vec<usize> = longer.filter(|&i| integrals[i].name.is_none()).collect();
     longer.sort_by_key(|&i| std::cmp::Reverse(size(&integrals[i])));
     for place in longer {

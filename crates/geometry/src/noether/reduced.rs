@@ -7,11 +7,11 @@
 //! is none for the sled.
 
 use super::ansatz::Ansatz;
-use super::family::{coefficients, monomials, product};
+use super::family::{coefficients, monomials, product, CoefficientLetter, Letter};
 use super::letters::Letters;
 use super::motion::Motion;
 use super::shown::readable;
-use chetaev_mechanics::claims::formulation::{derive, REFERENCE};
+use chetaev_mechanics::claims::formulation::{derive, manifold, REFERENCE};
 use chetaev_mechanics::{Context, Manifold};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 
@@ -111,6 +111,12 @@ impl<'c, 'a> Setting<'c, 'a> {
         let velocities: Vec<Expr> = system.coordinates.iter().map(|c| c.v).collect();
         let mut letters = Letters::of(self.cx).coefficients;
         letters.retain(|c| !g.contains_any(c.letter.value, &[symbol]));
+        // What a control turns, it turns at its rate.
+        letters.extend(system.controls.iter().map(|u| CoefficientLetter {
+            letter: Letter::plain(g.symbol(&u.name, 1)),
+            exponents: (0, 1),
+            weight: 1,
+        }));
         let first = velocities.len();
         let functions = coefficients(&letters, first, weight);
         let value = |(letter, e): &(usize, i8)| {
@@ -241,7 +247,7 @@ pub fn symmetries(cx: &Context<'_>) -> Result<Vec<Symmetry>, String> {
                 let along = g.diff(cx.terms.constraints[l], symbol);
                 (constraint.name.clone(), along)
             })
-            .filter(|(_, e)| !g.is_zero(*e))
+            .filter(|(_, e)| !vanishes(cx, *e))
             .collect();
         found.push(Symmetry {
             coordinate,
@@ -250,6 +256,12 @@ pub fn symmetries(cx: &Context<'_>) -> Result<Vec<Symmetry>, String> {
         });
     }
     Ok(found)
+}
+
+/// Whether a function vanishes on the constraints: multiples of f are no integrals.
+fn vanishes(cx: &Context<'_>, e: Expr) -> bool {
+    let verdict = cx.prover.identity(cx.system, &[e], &manifold(cx), "");
+    matches!(verdict, Verdict::Proved(_))
 }
 
 /// Coordinates that L and the forces do not contain, and some constraint does, so that its derivative is no constant: that would be
@@ -265,8 +277,9 @@ pub fn candidates(cx: &Context<'_>) -> Vec<usize> {
     (0..system.n())
         .filter(|&i| {
             let s = system.coordinates[i].q_symbol;
-            let mut slopes = constraints.iter().map(|&f| g.diff(f, s));
-            is_absent(s) && slopes.any(|slope| !g.is_free_of(slope, &moves))
+            let slopes = constraints.iter().map(|&f| g.diff(f, s));
+            let mut slopes = slopes.filter(|slope| !g.is_free_of(*slope, &moves));
+            is_absent(s) && slopes.any(|slope| !vanishes(cx, slope))
         })
         .collect()
 }

@@ -87,7 +87,12 @@ pub(super) fn without_constant_factor(cx: &Context<'_>, integral: Integral) -> I
         }
         Node::Sum { terms, constant } => {
             let numbers = terms.iter().map(|(_, c)| c).chain([constant]);
-            g.number(content(numbers))
+            let number = g.number(content(numbers));
+            let all: Vec<Expr> = terms.iter().map(|(term, _)| *term).collect();
+            match g.is_zero(g.number(constant.clone())) {
+                true => g.mul(&[number, common_parameters(cx.system, &all)]),
+                false => number,
+            }
         }
         _ => g.one(),
     };
@@ -95,12 +100,50 @@ pub(super) fn without_constant_factor(cx: &Context<'_>, integral: Integral) -> I
         return without_first_minus(g, integral);
     }
     let divided = Integral {
-        value: g.div(integral.value, by),
-        shown: g.div(integral.shown, by),
+        value: quotient(g, integral.value, by),
+        shown: quotient(g, integral.shown, by),
         name: None,
         ..integral
     };
     without_first_minus(g, divided)
+}
+
+/// A sum divided term by term.
+fn quotient(g: &Graph, e: Expr, by: Expr) -> Expr {
+    let Node::Sum { terms, constant } = g.node(e) else {
+        return g.div(e, by);
+    };
+    let own = terms.iter().map(|(term, c)| g.scale(c, g.div(*term, by)));
+    let last = g.div(g.number(constant.clone()), by);
+    g.add(&own.chain([last]).collect::<Vec<Expr>>())
+}
+
+/// The product of powers of parameters that is a factor of all terms: w of `w x' sin(w t) - w² x cos(w t)`.
+fn common_parameters(system: &System, terms: &[Expr]) -> Expr {
+    let g = &system.graph;
+    let powers = |term: Expr| -> Vec<(Expr, i64)> {
+        let factors = match g.node(term) {
+            Node::Product { factors, .. } => factors.to_vec(),
+            _ => vec![term],
+        };
+        let powers = factors.into_iter().map(|f| g.base_exponent(f));
+        let whole = powers.filter_map(|(base, e)| Some((base, g.as_integer(e)?)));
+        whole
+            .filter(|(base, e)| *e > 0 && is_constant(system, *base))
+            .collect()
+    };
+    let all: Vec<Vec<(Expr, i64)>> = terms.iter().map(|&term| powers(term)).collect();
+    let Some((first, others)) = all.split_first() else {
+        return g.one();
+    };
+    let least = |&(base, e): &(Expr, i64)| {
+        let of = |own: &Vec<(Expr, i64)>| {
+            let found = own.iter().find(|(other, _)| *other == base);
+            found.map_or(0, |&(_, e)| e)
+        };
+        g.powi(base, others.iter().map(of).fold(e, i64::min))
+    };
+    g.mul(&first.iter().map(least).collect::<Vec<Expr>>())
 }
 
 /// The integral with a constant added for which its part without velocities is a power: `(1 + s x)^7/s` for

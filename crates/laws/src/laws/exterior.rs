@@ -108,6 +108,7 @@ fn on_jets(subject: &Subject<'_>) -> Vec<Expr> {
     let (space, g) = (drawn.space, drawn.space.graph());
     let product = a.wedge(g, &b);
     let mut all = a.d(&space).d(&space).residuals();
+    all.extend(product.d(&space).d(&space).residuals());
     // Cartan's formula for a 1-form and a 2-form.
     for form in [&a, &product] {
         let both = form
@@ -151,14 +152,24 @@ fn pulled_back(subject: &Subject<'_>) -> Vec<Expr> {
     all
 }
 
-/// Θ(L) and Θ(f) by (3) in the adapted frame are those in the natural one; components in the contact basis make the form
-/// again.
+/// Θ(L) and Θ(f) by (3) in the adapted frame are those in the natural one; components in the contact basis make forms and fields
+/// again, and pairings are the same in it.
 fn in_frames(subject: &Subject<'_>) -> Option<Vec<Expr>> {
     let (cx, system, g) = (subject.cx, subject.cx.system, &subject.cx.system.graph);
     let space = Space::Jet(system);
     let (frame, _) = Frame::adapted(system, cx.terms, cx.selection).ok()?;
     let coframe = Coframe::contact(&space, &frame).ok()?;
     let mut all = Vec::new();
+    let mut drawn = drawn(subject);
+    let (form, field) = (drawn.form(), drawn.field());
+    let components = coframe.field_components(&space, &field);
+    let again = coframe.field(&space, &components).components;
+    let pairs = again.iter().zip(&field.components);
+    all.extend(pairs.map(|(&a, &b)| g.sub(a, b)));
+    let of_form = coframe.components(&space, &form);
+    let products = of_form.iter().map(|(a, &e)| g.mul(&[e, components[a[0]]]));
+    let paired = g.add(&products.collect::<Vec<Expr>>());
+    all.push(g.sub(paired, form.on(g, &[&field])));
     let functions = [system.lagrangian].into_iter();
     for f in functions.chain(cx.terms.constraints.iter().copied()) {
         let theta = CartanForm::of(system, f).form(&space);

@@ -109,7 +109,8 @@ fn special_case(cx: &Context<'_>, n: &Embedded<'_>) -> String {
     if is_closed(cx, n) {
         return "the holonomic case: the fields that the constraints allow are closed under brackets, so that the momenta of dependent velocities drop out".into();
     }
-    let is_adapted = vanish(&chart.solved) && vanish(&n.embedding.slopes.concat());
+    let solved = [&chart.solved[..], &n.embedding.slopes.concat()].concat();
+    let is_adapted = matches!(on_manifold(cx, n, &solved), Verdict::Proved(_));
     match is_adapted {
         true => "the case of an adapted frame: the constraints say that dependent quasi-velocities vanish, whose momenta stay in the equations".into(),
         false => "none of the special cases: the constraints are not integrable as far as is proved, and are solved for dependent velocities".into(),

@@ -203,9 +203,14 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
         ),
     };
     let shown: Vec<Expr> = found.integrals.iter().map(|i| i.shown).collect();
+    let energy = match (found.energy_depends, found.integrals.len()) {
+        (false, _) => "",
+        (true, 1) => "; the energy is a function of it",
+        (true, _) => "; the energy is a function of these",
+    };
     let controls = for_laws(cx, &shown).map_or(String::new(), |said| format!("; {said}"));
     format!(
-        "{many} in the families searched, of which those of polynomials are larger with a larger time budget{}{open}{controls}{}",
+        "{many} in the families searched, of which those of polynomials are larger with a larger time budget{}{energy}{open}{controls}{}",
         dependent(cx, found),
         at_special_values(cx, found)
     )

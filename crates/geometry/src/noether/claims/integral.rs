@@ -140,7 +140,7 @@ fn symmetry(
                 format!("by Noether's theorem it belongs to the displacements along {text}")
             }
             _ => format!(
-                "by Noether's theorem it belongs to displacements that change {} at once, with the components given below",
+                "by Noether's theorem it belongs to displacements along the directions of {} at once, whose components ξ stand with the formulas",
                 along.join(", ")
             ),
         },
