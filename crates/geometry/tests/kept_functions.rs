@@ -1,0 +1,367 @@
+//! What constraints keep: functions of position and time whose values no admissible motion changes. Known ones by hand; what is found is a
+//! function of a known one where the gradients are parallel.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // a panic is how a test fails
+
+mod common;
+
+use chetaev_mechanics::claims::Finding;
+use chetaev_mechanics::system::{Assumption, Parameter, Relation};
+use chetaev_mechanics::System;
+use chetaev_symbolic::{Expr, Verdict};
+use common::{anywhere, expr, finding, in_space, system, values};
+
+/// What is kept is named where constraints are products, on each component, or functions of exact ones; and arctangents are.
+#[test]
+fn what_constraints_keep_is_named() {
+    let unit = "(x'^2 + y'^2 + z'^2)/2";
+    for (constraint, expected) in [
+        (
+            "(x*x' + y*y')^2 + x*x' + y*y'",
+            &["(x^2 + y^2)/2", "(x^2 + y^2)/2 + t"][..],
+        ),
+        ("exp(x*x' + y*y') - 1", &["x^2 + y^2"]),
+        ("z' - (x*y' - y*x')/(x^2 + y^2)", &["z - atan2(y, x)"]),
+        (
+            "z' - (x*y' - (y - 1)*x')/(x^2 + (y - 1)^2)",
+            &["z - atan2(y - 1, x)"],
+        ),
+        ("z' - x'/(1 + a^2*x^2)", &["a*z - atan(a*x)"]),
+        (
+            "z' - a*x'/(4*x^2 + 9) + y*y'",
+            &["6*z + 3*y^2 - a*atan(2*x/3)"],
+        ),
+        (
+            "z'*(4*x^2 + 9*y^2) - x*y' + y*x'",
+            &["6*z - atan2(3*y, 2*x)"],
+        ),
+    ] {
+        let own = system("x y z", unit, &[("f", constraint)]);
+        let found = finding(&own, "model.constraints-integrable#weak");
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "proved", "{constraint}: {detail}");
+        let g = &own.graph;
+        let kept: Vec<Expr> = found.formulas.iter().map(|f| f.right).collect();
+        assert_eq!(kept.len(), expected.len(), "{constraint}: {detail}");
+        // One is a function of the other where their gradients are parallel: at a few points.
+        for known in expected.iter().map(|text| expr(g, text)) {
+            let parallel = |e: &&Expr| (0..4).all(|seed| crossed(&own, **e, known, seed) < 1e-10);
+            assert!(kept.iter().any(|e| parallel(&e)), "{constraint}: {detail}");
+        }
+    }
+}
+
+/// |x'| = y' keeps y - x while x' > 0 and y + x while x' < 0, and nothing over both: going there and back leads from (0, 0) to (0, 2).
+#[test]
+fn constraints_with_corners_are_integrable_on_each_side() {
+    let unit = "(x'^2 + y'^2 + z'^2)/2";
+    for constraint in ["y' - abs(x')", "y' - sqrt(x'^2)"] {
+        let own = system("x y z", unit, &[("f", constraint)]);
+        let found = finding(&own, "model.constraints-integrable#weak");
+        let Verdict::Conditional { condition, .. } = &found.verdict else {
+            panic!("{constraint}: {}", found.verdict.detail());
+        };
+        assert!(
+            condition.contains("≠ 0, on each side by itself"),
+            "{condition}"
+        );
+        let detail = found.verdict.detail();
+        let sides = ["where x' > 0: y - x", "where x' < 0: x + y"];
+        assert!(sides.iter().all(|side| detail.contains(side)), "{detail}");
+    }
+}
+
+/// y/x is kept where √(x² + y²)/x is.
+#[test]
+fn what_is_kept_is_shown_without_roots() {
+    let constraints = [
+        ("a", "x*y' - y*x'"),
+        ("b", "z' - (x*x' + y*y')/sqrt(x^2 + y^2)"),
+    ];
+    let own = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &constraints);
+    let found = finding(&own, "model.constraints-integrable#weak");
+    let mut shown: Vec<String> = found
+        .formulas
+        .iter()
+        .map(|f| own.graph.text(f.right))
+        .collect();
+    shown.sort();
+    assert_eq!(shown, ["sqrt(x^2 + y^2) - z", "y/x"]);
+}
+
+/// A root of what vanishes nowhere has no corner: (z' - x x') √(1 + x'²) = 0 keeps z - x²/2 at all states.
+#[test]
+fn a_root_that_vanishes_nowhere_is_no_corner() {
+    let constraint = "(z' - x*x')*sqrt(1 + x'^2)";
+    let own = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &[("f", constraint)]);
+    let found = finding(&own, "model.constraints-integrable#weak");
+    assert_eq!(found.verdict.word(), "proved", "{}", found.verdict.detail());
+}
+
+/// x' = y, y' = x, z' = x y keep three functions of (t, q): x² - 2 z, y² - 2 z and (x + y) e^(-t). Whatever is not found is counted.
+#[test]
+fn functions_that_were_not_found_are_counted() {
+    let constraints = [("a", "x' - y"), ("b", "y' - x"), ("c", "z' - x*y")];
+    let own = system("x y z", "(x'^2 + y'^2 + z'^2)/2", &constraints);
+    let found = finding(&own, "model.constraints-integrable#weak");
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "proved", "{detail}");
+    let missing = 3 - found.formulas.len();
+    let said = detail.contains(&format!("and {missing} more, not found"));
+    assert_eq!(said, missing > 0, "{detail}");
+}
+
+/// A product of which one factor is integrable: on its component x² + y² + z² is kept, on the other nothing is.
+#[test]
+fn what_one_component_keeps_is_named() {
+    let product = system(
+        "x y z",
+        "(x'^2 + y'^2 + z'^2)/2",
+        &[("f", "(z' - y*x')*(x*x' + y*y' + z*z')")],
+    );
+    let found = finding(&product, "model.constraints-integrable#weak");
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "conditional", "{detail}");
+    let g = &product.graph;
+    let sphere = expr(g, "x^2 + y^2 + z^2");
+    let kept = found.formulas.iter().filter(|f| f.caption.contains("keep"));
+    let kept: Vec<Expr> = kept.map(|f| f.right).collect();
+    assert_eq!(kept.len(), 1, "{detail}");
+    assert!(
+        (0..4).all(|seed| crossed(&product, kept[0], sphere, seed) < 1e-10),
+        "{detail}"
+    );
+}
+
+/// The largest 2 × 2 minor of the gradients by (t, x, y, z) of two functions somewhere.
+fn crossed(system: &System, a: Expr, b: Expr, seed: u64) -> f64 {
+    let g = &system.graph;
+    let places = ["t", "x", "y", "z"].map(|q| g.intern_symbol(q, 0));
+    let slopes: Vec<Expr> = [a, b]
+        .iter()
+        .flat_map(|&e| places.map(|s| g.diff(e, s)))
+        .collect();
+    let point = anywhere(g, &[&slopes[..], &[a, b]].concat(), seed);
+    let at = values(g, &slopes, &point);
+    let (first, second) = at.split_at(places.len());
+    assert!(first.iter().any(|s| s.abs() > 1e-6) && second.iter().any(|s| s.abs() > 1e-6));
+    let mut largest: f64 = 0.0;
+    for i in 0..places.len() {
+        for j in 0..i {
+            largest = largest.max((first[i] * second[j] - first[j] * second[i]).abs());
+        }
+    }
+    largest
+}
+
+const WEAK: &str = "model.constraints-integrable#weak";
+const GROWTH: &str = "distribution.growth";
+
+/// `a` and `b` with these values, and the second defined by the first where that is wanted.
+fn with_parameters(mut own: System, values: [i64; 2], is_defined: bool) -> System {
+    let g = own.graph.clone();
+    let names = ["a", "b"].into_iter().zip(values);
+    own.parameters = names
+        .map(|(name, value)| Parameter {
+            name: name.into(),
+            expr: g.symbol(name, 0),
+            value: Some(g.integer(value)),
+        })
+        .collect();
+    if is_defined {
+        own.definitions = vec![(g.symbol("b", 0), g.symbol("a", 0))];
+    }
+    own
+}
+
+/// Whether what is kept is a function of each known one alone, and there are no more.
+fn keeps(own: &System, found: &Finding, known: &[&str]) -> bool {
+    let kept = found.formulas.iter().filter(|f| f.caption.contains("keep"));
+    let kept: Vec<Expr> = kept.map(|f| f.right).collect();
+    let parallel = |e: Expr, known: Expr| (0..4).all(|seed| crossed(own, e, known, seed) < 1e-8);
+    let mut known = known.iter().map(|text| expr(&own.graph, text));
+    kept.len() == known.len() && known.all(|known| kept.iter().any(|&e| parallel(e, known)))
+}
+
+/// z' = a y x' + b x y' keeps z - a x y where b is a; with dz - a y dx - b x dy the only component of Frobenius' condition is a - b.
+#[test]
+fn definitions_of_parameters_count_and_stated_values_are_said() {
+    let stated = in_space(&[("c", "z' - a*y*x' - b*x*y'")]);
+    let defined = with_parameters(stated.clone(), [1, 1], true);
+    let found = finding(&defined, WEAK);
+    assert_eq!(found.verdict.word(), "proved", "{}", found.verdict.detail());
+    assert!(found.verdict.detail().contains("with b = a"));
+    assert!(keeps(&defined, &found, &["z - a*x*y"]));
+    let growth = finding(&defined, GROWTH);
+    assert_eq!(growth.verdict.word(), "refuted");
+    assert!(growth.verdict.detail().contains("growth vector is (2) "));
+
+    let equal = with_parameters(stated.clone(), [1, 1], false);
+    for (claim, word, says) in [
+        (
+            WEAK,
+            "refuted",
+            "for a = 1 and b = 1, as the model states, the constraints are integrable",
+        ),
+        (
+            GROWTH,
+            "proved",
+            "for a = 1 and b = 1, as the model states, the growth vector is (2)",
+        ),
+    ] {
+        let found = finding(&equal, claim);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), word, "{detail}");
+        assert!(detail.contains(says), "{detail}");
+        let other = finding(&with_parameters(stated.clone(), [1, 2], false), claim);
+        assert!(!other.verdict.detail().contains("as the model states"));
+    }
+}
+
+/// z' = (y + |y|)² x' is z' = 0 where y < 0, and z' = 4 y² x' elsewhere: brackets add a direction there alone.
+#[test]
+fn what_vanishes_on_one_side_generates_nothing_there() {
+    let own = in_space(&[("c", "z' - (y + abs(y))^2*x'")]);
+    let found = finding(&own, GROWTH);
+    let detail = found.verdict.detail();
+    let Verdict::Conditional { condition, .. } = &found.verdict else {
+        panic!("{detail}");
+    };
+    assert_eq!(condition, "y > 0");
+    assert!(
+        detail.contains("where y > 0: the growth vector is (2, 3)"),
+        "{detail}"
+    );
+    assert!(
+        detail.contains("where y < 0: the growth vector is (2) "),
+        "{detail}"
+    );
+    let weak = finding(&own, WEAK);
+    let detail = weak.verdict.detail();
+    assert_eq!(weak.verdict.word(), "refuted", "{detail}");
+    assert!(detail.contains("integrable where y < 0"), "{detail}");
+    assert!(keeps(&own, &weak, &["z"]), "{detail}");
+}
+
+/// With y > 0 the constraint z' = (y - |y|) x' is z' = 0.
+#[test]
+fn assumptions_choose_the_side() {
+    let mut own = in_space(&[("c", "z' - (y - abs(y))*x'")]);
+    let g = own.graph.clone();
+    own.assumptions.push(Assumption {
+        left: g.zero(),
+        relation: Relation::Less,
+        right: g.symbol("y", 0),
+        text: "y > 0".into(),
+    });
+    let found = finding(&own, WEAK);
+    assert_eq!(found.verdict.word(), "proved", "{}", found.verdict.detail());
+    assert!(keeps(&own, &found, &["z"]));
+    let growth = finding(&own, GROWTH);
+    let detail = growth.verdict.detail();
+    assert!(detail.contains("growth vector is (2) "), "{detail}");
+}
+
+/// z' = sign(y) x' keeps z - x where y > 0 and z + x where y < 0; a loop through y = 0, to the right above and back below, adds to z.
+#[test]
+fn signs_of_the_place_are_corners() {
+    for constraint in ["z' - sign(y)*x'", "z' - y/sqrt(y^2)*x'"] {
+        let own = in_space(&[("c", constraint)]);
+        let found = finding(&own, WEAK);
+        let detail = found.verdict.detail();
+        let Verdict::Conditional { condition, .. } = &found.verdict else {
+            panic!("{constraint}: {detail}");
+        };
+        assert_eq!(condition, "y ≠ 0, on each side by itself");
+        assert!(keeps(&own, &found, &["z - x", "z + x"]), "{detail}");
+        let growth = finding(&own, GROWTH);
+        let detail = growth.verdict.detail();
+        assert!(
+            detail.contains("paths from one side to another may join more"),
+            "{detail}"
+        );
+    }
+}
+
+/// z' = y x' with u' = v v' in disguise; two equal velocities that are not constant; x y' + y x' = 0 as a combination.
+#[test]
+fn what_constraints_keep_that_are_not_integrable_is_named() {
+    for (coordinates, constraints, expected) in [
+        (
+            "x y z u v",
+            &[("a", "z' - y*x'"), ("b", "u' - v*v' - z' + y*x'")][..],
+            "u - v^2/2",
+        ),
+        ("x y z", &[("a", "x' - y"), ("b", "z' - y")], "x - z"),
+        (
+            "x y z u",
+            &[
+                ("a", "x*y' + y*x' + sin(z)*(z'*x - u')"),
+                ("b", "u' - z'*x - exp(u)*(x*y' + y*x')"),
+            ],
+            "x*y",
+        ),
+    ] {
+        let squares = coordinates.split_whitespace().map(|q| format!("{q}'^2/2"));
+        let energy = squares.collect::<Vec<String>>().join(" + ");
+        let own = system(coordinates, &energy, constraints);
+        let found = finding(&own, WEAK);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "refuted", "{detail}");
+        assert!(
+            detail.contains("1 function is kept in spite of it"),
+            "{detail}"
+        );
+        let g = &own.graph;
+        let kept = found.formulas.iter().filter(|f| f.caption.contains("keep"));
+        let kept: Vec<Expr> = kept.map(|f| f.right).collect();
+        assert_eq!(kept.len(), 1, "{detail}");
+        // Its gradient is parallel to that of the known one.
+        let places = own.coordinate_symbols();
+        let slopes = [kept[0], expr(g, expected)].map(|e| g.gradient(e, &places));
+        let at = values(g, &slopes.concat(), &anywhere(g, &slopes.concat(), 3));
+        let (a, b) = at.split_at(places.len());
+        let minors = (0..a.len()).flat_map(|i| (0..i).map(move |j| a[i] * b[j] - a[j] * b[i]));
+        assert!(minors.into_iter().all(|m| m.abs() < 1e-9), "{detail}");
+    }
+}
+
+/// Exact, linear and separable forms, and such on the leaves of what is kept already; each by hand.
+#[test]
+fn quadratures_find_what_exact_linear_and_separable_constraints_keep() {
+    for (constraints, known) in [
+        (
+            &[("c", "x*x' + y*y' - 1 - t")][..],
+            &["x^2 + y^2 - (1 + t)^2"][..],
+        ),
+        (&[("c", "y' - b - k*y")], &["(y + b/k)*exp(-k*t)"]),
+        (&[("c", "y' - (x + y)*x'")], &["(x + y + 1)*exp(-x)"]),
+        (&[("c", "y' - y^2*x'")], &["1/y + x"]),
+        (
+            &[("c", "cos(z)*z' - exp(x)*y^2*x' - 2*y*exp(x)*y'")],
+            &["sin(z) - y^2*exp(x)"],
+        ),
+        (&[("c", "z' - x^2*y^3*(3*y*x' + 4*x*y')")], &["z - x^3*y^4"]),
+        (
+            &[("c", "z' - cosh(x)*y' - y*sinh(x)*x'")],
+            &["z - y*cosh(x)"],
+        ),
+        (&[("c", "z' - tanh(x)*x'")], &["z - log(cosh(x))"]),
+        (
+            &[("c", "z' - cos(x)^4*x'")],
+            &["z - 3*x/8 - sin(2*x)/4 - sin(4*x)/32"],
+        ),
+        (
+            &[("a", "x' - l*cos(z)*y'"), ("b", "z'")],
+            &["z", "x - l*y*cos(z)"],
+        ),
+        (&[("a", "y'"), ("b", "z' - y*x'")], &["y", "z - x*y"]),
+    ] {
+        let own = in_space(constraints);
+        let found = finding(&own, WEAK);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "proved", "{detail}");
+        // With two the second is known up to functions of the first; here it is found as it stands.
+        assert!(keeps(&own, &found, known), "{constraints:?}: {detail}");
+    }
+}
