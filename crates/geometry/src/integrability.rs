@@ -17,9 +17,13 @@
 //! Where the pairs are too many, `dΘ(U, V) = 0` is tested for U and V with indeterminate coefficients in the basis: an
 //! identity in these coefficients is the same statement, one residual for each constraint.
 
+mod eigenvectors;
 pub(crate) mod integral;
+mod presented;
 mod primitive;
 mod quadrature;
+mod solved;
+mod substitution;
 mod subsystems;
 pub(crate) use integral::on_its_own;
 

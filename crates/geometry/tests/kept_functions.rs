@@ -365,3 +365,198 @@ fn quadratures_find_what_exact_linear_and_separable_constraints_keep() {
         assert!(keeps(&own, &found, known), "{constraints:?}: {detail}");
     }
 }
+
+/// Whether the functions kept are as many as the known ones, and functions of these: the gradients of all have no higher rank.
+fn spans(own: &System, found: &Finding, known: &[&str]) -> bool {
+    let g = &own.graph;
+    let kept = found.formulas.iter().filter(|f| f.caption.contains("keep"));
+    let mut all: Vec<Expr> = kept.map(|f| f.right).collect();
+    let count = all.len();
+    all.extend(known.iter().map(|text| expr(g, text)));
+    let mut places = vec![g.intern_symbol("t", 0)];
+    places.extend(own.coordinate_symbols());
+    let slopes: Vec<Expr> = all.iter().flat_map(|&e| g.gradient(e, &places)).collect();
+    let real = |seed: u64| {
+        let point = anywhere(g, &[&slopes[..], &all[..]].concat(), seed);
+        let at = g.evaluate_f64(&slopes, &|s| point.get(&s).copied()).ok()?;
+        at.iter().all(|v| v.is_finite()).then_some(at)
+    };
+    let points: Vec<Vec<f64>> = (0..60).filter_map(real).take(4).collect();
+    let has_rank = |at: &Vec<f64>| {
+        let rows: Vec<Vec<f64>> = at.chunks(places.len()).map(<[f64]>::to_vec).collect();
+        rank(&rows) == count && rank(&rows[count..]) == count
+    };
+    count == known.len() && points.len() == 4 && points.iter().all(has_rank)
+}
+
+/// The number of independent rows.
+fn rank(rows: &[Vec<f64>]) -> usize {
+    let mut used: Vec<Vec<f64>> = Vec::new();
+    for row in rows {
+        let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let whole = length(row);
+        let mut row: Vec<f64> = row.iter().map(|x| x / whole).collect();
+        for unit in used.iter().chain(&used) {
+            let along: f64 = row.iter().zip(unit).map(|(a, b)| a * b).sum();
+            row.iter_mut().zip(unit).for_each(|(a, b)| *a -= along * b);
+        }
+        let rest = length(&row);
+        if rest > 1e-7 {
+            row.iter_mut().for_each(|x| *x /= rest);
+            used.push(row);
+        }
+    }
+    used.len()
+}
+
+/// Unit masses with any coordinates under constraints, and what they keep.
+fn assert_keeps(coordinates: &str, constraints: &[(&str, &str)], known: &[&str]) {
+    let squares = coordinates.split_whitespace().map(|q| format!("{q}'^2/2"));
+    let energy = squares.collect::<Vec<String>>().join(" + ");
+    let own = system(coordinates, &energy, constraints);
+    let found = finding(&own, WEAK);
+    let detail = found.verdict.detail();
+    assert!(spans(&own, &found, known), "{constraints:?}: {detail}");
+}
+
+/// Each by hand: of one of the forms on the right the derivative of the left vanishes.
+#[test]
+fn one_constraint_by_an_antiderivative() {
+    for (constraint, known) in [
+        ("y' - exp(x - y)*x'", "exp(y) - exp(x)"),
+        (
+            "z' - log(x)*x' - cos(y)*y*y'",
+            "x*log(x) - x + y*sin(y) + cos(y) - z",
+        ),
+        ("z'*sqrt(1 - x^2) - x'", "asin(x) - z"),
+        ("z' - x'/sqrt(4 - x^2)", "asin(x/2) - z"),
+        ("z' - sqrt(1 - z^2)*x'", "asin(z) - x"),
+        ("z' - x'/sqrt(a^2 + x^2)", "log(x + sqrt(a^2 + x^2)) - z"),
+        ("z' - x'/cos(x)", "log(1/cos(x) + tan(x)) - z"),
+        (
+            "z' - x'/cos(x)^3",
+            "sin(x)/cos(x)^2 + log(1/cos(x) + tan(x)) - 2*z",
+        ),
+        ("z' - x'/sinh(x)", "log(tanh(x/2)) - z"),
+        ("z' - y*x^(y - 1)*x' - x^y*log(x)*y'", "x^y - z"),
+        ("z' - x^4*x'/(1 + x^2)", "x^3/3 - x + atan(x) - z"),
+        ("z' - exp(x)/(1 + exp(2*x))*x'", "atan(exp(x)) - z"),
+        ("z' - sqrt(x)/(1 + x)*x'", "2*sqrt(x) - 2*atan(sqrt(x)) - z"),
+        ("z' - asin(x)*x'", "x*asin(x) + sqrt(1 - x^2) - z"),
+        ("z' - x'*cos(log(x))", "x*(sin(log(x)) + cos(log(x))) - 2*z"),
+        ("z' - x'/(x^2*(x + 1))", "-1/x - log(x) + log(x + 1) - z"),
+    ] {
+        assert_keeps("x y z", &[("c", constraint)], &[known]);
+    }
+}
+
+/// Bernoulli's equation in a power of y, homogeneous ones in u = y/x, functions of a linear combination of x and y, and one with the weights
+/// two and one; each by hand.
+#[test]
+fn one_constraint_by_a_substitution() {
+    for (constraint, known) in [
+        ("y' - x'*y/x - y^2*x'", "x/y + x^2/2"),
+        ("y' - x'*y/x - y^3*x'", "x^2/y^2 + 2*x^3/3"),
+        ("x'*y^2 + x*y*y' - x^2*y'", "2/(x*y) - 1/y^2"),
+        ("y' - (x + y)^2*x'", "atan(x + y) - x"),
+        ("y' - (a*x + y)^2*x'", "atan((a*x + y)/sqrt(a)) - sqrt(a)*x"),
+        ("(x + y)*x' - (x - y)*y'", "atan2(y, x) - log(x^2 + y^2)/2"),
+        ("y'*(x + y^2) - y*x'", "x/y - y"),
+        ("y' - cos(x + y)*x'", "tan((x + y)/2) - x"),
+        ("y' - (y/x + tan(y/x))*x'", "sin(y/x)/x"),
+        ("y' - cos(y)^2*(x + tan(y))*x'", "(tan(y) + x + 1)*exp(-x)"),
+    ] {
+        assert_keeps("x y z", &[("c", constraint)], &[known]);
+    }
+}
+
+/// Eigenvectors c of a system w' = A w with A of constants: c·w exp(-λ s), and for a pair of complex ones the angle.
+#[test]
+fn linear_systems_along_one_parameter() {
+    let turning = ["x^2 + y^2", "atan2(y, x) - z"];
+    assert_keeps("x y z", &[("a", "x' + y*z'"), ("b", "y' - x*z'")], &turning);
+    let turning = ["x^2 + y^2", "atan2(y, x) - w*t"];
+    assert_keeps("x y", &[("a", "x' + w*y"), ("b", "y' - w*x")], &turning);
+    let boost = ["x^2 - y^2", "(x + y)*exp(-z)"];
+    assert_keeps("x y z", &[("a", "x' - y*z'"), ("b", "y' - x*z'")], &boost);
+    // A spring whatever its constant, and a system of which one form needs the solution of the others.
+    let spring = ["k*x^2 + y^2", "atan2(y, sqrt(k)*x) + sqrt(k)*t"];
+    assert_keeps("x y", &[("a", "x' - y"), ("b", "y' + k*x")], &spring);
+    let three = ["x^2 + y^2", "atan2(y, x) - z", "u - y^2/2"];
+    let third = ("c", "u' - x*y*z'");
+    let forms = [("a", "x' + y*z'"), ("b", "y' - x*z'"), third];
+    assert_keeps("x y z u", &forms, &three);
+    let cycle = [("a", "y' - z*w'"), ("b", "x' - y*w'"), ("c", "z' - x*w'")];
+    let u = "(2*x - y - z)";
+    // The roots of 1: a real one, and the pair -1/2 ± i √3/2.
+    let cyclic = [
+        "(x + y + z)*exp(-w)".to_owned(),
+        format!("({u}^2 + 3*(y - z)^2)*exp(w)"),
+        format!("atan2(sqrt(3)*(y - z), {u}) + sqrt(3)/2*w"),
+    ];
+    let cyclic: Vec<&str> = cyclic.iter().map(String::as_str).collect();
+    assert_keeps("x y z w", &cycle, &cyclic);
+}
+
+/// A sub-system that is integrable by itself contributes what it keeps.
+#[test]
+fn sub_systems_contribute() {
+    let rolling = [("c", "x' - R*th'"), ("d", "s' - x'*cos(th)")];
+    assert_keeps("x th s", &rolling, &["x - R*th", "s - R*sin(th)"]);
+    // y' = exp(x²) x' has no elementary integral.
+    let partly = [("a", "z' - x^2*x'"), ("b", "y' - exp(x^2)*x'")];
+    let own = in_space(&partly);
+    let found = finding(&own, WEAK);
+    assert!(keeps(&own, &found, &["z - x^3/3"]));
+    let detail = found.verdict.detail();
+    assert!(
+        detail.contains("and 1 more, not found among the functions that occur, their logarithms"),
+        "{detail}"
+    );
+}
+
+/// What is shown is the plainest function of what is kept: without functions, powers, constant terms and factors around it.
+#[test]
+fn what_is_kept_is_shown_bare() {
+    let place = "(R*cos(a)*a')^2 + (R*sin(a)*a')^2 + h^2*b'^2";
+    let angles = system("a b", place, &[("c", "b' - a'")]);
+    let mut positive = in_space(&[("c", "z' - x' - (a - sqrt(a^2))*(x*y' + y*x')")]);
+    let g = positive.graph.clone();
+    positive.assumptions.push(Assumption {
+        left: g.zero(),
+        relation: Relation::Less,
+        right: g.symbol("a", 0),
+        text: "a > 0".into(),
+    });
+    let others = [
+        (positive, "z - x"),
+        (angles, "a - b"),
+        (
+            in_space(&[("c", "z' - (tan(x) - sin(x)/cos(x))*y' - x'")]),
+            "x - z",
+        ),
+        (
+            in_space(&[("c", "sqrt(1 + x^2 + y^2)*(x*x' + y*y')")]),
+            "x^2 + y^2",
+        ),
+    ];
+    for (own, shown) in others {
+        let found = finding(&own, WEAK);
+        let kept = found.formulas.iter().filter(|f| f.caption.contains("keep"));
+        let kept: Vec<String> = kept.map(|f| own.graph.text(f.right)).collect();
+        assert_eq!(kept, [shown], "{}", found.verdict.detail());
+    }
+}
+
+/// With the time as a variable there is one dimension more than coordinates: y' = t x' and z' = t has the fields of full rank on x, y, t, and
+/// keeps 2 z - t².
+#[test]
+fn growth_on_space_and_time_states_the_dimension() {
+    let own = in_space(&[("a", "y' - t*x'"), ("b", "z' - t")]);
+    let found = finding(&own, GROWTH);
+    let detail = found.verdict.detail();
+    assert!(
+        detail.contains("(2, 3), of 4 dimensions, 3 coordinates and the time: 1 function"),
+        "{detail}"
+    );
+}
