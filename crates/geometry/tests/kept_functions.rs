@@ -560,3 +560,21 @@ fn growth_on_space_and_time_states_the_dimension() {
         "{detail}"
     );
 }
+
+/// Quadratic forms in two velocities whose discriminant is a positive constant are products over its root: each component keeps a function.
+#[test]
+fn quadratic_constraints_factor_over_roots() {
+    for (constraint, known) in [
+        ("z'^2 - 2*x'^2", ["z - sqrt(2)*x", "z + sqrt(2)*x"]),
+        (
+            "y'^2 - 2*x'*y' - x'^2",
+            ["y - (1 + sqrt(2))*x", "y - (1 - sqrt(2))*x"],
+        ),
+        ("y'^2 - a*x'^2", ["y - sqrt(a)*x", "y + sqrt(a)*x"]),
+    ] {
+        let own = with_parameters(in_space(&[("c", constraint)]), [3, 1], false);
+        let found = finding(&own, WEAK);
+        let detail = found.verdict.detail();
+        assert!(keeps(&own, &found, &known), "{constraint}: {detail}");
+    }
+}
