@@ -443,6 +443,11 @@ fn one_constraint_by_an_antiderivative() {
         ("z' - exp(x)/(1 + exp(2*x))*x'", "atan(exp(x)) - z"),
         ("z' - sqrt(x)/(1 + x)*x'", "2*sqrt(x) - 2*atan(sqrt(x)) - z"),
         ("z' - asin(x)*x'", "x*asin(x) + sqrt(1 - x^2) - z"),
+        ("z' - x*x'/(x^4 + 1)", "atan(x^2) - 2*z"),
+        (
+            "z' - (x'*y - x*y')/(x^2 + x*y + y^2)",
+            "3*z - 2*sqrt(3)*atan((2*x + y)/(sqrt(3)*y))",
+        ),
         ("z' - x'*cos(log(x))", "x*(sin(log(x)) + cos(log(x))) - 2*z"),
         ("z' - x'/(x^2*(x + 1))", "-1/x - log(x) + log(x + 1) - z"),
     ] {
@@ -464,6 +469,7 @@ fn one_constraint_by_a_substitution() {
         ("y'*(x + y^2) - y*x'", "x/y - y"),
         ("y' - cos(x + y)*x'", "tan((x + y)/2) - x"),
         ("y' - (y/x + tan(y/x))*x'", "sin(y/x)/x"),
+        ("y' - (x^2 + y^2)/(x*y)*x'", "y^2/x^2 - 2*log(x)"),
         ("y' - cos(y)^2*(x + tan(y))*x'", "(tan(y) + x + 1)*exp(-x)"),
     ] {
         assert_keeps("x y z", &[("c", constraint)], &[known]);
@@ -482,6 +488,9 @@ fn linear_systems_along_one_parameter() {
     // A spring whatever its constant, and a system of which one form needs the solution of the others.
     let spring = ["k*x^2 + y^2", "atan2(y, sqrt(k)*x) + sqrt(k)*t"];
     assert_keeps("x y", &[("a", "x' - y"), ("b", "y' + k*x")], &spring);
+    let spiral = ["(x^2 + y^2)*exp(-2*a*z)", "atan2(y, x) + b*z"];
+    let forms = [("a", "x' - (a*x + b*y)*z'"), ("b", "y' - (a*y - b*x)*z'")];
+    assert_keeps("x y z", &forms, &spiral);
     let three = ["x^2 + y^2", "atan2(y, x) - z", "u - y^2/2"];
     let third = ("c", "u' - x*y*z'");
     let forms = [("a", "x' + y*z'"), ("b", "y' - x*z'"), third];

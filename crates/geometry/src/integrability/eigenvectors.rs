@@ -6,12 +6,14 @@
 use super::presented::is_fixed;
 use super::primitive::tidy;
 use super::quadrature::{Fields, Form, Quadrature, Solved, Variable};
+use super::solved::root;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::System;
 use chetaev_symbolic::factors::{coefficients, factors};
 use chetaev_symbolic::matrix::{determinant, inverse, null_space};
 use chetaev_symbolic::quadratic_factors::linear_and_quadratic;
 use chetaev_symbolic::rational::content;
+use chetaev_symbolic::simplify::length;
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Function, Graph, Node, Rational, Symbol};
 
@@ -147,6 +149,7 @@ impl Fields<'_> {
             rows.collect()
         };
         let by = match &*matrix {
+            None if all.iter().all(|&e| is_fixed(self.system(), e)) => g.one(),
             None => {
                 let first = *all.iter().find(|&&e| !g.is_zero(e))?;
                 match g.text(first).starts_with('-') {
@@ -303,7 +306,8 @@ impl Block {
         Some(found)
     }
 
-    /// The real and imaginary part of an eigenvector: `ν v` and `-(Mᵀ - μ) v` where `(Mᵀ - μ)² v = -ν² v`, without a common fraction.
+    /// The real and imaginary part of an eigenvector: `ν v` and `-(Mᵀ - μ) v` where `(Mᵀ - μ)² v = -ν² v`, without a common
+    /// fraction.
     fn pair(&self, g: &Graph, re: Expr, im: Expr) -> Option<[Vec<Expr>; 2]> {
         let shifted = self.transposed_less(g, re);
         let size = 0..shifted.len();
@@ -319,10 +323,22 @@ impl Block {
             .map(|i| size.clone().map(|k| entry(i, k)).collect())
             .collect();
         let vector = null_vector(g, &whole)?;
-        let first = vector.iter().map(|&e| tidy(g, g.mul(&[im, e])));
-        let first: Vec<Expr> = first.collect();
-        let second = shifted.iter().map(|row| g.neg(dot(g, row, &vector)));
-        let second: Vec<Expr> = second.map(|e| tidy(g, e)).collect();
+        let scaled = |own: &[Expr], by: Expr| -> Vec<Expr> {
+            own.iter().map(|&e| tidy(g, g.mul(&[by, e]))).collect()
+        };
+        let turned: Vec<Expr> = shifted.iter().map(|row| dot(g, row, &vector)).collect();
+        let minus = g.integer(-1);
+        // Either is written shorter.
+        let times = [scaled(&vector, im), scaled(&turned, minus)];
+        let over = [vector, scaled(&turned, g.div(minus, im))];
+        let size = |pair: &[Vec<Expr>; 2]| -> u64 {
+            let all = pair.iter().flatten();
+            all.map(|&e| length(g, e)).sum()
+        };
+        let [first, second] = match size(&over) <= size(&times) {
+            true => over,
+            false => times,
+        };
         let all = first.iter().chain(&second).map(|&e| coefficient(g, e));
         let unit = Rational::ONE / content(all.collect::<Vec<Rational>>().iter());
         Some([first, second].map(|own| own.iter().map(|&e| g.scale(&unit, e)).collect()))
@@ -378,10 +394,10 @@ fn roots(fields: &Fields<'_>, list: &[Expr]) -> Vec<Eigenvalue> {
             let twice = g.mul(&[g.integer(2), a]);
             let middle = tidy(g, g.neg(g.div(b, twice)));
             if is_negative(fields.system(), discriminant) {
-                let root = g.sqrt(tidy(g, g.neg(discriminant)));
+                let root = root(g, g.neg(discriminant));
                 return vec![Eigenvalue::Pair(middle, tidy(g, g.div(root, twice)))];
             }
-            let aside = g.div(g.sqrt(discriminant), twice);
+            let aside = g.div(root(g, discriminant), twice);
             [g.add(&[middle, aside]), g.sub(middle, aside)]
                 .map(|e| Eigenvalue::Real(tidy(g, e)))
                 .into_iter()

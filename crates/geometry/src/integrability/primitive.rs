@@ -12,7 +12,7 @@ use rational::rational;
 use roots::with_root;
 
 use super::presented::exponential;
-use super::solved::solved;
+use super::solved::{root, solved};
 use chetaev_symbolic::simplify::{simplify, Options};
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
 use std::cell::Cell;
@@ -35,7 +35,7 @@ const INNER: [Function; 7] = [
 ];
 
 /// The most substitutions and partial integrations for one antiderivative.
-const WORK: usize = 300;
+const WORK: usize = 150;
 
 /// How many of them may still stand inside each other, and be tried.
 #[derive(Clone, Copy)]
@@ -278,7 +278,7 @@ fn inverse_quadratic(g: &Graph, u: Expr, x: Symbol) -> Option<Expr> {
         let below = g.apply(Function::Log, &[g.add(&[line, root])]);
         return Some(g.div(g.sub(above, below), root));
     }
-    let root = g.sqrt(determinant);
+    let root = root(g, determinant);
     let angle = g.apply(Function::Atan, &[g.div(line, root)]);
     Some(g.div(g.mul(&[g.integer(2), angle]), root))
 }
@@ -324,11 +324,7 @@ fn by_substitution(g: &Graph, e: Expr, x: Symbol, depth: Depth<'_>) -> Option<Ex
         found.map(|own| g.substitute(own, &[(fresh, u)]))
     };
     let as_inverse = |&u: &Expr| {
-        let is_inner = match g.node(u) {
-            Node::Apply { function, .. } => !function.is_circular(),
-            node => matches!(node, Node::Power { .. }),
-        };
-        let value = is_inner.then(|| solved(g, u, x, fresh))??;
+        let value = solved(g, u, x, fresh).filter(|_| is_plain(g, u, x))?;
         let rest = g.substitute(e, &[(u, fresh)]);
         let rest = g.substitute(rest, &[(own, value)]);
         let whole = g.mul(&[rest, g.diff(value, new)]);
@@ -337,8 +333,35 @@ fn by_substitution(g: &Graph, e: Expr, x: Symbol, depth: Depth<'_>) -> Option<Ex
         Some(g.substitute(found, &[(fresh, u)]))
     };
     let found = inner.iter().find_map(as_function);
-    // Once: a substitution within another one of this kind leads back.
-    found.or_else(|| (depth.left + 2 >= DEPTH).then(|| inner.iter().find_map(as_inverse))?)
+    // Not deeper: a substitution within another one of this kind leads back.
+    let is_outer = depth.left + 2 >= DEPTH;
+    let whole = powers_in(g, &inner, x).into_iter().chain(inner);
+    found.or_else(|| is_outer.then(|| whole.into_iter().find_map(|u| as_inverse(&u)))?)
+}
+
+/// Whether an exponential, a logarithm or a power is the outermost function of x, and no sine or the like is within.
+fn is_plain(g: &Graph, u: Expr, x: Symbol) -> bool {
+    let is_function = |e: Expr| match g.node(e) {
+        Node::Apply { function, .. } => matches!(function, Function::Exp | Function::Log),
+        _ => true,
+    };
+    let within = g.reachable(&[u]).into_iter();
+    let mut within = within.filter(|&e| g.contains_any(e, &[x]));
+    within.all(is_function) && matches!(g.node(u), Node::Apply { .. } | Node::Power { .. })
+}
+
+/// The square and the cube of x, where powers of these occur.
+fn powers_in(g: &Graph, parts: &[Expr], x: Symbol) -> Vec<Expr> {
+    let own = g.symbol_expr(x);
+    let exponents = parts.iter().map(|&e| g.base_exponent(e));
+    let exponents = exponents.filter(|&(base, _)| base == own);
+    let exponents: Vec<i64> = exponents.filter_map(|(_, n)| g.as_integer(n)).collect();
+    let occurs = |&k: &i64| exponents.iter().any(|n| n % k == 0 && n.abs() > k);
+    [2, 3]
+        .into_iter()
+        .filter(occurs)
+        .map(|k| g.powi(own, k))
+        .collect()
 }
 
 /// Exponentials of logarithms as powers.

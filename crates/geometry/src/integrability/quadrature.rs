@@ -9,7 +9,7 @@
 
 use super::presented::{exponential, presented};
 use super::primitive::{primitive, tidy};
-use super::solved::{is_independent, solved};
+use super::solved::{has_value, is_independent, solved};
 use crate::noether::motion::Motion;
 use chetaev_mechanics::System;
 use chetaev_symbolic::factors::factored;
@@ -276,7 +276,27 @@ impl<'a> Fields<'a> {
         let right = self.potential(&rates)?;
         let function = g.sub(left, right);
         let solved = solved(g, left, w, g.add(&[value, right]));
-        Some(Quadrature::one(form.of, function, value, solved))
+        match solved {
+            Some(own) => Some(Quadrature::one(form.of, function, value, Some(own))),
+            None => Some(self.as_solved(form.of, function, w, value)),
+        }
+    }
+
+    /// A function found, with the variable by its value where that is solved for it as it stands, or as it is presented.
+    pub(super) fn as_solved(
+        &self,
+        of: Variable,
+        function: Expr,
+        w: Symbol,
+        value: Expr,
+    ) -> Quadrature {
+        let (system, g) = (self.system(), &self.system().graph);
+        let all = [function, presented(system, function)].into_iter();
+        let mut all = all.filter_map(|e| Some((e, solved(g, e, w, value)?)));
+        match all.next() {
+            Some((e, own)) => Quadrature::one(of, e, value, Some(own)),
+            None => Quadrature::one(of, function, value, None),
+        }
     }
 
     /// φ and b by the factors of the slopes.
@@ -310,6 +330,9 @@ impl<'a> Fields<'a> {
             let mut rates = Vec::new();
             for &(x, a) in &form.slopes {
                 let b = tidy(g, g.substitute(a, &[(own, g.integer(start))]));
+                if !has_value(g, b) {
+                    return None;
+                }
                 let ratio = g.div(a, b);
                 let others = g.symbols_in(&[ratio]).into_iter();
                 let others: Vec<Symbol> = others

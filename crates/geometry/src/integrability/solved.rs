@@ -3,6 +3,7 @@
 //! Nothing rests on them: whoever uses one proves what follows from it.
 
 use chetaev_mechanics::sample::Generator;
+use chetaev_symbolic::factors::{coefficients, factored};
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
 use std::collections::BTreeMap;
 
@@ -19,9 +20,20 @@ pub(super) fn solved(g: &Graph, e: Expr, x: Symbol, value: Expr) -> Option<Expr>
         if g.as_symbol(e) == Some(x) {
             return Some(value);
         }
-        (e, value) = peeled(g, e, x, value)?;
+        (e, value) = match peeled(g, e, x, value) {
+            Some(next) => next,
+            None => return of_first_degree(g, g.sub(e, value), x),
+        };
     }
     None
+}
+
+/// The zero of an expression whose numerator is of the first degree.
+fn of_first_degree(g: &Graph, e: Expr, x: Symbol) -> Option<Expr> {
+    match coefficients(g, e, x)?.as_slice() {
+        [c, b] if !g.contains_any(*b, &[x]) => Some(g.neg(g.div(*c, *b))),
+        _ => None,
+    }
 }
 
 /// What stands in an expression around the part with the symbol brought to the other side.
@@ -102,4 +114,33 @@ pub(super) fn is_independent(g: &Graph, e: Expr, symbols: &[Symbol]) -> bool {
         }
     }
     compared > 0
+}
+
+/// Whether an expression has a value that is not zero somewhere.
+pub(super) fn has_value(g: &Graph, e: Expr) -> bool {
+    (0..4 * POINTS).any(|seed| {
+        let mut generator = Generator::new(seed);
+        let symbols = g.symbols_in(&[e]).into_iter();
+        let point: BTreeMap<Symbol, f64> =
+            symbols.map(|s| (s, generator.between(0.2, 1.2))).collect();
+        let at = g.evaluate_f64(&[e], &|s| point.get(&s).copied());
+        at.is_ok_and(|v| v[0].is_finite() && v[0].abs() > 1e-9)
+    })
+}
+
+/// A root, of squares without a sign: for what is even in it.
+pub(super) fn root(g: &Graph, e: Expr) -> Expr {
+    let Some(parts) = factored(g, e) else {
+        return g.sqrt(e);
+    };
+    let odd = parts.factors.iter().filter(|(_, n)| n % 2 != 0);
+    let odd = odd
+        .map(|(f, _)| *f)
+        .chain([g.number(parts.coefficient.clone())]);
+    let halves = parts
+        .factors
+        .iter()
+        .map(|&(f, n)| g.powi(f, n.div_euclid(2)));
+    let inside = g.sqrt(g.mul(&odd.collect::<Vec<Expr>>()));
+    g.mul(&halves.chain([inside]).collect::<Vec<Expr>>())
 }

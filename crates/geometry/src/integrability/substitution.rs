@@ -7,7 +7,7 @@
 //! such fields.
 
 use super::primitive::tidy;
-use super::quadrature::{Fields, Form, Quadrature, Solved, Variable};
+use super::quadrature::{Fields, Form, Quadrature, Variable};
 use super::solved::solved;
 use crate::noether::ansatz::Ansatz;
 use chetaev_mechanics::Manifold;
@@ -114,15 +114,7 @@ impl Fields<'_> {
             let own = (form.of, over(g.one()));
             let all: Vec<(Variable, Expr)> = [own].into_iter().chain(slopes).collect();
             let function = self.potential(&all)?;
-            let solved = solved(g, function, w, value).map(|own| Solved {
-                constants: vec![(value, function)],
-                values: vec![own],
-            });
-            Some(Quadrature {
-                functions: vec![function],
-                variables: vec![form.of],
-                solved,
-            })
+            Some(self.as_solved(form.of, function, w, value))
         })
     }
 
