@@ -146,7 +146,7 @@ fn is_exponential(g: &Graph, e: Expr) -> bool {
 /// The exponential of a sum in which logarithms have constant coefficients with rational ratios.
 fn without_logarithms(system: &System, e: Expr) -> Option<Expr> {
     let g = &system.graph;
-    let all = parts(g, e);
+    let all = parts(g, expanded(g, e));
     let logs = all.iter().filter_map(|&part| logarithm(g, part));
     let logs: Vec<Expr> = logs.map(|(_, c)| c).collect();
     let first = *logs.first()?;

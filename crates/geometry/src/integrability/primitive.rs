@@ -13,6 +13,7 @@ use roots::with_root;
 
 use super::presented::exponential;
 use super::solved::{root, solved};
+use chetaev_symbolic::rational::content;
 use chetaev_symbolic::simplify::{simplify, Options};
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
 use std::cell::Cell;
@@ -274,13 +275,27 @@ fn inverse_quadratic(g: &Graph, u: Expr, x: Symbol) -> Option<Expr> {
     }
     if is_negative {
         let root = g.sqrt(g.neg(determinant));
-        let above = g.apply(Function::Log, &[g.sub(line, root)]);
-        let below = g.apply(Function::Log, &[g.add(&[line, root])]);
+        let inside = |sign: i64| {
+            let own = g.add(&[line, g.mul(&[g.integer(sign), root])]);
+            g.apply(Function::Log, &[primitive_part(g, tidy(g, own))])
+        };
+        let (above, below) = (inside(-1), inside(1));
         return Some(g.div(g.sub(above, below), root));
     }
     let root = root(g, determinant);
     let angle = g.apply(Function::Atan, &[g.div(line, root)]);
     Some(g.div(g.mul(&[g.integer(2), angle]), root))
+}
+
+/// A sum without the number that its terms share.
+fn primitive_part(g: &Graph, e: Expr) -> Expr {
+    match g.node(e) {
+        Node::Sum { terms, constant } => {
+            let numbers = terms.iter().map(|(_, c)| c).chain([constant]);
+            g.div(e, g.number(content(numbers)))
+        }
+        _ => e,
+    }
 }
 
 /// `∫ p f = p F - ∫ p' F` for powers p of x, and `∫ p ln u = P ln u - ∫ P u'/u`.
