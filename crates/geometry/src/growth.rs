@@ -364,7 +364,12 @@ fn reached(cx: &Context<'_>, flag: &Flag, generated: &Generated) -> Finding {
         (0, true) => format!(
             "{growth}{full}: the configurations that can be reached at a time fill an open set"
         ),
-        _ => format!(
+        (_, true) => format!(
+            "{growth}, of {} dimensions, {n} coordinates and the time: {}",
+            n + 1,
+            keeping(missing, drifts)
+        ),
+        (_, false) => format!(
             "{growth} with {n} coordinates: {}",
             keeping(missing, drifts)
         ),

@@ -18,9 +18,13 @@
 //! identity in these coefficients is the same statement, one residual for each constraint.
 
 pub(crate) mod components;
+mod eigenvectors;
 pub(crate) mod integral;
+mod presented;
 mod primitive;
 mod quadrature;
+mod solved;
+mod substitution;
 mod subsystems;
 pub(crate) use integral::on_its_own;
 

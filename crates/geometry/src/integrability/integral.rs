@@ -5,7 +5,9 @@
 //! that are functions of one coordinate, and separable constraints, are covered where their quadratures are in the family.
 
 use super::components::components;
+use super::presented::presented;
 use super::quadrature::{Fields, Variable};
+use super::subsystems;
 use crate::flag::{horizontal, Directed};
 use crate::growth::generated;
 use crate::noether::ansatz::Ansatz;
@@ -144,7 +146,7 @@ pub(super) fn said(cx: &Context<'_>, functions: &[Expr], count: Option<usize>) -
     match (texts.is_empty(), missing) {
         (true, _) => not_found.to_owned(),
         (false, 0) => texts.join(", "),
-        (false, missing) => format!("{}, and {missing} more, not found", texts.join(", ")),
+        (false, missing) => format!("{}, and {missing} more, {not_found}", texts.join(", ")),
     }
 }
 
@@ -189,15 +191,25 @@ fn functions(cx: &Context<'_>, count: Option<usize>) -> Vec<Expr> {
     let combined = fixed.chain(candidates(cx, &motion).unwrap_or_default());
     add(cx, &motion, &mut kept, most, combined);
     if kept.len() < most && !cx.is_out_of_time() {
-        add(cx, &motion, &mut kept, most, by_quadratures(cx).into_iter());
+        let found = by_quadratures(cx, cx, &motion);
+        add(cx, &motion, &mut kept, most, found.into_iter());
+    }
+    for (terms, selection) in subsystems::small(cx) {
+        if kept.len() >= most || cx.is_out_of_time() {
+            break;
+        }
+        let prover = cx.prover.clone();
+        let own = Context::new(cx.system, &terms, &selection, cx.registry(), prover);
+        let found = by_quadratures(cx, &own.allowing(cx.work()), &motion);
+        add(cx, &motion, &mut kept, most, found.into_iter());
     }
     kept
 }
 
-/// What quadratures give for the fields that the admissible displacements generate.
-fn by_quadratures(cx: &Context<'_>) -> Vec<Expr> {
+/// What quadratures give for the fields that the displacements generate which some of the constraints admit.
+fn by_quadratures(cx: &Context<'_>, own: &Context<'_>, motion: &Motion<'_>) -> Vec<Expr> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let generated = generated(cx);
+    let generated = generated(own);
     let Ok(generated) = &*generated else {
         return Vec::new();
     };
@@ -214,13 +226,15 @@ fn by_quadratures(cx: &Context<'_>) -> Vec<Expr> {
             .collect()
     };
     // What was solved for is dependent, then what stands last.
-    let dependent = cx.selection.dependent.iter().map(|&i| places[i]);
+    let dependent = own.selection.dependent.iter().map(|&i| places[i]);
     let mut preferred: Vec<Variable> = dependent.collect();
     let others = places.iter().rev().chain(&time).copied();
     let others: Vec<Variable> = others.filter(|v| !preferred.contains(v)).collect();
     preferred.extend(others);
     let fields = Fields {
-        system,
+        motion,
+        seed: cx.prover.points_seed(),
+        is_out_of_time: &|| cx.is_out_of_time(),
         variables: time.into_iter().chain(places).collect(),
         rows: flag.fields.iter().map(row).collect(),
         preferred,
@@ -268,7 +282,7 @@ fn candidates(cx: &Context<'_>, motion: &Motion<'_>) -> Option<Vec<Expr>> {
     let found = ansatz.up_to(LOOKED_AT * cx.selection.rows.len())?;
     let shown = found.iter().map(|c| {
         let combined = combined(cx, &members, c);
-        readable(g, without_power(cx, combined))
+        presented(cx.system, combined)
     });
     Some(shown.collect())
 }
@@ -287,17 +301,7 @@ fn is_kept(cx: &Context<'_>, integral: Expr) -> Option<bool> {
     Some(moves && matches!(is(&rates), Verdict::Proved(_)))
 }
 
-/// The base of a power with a constant exponent, which is kept as well: x² + y² for 1/√(x² + y²).
-fn without_power(cx: &Context<'_>, e: Expr) -> Expr {
-    let g = &cx.system.graph;
-    let (base, exponent) = g.base_exponent(e);
-    match g.as_number(exponent) {
-        Some(_) => base,
-        None => e,
-    }
-}
-
-/// Independent functions of (t, q) that occur, constants not among them, then logarithms of what they are built of.
+/// Independent functions of (t, q) that occur, and the coordinates, constants not among them, then logarithms of what they are built of.
 fn members(cx: &Context<'_>, motion: &Motion<'_>) -> Option<Vec<Member>> {
     let g = &cx.system.graph;
     let letters = Letters::of(cx).coefficients;
@@ -321,7 +325,10 @@ fn members(cx: &Context<'_>, motion: &Motion<'_>) -> Option<Vec<Member>> {
         g.mul(&powers.collect::<Vec<_>>())
     };
     // The constant stands first, so what is independent of it follows.
-    let values: Vec<Expr> = monomials.iter().map(|(_, member)| value(member)).collect();
+    let mut values: Vec<Expr> = monomials.iter().map(|(_, member)| value(member)).collect();
+    let places = cx.system.coordinates.iter().map(|c| c.q);
+    let places: Vec<Expr> = places.filter(|e| !values.contains(e)).collect();
+    values.splice(values.len().min(1)..values.len().min(1), places);
     let columns: Vec<Vec<Expr>> = values.iter().map(|&e| vec![e]).collect();
     let seed = cx.prover.points_seed();
     let ansatz = Ansatz::new(motion, &columns, &Manifold::default(), &[], seed).ok()?;

@@ -1,14 +1,57 @@
-//! Antiderivatives in one variable: of polynomials, powers, sines, cosines and exponentials of linear functions, products of these, and
-//! what a substitution makes one of them.
+//! Antiderivatives in one variable: of polynomials, powers, sines, cosines and exponentials of linear functions, products of these, of
+//! rational functions, of roots of quadratic polynomials, and what a substitution makes one of them.
 //!
 //! Nothing rests on them: whoever uses one proves what follows from it.
 
-use chetaev_symbolic::factors::factored;
+mod circular;
+mod rational;
+mod roots;
+
+use circular::{by_half_angle, circular, exponential_circular, of_power};
+use rational::rational;
+use roots::with_root;
+
+use super::presented::exponential;
+use super::solved::{root, solved};
+use chetaev_symbolic::rational::content;
 use chetaev_symbolic::simplify::{simplify, Options};
-use chetaev_symbolic::{Expr, Function, Graph, Node, Rational, Symbol};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
+use std::cell::Cell;
 
 /// So many substitutions and partial integrations stand inside each other at most.
 const DEPTH: usize = 5;
+
+/// So many parts are tried for a substitution.
+const PARTS: usize = 12;
+
+/// Functions whose derivatives are plainer.
+const INNER: [Function; 7] = [
+    Function::Log,
+    Function::Atan,
+    Function::Asin,
+    Function::Acos,
+    Function::Asinh,
+    Function::Acosh,
+    Function::Atanh,
+];
+
+/// The most substitutions and partial integrations for one antiderivative.
+const WORK: usize = 150;
+
+/// How many of them may still stand inside each other, and be tried.
+#[derive(Clone, Copy)]
+struct Depth<'a> {
+    left: usize,
+    work: &'a Cell<usize>,
+}
+
+impl Depth<'_> {
+    fn deeper(self) -> Option<Self> {
+        self.work.set(self.work.get().checked_sub(1)?);
+        let left = self.left.checked_sub(1)?;
+        Some(Depth { left, ..self })
+    }
+}
 
 /// The most terms of a product multiplied out.
 const TERMS: usize = 120;
@@ -26,25 +69,30 @@ pub(super) fn tidy(g: &Graph, e: Expr) -> Expr {
 
 /// A function with this derivative by `x`; `None` where none was found.
 pub(super) fn primitive(g: &Graph, e: Expr, x: Symbol) -> Option<Expr> {
-    of(g, e, x, DEPTH)
+    let work = Cell::new(WORK);
+    let depth = Depth {
+        left: DEPTH,
+        work: &work,
+    };
+    of(g, e, x, depth)
 }
 
-fn of(g: &Graph, e: Expr, x: Symbol, depth: usize) -> Option<Expr> {
+fn of(g: &Graph, e: Expr, x: Symbol, depth: Depth<'_>) -> Option<Expr> {
     if !g.contains_any(e, &[x]) {
         return Some(g.mul(&[e, g.symbol_expr(x)]));
     }
-    if depth == 0 || g.reachable(&[e]).len() > NODES {
+    if depth.left == 0 || g.reachable(&[e]).len() > NODES {
         return None;
     }
     termwise(g, expanded(g, e), x, depth)
         .or_else(|| by_substitution(g, e, x, depth))
         .or_else(|| {
-            let short = tidy(g, e);
-            (short != e).then(|| of(g, short, x, depth - 1)).flatten()
+            let short = Some(tidy(g, e)).filter(|&short| short != e)?;
+            of(g, short, x, depth.deeper()?)
         })
 }
 
-fn termwise(g: &Graph, e: Expr, x: Symbol, depth: usize) -> Option<Expr> {
+fn termwise(g: &Graph, e: Expr, x: Symbol, depth: Depth<'_>) -> Option<Expr> {
     let Node::Sum { constant, terms } = g.node(e) else {
         return of_product(g, e, x, depth);
     };
@@ -101,7 +149,7 @@ fn multiplied(g: &Graph, a: &[Expr], b: &[Expr]) -> Option<Vec<Expr>> {
 }
 
 /// Of a product: what `x` is not in stands before the integral.
-fn of_product(g: &Graph, e: Expr, x: Symbol, depth: usize) -> Option<Expr> {
+fn of_product(g: &Graph, e: Expr, x: Symbol, depth: Depth<'_>) -> Option<Expr> {
     let factors = match g.node(e) {
         Node::Product {
             coefficient,
@@ -123,10 +171,12 @@ fn of_product(g: &Graph, e: Expr, x: Symbol, depth: usize) -> Option<Expr> {
     let whole = g.mul(&own);
     let found = found
         .or_else(|| circular(g, &own, x, depth))
+        .or_else(|| with_root(g, &own, x))
         .or_else(|| by_parts(g, &own, x, depth))
         .or_else(|| exponential_circular(g, &own, x))
+        .or_else(|| rational(g, whole, x))
         .or_else(|| by_substitution(g, whole, x, depth))
-        .or_else(|| partial_fractions(g, whole, x, depth))?;
+        .or_else(|| by_half_angle(g, whole, x))?;
     Some(g.mul(&[g.mul(&free), found]))
 }
 
@@ -205,18 +255,6 @@ fn of_function(g: &Graph, function: Function, u: Expr) -> Option<Expr> {
     })
 }
 
-/// Of 1/cos², 1/sin² and 1/cosh².
-fn of_power(g: &Graph, function: Function, u: Expr, power: i64) -> Option<Expr> {
-    let tangent = |f: Function| g.apply(f, &[u]);
-    match (function, power) {
-        (Function::Cos, -2) => Some(tangent(Function::Tan)),
-        (Function::Sin, -2) => Some(g.neg(tangent(Function::Cot))),
-        (Function::Cosh, -2) => Some(tangent(Function::Tanh)),
-        (Function::Tan, 2) => Some(g.sub(tangent(Function::Tan), u)),
-        _ => None,
-    }
-}
-
 /// Of `1/(a x² + b x + c)` with numbers in the discriminant, or `b = 0` and an arctangent.
 fn inverse_quadratic(g: &Graph, u: Expr, x: Symbol) -> Option<Expr> {
     let twice = tidy(g, g.diff(g.diff(u, x), x));
@@ -237,83 +275,38 @@ fn inverse_quadratic(g: &Graph, u: Expr, x: Symbol) -> Option<Expr> {
     }
     if is_negative {
         let root = g.sqrt(g.neg(determinant));
-        let above = g.apply(Function::Log, &[g.sub(line, root)]);
-        let below = g.apply(Function::Log, &[g.add(&[line, root])]);
+        let inside = |sign: i64| {
+            let own = g.add(&[line, g.mul(&[g.integer(sign), root])]);
+            g.apply(Function::Log, &[primitive_part(g, tidy(g, own))])
+        };
+        let (above, below) = (inside(-1), inside(1));
         return Some(g.div(g.sub(above, below), root));
     }
-    let root = g.sqrt(determinant);
+    let root = root(g, determinant);
     let angle = g.apply(Function::Atan, &[g.div(line, root)]);
     Some(g.div(g.mul(&[g.integer(2), angle]), root))
 }
 
-/// Products of sines and cosines of linear functions as sums of such.
-fn circular(g: &Graph, own: &[Expr], x: Symbol, depth: usize) -> Option<Expr> {
-    let mut sum: Vec<(Rational, bool, Expr)> = vec![(Rational::ONE, false, g.zero())];
-    let mut count = 0;
-    for &factor in own {
-        let (base, exponent) = g.base_exponent(factor);
-        let n = g.as_integer(exponent).filter(|n| (1..=8).contains(n))?;
-        let Node::Apply {
-            function,
-            arguments,
-        } = g.node(base)
-        else {
-            return None;
-        };
-        let is_sine = match function {
-            Function::Sin => true,
-            Function::Cos => false,
-            _ => return None,
-        };
-        slope(g, arguments[0], x)?;
-        for _ in 0..n {
-            count += 1;
-            sum = sum
-                .into_iter()
-                .flat_map(|own| times(g, own, (is_sine, arguments[0])))
-                .collect();
+/// A sum without the number that its terms share.
+fn primitive_part(g: &Graph, e: Expr) -> Expr {
+    match g.node(e) {
+        Node::Sum { terms, constant } => {
+            let numbers = terms.iter().map(|(_, c)| c).chain([constant]);
+            g.div(e, g.number(content(numbers)))
         }
-    }
-    if !(2..=8).contains(&count) {
-        return None;
-    }
-    let terms: Vec<Expr> = sum
-        .into_iter()
-        .map(|(c, is_sine, u)| {
-            let own = if is_sine { g.sin(u) } else { g.cos(u) };
-            g.scale(&c, own)
-        })
-        .collect();
-    termwise(g, g.add(&terms), x, depth.checked_sub(1)?)
-}
-
-/// A sine or cosine times another as two.
-fn times(
-    g: &Graph,
-    (c, is_sine, u): (Rational, bool, Expr),
-    (by_sine, w): (bool, Expr),
-) -> [(Rational, bool, Expr); 2] {
-    let half = c / Rational::from(2);
-    let (plus, minus) = (g.add(&[u, w]), g.sub(u, w));
-    match (is_sine, by_sine) {
-        (false, false) => [(half.clone(), false, plus), (half, false, minus)],
-        (true, true) => [(-half.clone(), false, plus), (half, false, minus)],
-        (true, false) => [(half.clone(), true, plus), (half, true, minus)],
-        (false, true) => [(half.clone(), true, plus), (-half, true, minus)],
+        _ => e,
     }
 }
 
 /// `∫ p f = p F - ∫ p' F` for powers p of x, and `∫ p ln u = P ln u - ∫ P u'/u`.
-fn by_parts(g: &Graph, own: &[Expr], x: Symbol, depth: usize) -> Option<Expr> {
-    let depth = depth.checked_sub(1)?;
+fn by_parts(g: &Graph, own: &[Expr], x: Symbol, depth: Depth<'_>) -> Option<Expr> {
+    let depth = depth.deeper()?;
     let is_power = |&&f: &&Expr| {
         let (base, n) = g.base_exponent(f);
         g.as_symbol(base) == Some(x) && g.as_integer(n).is_some_and(|n| n > 0)
     };
-    let is_inner = |&&f: &&Expr| {
-        let inner = [Function::Log, Function::Atan];
-        matches!(g.node(f), Node::Apply { function, .. } if inner.contains(function))
-    };
+    let is_inner =
+        |&&f: &&Expr| matches!(g.node(f), Node::Apply { function, .. } if INNER.contains(function));
     let (stays, rest): (Expr, Vec<Expr>) = match own.iter().find(is_inner) {
         Some(&f) => (f, own.iter().copied().filter(|&e| e != f).collect()),
         None => {
@@ -326,90 +319,79 @@ fn by_parts(g: &Graph, own: &[Expr], x: Symbol, depth: usize) -> Option<Expr> {
     Some(g.sub(g.mul(&[stays, integrated]), of(g, left, x, depth)?))
 }
 
-/// `∫ exp(a x) sin(b x)` and with a cosine.
-fn exponential_circular(g: &Graph, own: &[Expr], x: Symbol) -> Option<Expr> {
-    let [a, b] = own else {
-        return None;
-    };
-    let argument = |e: Expr, wanted: &[Function]| match g.node(e) {
-        Node::Apply {
-            function,
-            arguments,
-        } if wanted.contains(function) => Some((*function, arguments[0])),
-        _ => None,
-    };
-    let circles = [Function::Sin, Function::Cos];
-    let pair =
-        |e: Expr, other: Expr| Some((argument(e, &[Function::Exp])?, argument(other, &circles)?));
-    let ((_, u), (function, w)) = pair(*a, *b).or_else(|| pair(*b, *a))?;
-    let (p, q) = (slope(g, u, x)?, slope(g, w, x)?);
-    let (sin, cos) = (g.sin(w), g.cos(w));
-    let inner = match function {
-        Function::Sin => g.sub(g.mul(&[p, sin]), g.mul(&[q, cos])),
-        _ => g.add(&[g.mul(&[p, cos]), g.mul(&[q, sin])]),
-    };
-    let by = g.add(&[g.powi(p, 2), g.powi(q, 2)]);
-    Some(g.div(g.mul(&[g.exp(u), inner]), by))
-}
-
-/// `∫ h(u) u' dx = ∫ h du` for a part u of the expression.
-fn by_substitution(g: &Graph, e: Expr, x: Symbol, depth: usize) -> Option<Expr> {
-    let depth = depth.checked_sub(1)?;
+/// `∫ h(u) u' dx = ∫ h du` for a part u of the expression, or x by u where that can be solved.
+fn by_substitution(g: &Graph, e: Expr, x: Symbol, depth: Depth<'_>) -> Option<Expr> {
+    let depth = depth.deeper()?;
     let own = g.symbol_expr(x);
-    let fresh = g.symbol(&format!("part[{depth}]"), 0);
+    let fresh = g.symbol(&format!("part[{}]", depth.left), 0);
     let new = g.as_symbol(fresh)?;
     let parts = g.reachable(&[e]).into_iter().rev();
     let inner = parts.filter(|&u| u != e && u != own && g.contains_any(u, &[x]));
-    for u in inner.take(12) {
+    let inner: Vec<Expr> = inner.take(PARTS).collect();
+    let as_function = |&u: &Expr| {
         let by = g.diff(u, x);
-        if g.is_zero(by) {
-            continue;
-        }
-        let rest = tidy(g, g.div(e, by));
-        let rest = g.substitute(rest, &[(u, fresh)]);
-        if g.contains_any(rest, &[x]) {
-            continue;
-        }
-        if let Some(found) = of(g, rest, new, depth) {
-            return Some(g.substitute(found, &[(fresh, u)]));
-        }
-    }
-    None
+        let rest = g.div(e, by);
+        // Simplified it may be written by another function.
+        let all = [rest, tidy(g, rest)].into_iter();
+        let mut all = all.map(|own| g.substitute(own, &[(u, fresh)]));
+        let rest = all.find(|&own| !g.contains_any(own, &[x]))?;
+        let found = of(g, rest, new, depth).filter(|_| !g.is_zero(by));
+        found.map(|own| g.substitute(own, &[(fresh, u)]))
+    };
+    let as_inverse = |&u: &Expr| {
+        let value = solved(g, u, x, fresh).filter(|_| is_plain(g, u, x))?;
+        let rest = g.substitute(e, &[(u, fresh)]);
+        let rest = g.substitute(rest, &[(own, value)]);
+        let whole = g.mul(&[rest, g.diff(value, new)]);
+        let whole = tidy(g, with_powers(g, whole));
+        let found = of(g, whole, new, depth)?;
+        Some(g.substitute(found, &[(fresh, u)]))
+    };
+    let found = inner.iter().find_map(as_function);
+    // Not deeper: a substitution within another one of this kind leads back.
+    let is_outer = depth.left + 2 >= DEPTH;
+    let whole = powers_in(g, &inner, x).into_iter().chain(inner);
+    found.or_else(|| is_outer.then(|| whole.into_iter().find_map(|u| as_inverse(&u)))?)
 }
 
-/// Rational functions whose denominator is a product of different linear functions of `x`.
-fn partial_fractions(g: &Graph, e: Expr, x: Symbol, depth: usize) -> Option<Expr> {
+/// Whether an exponential, a logarithm or a power is the outermost function of x, and no sine or the like is within.
+fn is_plain(g: &Graph, u: Expr, x: Symbol) -> bool {
+    let is_function = |e: Expr| match g.node(e) {
+        Node::Apply { function, .. } => matches!(function, Function::Exp | Function::Log),
+        _ => true,
+    };
+    let within = g.reachable(&[u]).into_iter();
+    let mut within = within.filter(|&e| g.contains_any(e, &[x]));
+    within.all(is_function) && matches!(g.node(u), Node::Apply { .. } | Node::Power { .. })
+}
+
+/// The square and the cube of x, where powers of these occur.
+fn powers_in(g: &Graph, parts: &[Expr], x: Symbol) -> Vec<Expr> {
     let own = g.symbol_expr(x);
-    let parts = factored(g, e)?;
-    let below = parts
-        .factors
-        .iter()
-        .filter(|(f, n)| *n < 0 && g.contains_any(*f, &[x]));
-    let below: Vec<(Expr, i64)> = below.copied().collect();
-    let above = parts
-        .factors
-        .iter()
-        .filter(|(f, n)| *n > 0 && g.contains_any(*f, &[x]));
-    let degree: i64 = above
-        .map(|&(f, n)| slope(g, f, x).map(|_| n))
-        .sum::<Option<i64>>()?;
-    if depth == 0
-        || below.len() < 2
-        || below.iter().any(|&(_, n)| n != -1)
-        || degree >= below.len() as i64
-    {
-        return None;
-    }
-    let mut sum = Vec::new();
-    for &(f, _) in &below {
-        let by = slope(g, f, x)?;
-        let start = g.substitute(f, &[(own, g.zero())]);
-        let root = tidy(g, g.neg(g.div(start, by)));
-        let rest = tidy(g, g.mul(&[e, f]));
-        let residue = tidy(g, g.div(g.substitute(rest, &[(own, root)]), by));
-        sum.push(g.mul(&[residue, g.apply(Function::Log, &[f])]));
-    }
-    Some(g.add(&sum))
+    let exponents = parts.iter().map(|&e| g.base_exponent(e));
+    let exponents = exponents.filter(|&(base, _)| base == own);
+    let exponents: Vec<i64> = exponents.filter_map(|(_, n)| g.as_integer(n)).collect();
+    let occurs = |&k: &i64| exponents.iter().any(|n| n % k == 0 && n.abs() > k);
+    [2, 3]
+        .into_iter()
+        .filter(occurs)
+        .map(|k| g.powi(own, k))
+        .collect()
+}
+
+/// Exponentials of logarithms as powers.
+fn with_powers(g: &Graph, e: Expr) -> Expr {
+    let pairs = g.reachable(&[e]).into_iter().filter_map(|part| {
+        let Node::Apply {
+            function: Function::Exp,
+            arguments,
+        } = g.node(part)
+        else {
+            return None;
+        };
+        Some((part, exponential(g, arguments[0])))
+    });
+    g.substitute(e, &pairs.collect::<Vec<_>>())
 }
 
 #[cfg(test)]
@@ -440,6 +422,21 @@ mod tests {
             g.mul(&[x, f(Function::Log, x)]),
             g.mul(&[x, g.sqrt(g.add(&[square, k]))]),
             g.mul(&[x, x, f(Function::Sinh, x)]),
+            g.powi(g.add(&[square, g.one()]), -2),
+            g.mul(&[g.powi(x, 5), g.powi(g.sub(g.powi(x, 3), g.integer(8)), -1)]),
+            g.mul(&[x, x, g.powi(g.sub(x, k), -3)]),
+            g.powi(g.sub(g.integer(4), square), -1),
+            g.pow(g.sub(g.integer(4), square), g.div(g.one(), g.integer(-2))),
+            g.mul(&[g.powi(x, 4), g.sqrt(g.add(&[square, x, k]))]),
+            g.pow(g.add(&[square, k]), g.div(g.integer(-3), g.integer(2))),
+            g.powi(g.cos(x), -3),
+            g.powi(g.sin(x), -4),
+            g.powi(f(Function::Sinh, x), -3),
+            g.powi(f(Function::Cosh, x), -3),
+            g.powi(f(Function::Tan, x), 5),
+            g.powi(f(Function::Tanh, x), 4),
+            g.powi(g.add(&[g.integer(2), g.cos(x)]), -1),
+            g.div(g.powi(g.sin(x), 2), g.cos(x)),
         ];
         for e in given {
             let found = primitive(&g, e, symbol);

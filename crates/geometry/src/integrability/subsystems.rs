@@ -1,7 +1,7 @@
 //! Which sub-systems of several constraints are integrable by themselves.
 
 use super::{decide, on_each_side, PfaffSystem, Strength};
-use chetaev_mechanics::{characteristics, Context, MotionTerms, System};
+use chetaev_mechanics::{characteristics, Context, MotionTerms, Selection, System};
 use chetaev_symbolic::Verdict;
 
 /// The most sub-systems looked at.
@@ -9,6 +9,9 @@ const SUBSETS: usize = 64;
 
 /// The most sub-systems named one by one.
 const LISTED: usize = 6;
+
+/// So many sub-systems are asked what they keep.
+const ASKED: usize = 12;
 
 /// Sub-systems by the verdict on each.
 #[derive(Default)]
@@ -64,6 +67,20 @@ pub(super) fn told(cx: &Context<'_>, strength: Strength) -> Option<String> {
         ));
     }
     Some(parts.join("; "))
+}
+
+/// Terms and independent velocities of single constraints and of pairs, as many as are asked what they keep.
+pub(super) fn small(cx: &Context<'_>) -> Vec<(MotionTerms, Selection)> {
+    let rows = &cx.selection.rows;
+    let all = of_size(rows, 2).into_iter();
+    let proper = all.filter(|subset| subset.len() < rows.len()).take(ASKED);
+    let terms = proper.map(|subset| restricted_terms(cx.terms, &subset));
+    terms
+        .filter_map(|own| {
+            let selection = characteristics::select(cx.system, &own).ok()?;
+            Some((own, selection))
+        })
+        .collect()
 }
 
 /// All proper subsets, single constraints first, while they are few; else single ones and pairs, or single ones alone, with a sentence

@@ -53,6 +53,11 @@ pub(crate) fn system(coordinates: &str, lagrangian: &str, constraints: &[(&str, 
     System::new(graph, parts).unwrap()
 }
 
+/// Unit masses in space under constraints.
+pub(crate) fn in_space(constraints: &[(&str, &str)]) -> System {
+    system("x y z", "(x'^2 + y'^2 + z'^2)/2", constraints)
+}
+
 /// The same with quasi-velocities and forces, by name.
 pub(crate) fn framed(
     coordinates: &str,
