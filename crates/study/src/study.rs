@@ -589,6 +589,16 @@ struct KnownMotion<'a> {
     motion: Option<&'a Motion>,
 }
 
+/// The hypotheses but those that are nothing to ask of this system, as how masses vary where none does.
+fn hypotheses(cx: &Context<'_>, mut requires: Vec<String>) -> Vec<String> {
+    let is_asked = |id: &String| match cx.registry().find(id) {
+        Some(claim) => !claim.subjects(cx.deciding(id)).is_empty(),
+        None => true,
+    };
+    requires.retain(is_asked);
+    requires
+}
+
 /// Values of functions of the state where the motion starts.
 fn at_start(system: &System, start: &ConsistentState, functions: &[Expr]) -> Option<Vec<f64>> {
     let g = &system.graph;
@@ -686,7 +696,7 @@ fn decide(
                 claim: claim.id(),
                 title: claim.title_of(subject.as_deref()),
                 group: claim.group(),
-                requires: claim.requires(subject.as_deref()),
+                requires: hypotheses(&cx, claim.requires(subject.as_deref())),
                 finding,
                 seconds: (hooks.clock)() - start,
                 expected: expected(model, claim.id(), subject.as_deref()),
