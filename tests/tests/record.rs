@@ -14,7 +14,7 @@ fn records() -> Vec<(String, Value)> {
     let mut records: Vec<(String, Value)> = Vec::new();
     let folder = scratch("record-options");
     let skate = "gallery/skate-level/model.toml";
-    let turns: [&[&str]; 5] = [
+    let turns: [&[&str]; 6] = [
         &["--set", "W=0.3", "--set", "m = 2/3"],
         &["--claims", "model,energy.integral", "--budget", "5"],
         &[
@@ -36,6 +36,7 @@ fn records() -> Vec<(String, Value)> {
             "--claims",
             "motion",
         ],
+        &["--t-end", "1", "--keep-integrals", "--claims", "motion"],
     ];
     for (i, options) in turns.into_iter().enumerate() {
         let out = folder.join(i.to_string());

@@ -281,7 +281,12 @@ fn found_integrals_are_followed_and_kept() {
     let largest = |keep: bool| {
         let study = studied(&top, &claims, keep);
         let motion = study.motion.as_ref().expect("a motion");
-        let names: Vec<&str> = motion.found.iter().map(|f| f.name.as_str()).collect();
+        let names: Vec<&str> = motion
+            .found
+            .others
+            .iter()
+            .map(|f| f.name.as_str())
+            .collect();
         // The energy among the three is followed anyway.
         assert_eq!(names.len(), 2, "{names:?}");
         for name in names {
@@ -418,7 +423,7 @@ fn parameters_that_are_stated_zero() {
 #[test]
 fn a_motion_alone_searches_nothing() {
     let study = studied(&gallery("heavy-top/model.toml"), &["motion"], false);
-    assert!(study.motion.expect("a motion").found.is_empty());
+    assert!(study.motion.expect("a motion").found.all().is_empty());
 }
 
 /// Runs over many turns at tolerance 10⁻⁶: at every step and row the integrals have their values to rounding, the constraints

@@ -4,8 +4,9 @@
 //! 4.2): the change of (q, v) is the least one in the norm of the kinetic metric in both parts, by Gauss–Newton steps.
 //! It is made only where these converge, and to a place that is near for the step. Otherwise integrals are taken up one
 //! after another, the most independent first, and those that prevent it are left out at this state; what is left out is
-//! counted.
+//! counted. Masses with a law of their own stand among the coordinates and are not moved.
 
+use crate::drift::Extreme;
 use crate::follow::magnitude;
 use crate::functions::{Functions, FunctionsError};
 use crate::least_norm::{independent, least_step, norm};
@@ -63,6 +64,10 @@ pub struct KeptReport {
     pub left_out: Vec<Missed>,
     /// States within steps, for rows and events, where not all integrals have their values.
     pub between: Missed,
+    /// Steps after which the state was moved.
+    pub moved: u64,
+    /// The largest change of a coordinate or velocity after a step, over 1 + its size.
+    pub largest: Extreme,
 }
 
 /// Functions of one kind with their slopes and sizes.
@@ -76,12 +81,9 @@ struct Quantities {
 impl Quantities {
     fn new(system: &System, binding: &Binding, values: &[Expr]) -> Result<Self, FunctionsError> {
         let g = &system.graph;
-        let coordinates = system.coordinates.iter();
-        let symbols: Vec<Symbol> = coordinates
-            .clone()
-            .map(|c| c.q_symbol)
-            .chain(coordinates.map(|c| c.v_symbol))
-            .collect();
+        let masses = system.masses.iter().map(|m| m.symbol);
+        let positions = system.coordinate_symbols().into_iter().chain(masses);
+        let symbols: Vec<Symbol> = positions.chain(system.velocity_symbols()).collect();
         let slopes = g.jacobian(values, &symbols).concat();
         let sizes = values.iter().map(|&e| magnitude(g, e)).collect();
         let groups = [
@@ -130,6 +132,8 @@ pub struct Keep {
     /// What vanishes, then each integral by itself: where one has no value the others are kept.
     quantities: Vec<Quantities>,
     n: usize,
+    /// The places of coordinates and velocities in (q, v): between them masses have theirs.
+    movable: Vec<usize>,
     /// (q, v) at the end of the last step.
     before: Vec<f64>,
     report: KeptReport,
@@ -166,9 +170,12 @@ impl Keep {
             .chain(each)
             .map(|values| Quantities::new(system, binding, values))
             .collect();
+        let n = system.n();
+        let velocities = n + system.masses.len();
         Ok(Keep {
             quantities: quantities?,
-            n: system.n(),
+            n,
+            movable: (0..n).chain(velocities..velocities + n).collect(),
             before: Vec::new(),
             report: KeptReport::default(),
         })
@@ -213,7 +220,12 @@ impl Keep {
             false => (missing.iter()).for_each(|&i| self.report.left_out[i].record(t)),
         }
         self.before.clone_from(&found.x);
-        set(q, v, &start, &found.x)
+        let is_moved = set(q, v, &start, &found.x);
+        self.report.moved += u64::from(is_moved);
+        for (a, b) in start.iter().zip(&found.x) {
+            self.report.largest.record((b - a) / (1.0 + a.abs()), t);
+        }
+        is_moved
     }
 
     /// Moves a state within a step; says whether it changed.
@@ -241,7 +253,7 @@ impl Keep {
 
     /// The nearest state with the constraints and all integrals, or with as many as there are near by.
     fn project(&mut self, t: f64, start: &[f64], metric: &[f64]) -> Found {
-        let both = doubled(metric, self.n);
+        let both = self.doubled(metric, start.len());
         let all: Vec<usize> = (0..self.quantities.len() - 1).collect();
         if self.rest(t, start, &all).is_some_and(|r| r.worst <= 1.0) {
             let (x, kept) = (start.to_vec(), all);
@@ -283,7 +295,7 @@ impl Keep {
             }
         }
         let first = self.quantities[0].targets.len();
-        let order = independent(&slopes, (x.len(), first), metric, DEPENDENT);
+        let order = independent(&slopes, (x.len(), first), &self.movable, metric, DEPENDENT);
         order.into_iter().map(|row| known[row - first]).collect()
     }
 
@@ -315,7 +327,6 @@ impl Keep {
         metric: &[f64],
     ) -> Option<Vec<f64>> {
         let size = start.len();
-        let movable: Vec<usize> = (0..size).collect();
         let mut x = start.to_vec();
         let mut last = f64::INFINITY;
         let mut best = (f64::INFINITY, f64::INFINITY, x.clone());
@@ -327,7 +338,7 @@ impl Keep {
             if rest.worst <= 1.0 {
                 return Some(x);
             }
-            let step = least_step(&rest.slopes, &rest.left, size, &movable, metric);
+            let step = least_step(&rest.slopes, &rest.left, size, &self.movable, metric);
             let length = norm(&step);
             if length > CONTRACTION * last || length.is_nan() {
                 return (best.1 <= NOISE).then_some(best.2);
@@ -343,11 +354,27 @@ impl Keep {
 
     /// Whether a change is one that a step in error makes necessary: across a cut of an angle, say, it is not.
     fn is_near(&self, start: &[f64], x: &[f64]) -> bool {
-        let difference =
-            |a: &[f64]| -> Vec<f64> { start.iter().zip(a).map(|(s, a)| s - a).collect() };
+        let difference = |a: &[f64]| -> Vec<f64> {
+            let places = self.movable.iter();
+            places.map(|&i| start[i] - a[i]).collect()
+        };
         let mut pairs = start.iter().zip(x);
         pairs.all(|(a, b)| (a - b).abs() <= FAR * (1.0 + a.abs()))
             || norm(&difference(x)) <= PART_OF_STEP * norm(&difference(&self.before))
+    }
+
+    /// The metric for coordinates and velocities, block by block, in a matrix of all places of the state.
+    fn doubled(&self, metric: &[f64], size: usize) -> Vec<f64> {
+        let (positions, velocities) = self.movable.split_at(self.n);
+        let mut both = vec![0.0; size * size];
+        for block in [positions, velocities] {
+            for (i, &row) in block.iter().enumerate() {
+                for (j, &column) in block.iter().enumerate() {
+                    both[row * size + column] = metric[i * self.n + j];
+                }
+            }
+        }
+        both
     }
 }
 
@@ -357,17 +384,4 @@ fn set(q: &mut [f64], v: &mut [f64], start: &[f64], x: &[f64]) -> bool {
     q.copy_from_slice(positions);
     v.copy_from_slice(velocities);
     start != x
-}
-
-/// The metric for coordinates and velocities, block by block.
-fn doubled(metric: &[f64], n: usize) -> Vec<f64> {
-    let mut both = vec![0.0; 4 * n * n];
-    for i in 0..n {
-        for j in 0..n {
-            let value = metric[i * n + j];
-            both[i * 2 * n + j] = value;
-            both[(n + i) * 2 * n + n + j] = value;
-        }
-    }
-    both
 }

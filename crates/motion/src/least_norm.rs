@@ -82,18 +82,19 @@ fn dual(row: &[f64], movable: &[usize], factor: &[f64]) -> Vec<f64> {
 }
 
 /// The rows after the `first` ones of a matrix with n columns in an order in which each is the one of the rest that depends
-/// least on those before it; rows of which no more than the part `least` is independent of them are left out.
+/// least on those before it in the movable columns; rows of which no more than the part `least` is independent of them are left
+/// out.
 pub(crate) fn independent(
     rows: &[f64],
     (n, first): (usize, usize),
+    movable: &[usize],
     metric: &[f64],
     least: f64,
 ) -> Vec<usize> {
-    let all: Vec<usize> = (0..n).collect();
-    let factor = root(metric, n, &all);
+    let factor = root(metric, n, movable);
     let mut rests: Vec<Vec<f64>> = rows
         .chunks(n.max(1))
-        .map(|row| dual(row, &all, &factor))
+        .map(|row| dual(row, movable, &factor))
         .collect();
     let lengths: Vec<f64> = rests.iter().map(|rest| norm(rest)).collect();
     let part = |rests: &[Vec<f64>], i: usize| norm(&rests[i]) / lengths[i].max(f64::MIN_POSITIVE);

@@ -128,3 +128,61 @@ fn projection_keeps_the_order() {
     let order = (error(0.1) / error(0.05)).log2();
     assert!((3.7..4.5).contains(&order), "{order}");
 }
+
+/// A mass with a law of its own stands among the coordinates and goes its own way: only coordinates and velocities are moved, and so
+/// the energy of the pendulum that it makes is kept, with the mass as a factor that changes.
+#[test]
+fn masses_with_a_law_of_their_own_are_not_moved() {
+    let g = Arc::new(Graph::new());
+    let [x, v, m] = [("x", 0), ("x", 1), ("m", 0)].map(|(name, order)| g.symbol(name, order));
+    let half = g.number(ratio(1, 2).unwrap());
+    let energy = g.mul(&[half, g.add(&[g.powi(v, 2), g.powi(x, 2)])]);
+    let parts = SystemParts {
+        coordinates: vec!["x".into()],
+        lagrangian: Some(g.mul(&[half, m, g.sub(g.powi(v, 2), g.powi(x, 2))])),
+        // What leaves has the velocity of its body.
+        reactive_forces: vec![("x".into(), g.mul(&[g.number(ratio(-1, 5).unwrap()), m, v]))],
+        masses: vec![("m".into(), g.mul(&[g.number(ratio(-1, 5).unwrap()), m]))],
+        ..SystemParts::default()
+    };
+    let system = System::new(g.clone(), parts).unwrap();
+    let prepared = Prepared::new(&system).unwrap();
+    let binding = Binding::new(&system).unwrap();
+    let mut numeric = NumericSystem::new(&system, &prepared.terms, &binding).unwrap();
+    let data = InitialData {
+        t: 0.0,
+        q: vec![1.0, 2.0],
+        v: vec![0.0],
+        q_fixed: vec![true; 2],
+        v_fixed: vec![true],
+        project: false,
+    };
+    let start = consistent_state(&mut numeric, &data).unwrap();
+    let subject = Subject {
+        system: &system,
+        terms: &prepared.terms,
+        selection: &prepared.selection,
+        binding: &binding,
+        numeric: &numeric,
+        start: &start,
+    };
+    let mut settings = RunSettings::new(0.0, 10.0);
+    settings.tolerance = 1e-6;
+    settings.keep = vec![energy];
+    let run = subject.routh(&settings, &mut Watcher::default()).unwrap();
+    let report = report(&run);
+    assert_eq!(
+        report.failed.count + report.left_out[0].count,
+        0,
+        "{report:?}"
+    );
+    assert!(report.moved > report.steps / 2, "{report:?}");
+    let largest = report.largest.value;
+    assert!((1e-12..1e-5).contains(&largest), "{report:?}");
+    for (j, &t) in run.times.iter().enumerate() {
+        let [x, m, v] = [0, 1, 2].map(|i| run.row(j)[i]);
+        assert!(((x * x + v * v) / 2.0 - 0.5).abs() < 1e-15, "t = {t}");
+        // 2 e^(-t/5) to the tolerance of the run, not to that of the projection.
+        assert!((m - 2.0 * (-t / 5.0).exp()).abs() < 1e-5, "{m} at t = {t}");
+    }
+}

@@ -317,6 +317,8 @@ pub struct Trajectory {
     pub time_unit: Option<String>,
     /// What was recorded; each as long as `times`.
     pub series: Vec<Series>,
+    /// What should keep its value, in the order of the table.
+    pub conserved: Vec<Conserved>,
     /// Why the run ended.
     pub stop: Stop,
     /// Method, tolerances, steps, evaluations, estimated global error, ….
@@ -329,6 +331,29 @@ pub struct Trajectory {
     pub portraits: Vec<Portrait>,
     /// Names of the files with the full data ("trajectory.csv").
     pub files: Vec<String>,
+}
+
+/// A quantity that should keep its value along the motion.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Conserved {
+    /// Its number or name.
+    pub name: String,
+    /// What it is.
+    pub formula: Formula,
+    /// The formula is too long to be printed.
+    pub omitted: bool,
+    /// What it belongs to, for example a symmetry, in words.
+    pub origin: Option<String>,
+    /// Its value at the start.
+    #[serde(with = "crate::number::scalar")]
+    pub start: f64,
+    /// Name of the series with its drift, which then stands in this table and not in that of the other drifts.
+    pub drift: Option<String>,
+    /// The computation itself gave it its value, so that its drift says nothing.
+    pub is_enforced: bool,
+    /// Full id of the claim that states it.
+    pub claim: Option<String>,
 }
 
 /// An event along the motion.
@@ -382,7 +407,7 @@ pub enum SeriesGroup {
     Multipliers,
     /// Energy and its parts.
     Energy,
-    /// Stated integrals.
+    /// Integrals, stated and found.
     Integrals,
     /// Drifts of constraints, energy and integrals (logarithmic scale).
     Drifts,

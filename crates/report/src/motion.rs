@@ -1,7 +1,8 @@
-//! The computed motion: places for the plots, statistics and drifts in tables.
+//! The computed motion: places for the plots, statistics, integrals and drifts in tables.
 
 use crate::claims;
-use crate::data::{Figure, Report, Series, SeriesGroup, Trajectory};
+use crate::data::{Conserved, Figure, Report, Series, SeriesGroup, Trajectory};
+use crate::equations::inline;
 use crate::html::{fragment, Html};
 use crate::number::{brief, readable};
 use crate::payload::{label, Payload, PlotKind};
@@ -26,6 +27,7 @@ pub(crate) fn section(html: &mut Html, report: &Report, payload: &Payload<'_>, w
         html.wrap("<h3 id=\"portraits\">", words.portraits, "</h3>\n");
         plots(html, payload, PlotKind::Portrait, words);
     }
+    conserved(html, trajectory, report, words);
     drifts(html, trajectory, report, words);
     if !trajectory.statistics.is_empty() {
         html.wrap("<div><h3>", words.statistics, "</h3>\n");
@@ -155,14 +157,101 @@ fn plots(html: &mut Html, payload: &Payload<'_>, kind: PlotKind, words: &Words) 
     html.raw("</div>\n");
 }
 
+/// What should keep its value, each with its value at the start and its drift.
+fn conserved(html: &mut Html, trajectory: &Trajectory, report: &Report, words: &Words) {
+    let all = &trajectory.conserved;
+    if all.is_empty() {
+        return;
+    }
+    html.wrap(
+        "<div><h3 id=\"integrals\">",
+        words.conserved,
+        "</h3>\n<div class=\"scroll\"><table class=\"conserved\">",
+    )
+    .wrap(
+        "<thead><tr><th></th><th>",
+        words.conserved_quantity,
+        "</th>",
+    )
+    .wrap("<th class=\"numeric\">", words.at_start, "</th>")
+    .wrap("<th class=\"numeric\">", words.largest_drift, "</th>")
+    .wrap(
+        "<th class=\"numeric\">",
+        words.tolerance,
+        "</th><th></th></tr></thead>\n<tbody>\n",
+    );
+    for own in all.iter().take(ROWS) {
+        conserved_row(html, own, (trajectory, report), words);
+    }
+    more(
+        html,
+        all.len(),
+        "<tr><td class=\"quiet\" colspan=\"6\">",
+        "</td></tr>\n",
+        words,
+    );
+    html.raw("</tbody></table></div></div>\n");
+}
+
+/// One row: the name, the formula with what it belongs to, the value at the start, and the cells of its drift.
+fn conserved_row(
+    html: &mut Html,
+    own: &Conserved,
+    (trajectory, report): (&Trajectory, &Report),
+    words: &Words,
+) {
+    html.raw("<tr><td>");
+    match &own.claim {
+        Some(claim) => html
+            .raw("<a")
+            .attribute("href", fragment(claim))
+            .wrap(">", &own.name, "</a>"),
+        None => html.text(&own.name),
+    };
+    html.raw("</td><td class=\"formula\"><div>");
+    match own.omitted {
+        true => {
+            html.wrap("<span class=\"quiet\">", words.unprinted, "</span>");
+        }
+        false => inline(html, &own.formula),
+    }
+    html.raw("</div>");
+    if let Some(origin) = &own.origin {
+        html.raw("<small>");
+        capitalized(html, origin);
+        html.raw("</small>");
+    }
+    html.wrap("</td><td class=\"numeric\">", readable(own.start), "</td>");
+    let named = |series: &&Series| Some(&series.name) == own.drift.as_ref();
+    match trajectory.series.iter().find(named) {
+        Some(series) => {
+            drift_cells(html, series, report, words);
+            if own.is_enforced {
+                html.wrap("<small>", words.enforced, "</small>");
+            }
+        }
+        None => {
+            html.raw("<td></td><td></td><td>");
+        }
+    }
+    html.raw("</td></tr>\n");
+}
+
+/// The drifts that stand in no other table.
+fn other_drifts(trajectory: &Trajectory) -> Vec<&Series> {
+    let shown = |series: &Series| {
+        let mut all = trajectory.conserved.iter();
+        all.any(|own| own.drift.as_ref() == Some(&series.name))
+    };
+    let all = trajectory.series.iter();
+    all.filter(|series| series.group == SeriesGroup::Drifts && !shown(series))
+        .collect()
+}
+
 /// The largest drift of each recorded one against its tolerance.
 fn drifts(html: &mut Html, trajectory: &Trajectory, report: &Report, words: &Words) {
-    let mut drifts = trajectory
-        .series
-        .iter()
-        .filter(|series| series.group == SeriesGroup::Drifts)
-        .peekable();
-    if drifts.peek().is_none() {
+    let drifts = other_drifts(trajectory);
+    if drifts.is_empty() {
         return;
     }
     html.wrap(
@@ -177,17 +266,16 @@ fn drifts(html: &mut Html, trajectory: &Trajectory, report: &Report, words: &Wor
         words.tolerance,
         "</th><th></th></tr></thead>\n<tbody>\n",
     );
-    let count = trajectory
-        .series
-        .iter()
-        .filter(|series| series.group == SeriesGroup::Drifts)
-        .count();
-    for series in drifts.take(ROWS) {
-        drift(html, series, report, words);
+    for series in drifts.iter().take(ROWS) {
+        html.raw("<tr><td>");
+        name(html, label(series));
+        html.raw("</td>");
+        drift_cells(html, series, report, words);
+        html.raw("</td></tr>\n");
     }
     more(
         html,
-        count,
+        drifts.len(),
         "<tr><td class=\"quiet\" colspan=\"4\">",
         "</td></tr>\n",
         words,
@@ -195,17 +283,15 @@ fn drifts(html: &mut Html, trajectory: &Trajectory, report: &Report, words: &Wor
     html.raw("</tbody></table></div></div>\n");
 }
 
-/// One row: how far a quantity went, the bound, and the verdict of the claim about it.
-fn drift(html: &mut Html, series: &Series, report: &Report, words: &Words) {
+/// How far a quantity went, the bound, and the verdict of the claim about it; the last cell stays open.
+fn drift_cells(html: &mut Html, series: &Series, report: &Report, words: &Words) {
     let magnitudes = series
         .values
         .iter()
         .filter(|v| v.is_finite())
         .map(|v| v.abs());
     let largest = magnitudes.fold(0.0, f64::max);
-    html.raw("<tr><td>");
-    name(html, label(series));
-    html.wrap("</td><td class=\"numeric\">", brief(largest), "</td>")
+    html.wrap("<td class=\"numeric\">", brief(largest), "</td>")
         .raw("<td class=\"numeric\">");
     if let Some(bound) = series.tolerance {
         html.text(brief(bound));
@@ -221,16 +307,16 @@ fn drift(html: &mut Html, series: &Series, report: &Report, words: &Words) {
                 .attribute("href", fragment(&claim.id()))
                 .raw(">");
             claims::chip(html, claim.verdict, words);
-            html.raw("</a></td></tr>\n");
+            html.raw("</a>");
         }
         (None, Some(bound)) if largest <= bound => {
-            html.wrap("<td class=\"within\">", words.within, "</td></tr>\n");
+            html.wrap("<td class=\"within\">", words.within, "");
         }
         (None, Some(_)) => {
-            html.wrap("<td class=\"exceeded\">", words.exceeded, "</td></tr>\n");
+            html.wrap("<td class=\"exceeded\">", words.exceeded, "");
         }
         (None, None) => {
-            html.raw("<td></td></tr>\n");
+            html.raw("<td>");
         }
     }
 }
@@ -274,4 +360,69 @@ fn dated(
     }
     more(html, listed.len(), "<li class=\"quiet\">", "</li>\n", words);
     html.raw("</ol>\n");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::section;
+    use crate::data::{Conserved, Formula, Report, Series, SeriesGroup, Trajectory};
+    use crate::html::Html;
+    use crate::payload::Payload;
+    use crate::words::Language;
+
+    fn drift(name: &str) -> Series {
+        Series {
+            name: format!("drift of {name}"),
+            label: Some(name.into()),
+            group: SeriesGroup::Drifts,
+            values: vec![0.0, 2e-9, 1e-9],
+            tolerance: Some(1e-8),
+            ..Series::default()
+        }
+    }
+
+    /// What should keep its value stands in one table, with its formula, its origin, its start and its drift; other drifts in another.
+    #[test]
+    fn what_is_conserved_stands_in_a_table_of_its_own() {
+        let own = |name: &str, is_enforced| Conserved {
+            name: name.into(),
+            formula: Formula {
+                text: "x y' < 3".into(),
+                ..Formula::default()
+            },
+            origin: Some("the symmetry under turns".into()),
+            start: 1.25,
+            drift: Some(format!("drift of {name}")),
+            is_enforced,
+            ..Conserved::default()
+        };
+        let report = Report {
+            trajectory: Some(Trajectory {
+                times: vec![0.0, 1.0, 2.0],
+                series: vec![drift("1"), drift("2"), drift("blade")],
+                conserved: vec![own("1", false), own("2", true)],
+                ..Trajectory::default()
+            }),
+            ..Report::default()
+        };
+        let words = Language::English.words();
+        let mut html = Html::default();
+        section(&mut html, &report, &Payload::new(&report, words), words);
+        let page = html.finish();
+        let (_, tables) = page.split_once("id=\"integrals\"").unwrap();
+        let heading = format!("<h3>{}", words.drift_table);
+        let (integrals, others) = tables.split_once(&heading).unwrap();
+        for part in [
+            "x y&#39; &lt; 3",
+            "The symmetry under turns",
+            "1.25",
+            "2 × 10⁻⁹",
+            "class=\"within\"",
+        ] {
+            assert_eq!(integrals.matches(part).count(), 2, "{part}: {integrals}");
+        }
+        assert_eq!(integrals.matches(words.enforced).count(), 1);
+        assert_eq!(others.matches("<tr><td>").count(), 1, "{others}");
+        assert!(others.contains("<tr><td>blade</td>"));
+    }
 }

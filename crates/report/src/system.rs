@@ -73,7 +73,9 @@ pub(crate) fn facts(html: &mut Html, facts: &[Fact], report: &Report, words: &Wo
             inline(html, formula);
         }
         if let Some(note) = &fact.note {
-            html.wrap(" <small>", note, "</small>");
+            html.raw(" <small>");
+            sentence(html, note);
+            html.raw("</small>");
         }
         if let Some(claim) = &fact.claim {
             html.raw(" <small>");

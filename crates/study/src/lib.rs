@@ -8,6 +8,8 @@ pub mod beside;
 pub mod derivation;
 pub mod error;
 mod expectations;
+pub mod jumps;
+mod kept;
 pub mod method_order;
 pub mod motion_claims;
 pub mod motion_evidence;

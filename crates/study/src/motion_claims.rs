@@ -3,11 +3,10 @@
 //! A drift is a number, not a proof: these verdicts are `numerical` with the largest residual found, or `refuted` with the
 //! time at which the bound was exceeded.
 
+use crate::kept::LONGEST;
 use crate::method_order::Orders;
 use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
 use chetaev_geometry::noether::found::if_searched;
-use chetaev_geometry::noether::letters::ENERGY;
-use chetaev_geometry::noether::search::Integral;
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::claims::formulation::{derive, REFERENCE};
 use chetaev_mechanics::claims::order::dimension;
@@ -67,11 +66,7 @@ fn drift_verdict(
     samples: u32,
     evidence: &MotionEvidence,
 ) -> Verdict {
-    let tolerance = evidence.tolerance;
-    let sentence = format!(
-        "largest drift of {what}: {:.2e} at t = {:.6} over {samples} states, tolerance asked {tolerance:e}, bound {bound:.1e}{beyond}",
-        drift.value, drift.t
-    );
+    let sentence = words_of_drift((what, beyond), drift, (bound, samples), evidence);
     if drift.value <= bound {
         Verdict::Numerical(Evidence {
             samples,
@@ -97,6 +92,20 @@ fn drift_verdict(
             detail: sentence,
         })
     }
+}
+
+/// How far a quantity went, and how far it may.
+fn words_of_drift(
+    (what, beyond): (&str, &str),
+    drift: &Extreme,
+    (bound, samples): (f64, u32),
+    evidence: &MotionEvidence,
+) -> String {
+    let tolerance = evidence.tolerance;
+    format!(
+        "largest drift of {what}: {:.2e} at t = {:.6} over {samples} states, tolerance asked {tolerance:e}, bound {bound:.1e}{beyond}",
+        drift.value, drift.t
+    )
 }
 
 /// What is said where quantities have no finite value at the state at which the equations became singular, which is left out.
@@ -352,7 +361,7 @@ impl Claim for EnergyDrift {
         if let Some(elsewhere) = elsewhere(cx, &evidence) {
             return elsewhere.into();
         }
-        followed_verdict(&evidence, &evidence.energy, "the energy").into()
+        followed_verdict(cx, &evidence, &evidence.energy, "the energy").into()
     }
 }
 
@@ -379,12 +388,55 @@ fn elsewhere(cx: &Context<'_>, evidence: &MotionEvidence) -> Option<Verdict> {
 /// A rate of the energy below this, relative to the size of its terms, is rounding and the error of the states.
 const NO_RATE: f64 = 1e-6;
 
-fn followed_verdict(evidence: &MotionEvidence, followed: &Followed, what: &str) -> Verdict {
+fn followed_verdict(
+    cx: &Context<'_>,
+    evidence: &MotionEvidence,
+    followed: &Followed,
+    what: &str,
+) -> Verdict {
     // Rows, and the ends of all steps.
-    let samples = evidence.run.len() as u32 + evidence.run.statistics.steps as u32;
+    let steps = match followed.at_steps {
+        true => evidence.run.statistics.steps as u32,
+        false => 0,
+    };
+    let samples = evidence.run.len() as u32 + steps;
     let bound = bound(evidence, followed.scale);
     let beyond = without_value(evidence, std::iter::once(followed));
-    drift_verdict((what, &beyond), &followed.drift, bound, samples, evidence)
+    let what = format!("{what}{}", without_jumps(cx, followed));
+    let verdict = drift_verdict((&what, &beyond), &followed.drift, bound, samples, evidence);
+    with_projection(verdict, evidence, followed)
+}
+
+/// What is left out of a drift, in words.
+fn without_jumps(cx: &Context<'_>, followed: &Followed) -> String {
+    let Some(jumps) = &followed.jumps else {
+        return String::new();
+    };
+    let parts = jumps.parts.iter().map(|&e| cx.system.graph.text(e));
+    let parts: Vec<String> = parts.collect();
+    format!(
+        " between the jumps of {} (the first before t = {:.6})",
+        parts.join(" and "),
+        jumps.first
+    )
+}
+
+/// A value that a projection enforces is no evidence, and the verdict says so.
+fn with_projection(verdict: Verdict, evidence: &MotionEvidence, followed: &Followed) -> Verdict {
+    let report = evidence.run.kept.as_ref();
+    let (Some(report), Some(kept)) = (report, followed.kept) else {
+        return verdict;
+    };
+    let steps = match report.steps - kept.min(report.steps) {
+        0 => "after each step".to_owned(),
+        _ => format!("after {kept} of {} steps", report.steps),
+    };
+    match verdict {
+        Verdict::Numerical(_) => verdict.prefixed(&format!(
+            "its value was kept by projection {steps}, so that it is no evidence"
+        )),
+        _ => verdict.prefixed(&format!("a projection kept its value {steps}")),
+    }
 }
 
 /// `motion.integral-drift#NAME`.
@@ -399,7 +451,9 @@ impl Claim for IntegralDrift {
         "The largest deviation of an integral from its initial value, along the computed motion: of those that the model \
          states, by their names, and of those that the search found, by their numbers (`noether.integral`), the energy among them with its own number too. \
          That the quantity is an integral is not proved here: a drift within the tolerance is evidence, a larger one \
-         refutes the statement or the accuracy."
+         refutes the statement or the accuracy. Where a projection keeps the value (`keep_integrals`), its drift says nothing, \
+         and the sentence says so. Of a function that jumps, as an angle of two arguments at its cut, the change between the \
+         jumps counts, and that less whole turns in a sum of angles."
     );
 
     fn highest_order(&self, _: Option<&str>) -> u32 {
@@ -411,12 +465,9 @@ impl Claim for IntegralDrift {
             return Vec::new();
         };
         let found = found_along(cx);
-        let found = found.iter().flat_map(|found| &found.0);
-        let mut numbers: Vec<String> = found.map(|f| f.name.clone()).collect();
-        numbers.extend(number_of_energy(cx).map(|j| j.to_string()));
-        numbers.sort_by_key(|name| name.parse::<usize>().unwrap_or(usize::MAX));
-        let stated = evidence.integrals.iter().map(|i| i.name.clone());
-        stated.chain(numbers).map(Some).collect()
+        let found = found.iter().flat_map(|found| found.all());
+        let all = evidence.integrals.iter().chain(found);
+        all.map(|f| Some(f.name.clone())).collect()
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
@@ -427,35 +478,26 @@ impl Claim for IntegralDrift {
             return other;
         }
         let named = |i: &&Followed| Some(i.name.as_str()) == subject;
-        let number = number_of_energy(cx).map(|j| j.to_string());
-        if number.is_some() && number.as_deref() == subject {
-            // It is followed anyway.
-            let energy = Followed {
-                name: number.unwrap_or_default(),
-                ..evidence.energy.clone()
-            };
-            let what = format!(
-                "{}, the energy as in `motion.energy-drift`",
-                words_of_found(cx, &energy)
-            );
-            let verdict = no_value(&energy, &what)
-                .unwrap_or_else(|| followed_verdict(&evidence, &energy, &what));
-            return on_its_component(cx, &energy, verdict).into();
-        }
+        let decided = |followed: &Followed, what: &str, claim: &str| {
+            let verdict = no_value(followed, what)
+                .unwrap_or_else(|| followed_verdict(cx, &evidence, followed, what));
+            where_it_holds(cx, &format!("{claim}#{}", followed.name), verdict)
+        };
         if let Some(found) = found_along(cx) {
-            if let Some(followed) = found.0.iter().find(named) {
-                let what = words_of_found(cx, followed);
-                let verdict = no_value(followed, &what)
-                    .unwrap_or_else(|| followed_verdict(&evidence, followed, &what));
-                return on_its_component(cx, followed, verdict).into();
+            if let Some(followed) = found.all().into_iter().find(|own| named(own)) {
+                let what = words_of_found(cx, (&found, followed));
+                return decided(followed, &what, "noether.integral").into();
             }
         }
         match evidence.integrals.iter().find(named) {
             Some(followed) => {
                 let what = format!("`{}`", followed.name);
-                no_value(followed, &what)
-                    .unwrap_or_else(|| followed_verdict(&evidence, followed, &what))
-                    .into()
+                match followed.jumps {
+                    Some(_) => decided(followed, &what, "noether.inverse").into(),
+                    None => no_value(followed, &what)
+                        .unwrap_or_else(|| followed_verdict(cx, &evidence, followed, &what))
+                        .into(),
+                }
             }
             None => Verdict::undecided("no such integral is stated").into(),
         }
@@ -478,11 +520,14 @@ fn no_value(followed: &Followed, what: &str) -> Option<Verdict> {
     }
 }
 
-/// A found integral that is one on a component of the constraints need not be one of a motion on another.
-fn on_its_component(cx: &Context<'_>, followed: &Followed, verdict: Verdict) -> Verdict {
-    let claim = format!("noether.integral#{}", followed.name);
-    match (&verdict, &cx.finding(&claim).verdict) {
-        (Verdict::Refuted(found), Verdict::Conditional { condition, .. }) => {
+/// A found integral that is one on a component of the constraints need not be one of a motion on another, nor a stated one across
+/// its jumps.
+fn where_it_holds(cx: &Context<'_>, claim: &str, verdict: Verdict) -> Verdict {
+    let Verdict::Refuted(found) = &verdict else {
+        return verdict;
+    };
+    match &cx.finding(claim).verdict {
+        Verdict::Conditional { condition, .. } => {
             let detail = format!(
                 "`{claim}` is conditional: it holds where {condition}, and this motion is elsewhere ({})",
                 found.detail
@@ -493,38 +538,36 @@ fn on_its_component(cx: &Context<'_>, followed: &Followed, verdict: Verdict) -> 
     }
 }
 
-/// What a search has found, along the run: nothing where no claim has searched yet.
+/// What a search has found, along the run: nothing where neither a claim has searched yet nor the run itself, to keep it.
 fn found_along(cx: &Context<'_>) -> Option<Arc<FoundIntegrals>> {
-    let found = if_searched(cx)?;
-    let found = found.as_ref().as_ref().ok()?;
     let evidence = evidence(cx)?;
+    let searched = if_searched(cx);
+    let found = match searched.as_deref() {
+        Some(Ok(found)) => &found.integrals,
+        _ if evidence.searched.integrals.is_empty() => return None,
+        _ => &evidence.searched.integrals,
+    };
     Some(cx.shared(|cx| FoundIntegrals::new(cx.system, cx.terms, &evidence, found)))
 }
 
-/// The number of the energy among the integrals that a search has found.
-fn number_of_energy(cx: &Context<'_>) -> Option<usize> {
-    let found = if_searched(cx)?;
-    let found = found.as_ref().as_ref().ok()?;
-    let is_energy = |i: &Integral| i.name.as_deref() == Some(ENERGY);
-    Some(found.integrals.iter().position(is_energy)? + 1)
-}
-
 /// The integral with its value at the start.
-fn words_of_found(cx: &Context<'_>, followed: &Followed) -> String {
-    let text = cx.system.graph.text(followed.expression);
+fn words_of_found(cx: &Context<'_>, (found, followed): (&FoundIntegrals, &Followed)) -> String {
+    let text = cx.system.graph.text(followed.shown);
     let formula = match text.chars().count() <= LONGEST {
         true => format!(", {text}"),
         false => String::new(),
     };
     let start = followed.values.first().copied().unwrap_or(0.0);
+    let energy = found.energy.as_ref();
+    let known = match energy.is_some_and(|energy| energy.name == followed.name) {
+        true => ", the energy as in `motion.energy-drift`",
+        false => "",
+    };
     format!(
-        "first integral {}{formula} ({start:.6} at the start)",
+        "first integral {}{formula} ({start:.6} at the start){known}",
         followed.name
     )
 }
-
-/// Longer formulas are not repeated.
-const LONGEST: usize = 120;
 
 /// `motion.formulations-agree`.
 #[derive(Clone, Copy, Debug)]
@@ -573,8 +616,14 @@ impl Claim for FormulationsAgree {
         }
         let error = evidence.global_error.unwrap_or(0.0);
         if error > LOST {
+            let why = match evidence.step {
+                Some(step) => format!(
+                    ", by a second run at half the step: the step {step} may be too long, or the motion amplifies errors so much that runs cannot be compared; take a shorter step, or shorten the span"
+                ),
+                None => ": the motion amplifies errors so much that runs cannot be compared; shorten the span or tighten the tolerance".into(),
+            };
             let tried = format!(
-                "the estimated global error is {error:.1e}: the motion amplifies errors so much that runs cannot be compared; shorten the span or tighten the tolerance (largest difference of the two formulations: {:.1e})",
+                "the estimated global error is {error:.1e}{why} (largest difference of the two formulations: {:.1e})",
                 gap.value
             );
             return Verdict::undecided(tried).into();

@@ -1,17 +1,19 @@
 //! What a computed motion tells: energy, integrals and constraints along it, and how two runs differ.
 
+use crate::jumps::{self, Jumps};
 use crate::method_order::Orders;
-use chetaev_geometry::noether::found::Found;
 use chetaev_geometry::noether::letters::ENERGY;
+use chetaev_geometry::noether::search::Integral;
 use chetaev_mechanics::{MotionTerms, System};
 use chetaev_model::model::Model;
 use chetaev_motion::drift::Extreme;
 use chetaev_motion::follow::magnitude;
 use chetaev_motion::functions::FunctionsError;
+use chetaev_motion::keep::KeptReport;
 use chetaev_motion::observe::Observer;
 use chetaev_motion::{double_double, Binding, DoubleDouble, Run, RunError, RunSettings, Subject};
 use chetaev_symbolic::Expr;
-use std::ops::Sub;
+use std::ops::Range;
 
 /// A quantity followed along the run.
 #[derive(Clone, Debug)]
@@ -20,8 +22,18 @@ pub struct Followed {
     pub name: String,
     /// Its expression in q, q', t and parameters.
     pub expression: Expr,
+    /// The same as a person writes it.
+    pub shown: Expr,
     /// Values at the rows.
     pub values: Vec<f64>,
+    /// Deviations from the start at the rows, without jumps; the values themselves of what should vanish.
+    pub changes: Vec<f64>,
+    /// The jumps along the run, as of an angle at its cut.
+    pub jumps: Option<Jumps>,
+    /// Whether it was followed at the ends of steps too, not at rows alone.
+    pub at_steps: bool,
+    /// After how many steps a projection gave it its value; `None` where none does.
+    pub kept: Option<u64>,
     /// The same with all their digits, of a run in double-double arithmetic.
     pub precise: Option<Vec<DoubleDouble>>,
     /// Largest deviation from the initial value.
@@ -59,6 +71,10 @@ pub struct MotionEvidence {
     pub orders: Option<Orders>,
     /// Tolerance asked.
     pub tolerance: f64,
+    /// The step, where it is fixed.
+    pub step: Option<f64>,
+    /// What was found before the run, to be kept along it.
+    pub searched: Searched,
     /// Initial values that the model states beside coordinates and velocities: multipliers of the extremum, `kappa_NAME`.
     pub given: Vec<(String, f64)>,
     /// Data for `model.initial-state-admissible`: exact initial values where all are given exactly.
@@ -95,9 +111,13 @@ impl MotionEvidence {
         let constant = 1 + model.integrals.len();
         let parts = (system, subject.terms, subject.binding);
         let mut followed = follow(parts, &run, kept, constant)?;
-        for (quantity, all) in followed.iter_mut().zip(&run.followed) {
-            quantity.drift.record(all.drift.value, all.drift.t);
-            quantity.scale = quantity.scale.max(all.scale);
+        for (i, quantity) in followed.iter_mut().enumerate() {
+            let all = run.followed.get(i).filter(|_| quantity.at_steps);
+            quantity.at_steps = all.is_some();
+            if let Some(all) = all {
+                quantity.drift.record(all.drift.value, all.drift.t);
+                quantity.scale = quantity.scale.max(all.scale);
+            }
         }
         let positions = followed.split_off(constant + rows);
         let mut residuals = followed.split_off(constant);
@@ -124,6 +144,8 @@ impl MotionEvidence {
             disagreement: comparison.as_ref().map(|other| difference(&run, other)),
             global_error: finer.as_ref().map(|other| difference(&run, other).value),
             tolerance: settings.tolerance,
+            step: settings.step,
+            searched: Searched::default(),
             given: settings.own.clone(),
             exact_start: exact_start(model, subject),
             start: start_values(subject),
@@ -143,9 +165,37 @@ impl MotionEvidence {
 }
 
 impl MotionEvidence {
+    /// After how many steps the projection gave an integral its value; `None` where it is none to keep.
+    fn steps_kept(&self, value: Expr) -> Option<u64> {
+        let place = self.searched.to_keep.iter().position(|&own| own == value)?;
+        kept_steps(self.run.kept.as_ref()?, place..place + 1)
+    }
+
     /// The rows for quadratures: those closer than the steps, where there are any.
     pub fn rows(&self) -> &Run {
         self.dense.as_ref().unwrap_or(&self.run)
+    }
+
+    /// Says what was found before the run, to be kept along it.
+    pub(crate) fn keep(&mut self, searched: Searched) {
+        self.searched = searched;
+        let Some(report) = self.run.kept.clone() else {
+            return;
+        };
+        let Searched {
+            to_keep, functions, ..
+        } = &self.searched;
+        let all = std::iter::once(&mut self.energy).chain(&mut self.integrals);
+        for own in all {
+            let place = to_keep.iter().position(|&value| value == own.expression);
+            own.kept = match place {
+                Some(place) => kept_steps(&report, place..place + 1),
+                None if functions.contains(&own.expression) => {
+                    kept_steps(&report, 0..to_keep.len())
+                }
+                None => None,
+            };
+        }
     }
 
     /// Takes the difference of the two formulations from another run of the first, or says that there is none.
@@ -155,26 +205,72 @@ impl MotionEvidence {
     }
 }
 
-/// First integrals that a search found, along a run.
-#[derive(Clone, Debug)]
-pub struct FoundIntegrals(pub Vec<Followed>);
+/// After how many steps integrals have their values by the projection; `None` after none.
+fn kept_steps(report: &KeptReport, places: Range<usize>) -> Option<u64> {
+    let left_out = report.left_out.get(places)?.iter();
+    let missed = report.failed.count + left_out.map(|missed| missed.count).max().unwrap_or(0);
+    report.steps.checked_sub(missed).filter(|&steps| steps > 0)
+}
+
+/// First integrals that were found before a run, to be kept along it.
+#[derive(Clone, Debug, Default)]
+pub struct Searched {
+    /// All of them, in the order of their numbers.
+    pub integrals: Vec<Integral>,
+    /// The values of those that a projection can keep.
+    pub to_keep: Vec<Expr>,
+    /// The energy and stated integrals, as far as they are functions of these.
+    pub functions: Vec<Expr>,
+}
+
+/// First integrals that a search found, along a run, by their numbers.
+#[derive(Clone, Debug, Default)]
+pub struct FoundIntegrals {
+    /// All but the energy.
+    pub others: Vec<Followed>,
+    /// The energy, where it is among them: it is followed anyway.
+    pub energy: Option<Followed>,
+}
 
 impl FoundIntegrals {
-    /// Follows what was found along the rows; the energy, which is followed anyway, is left out.
+    /// Follows what was found along the rows.
     pub fn new(
         system: &System,
         terms: &MotionTerms,
         evidence: &MotionEvidence,
-        found: &Found,
+        found: &[Integral],
     ) -> FoundIntegrals {
-        let numbered = found.integrals.iter().enumerate();
-        let quantities: Vec<(String, Expr)> = numbered
-            .filter(|(_, integral)| integral.name.as_deref() != Some(ENERGY))
-            .map(|(j, integral)| ((j + 1).to_string(), integral.value))
+        let is_energy = |integral: &Integral| integral.name.as_deref() == Some(ENERGY);
+        let numbered = || (1..).map(|j: usize| j.to_string()).zip(found);
+        let others = numbered().filter(|(_, integral)| !is_energy(integral));
+        let quantities: Vec<(String, Expr)> = others
+            .clone()
+            .map(|(name, integral)| (name, integral.value))
             .collect();
         let count = quantities.len();
         let parts = (system, terms, &evidence.binding);
-        FoundIntegrals(follow(parts, &evidence.run, quantities, count).unwrap_or_default())
+        let mut followed = follow(parts, &evidence.run, quantities, count).unwrap_or_default();
+        for (own, (_, integral)) in followed.iter_mut().zip(others) {
+            own.shown = integral.shown;
+            own.at_steps = false;
+            own.kept = evidence.steps_kept(integral.value);
+        }
+        let energy = numbered().find(|(_, integral)| is_energy(integral));
+        FoundIntegrals {
+            others: followed,
+            energy: energy.map(|(name, integral)| Followed {
+                name,
+                shown: integral.shown,
+                ..evidence.energy.clone()
+            }),
+        }
+    }
+
+    /// All in the order of their numbers.
+    pub fn all(&self) -> Vec<&Followed> {
+        let mut all: Vec<&Followed> = self.others.iter().chain(&self.energy).collect();
+        all.sort_by_key(|own| own.name.parse::<usize>().unwrap_or(usize::MAX));
+        all
     }
 }
 
@@ -199,47 +295,75 @@ fn follow(
     let g = &system.graph;
     let mut expressions: Vec<Expr> = quantities.iter().map(|(_, e)| *e).collect();
     let sizes: Vec<Expr> = expressions.iter().map(|&e| magnitude(g, e)).collect();
+    let jumping = quantities[..constant].iter();
+    let mut parts: Vec<Vec<jumps::Part>> = jumping.map(|(_, e)| jumps::parts(g, *e)).collect();
+    parts.resize(quantities.len(), Vec::new());
     let precise = double_double::along((system, terms, binding), run, &expressions)?;
     expressions.extend(sizes);
+    expressions.extend(parts.iter().flatten().map(|part| part.value));
     let mut observer = Observer::with_own(system, terms, binding, &run.own, &expressions)?;
     let mut series = observer.along(run);
     // The state at which the equations became singular is recorded, but a residual may have no value there.
     let regular = run.regular();
+    let mut of_parts = series.split_off(2 * quantities.len()).into_iter();
     let sizes = series.split_off(quantities.len());
     let followed = quantities
         .into_iter()
         .zip(series.into_iter().zip(sizes))
         .enumerate()
         .map(|(i, ((name, expression), (values, sizes)))| {
+            let of_parts: Vec<Vec<f64>> = of_parts.by_ref().take(parts[i].len()).collect();
+            let scale = sizes[..regular].iter().fold(0.0, |m: f64, x| m.max(*x));
+            let turn = jumps::turn(g, binding, expression, &parts[i]);
+            // Whole turns that are small beside the terms would hide a drift.
+            let turn = turn.filter(|turn| *turn > LEAST_TURN * scale);
+            let met = jumps::met(&run.times[..regular], &parts[i], &of_parts);
             let precise = precise.as_ref().map(|all| all[i].clone());
-            let changes = match &precise {
-                Some(values) => changes(values, (i < constant, DoubleDouble::ZERO), |x| x.high()),
-                None => changes(&values, (i < constant, 0.0), |x| x),
+            let values = precise.as_ref().map_or(values, |all| rounded(all));
+            let rows = met.as_ref().map_or(&[][..], |(_, rows)| rows);
+            let changes = match i < constant {
+                true => from_start((&values, precise.as_deref()), turn, rows),
+                false => values.clone(),
             };
-            let rounded = precise
-                .as_ref()
-                .map(|all| all.iter().map(|x| x.high()).collect());
             Followed {
                 name,
                 expression,
+                shown: expression,
                 drift: deviation(&run.times[..regular], &changes),
-                scale: sizes[..regular].iter().fold(0.0, |m: f64, x| m.max(*x)),
-                values: rounded.unwrap_or(values),
+                changes,
+                scale,
+                values,
                 precise,
+                // What is measured at the ends of steps knows nothing of jumps.
+                at_steps: turn.is_none() && met.is_none(),
+                jumps: met.map(|(jumps, _)| jumps),
+                kept: None,
             }
         });
     Ok(followed.collect())
 }
 
-/// Values less the first one, or less zero.
-fn changes<S: Copy + Sub<Output = S>>(
-    values: &[S],
-    (is_constant, zero): (bool, S),
-    rounded: impl Fn(S) -> f64,
+/// Whole turns are left out where one is more than this part of the size of the terms.
+const LEAST_TURN: f64 = 1e-2;
+
+/// Values less the first one, without whole turns or without what changes across the jumps before these rows.
+fn from_start(
+    (values, precise): (&[f64], Option<&[DoubleDouble]>),
+    turn: Option<f64>,
+    rows: &[usize],
 ) -> Vec<f64> {
-    let reference = values.first().copied().filter(|_| is_constant);
-    let reference = reference.unwrap_or(zero);
-    values.iter().map(|&x| rounded(x - reference)).collect()
+    match (precise, turn) {
+        (Some(values), _) => rounded(&jumps::between(values, rows)),
+        (None, Some(turn)) => jumps::between(values, &[])
+            .into_iter()
+            .map(|change| jumps::without_turns(change, turn))
+            .collect(),
+        (None, None) => jumps::between(values, rows),
+    }
+}
+
+fn rounded(values: &[DoubleDouble]) -> Vec<f64> {
+    values.iter().map(|x| x.high()).collect()
 }
 
 fn deviation(times: &[f64], changes: &[f64]) -> Extreme {

@@ -1,5 +1,6 @@
 //! What a reader must know beside the verdicts.
 
+use crate::kept::{shortened, Kept, LONGEST};
 use crate::options::StudyOptions;
 use crate::start::{holds, Start};
 use crate::study::{keeps, Motion};
@@ -111,11 +112,13 @@ pub(crate) fn integrals_not_kept(
             "no state near the one integrated has the values of the first integrals {when}; the run goes on from the state integrated"
         ));
     }
-    for (missed, &value) in kept.left_out.iter().zip(integrals) {
+    let each = Kept::of(motion);
+    let each = each.iter().flat_map(Kept::integrals);
+    for (missed, (_, integral, _)) in kept.left_out.iter().zip(each) {
         let Some(when) = at(missed) else { continue };
         said.push(format!(
             "the first integral {} could not be kept together with the others {when}",
-            shortened(model, value)
+            shortened(&model.graph, integral.shown)
         ));
     }
     if let Some(first) = kept.between.first {
@@ -125,18 +128,6 @@ pub(crate) fn integrals_not_kept(
     }
     said
 }
-
-/// A formula, or the begin of a long one.
-fn shortened(model: &Model, value: Expr) -> String {
-    let text = model.graph.text(value);
-    match text.chars().count() <= LONGEST {
-        true => text,
-        false => text.chars().take(LONGEST).chain(" …".chars()).collect(),
-    }
-}
-
-/// Longer formulas do not belong into a sentence.
-const LONGEST: usize = 120;
 
 /// Constraints that contain no velocities.
 fn holonomic(model: &Model, system: &System) -> Vec<String> {

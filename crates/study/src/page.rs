@@ -52,7 +52,7 @@ pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Repor
         trajectory: study
             .motion
             .as_ref()
-            .map(|m| motion::trajectory(study, m, files)),
+            .map(|m| motion::trajectory(study, m, &set, files)),
         figures: study
             .motion
             .as_ref()

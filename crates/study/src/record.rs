@@ -1,10 +1,11 @@
 //! `study.json`: the record of a study, which `verify` replays.
 
+use crate::kept::Kept;
 use crate::study::{Decided, Motion, Study};
 use chetaev_integrate::EventKind;
 use chetaev_model::model::Precision;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, Proof};
-use chetaev_symbolic::Verdict;
+use chetaev_symbolic::{Expr, Graph, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// Version of the schema; fields may be added, none renamed.
@@ -219,6 +220,9 @@ pub struct TrajectoryRecord {
     pub global_error: Option<f64>,
     /// Largest drifts: constraints, energy, integrals.
     pub drifts: Vec<NamedValue>,
+    /// What was kept by projection; `null` where nothing was.
+    #[serde(default)]
+    pub kept: Option<KeptRecord>,
     /// Events met, in the order of time along the run.
     #[serde(default)]
     pub events: Vec<EventRecord>,
@@ -231,6 +235,28 @@ impl TrajectoryRecord {
     pub fn is_interrupted(&self) -> bool {
         !self.finished && self.reason.starts_with("interrupted")
     }
+}
+
+/// First integrals whose values a run kept by projection.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct KeptRecord {
+    /// The integrals, by their numbers.
+    pub integrals: Vec<KeptIntegralRecord>,
+    /// Steps after which the state was moved.
+    pub moved: u64,
+    /// The largest change of a coordinate or velocity after a step, over 1 + its size.
+    pub largest_change: f64,
+}
+
+/// One of them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct KeptIntegralRecord {
+    /// Its number, as in `noether.integral#1`.
+    pub integral: String,
+    /// The integral; `…` where it is too long to be read.
+    pub formula: String,
+    /// Steps after which it has its value.
+    pub steps: u64,
 }
 
 /// A name with a number.
@@ -282,7 +308,10 @@ pub fn record(study: &Study, files: &[String]) -> Record {
             .iter()
             .map(|d| verdict_record(study, d))
             .collect(),
-        trajectory: study.motion.as_ref().map(|m| trajectory_record(m, files)),
+        trajectory: study
+            .motion
+            .as_ref()
+            .map(|m| trajectory_record(study, m, files)),
         notices: study.notices.clone(),
         options: OptionsRecord {
             claims: study.options.claims.words.clone(),
@@ -319,11 +348,7 @@ fn verdict_record(study: &Study, decided: &Decided) -> VerdictRecord {
             .formulas
             .iter()
             .map(|f| {
-                let right = if crate::typeset::is_legible(g, f.right) {
-                    g.text(f.right)
-                } else {
-                    "…".to_owned()
-                };
+                let right = legible(g, f.right);
                 match f.left {
                     Some(left) => format!("{} = {right}", g.text(left)),
                     None => right,
@@ -351,6 +376,14 @@ fn verdict_record(study: &Study, decided: &Decided) -> VerdictRecord {
         Verdict::Undecided { .. } => {}
     }
     record
+}
+
+/// A formula, unless it is too long to be read.
+fn legible(g: &Graph, e: Expr) -> String {
+    match crate::typeset::is_legible(g, e) {
+        true => g.text(e),
+        false => "…".to_owned(),
+    }
 }
 
 fn with_proof(record: &mut VerdictRecord, proof: &Proof) {
@@ -387,7 +420,7 @@ fn counterexample_record(counterexample: &Counterexample) -> CounterexampleRecor
     }
 }
 
-fn trajectory_record(motion: &Motion, files: &[String]) -> TrajectoryRecord {
+fn trajectory_record(study: &Study, motion: &Motion, files: &[String]) -> TrajectoryRecord {
     let evidence = &motion.evidence;
     let run = &evidence.run;
     let names: Vec<String> = evidence
@@ -442,8 +475,24 @@ fn trajectory_record(motion: &Motion, files: &[String]) -> TrajectoryRecord {
         last,
         global_error: evidence.global_error.filter(|e| e.is_finite()),
         drifts,
+        kept: Kept::of(motion).map(|kept| kept_record(&study.model.graph, &kept)),
         events: events(motion, &names),
         files: files.to_vec(),
+    }
+}
+
+fn kept_record(g: &Graph, kept: &Kept<'_>) -> KeptRecord {
+    KeptRecord {
+        integrals: kept
+            .integrals()
+            .map(|(number, integral, steps)| KeptIntegralRecord {
+                integral: number.to_string(),
+                formula: legible(g, integral.shown),
+                steps,
+            })
+            .collect(),
+        moved: kept.report.moved,
+        largest_change: kept.report.largest.value,
     }
 }
 

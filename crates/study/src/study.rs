@@ -6,7 +6,7 @@ use crate::error::StudyError;
 use crate::expectations::{check_expectations, contradictions, expected, outcome, unmatched};
 use crate::method_order::observed_order;
 use crate::motion_claims::METHOD_ORDER;
-use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
+use crate::motion_evidence::{FoundIntegrals, MotionEvidence, Searched};
 use crate::notices::{
     events_not_followed, integrals_not_kept, left_assumptions, negative_masses, notices,
     rank_falls, stiffness, unused_multipliers,
@@ -17,7 +17,8 @@ use crate::start::{
     add_jets, asks_for_motion, check_rank, of_start, settings, sharpest, start_of_motion, Start,
 };
 use crate::witness::{self, Witness};
-use chetaev_geometry::noether::found::found;
+use chetaev_geometry::noether::found::{found, is_function_of};
+use chetaev_geometry::noether::search::Integral;
 use chetaev_integrate::double_double::LEAST_TOLERANCE;
 use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::Selection;
@@ -88,7 +89,7 @@ pub struct Motion {
     /// The trajectory and its evidence.
     pub evidence: Arc<MotionEvidence>,
     /// First integrals that were found, along the trajectory.
-    pub found: Vec<Followed>,
+    pub found: FoundIntegrals,
     /// What integrals over the motion say of the variational principles.
     pub witness: Witness,
     /// The constrained extremum from the same state, or why there is none; `None` where it was not asked for.
@@ -271,7 +272,7 @@ pub fn study(
         decide(&model, &system, &prepared, known_motion, &options, hooks);
     let mut motion = motion;
     if let Some(motion) = &mut motion {
-        motion.found = found.map_or_else(Vec::new, |found| found.0.clone());
+        motion.found = found.map_or_else(FoundIntegrals::default, |found| (*found).clone());
         motion.witness = witness;
     }
     notices.extend(unused_multipliers(
@@ -335,7 +336,8 @@ fn compute(
     let (terms, selection) = (&prepared.terms, &prepared.selection);
     let cx = Context::new(system, terms, selection, &known, Prover::default());
     check_applies(&cx, formulation.card())?;
-    let keep = kept(model, &cx, options, hooks);
+    let searched = searched(model, (system, prepared), options, hooks);
+    let keep = searched.to_keep.clone();
     let settings = RunSettings { keep, ..settings };
     let run = integrate(&subject, formulation, &settings, "integrating", hooks)?;
     let other: &'static dyn Formulation = if name == REFERENCE { &Maggi } else { &Routh };
@@ -408,6 +410,7 @@ fn compute(
     if !settings.keep.is_empty() {
         evidence.compare_with(plain.as_ref());
     }
+    evidence.keep(searched);
     let is_witness = |c: &&dyn Claim| c.id().starts_with("witness");
     let mut witnesses = known.claims().iter().filter(|c| is_witness(c));
     if prepared.terms.order == 1 && witnesses.any(|c| options.claims.wants_claim(*c)) {
@@ -422,7 +425,7 @@ fn compute(
         start: numeric.start,
         binding: numeric.binding,
         evidence: Arc::new(evidence),
-        found: Vec::new(),
+        found: FoundIntegrals::default(),
         witness: Witness::default(),
         settings,
     })
@@ -475,21 +478,71 @@ pub(crate) fn keeps(model: &Model, options: &StudyOptions) -> bool {
     options.keep_integrals || model.simulation.keep_integrals == Some(true)
 }
 
+/// The prover of a study, and how much work its searches may do.
+fn proving(options: &StudyOptions) -> (Prover, f64) {
+    let usual = Prover::default();
+    let prover = Prover {
+        replay: options.replay,
+        seed: options.seed.unwrap_or(usual.seed),
+        ..usual
+    };
+    (prover, options.work())
+}
+
+/// What is found before a run whose integrals are to be kept. The search is that of the claims, which have a system of their own
+/// where parameters are stated to be zero.
+fn searched(
+    model: &Model,
+    (system, prepared): (&System, &Prepared),
+    options: &StudyOptions,
+    hooks: &mut Hooks<'_>,
+) -> Searched {
+    if !keeps(model, options) {
+        return Searched::default();
+    }
+    let known = registry();
+    let zeros = prepared_system(system.for_stated_zeros());
+    let cx = match &zeros {
+        Some((prepared, system)) => context_of(system, prepared, &known, proving(options)),
+        None => context_of(system, prepared, &known, proving(options)),
+    };
+    let integrals = kept(model, &cx, options, hooks);
+    let to_keep = movable(system, &integrals);
+    let mut functions = vec![system.energy()];
+    functions.extend(model.integrals.iter().map(|i| i.value));
+    functions.retain(|&value| !to_keep.is_empty() && is_function_of(&cx, &to_keep, value));
+    Searched {
+        integrals,
+        to_keep,
+        functions,
+    }
+}
+
 /// The first integrals to keep, where that is asked for: those that are found.
 pub(crate) fn kept(
     model: &Model,
     cx: &Context<'_>,
     options: &StudyOptions,
     hooks: &mut Hooks<'_>,
-) -> Vec<Expr> {
+) -> Vec<Integral> {
     if !keeps(model, options) {
         return Vec::new();
     }
     (hooks.progress)("searching first integrals", None);
     match found(cx).as_ref() {
-        Ok(found) => found.integrals.iter().map(|i| i.value).collect(),
+        Ok(found) => found.integrals.clone(),
         Err(_) => Vec::new(),
     }
+}
+
+/// The integrals that a projection can keep: a change of coordinates and velocities changes nothing in one of the time and of
+/// masses with a law of their own.
+pub(crate) fn movable(system: &System, integrals: &[Integral]) -> Vec<Expr> {
+    let symbols = [system.coordinate_symbols(), system.velocity_symbols()].concat();
+    let values = integrals.iter().map(|integral| integral.value);
+    values
+        .filter(|&value| system.graph.contains_any(value, &symbols))
+        .collect()
 }
 
 /// Comparisons are made up to the last row when a run ended early.
@@ -555,10 +608,10 @@ fn context_of<'a>(
     system: &'a System,
     prepared: &'a Prepared,
     known: &'a Registry,
-    (prover, work): (&Prover, f64),
+    (prover, work): (Prover, f64),
 ) -> Context<'a> {
     let (terms, selection) = (&prepared.terms, &prepared.selection);
-    Context::new(system, terms, selection, known, prover.clone()).allowing(work)
+    Context::new(system, terms, selection, known, prover).allowing(work)
 }
 
 /// Claims on the principles are decided on the component, and so are their witnesses: these compare numbers of the motion with
@@ -589,6 +642,16 @@ struct KnownMotion<'a> {
     motion: Option<&'a Motion>,
 }
 
+/// The hypotheses but those that are nothing to ask of this system, as how masses vary where none does.
+fn hypotheses(cx: &Context<'_>, mut requires: Vec<String>) -> Vec<String> {
+    let is_asked = |id: &String| match cx.registry().find(id) {
+        Some(claim) => !claim.subjects(cx.deciding(id)).is_empty(),
+        None => true,
+    };
+    requires.retain(is_asked);
+    requires
+}
+
 /// Values of functions of the state where the motion starts.
 fn at_start(system: &System, start: &ConsistentState, functions: &[Expr]) -> Option<Vec<f64>> {
     let g = &system.graph;
@@ -606,24 +669,17 @@ fn decide(
     hooks: &mut Hooks<'_>,
 ) -> (Vec<Decided>, Option<Arc<FoundIntegrals>>, Witness) {
     let known = registry();
-    let mut prover = Prover {
-        replay: options.replay,
-        ..Prover::default()
-    };
-    if let Some(seed) = options.seed {
-        prover.seed = seed;
-    }
-    let proving = (&prover, options.work());
+    let proving = || proving(options);
     let zeros = prepared_system(system.for_stated_zeros());
     let zeros = zeros
         .as_ref()
-        .map(|(prepared, system)| context_of(system, prepared, &known, proving));
+        .map(|(prepared, system)| context_of(system, prepared, &known, proving()));
     let stated = prepared_system(system.for_stated_values());
     let narrow = stated.as_ref().map_or(system, |(_, system)| system);
     let component = narrow.on_component(|list| at_start(system, start?, list));
     let component = component.and_then(|on| Some((Prepared::new(&on.system).ok()?, on)));
     let context = |system, prepared| {
-        let cx = context_of(system, prepared, &known, proving);
+        let cx = context_of(system, prepared, &known, proving());
         with_motion(cx, motion)
     };
     let on = component
@@ -686,7 +742,7 @@ fn decide(
                 claim: claim.id(),
                 title: claim.title_of(subject.as_deref()),
                 group: claim.group(),
-                requires: claim.requires(subject.as_deref()),
+                requires: hypotheses(&cx, claim.requires(subject.as_deref())),
                 finding,
                 seconds: (hooks.clock)() - start,
                 expected: expected(model, claim.id(), subject.as_deref()),

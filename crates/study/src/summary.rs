@@ -1,5 +1,6 @@
 //! The summary for a terminal.
 
+use crate::kept::{shortened as formula, Kept};
 use crate::page::independent;
 use crate::plain;
 use crate::record::zero_word;
@@ -170,6 +171,20 @@ fn events(text: &mut String, motion: &Motion) {
     }
 }
 
+/// The integrals that were kept by projection: their changes above say nothing.
+fn kept(text: &mut String, study: &Study, motion: &Motion) {
+    let Some(kept) = Kept::of(motion) else { return };
+    let all = kept.report.steps;
+    for (number, integral, steps) in kept.integrals() {
+        let _ = writeln!(
+            text,
+            "  kept by projection after {steps} of {all} steps: first integral {number}, {}",
+            formula(&study.model.graph, integral.shown)
+        );
+    }
+    let _ = writeln!(text, "  {}", kept.moves());
+}
+
 fn trajectory(text: &mut String, study: &Study) {
     let Some(motion) = &study.motion else { return };
     let evidence = &motion.evidence;
@@ -212,6 +227,7 @@ fn trajectory(text: &mut String, study: &Study) {
     let known = integrals.filter(|i| i.drift.value.is_finite());
     drifts.extend(known.map(|i| format!("integral `{}` {:.1e}", i.name, i.drift.value)));
     let _ = writeln!(text, "  largest change: {}", drifts.join(", "));
+    kept(text, study, motion);
     let _ = match (evidence.global_error, motion.settings.step) {
         (Some(error), None) => writeln!(
             text,

@@ -392,6 +392,32 @@ pub fn letters(name: &str) -> String {
     }
 }
 
+/// A formula in one line as it is read: its names in [`letters`], whole powers raised.
+pub fn in_line(text: &str) -> String {
+    let is_sign = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let length = match first {
+            c if is_sign(c) => rest.find(|c| !is_sign(c)).unwrap_or(rest.len()),
+            '^' => 1 + rest[1..].chars().take_while(char::is_ascii_digit).count(),
+            c => c.len_utf8(),
+        };
+        let (part, after) = rest.split_at(length);
+        match first {
+            '^' if length > 1 => out.extend(part.chars().filter_map(superscript)),
+            c if c.is_alphabetic() || c == '_' => out.push_str(&letters(part)),
+            _ => out.push_str(part),
+        }
+        rest = after;
+    }
+    out
+}
+
+fn superscript(digit: char) -> Option<char> {
+    "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(digit.to_digit(10)? as usize)
+}
+
 fn printed(document: &Document) -> Printed {
     let (mut statements, definitions) = parts(document);
     Printed {
@@ -424,7 +450,19 @@ fn parts(document: &Document) -> (Vec<Formula>, Vec<Definition>) {
 
 #[cfg(test)]
 mod tests {
-    use super::letters;
+    use super::{in_line, letters};
+
+    #[test]
+    fn formulas_in_a_line_are_written_in_letters() {
+        for (text, expected) in [
+            ("m r^2 phi'", "m r² φ\u{307}"),
+            ("x_1'^12 - 2 k^a", "x\u{307}_{1}¹² - 2 k^a"),
+            ("sin(theta) + 1/2", "sin(θ) + 1/2"),
+            ("ψ^-1", "ψ^-1"),
+        ] {
+            assert_eq!(in_line(text), expected);
+        }
+    }
 
     #[test]
     fn names_are_written_in_letters_with_dots_and_subscripts() {

@@ -254,12 +254,28 @@ fn kept_by_constraints(cx: &Context<'_>, motion: &Motion<'_>, integrals: &mut Ve
 
 /// Whether a function is independent of what holonomic constraints fix and of the integrals at hand.
 fn is_new(cx: &Context<'_>, motion: &Motion<'_>, integrals: &[Integral], value: Expr) -> bool {
-    let mut all: Vec<Expr> = cx.system.fixed_functions();
-    all.extend(integrals.iter().map(|i| i.value));
-    all.push(value);
-    motion
-        .independent_functions(&all, cx.prover.points_seed())
-        .is_some_and(|kept| kept.contains(&(all.len() - 1)))
+    let known: Vec<Expr> = integrals.iter().map(|i| i.value).collect();
+    is_independent(cx, motion, &known, value).unwrap_or(false)
+}
+
+/// The same, of any functions; `None` where it cannot be told over a prime field.
+fn is_independent(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    known: &[Expr],
+    value: Expr,
+) -> Option<bool> {
+    let all = [&cx.system.fixed_functions()[..], known, &[value]].concat();
+    let kept = motion.independent_functions(&all, cx.prover.points_seed())?;
+    Some(kept.contains(&(all.len() - 1)))
+}
+
+/// Whether a function of the state is one of the functions `known` on the constraints, so that it is constant where these are;
+/// false also where that cannot be told.
+pub fn is_function_of(cx: &Context<'_>, known: &[Expr], value: Expr) -> bool {
+    let is_dependent =
+        |motion: &Motion<'_>| is_independent(cx, motion, known, value) == Some(false);
+    known.contains(&value) || Motion::of(cx).is_ok_and(|motion| is_dependent(&motion))
 }
 
 /// Adds products of powers that are no functions of the integrals found; the functions of which these are made, and those of whose

@@ -102,6 +102,15 @@ fn trajectory(rows: &[[f64; 6]]) -> Trajectory {
         times: (0..rows.len()).map(|i| i as f64 * 0.01).collect(),
         time_unit: Some("s".into()),
         series: list,
+        conserved: vec![Conserved {
+            name: "energy".into(),
+            formula: letter("T"),
+            origin: Some("the symmetry under shifts of time".into()),
+            start,
+            drift: Some("energy drift".into()),
+            claim: Some("energy.integral".into()),
+            ..Conserved::default()
+        }],
         stop: Stop {
             reason: "The run reached the end of the time span, t = 12 s.".into(),
             ..Stop::default()

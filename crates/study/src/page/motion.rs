@@ -1,27 +1,38 @@
-//! The computed motion: curves, drifts with the verdicts on them, the course of the run.
+//! The computed motion: curves, integrals and drifts with the verdicts on them, the course of the run.
 
 use super::claims::word;
 use super::{fact, unit};
 use crate::expectations::stop_is_expected;
+use crate::kept::Kept;
+use crate::motion_evidence::Followed;
+use crate::plain;
 use crate::record::zero_word;
 use crate::study::{Motion, Study};
 use crate::table::Table;
-use crate::typeset::letters;
+use crate::typeset::{in_line, letters, Typesetter};
 use crate::witness;
+use chetaev_geometry::noether::claims::symmetry_named;
 use chetaev_report::data::{
-    ChartSwitch, EventMet, Fact, Figure, Portrait, Series, SeriesGroup, Stop, Trajectory,
-    Verdict as Word,
+    ChartSwitch, Conserved, EventMet, Fact, Figure, Portrait, Series, SeriesGroup, Stop,
+    Trajectory, Verdict as Word,
 };
 
 /// The motion.
-pub(super) fn trajectory(study: &Study, motion: &Motion, files: &[String]) -> Trajectory {
+pub(super) fn trajectory(
+    study: &Study,
+    motion: &Motion,
+    set: &Typesetter<'_>,
+    files: &[String],
+) -> Trajectory {
     let run = &motion.evidence.run;
     let mut series = curves(study, motion);
+    series.extend(found(study, motion));
     series.extend(beside(study, motion));
     series.extend(drifts(study, motion));
     Trajectory {
         times: run.times.clone(),
         time_unit: study.model.has_units.then(|| "s".into()),
+        conserved: conserved(study, motion, set, &series),
         series,
         stop: Stop {
             reason: run.ending.reason.clone(),
@@ -160,6 +171,81 @@ fn curves(study: &Study, motion: &Motion) -> Vec<Series> {
     series
 }
 
+/// The values of the integrals found; the energy has its curve.
+fn found(study: &Study, motion: &Motion) -> Vec<Series> {
+    let others = motion.found.others.iter();
+    others
+        .map(|own| Series {
+            name: format!("first integral {}", own.name),
+            label: Some(numbered(study, own)),
+            group: SeriesGroup::Integrals,
+            values: own.values.clone(),
+            ..Series::default()
+        })
+        .collect()
+}
+
+/// The number of an integral that was found, with its formula where that is short.
+fn numbered(study: &Study, own: &Followed) -> String {
+    let text = study.system.graph.text(own.shown);
+    match text.chars().count() <= SHORT {
+        true => format!("{}: {}", own.name, in_line(&text)),
+        false => format!("first integral {}", own.name),
+    }
+}
+
+/// Formulas up to this length stand in the legends of plots.
+const SHORT: usize = 32;
+
+/// What should keep its value: the integrals that the model states and those that were found, each with its symmetry and where its
+/// drift is among the series.
+fn conserved(
+    study: &Study,
+    motion: &Motion,
+    set: &Typesetter<'_>,
+    series: &[Series],
+) -> Vec<Conserved> {
+    let stated = motion.evidence.integrals.iter();
+    let stated = stated.map(|own| (own, "noether.inverse", drift_of_stated(own)));
+    let energy = motion.found.energy.as_ref().map(|own| &own.name);
+    let found = motion.found.all().into_iter().map(|own| {
+        let drift = match energy == Some(&own.name) {
+            true => "drift of energy".to_owned(),
+            false => drift_of_found(own),
+        };
+        (own, "noether.integral", drift)
+    });
+    stated
+        .chain(found)
+        .map(|(own, claim, drift)| {
+            let claim = format!("{claim}#{}", own.name);
+            let decided = study.verdicts.iter().find(|d| d.full_id() == claim);
+            let symmetry = decided.and_then(|d| symmetry_named(d.finding.verdict.detail()));
+            let printed = set.expression(set.simplified(&[own.shown]).pop().unwrap_or(own.shown));
+            Conserved {
+                name: own.name.clone(),
+                formula: printed.formula,
+                omitted: printed.omitted.is_some(),
+                origin: symmetry.map(|text| plain::written(&study.system, text)),
+                start: own.values.first().copied().unwrap_or(f64::NAN),
+                drift: Some(drift).filter(|drift| series.iter().any(|s| s.name == *drift)),
+                is_enforced: own.kept.is_some(),
+                claim: decided.map(|_| claim),
+            }
+        })
+        .collect()
+}
+
+/// The name of the series with the drift of an integral that the model states.
+fn drift_of_stated(own: &Followed) -> String {
+    format!("drift of integral {}", own.name)
+}
+
+/// The same of one that was found.
+fn drift_of_found(own: &Followed) -> String {
+    format!("drift of first integral {}", own.name)
+}
+
 fn mass_unit(study: &Study, name: &str) -> Option<String> {
     let mass = study.model.masses.iter().find(|m| m.name == name)?;
     Some(mass.unit.as_ref()?.text.clone())
@@ -170,46 +256,49 @@ fn mass_unit(study: &Study, name: &str) -> Option<String> {
 fn drifts(study: &Study, motion: &Motion) -> Vec<Series> {
     let evidence = &motion.evidence;
     let mut series = Vec::new();
-    let mut push = |label: String, values: Vec<f64>, claim: String| {
+    let mut push = |name: String, label: String, values: &[f64], claim: String| {
         let decided = study.verdicts.iter().find(|d| d.full_id() == claim);
         let verdict = decided.map(|d| word(d.finding.verdict.word()));
         if verdict == Some(Word::NotApplicable) {
             return;
         }
         series.push(Series {
-            name: format!("drift of {label}"),
+            name,
             label: Some(label),
             group: SeriesGroup::Drifts,
-            values,
+            values: values.iter().map(|x| x.abs()).collect(),
             tolerance: decided.and_then(|d| bound_of(d.finding.verdict.detail())),
             claim: decided.map(|_| claim),
             ..Series::default()
         });
     };
-    let from_start = |values: &[f64]| {
-        let start = values.first().copied().unwrap_or(0.0);
-        values.iter().map(|x| (x - start).abs()).collect()
-    };
-    let energy = from_start(&evidence.energy.values);
-    push("energy".into(), energy, "motion.energy-drift".into());
+    push(
+        "drift of energy".into(),
+        "energy".into(),
+        &evidence.energy.changes,
+        "motion.energy-drift".into(),
+    );
     for f in &evidence.integrals {
         push(
+            drift_of_stated(f),
             format!("integral {}", f.name),
-            from_start(&f.values),
+            &f.changes,
             format!("motion.integral-drift#{}", f.name),
         );
     }
-    for f in &motion.found {
+    for f in &motion.found.others {
         push(
-            format!("first integral {}", f.name),
-            from_start(&f.values),
+            drift_of_found(f),
+            numbered(study, f),
+            &f.changes,
             format!("motion.integral-drift#{}", f.name),
         );
     }
     for f in &evidence.residuals {
         push(
+            format!("drift of constraint {}", f.name),
             format!("constraint {}", f.name),
-            f.values.iter().map(|x| x.abs()).collect(),
+            &f.changes,
             "motion.constraint-drift".into(),
         );
     }
@@ -268,6 +357,7 @@ fn statistics(motion: &Motion) -> Vec<Fact> {
         fact("Factorizations", s.factorizations.to_string(), None, None),
         fact("Chart changes", s.chart_switches.to_string(), None, None),
     ];
+    facts.extend(projected(motion));
     if let Some(error) = evidence.global_error {
         facts.push(fact(
             "Estimated global error",
@@ -277,6 +367,26 @@ fn statistics(motion: &Motion) -> Vec<Fact> {
         ));
     }
     facts
+}
+
+/// Which integrals were kept by projection, how often and how far.
+fn projected(motion: &Motion) -> Option<Fact> {
+    let kept = Kept::of(motion)?;
+    let all = kept.report.steps;
+    let each = kept
+        .integrals()
+        .map(|(number, _, steps)| match steps == all {
+            true => number.to_string(),
+            false => format!("{number} (after {steps} of {all} steps)"),
+        });
+    let each: Vec<String> = each.collect();
+    let label = match each.len() {
+        1 => "First integral kept by projection",
+        _ => "First integrals kept by projection",
+    };
+    let mut fact = fact(label, each.join(", "), None, None);
+    fact.note = Some(kept.moves());
+    Some(fact)
 }
 
 /// The path in the first two coordinates, and each of the first coordinates against its velocity.

@@ -102,6 +102,7 @@ fn difference(a: &TrajectoryRecord, b: &TrajectoryRecord) -> Option<String> {
         .or_else(|| states("final", &a.last, &b.last, accuracy))
         .or_else(|| events(a, b, accuracy).filter(|_| whole))
         .or_else(|| sizes(&a.drifts, &b.drifts))
+        .or_else(|| kept(a, b).filter(|_| whole))
         .or_else(|| {
             let error = numbers(a.global_error, b.global_error)?;
             whole.then(|| format!("global_error {error}"))
@@ -126,6 +127,26 @@ fn events(a: &TrajectoryRecord, b: &TrajectoryRecord, tolerance: f64) -> Option<
         }
         states("events", &x.state, &y.state, tolerance).filter(|_| !touches)
     })
+}
+
+/// What of the projection is not what the replay finds: which integrals it kept, and how far it moved the state. How often depends
+/// on rounding.
+fn kept(a: &TrajectoryRecord, b: &TrajectoryRecord) -> Option<String> {
+    let integrals = |of: &TrajectoryRecord| -> Option<Vec<(String, String)>> {
+        let all = of.kept.as_ref()?.integrals.iter();
+        Some(
+            all.map(|i| (i.integral.clone(), i.formula.clone()))
+                .collect(),
+        )
+    };
+    if integrals(a) != integrals(b) {
+        return Some("`kept` has other integrals than the replay".into());
+    }
+    let largest = |of: &TrajectoryRecord| Some(of.kept.as_ref()?.largest_change);
+    Some(format!(
+        "`kept`: largest_change {}",
+        numbers(largest(a), largest(b))?
+    ))
 }
 
 fn states(what: &str, a: &[NamedValue], b: &[NamedValue], tolerance: f64) -> Option<String> {

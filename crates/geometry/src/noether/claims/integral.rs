@@ -17,6 +17,21 @@ use chetaev_symbolic::{Expr, Node, Symbol, Verdict};
 #[derive(Clone, Copy, Debug)]
 pub struct FirstIntegral;
 
+/// What stands between an integral and its symmetry in the sentence of the verdict.
+const BELONGS: &str = "it belongs to ";
+
+/// What stands there where no displacement belongs to it.
+const BELONGS_NOT: &str = "no displacement belongs to it";
+
+/// The symmetry in the sentence of a verdict on an integral, and why there is none; `None` where it is not named.
+pub fn symmetry_named(detail: &str) -> Option<&str> {
+    let mut parts = detail.split("; ");
+    parts.find_map(|part| match part.starts_with(BELONGS_NOT) {
+        true => Some(part),
+        false => part.split_once(BELONGS).map(|(_, symmetry)| symmetry),
+    })
+}
+
 impl Claim for FirstIntegral {
     fn id(&self) -> &'static str {
         "noether.integral"
@@ -124,9 +139,8 @@ fn symmetry(
         .collect();
     if along.is_empty() {
         return match system.constraints.is_empty() {
-            true => "no displacement belongs to it, as it contains no velocity".into(),
-            false => "no displacement belongs to it, as it contains no velocity on the constraints"
-                .into(),
+            true => format!("{BELONGS_NOT}, as it contains no velocity"),
+            false => format!("{BELONGS_NOT}, as it contains no velocity on the constraints"),
         };
     }
     let moved = displacements(cx, n, generator);
@@ -137,10 +151,10 @@ fn symmetry(
         }
         _ => match field(cx, &moved) {
             text if text.chars().count() <= LONGEST => {
-                format!("by Noether's theorem it belongs to the displacements along {text}")
+                format!("by Noether's theorem {BELONGS}the displacements along {text}")
             }
             _ => format!(
-                "by Noether's theorem it belongs to displacements along the directions of {} at once, whose components ξ stand with the formulas",
+                "by Noether's theorem {BELONGS}displacements along the directions of {} at once, whose components ξ stand with the formulas",
                 along.join(", ")
             ),
         },
@@ -166,7 +180,7 @@ fn displacements(cx: &Context<'_>, n: &Embedded<'_>, generator: &Generator) -> V
 fn under_shifts(cx: &Context<'_>, name: &str, symbol: Symbol) -> String {
     let (system, g) = (cx.system, &cx.system.graph);
     let Ok(motion) = Motion::of(cx) else {
-        return format!("by Noether's theorem it belongs to shifts of {name}");
+        return format!("by Noether's theorem {BELONGS}shifts of {name}");
     };
     // Controls are functions of the time; masses with a law of their own are states.
     let is_control = |s: Symbol| system.controls.iter().any(|u| u.name == g.symbol_name(s));
@@ -192,7 +206,7 @@ fn under_shifts(cx: &Context<'_>, name: &str, symbol: Symbol) -> String {
         .map(|(c, _)| &c.name[..])
         .collect();
     if changed.is_empty() && !contains(&motion.accelerations, &motion.manifold) {
-        return format!("it belongs to the symmetry under shifts of {name}");
+        return format!("{BELONGS}the symmetry under shifts of {name}");
     }
     let mut active = system.forces.clone();
     active.push(system.lagrangian);
@@ -213,7 +227,7 @@ fn under_shifts(cx: &Context<'_>, name: &str, symbol: Symbol) -> String {
         "time" if !system.controls.is_empty() => "the time or a control".to_owned(),
         _ => g.symbol_text(symbol),
     };
-    format!("by Noether's theorem it belongs to {what}{kept}; {which} {shifted}, so that the system has no symmetry under shifts of {name}")
+    format!("by Noether's theorem {BELONGS}{what}{kept}; {which} {shifted}, so that the system has no symmetry under shifts of {name}")
 }
 
 /// A longer field is not written out in a sentence.
@@ -246,4 +260,21 @@ fn field(cx: &Context<'_>, moved: &[(usize, Expr)]) -> String {
         text.push_str(&format!("∂/∂{coordinate}"));
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::symmetry_named;
+
+    #[test]
+    fn the_symmetry_is_read_from_the_sentence() {
+        for (detail, expected) in [
+            ("x' keeps its value on every motion; it belongs to the symmetry under shifts of x; zero at 3 points", Some("the symmetry under shifts of x")),
+            ("f keeps its value; by Noether's theorem it belongs to shifts of time; `c` contains t", Some("shifts of time")),
+            ("x keeps its value; no displacement belongs to it, as it contains no velocity", Some("no displacement belongs to it, as it contains no velocity")),
+            ("x' keeps its value on every motion", None),
+        ] {
+            assert_eq!(symmetry_named(detail), expected);
+        }
+    }
 }

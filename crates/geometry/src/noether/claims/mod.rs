@@ -20,7 +20,7 @@ mod values;
 pub use contraction::Contraction;
 pub use embedded::EmbeddedField;
 pub use family::FamilySearched;
-pub use integral::FirstIntegral;
+pub use integral::{symmetry_named, FirstIntegral};
 pub use inverse::Inverse;
 pub use killing::Killing;
 pub use moving::{MovingAxis, MovingDirection};

@@ -1,0 +1,244 @@
+//! First integrals along a motion: kept by projection, shown with what they are, and followed across their jumps.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "test code fails where it stands"
+)]
+
+use chetaev_model::{load, NoFiles};
+use chetaev_report::data::{Report, SeriesGroup};
+use chetaev_study::page::report;
+use chetaev_study::record::{record, TrajectoryRecord};
+use chetaev_study::summary::{summary, Style};
+use chetaev_study::{study, ClaimSelection, Hooks, Study, StudyOptions};
+use chetaev_symbolic::Verdict;
+
+fn studied(text: &str, claims: &[&str], change: impl Fn(&mut StudyOptions)) -> Study {
+    let (model, _) = load("model.toml", text, &NoFiles, &[])
+        .into_result()
+        .expect("a model");
+    let mut options = StudyOptions {
+        claims: ClaimSelection {
+            words: claims.iter().map(|&word| word.to_owned()).collect(),
+        },
+        ..StudyOptions::default()
+    };
+    change(&mut options);
+    let mut hooks = Hooks {
+        clock: &|| 0.0,
+        interrupt: None,
+        progress: &mut |_, _| (),
+    };
+    study(model, options, &mut hooks).expect("a study")
+}
+
+fn verdict<'a>(study: &'a Study, claim: &str) -> &'a Verdict {
+    let found = study.verdicts.iter().find(|d| d.full_id() == claim);
+    &found
+        .unwrap_or_else(|| panic!("no verdict of {claim}"))
+        .finding
+        .verdict
+}
+
+fn page(study: &Study) -> Report {
+    report(study, None, &[])
+}
+
+fn trajectory(study: &Study) -> TrajectoryRecord {
+    record(study, &[]).trajectory.expect("a motion")
+}
+
+fn keeping(options: &mut StudyOptions) {
+    options.keep_integrals = true;
+}
+
+const LEAK: &str = "name = \"leak\"\ncoordinates = [\"z\"]\nmasses = { m = { rate = \"-m/5\", initial = 1 } }\nlagrangian = { T = \"1/2 m z'^2\" }\ninitial = { \"z'\" = 1 }\n[simulation]\nt_end = 2\n";
+
+const KEPLER: &str = "name = \"kepler\"\ncoordinates = [\"r\", \"phi\"]\n[parameters]\nm = 1\nk = 1\n[lagrangian]\nT = \"1/2 m (r'^2 + r^2 phi'^2)\"\nV = \"-k/r\"\n[initial]\nr = 1\n\"phi'\" = 1.2\n[simulation]\nt_end = 5\n";
+
+const OSCILLATOR: &str = "name = \"oscillator\"\ncoordinates = [\"x\"]\nlagrangian = \"x'^2/2 - x^2/2\"\n[initial]\nx = 1\n[simulation]\nt_end = 20\n";
+
+/// Masses with a law of their own are not moved, and an integral of the time and the mass alone is none that can be kept.
+#[test]
+fn integrals_are_kept_beside_masses_with_a_law_of_their_own() {
+    let study = studied(LEAK, &["motion"], keeping);
+    let kept = trajectory(&study).kept.expect("what was kept");
+    let formulas: Vec<&str> = kept.integrals.iter().map(|i| i.formula.as_str()).collect();
+    assert_eq!(formulas, ["z'", "t z' - z"]);
+    let said = study.notices.join("; ");
+    assert!(!said.contains("first integral"), "{said}");
+    let all = study.verdicts.iter();
+    let of_mass = all.filter(|d| d.finding.verdict.detail().contains("log(m)"));
+    let of_mass: Vec<_> = of_mass.collect();
+    assert_eq!(of_mass.len(), 1);
+    assert!(!of_mass[0]
+        .finding
+        .verdict
+        .detail()
+        .contains("by projection"));
+}
+
+/// What was kept is said by the record, the summary, the report and by each verdict on a drift, which is no evidence then; also of the
+/// energy and of stated integrals that are functions of what was kept. Nothing is said where nothing was kept.
+#[test]
+fn what_was_kept_by_projection_is_said() {
+    let stated = format!("{KEPLER}[integrals]\nareal = \"r^2 phi'/2\"\n");
+    let study = studied(&stated, &["motion"], keeping);
+    let said = "its value was kept by projection after each step, so that it is no evidence";
+    for claim in [
+        "energy-drift",
+        "integral-drift#areal",
+        "integral-drift#1",
+        "integral-drift#2",
+    ] {
+        let verdict = verdict(&study, &format!("motion.{claim}"));
+        assert_eq!(verdict.word(), "numerical");
+        assert!(
+            verdict.detail().starts_with(said),
+            "{claim}: {}",
+            verdict.detail()
+        );
+    }
+    let steps = trajectory(&study).steps;
+    let kept = trajectory(&study).kept.expect("what was kept");
+    assert!(kept.integrals.iter().all(|i| i.steps == steps), "{kept:?}");
+    assert_eq!(kept.integrals[0].formula, "r^2 phi'");
+    assert!(kept.moved > steps / 2 && kept.moved <= steps, "{kept:?}");
+    assert!((1e-14..1e-8).contains(&kept.largest_change), "{kept:?}");
+    let text = summary(&study, Style::Plain);
+    let line =
+        format!("kept by projection after {steps} of {steps} steps: first integral 1, r^2 phi'\n");
+    assert!(text.contains(&line), "{text}");
+    let page = page(&study).trajectory.expect("a motion");
+    assert!(page.conserved.iter().all(|own| own.is_enforced));
+    let mut facts = page.statistics.iter();
+    let fact = facts.find(|fact| fact.label.contains("kept by projection"));
+    assert_eq!(fact.expect("a fact").value, "1, 2, 3");
+    let free = studied(&stated, &["motion"], |_| ());
+    assert!(trajectory(&free).kept.is_none());
+    let text = summary(&free, Style::Plain);
+    assert!(!text.contains("by projection"), "{text}");
+}
+
+/// Each integral found stands in the report with its formula as it is shown, its symmetry, its value at the start and its drift, and
+/// with a curve of its values.
+#[test]
+fn integrals_found_are_shown_with_what_they_are() {
+    let study = studied(
+        KEPLER,
+        &["motion", "noether.family", "noether.integral"],
+        |_| (),
+    );
+    let page = page(&study).trajectory.expect("a motion");
+    let of = |number: &str| {
+        let mut all = page.conserved.iter();
+        all.find(|own| own.name == number).expect("an integral")
+    };
+    let (momentum, energy) = (of("1"), of("2"));
+    assert_eq!(momentum.formula.text, "r^2 phi'");
+    assert!(momentum.formula.mathml.is_some());
+    assert_eq!(
+        momentum.origin.as_deref(),
+        Some("the symmetry under shifts of phi")
+    );
+    assert_eq!(
+        energy.origin.as_deref(),
+        Some("the symmetry under shifts of time")
+    );
+    assert!((momentum.start - 1.2).abs() < 1e-15);
+    assert_eq!(momentum.claim.as_deref(), Some("noether.integral#1"));
+    assert_eq!(energy.drift.as_deref(), Some("drift of energy"));
+    let series = |name: &str| {
+        let mut all = page.series.iter();
+        all.find(|series| series.name == name).expect("a series")
+    };
+    let values = series("first integral 1");
+    assert_eq!(values.group, SeriesGroup::Integrals);
+    assert_eq!(values.label.as_deref(), Some("1: r² φ\u{307}"));
+    assert!(values.values.iter().all(|x| (x - 1.2).abs() < 1e-8));
+    let drift = series(momentum.drift.as_deref().expect("a drift"));
+    assert_eq!(drift.label, values.label);
+    assert!(drift.tolerance.is_some());
+    // The sentence of the drift has the same form of the integral as the search.
+    let detail = verdict(&study, "motion.integral-drift#2").detail();
+    let shown = "first integral 2, 1/2 m (r'^2 + r^2 phi'^2) - k/r (-0.280000 at the start)";
+    assert!(detail.contains(shown), "{detail}");
+}
+
+/// An angle jumps at its cut, by whole turns which are no drift; other functions are followed between the jumps, and what changes
+/// there is refuted.
+#[test]
+fn jumps_of_stated_integrals_are_no_drift() {
+    let stated = format!(
+        "{OSCILLATOR}[integrals]\nphase = \"atan2(x', x) + t\"\nproduct = \"(x^2 + x'^2) (atan2(x', x) + t)\"\nwrong = \"atan2(x', x) + 2 t\"\nsquare = \"x^2 sign(x)^2\"\n"
+    );
+    let study = studied(&stated, &["motion"], |_| ());
+    for (name, word, jumping) in [
+        ("phase", "numerical", "atan2(x', x)"),
+        ("product", "numerical", "atan2(x', x)"),
+        ("wrong", "refuted", "atan2(x', x)"),
+        ("square", "refuted", "sign(x)"),
+    ] {
+        let verdict = verdict(&study, &format!("motion.integral-drift#{name}"));
+        let detail = verdict.detail();
+        assert_eq!(verdict.word(), word, "{name}: {detail}");
+        let said = format!("`{name}` between the jumps of {jumping} (the first before t = ");
+        assert!(detail.contains(&said), "{detail}");
+    }
+    let drifts = trajectory(&study).drifts;
+    let phase = drifts.iter().find(|own| own.name == "integral phase");
+    assert!(phase.unwrap().value.unwrap() < 1e-8);
+    let page = page(&study).trajectory.expect("a motion");
+    let mut series = page.series.iter();
+    let phase = series.find(|series| series.name == "drift of integral phase");
+    assert!(phase.unwrap().values.iter().all(|x| *x < 1e-8));
+}
+
+/// Rows far apart hide how often an angle jumped between them; whole turns are left out all the same.
+#[test]
+fn turns_between_sparse_rows_are_left_out() {
+    let stated = OSCILLATOR.replace("t_end = 20", "t_end = 60\noutput = 7");
+    let stated = format!("{stated}[integrals]\nphase = \"2 atan2(x', x) + 2 t\"\n");
+    let study = studied(&stated, &["motion"], |_| ());
+    let verdict = verdict(&study, "motion.integral-drift#phase");
+    assert_eq!(verdict.word(), "numerical", "{}", verdict.detail());
+}
+
+/// A step that is too long is not put down to the motion alone.
+#[test]
+fn a_step_that_is_too_long_is_named() {
+    let study = studied(KEPLER, &["motion"], |options| {
+        options.method = Some("runge-kutta-4".into());
+        options.step = Some(2.5);
+    });
+    let verdict = verdict(&study, "motion.formulations-agree");
+    assert_eq!(verdict.word(), "undecided");
+    let detail = verdict.detail();
+    assert!(detail.contains("the step 2.5 may be too long"), "{detail}");
+    assert!(detail.contains("a second run at half the step"), "{detail}");
+}
+
+/// What a claim rests on has a verdict of its own in a study of all claims, on masses where these vary.
+#[test]
+fn hypotheses_have_verdicts() {
+    for (text, varies) in [(OSCILLATOR, false), (LEAK, true)] {
+        let study = studied(text, &["model", "integrals"], |_| ());
+        let of_masses = "model.masses-free-of-velocity".to_owned();
+        for decided in &study.verdicts {
+            if decided.claim == "noether.integral" {
+                assert_eq!(decided.requires.contains(&of_masses), varies);
+            }
+            for hypothesis in &decided.requires {
+                let known = |d: &chetaev_study::Decided| {
+                    d.full_id() == *hypothesis || d.claim == hypothesis
+                };
+                assert!(
+                    study.verdicts.iter().any(known),
+                    "{hypothesis} of {}",
+                    decided.full_id()
+                );
+            }
+        }
+    }
+}
