@@ -32,6 +32,7 @@ use flow::Flow;
 pub(crate) use formula::on_both_sides;
 pub(crate) use jumps::arguments_of_signs;
 use std::sync::Arc;
+pub(crate) use valued::at_stated_values;
 
 /// `measure.invariant`.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +58,8 @@ pub struct Measure {
     pub divergence: Option<Expr>,
     /// Names of the velocities η.
     pub velocities: Vec<String>,
+    /// Whether it is one for the values of parameters alone that the model states.
+    pub as_stated: bool,
     /// What a formula too long for a sentence contains, in words.
     words: &'static str,
 }
@@ -155,6 +158,7 @@ fn searched(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
             .iter()
             .map(|p| p.name.clone())
             .collect(),
+        as_stated: false,
         words,
     };
     let (system, manifold) = (cx.system, &flow.chart.manifold);
@@ -233,13 +237,14 @@ fn without_formula(
 
 /// Whether a density exists that does not contain some of the coordinates, and follows by a quadrature: the admissible fields and
 /// their brackets have to give the derivatives of its logarithm in all directions along which `integrals` without velocities are
-/// kept.
+/// kept. Along further fields on the coordinates, `turns`, its logarithm has the rates stated.
 ///
 /// # Errors
 /// A sentence that says why the motion is not known.
 pub fn free_of(
     cx: &Context<'_>,
     coordinates: &[usize],
+    turns: &[(Vec<Expr>, Expr)],
     integrals: &[Expr],
 ) -> Result<Verdict, String> {
     let flow = Flow::of(cx)?;
@@ -247,7 +252,7 @@ pub fn free_of(
     let leaves = flow.independent_of_velocities(cx, integrals);
     let full =
         (cx.system.n() + flow.masses.len() + usize::from(!flow.autonomous)).saturating_sub(leaves);
-    let verdict = match flag(cx, &flow, coordinates) {
+    let verdict = match flag(cx, &flow, coordinates, turns) {
         Ok(Some(flag)) if flag.fields.len() >= full => exists(flag),
         Ok(Some(_)) => Verdict::undecided("the brackets do not determine the density"),
         Ok(None) => not_affine(cx, &flow),
@@ -258,7 +263,7 @@ pub fn free_of(
 
 /// Whether a density exists, without its formula; free of the coordinates with these indices.
 fn by_brackets(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Verdict {
-    match flag(cx, flow, free) {
+    match flag(cx, flow, free, &[]) {
         Ok(Some(flag)) => exists(flag),
         Ok(None) => not_affine(cx, flow),
         Err(verdict) => *verdict,
@@ -267,7 +272,12 @@ fn by_brackets(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Verdict {
 
 /// What the derivatives of ln N along admissible fields generate; none for constraints nonlinear in the velocities; a verdict
 /// where there is no density of the coordinates, or where that is not known.
-fn flag(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Result<Option<Flag>, Box<Verdict>> {
+fn flag(
+    cx: &Context<'_>,
+    flow: &Flow<'_>,
+    free: &[usize],
+    turns: &[(Vec<Expr>, Expr)],
+) -> Result<Option<Flag>, Box<Verdict>> {
     let (system, g) = (cx.system, &cx.system.graph);
     let Ok((mut fields, mut drift)) = horizontal(system, &flow.chart) else {
         return Ok(None);
@@ -301,6 +311,14 @@ fn flag(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Result<Option<Flag
             time: g.zero(),
             place: unit.collect(),
             value: g.zero(),
+        }
+    }));
+    fields.extend(turns.iter().map(|(coordinates, value)| {
+        let masses = flow.masses.iter().map(|_| g.zero());
+        Directed {
+            time: g.zero(),
+            place: coordinates.iter().copied().chain(masses).collect(),
+            value: *value,
         }
     }));
     closed(cx, flow, &fields).map(Some)

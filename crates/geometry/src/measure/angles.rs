@@ -137,7 +137,7 @@ fn mean(cx: &Context<'_>, slope: Expr, angle: usize) -> Option<Expr> {
 
 /// A verdict where ln N changes over a turn of an angle.
 fn turned(cx: &Context<'_>, flow: &Flow<'_>, angles: &[usize]) -> Option<Verdict> {
-    let found = flag(cx, flow, &[]).ok()??;
+    let found = flag(cx, flow, &[], &[]).ok()??;
     let slopes = slopes(cx, flow, &found)?;
     angles.iter().find_map(|&j| {
         let mean = mean(cx, slopes[j], j)?;
