@@ -532,7 +532,10 @@ fn about(cx: &Context<'_>, reduced: &Reduced, many: usize) -> String {
     let turns: Vec<&str> = reduced.turns.iter().map(|turn| &turn.words[..]).collect();
     let turned = match turns.is_empty() {
         true => String::new(),
-        false => format!("{}, under which the motion is symmetric,", turns.join(" and ")),
+        false => format!(
+            "{}, under which the motion is symmetric,",
+            turns.join(" and ")
+        ),
     };
     let names = names.join(", ");
     let left_out = match (names.is_empty(), turned.is_empty()) {

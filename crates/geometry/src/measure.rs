@@ -13,6 +13,7 @@
 //! `excluded`. What is known on formulas is in `formula`, densities that are products of any powers in `products`.
 
 mod angles;
+mod dissipated;
 mod edges;
 mod excluded;
 mod flow;
@@ -108,6 +109,7 @@ fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
         measure.verdict = verdict;
         return measure;
     }
+    let (density, kept) = measure.returning(cx, flow, density, kept);
     measure.edges = edges::edges(cx, flow, density);
     let density = formula::positive_beyond(cx, density);
     measure.density = Some(density);
@@ -120,6 +122,29 @@ fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
 }
 
 impl Measure {
+    /// The density found, or, where it does not return after a turn of an angle, another one that does: a wheel that rolls keeps
+    /// functions of the way x = R a and of its angle a, and the way may stand for the angle.
+    fn returning(
+        &mut self,
+        cx: &Context<'_>,
+        flow: &Flow<'_>,
+        density: Expr,
+        kept: Verdict,
+    ) -> (Expr, Verdict) {
+        let open = angles::open(cx, density);
+        if open.is_empty() {
+            return (density, kept);
+        }
+        match products::density(cx, flow, &open) {
+            Some(found) if angles::open(cx, found.0).is_empty() => {
+                self.words = WORDS[3];
+                self.kept = Some(found.1.clone());
+                found
+            }
+            _ => (density, kept),
+        }
+    }
+
     /// With a density that contains velocities in an exponential, where one is found and nothing is decided, or where the density
     /// found ends.
     fn or_exponential(mut self, cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
@@ -188,7 +213,7 @@ fn searched(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
         _ => excluded::excluded(cx, flow),
     };
     if excluded.is_none() && !matches!(by_brackets, Verdict::Refuted(_)) {
-        if let Some((density, verdict)) = products::density(cx, flow) {
+        if let Some((density, verdict)) = products::density(cx, flow, &[]) {
             return known(Some(density), verdict, WORDS[3]);
         }
     }

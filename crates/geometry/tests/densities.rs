@@ -108,3 +108,45 @@ fn no_velocities_and_the_time_are_named() {
     );
     assert!(detail.contains("N changes with the time only"), "{detail}");
 }
+
+/// A wheel on which a drag acts: `x = R a`, `m x'' = -c x'^2`. exp(2 c R a/m), up to the rolling inertia, does not return after a turn of the
+/// wheel; exp(2 c x/m) is the same function along each motion, and returns.
+#[test]
+fn the_way_of_a_wheel_stands_for_its_angle() {
+    let force = [("x", "-c*x'^2")];
+    let mut wheel = framed("a x", "m*x'^2/2", &[("roll", "x' - R*a'")], &[], &force);
+    wheel.angles.push("a".into());
+    let (word, detail) = told(&wheel);
+    assert_eq!(word, "proved", "{detail}");
+    assert!(detail.contains("exp(2 c x/m)"), "{detail}");
+}
+
+/// An oscillator with the drag `x'^3` or `|x'| x'` ends at rest, with a negative one it leaves it: nothing is kept near rest. Without the
+/// spring rest is anywhere, and 1/(1 - x x')^3 is kept near x = 0 where `x'' = -x'^3`; along `x'' = -x - x x'` the energy changes both ways.
+#[test]
+fn drag_of_any_power_leaves_no_density_at_rest() {
+    for (lagrangian, force, word) in [
+        ("x'^2/2 - x^2/2", "-x'^3", "refuted"),
+        ("x'^2/2 - x^2/2", "x'^3", "refuted"),
+        ("x'^2/2 + cos(x)", "-x'^5", "refuted"),
+        ("x'^2/2 - x^2/2", "-abs(x')*x'", "refuted"),
+        ("x'^2/2 - x^2/2", "-x^2*x'^3", "refuted"),
+        ("x'^2/2", "-x'^3", "undecided"),
+        ("x'^2/2 + x^2/2", "-x'^3", "undecided"),
+        ("x'^2/2 - x^2/2", "-x*x'^3", "undecided"),
+    ] {
+        let own = framed("x", lagrangian, &[], &[], &[("x", force)]);
+        let (found, detail) = told(&own);
+        assert_eq!(found, word, "{lagrangian}, {force}: {detail}");
+    }
+}
+
+/// `(x'^2 + y'^2)/2 - (x^2 + x y + y^2)` with a drag on x' alone: X̄E = -x'^4 vanishes on x' = 0, and only there.
+#[test]
+fn drag_on_one_velocity_suffices() {
+    let lagrangian = "(x'^2 + y'^2)/2 - x^2 - x*y - y^2";
+    let own = framed("x y", lagrangian, &[], &[], &[("x", "-x'^3")]);
+    let (word, detail) = told(&own);
+    assert_eq!(word, "refuted", "{detail}");
+    assert!(detail.contains("strict minimum at rest"), "{detail}");
+}

@@ -143,7 +143,8 @@ impl Around<'_> {
             });
             g.add(&parts.collect::<Vec<Expr>>())
         });
-        self.chart.restrict(system, &definitions.collect::<Vec<_>>())
+        self.chart
+            .restrict(system, &definitions.collect::<Vec<_>>())
     }
 
     /// What vanishes where the field keeps the constraints and commutes with the motion; linear in the field.

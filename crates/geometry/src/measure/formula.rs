@@ -109,7 +109,7 @@ fn bases_of_broken_powers(cx: &Context<'_>) -> Vec<Expr> {
 }
 
 /// Whether an expression is seen to be nowhere negative, under the assumptions or for the values of the parameters.
-fn is_of_one_sign(cx: &Context<'_>, e: Expr) -> bool {
+pub(super) fn is_of_one_sign(cx: &Context<'_>, e: Expr) -> bool {
     forms(cx, e).any(|sign| sign.is_nonnegative())
 }
 

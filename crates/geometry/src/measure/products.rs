@@ -5,7 +5,7 @@
 //! and cosines has several factorizations, as `s² = (1 - c)(1 + c)`: it is factored as it is, in cosines, and in sines.
 
 use super::flow::Flow;
-use super::formula;
+use super::{angles, formula};
 use crate::noether::ansatz::Ansatz;
 use crate::noether::family::coefficients;
 use crate::noether::shown::readable;
@@ -21,11 +21,17 @@ const EXPONENTS: usize = 60;
 /// Larger expressions, in nodes, are not factored.
 const FACTORED: usize = 4_000;
 
-/// A density of this form that is kept, with the proof.
-pub(super) fn density(cx: &Context<'_>, flow: &Flow<'_>) -> Option<(Expr, Verdict)> {
+/// A density of this form that is kept, with the proof; of functions that return to their values after a turn of these `angles`.
+pub(super) fn density(
+    cx: &Context<'_>,
+    flow: &Flow<'_>,
+    angles: &[usize],
+) -> Option<(Expr, Verdict)> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let bases = bases(cx, flow);
-    let exponents = exponents(cx, flow);
+    let (mut bases, mut exponents) = (bases(cx, flow), exponents(cx, flow));
+    let returns = |e: &Expr| angles.iter().all(|&j| angles::returns(cx, *e, j));
+    bases.retain(returns);
+    exponents.retain(returns);
     let all = [&bases[..], &exponents[..]].concat();
     let rates = flow.chart.frozen_derivative(system, &all);
     let mut columns: Vec<Vec<Expr>> = Vec::new();
