@@ -3,12 +3,14 @@
 //! A motion of m variables with m - 2 independent integrals and an invariant measure is integrated by quadratures (Jacobi's last
 //! multiplier); m - 1 integrals need no measure. Coordinates on which neither the rates of the others nor their own depend are
 //! left out first (Routh's ignorable coordinates, also where their momenta are no integrals, as for rolling bodies); they
-//! follow by quadratures at the end. Masses with a law of their own are variables like the coordinates.
+//! follow by quadratures at the end, and so do turns of coordinates under which the motion is symmetric ([`turns`]). Masses with a law of their own are variables like the coordinates.
 
-use crate::measure::{free_of, measure};
+mod turns;
+
+use crate::measure::{at_stated_values, free_of, measure, Measure};
 use crate::noether::cyclic::cyclic;
 use crate::noether::embedded::Embedded;
-use crate::noether::found::found;
+use crate::noether::found::{found, Found};
 use crate::noether::motion::Motion;
 use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::claims::formulation::basis;
@@ -17,6 +19,7 @@ use chetaev_mechanics::words::counted;
 use chetaev_mechanics::Characteristics;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Function, Node, Symbol, Verdict};
+use turns::{turns, Around, Turn};
 
 /// `liouville.integrable`.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +38,11 @@ pub struct Reduced {
     pub variables: usize,
     /// Whether the time is one of them.
     pub timed: bool,
+    /// Turns that are left out besides, of which this many are independent on the rest.
+    turns: Vec<Turn>,
     chart: Characteristics,
+    /// Rates of the independent velocities.
+    rates: Vec<Expr>,
 }
 
 impl Reduced {
@@ -80,7 +87,7 @@ impl Reduced {
             .map(|(p, _)| p.name.clone())
             .collect();
         let cyclic = cyclic_velocities(cx).unwrap_or_default();
-        let mut all = rates;
+        let mut all = rates.clone();
         let rest = (0..moving.len()).filter(|i| !ignorable.contains(i));
         all.extend(rest.map(|i| moving[i].1).chain(ties));
         let is_state = |s: Symbol| moving.iter().any(|(own, _)| *own == s);
@@ -96,8 +103,45 @@ impl Reduced {
             constant,
             cyclic,
             timed,
+            turns: Vec::new(),
             chart,
+            rates,
         })
+    }
+
+    /// The same without turns under which the motion is symmetric, where there are any.
+    fn without_turns(&self, cx: &Context<'_>) -> Option<Reduced> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let motion = Motion::of(cx).ok()?;
+        let around = Around {
+            motion: &motion,
+            chart: &self.chart,
+            rates: &self.rates,
+            ignorable: &self.ignorable,
+        };
+        let turns = turns(cx, &around);
+        let rest = (0..system.n()).filter(|i| !self.ignorable.contains(i));
+        let rest: Vec<usize> = rest.collect();
+        let row = |turn: &Turn| -> Vec<Expr> {
+            let places = rest.iter().map(|&i| turn.coordinates[i]);
+            places.chain(turn.speeds.iter().copied()).collect()
+        };
+        let rows: Vec<Vec<Expr>> = turns.iter().map(row).collect();
+        if rows.iter().all(|row| row.iter().all(|&e| g.is_zero(e))) {
+            return None;
+        }
+        let rank = cx.prover.rank(system, &rows, &self.chart.manifold).ok()?;
+        let is_full = matches!(rank.at_least, Verdict::Proved(_)) && rank.minimum == turns.len();
+        is_full.then(|| Reduced {
+            variables: self.variables - turns.len(),
+            turns,
+            ..self.clone()
+        })
+    }
+
+    /// How functions on the constraint manifold change along a turn.
+    fn turned(&self, cx: &Context<'_>, es: &[Expr], turn: &Turn) -> Vec<Expr> {
+        self.chart.along(cx.system, es, &turn.direction(cx))
     }
 }
 
@@ -160,7 +204,7 @@ impl Claim for Liouville {
     }
 
     fn explanation(&self) -> &'static str {
-        "A motion of m variables with m - 2 independent first integrals and an invariant measure is integrated by quadratures (Euler, Jacobi's last multiplier); with m - 1 integrals the measure is not needed. Coordinates on which no rate depends are left out before, and follow by quadratures at the end; independent velocities are called cyclic where nothing drives their momenta, which are integrals then, as those of ignorable coordinates are. The integrals counted are the functions of those that the search found which contain neither these coordinates nor, for a motion free of it, the time. What is missing is stated; that no more integrals exist is never said."
+        "A motion of m variables with m - 2 independent first integrals and an invariant measure is integrated by quadratures (Euler, Jacobi's last multiplier); with m - 1 integrals the measure is not needed. Coordinates on which no rate depends are left out before, and follow by quadratures at the end; so are turns of two coordinates, with shifts of others, that carry motions into motions, where the integrals do not suffice without, as those of the plane with the angle of a sleigh, whatever the velocities in which the motion is stated; independent velocities are called cyclic where nothing drives their momenta, which are integrals then, as those of ignorable coordinates are. The integrals counted are the functions of those that the search found which contain neither these coordinates nor, for a motion free of it, the time. Where they do not suffice for arbitrary parameters and more is kept for the values that the model states, all is counted for these, and the verdict is conditional on them. What is missing is stated; that no more integrals exist is never said."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -179,9 +223,60 @@ impl Claim for Liouville {
     }
 }
 
+/// The count for arbitrary parameters, or, where it does not suffice and the model states values for which more is kept, for these.
 fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
+    let general = counted_for_all(cx)?;
+    let is_open = matches!(general, Verdict::Undecided { .. });
+    if !is_open || cx.is_out_of_time() || !says_more_as_stated(cx) {
+        return Ok(general);
+    }
+    let Some((texts, Ok(valued))) = at_stated_values(cx, counted_for_all) else {
+        return Ok(general);
+    };
+    let as_stated = format!("for {texts}, as the model states them, ");
+    let otherwise = format!("for arbitrary values {}", general.detail());
+    Ok(match valued {
+        Verdict::Proved(mut proof) | Verdict::Conditional { mut proof, .. } => {
+            proof.detail = format!("{as_stated}{}; {otherwise}", proof.detail);
+            Verdict::Conditional {
+                condition: texts,
+                proof,
+                counterexample: None,
+            }
+        }
+        other => Verdict::undecided(format!("{as_stated}{}; {otherwise}", other.detail())),
+    })
+}
+
+/// Whether an integral or a measure was found that only the values of parameters that the model states have.
+fn says_more_as_stated(cx: &Context<'_>) -> bool {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let measure = measure(cx);
+    let by_measure = measure.as_ref().as_ref().is_ok_and(|m| m.as_stated);
+    let values = system.parameter_values();
+    let is_so = |&(a, b): &(Expr, Expr)| g.is_zero(g.substitute(g.sub(a, b), &values));
+    let more = |found: &Found| {
+        let mut all = found.special.found.iter();
+        all.any(|special| special.tie.pairs(g).iter().all(is_so))
+    };
+    by_measure || found(cx).as_ref().as_ref().is_ok_and(more)
+}
+
+/// The count with whatever is left out; what is said is of the fewest variables.
+fn counted_for_all(cx: &Context<'_>) -> Result<Verdict, String> {
     let reduced = Reduced::of(cx)?;
-    let verdict = counted_for(cx, &reduced)?;
+    let verdict = counted_with_time(cx, &reduced)?;
+    if matches!(verdict, Verdict::Proved(_)) {
+        return Ok(verdict);
+    }
+    match reduced.without_turns(cx) {
+        Some(turned) => counted_with_time(cx, &turned),
+        None => Ok(verdict),
+    }
+}
+
+fn counted_with_time(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
+    let verdict = counted_for(cx, reduced)?;
     if reduced.timed || matches!(verdict, Verdict::Proved(_)) {
         return Ok(verdict);
     }
@@ -189,7 +284,7 @@ fn counted_out(cx: &Context<'_>) -> Result<Verdict, String> {
     let extended = Reduced {
         timed: true,
         variables: reduced.variables + 1,
-        ..reduced
+        ..reduced.clone()
     };
     Ok(match counted_for(cx, &extended)? {
         Verdict::Proved(proof) => Verdict::Proved(proof),
@@ -214,11 +309,19 @@ fn counted_for(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
     let mut values = system.fixed_functions();
     values.extend(found.integrals.iter().map(|i| i.value));
     let values = reduced.chart.restrict(system, &values);
-    let free = values.iter().filter(|&&e| counts(e)).count();
+    let is_kept = |e: Expr| {
+        let mut turns = reduced.turns.iter();
+        turns.all(|turn| vanishes(cx, &reduced.chart, reduced.turned(cx, &[e], turn)[0]))
+    };
+    let free = values.iter().filter(|&&e| counts(e) && is_kept(e)).count();
+    let constant = match reduced.turns.is_empty() {
+        true => reduced.constant.len(),
+        false => 0,
+    };
     let many = invariant(cx, reduced, &values)
         .unwrap_or(0)
         .max(free)
-        .max(reduced.constant.len());
+        .max(constant);
     let m = reduced.variables;
     let about = about(cx, reduced, many);
     if many + 1 >= m {
@@ -229,62 +332,135 @@ fn counted_for(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
         let on = "where the integrals are independent";
         return Ok(Verdict::Proved(Proof::exact(on, detail)));
     }
-    let measure = measure(cx);
-    let measure = measure.as_ref().as_ref().map_err(Clone::clone)?;
-    // A density without a formula may contain what is left out: then another one is asked for, which is a quadrature.
-    // Quadratures go from place to place, so a density near each serves, also where none returns to its values on a circle.
-    let (evidence, kept) = match (
-        measure.density.zip(measure.kept.clone()),
-        &measure.with_time,
-    ) {
-        (Some((density, proof)), _) if counts(density) => {
-            (proof, "the measure of `measure.invariant` is kept")
+    let kept = Kept::of(cx, reduced, &values, &counts)?;
+    let missing = m - 2 - many.min(m - 2);
+    Ok(kept.concluded(&about, missing))
+}
+
+/// The measure of the reduced motion.
+struct Kept {
+    evidence: Verdict,
+    /// What is said where it suffices, and where integrals are missing.
+    suffices: &'static str,
+    known: String,
+}
+
+impl Kept {
+    fn of(
+        cx: &Context<'_>,
+        reduced: &Reduced,
+        values: &[Expr],
+        counts: &dyn Fn(Expr) -> bool,
+    ) -> Result<Kept, String> {
+        let measure = measure(cx);
+        let measure = measure.as_ref().as_ref().map_err(Clone::clone)?;
+        if let Some(evidence) = with_formula(cx, reduced, measure, counts) {
+            let known = match &evidence {
+                Verdict::Conditional { condition, .. } => {
+                    format!("an invariant measure is known where {condition}")
+                }
+                _ => "the invariant measure is known".into(),
+            };
+            return Ok(Kept {
+                evidence,
+                suffices: "the measure of `measure.invariant` is kept",
+                known,
+            });
         }
         // A density that changes with the time is one where the time is a variable.
-        (None, Some((density, proof))) if reduced.timed && counts(*density) => (
-            proof.clone(),
-            "the measure N dt dq dη of `measure.invariant` is kept",
-        ),
-        _ => (
-            free_of(cx, &reduced.ignorable, &values)?,
-            "a measure near every place is kept, whose density is a quadrature",
-        ),
-    };
-    // Where rates jump the quadratures go on from one side to the other.
-    let usable = matches!(evidence, Verdict::Proved(_) | Verdict::Conditional { .. });
-    let missing = m - 2 - many.min(m - 2);
-    Ok(match (missing, usable) {
-        (0, true) => {
-            let detail = format!("{about}; {kept}");
-            let on = "where the integrals are independent";
-            match evidence {
+        if let (None, Some((density, proof)), true) =
+            (measure.density, &measure.with_time, reduced.timed)
+        {
+            if counts(*density) && reduced.turns.is_empty() {
+                return Ok(Kept {
+                    evidence: proof.clone(),
+                    suffices: "the measure N dt dq dη of `measure.invariant` is kept",
+                    known: "the invariant measure N dt dq dη is known".into(),
+                });
+            }
+        }
+        // A density without a formula may contain what is left out: then another one is asked for, which is a quadrature.
+        // Quadratures go from place to place, so a density near each serves, also where none returns to its values on a circle.
+        let g = &cx.system.graph;
+        let turns = reduced.turns.iter();
+        let turns = turns.map(|turn| (turn.coordinates.clone(), g.neg(turn.divergence)));
+        let turns: Vec<(Vec<Expr>, Expr)> = turns.collect();
+        let evidence = free_of(cx, &reduced.ignorable, &turns, values)?;
+        let place = match &evidence {
+            Verdict::Conditional { condition, .. } => format!(" where {condition}"),
+            _ => String::new(),
+        };
+        Ok(Kept {
+            evidence,
+            suffices: "a measure near every place is kept, whose density is a quadrature",
+            known: format!(
+                "an invariant measure of the reduced motion exists near almost every place{place}, without a formula here"
+            ),
+        })
+    }
+
+    /// The verdict with so many integrals too few.
+    fn concluded(self, about: &str, missing: usize) -> Verdict {
+        let Kept {
+            evidence,
+            suffices,
+            known,
+        } = self;
+        // Where rates jump the quadratures go on from one side to the other.
+        let usable = matches!(evidence, Verdict::Proved(_) | Verdict::Conditional { .. });
+        match (missing, evidence) {
+            (
+                0,
                 Verdict::Conditional {
                     condition,
                     mut proof,
                     counterexample,
-                } => {
-                    proof.detail = format!("{detail}; {}", proof.detail);
-                    Verdict::Conditional {
-                        condition,
-                        proof,
-                        counterexample,
-                    }
+                },
+            ) => {
+                proof.detail = format!("{about}; {suffices}; {}", proof.detail);
+                Verdict::Conditional {
+                    condition,
+                    proof,
+                    counterexample,
                 }
-                other => Verdict::Proved(Proof::exact(on, detail)).and(other),
+            }
+            (0, evidence @ Verdict::Proved(_)) => {
+                let on = "where the integrals are independent";
+                let detail = format!("{about}; {suffices}");
+                Verdict::Proved(Proof::exact(on, detail)).and(evidence)
+            }
+            (0, _) => Verdict::undecided(format!(
+                "{about}; an invariant measure of the reduced motion is missing (`measure.invariant`)"
+            )),
+            (missing, _) => {
+                let measure = match usable {
+                    true => known,
+                    false => "an invariant measure of the reduced motion is not known either".into(),
+                };
+                let more = counted(missing, "further integral is", "further integrals are");
+                Verdict::undecided(format!("{about}; {more} missing; {measure}"))
             }
         }
-        (0, false) => Verdict::undecided(format!(
-            "{about}; an invariant measure of the reduced motion is missing (`measure.invariant`)"
-        )),
-        (missing, usable) => {
-            let measure = match usable {
-                true => "the invariant measure is known",
-                false => "an invariant measure of the reduced motion is not known either",
-            };
-            let more = counted(missing, "further integral is", "further integrals are");
-            Verdict::undecided(format!("{about}; {more} missing; {measure}"))
-        }
-    })
+    }
+}
+
+/// The proof that the density found is kept, where it is one of the reduced motion: free of what is left out, and carried along by turns.
+fn with_formula(
+    cx: &Context<'_>,
+    reduced: &Reduced,
+    measure: &Measure,
+    counts: &dyn Fn(Expr) -> bool,
+) -> Option<Verdict> {
+    let g = &cx.system.graph;
+    // One for the values that the model states is none for arbitrary ones.
+    let (density, proof) = measure.density.zip(measure.kept.clone())?;
+    let is_carried = |turn: &Turn| {
+        let rate = reduced.turned(cx, &[density], turn)[0];
+        let defect = g.add(&[rate, g.mul(&[density, turn.divergence])]);
+        vanishes(cx, &reduced.chart, defect)
+    };
+    let is_one = !measure.as_stated && counts(density) && reduced.turns.iter().all(is_carried);
+    is_one.then_some(proof)
 }
 
 /// How many functions of the integrals do not contain what is left out. Shifts of it carry motions into motions, so they act on
@@ -325,7 +501,9 @@ fn invariant(cx: &Context<'_>, reduced: &Reduced, values: &[Expr]) -> Option<usi
     if !reduced.timed {
         shifts.push(0);
     }
-    let columns: Vec<Vec<Expr>> = shifts.iter().map(|&place| along(values, place)).collect();
+    let mut columns: Vec<Vec<Expr>> = shifts.iter().map(|&place| along(values, place)).collect();
+    let turns = reduced.turns.iter();
+    columns.extend(turns.map(|turn| reduced.turned(cx, values, turn)));
     let moved: Vec<Expr> = columns
         .concat()
         .into_iter()
@@ -351,15 +529,21 @@ fn about(cx: &Context<'_>, reduced: &Reduced, many: usize) -> String {
         .iter()
         .map(|&i| variable(cx, i).0)
         .collect();
-    let left_out = match names.is_empty() {
+    let turns: Vec<&str> = reduced.turns.iter().map(|turn| &turn.words[..]).collect();
+    let turned = match turns.is_empty() {
         true => String::new(),
-        false => format!(" after {} left out", {
-            let list = names.join(", ");
-            match names.len() {
-                1 => format!("{list} is"),
-                _ => format!("{list} are"),
-            }
-        }),
+        false => format!(
+            "{}, under which the motion is symmetric,",
+            turns.join(" and ")
+        ),
+    };
+    let names = names.join(", ");
+    let left_out = match (names.is_empty(), turned.is_empty()) {
+        (true, true) => String::new(),
+        (false, true) if reduced.ignorable.len() == 1 => format!(" after {names} is left out"),
+        (false, true) => format!(" after {names} are left out"),
+        (true, false) => format!(" after {turned} are left out"),
+        (false, false) => format!(" after {names} and {turned} are left out"),
     };
     let of_cyclic = reduced
         .constant

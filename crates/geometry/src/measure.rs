@@ -13,24 +13,27 @@
 //! `excluded`. What is known on formulas is in `formula`, densities that are products of any powers in `products`.
 
 mod angles;
+mod dissipated;
+mod edges;
 mod excluded;
 mod flow;
 mod formula;
 mod jumps;
 mod products;
 mod states;
+mod told;
 mod valued;
 
 use crate::flag::{horizontal, Directed, Flag, Obstacle};
 use crate::noether::shown::readable;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::equations::unused_letter;
-use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 use flow::Flow;
 pub(crate) use formula::on_both_sides;
 pub(crate) use jumps::arguments_of_signs;
 use std::sync::Arc;
+pub(crate) use valued::at_stated_values;
 
 /// `measure.invariant`.
 #[derive(Clone, Copy, Debug)]
@@ -43,8 +46,8 @@ pub struct Measure {
     pub density: Option<Expr>,
     /// That N dq dη is kept near every place where N is neither zero nor infinite.
     pub kept: Option<Verdict>,
-    /// Where N may be zero or infinite.
-    pub edges: formula::Edges,
+    /// Where N may be zero, infinite or not smooth.
+    pub edges: edges::Edges,
     /// Coordinates that may be angles of which the model does not say so, and after a turn of which N does not return.
     pub unrolled: Vec<String>,
     /// A density N(t, q) of `N dt dq dη`, for a motion free of the time that keeps one with the time although none without was found,
@@ -56,6 +59,8 @@ pub struct Measure {
     pub divergence: Option<Expr>,
     /// Names of the velocities η.
     pub velocities: Vec<String>,
+    /// Whether it is one for the values of parameters alone that the model states.
+    pub as_stated: bool,
     /// What a formula too long for a sentence contains, in words.
     words: &'static str,
 }
@@ -104,18 +109,42 @@ fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
         measure.verdict = verdict;
         return measure;
     }
-    measure.edges = formula::edges(cx, flow, density);
+    let (density, kept) = measure.returning(cx, flow, density, kept);
+    measure.edges = edges::edges(cx, flow, density);
     let density = formula::positive_beyond(cx, density);
     measure.density = Some(density);
     measure.unrolled = angles::unrolled(cx, flow, density);
     measure.verdict = angles::returning(cx, flow, density, kept);
-    match measure.edges.of_density.is_empty() {
-        true => measure,
-        false => measure.or_exponential(cx, flow),
+    match measure.edges.ends() {
+        false => measure,
+        true => measure.or_exponential(cx, flow),
     }
 }
 
 impl Measure {
+    /// The density found, or, where it does not return after a turn of an angle, another one that does: a wheel that rolls keeps
+    /// functions of the way x = R a and of its angle a, and the way may stand for the angle.
+    fn returning(
+        &mut self,
+        cx: &Context<'_>,
+        flow: &Flow<'_>,
+        density: Expr,
+        kept: Verdict,
+    ) -> (Expr, Verdict) {
+        let open = angles::open(cx, density);
+        if open.is_empty() {
+            return (density, kept);
+        }
+        match products::density(cx, flow, &open) {
+            Some(found) if angles::open(cx, found.0).is_empty() => {
+                self.words = WORDS[3];
+                self.kept = Some(found.1.clone());
+                found
+            }
+            _ => (density, kept),
+        }
+    }
+
     /// With a density that contains velocities in an exponential, where one is found and nothing is decided, or where the density
     /// found ends.
     fn or_exponential(mut self, cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
@@ -123,9 +152,9 @@ impl Measure {
             return self;
         }
         if let Some((density, kept)) = flow.exponential(cx) {
-            let edges = formula::edges(cx, flow, density);
+            let edges = edges::edges(cx, flow, density);
             // Another density that ends says no more than the one found.
-            if self.density.is_some() && !edges.of_density.is_empty() {
+            if self.density.is_some() && edges.ends() {
                 return self;
             }
             self.verdict = angles::returning(cx, flow, density, kept.clone());
@@ -143,7 +172,7 @@ fn searched(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
     let known = |density: Option<Expr>, verdict: Verdict, words| Measure {
         density,
         kept: density.map(|_| verdict.clone()),
-        edges: formula::Edges::default(),
+        edges: edges::Edges::default(),
         unrolled: Vec::new(),
         with_time: None,
         verdict,
@@ -154,13 +183,19 @@ fn searched(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
             .iter()
             .map(|p| p.name.clone())
             .collect(),
+        as_stated: false,
         words,
     };
     let (system, manifold) = (cx.system, &flow.chart.manifold);
     if let Some((density, words)) = flow.density(cx) {
-        let defect = flow.defects(system, &[density]);
-        let on = "on the constraint manifold";
-        let verdict = cx.prover.identity(system, &defect, manifold, on);
+        let verdict = match products::proved(cx, flow, density) {
+            Some(verdict) => verdict,
+            None => {
+                let defect = flow.defects(system, &[density]);
+                let on = "on the constraint manifold";
+                cx.prover.identity(system, &defect, manifold, on)
+            }
+        };
         if matches!(verdict, Verdict::Proved(_)) {
             return known(Some(density), verdict, words);
         }
@@ -178,7 +213,7 @@ fn searched(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
         _ => excluded::excluded(cx, flow),
     };
     if excluded.is_none() && !matches!(by_brackets, Verdict::Refuted(_)) {
-        if let Some((density, verdict)) = products::density(cx, flow) {
+        if let Some((density, verdict)) = products::density(cx, flow, &[]) {
             return known(Some(density), verdict, WORDS[3]);
         }
     }
@@ -227,13 +262,14 @@ fn without_formula(
 
 /// Whether a density exists that does not contain some of the coordinates, and follows by a quadrature: the admissible fields and
 /// their brackets have to give the derivatives of its logarithm in all directions along which `integrals` without velocities are
-/// kept.
+/// kept. Along further fields on the coordinates, `turns`, its logarithm has the rates stated.
 ///
 /// # Errors
 /// A sentence that says why the motion is not known.
 pub fn free_of(
     cx: &Context<'_>,
     coordinates: &[usize],
+    turns: &[(Vec<Expr>, Expr)],
     integrals: &[Expr],
 ) -> Result<Verdict, String> {
     let flow = Flow::of(cx)?;
@@ -241,7 +277,7 @@ pub fn free_of(
     let leaves = flow.independent_of_velocities(cx, integrals);
     let full =
         (cx.system.n() + flow.masses.len() + usize::from(!flow.autonomous)).saturating_sub(leaves);
-    let verdict = match flag(cx, &flow, coordinates) {
+    let verdict = match flag(cx, &flow, coordinates, turns) {
         Ok(Some(flag)) if flag.fields.len() >= full => exists(flag),
         Ok(Some(_)) => Verdict::undecided("the brackets do not determine the density"),
         Ok(None) => not_affine(cx, &flow),
@@ -252,7 +288,7 @@ pub fn free_of(
 
 /// Whether a density exists, without its formula; free of the coordinates with these indices.
 fn by_brackets(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Verdict {
-    match flag(cx, flow, free) {
+    match flag(cx, flow, free, &[]) {
         Ok(Some(flag)) => exists(flag),
         Ok(None) => not_affine(cx, flow),
         Err(verdict) => *verdict,
@@ -261,7 +297,12 @@ fn by_brackets(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Verdict {
 
 /// What the derivatives of ln N along admissible fields generate; none for constraints nonlinear in the velocities; a verdict
 /// where there is no density of the coordinates, or where that is not known.
-fn flag(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Result<Option<Flag>, Box<Verdict>> {
+fn flag(
+    cx: &Context<'_>,
+    flow: &Flow<'_>,
+    free: &[usize],
+    turns: &[(Vec<Expr>, Expr)],
+) -> Result<Option<Flag>, Box<Verdict>> {
     let (system, g) = (cx.system, &cx.system.graph);
     let Ok((mut fields, mut drift)) = horizontal(system, &flow.chart) else {
         return Ok(None);
@@ -295,6 +336,14 @@ fn flag(cx: &Context<'_>, flow: &Flow<'_>, free: &[usize]) -> Result<Option<Flag
             time: g.zero(),
             place: unit.collect(),
             value: g.zero(),
+        }
+    }));
+    fields.extend(turns.iter().map(|(coordinates, value)| {
+        let masses = flow.masses.iter().map(|_| g.zero());
+        Directed {
+            time: g.zero(),
+            place: coordinates.iter().copied().chain(masses).collect(),
+            value: *value,
         }
     }));
     closed(cx, flow, &fields).map(Some)
@@ -431,43 +480,11 @@ impl Claim for InvariantMeasure {
             Err(why) => return Verdict::undecided(why.clone()).into(),
         };
         let g = &cx.system.graph;
-        let masses: Vec<&str> = cx.system.masses.iter().map(|m| m.name.as_str()).collect();
-        let n = density_letter(cx);
-        let m = unused_letter(cx.system, &["M", "µ"]);
-        let (form, with) = match masses.is_empty() {
-            true => (format!("{n} dq dη"), String::new()),
-            false => (
-                format!("{n} dq dη d{m}"),
-                format!(" and {m} = ({})", masses.join(", ")),
-            ),
-        };
-        let all = match cx.system.fixed_functions().is_empty() {
-            true => "",
-            false => " and dq that of all coordinates, without the holonomic constraints, whose derivatives alone are imposed",
-        };
-        let with = format!("with η = ({}){with}{all}", measure.velocities.join(", "));
-        let mut formulas = Vec::new();
-        let mut verdict = measure.verdict.clone();
+        let (mut formulas, mut verdict) = (Vec::new(), measure.verdict.clone());
         if let Some(density) = measure.density {
-            formulas.push(Formula {
-                caption: format!("the density {n} of the invariant measure {form}, {with}"),
-                left: None,
-                right: density,
-            });
+            formulas.push(told::formula(cx, measure, density));
             if let Verdict::Proved(proof) | Verdict::Conditional { proof, .. } = &mut verdict {
-                let text = g.text(density);
-                let what = match text.chars().count() <= LONGEST {
-                    true => format!("for {n} = {text}"),
-                    false => format!("for the {n} stated{}", measure.words),
-                };
-                proof.detail = format!("{form}, {with}, is invariant {what}; {}", proof.detail);
-                within(cx, proof, &measure.edges, &n);
-                if !measure.unrolled.is_empty() {
-                    proof.detail.push_str(&format!(
-                        "; {} counted as of the whole line: as an angle, which unit = \"rad\" says, the density would have to return after a turn",
-                        listed(&measure.unrolled)
-                    ));
-                }
+                told::tell(cx, measure, density, proof);
             }
         }
         if let Some(divergence) = measure.divergence {
@@ -483,45 +500,6 @@ impl Claim for InvariantMeasure {
         Finding { verdict, formulas }
     }
 }
-
-/// Names with their verb.
-fn listed(names: &[String]) -> String {
-    let verb = if names.len() == 1 { "is" } else { "are" };
-    format!("{} {verb}", names.join(", "))
-}
-
-/// Says in a proof outside which set a density is one.
-fn within(cx: &Context<'_>, proof: &mut Proof, edges: &formula::Edges, n: &str) {
-    let g = &cx.system.graph;
-    let all = [&edges.of_chart[..], &edges.of_density].concat();
-    let texts = |edges: &[Expr], join: &str| formula::Edges::texts(g, edges, "=", join);
-    if all.is_empty() {
-        return;
-    }
-    if texts(&all, "").chars().count() > LONGEST {
-        proof.on = format!("on the constraint manifold, where {n} is neither zero nor infinite");
-        return;
-    }
-    proof.on = format!(
-        "on the constraint manifold, where {}",
-        formula::Edges::texts(g, &all, "≠", " and ")
-    );
-    if !edges.of_chart.is_empty() {
-        proof.detail.push_str(&format!(
-            "; where {} these variables do not determine the motion; in others {n} is neither zero nor infinite there wherever the mass matrices are regular",
-            texts(&edges.of_chart, " or ")
-        ));
-    }
-    if !edges.of_density.is_empty() {
-        proof.detail.push_str(&format!(
-            "; not where {}, as {n} is zero or infinite there: it is a measure on each of the parts into which this divides the states, and whether another one is smooth and positive across is not decided",
-            texts(&edges.of_density, " or ")
-        ));
-    }
-}
-
-/// Longer densities are shown as formulas only.
-const LONGEST: usize = 160;
 
 /// Larger divergences, in nodes, are not shown.
 const SHOWN: usize = 80;

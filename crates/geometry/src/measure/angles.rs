@@ -44,6 +44,12 @@ pub(super) fn around(cx: &Context<'_>, flow: &Flow<'_>, local: Verdict) -> Verdi
     }
 }
 
+/// Angles after a turn of which a formula does not return.
+pub(super) fn open(cx: &Context<'_>, density: Expr) -> Vec<usize> {
+    let angles = closed_angles(cx).into_iter();
+    angles.filter(|&j| !returns(cx, density, j)).collect()
+}
+
 /// A formula that does not return after a turn of an angle is that of a measure near every place only.
 pub(super) fn returning(
     cx: &Context<'_>,
@@ -51,11 +57,7 @@ pub(super) fn returning(
     density: Expr,
     verdict: Verdict,
 ) -> Verdict {
-    let angles = closed_angles(cx);
-    let open: Vec<usize> = angles
-        .into_iter()
-        .filter(|&j| !returns(cx, density, j))
-        .collect();
+    let open = open(cx, density);
     if open.is_empty() {
         return verdict;
     }
@@ -91,7 +93,7 @@ pub(super) fn unrolled(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Vec<
 }
 
 /// Whether an expression contains an angle only in sines and the like of whole multiples.
-fn returns(cx: &Context<'_>, e: Expr, angle: usize) -> bool {
+pub(super) fn returns(cx: &Context<'_>, e: Expr, angle: usize) -> bool {
     let g = &cx.system.graph;
     let symbol = cx.system.coordinates[angle].q_symbol;
     let mut replaced: Vec<(Expr, Expr)> = Vec::new();
@@ -137,7 +139,7 @@ fn mean(cx: &Context<'_>, slope: Expr, angle: usize) -> Option<Expr> {
 
 /// A verdict where ln N changes over a turn of an angle.
 fn turned(cx: &Context<'_>, flow: &Flow<'_>, angles: &[usize]) -> Option<Verdict> {
-    let found = flag(cx, flow, &[]).ok()??;
+    let found = flag(cx, flow, &[], &[]).ok()??;
     let slopes = slopes(cx, flow, &found)?;
     angles.iter().find_map(|&j| {
         let mean = mean(cx, slopes[j], j)?;

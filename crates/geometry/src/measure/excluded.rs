@@ -9,14 +9,14 @@
 //!    density at rest is a function of the coordinates with prescribed derivatives along the admissible fields. That is the
 //!    argument by which the conditions of Kozlov (1988) and others on densities of the coordinates decide on all of them.
 
-use super::{closed, states, Flow, CONTRADICTION};
+use super::{closed, dissipated, states, Flow, CONTRADICTION};
 use crate::flag::{horizontal, Directed};
 use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{sample, Context, System};
-use chetaev_symbolic::{Expr, Function, Node, Verdict};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Verdict};
 
 /// States are given by values for the symbols that are not free there.
-type State = Vec<(Expr, Expr)>;
+pub(super) type State = Vec<(Expr, Expr)>;
 
 /// A refutation of all smooth positive densities free of the time.
 pub(super) fn excluded(cx: &Context<'_>, flow: &Flow<'_>) -> Option<Verdict> {
@@ -32,7 +32,8 @@ pub(super) fn at_states(cx: &Context<'_>, flow: &Flow<'_>) -> Option<Verdict> {
     let look = || match flow.autonomous {
         true => at_rest(cx, flow)
             .or_else(|| steady(cx, flow))
-            .or_else(|| states::refuted(cx, flow)),
+            .or_else(|| states::refuted(cx, flow))
+            .or_else(|| dissipated::refuted(cx, flow)),
         false => None,
     };
     flow.at_states.get_or_init(look).clone()
@@ -227,7 +228,7 @@ pub(super) fn is_constant(cx: &Context<'_>, e: Expr) -> bool {
 }
 
 /// Whether the state satisfies what the model assumes of its variables, for its values of the parameters.
-fn is_assumed(cx: &Context<'_>, state: &State) -> bool {
+pub(super) fn is_assumed(cx: &Context<'_>, state: &State) -> bool {
     let (system, g) = (cx.system, &cx.system.graph);
     let moves = |e: Expr| !g.is_free_of(e, &|s| system.moves(g.symbol_name(s)));
     let values = system.parameter_values();
@@ -249,16 +250,22 @@ fn is_assumed(cx: &Context<'_>, state: &State) -> bool {
 }
 
 /// Bases below this are taken for zero.
-const TINY: f64 = 1e-9;
+pub(super) const TINY: f64 = 1e-9;
 
 /// Whether the motion is smooth at a state, by its form: no roots, poles or corners there.
 fn is_smooth(cx: &Context<'_>, flow: &Flow<'_>, state: &State) -> bool {
-    let (system, g) = (cx.system, &cx.system.graph);
     let mut all = [&flow.chart.velocities[..], &flow.rates[..]].concat();
     all.extend(flow.masses.iter().map(|(_, rate)| *rate));
     all.push(flow.divergence);
+    let bases = smooth_bases(&cx.system.graph, &all, false);
+    values_at(cx, state, &bases).is_some_and(|v| v.iter().all(|v| v.abs() > TINY))
+        && values_at(cx, state, &all).is_some_and(|v| v.iter().all(|v| v.is_finite()))
+}
+
+/// What expressions are smooth away from the zeros of; `with_corners` that of absolute values is left out.
+pub(super) fn smooth_bases(g: &Graph, all: &[Expr], with_corners: bool) -> Vec<Expr> {
     let mut bases = Vec::new();
-    for e in g.reachable(&all) {
+    for e in g.reachable(all) {
         match g.node(e) {
             Node::Power { base, exponent } if g.as_integer(*exponent).is_none_or(|n| n < 0) => {
                 bases.push(*base);
@@ -267,17 +274,21 @@ fn is_smooth(cx: &Context<'_>, flow: &Flow<'_>, state: &State) -> bool {
                 function: Function::Sin | Function::Cos | Function::Exp | Function::Atan,
                 ..
             } => {}
+            Node::Apply {
+                function: Function::Abs,
+                ..
+            } if with_corners => {}
             Node::Apply { arguments, .. } => bases.extend(arguments.iter().copied()),
             _ => {}
         }
     }
-    let Some(point) = sample::admissible_point(system, cx.terms, 0x6d_65_61) else {
-        return false;
-    };
-    let values = |es: &[Expr]| {
-        let at = g.substitute_all(es, state);
-        g.evaluate_f64(&at, &|s| point.get(&s).copied())
-    };
-    let are_away = values(&bases).is_ok_and(|v| v.iter().all(|v| v.abs() > TINY));
-    are_away && values(&all).is_ok_and(|v| v.iter().all(|v| v.is_finite()))
+    bases
+}
+
+/// The values of expressions at a state, with what is free there as in an admissible one.
+pub(super) fn values_at(cx: &Context<'_>, state: &State, es: &[Expr]) -> Option<Vec<f64>> {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let point = sample::admissible_point(system, cx.terms, 0x6d_65_61)?;
+    let at = g.substitute_all(es, state);
+    g.evaluate_f64(&at, &|s| point.get(&s).copied()).ok()
 }

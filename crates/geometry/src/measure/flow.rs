@@ -11,7 +11,7 @@ use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::{Characteristics, Context, System};
 use chetaev_symbolic::matrix::determinant;
-use chetaev_symbolic::simplify::{simplify, Options};
+use chetaev_symbolic::simplify::{length, simplify, Options};
 use chetaev_symbolic::{Expr, Node, Symbol, Verdict};
 use std::cell::{Cell, OnceCell};
 
@@ -123,11 +123,26 @@ impl<'a> Flow<'a> {
     pub(super) fn density(&self, cx: &Context<'_>) -> Option<(Expr, &'static str)> {
         let letters = self.letters(cx, self.autonomous);
         let plain = self.density_in(cx, &letters).map(|n| (n, WORDS[0]));
-        plain.or_else(|| {
+        let found = plain.or_else(|| {
             let mut more = letters.clone();
             more.push(self.root_of_mass(cx)?);
             Some((self.density_in(cx, &more)?, WORDS[2]))
-        })
+        });
+        found.map(|found| self.by_determinant(cx, found.0).unwrap_or(found))
+    }
+
+    /// The determinant of the mass matrix, where it is a density that is written shorter than another one.
+    fn by_determinant(&self, cx: &Context<'_>, than: Expr) -> Option<(Expr, &'static str)> {
+        let (system, g) = (cx.system, &cx.system.graph);
+        let det = formula::plain(cx, self, self.determinant(cx)?);
+        if length(g, det) >= length(g, than) || !self.is_wanted(det) {
+            return None;
+        }
+        let defect = self.full_defects(system, &[det]);
+        let verdict = cx
+            .prover
+            .identity(system, &defect, &self.chart.manifold, "");
+        matches!(verdict, Verdict::Proved(_)).then_some((det, WORDS[1]))
     }
 
     /// A density that contains the time, for a motion free of it, where functions of the time occur or are stated.

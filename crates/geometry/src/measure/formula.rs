@@ -6,11 +6,11 @@ use crate::noether::shown::readable;
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::system::Coordinate;
-use chetaev_mechanics::{sample, Context, Manifold};
+use chetaev_mechanics::{sample, Context};
 use chetaev_symbolic::simplify::{by_square, length};
 use chetaev_symbolic::zero::assumptions::{Assumptions, SignSet};
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol, Verdict};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Verdict};
 
 /// The states at which the sign of a density is looked at, and where their draws begin.
 const SAMPLES: u64 = 8;
@@ -66,26 +66,6 @@ pub(crate) fn on_both_sides(cx: &Context<'_>, density: Expr) -> Expr {
     g.mul(&real.collect::<Vec<Expr>>())
 }
 
-/// Where a density may be zero or infinite.
-///
-/// `ρ = N²/(det W det W̄)` is a function of the states, whatever variables describe them, as densities and determinants change by the
-/// same Jacobians. Where the mass matrices are regular in some variables N is smooth and positive in these exactly where ρ is.
-#[derive(Clone, Debug, Default)]
-pub struct Edges {
-    /// Where N is zero or infinite and ρ is not: there the variables end, or the motion is not determined.
-    pub of_chart: Vec<Expr>,
-    /// Where ρ may be zero or infinite: there the density ends.
-    pub of_density: Vec<Expr>,
-}
-
-impl Edges {
-    /// The equations of some edges, and what holds off them.
-    pub(super) fn texts(g: &Graph, edges: &[Expr], relation: &str, join: &str) -> String {
-        let texts = edges.iter().map(|&e| format!("{} {relation} 0", g.text(e)));
-        texts.collect::<Vec<String>>().join(join)
-    }
-}
-
 /// A density with the absolute values of what it may change its sign with.
 pub(super) fn positive_beyond(cx: &Context<'_>, density: Expr) -> Expr {
     let g = &cx.system.graph;
@@ -107,129 +87,10 @@ pub(super) fn positive_beyond(cx: &Context<'_>, density: Expr) -> Expr {
     g.mul(&real.collect::<Vec<Expr>>())
 }
 
-fn factors_by_form(g: &Graph, e: Expr) -> Vec<Expr> {
+pub(super) fn factors_by_form(g: &Graph, e: Expr) -> Vec<Expr> {
     match g.node(e) {
         Node::Product { factors, .. } => factors.to_vec(),
         _ => vec![e],
-    }
-}
-
-/// The edges of the domain of a density.
-pub(super) fn edges(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Edges {
-    let g = &cx.system.graph;
-    let of_formula = zeros_and_poles(cx, flow, density);
-    let on_states = flow.masses_of_states(cx).map(|masses| {
-        let ratio = g.mul(&[g.powi(density, 2), g.powi(masses, -1)]);
-        match is_fixed(cx, flow, ratio) {
-            true => Vec::new(),
-            false => zeros_and_poles(cx, flow, ratio),
-        }
-    });
-    let Some(of_density) = on_states else {
-        return Edges {
-            of_chart: Vec::new(),
-            of_density: of_formula,
-        };
-    };
-    let ends_there = |&edge: &Expr| of_density.iter().any(|&h| is_zero_where(cx, h, edge));
-    let of_chart = of_formula.into_iter().filter(|edge| {
-        // A sum that is positive at all states sampled may be nowhere zero, and the motion is not determined where it is.
-        let is_sum = matches!(g.node(*edge), Node::Sum { .. });
-        !(ends_there(edge) || is_sum && signs(cx, *edge).is_some())
-    });
-    Edges {
-        of_chart: of_chart.collect(),
-        of_density,
-    }
-}
-
-/// Whether nothing that moves changes a function on the constraint manifold; one that its letters hide is not seen by its form.
-fn is_fixed(cx: &Context<'_>, flow: &Flow<'_>, e: Expr) -> bool {
-    let g = &cx.system.graph;
-    let own = g.symbols_in(&[e]).into_iter();
-    let moving = own.filter(|&s| flow.motion.moves(s) || flow.symbols().contains(&s));
-    let slopes: Vec<Expr> = moving.map(|s| g.diff(e, s)).collect();
-    flow.chart.implicit().next().is_none()
-        && matches!(
-            cx.prover
-                .identity(cx.system, &slopes, &flow.chart.manifold, ""),
-            Verdict::Proved(_)
-        )
-}
-
-/// Whether a function may vanish wherever another one does.
-fn is_zero_where(cx: &Context<'_>, e: Expr, edge: Expr) -> bool {
-    let (system, g) = (cx.system, &cx.system.graph);
-    if e == edge {
-        return true;
-    }
-    let steep = g.symbols_in(&[edge]).into_iter();
-    let mut steep = steep.filter(|&s| !g.is_zero(g.diff(edge, s)) && g.contains_any(e, &[s]));
-    let Some(symbol) = steep.next_back() else {
-        return false;
-    };
-    let manifold = Manifold {
-        solved: Vec::new(),
-        implicit: vec![(edge, symbol)],
-    };
-    !matches!(
-        cx.prover.identity(system, &[e], &manifold, ""),
-        Verdict::Refuted(_)
-    )
-}
-
-/// Where an expression may be zero or infinite: the factors above and below its common denominator, and what is divided by inside
-/// functions, that are not seen to keep their signs.
-fn zeros_and_poles(cx: &Context<'_>, flow: &Flow<'_>, e: Expr) -> Vec<Expr> {
-    let g = &cx.system.graph;
-    let moving: Vec<Symbol> = g
-        .symbols_in(&[e])
-        .into_iter()
-        .filter(|&s| flow.motion.moves(s) || flow.symbols().contains(&s))
-        .collect();
-    let mut found: Vec<Expr> = Vec::new();
-    let mut add = |e: Expr| {
-        let e = without_absolute_value(g, e);
-        let is_one = g.contains_any(e, &moving) && !is_nowhere_zero(cx, e);
-        let known = |f: &Expr| *f == e || *f == g.neg(e);
-        if is_one && !found.iter().any(known) {
-            found.push(e);
-        }
-    };
-    let parts = products::quotient(g, e).into_iter();
-    let parts: Vec<Expr> = parts.flat_map(|part| factors_by_form(g, part)).collect();
-    for &part in &parts {
-        let base = without_absolute_value(g, g.base_exponent(part).0);
-        for part in products::quotient(g, base) {
-            add(g.base_exponent(part).0);
-        }
-        for inner in g.reachable(&[base]) {
-            match g.node(inner) {
-                Node::Power { base, exponent } if !is_nonnegative_number(g, *exponent) => {
-                    add(*base)
-                }
-                Node::Apply {
-                    function: Function::Log,
-                    arguments,
-                } => add(arguments[0]),
-                _ => {}
-            }
-        }
-    }
-    found
-}
-
-fn is_nonnegative_number(g: &Graph, e: Expr) -> bool {
-    known_sign(g, e, &Assumptions::new()).is_nonnegative()
-}
-
-fn without_absolute_value(g: &Graph, e: Expr) -> Expr {
-    match g.node(e) {
-        Node::Apply {
-            function: Function::Abs,
-            arguments,
-        } => arguments[0],
-        _ => e,
     }
 }
 
@@ -248,12 +109,12 @@ fn bases_of_broken_powers(cx: &Context<'_>) -> Vec<Expr> {
 }
 
 /// Whether an expression is seen to be nowhere negative, under the assumptions or for the values of the parameters.
-fn is_of_one_sign(cx: &Context<'_>, e: Expr) -> bool {
+pub(super) fn is_of_one_sign(cx: &Context<'_>, e: Expr) -> bool {
     forms(cx, e).any(|sign| sign.is_nonnegative())
 }
 
 /// Whether an expression is seen to vanish nowhere, under the assumptions or for the values of the parameters.
-fn is_nowhere_zero(cx: &Context<'_>, e: Expr) -> bool {
+pub(super) fn is_nowhere_zero(cx: &Context<'_>, e: Expr) -> bool {
     let g = &cx.system.graph;
     let is_one = |e: Expr| forms(cx, e).any(|sign| sign.is_nonzero());
     // Over the common denominator what is assumed may be seen.

@@ -5,7 +5,7 @@
 //! and cosines has several factorizations, as `s² = (1 - c)(1 + c)`: it is factored as it is, in cosines, and in sines.
 
 use super::flow::Flow;
-use super::formula;
+use super::{angles, formula};
 use crate::noether::ansatz::Ansatz;
 use crate::noether::family::coefficients;
 use crate::noether::shown::readable;
@@ -21,11 +21,17 @@ const EXPONENTS: usize = 60;
 /// Larger expressions, in nodes, are not factored.
 const FACTORED: usize = 4_000;
 
-/// A density of this form that is kept, with the proof.
-pub(super) fn density(cx: &Context<'_>, flow: &Flow<'_>) -> Option<(Expr, Verdict)> {
+/// A density of this form that is kept, with the proof; of functions that return to their values after a turn of these `angles`.
+pub(super) fn density(
+    cx: &Context<'_>,
+    flow: &Flow<'_>,
+    angles: &[usize],
+) -> Option<(Expr, Verdict)> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let bases = bases(cx, flow);
-    let exponents = exponents(cx, flow);
+    let (mut bases, mut exponents) = (bases(cx, flow), exponents(cx, flow));
+    let returns = |e: &Expr| angles.iter().all(|&j| angles::returns(cx, *e, j));
+    bases.retain(returns);
+    exponents.retain(returns);
     let all = [&bases[..], &exponents[..]].concat();
     let rates = flow.chart.frozen_derivative(system, &all);
     let mut columns: Vec<Vec<Expr>> = Vec::new();
@@ -53,14 +59,7 @@ pub(super) fn density(cx: &Context<'_>, flow: &Flow<'_>) -> Option<(Expr, Verdic
     let rest: Vec<Expr> = rest.map(|(&h, &c)| g.mul(&[power(c), h])).collect();
     parts.push(g.exp(g.add(&rest)));
     let density = formula::plain(cx, flow, g.mul(&parts));
-    let defect = g.add(&[logarithmic_rate(flow, density), flow.divergence]);
-    let on = match is_polynomial(g, density) {
-        true => "on the constraint manifold",
-        false => {
-            "on the constraint manifold, where no base of a negative or broken power in the density vanishes"
-        }
-    };
-    let mut verdict = cx.prover.identity(system, &[defect], manifold, on);
+    let mut verdict = by_logarithm(cx, flow, density);
     let real = formula::on_both_sides(cx, density);
     match &mut verdict {
         Verdict::Proved(proof) if real != density => proof.detail.push_str(
@@ -70,6 +69,34 @@ pub(super) fn density(cx: &Context<'_>, flow: &Flow<'_>) -> Option<(Expr, Verdic
         _ => return None,
     }
     Some((real, verdict))
+}
+
+/// Whether a product of powers is kept, by the rate of its logarithm.
+fn by_logarithm(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Verdict {
+    let g = &cx.system.graph;
+    let defect = g.add(&[logarithmic_rate(flow, density), flow.divergence]);
+    let on = match is_polynomial(g, density) {
+        true => "on the constraint manifold",
+        false => {
+            "on the constraint manifold, where no base of a negative or broken power in the density vanishes"
+        }
+    };
+    cx.prover
+        .identity(cx.system, &[defect], &flow.chart.manifold, on)
+}
+
+/// The proof by its logarithm that a product with roots is kept: nothing is said there of what is under these.
+pub(super) fn proved(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Option<Verdict> {
+    let g = &cx.system.graph;
+    let is_root = |&e: &Expr| {
+        let (base, exponent) = g.base_exponent(e);
+        g.as_integer(exponent).is_none() && !g.is_free_of(base, &|s| flow.motion.moves(s))
+    };
+    if !formula::factors_by_form(g, density).iter().any(is_root) {
+        return None;
+    }
+    let verdict = by_logarithm(cx, flow, density);
+    matches!(verdict, Verdict::Proved(_)).then_some(verdict)
 }
 
 /// Whether no power in the density is negative or broken.
@@ -117,6 +144,7 @@ fn bases(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Expr> {
         .coordinate_symbols()
         .into_iter()
         .chain(g.as_symbol(g.symbol("t", 0)))
+        .chain(flow.masses.iter().map(|(mass, _)| *mass))
         .collect();
     let mut found: Vec<Expr> = Vec::new();
     let mut add = |e: Expr| {
@@ -168,15 +196,27 @@ pub(super) fn quotient(g: &Graph, e: Expr) -> Vec<Expr> {
     }
 }
 
-/// A sum as the product of its factors over a common denominator, where that is shorter.
+/// Sums, and those of which powers are taken in a product, as the products of their factors over a common denominator, where that is
+/// shorter.
 pub(super) fn shorter(g: &Graph, e: Expr) -> Expr {
-    if !matches!(g.node(e), Node::Sum { .. }) || g.reachable(&[e]).len() > FACTORED {
-        return e;
-    }
-    let product = readable(g, g.mul(&quotient(g, e)));
-    match length(g, product) < length(g, e) {
-        true => product,
-        false => e,
+    match g.node(e) {
+        Node::Sum { .. } if g.reachable(&[e]).len() <= FACTORED => {
+            let product = readable(g, g.mul(&quotient(g, e)));
+            match length(g, product) < length(g, e) {
+                true => product,
+                false => e,
+            }
+        }
+        Node::Product {
+            coefficient,
+            factors,
+        } => {
+            let own = factors.iter().map(|&factor| shorter(g, factor));
+            let number = g.number(coefficient.clone());
+            g.mul(&own.chain([number]).collect::<Vec<Expr>>())
+        }
+        Node::Power { base, exponent } => g.pow(shorter(g, *base), *exponent),
+        _ => e,
     }
 }
 
@@ -249,8 +289,12 @@ fn replaced(g: &Graph, e: Expr, kept: Function) -> Vec<Replaced> {
 fn exponents(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<Expr> {
     let g = &cx.system.graph;
     let mut letters = flow.letters(cx, flow.autonomous);
+    // A mass does not vanish.
+    let masses: Vec<Symbol> = flow.masses.iter().map(|(mass, _)| *mass).collect();
     for own in &mut letters {
-        own.exponents.0 = 0;
+        let mass = g.as_symbol(own.letter.value);
+        let is_mass = mass.is_some_and(|s| masses.contains(&s));
+        own.exponents.0 = if is_mass { -1 } else { 0 };
     }
     let value = |member: &[(usize, i8)]| {
         let powers = member.iter();

@@ -36,21 +36,45 @@ fn stated(cx: &Context<'_>, flow: &Flow<'_>) -> Vec<(Expr, Expr)> {
 
 /// What is known for the stated values.
 fn at_values(cx: &Context<'_>) -> Option<Measure> {
+    let found = with_values(cx, |cx| {
+        let flow = Flow::of(cx).ok()?;
+        Some(jumps::limited(cx, &flow, decided(cx, &flow)))
+    });
+    found?
+}
+
+/// The answer for the values that the model states of parameters in the motion, with these as a text; none where it states none.
+pub(crate) fn at_stated_values<T>(
+    cx: &Context<'_>,
+    ask: impl FnOnce(&Context<'_>) -> T,
+) -> Option<(String, T)> {
+    let values = stated(cx, &Flow::of(cx).ok()?);
+    if values.is_empty() {
+        return None;
+    }
+    Some((texts(cx, &values), with_values(cx, ask)?))
+}
+
+fn with_values<T>(cx: &Context<'_>, ask: impl FnOnce(&Context<'_>) -> T) -> Option<T> {
     let system = cx.system.for_parameter_values()?;
     let prepared = Prepared::new(&system).ok()?;
     let known = Registry::new(&[chetaev_mechanics::claims::CLAIMS, crate::CLAIMS]);
     let (terms, selection) = (&prepared.terms, &prepared.selection);
-    let cx = Context::new(&system, terms, selection, &known, cx.prover.clone());
-    let flow = Flow::of(&cx).ok()?;
-    Some(jumps::limited(&cx, &flow, decided(&cx, &flow)))
+    let valued = Context::new(&system, terms, selection, &known, cx.prover.clone());
+    Some(ask(&valued.allowing(cx.work())))
 }
 
-fn joined(cx: &Context<'_>, values: &[(Expr, Expr)], general: Measure, valued: Measure) -> Measure {
+/// Equations of values.
+fn texts(cx: &Context<'_>, values: &[(Expr, Expr)]) -> String {
     let g = &cx.system.graph;
     let texts = values
         .iter()
         .map(|&(p, value)| format!("{} = {}", g.text(p), g.text(value)));
-    let texts = texts.collect::<Vec<String>>().join(", ");
+    texts.collect::<Vec<String>>().join(", ")
+}
+
+fn joined(cx: &Context<'_>, values: &[(Expr, Expr)], general: Measure, valued: Measure) -> Measure {
+    let texts = texts(cx, values);
     match (general.verdict.clone(), valued.verdict.clone()) {
         (
             Verdict::Refuted(found),
@@ -70,6 +94,7 @@ fn joined(cx: &Context<'_>, values: &[(Expr, Expr)], general: Measure, valued: M
                     proof,
                     counterexample: Some(found),
                 },
+                as_stated: true,
                 ..valued
             }
         }
