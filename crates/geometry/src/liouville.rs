@@ -5,6 +5,7 @@
 //! left out first (Routh's ignorable coordinates, also where their momenta are no integrals, as for rolling bodies); they
 //! follow by quadratures at the end, and so do turns of coordinates under which the motion is symmetric ([`turns`]). Masses with a law of their own are variables like the coordinates.
 
+mod involution;
 mod turns;
 
 use crate::measure::{at_stated_values, free_of, measure, Measure};
@@ -19,6 +20,7 @@ use chetaev_mechanics::words::counted;
 use chetaev_mechanics::Characteristics;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Function, Node, Symbol, Verdict};
+use involution::in_involution;
 use turns::{turns, Around, Turn};
 
 /// `liouville.integrable`.
@@ -204,7 +206,7 @@ impl Claim for Liouville {
     }
 
     fn explanation(&self) -> &'static str {
-        "A motion of m variables with m - 2 independent first integrals and an invariant measure is integrated by quadratures (Euler, Jacobi's last multiplier); with m - 1 integrals the measure is not needed. Coordinates on which no rate depends are left out before, and follow by quadratures at the end; so are turns of two coordinates, with shifts of others, that carry motions into motions, where the integrals do not suffice without, as those of the plane with the angle of a sleigh, whatever the velocities in which the motion is stated; independent velocities are called cyclic where nothing drives their momenta, which are integrals then, as those of ignorable coordinates are. The integrals counted are the functions of those that the search found which contain neither these coordinates nor, for a motion free of it, the time. Where they do not suffice for arbitrary parameters and more is kept for the values that the model states, all is counted for these, and the verdict is conditional on them. What is missing is stated; that no more integrals exist is never said."
+        "A motion of m variables with m - 2 independent first integrals and an invariant measure is integrated by quadratures (Euler, Jacobi's last multiplier); with m - 1 integrals the measure is not needed. Where there are no constraints and no forces beside those of a Lagrangian free of the time, as many independent integrals in involution as there are coordinates suffice (Liouville). Coordinates on which no rate depends are left out before, and follow by quadratures at the end; so are turns of two coordinates, with shifts of others, that carry motions into motions, where the integrals do not suffice without, as those of the plane with the angle of a sleigh, whatever the velocities in which the motion is stated; independent velocities are called cyclic where nothing drives their momenta, which are integrals then, as those of ignorable coordinates are. The integrals counted are the functions of those that the search found which contain neither these coordinates nor, for a motion free of it, the time. Where they do not suffice for arbitrary parameters and more is kept for the values that the model states, all is counted for these, and the verdict is conditional on them. What is missing is stated; that no more integrals exist is never said."
     }
 
     fn requires(&self, _: Option<&str>) -> Vec<String> {
@@ -269,10 +271,14 @@ fn counted_for_all(cx: &Context<'_>) -> Result<Verdict, String> {
     if matches!(verdict, Verdict::Proved(_)) {
         return Ok(verdict);
     }
-    match reduced.without_turns(cx) {
-        Some(turned) => counted_with_time(cx, &turned),
-        None => Ok(verdict),
-    }
+    let verdict = match reduced.without_turns(cx) {
+        Some(turned) => counted_with_time(cx, &turned)?,
+        None => verdict,
+    };
+    Ok(match verdict {
+        Verdict::Undecided { .. } => in_involution(cx).unwrap_or(verdict),
+        other => other,
+    })
 }
 
 fn counted_with_time(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {

@@ -260,3 +260,21 @@ fn letters_of_the_model_are_no_letters_of_the_theory() {
         "{detail}"
     );
 }
+
+/// Toda's chain of three with the integral of third degree that the model asks for (Hénon 1974); without it one is missing.
+#[test]
+fn integrals_in_involution() {
+    let mut toda = system(
+        "a b c",
+        "(a'^2 + b'^2 + c'^2)/2 - exp(a - b) - exp(b - c)",
+        &[],
+    );
+    toda.search_degree = Some(3);
+    let (found, detail) = word(&toda, "liouville.integrable");
+    assert_eq!(found, "proved", "{detail}");
+    assert!(detail.contains("in involution"), "{detail}");
+    // Without the integral of third degree one is missing.
+    toda.search_degree = None;
+    let (found, detail) = word(&toda, "liouville.integrable");
+    assert_eq!(found, "undecided", "{detail}");
+}
