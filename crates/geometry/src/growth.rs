@@ -253,17 +253,11 @@ fn on_components(cx: &Context<'_>, none: Verdict) -> Finding {
     }
     let words = "on the component ";
     let mut finding = apart(cx, components, words, decided);
-    let is_known = !matches!(finding.verdict, Verdict::Undecided { .. });
-    if matches!(
-        finding.verdict,
-        Verdict::Refuted(_) | Verdict::Conditional { .. }
-    ) {
+    if !matches!(finding.verdict, Verdict::Proved(_)) {
         let said = finding.verdict.detail().to_owned();
         let said = said.replacen("one side", "one component", 2);
         let why = format!("{}; component by component: {said}", none.detail());
         finding.verdict = Verdict::not_applicable("model.constraints-linear", why);
-    } else if !is_known {
-        finding.verdict = none;
     }
     finding
 }

@@ -570,7 +570,7 @@ fn growth_on_space_and_time_states_the_dimension() {
     );
 }
 
-/// Quadratic forms in two velocities whose discriminant is a positive constant are products over its root: each component keeps a function.
+/// Quadratic forms in two velocities whose discriminant is a positive number are products over its root: each component keeps a function.
 #[test]
 fn quadratic_constraints_factor_over_roots() {
     for (constraint, known) in [
@@ -579,7 +579,7 @@ fn quadratic_constraints_factor_over_roots() {
             "y'^2 - 2*x'*y' - x'^2",
             ["y - (1 + sqrt(2))*x", "y - (1 - sqrt(2))*x"],
         ),
-        ("y'^2 - a*x'^2", ["y - sqrt(a)*x", "y + sqrt(a)*x"]),
+        ("y'^2 - 3*x'^2", ["y - sqrt(3)*x", "y + sqrt(3)*x"]),
     ] {
         let own = with_parameters(in_space(&[("c", constraint)]), [3, 1], false);
         let found = finding(&own, WEAK);

@@ -5,7 +5,7 @@
 
 mod real_factors;
 
-use self::real_factors::{real_factors, Signs};
+use self::real_factors::real_factors;
 use crate::constraint::{Constraint, ConstraintKind};
 use crate::prover::assumptions;
 use crate::selection::Selection;
@@ -293,11 +293,7 @@ impl System {
                 continue;
             }
             let simple = unwrapped(g, constraint.f, &self.velocity_symbols());
-            let signs = Signs {
-                known: &known,
-                is_positive: &|e| self.is_positive_as_stated(e),
-            };
-            let real = real_factors(g, simple.function, &self.velocity_symbols(), signs);
+            let real = real_factors(g, simple.function, &self.velocity_symbols(), &known);
             let same = simple.function == constraint.f;
             let equations = match real.factors.len() {
                 0 if same => continue,
@@ -310,28 +306,13 @@ impl System {
             }
             let unequal = real.denominators.into_iter();
             let unequal = unequal.map(|e| assumption(g, e, Relation::NotEqual, g.zero()));
-            let positive = real.positive.into_iter();
-            let positive = positive.map(|e| assumption(g, g.zero(), Relation::Less, e));
-            let more = unequal.chain(positive);
             found.push(Simpler {
                 row,
                 equations,
-                assumptions: simple.assumptions.into_iter().chain(more).collect(),
+                assumptions: simple.assumptions.into_iter().chain(unequal).collect(),
             });
         }
         found
-    }
-
-    /// Whether an expression of parameters is positive for the values that the model states.
-    fn is_positive_as_stated(&self, e: Expr) -> bool {
-        let g = &self.graph;
-        let stated = |s: Symbol| {
-            let mut own = self.parameters.iter();
-            let own = own.find(|p| p.name == g.symbol_name(s))?;
-            g.evaluate_f64(&[own.value?], &|_| None).ok().map(|v| v[0])
-        };
-        let value = g.evaluate_f64(&[e], &stated);
-        value.is_ok_and(|v| v[0] > 0.0)
     }
 
     /// Whether another function in the place of a constraint's is affine in the velocities.
@@ -363,7 +344,9 @@ impl System {
             sentences.push(sentence);
             system.assumptions.extend(simpler.assumptions.clone());
             system.constraints[simpler.row] = own;
-            conditions.extend((simpler.equations.len() > 1).then_some(text));
+            if simpler.equations.len() > 1 && !conditions.contains(&text) {
+                conditions.push(text);
+            }
         }
         (!sentences.is_empty()).then(|| OnComponent {
             system,

@@ -47,12 +47,12 @@ fn lies_in(cx: &Context<'_>, inner: (&OnComponent, &Prepared), outer: &Prepared)
     matches!(verdict, Verdict::Proved(_))
 }
 
-/// The condition on each component by itself, where no one choice of independent velocities describes all of them; `None` elsewhere.
+/// The condition on each component by itself; `None` where there is one.
 pub(super) fn on_components(cx: &Context<'_>) -> Option<Verdict> {
-    if !are_apart(cx) {
+    let all = components(cx);
+    if all.len() < 2 && !are_apart(cx) {
         return None;
     }
-    let all = components(cx);
     if all.is_empty() {
         let tried = "no one velocity can be solved for on all components of the constraints, and these are too many to be looked at one by one";
         return Some(Verdict::undecided(tried));

@@ -286,12 +286,15 @@ impl Table<'_> {
                 .map(|&(f, s)| (replaced(f), s))
                 .collect(),
         };
-        let rate: Vec<Expr> = self
-            .motion
-            .derivatives(&[value])
-            .into_iter()
-            .map(replaced)
-            .collect();
+        let general = self.motion.derivatives(&[value]);
+        let always = cx
+            .prover
+            .identity(system, &general, &self.motion.manifold, "");
+        // What is kept for all values is none of this one.
+        if matches!(always, Verdict::Proved(_)) {
+            return None;
+        }
+        let rate: Vec<Expr> = general.into_iter().map(replaced).collect();
         let verdict = cx
             .prover
             .identity(system, &rate, &manifold, "at a special value");
@@ -364,6 +367,10 @@ pub(super) fn special(
     let mut parameters = parameters;
     parameters.sort_by_key(|&s| g.symbol_name(s).to_owned());
     let (further, critical) = critical(cx, table, letters, &parameters, (&ties, &found));
+    // A relation that the values stated satisfy says more than these.
+    if further.iter().any(|special| is_stated(cx, &special.tie)) {
+        found.retain(|special| !matches!(special.tie, Tie::Values(_)));
+    }
     found.extend(further);
     Ok(Specials {
         found,

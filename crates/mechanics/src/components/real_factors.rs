@@ -22,17 +22,6 @@ pub(super) struct RealFactors {
     pub(super) factors: Vec<Expr>,
     /// Denominators in which velocities occur and which may vanish.
     pub(super) denominators: Vec<Expr>,
-    /// What is under roots in the factors and positive by the values that a model states alone.
-    pub(super) positive: Vec<Expr>,
-}
-
-/// What is known of signs.
-#[derive(Clone, Copy)]
-pub(super) struct Signs<'a> {
-    /// By the assumptions.
-    pub(super) known: &'a Assumptions,
-    /// Whether an expression is positive for the values that a model states.
-    pub(super) is_positive: &'a dyn Fn(Expr) -> bool,
 }
 
 /// The factors in which velocities occur, without those that vanish nowhere but where another one does.
@@ -40,9 +29,8 @@ pub(super) fn real_factors(
     g: &Graph,
     f: Expr,
     velocities: &[Symbol],
-    signs: Signs<'_>,
+    known: &Assumptions,
 ) -> RealFactors {
-    let known = signs.known;
     let Some(parts) = factored(g, f) else {
         return RealFactors::default();
     };
@@ -53,17 +41,12 @@ pub(super) fn real_factors(
     let denominators = below.filter(|e| !never_zero(e)).collect();
     let above = factors(g, f, velocities).unwrap_or_default().into_iter();
     let split = above.flat_map(|(e, _)| split(g, e, velocities));
-    let split: Vec<Expr> = split.filter(|e| !never_zero(e)).collect();
-    let (mut all, mut positive) = (Vec::new(), Vec::new());
-    for e in split {
-        match over_root(g, e, velocities, signs) {
-            Some((pair, inside)) => {
-                all.extend(pair);
-                positive.extend(inside);
-            }
-            None => all.push(e),
-        }
-    }
+    let split = split.filter(|e| !never_zero(e));
+    let all = split.flat_map(|e| match over_root(g, e, velocities, known) {
+        Some(pair) => pair.to_vec(),
+        None => vec![e],
+    });
+    let all: Vec<Expr> = all.collect();
     let is_needed = |&e: &Expr| {
         let mut others = all.iter().filter(|&&other| other != e);
         let is_empty = zeros(g, e, velocities, known).is_some_and(|zeros| zeros.squares.is_empty());
@@ -72,7 +55,6 @@ pub(super) fn real_factors(
     RealFactors {
         factors: all.iter().copied().filter(is_needed).collect(),
         denominators,
-        positive,
     }
 }
 
@@ -90,44 +72,30 @@ fn split(g: &Graph, e: Expr, velocities: &[Symbol]) -> Vec<Expr> {
     found
 }
 
-/// The two linear factors of `a s² + b s + c` where a vanishes nowhere and `b² - 4 a c` is a positive δ times the square of a form in the other
-/// velocities: `y' - √k x'` and `y' + √k x'` of `y'² - k x'²`; and δ where its sign is that of stated values.
-fn over_root(
-    g: &Graph,
-    e: Expr,
-    velocities: &[Symbol],
-    signs: Signs<'_>,
-) -> Option<([Expr; 2], Option<Expr>)> {
+/// The two linear factors of `a s² + b s + c` where a vanishes nowhere and `b² - 4 a c` is a positive number times the square of a form in the
+/// other velocities: `y' - √3 x'` and `y' + √3 x'` of `y'² - 3 x'²`. Roots of parameters would be letters of every search that follows.
+fn over_root(g: &Graph, e: Expr, velocities: &[Symbol], known: &Assumptions) -> Option<[Expr; 2]> {
     velocities.iter().find_map(|&symbol| {
         let list = coefficients(g, e, symbol)?;
         let &[c, b, a] = list.as_slice() else {
             return None;
         };
-        if g.contains_any(a, velocities) || !known_sign(g, a, signs.known).is_nonzero() {
+        if g.contains_any(a, velocities) || !known_sign(g, a, known).is_nonzero() {
             return None;
         }
         let four = g.mul(&[g.integer(4), a, c]);
         let parts = factored(g, g.sub(g.mul(&[b, b]), four))?;
-        let odd = parts.factors.iter().filter(|(_, n)| n % 2 != 0);
-        let odd = odd.map(|(f, _)| *f).chain([g.number(parts.coefficient)]);
-        let inside = g.mul(&odd.collect::<Vec<Expr>>());
-        if g.is_zero(inside) || g.contains_any(inside, velocities) {
+        let is_square = parts.factors.iter().all(|(_, n)| n % 2 == 0);
+        if !is_square || parts.coefficient <= Rational::ZERO {
             return None;
         }
-        let is_known = known_sign(g, inside, signs.known).is_positive();
-        if !is_known && !(signs.is_positive)(inside) {
-            return None;
-        }
-        let halves = parts
-            .factors
-            .iter()
-            .map(|&(f, n)| g.powi(f, n.div_euclid(2)));
+        let halves = parts.factors.iter().map(|&(f, n)| g.powi(f, n / 2));
         let form = g.mul(&halves.collect::<Vec<Expr>>());
         let by = g.mul(&[g.integer(2), a]);
         let middle = g.add(&[g.symbol_expr(symbol), g.div(b, by)]);
-        let aside = g.div(g.mul(&[g.sqrt(inside), form]), by);
-        let pair = [g.sub(middle, aside), g.add(&[middle, aside])];
-        Some((pair, (!is_known).then_some(inside)))
+        let root = g.sqrt(g.number(parts.coefficient));
+        let aside = g.div(g.mul(&[root, form]), by);
+        Some([g.sub(middle, aside), g.add(&[middle, aside])])
     })
 }
 

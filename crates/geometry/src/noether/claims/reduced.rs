@@ -87,7 +87,7 @@ fn integral(cx: &Context<'_>, symmetry: &Symmetry) -> Finding {
             let moves = format!("for Z = ∂/∂{name}, Z f = {shown}");
             return match kept {
                 Verdict::Refuted(_) => kept.prefixed(&format!(
-                    "{moves} does not keep its value on motions, so no extension of the forces makes Z a symmetry"
+                    "{moves} does not keep its value on motions, so no extension of the forces that keeps f as it is written makes Z a symmetry"
                 )),
                 // Not on all components of the constraints.
                 Verdict::Conditional {
@@ -95,7 +95,7 @@ fn integral(cx: &Context<'_>, symmetry: &Symmetry) -> Finding {
                     counterexample: Some(found),
                     ..
                 } => Verdict::Refuted(found).prefixed(&format!(
-                    "{moves} keeps its value with {condition} alone, so no extension of the forces makes Z a symmetry"
+                    "{moves} keeps its value with {condition} alone, so no extension of the forces that keeps f as it is written makes Z a symmetry"
                 )),
                 Verdict::Proved(_) => Verdict::undecided(format!(
                     "{moves} keeps its value on motions, but {searched}: whether Z is a symmetry is open"
