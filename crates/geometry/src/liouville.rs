@@ -6,9 +6,10 @@
 //! follow by quadratures at the end, and so do turns of coordinates under which the motion is symmetric ([`turns`]). Masses with a law of their own are variables like the coordinates.
 
 mod involution;
+mod kept;
 mod turns;
 
-use crate::measure::{at_stated_values, free_of, measure, Measure};
+use crate::measure::{at_stated_values, measure};
 use crate::noether::cyclic::cyclic;
 use crate::noether::embedded::Embedded;
 use crate::noether::found::{found, Found};
@@ -21,6 +22,7 @@ use chetaev_mechanics::Characteristics;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Function, Node, Symbol, Verdict};
 use involution::in_involution;
+use kept::Kept;
 use turns::{turns, Around, Turn};
 
 /// `liouville.integrable`.
@@ -341,132 +343,6 @@ fn counted_for(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
     let kept = Kept::of(cx, reduced, &values, &counts)?;
     let missing = m - 2 - many.min(m - 2);
     Ok(kept.concluded(&about, missing))
-}
-
-/// The measure of the reduced motion.
-struct Kept {
-    evidence: Verdict,
-    /// What is said where it suffices, and where integrals are missing.
-    suffices: &'static str,
-    known: String,
-}
-
-impl Kept {
-    fn of(
-        cx: &Context<'_>,
-        reduced: &Reduced,
-        values: &[Expr],
-        counts: &dyn Fn(Expr) -> bool,
-    ) -> Result<Kept, String> {
-        let measure = measure(cx);
-        let measure = measure.as_ref().as_ref().map_err(Clone::clone)?;
-        if let Some(evidence) = with_formula(cx, reduced, measure, counts) {
-            let known = match &evidence {
-                Verdict::Conditional { condition, .. } => {
-                    format!("an invariant measure is known where {condition}")
-                }
-                _ => "the invariant measure is known".into(),
-            };
-            return Ok(Kept {
-                evidence,
-                suffices: "the measure of `measure.invariant` is kept",
-                known,
-            });
-        }
-        // A density that changes with the time is one where the time is a variable.
-        if let (None, Some((density, proof)), true) =
-            (measure.density, &measure.with_time, reduced.timed)
-        {
-            if counts(*density) && reduced.turns.is_empty() {
-                return Ok(Kept {
-                    evidence: proof.clone(),
-                    suffices: "the measure N dt dq dη of `measure.invariant` is kept",
-                    known: "the invariant measure N dt dq dη is known".into(),
-                });
-            }
-        }
-        // A density without a formula may contain what is left out: then another one is asked for, which is a quadrature.
-        // Quadratures go from place to place, so a density near each serves, also where none returns to its values on a circle.
-        let g = &cx.system.graph;
-        let turns = reduced.turns.iter();
-        let turns = turns.map(|turn| (turn.coordinates.clone(), g.neg(turn.divergence)));
-        let turns: Vec<(Vec<Expr>, Expr)> = turns.collect();
-        let evidence = free_of(cx, &reduced.ignorable, &turns, values)?;
-        let place = match &evidence {
-            Verdict::Conditional { condition, .. } => format!(" where {condition}"),
-            _ => String::new(),
-        };
-        Ok(Kept {
-            evidence,
-            suffices: "a measure near every place is kept, whose density is a quadrature",
-            known: format!(
-                "an invariant measure of the reduced motion exists near almost every place{place}, without a formula here"
-            ),
-        })
-    }
-
-    /// The verdict with so many integrals too few.
-    fn concluded(self, about: &str, missing: usize) -> Verdict {
-        let Kept {
-            evidence,
-            suffices,
-            known,
-        } = self;
-        // Where rates jump the quadratures go on from one side to the other.
-        let usable = matches!(evidence, Verdict::Proved(_) | Verdict::Conditional { .. });
-        match (missing, evidence) {
-            (
-                0,
-                Verdict::Conditional {
-                    condition,
-                    mut proof,
-                    counterexample,
-                },
-            ) => {
-                proof.detail = format!("{about}; {suffices}; {}", proof.detail);
-                Verdict::Conditional {
-                    condition,
-                    proof,
-                    counterexample,
-                }
-            }
-            (0, evidence @ Verdict::Proved(_)) => {
-                let on = "where the integrals are independent";
-                let detail = format!("{about}; {suffices}");
-                Verdict::Proved(Proof::exact(on, detail)).and(evidence)
-            }
-            (0, _) => Verdict::undecided(format!(
-                "{about}; an invariant measure of the reduced motion is missing (`measure.invariant`)"
-            )),
-            (missing, _) => {
-                let measure = match usable {
-                    true => known,
-                    false => "an invariant measure of the reduced motion is not known either".into(),
-                };
-                let more = counted(missing, "further integral is", "further integrals are");
-                Verdict::undecided(format!("{about}; {more} missing; {measure}"))
-            }
-        }
-    }
-}
-
-/// The proof that the density found is kept, where it is one of the reduced motion: free of what is left out, and carried along by turns.
-fn with_formula(
-    cx: &Context<'_>,
-    reduced: &Reduced,
-    measure: &Measure,
-    counts: &dyn Fn(Expr) -> bool,
-) -> Option<Verdict> {
-    let g = &cx.system.graph;
-    // One for the values that the model states is none for arbitrary ones.
-    let (density, proof) = measure.density.zip(measure.kept.clone())?;
-    let is_carried = |turn: &Turn| {
-        let rate = reduced.turned(cx, &[density], turn)[0];
-        let defect = g.add(&[rate, g.mul(&[density, turn.divergence])]);
-        vanishes(cx, &reduced.chart, defect)
-    };
-    let is_one = !measure.as_stated && counts(density) && reduced.turns.iter().all(is_carried);
-    is_one.then_some(proof)
 }
 
 /// How many functions of the integrals do not contain what is left out. Shifts of it carry motions into motions, so they act on

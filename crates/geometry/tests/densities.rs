@@ -11,6 +11,11 @@ mod common;
 use chetaev_mechanics::System;
 use common::{expr, finding, framed, system};
 
+fn counted(system: &System) -> (&'static str, String) {
+    let finding = finding(system, "liouville.integrable");
+    (finding.verdict.word(), finding.verdict.detail().to_owned())
+}
+
 fn told(system: &System) -> (&'static str, String) {
     let finding = finding(system, "measure.invariant");
     (finding.verdict.word(), finding.verdict.detail().to_owned())
@@ -149,4 +154,80 @@ fn drag_on_one_velocity_suffices() {
     let (word, detail) = told(&own);
     assert_eq!(word, "refuted", "{detail}");
     assert!(detail.contains("strict minimum at rest"), "{detail}");
+}
+
+/// Liouville's density ∂²L/∂x'² of a relativistic point in one dimension, `(1 - x'²/c²)^(-3/2)`.
+#[test]
+fn one_base_is_written_once() {
+    let (word, detail) = told(&system("x", "-c^2*sqrt(1 - x'^2/c^2) - x^2", &[]));
+    assert_eq!(word, "proved", "{detail}");
+    assert!(
+        detail.contains("(-x'^2/c^2 + 1)^(-3/2)") || detail.contains("1/(-x'^2/c^2 + 1)^(3/2)"),
+        "{detail}"
+    );
+}
+
+/// The class of the constraints, where it is established, with the sources of the condition: the sleigh is a left-invariant system on the
+/// plane's motions in velocities of the body, and one of Chaplygin's in those of space.
+#[test]
+fn classes_are_named_with_their_sources() {
+    let kinetic = "((x' - a*phi'*sin(phi))^2 + (y' + a*phi'*cos(phi))^2 + phi'^2)/2";
+    let blade = [("blade", "y'*cos(phi) - x'*sin(phi)")];
+    let own = [("u", "x'*cos(phi) + y'*sin(phi)"), ("w", "phi'")];
+    for (speeds, source) in [(&own[..], "Kozlov (1988)"), (&[], "Stanchenko (1989)")] {
+        let (word, detail) = told(&framed("x y phi", kinetic, &blade, speeds, &[]));
+        assert_eq!(word, "refuted", "{detail}");
+        assert!(detail.contains(source), "{detail}");
+    }
+    let (_, detail) = told(&framed("x", "x'^2/2 - x^2", &[], &[], &[("x", "-x'")]));
+    assert!(
+        !detail.contains("Kozlov") && !detail.contains("Stanchenko"),
+        "{detail}"
+    );
+}
+
+/// The sleigh with its mass centre before the blade has the variables u, φ' of its body, and the energy: five less the three dimensions
+/// of the motions of the plane. In x', y' the rates contain φ, and what is counted is the same. On a slope nothing turns, and a force
+/// along x' turns with the velocities: the speed alone is left.
+#[test]
+fn turns_are_left_out_whatever_the_velocities() {
+    let kinetic = "((x' - a*phi'*sin(phi))^2 + (y' + a*phi'*cos(phi))^2 + phi'^2)/2";
+    let blade = [("blade", "y'*cos(phi) - x'*sin(phi)")];
+    let (word, detail) = counted(&system("x y phi", kinetic, &blade));
+    assert_eq!(word, "proved", "{detail}");
+    let says = "2 variables after x, y and the turns of (x, y) with phi, under which the motion is symmetric, are left out, with 1 integral";
+    assert!(detail.contains(says), "{detail}");
+    let slope = format!("{kinetic} - g*x");
+    let (_, detail) = counted(&system("x y phi", &slope, &blade));
+    assert!(!detail.contains("turns"), "{detail}");
+    let drag = "1 + x'^2 + y'^2 + exp(x'^2 + y'^2)";
+    let forces = [
+        ("x", format!("-x'*({drag})")),
+        ("y", format!("-y'*({drag})")),
+    ];
+    let forces = forces.each_ref().map(|(q, force)| (*q, force.as_str()));
+    let point = framed("x y", "(x'^2 + y'^2)/2", &[], &[], &forces);
+    let (word, detail) = counted(&point);
+    assert_eq!(word, "proved", "{detail}");
+}
+
+/// Two wheels on an axle of half length b with the mass centre before it: the same two variables, with the angles of the wheels left out.
+#[test]
+fn a_cart_on_two_wheels_has_two_variables() {
+    let kinetic = "(m*((x' - a*phi'*sin(phi))^2 + (y' + a*phi'*cos(phi))^2) + J*phi'^2 + I*(p1'^2 + p2'^2))/2";
+    let cart = system(
+        "x y phi p1 p2",
+        kinetic,
+        &[
+            ("blade", "y'*cos(phi) - x'*sin(phi)"),
+            ("first", "x'*cos(phi) + y'*sin(phi) + b*phi' - R*p1'"),
+            ("second", "x'*cos(phi) + y'*sin(phi) - b*phi' - R*p2'"),
+        ],
+    );
+    let (word, detail) = counted(&cart);
+    assert_eq!(word, "proved", "{detail}");
+    assert!(
+        detail.contains("2 variables after") && detail.contains("with phi"),
+        "{detail}"
+    );
 }

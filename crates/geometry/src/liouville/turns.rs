@@ -92,10 +92,14 @@ impl Around<'_> {
         let found = ansatz.with_last()?;
         let (&last, shifts) = found.split_last()?;
         let mut field = fields.pop()?;
-        let mut words = format!("the turns of ({}, {})", a.name, b.name);
+        let mut with: Vec<&str> = Vec::new();
         for (&c, &shift) in others.iter().zip(shifts).filter(|(_, &e)| !g.is_zero(e)) {
             field[c] = readable(g, g.div(shift, last));
-            words.push_str(&format!(" with {}", system.coordinates[c].name));
+            with.push(&system.coordinates[c].name);
+        }
+        let mut words = format!("the turns of ({}, {})", a.name, b.name);
+        if !with.is_empty() {
+            words.push_str(&format!(" with {}", with.join(", ")));
         }
         self.proved(cx, field, words)
     }

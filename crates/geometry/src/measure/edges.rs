@@ -73,7 +73,10 @@ pub(super) fn edges(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Edges {
         }
     };
     let meet = |a: Expr, b: Expr| is_zero_where(cx, a, b) || is_zero_where(cx, b, a);
-    let ends_there = |edge: &Expr| of_states.iter().any(|&h| meet(h, *edge));
+    // A function of one variable vanishes at places, as 1 - cos x at some of those of sin x; of more it may do so nowhere.
+    let is_of_one = |e: Expr| moving(flow, e).len() == 1;
+    let ends_at = |h: Expr, e: Expr| is_zero_where(cx, h, e) || is_of_one(h) && meet(h, e);
+    let ends_there = |edge: &Expr| of_states.iter().any(|&h| ends_at(h, *edge));
     let (of_density, of_chart): (Vec<Expr>, Vec<Expr>) =
         own.of_powers.into_iter().partition(ends_there);
     let named = [&of_density[..], &own.of_functions].concat();

@@ -9,7 +9,7 @@
 //!    density at rest is a function of the coordinates with prescribed derivatives along the admissible fields. That is the
 //!    argument by which the conditions of Kozlov (1988) and others on densities of the coordinates decide on all of them.
 
-use super::{closed, dissipated, states, Flow, CONTRADICTION};
+use super::{classes, closed, dissipated, states, Flow, CONTRADICTION};
 use crate::flag::{horizontal, Directed};
 use chetaev_mechanics::system::Relation;
 use chetaev_mechanics::{sample, Context, System};
@@ -90,8 +90,9 @@ fn linear_at_rest(cx: &Context<'_>, flow: &Flow<'_>) -> Option<Verdict> {
             found.detail = format!(
                 "{CONTRADICTION}; as rest is admissible and the accelerations have neither terms without velocities nor terms \
                  linear in them there, no other smooth positive density exists either: the terms linear in the velocities of \
-                 its equation are those for the density at rest{}",
-                residual.unwrap_or_default()
+                 its equation are those for the density at rest{}{}",
+                residual.unwrap_or_default(),
+                classes::sources(cx, flow)
             );
             Some(Verdict::Refuted(found))
         }

@@ -7,6 +7,7 @@ use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::system::Coordinate;
 use chetaev_mechanics::{sample, Context};
+use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::simplify::{by_square, length};
 use chetaev_symbolic::zero::assumptions::{Assumptions, SignSet};
 use chetaev_symbolic::zero::known_sign;
@@ -22,19 +23,25 @@ pub(super) fn plain(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Expr {
     let without = without_constants(flow, in_differences(cx, flow, density));
     let without = without_constants(flow, products::shorter(g, without));
     let outside = outside_roots(g, without);
+    let outside = without_constants(flow, with_one_base(flow, outside));
     // Outside a root the sign of a base counts, which is one for all states where it has to be.
-    match signs(cx, outside) {
-        Some(true) => outside,
-        Some(false) => g.neg(outside),
-        None => match signs(cx, without) {
-            Some(false) => g.neg(without),
-            Some(true) => without,
-            // A root of a product whose constant factor is negative.
-            None => match values(cx, without).iter().any(|v| v.is_nan()) {
-                true => density,
-                false => without,
-            },
-        },
+    let found = positive_where_real(cx, outside, density);
+    let found = found.or_else(|| positive_where_real(cx, without, density));
+    // Without a constant factor that is negative and under a root nothing may be real.
+    found.unwrap_or(match values(cx, without).iter().any(|v| v.is_nan()) {
+        true => density,
+        false => without,
+    })
+}
+
+/// The function or its negative, whichever is positive at all sampled states where another one is real.
+fn positive_where_real(cx: &Context<'_>, e: Expr, density: Expr) -> Option<Expr> {
+    let both = values(cx, e).into_iter().zip(values(cx, density));
+    let own: Vec<f64> = both.filter(|(_, d)| !d.is_nan()).map(|(v, _)| v).collect();
+    match own.first()? {
+        _ if own.iter().all(|&v| v > 0.0) => Some(e),
+        _ if own.iter().all(|&v| v < 0.0) => Some(cx.system.graph.neg(e)),
+        _ => None,
     }
 }
 
@@ -268,6 +275,35 @@ fn outside_root(g: &Graph, root: Expr) -> Expr {
     }
     outside.push(g.pow(g.mul(&inside), exponent));
     g.mul(&outside)
+}
+
+/// A product in which bases under whole exponents that are constant multiples of others are these, up to a constant factor.
+fn with_one_base(flow: &Flow<'_>, e: Expr) -> Expr {
+    let (g, own) = (&flow.motion.system.graph, flow.symbols());
+    let factors = factors_by_form(g, e);
+    let moves = |e: Expr| !g.is_free_of(e, &|s| flow.motion.moves(s) || own.contains(&s));
+    let powers: Vec<(Expr, Expr)> = factors.iter().map(|&f| g.base_exponent(f)).collect();
+    let is_sum = |e: Expr| matches!(g.node(e), Node::Sum { .. });
+    let is_whole = |exponent: Expr| g.as_integer(exponent).is_some();
+    let mut found: Vec<(Expr, Expr)> = Vec::new();
+    let (whole, broken): (Vec<_>, Vec<_>) = powers.into_iter().partition(|p| is_whole(p.1));
+    found.extend(broken);
+    for (base, exponent) in whole {
+        let is_multiple = |other: Expr| {
+            let ratio = factored(g, g.div(base, other));
+            ratio.is_some_and(|r| !r.factors.iter().any(|(f, _)| moves(*f)))
+        };
+        let mut others = found.iter_mut();
+        let other = others.find(|(other, power)| {
+            !is_whole(*power) && is_sum(base) && is_sum(*other) && is_multiple(*other)
+        });
+        match other {
+            Some((_, power)) => *power = g.add(&[*power, exponent]),
+            None => found.push((base, exponent)),
+        }
+    }
+    let parts = found.into_iter().map(|(base, e)| g.pow(base, e));
+    g.mul(&parts.collect::<Vec<Expr>>())
 }
 
 /// The factors that do not move, of a product or of all terms of a sum; roots of products included.

@@ -181,7 +181,7 @@ impl Sought {
         })
     }
 
-    /// The assumptions of the model, at the values of the parameters, and that the motion is smooth.
+    /// The assumptions of the model, at the values of the parameters, and that the motion is smooth and masses have not vanished.
     fn conditions(&self, cx: &Context<'_>, flow: &Flow<'_>) -> Assumptions {
         let (system, g) = (cx.system, &cx.system.graph);
         let values = system.parameter_values();
@@ -194,7 +194,9 @@ impl Sought {
         if !flow.symbols().iter().any(|s| self.unknowns.contains(s)) {
             smooth = g.substitute_all(&smooth, &rest(flow, system));
         }
-        for e in smooth {
+        // A mass that has vanished has no motion.
+        let masses = flow.masses.iter().map(|(mass, _)| g.symbol_expr(*mass));
+        for e in smooth.into_iter().chain(masses) {
             list.assume(g.substitute(e, &values), Relation::NotEqual, g.zero());
         }
         list
