@@ -957,3 +957,11 @@ r2 = "x' sin(th + be) - y' cos(th + be) - l th' cos(be) = 0"
             .all(|i| i.name.as_deref() != Some("the energy")));
     });
 }
+
+/// A bead on a turning rod, as a particle: r'' = w² r although sines and cosines of w t stand in its place, whose rates have the eigenvalues ±iw;
+/// (r' - w r) exp(w t) and the energy of the turning frame are kept.
+#[test]
+fn a_bead_on_a_turning_rod() {
+    let text = "name = \"rod\"\ncoordinates = [\"r\"]\nparameters = {m = 1, w = 1}\n[particles.p]\nmass = \"m\"\nposition = [\"r cos(w t)\", \"r sin(w t)\"]\nforce = [\"0\", \"0\"]\n[integrals]\ndecay = \"(r' - w r) exp(w t)\"\n";
+    contains(text, 2);
+}

@@ -302,7 +302,32 @@ fn mapped_inside(g: &Graph, pairs: &Pairs) -> Option<(Pairs, Vec<Vec<Expr>>)> {
     Some((next.collect(), by_all.collect()))
 }
 
-/// The factors of degree one and two of a polynomial of a higher degree with numbers as coefficients; others as they are.
+/// The factors of `a λ⁴ + b λ² + c` whose discriminant as a polynomial in λ² is a square: λ² - w² and λ² + w² of λ⁴ - w⁴.
+fn biquadratic(g: &Graph, polynomial: Expr, symbol: Symbol) -> Option<Vec<Expr>> {
+    let own = coefficients(g, polynomial, symbol)?;
+    let &[c, odd, b, other, a] = own.as_slice() else {
+        return None;
+    };
+    if !g.is_zero(odd) || !g.is_zero(other) {
+        return None;
+    }
+    let square = readable(g, g.sub(g.powi(b, 2), g.mul(&[g.integer(4), a, c])));
+    let root = root_or_negative(g, square);
+    let is_root = |&e: &Expr| g.as_integer(g.base_exponent(e).1).is_none();
+    if g.reachable(&[root]).iter().any(is_root) {
+        return None;
+    }
+    let unknown = g.powi(g.symbol_expr(symbol), 2);
+    let below = g.mul(&[g.integer(2), a]);
+    let factor = |root: Expr| {
+        let value = readable(g, g.div(g.sub(root, b), below));
+        g.sub(unknown, value)
+    };
+    Some(vec![factor(root), factor(g.neg(root))])
+}
+
+/// The factors of degree one and two of a polynomial of a higher degree with numbers as coefficients, or in even powers up to the fourth;
+/// others as they are.
 fn split(g: &Graph, polynomial: Expr, symbol: Symbol) -> Vec<Expr> {
     let numbers = coefficients(g, polynomial, symbol).and_then(|own| {
         let numbers = own.iter().map(|&c| g.as_number(c).cloned());
@@ -310,7 +335,7 @@ fn split(g: &Graph, polynomial: Expr, symbol: Symbol) -> Vec<Expr> {
     });
     let unknown = g.symbol_expr(symbol);
     match numbers.filter(|own| own.len() > 3) {
-        None => vec![polynomial],
+        None => biquadratic(g, polynomial, symbol).unwrap_or_else(|| vec![polynomial]),
         Some(own) => linear_and_quadratic(&own)
             .into_iter()
             .map(|factor| {
