@@ -3,7 +3,8 @@
 //! A motion of m variables with m - 2 independent integrals and an invariant measure is integrated by quadratures (Jacobi's last
 //! multiplier); m - 1 integrals need no measure. Coordinates on which neither the rates of the others nor their own depend are
 //! left out first (Routh's ignorable coordinates, also where their momenta are no integrals, as for rolling bodies); they
-//! follow by quadratures at the end, and so do turns of coordinates under which the motion is symmetric ([`turns`]). Masses with a law of their own are variables like the coordinates.
+//! follow by quadratures at the end, and so do turns of coordinates under which the motion is symmetric (`turns`). Masses
+//! with a law of their own are variables like the coordinates.
 
 mod involution;
 mod kept;
