@@ -184,7 +184,7 @@ impl<'a> Ansatz<'a> {
     ) -> Option<Vec<Residue>> {
         let mut rows = Vec::with_capacity(points * self.equations * used.len());
         for _ in 0..points {
-            let at = (0..20).find_map(|_| self.points.at(draw, random))?;
+            let at = self.points.at(draw, random)?;
             for equation in 0..self.equations {
                 rows.extend(used.iter().map(|&c| at[c * self.equations + equation]));
             }
@@ -193,7 +193,7 @@ impl<'a> Ansatz<'a> {
     }
 
     fn parameters_at(&self, draw: &Draw, random: &mut Random) -> Option<Vec<Residue>> {
-        let at = (0..20).find_map(|_| self.points.at(draw, random))?;
+        let at = self.points.at(draw, random)?;
         Some(at[self.columns * self.equations..].to_vec())
     }
 }

@@ -168,19 +168,17 @@ impl<'a> Table<'a> {
 
     pub(super) fn at(&self, draw: &Draw, random: &mut Random) -> Option<At> {
         let count = self.letters.len();
-        (0..20).find_map(|_| {
-            let outputs = self.points.at(draw, random)?;
-            let (values, rest) = outputs.split_at(count);
-            let (rates, rest) = rest.split_at(count);
-            let (parameters, gradients) = rest.split_at(self.parameters.len());
-            let inverse = |&x: &Residue| draw.field.inv(x).unwrap_or(Residue::ZERO);
-            Some(At {
-                inverses: values.iter().map(inverse).collect(),
-                rates: rates.to_vec(),
-                values: values.to_vec(),
-                parameters: parameters.to_vec(),
-                gradients: gradients.to_vec(),
-            })
+        let outputs = self.points.at(draw, random)?;
+        let (values, rest) = outputs.split_at(count);
+        let (rates, rest) = rest.split_at(count);
+        let (parameters, gradients) = rest.split_at(self.parameters.len());
+        let inverse = |&x: &Residue| draw.field.inv(x).unwrap_or(Residue::ZERO);
+        Some(At {
+            inverses: values.iter().map(inverse).collect(),
+            rates: rates.to_vec(),
+            values: values.to_vec(),
+            parameters: parameters.to_vec(),
+            gradients: gradients.to_vec(),
         })
     }
 

@@ -8,6 +8,9 @@ use super::random::Random;
 /// splits into linear factors is gcd(x^p − x, f), and (x + a)^((p−1)/2) − 1 takes it apart (Cantor and Zassenhaus, Math. Comp.
 /// 36, 1981).
 pub fn random_root(field: &PrimeField, lower: &[Residue], random: &mut Random) -> Option<Residue> {
+    if let &[c, b] = lower {
+        return quadratic_root(field, [c, b], random);
+    }
     let mut f = lower.to_vec();
     f.push(field.one());
     let x = vec![Residue::ZERO, field.one()];
@@ -31,6 +34,16 @@ pub fn random_root(field: &PrimeField, lower: &[Residue], random: &mut Random) -
         }
     }
     None
+}
+
+/// A random root of x² + b x + c.
+fn quadratic_root(field: &PrimeField, [c, b]: [Residue; 2], random: &mut Random) -> Option<Residue> {
+    let half = field.inv(field.from_u64(2))?;
+    let middle = field.mul(b, half);
+    let root = field.sqrt(field.sub(field.mul(middle, middle), c))?;
+    let is_first = random.next_u64() & 1 == 0;
+    let root = if is_first { root } else { field.neg(root) };
+    Some(field.sub(root, middle))
 }
 
 /// a^n modulo the monic f.

@@ -46,6 +46,8 @@ impl std::fmt::Debug for PointsOf<'_> {
 #[derive(Debug)]
 pub struct Points {
     program: Program,
+    /// The part of it that the constraints need.
+    solving: Program,
     /// Which generators keep their values in one draw.
     fixed_generators: Vec<bool>,
     fixed_circles: Vec<bool>,
@@ -66,6 +68,9 @@ pub struct Draw {
 
 /// At most so many points are refused one after the other.
 const REFUSED: u32 = 4000;
+
+/// At most so many are refused where there are constraints: a draw without points is found out by its refusals, and each costs more.
+const REFUSED_ON_CONSTRAINTS: u32 = 400;
 
 /// A tower is taken apart at most so often.
 const DEEPEST: usize = 24;
@@ -121,6 +126,7 @@ impl Points {
             fixed_generators,
             fixed_circles,
             symbols: symbols.collect(),
+            solving: program.of_constraints(),
             program,
         })
     }
@@ -235,7 +241,11 @@ impl Points {
     /// The values of the expressions at one more random point of the draw; `None` when so many points are refused that there
     /// seem to be none.
     pub fn at(&self, draw: &Draw, random: &mut Random) -> Option<Vec<Residue>> {
-        (0..REFUSED).find_map(|_| {
+        let most = match self.program.constraints.is_empty() {
+            true => REFUSED,
+            false => REFUSED_ON_CONSTRAINTS,
+        };
+        (0..most).find_map(|_| {
             let mut point = self.random_point(&draw.field, random)?;
             for (i, fixed) in self.fixed_generators.iter().enumerate() {
                 if *fixed {
@@ -268,42 +278,52 @@ impl Points {
         Some(outputs.map(|&output| *run.get(output)).collect())
     }
 
-    /// A point of the constraints with coordinates in the prime field: in the ring of all solutions a root of each equation
-    /// is chosen, until one solution is left.
+    /// A point of the constraints with coordinates in the prime field.
     fn constrained(&self, draw: &Draw, point: &Point, random: &mut Random) -> Option<Vec<Residue>> {
-        let variety = Variety::new(&self.program, 1, self.program.outputs.len());
+        let program = &self.program;
+        let ring = Scalars {
+            field: draw.field,
+            negative: &draw.negative,
+        };
+        let mut run = Run::new(program, point, self.dependent(draw, point, random)?);
+        run.advance(&ring, program.operations.len()).ok()?;
+        // The equation of a symbol has more solutions than the constraint where roots contain it.
+        let mut constraints = program.constraints.iter();
+        let hold = constraints.all(|&constraint| run.get(constraint).is_zero());
+        let outputs = program.outputs.iter();
+        hold.then(|| outputs.map(|&output| *run.get(output)).collect())
+    }
+
+    /// Values of the dependent symbols: in the ring of all solutions a root of each equation is chosen, until one solution is left.
+    fn dependent(
+        &self,
+        draw: &Draw,
+        point: &Point,
+        random: &mut Random,
+    ) -> Option<Vec<Residue>> {
+        let variety = Variety::new(&self.solving, 1, 0);
+        let scalar = |e: &Element| e.first().copied().unwrap_or(Residue::ZERO);
         let mut prescribed: Vec<Option<Vec<Element>>> = Vec::new();
         for _ in 0..DEEPEST {
             let tower = Tower::new(draw.field, &draw.negative, &prescribed);
-            let next = match variety.outputs(&tower, point) {
+            let (level, equation) = match variety.solutions(&tower, point) {
                 Solution::None => return None,
                 Solution::Split(split) => {
-                    let mut next = tower.equations(split.level);
                     let [first, second] = split.factors;
-                    next.push(Some(if random.next_u64() & 1 == 0 {
-                        first
-                    } else {
-                        second
-                    }));
-                    next
+                    let is_first = random.next_u64() & 1 == 0;
+                    (split.level, if is_first { first } else { second })
                 }
-                Solution::Outputs(outputs) => match tower.first_extension() {
-                    None => {
-                        let scalar = |e: &Element| e.first().copied().unwrap_or(Residue::ZERO);
-                        return Some(outputs.iter().map(scalar).collect());
-                    }
+                Solution::Dependent(dependent) => match tower.first_extension() {
+                    None => return Some(dependent.iter().map(scalar).collect()),
                     Some((level, equation)) => {
-                        let coefficients = equation
-                            .iter()
-                            .map(|c| c.first().copied().unwrap_or(Residue::ZERO));
-                        let coefficients: Vec<Residue> = coefficients.collect();
+                        let coefficients: Vec<Residue> = equation.iter().map(scalar).collect();
                         let root = random_root(&draw.field, &coefficients, random)?;
-                        let mut next = tower.equations(level);
-                        next.push(Some(vec![vec![draw.field.neg(root)]]));
-                        next
+                        (level, vec![vec![draw.field.neg(root)]])
                     }
                 },
             };
+            let mut next = tower.equations(level);
+            next.push(Some(equation));
             prescribed = next;
         }
         None

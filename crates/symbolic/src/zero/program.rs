@@ -201,6 +201,13 @@ impl Program {
         self
     }
 
+    /// The program without outputs: what the constraints need, at the same points.
+    pub(super) fn of_constraints(&self) -> Self {
+        let mut own = self.clone();
+        own.outputs.clear();
+        own.arranged()
+    }
+
     /// Which values depend on a dependent symbol.
     fn tainted(&self) -> Vec<bool> {
         let mut tainted: Vec<bool> = Vec::with_capacity(self.operations.len());

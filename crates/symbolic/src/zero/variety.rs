@@ -32,9 +32,9 @@ pub(super) enum Failure {
     Unsupported(String),
 }
 
-/// What one tower gives for the outputs.
+/// What one tower gives for the dependent symbols.
 pub(super) enum Solution {
-    Outputs(Vec<Element>),
+    Dependent(Vec<Element>),
     Split(Split),
     /// Nothing at this point.
     None,
@@ -100,15 +100,11 @@ impl<'p> Variety<'p> {
         Ok(parts)
     }
 
-    /// The outputs at the solutions that one tower stands for.
-    pub(super) fn outputs(&self, tower: &Tower<'_>, point: &Point) -> Solution {
-        let solved = match self.evaluated(tower, point) {
-            Ok(Ok(outputs)) => return Solution::Outputs(outputs),
-            Ok(Err(part)) => part,
-            Err(_) => return Solution::None,
-        };
-        match solved {
-            Part::Split(split) => Solution::Split(split),
+    /// The dependent symbols at the solutions that one tower stands for.
+    pub(super) fn solutions(&self, tower: &Tower<'_>, point: &Point) -> Solution {
+        match self.solve(tower, point) {
+            Ok(Ok(dependent)) => Solution::Dependent(dependent),
+            Ok(Err(Part::Split(split))) => Solution::Split(split),
             _ => Solution::None,
         }
     }
