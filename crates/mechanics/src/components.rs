@@ -11,7 +11,7 @@ use crate::prover::assumptions;
 use crate::selection::Selection;
 use crate::system::{Assumption, Relation, System};
 use crate::terms::MotionTerms;
-use chetaev_symbolic::factors::{factored, factors};
+use chetaev_symbolic::factors::{factored, irreducible_factors};
 use chetaev_symbolic::zero::assumptions::SignSet;
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{rational, Expr, Function, Graph, Node, Rational, Symbol};
@@ -25,7 +25,7 @@ pub(crate) fn factors_of(system: &System, terms: &MotionTerms, row: usize) -> Ve
     if !g.any_contains_any(gradient, &velocities) {
         return Vec::new();
     }
-    let list = factors(g, terms.constraints[row], &velocities).unwrap_or_default();
+    let list = irreducible_factors(g, terms.constraints[row], &velocities).unwrap_or_default();
     match list.len() {
         0 | 1 => Vec::new(),
         _ => list.into_iter().map(|(factor, _)| factor).collect(),

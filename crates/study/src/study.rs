@@ -24,7 +24,7 @@ use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::Selection;
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::claims::full_id;
-use chetaev_mechanics::components::OnComponent;
+use chetaev_mechanics::components::{covered, OnComponent};
 use chetaev_mechanics::formulations::{Maggi, Routh};
 use chetaev_mechanics::{
     formulation, Claim, Context, Finding, Formulation, Group, Prepared, Prover, Registry, System,
@@ -336,7 +336,7 @@ fn compute(
     let (terms, selection) = (&prepared.terms, &prepared.selection);
     let cx = Context::new(system, terms, selection, &known, Prover::default());
     check_applies(&cx, formulation.card())?;
-    let searched = searched(model, (system, prepared), options, hooks);
+    let searched = searched(model, (system, prepared), &numeric.start, options, hooks);
     let keep = searched.to_keep.clone();
     let settings = RunSettings { keep, ..settings };
     let run = integrate(&subject, formulation, &settings, "integrating", hooks)?;
@@ -494,6 +494,7 @@ fn proving(options: &StudyOptions) -> (Prover, f64) {
 fn searched(
     model: &Model,
     (system, prepared): (&System, &Prepared),
+    start: &ConsistentState,
     options: &StudyOptions,
     hooks: &mut Hooks<'_>,
 ) -> Searched {
@@ -501,8 +502,13 @@ fn searched(
         return Searched::default();
     }
     let known = registry();
-    let zeros = prepared_system(system.for_stated_zeros());
-    let cx = match &zeros {
+    let other = prepared_system(system.for_stated_zeros());
+    // An integral on one component is none on another, and a projection on its values would lead away from the motion.
+    let other = match components_are_apart(system, prepared) {
+        true => prepared_system(component_of_start(system, start).map(|on| on.system)),
+        false => other,
+    };
+    let cx = match &other {
         Some((prepared, system)) => context_of(system, prepared, &known, proving(options)),
         None => context_of(system, prepared, &known, proving(options)),
     };
@@ -604,6 +610,17 @@ fn prepared_system(system: Option<System>) -> Option<(Prepared, System)> {
     Some((Prepared::new(&system).ok()?, system))
 }
 
+/// Whether no one choice of independent velocities describes all components of the constraints.
+pub(crate) fn components_are_apart(system: &System, prepared: &Prepared) -> bool {
+    covered(system, &prepared.terms, &prepared.selection).is_some()
+}
+
+/// The component of the constraints on which a motion starts, where they have several.
+fn component_of_start(system: &System, start: &ConsistentState) -> Option<OnComponent> {
+    let on = system.on_component(|list| at_start(system, start, list))?;
+    on.condition.is_some().then_some(on)
+}
+
 fn context_of<'a>(
     system: &'a System,
     prepared: &'a Prepared,
@@ -697,9 +714,19 @@ fn decide(
         }
         None => narrowed(cx, on.as_ref()),
     };
+    let geometry = chetaev_geometry::CLAIMS.iter().copied();
+    let of_motions: Vec<&'static dyn Claim> = geometry.filter(|c| c.speaks_of_motions()).collect();
     if let Some(zeros) = &zeros {
         let values = system.stated_zeros();
         cx = cx.for_stated_values(chetaev_geometry::CLAIMS, &values, zeros);
+    } else if let (None, Some((of, component))) = (&stated, &on) {
+        // Of components that are apart, integrals and measures are asked for on that of the start.
+        if start.is_some()
+            && component.condition.is_some()
+            && components_are_apart(system, prepared)
+        {
+            cx = cx.on_component(&of_motions, of, component);
+        }
     }
     let began = (hooks.clock)();
     let mut verdicts = Vec::new();

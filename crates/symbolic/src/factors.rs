@@ -29,6 +29,23 @@ pub fn factors(graph: &Graph, e: Expr, symbols: &[Symbol]) -> Option<Vec<(Expr, 
     Some(list)
 }
 
+/// As [`factors`], each of them irreducible over the rational numbers as a polynomial in its generators; as those are where a
+/// factor is too large to be taken apart further.
+pub fn irreducible_factors(graph: &Graph, e: Expr, symbols: &[Symbol]) -> Option<Vec<(Expr, u32)>> {
+    let (field, values) = normal_forms(graph, &[e], &Options::display(BUDGET)).ok()?;
+    let numerator = values.first()?.numerator();
+    let list = match numerator.irreducible_factors(field.meter()) {
+        Ok(list) => list,
+        Err(_) => return factors(graph, e, symbols),
+    };
+    let list = list.iter();
+    let list = list.map(|(factor, power)| (field.polynomial_expression(factor), *power));
+    Some(
+        list.filter(|(factor, _)| graph.contains_any(*factor, symbols))
+            .collect(),
+    )
+}
+
 /// The remainder of the numerator of `e` in the division by the numerator of `by`, both as polynomials in `symbol`, up to factors that
 /// divide the leading coefficient of `by`: where that does not vanish and `by` does, the remainder vanishes exactly where `e` does.
 /// `None` where they are no polynomials in it, or too large.

@@ -3,17 +3,10 @@
 //! `z'³ − y³ x'³` is `(z' − y x')` times a form that vanishes where `z' − y x'` does and nowhere else; `z'/x' − y` is `z' − y x'` where
 //! x' ≠ 0.
 
-use chetaev_symbolic::factors::{coefficients, factored, factors, remainder};
+use chetaev_symbolic::factors::{coefficients, factored, irreducible_factors};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
-
-/// At most so many linear factors are tried for one polynomial.
-const CANDIDATES: usize = 400;
-/// Integers above this are not divided into factors.
-const LARGEST_INTEGER: i64 = 100;
-/// Polynomials of a higher degree are not searched for linear factors.
-const DEGREE: usize = 6;
 
 /// What a constraint function vanishes by.
 #[derive(Clone, Debug, Default)]
@@ -39,10 +32,10 @@ pub(super) fn real_factors(
     let never_zero = |e: &Expr| known_sign(g, *e, known).is_nonzero();
     let below = below.map(|(e, _)| *e).filter(moves);
     let denominators = below.filter(|e| !never_zero(e)).collect();
-    let above = factors(g, f, velocities).unwrap_or_default().into_iter();
-    let split = above.flat_map(|(e, _)| split(g, e, velocities));
-    let split = split.filter(|e| !never_zero(e));
-    let all = split.flat_map(|e| match over_root(g, e, velocities, known) {
+    let above = irreducible_factors(g, f, velocities).unwrap_or_default();
+    let above = above.into_iter().map(|(e, _)| e);
+    let above = above.filter(|e| !never_zero(e));
+    let all = above.flat_map(|e| match over_root(g, e, velocities, known) {
         Some(pair) => pair.to_vec(),
         None => vec![e],
     });
@@ -56,20 +49,6 @@ pub(super) fn real_factors(
         factors: all.iter().copied().filter(is_needed).collect(),
         denominators,
     }
-}
-
-/// A square-free polynomial with its linear factors in one velocity apart, as far as they are found among the quotients of factors of its
-/// last and first coefficient.
-fn split(g: &Graph, e: Expr, velocities: &[Symbol]) -> Vec<Expr> {
-    let mut rest = e;
-    let mut found = Vec::new();
-    while let Some((linear, quotient)) = linear_factor(g, rest, velocities) {
-        found.push(linear);
-        rest = quotient;
-    }
-    // What is left is e itself where nothing was found.
-    found.push(rest);
-    found
 }
 
 /// The two linear factors of `a s² + b s + c` where a vanishes nowhere and `b² - 4 a c` is a positive number times the square of a form in the
@@ -97,80 +76,6 @@ fn over_root(g: &Graph, e: Expr, velocities: &[Symbol], known: &Assumptions) -> 
         let aside = g.div(g.mul(&[root, form]), by);
         Some([g.sub(middle, aside), g.add(&[middle, aside])])
     })
-}
-
-/// A linear factor of a polynomial of the third degree or more in a velocity, and the quotient.
-fn linear_factor(g: &Graph, e: Expr, velocities: &[Symbol]) -> Option<(Expr, Expr)> {
-    velocities.iter().find_map(|&s| {
-        let list = coefficients(g, e, s)?;
-        if list.len() < 4 || list.len() > DEGREE + 1 {
-            return None;
-        }
-        let (last, first) = (*list.first()?, *list.last()?);
-        candidates(g, last, first)?.into_iter().find_map(|root| {
-            let linear = g.sub(g.symbol_expr(s), root);
-            let rest = remainder(g, e, linear, s)?;
-            if !g.is_zero(rest) {
-                return None;
-            }
-            // Horner's scheme.
-            let mut quotient = Vec::new();
-            let mut carried = g.zero();
-            for &c in list.iter().skip(1).rev() {
-                carried = g.add(&[c, g.mul(&[root, carried])]);
-                quotient.push(carried);
-            }
-            let powers = quotient.iter().rev().zip(0_i64..);
-            let terms = powers.map(|(&c, n)| g.mul(&[c, g.powi(g.symbol_expr(s), n)]));
-            let quotient = g.add(&terms.collect::<Vec<Expr>>());
-            Some((
-                numerator(g, linear, velocities)?,
-                numerator(g, quotient, velocities)?,
-            ))
-        })
-    })
-}
-
-/// The factors in which velocities occur as one product.
-fn numerator(g: &Graph, e: Expr, velocities: &[Symbol]) -> Option<Expr> {
-    let list = factors(g, e, velocities)?.into_iter();
-    let powers: Vec<Expr> = list.map(|(f, n)| g.powi(f, i64::from(n))).collect();
-    Some(g.mul(&powers))
-}
-
-/// Quotients of products of factors, with both signs.
-fn candidates(g: &Graph, above: Expr, below: Expr) -> Option<Vec<Expr>> {
-    if g.is_zero(above) {
-        return None;
-    }
-    let (above, below) = (factored(g, above)?, factored(g, below)?);
-    let numbers = |q: &Rational| {
-        let integers = [q.numerator().to_string(), q.denominator().to_string()];
-        integers.map(|text| text.trim_start_matches('-').parse::<i64>().ok())
-    };
-    let ([p, r], [q, s]) = (numbers(&above.coefficient), numbers(&below.coefficient));
-    let (p, q) = (p?.checked_mul(s?)?, q?.checked_mul(r?)?);
-    let divisors = |n: i64| (1..=n.min(LARGEST_INTEGER)).filter(move |d| n % d == 0);
-    let mut list: Vec<Expr> = divisors(p)
-        .flat_map(|a| divisors(q).map(move |b| (a, b)))
-        .map(|(a, b)| g.div(g.integer(a), g.integer(b)))
-        .collect();
-    let powers = above.factors.iter().map(|&(f, n)| (f, n));
-    let powers = powers.chain(below.factors.iter().map(|&(f, n)| (f, -n)));
-    for (factor, n) in powers {
-        let exponents: Vec<i64> = (0..=n.abs()).map(|k| k * n.signum()).collect();
-        list = list
-            .iter()
-            .flat_map(|&e| exponents.iter().map(move |&k| (e, k)))
-            .map(|(e, k)| g.mul(&[e, g.powi(factor, k)]))
-            .collect();
-        if list.len() > CANDIDATES {
-            return None;
-        }
-    }
-    list.sort();
-    list.dedup();
-    Some(list.into_iter().flat_map(|e| [e, g.neg(e)]).collect())
 }
 
 /// The real zeros of `a s² + b s + c` with `a ≠ 0` and `4 a c − b²` nowhere negative: `2 a s + b = 0` where these all vanish of which

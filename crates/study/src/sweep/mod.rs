@@ -14,7 +14,7 @@ use crate::error::StudyError;
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
 use crate::start::{initial_data, settings};
-use crate::study::{kept, movable, prepare};
+use crate::study::{components_are_apart, keeps, kept, movable, prepare};
 use chetaev_ensemble::columns::Names;
 use chetaev_ensemble::outcome::Shape;
 use chetaev_ensemble::{Columns, Routh, Work};
@@ -133,6 +133,9 @@ impl Sweep {
         let (terms, selection) = (&prepared.terms, &prepared.selection);
         let cx = Context::new(&system, terms, selection, &known, Prover::default());
         check_applies(&cx, formulation.card())?;
+        if keeps(&base, &options.study) && components_are_apart(&system, &prepared) {
+            return Err(StudyError::KeptOnComponents);
+        }
         let searched = kept(&base, &cx, &options.study, hooks);
         settings.keep = movable(&system, &searched);
         drop(cx);

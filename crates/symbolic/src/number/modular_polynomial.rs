@@ -37,7 +37,11 @@ pub fn random_root(field: &PrimeField, lower: &[Residue], random: &mut Random) -
 }
 
 /// A random root of x² + b x + c.
-fn quadratic_root(field: &PrimeField, [c, b]: [Residue; 2], random: &mut Random) -> Option<Residue> {
+fn quadratic_root(
+    field: &PrimeField,
+    [c, b]: [Residue; 2],
+    random: &mut Random,
+) -> Option<Residue> {
     let half = field.inv(field.from_u64(2))?;
     let middle = field.mul(b, half);
     let root = field.sqrt(field.sub(field.mul(middle, middle), c))?;
@@ -58,7 +62,8 @@ fn power_modulo(field: &PrimeField, a: &[Residue], n: u64, f: &[Residue]) -> Vec
     result
 }
 
-fn product(field: &PrimeField, a: &[Residue], b: &[Residue]) -> Vec<Residue> {
+/// The product.
+pub fn product(field: &PrimeField, a: &[Residue], b: &[Residue]) -> Vec<Residue> {
     if a.is_empty() || b.is_empty() {
         return Vec::new();
     }
@@ -103,6 +108,110 @@ pub fn gcd(field: &PrimeField, mut a: Vec<Residue>, mut b: Vec<Residue>) -> Vec<
         a = monic;
         b = rest;
     }
+}
+
+/// The inverse of a modulo another polynomial; `None` where they have a common factor.
+pub fn inverse_modulo(
+    field: &PrimeField,
+    a: &[Residue],
+    modulus: &[Residue],
+) -> Option<Vec<Residue>> {
+    let (mut r, mut next) = (modulus.to_vec(), a.to_vec());
+    let (mut t, mut next_t) = (Vec::new(), vec![field.one()]);
+    trim(&mut next);
+    while !next.is_empty() {
+        let (quotient, rest) = quotient_and_remainder(field, r, &next)?;
+        let step = product(field, &quotient, &next_t);
+        let after = difference(field, t, &step);
+        (r, next) = (next, rest);
+        (t, next_t) = (next_t, after);
+    }
+    let &[unit] = r.as_slice() else {
+        return None;
+    };
+    let scale = field.inv(unit)?;
+    let scaled = t.iter().map(|&c| field.mul(c, scale)).collect();
+    quotient_and_remainder(field, scaled, modulus).map(|(_, rest)| rest)
+}
+
+fn difference(field: &PrimeField, mut a: Vec<Residue>, b: &[Residue]) -> Vec<Residue> {
+    if a.len() < b.len() {
+        a.resize(b.len(), Residue::ZERO);
+    }
+    for (x, &y) in a.iter_mut().zip(b) {
+        *x = field.sub(*x, y);
+    }
+    trim(&mut a);
+    a
+}
+
+/// The monic irreducible factors of a polynomial without multiple ones; `None` where it has multiple ones, or is a constant. Those of one
+/// degree d are the greatest common divisor with x^(p^d) − x, which random polynomials take apart (Cantor and Zassenhaus, Math. Comp. 36, 1981).
+pub fn factors(
+    field: &PrimeField,
+    f: &[Residue],
+    random: &mut Random,
+) -> Option<Vec<Vec<Residue>>> {
+    let mut f = f.to_vec();
+    trim(&mut f);
+    let reciprocal = field.inv(*f.last()?)?;
+    f.iter_mut().for_each(|c| *c = field.mul(*c, reciprocal));
+    let slopes = f.iter().zip(0_u64..).skip(1);
+    let slopes = slopes.map(|(&c, n)| field.mul(field.from_u64(n), c));
+    if f.len() < 2 || gcd(field, f.clone(), slopes.collect()).len() != 1 {
+        return None;
+    }
+    let x = [Residue::ZERO, field.one()];
+    let (mut found, mut rest, mut power) = (Vec::new(), f, x.to_vec());
+    for degree in 1.. {
+        if rest.len() <= 2 * degree {
+            break;
+        }
+        power = power_modulo(field, &power, field.modulus(), &rest);
+        let part = gcd(field, rest.clone(), difference(field, power.clone(), &x));
+        if part.len() > 1 {
+            rest = quotient_and_remainder(field, rest, &part)?.0;
+            found.extend(of_equal_degree(field, part, degree, random));
+            power = quotient_and_remainder(field, power, &rest)?.1;
+        }
+    }
+    if rest.len() > 1 {
+        found.push(rest);
+    }
+    Some(found)
+}
+
+/// The factors of a product of monic irreducible polynomials of one degree.
+fn of_equal_degree(
+    field: &PrimeField,
+    f: Vec<Residue>,
+    degree: usize,
+    random: &mut Random,
+) -> Vec<Vec<Residue>> {
+    let (mut open, mut found) = (vec![f], Vec::new());
+    while let Some(f) = open.pop() {
+        if f.len() <= degree + 1 {
+            found.push(f);
+            continue;
+        }
+        let any: Vec<Residue> = (1..f.len()).map(|_| field.random(random)).collect();
+        // The norm, a^(1 + p + … + p^(d − 1)), is a number modulo each factor, a square in half of all cases.
+        let (mut norm, mut conjugate) = (any.clone(), any);
+        for _ in 1..degree {
+            conjugate = power_modulo(field, &conjugate, field.modulus(), &f);
+            norm = remainder(field, product(field, &norm, &conjugate), &f);
+        }
+        let half = power_modulo(field, &norm, (field.modulus() - 1) / 2, &f);
+        let part = gcd(field, f.clone(), difference(field, half, &[field.one()]));
+        if part.len() > 1 && part.len() < f.len() {
+            if let Some((other, _)) = quotient_and_remainder(field, f.clone(), &part) {
+                open.extend([part, other]);
+                continue;
+            }
+        }
+        open.push(f);
+    }
+    found
 }
 
 /// All roots in the field, each once.
@@ -166,7 +275,7 @@ pub fn fraction(
         if best.as_ref().is_none_or(|(least, _, _)| degrees < *least) {
             best = Some((degrees, next_r.clone(), next_t.clone()));
         }
-        let (quotient, rest) = divided(field, r, &next_r)?;
+        let (quotient, rest) = quotient_and_remainder(field, r, &next_r)?;
         let mut new_t = product(field, &quotient, &next_t);
         new_t.resize(new_t.len().max(t.len()), Residue::ZERO);
         for (c, new) in new_t.iter_mut().enumerate() {
@@ -197,7 +306,7 @@ fn interpolated(field: &PrimeField, values: &[(Residue, Residue)]) -> (Vec<Resid
 }
 
 /// Quotient and remainder; `None` by zero.
-fn divided(
+pub fn quotient_and_remainder(
     field: &PrimeField,
     mut a: Vec<Residue>,
     by: &[Residue],

@@ -13,6 +13,7 @@ mod budget;
 mod division;
 mod factor;
 mod gcd;
+mod irreducible;
 mod monomial;
 pub mod normal_form;
 mod rational_function;

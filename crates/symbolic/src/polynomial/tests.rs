@@ -306,6 +306,77 @@ fn factorization_multiplies_back() {
 }
 
 #[test]
+fn products_of_three_come_apart_into_irreducible_factors() {
+    let m = meter();
+    // x0² + x1² - x2², x2 - 3 x0 - 4 x1, a quadric with a leading coefficient in other generators, and 4 x0⁴ + x1⁴, a product of two.
+    let square = |p: &Polynomial| p.mul(p, &m).unwrap();
+    let cone = square(&x(0)).add(&square(&x(1))).sub(&square(&x(2)));
+    let plane = x(2)
+        .sub(&x(0).scale(&IBig::from(3)))
+        .sub(&x(1).scale(&IBig::from(4)));
+    let other = product(&[&x(3).add(&x(1)), &square(&x(0))])
+        .add(&product(&[&x(3), &x(4), &square(&x(2))]))
+        .add(&int(7));
+    let sophie = [-2, 2].map(|n| {
+        let mixed = product(&[&int(n), &x(0), &x(1)]);
+        square(&x(0))
+            .scale(&IBig::from(2))
+            .add(&mixed)
+            .add(&square(&x(1)))
+    });
+    let all = [cone, plane, other, sophie[0].clone(), sophie[1].clone()];
+    for i in 0..all.len() {
+        for j in 0..i {
+            for k in 0..j {
+                let p = product(&[&all[i], &all[j], &all[k]]);
+                let found = p.irreducible_factors(&m).unwrap();
+                assert_eq!(found.len(), 3, "{found:?}");
+                for factor in [&all[i], &all[j], &all[k]] {
+                    let is_it = |p: &Polynomial| *p == *factor || p.neg() == *factor;
+                    assert!(found.iter().any(|(p, n)| *n == 1 && is_it(p)), "{factor:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn irreducible_polynomials_stay_and_random_products_come_apart() {
+    let m = meter();
+    // x⁴ + 1 and x⁴ - 10 x² + 1 factor modulo every prime; made homogeneous they have no factors of degree one.
+    let power = |g: usize, n: u32| x(g).pow(n, &m).unwrap();
+    let quartics = [
+        power(0, 4).add(&power(1, 4)),
+        power(0, 4)
+            .sub(&product(&[&int(10), &power(0, 2), &power(1, 2)]))
+            .add(&power(1, 4)),
+        power(0, 3).add(&power(1, 3)).add(&power(2, 3)),
+        product(&[&x(3), &power(1, 3)]).sub(&power(0, 3)),
+    ];
+    for p in quartics {
+        assert_eq!(p.irreducible_factors(&m).unwrap(), vec![(p, 1)]);
+    }
+    let mut random = Random::new(11);
+    for _ in 0..30 {
+        let pair = [0, 1].map(|_| nonzero(&mut random, 4, 5, 3).primitive_part());
+        let p = product(&[&pair[0], &pair[1]]);
+        let found = p.irreducible_factors(&m).unwrap();
+        let back = found.iter().fold(int(1), |all, (f, n)| {
+            product(&[&all, &f.pow(*n, &m).unwrap()])
+        });
+        assert!(back == p.primitive_part() || back.neg() == p.primitive_part());
+        // No factor has a non-trivial greatest common divisor with one of the pair.
+        for (factor, _) in &found {
+            for own in &pair {
+                let common = factor.gcd(own, &m).unwrap();
+                let is_whole = common == *factor || common.neg() == *factor;
+                assert!(common.is_constant() || is_whole, "{factor:?} and {own:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn square_roots_are_recognised() {
     let mut random = Random::new(8);
     for _ in 0..50 {

@@ -295,12 +295,7 @@ impl Points {
     }
 
     /// Values of the dependent symbols: in the ring of all solutions a root of each equation is chosen, until one solution is left.
-    fn dependent(
-        &self,
-        draw: &Draw,
-        point: &Point,
-        random: &mut Random,
-    ) -> Option<Vec<Residue>> {
+    fn dependent(&self, draw: &Draw, point: &Point, random: &mut Random) -> Option<Vec<Residue>> {
         let variety = Variety::new(&self.solving, 1, 0);
         let scalar = |e: &Element| e.first().copied().unwrap_or(Residue::ZERO);
         let mut prescribed: Vec<Option<Vec<Element>>> = Vec::new();
