@@ -150,10 +150,11 @@ impl Table<'_> {
         ties: &[Tie],
         adding: &[Tie],
     ) -> (Vec<Special>, Vec<Tie>) {
-        let general = families
-            .iter()
-            .map(|family| Some(self.vectors(family)?.0.len()));
-        let Some(general) = general.collect::<Option<Vec<usize>>>() else {
+        let general = families.iter().map(|family| {
+            let (vectors, relations) = self.vectors(family)?;
+            Some((vectors.len(), relations.len()))
+        });
+        let Some(general) = general.collect::<Option<Vec<(usize, usize)>>>() else {
             return (Vec::new(), ties.to_vec());
         };
         let mut found: Vec<Special> = Vec::new();
@@ -170,12 +171,16 @@ impl Table<'_> {
                 continue;
             };
             let mut candidates: Vec<(&Family, &[(usize, Residue)])> = Vec::new();
-            for ((family, (draw, vectors)), &general) in families.iter().zip(&at).zip(&general) {
-                if vectors.len() > self.without(family, draw, tie, (general, adding)) {
+            for ((family, (draw, vectors, relations)), &(general, related)) in
+                families.iter().zip(&at).zip(&general)
+            {
+                // Where letters fall together there are fewer functions of them, and as many integrals may be others.
+                let collapses = *relations > related && !matches!(tie, Tie::Both(..));
+                if collapses || vectors.len() > self.without(family, draw, tie, (general, adding)) {
                     candidates.extend(vectors.iter().map(|v| (family, &v[..])));
                 }
             }
-            let Some((draw, _)) = at.first().filter(|_| !candidates.is_empty()) else {
+            let Some((draw, ..)) = at.first().filter(|_| !candidates.is_empty()) else {
                 continue;
             };
             let independent = self.new_or_simpler(draw, &candidates).unwrap_or_default();
@@ -214,13 +219,14 @@ impl Table<'_> {
         all.map(alone).max().unwrap_or(usize::MAX)
     }
 
-    /// The integrals of a family at a special value, modulo the prime of the draw that is given too; `None` where it has no points.
+    /// The integrals of a family at a special value, modulo the prime of the draw that is given too, and how many relations its members have there;
+    /// `None` where it has no points.
     fn vectors_on(
         &self,
         family: &Family,
         tie: &Tie,
         inside: &[Expr],
-    ) -> Option<(Draw, Vec<Vector>)> {
+    ) -> Option<(Draw, Vec<Vector>, usize)> {
         // Points where w is zero and sin(w t) is not are none.
         let pairs = tie.pairs(&self.motion.system.graph);
         if pairs.iter().any(|(s, _)| inside.contains(s)) {
@@ -228,8 +234,8 @@ impl Table<'_> {
         }
         let (draw, mut random) = self.draw(0)?;
         let draw = self.tied(&draw, tie)?;
-        let (vectors, _) = self.vectors_at(family, &draw, &mut random)?;
-        Some((draw, vectors))
+        let (vectors, relations) = self.vectors_at(family, &draw, &mut random)?;
+        Some((draw, vectors, relations.len()))
     }
 
     /// The parameters in arguments of functions, which are letters of their own at points over prime fields.
@@ -362,7 +368,9 @@ pub(super) fn special(
         }
     };
     let words = at.iter().flat_map(|_| own.iter().map(in_words)).collect();
-    let (mut found, _) = at.unwrap_or_default();
+    let (mut found, mut missed) = at.unwrap_or_default();
+    // Where the mass matrix is singular there are no motions to speak of.
+    missed.retain(|tie| !leaves_no_motion(cx, tie));
     let g = &cx.system.graph;
     let mut parameters = parameters;
     parameters.sort_by_key(|&s| g.symbol_name(s).to_owned());
@@ -376,6 +384,7 @@ pub(super) fn special(
         found,
         critical,
         looked,
+        missed,
         families: words,
     })
 }
@@ -389,6 +398,8 @@ pub struct Specials {
     pub critical: Critical,
     /// Whether parameters that are equal or zero or as stated were looked at.
     pub looked: Looked,
+    /// At which of these nothing has a value in the velocities chosen, so that they could not be looked at.
+    pub missed: Vec<Tie>,
     /// The families that were looked at there, in words.
     pub families: Vec<String>,
 }
@@ -637,10 +648,12 @@ fn special_at(
     if families.is_empty() || (ties.is_empty() && values.is_empty()) {
         return None;
     }
-    let (mut found, missed) = table.special(cx, families, ties, &[]);
+    let (mut found, mut missed) = table.special(cx, families, ties, &[]);
     let seen = found.iter().any(|special| is_stated(cx, &special.tie));
     if !seen && !values.is_empty() {
-        found.extend(table.special(cx, families, &[Tie::Values(values)], &[]).0);
+        let (own, left_out) = table.special(cx, families, &[Tie::Values(values)], &[]);
+        found.extend(own);
+        missed.extend(left_out);
     }
     Some((found, missed))
 }

@@ -262,9 +262,23 @@ fn at_special_values(cx: &Context<'_>, found: &Found) -> String {
         return "; special values of parameters were not looked at".to_owned();
     }
     let more: Vec<String> = special.found.iter().map(|s| self::special(cx, s)).collect();
-    match more.is_empty() {
-        true => "; no more were found at special values of parameters".to_owned(),
-        false => format!("; there are further or simpler ones {}", more.join("; ")),
+    let missed: Vec<String> = special.missed.iter().map(|tie| place(cx, tie)).collect();
+    let not_looked = match missed.is_empty() {
+        true => String::new(),
+        false => format!(
+            "; not looked at, as no points were found for it there, is where {}: a model that states the values without these parameters is searched there",
+            missed.join(" or where ")
+        ),
+    };
+    match (more.is_empty(), missed.is_empty()) {
+        (true, true) => "; no more were found at special values of parameters".to_owned(),
+        (true, false) => {
+            format!("; no more were found at other special values of parameters{not_looked}")
+        }
+        (false, _) => format!(
+            "; there are further or simpler ones {}{not_looked}",
+            more.join("; ")
+        ),
     }
 }
 
@@ -276,7 +290,12 @@ fn families_at_special_values(cx: &Context<'_>, found: &Found) -> Vec<String> {
         Looked::All => Some("where parameters are equal or zero or as stated".to_owned()),
         Looked::Some(ties) => {
             let ties = ties.iter().map(|tie| equations(cx, tie));
-            let all: Vec<String> = ties.chain(["as stated".to_owned()]).collect();
+            let is_missed = |tie: &Tie| matches!(tie, Tie::Values(_));
+            let stated = match special.missed.iter().any(is_missed) {
+                true => None,
+                false => Some("as stated".to_owned()),
+            };
+            let all: Vec<String> = ties.chain(stated).collect();
             Some(format!(
                 "where parameters are so, and not at other equalities or zeros: {}",
                 all.join("; ")
@@ -375,6 +394,15 @@ fn special(cx: &Context<'_>, special: &Special) -> String {
         equations(cx, &special.tie),
         integrals.join(", ")
     )
+}
+
+/// Special values in words.
+fn place(cx: &Context<'_>, tie: &Tie) -> String {
+    let as_stated = match tie {
+        Tie::Values(_) => ", as the model states",
+        _ => "",
+    };
+    format!("{}{as_stated}", equations(cx, tie))
 }
 
 /// `a = b, c = 0`.
