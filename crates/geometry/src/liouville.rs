@@ -22,7 +22,7 @@ use chetaev_mechanics::words::counted;
 use chetaev_mechanics::Characteristics;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Function, Node, Symbol, Verdict};
-use involution::in_involution;
+use involution::{in_involution, Involution};
 use kept::Kept;
 use turns::{turns, Around, Turn};
 
@@ -279,7 +279,11 @@ fn counted_for_all(cx: &Context<'_>) -> Result<Verdict, String> {
         None => verdict,
     };
     Ok(match verdict {
-        Verdict::Undecided { .. } => in_involution(cx).unwrap_or(verdict),
+        Verdict::Undecided { tried } => match in_involution(cx) {
+            Some(Involution::Suffice(verdict)) => *verdict,
+            Some(Involution::Missing(more)) => Verdict::undecided(format!("{tried}; {more}")),
+            None => Verdict::Undecided { tried },
+        },
         other => other,
     })
 }

@@ -53,6 +53,27 @@ fn each_component_is_decided() {
     assert_eq!(verdict(&none, WEAK).0, "refuted");
 }
 
+/// The plane z' = 3x' + 4y' is integrable, the cone is not; written as a product or expanded, where no factor of degree one stands in
+/// the first or the last coefficient. A cone times a cone is integrable nowhere.
+#[test]
+fn quadrics_and_planes_come_apart() {
+    let cone = "(x'^2 + y'^2 - z'^2)*(z' - 3*x' - 4*y')";
+    let expanded = "x'^2*z' - 3*x'^3 - 4*x'^2*y' + y'^2*z' - 3*x'*y'^2 - 4*y'^3 - z'^3 + 3*x'*z'^2 + 4*y'*z'^2";
+    for f in [cone, expanded] {
+        let found = finding(&in_space(&[("a", f)]), WEAK);
+        let Verdict::Conditional { condition, .. } = &found.verdict else {
+            panic!("{} {}", found.verdict.word(), found.verdict.detail());
+        };
+        assert!(condition.contains("3 x' + 4 y' - z' = 0"), "{condition}");
+        assert!(!condition.contains("z'^2"), "{condition}");
+        let detail = found.verdict.detail();
+        assert!(detail.contains("z - 3 x - 4 y"), "{detail}");
+    }
+    let cones = "(x'^2 + y'^2 - z'^2)*(x'^2 + 2*y'^2 - z'^2)";
+    let (word, detail) = verdict(&in_space(&[("a", cones)]), WEAK);
+    assert_eq!(word, "refuted", "{detail}");
+}
+
 /// x' = 0 is integrable, z' = y w' is not: the product is so on the first component.
 #[test]
 fn integrable_on_one_component() {

@@ -277,4 +277,9 @@ fn integrals_in_involution() {
     toda.search_degree = None;
     let (found, detail) = word(&toda, "liouville.integrable");
     assert_eq!(found, "undecided", "{detail}");
+    // The energy and the momentum of the whole chain commute.
+    assert!(
+        detail.contains("1 integral more, in involution with"),
+        "{detail}"
+    );
 }

@@ -79,6 +79,29 @@ fn integrals_are_kept_beside_masses_with_a_law_of_their_own() {
         .contains("by projection"));
 }
 
+/// x' y' = 0 from x' = 1/1000, y' = 0: on the component of the start y and x' keep their values, on the other one x and y'. The exact motion is
+/// x = t/1000, z = t; a projection on the integrals of the other component would hold x at 0.
+#[test]
+fn integrals_are_kept_on_the_component_of_the_start() {
+    let text = "name = \"apart\"\ncoordinates = [\"x\", \"y\", \"z\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2\"\n[constraints]\nc = \"x' y' = 0\"\n[initial]\n\"x'\" = \"1/1000\"\n\"z'\" = 1\n[simulation]\nt_end = 30\ntolerance = 1e-4\n";
+    let study = studied(text, &["motion", "noether.family"], keeping);
+    let kept = trajectory(&study).kept.expect("what was kept");
+    let formulas: Vec<&str> = kept.integrals.iter().map(|i| i.formula.as_str()).collect();
+    assert!(
+        formulas.contains(&"y") && formulas.contains(&"x'"),
+        "{formulas:?}"
+    );
+    assert!(!formulas.contains(&"x"), "{formulas:?}");
+    let evidence = &study.motion.as_ref().expect("a motion").evidence;
+    let width = evidence.run.rows.len() / evidence.run.times.len();
+    let last = evidence.run.rows.chunks(width).last().expect("rows");
+    assert!((last[0] - 0.03).abs() < 1e-12, "{last:?}");
+    let Verdict::Conditional { condition, .. } = verdict(&study, "noether.family") else {
+        panic!("{:?}", verdict(&study, "noether.family"));
+    };
+    assert!(condition.contains("y' = 0"), "{condition}");
+}
+
 /// What was kept is said by the record, the summary, the report and by each verdict on a drift, which is no evidence then; also of the
 /// energy and of stated integrals that are functions of what was kept. Nothing is said where nothing was kept.
 #[test]

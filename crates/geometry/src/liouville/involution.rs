@@ -4,6 +4,7 @@
 //! `{f, g} = (∂f/∂q - Cᵀu)·w - u·(∂g/∂q - Cᵀw)`, as `∂f/∂p = u` and `∂f/∂q - Cᵀu` is the derivative by q at fixed p.
 
 use crate::noether::found::found;
+use chetaev_mechanics::words::counted;
 use chetaev_mechanics::{Context, Manifold};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Symbol, Verdict};
@@ -11,9 +12,16 @@ use chetaev_symbolic::{Expr, Symbol, Verdict};
 /// Of more integrals no sets are formed.
 const MOST: usize = 12;
 
-/// `proved` where so many of the integrals found are free of the time and in involution; `None` where none were found, and for motions that
-/// are not those of a Lagrangian free of the time alone.
-pub(super) fn in_involution(cx: &Context<'_>) -> Option<Verdict> {
+/// What the theorem says.
+pub(super) enum Involution {
+    /// So many integrals are free of the time and in involution.
+    Suffice(Box<Verdict>),
+    /// How many more would do, in words.
+    Missing(String),
+}
+
+/// What the integrals found give; `None` where there are too many, and for motions that are not those of a Lagrangian free of the time alone.
+pub(super) fn in_involution(cx: &Context<'_>) -> Option<Involution> {
     let (system, g) = (cx.system, &cx.system.graph);
     let n = system.n();
     let has_others = system.forces.iter().any(|&e| !g.is_zero(e)) || !system.masses.is_empty();
@@ -24,7 +32,7 @@ pub(super) fn in_involution(cx: &Context<'_>) -> Option<Verdict> {
     let found = found.as_ref().as_ref().ok()?;
     let all = found.integrals.iter();
     let all: Vec<_> = all.filter(|i| !system.is_rheonomic(i.value)).collect();
-    if all.len() < n || all.len() > MOST {
+    if all.len() > MOST {
         return None;
     }
     let slopes = all.iter().map(|i| Slopes::of(cx, i.value));
@@ -42,8 +50,20 @@ pub(super) fn in_involution(cx: &Context<'_>) -> Option<Verdict> {
     let brackets: Vec<Vec<Option<Proof>>> = (0..all.len())
         .map(|i| (0..i).map(|j| proof(i, j)).collect())
         .collect();
-    let set = commuting(&brackets, n)?;
+    let sizes = (1..=n.min(all.len())).rev();
+    let set = sizes.filter_map(|size| commuting(&brackets, size)).next();
+    let set = set.unwrap_or_default();
     let texts: Vec<String> = set.iter().map(|&i| g.text(all[i].shown)).collect();
+    if set.len() < n {
+        let more = counted(n - set.len(), "integral more", "integrals more");
+        let with = match texts.is_empty() {
+            true => String::new(),
+            false => format!(" with {}", texts.join(", ")),
+        };
+        return Some(Involution::Missing(format!(
+            "by Liouville's theorem {more}, in involution{with}, would do"
+        )));
+    }
     let detail = format!(
         "{n} independent integrals are in involution, as many as there are coordinates, and L is free of the time (Liouville's theorem): {}",
         texts.join(", ")
@@ -52,7 +72,8 @@ pub(super) fn in_involution(cx: &Context<'_>) -> Option<Verdict> {
     let pairs = set.iter().flat_map(|&i| set.iter().map(move |&j| (i, j)));
     let proofs = pairs.filter(|(i, j)| j < i);
     let proofs = proofs.filter_map(|(i, j)| brackets[i][j].clone());
-    Some(proofs.map(Verdict::Proved).fold(own, Verdict::and))
+    let verdict = proofs.map(Verdict::Proved).fold(own, Verdict::and);
+    Some(Involution::Suffice(Box::new(verdict)))
 }
 
 /// The derivatives of a function of (q, v) by p at fixed q, and by q at fixed p.

@@ -351,6 +351,41 @@ mod tests {
         assert!(random_root(&field, &lower, &mut random).is_none());
     }
 
+    #[test]
+    fn factors_multiply_back_and_are_irreducible() {
+        let field = PrimeField::new((1 << 61) - 1).unwrap();
+        let mut random = Random::new(9);
+        for degree in 2..9 {
+            let f: Vec<Residue> = (0..=degree).map(|_| field.random(&mut random)).collect();
+            let found = factors(&field, &f, &mut random).unwrap();
+            let all = found
+                .iter()
+                .fold(vec![f[degree]], |all, own| product(&field, &all, own));
+            assert_eq!(all, f);
+            // x^(p^d) = x modulo a factor of degree d, and for no smaller exponent.
+            for own in &found {
+                let x = vec![Residue::ZERO, field.one()];
+                let (_, x) = quotient_and_remainder(&field, x, own).unwrap();
+                let mut power = x.clone();
+                for d in 1..own.len() {
+                    power = power_modulo(&field, &power, field.modulus(), own);
+                    assert_eq!(power == x, d == own.len() - 1, "{d} of {}", own.len() - 1);
+                }
+            }
+        }
+        // (x - 1)² has no list of different factors, and 1/a modulo b times a is 1.
+        let square = [1, -2, 1].map(|n| field.from_i64(n));
+        assert!(factors(&field, &square, &mut random).is_none());
+        let (a, b) = (
+            [3, 1, 2].map(|n| field.from_i64(n)),
+            [1, 0, 0, 1].map(|n| field.from_i64(n)),
+        );
+        let inverse = inverse_modulo(&field, &a, &b).unwrap();
+        let (_, one) = quotient_and_remainder(&field, product(&field, &a, &inverse), &b).unwrap();
+        assert_eq!(one, [field.one()]);
+        assert!(inverse_modulo(&field, &square, &square).is_none());
+    }
+
     /// 3 (x - 2)² (x + 5) (x² + 1)/((x - 7) (x + 1)), from its values.
     #[test]
     fn rational_functions_come_back_with_their_roots() {

@@ -5,6 +5,7 @@ use super::requirements;
 use crate::integrability::components::components;
 use crate::integrability::on_its_own;
 use crate::noether::found::{found, Found, Searched};
+use crate::noether::search::Integral;
 use crate::noether::special::{is_stated, Looked, Special, Tie};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
 use chetaev_mechanics::words::counted;
@@ -59,26 +60,33 @@ impl Claim for FamilySearched {
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         match &*found(cx) {
-            Ok(found) => Finding {
-                verdict: verdict(cx, found),
-                formulas: found
-                    .integrals
-                    .iter()
-                    .enumerate()
-                    .map(|(j, integral)| Formula {
-                        caption: match &integral.name {
-                            Some(name) => format!("first integral {}, {name}", j + 1),
-                            None => format!("first integral {}", j + 1),
-                        },
-                        left: None,
-                        right: integral.shown,
-                    })
-                    .collect(),
-            },
+            Ok(found) => together(cx, found),
             Err(why) => on_components(cx).unwrap_or_else(|| {
                 Verdict::undecided(format!("the search was not made: {why}")).into()
             }),
         }
+    }
+}
+
+/// The search on all components at once; where it leaves something open, on each by itself.
+fn together(cx: &Context<'_>, found: &Found) -> Finding {
+    let verdict = verdict(cx, found);
+    if matches!(verdict, Verdict::Undecided { .. }) {
+        if let Some(finding) = on_components(cx) {
+            return finding;
+        }
+    }
+    let formula = |(j, integral): (usize, &Integral)| Formula {
+        caption: match &integral.name {
+            Some(name) => format!("first integral {}, {name}", j + 1),
+            None => format!("first integral {}", j + 1),
+        },
+        left: None,
+        right: integral.shown,
+    };
+    Finding {
+        verdict,
+        formulas: found.integrals.iter().enumerate().map(formula).collect(),
     }
 }
 
