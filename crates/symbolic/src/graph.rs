@@ -6,7 +6,9 @@
 use crate::digest;
 use crate::node::{Expr, Node, Symbol};
 use crate::rational::{self, Rational};
+use crate::simplify;
 use hashbrown::HashTable;
+use rustc_hash::FxHashMap;
 use std::cmp::Ordering;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -33,6 +35,8 @@ pub struct Graph {
     symbol_table: Mutex<HashTable<u32>>,
     /// The numbers 0 and 1, which are asked for most.
     units: [OnceLock<Expr>; 2],
+    /// What was simplified before: reports, claims and equations ask for the same expressions again and again.
+    simplified: Mutex<FxHashMap<(Expr, simplify::Options), Expr>>,
 }
 
 impl Default for Graph {
@@ -61,7 +65,16 @@ impl Graph {
             symbols: boxcar::Vec::new(),
             symbol_table: Mutex::new(HashTable::new()),
             units: [const { OnceLock::new() }; 2],
+            simplified: Mutex::default(),
         }
+    }
+
+    pub(crate) fn known_simplified(&self, e: Expr, options: &simplify::Options) -> Option<Expr> {
+        lock(&self.simplified).get(&(e, options.clone())).copied()
+    }
+
+    pub(crate) fn keep_simplified(&self, e: Expr, options: &simplify::Options, simple: Expr) {
+        lock(&self.simplified).insert((e, options.clone()), simple);
     }
 
     /// The number of distinct nodes stored.

@@ -8,7 +8,7 @@ use crate::number::prime::is_prime;
 use crate::number::prime_field::PrimeField;
 
 /// Limits of an exact computation. All limits are inclusive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Budget {
     /// Terms of any single polynomial.
     pub terms: usize,

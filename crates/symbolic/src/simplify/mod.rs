@@ -37,7 +37,7 @@ pub use polynomial_view::{
 pub use squares::by_square;
 
 /// What a simplification may spend and produce.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Options {
     /// Limits of the polynomials and of the work, for each call.
     pub budget: Budget,
@@ -72,7 +72,12 @@ impl Default for Options {
 /// assert_eq!(simplify(&g, g.mul(&[m, squares]), &Options::default()), m);
 /// ```
 pub fn simplify(g: &Graph, e: Expr, options: &Options) -> Expr {
-    simplify_all(g, &[e], options).pop().unwrap_or(e)
+    if let Some(known) = g.known_simplified(e, options) {
+        return known;
+    }
+    let simple = simplify_all(g, &[e], options).pop().unwrap_or(e);
+    g.keep_simplified(e, options, simple);
+    simple
 }
 
 /// [`simplify`] for several expressions, which share the work on common solves.
