@@ -125,6 +125,11 @@ impl System {
         (!values.is_empty()).then(|| self.put_in(values)).flatten()
     }
 
+    /// The system with these values of parameters, (parameter, value). `None` where masses vary, or where it is no system then.
+    pub fn with_parameters(&self, values: &[(Expr, Expr)]) -> Option<System> {
+        self.for_values(values.to_vec())
+    }
+
     fn for_values(&self, values: Vec<(Expr, Expr)>) -> Option<System> {
         let thrust = |p: &crate::system::Particle| !matches!(p.thrust, Thrust::Isotropic);
         let vary = !self.masses.is_empty() || self.particles.iter().any(thrust);

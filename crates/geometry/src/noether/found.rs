@@ -113,9 +113,46 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
     let letters = &letters.without_zeros(motion, cx.prover.points_seed())?;
     let families = families(cx, letters);
     let table = Table::new(motion, &letters.all(), cx.prover.points_seed())?;
-    let mut candidates: Vec<Candidate<'_>> = Vec::new();
+    let (searched, candidates) = candidates(cx, &table, letters, &families)?;
+    let (mut integrals, dependent, open) = chosen(cx, motion, &table, &candidates);
+    kept_by_constraints(cx, motion, &mut integrals);
+    let is_energy = |name: Option<&str>| name == Some(ENERGY);
+    let energy_depends = candidates.iter().any(|c| is_energy(c.name.as_deref()))
+        && !integrals.iter().any(|i| is_energy(i.name.as_deref()));
+    let usual = letters.usual_only();
+    let mut all_momenta: Vec<Momenta> = Vec::new();
+    all_momenta.extend(momenta(cx, motion, &usual, &mut integrals));
+    if !letters.stated.is_empty() {
+        all_momenta.extend(momenta(cx, motion, letters, &mut integrals));
+    }
+    // Where the integrals cannot be told apart over prime fields nothing is said of special values.
+    let special = special(cx, motion, &usual, &integrals).unwrap_or_default();
+    let (powers, exponents) = add_products(cx, motion, &usual, &mut integrals);
+    let exponentials = add_eigenfunctions(cx, motion, &usual, &mut integrals);
+    Ok(Found {
+        families: searched,
+        momenta: all_momenta,
+        powers,
+        exponents,
+        exponentials,
+        integrals,
+        special,
+        dependent,
+        energy_depends,
+        open,
+    })
+}
+
+/// Each family exhausted, and what was found in all of them with the known integrals, the simplest first.
+fn candidates<'f>(
+    cx: &Context<'_>,
+    table: &Table<'_>,
+    letters: &Letters,
+    families: &'f [Family],
+) -> Result<(Vec<Searched>, Vec<Candidate<'f>>), String> {
+    let mut candidates: Vec<Candidate<'f>> = Vec::new();
     let mut searched = Vec::new();
-    let spaces = table.spaces(&families)?;
+    let spaces = table.spaces(families)?;
     for (place, (family, space)) in families.iter().zip(spaces).enumerate() {
         searched.push(Searched {
             family: family.clone(),
@@ -146,35 +183,26 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
             });
         }
     }
-    candidates.extend(known(&table, letters, &families));
+    candidates.extend(known(table, letters, families));
     candidates.sort_by_key(|c| c.order);
-    let (mut integrals, dependent, open) = chosen(cx, motion, &table, &candidates);
+    Ok((searched, candidates))
+}
+
+/// Functionally independent integrals in these families alone, and what integrable constraints keep, each proved.
+///
+/// # Errors
+/// A sentence that says why they cannot be evaluated.
+pub(super) fn in_families(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    letters: &Letters,
+    families: &[Family],
+) -> Result<Vec<Integral>, String> {
+    let table = Table::new(motion, &letters.all(), cx.prover.points_seed())?;
+    let (_, candidates) = candidates(cx, &table, letters, families)?;
+    let (mut integrals, ..) = chosen(cx, motion, &table, &candidates);
     kept_by_constraints(cx, motion, &mut integrals);
-    let is_energy = |name: Option<&str>| name == Some(ENERGY);
-    let energy_depends = candidates.iter().any(|c| is_energy(c.name.as_deref()))
-        && !integrals.iter().any(|i| is_energy(i.name.as_deref()));
-    let usual = letters.usual_only();
-    let mut all_momenta: Vec<Momenta> = Vec::new();
-    all_momenta.extend(momenta(cx, motion, &usual, &mut integrals));
-    if !letters.stated.is_empty() {
-        all_momenta.extend(momenta(cx, motion, letters, &mut integrals));
-    }
-    // Where the integrals cannot be told apart over prime fields nothing is said of special values.
-    let special = special(cx, motion, &usual, &integrals).unwrap_or_default();
-    let (powers, exponents) = add_products(cx, motion, &usual, &mut integrals);
-    let exponentials = add_eigenfunctions(cx, motion, &usual, &mut integrals);
-    Ok(Found {
-        families: searched,
-        momenta: all_momenta,
-        powers,
-        exponents,
-        exponentials,
-        integrals,
-        special,
-        dependent,
-        energy_depends,
-        open,
-    })
+    Ok(integrals)
 }
 
 /// 2 for a member with reciprocals, 1 for one with roots.
@@ -259,7 +287,7 @@ fn is_new(cx: &Context<'_>, motion: &Motion<'_>, integrals: &[Integral], value: 
 }
 
 /// The same, of any functions; `None` where it cannot be told over a prime field.
-fn is_independent(
+pub(super) fn is_independent(
     cx: &Context<'_>,
     motion: &Motion<'_>,
     known: &[Expr],

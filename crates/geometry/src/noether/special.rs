@@ -1,5 +1,9 @@
 //! Special values of parameters at which a family contains more integrals.
 
+mod put_in;
+
+pub use put_in::PutIn;
+
 use super::automatic::{grown, members, quotients, waves, words};
 use super::conjugate;
 use super::family::Family;
@@ -359,18 +363,26 @@ pub(super) fn special(
     let (mut ties, all) = ties(cx, &parameters);
     let own = families_at(cx, letters, ties.len());
     let at = special_at(cx, table, &own, &parameters, &ties);
-    let looked = match (&at, all) {
-        (None, _) => Looked::Not,
-        (Some((_, missed)), true) if missed.is_empty() => Looked::All,
-        (Some((_, missed)), _) => {
-            ties.retain(|tie| !missed.contains(tie));
-            Looked::Some(ties.clone())
-        }
-    };
     let words = at.iter().flat_map(|_| own.iter().map(in_words)).collect();
+    let is_made = at.is_some();
     let (mut found, mut missed) = at.unwrap_or_default();
+    let mut left_out = missed.clone();
     // Where the mass matrix is singular there are no motions to speak of.
     missed.retain(|tie| !leaves_no_motion(cx, tie));
+    let (own, put_in, missed) = put_in::put_in(cx, missed, integrals, ties.len());
+    found.extend(own);
+    let looked = match (is_made, all && left_out.is_empty()) {
+        (false, _) => Looked::Not,
+        (true, true) => Looked::All,
+        (true, false) => {
+            ties.retain(|tie| !left_out.contains(tie));
+            left_out.retain(|tie| !put_in.iter().any(|own| own.tie == *tie));
+            Looked::Some {
+                others: !all || !left_out.is_empty(),
+                ties: ties.clone(),
+            }
+        }
+    };
     let g = &cx.system.graph;
     let mut parameters = parameters;
     parameters.sort_by_key(|&s| g.symbol_name(s).to_owned());
@@ -384,6 +396,7 @@ pub(super) fn special(
         found,
         critical,
         looked,
+        put_in,
         missed,
         families: words,
     })
@@ -398,7 +411,9 @@ pub struct Specials {
     pub critical: Critical,
     /// Whether parameters that are equal or zero or as stated were looked at.
     pub looked: Looked,
-    /// At which of these nothing has a value in the velocities chosen, so that they could not be looked at.
+    /// At which of these nothing has a value in the velocities chosen, so that the system with these values was searched by itself.
+    pub put_in: Vec<PutIn>,
+    /// At which of these that could not be done either.
     pub missed: Vec<Tie>,
     /// The families that were looked at there, in words.
     pub families: Vec<String>,
@@ -412,8 +427,13 @@ pub enum Looked {
     Not,
     /// The motion contains no parameters.
     Nothing,
-    /// These of those where two parameters are equal or one is zero.
-    Some(Vec<Tie>),
+    /// Some of those where two parameters are equal or one is zero.
+    Some {
+        /// These, beside those that were put into the system.
+        ties: Vec<Tie>,
+        /// Whether there are others.
+        others: bool,
+    },
     /// All of those.
     All,
 }

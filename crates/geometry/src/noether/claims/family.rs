@@ -296,23 +296,31 @@ fn families_at_special_values(cx: &Context<'_>, found: &Found) -> Vec<String> {
     let places = match &special.looked {
         Looked::Nothing | Looked::Not => None,
         Looked::All => Some("where parameters are equal or zero or as stated".to_owned()),
-        Looked::Some(ties) => {
+        Looked::Some { ties, others } => {
             let ties = ties.iter().map(|tie| equations(cx, tie));
-            let is_missed = |tie: &Tie| matches!(tie, Tie::Values(_));
-            let stated = match special.missed.iter().any(is_missed) {
+            let mut left_out = special
+                .missed
+                .iter()
+                .chain(special.put_in.iter().map(|own| &own.tie));
+            let stated = match left_out.any(|tie| matches!(tie, Tie::Values(_))) {
                 true => None,
                 false => Some("as stated".to_owned()),
             };
             let all: Vec<String> = ties.chain(stated).collect();
-            Some(format!(
-                "where parameters are so, and not at other equalities or zeros: {}",
-                all.join("; ")
-            ))
+            let only = match others {
+                true => ", and not at other equalities or zeros",
+                false => "",
+            };
+            Some(format!("where parameters are so{only}: {}", all.join("; ")))
         }
     };
     let simple = places.map(|places| format!("{places}, {}", special.families.join(", ")));
+    let own = special.put_in.iter().map(|own| {
+        let families = own.families.join(", ");
+        format!("where {}, {families}", equations(cx, &own.tie))
+    });
     let critical = at_critical_values(cx, found);
-    simple.into_iter().chain(critical).collect()
+    simple.into_iter().chain(own).chain(critical).collect()
 }
 
 /// The values of one parameter that were searched rather than stated.

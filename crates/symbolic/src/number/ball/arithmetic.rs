@@ -1,6 +1,5 @@
 //! The field operations, integer powers and square roots of balls at a given precision.
 
-use std::cell::OnceCell;
 use std::cmp::Ordering;
 
 use dashu_base::{BitTest, Sign, SquareRoot};
@@ -9,24 +8,18 @@ use dashu_ratio::RBig;
 
 use super::{absolute, Ball, BallError, BallResult, Magnitude};
 
-/// The number of bits kept of midpoints, with the constants π and ln 2 at that precision.
+/// The number of bits kept of midpoints.
 ///
 /// Every operation on balls is a method of it: `precision.mul(&a, &b)`.
 #[derive(Clone, Debug)]
 pub struct Precision {
     bits: usize,
-    pub(super) pi: OnceCell<Ball>,
-    pub(super) ln2: OnceCell<Ball>,
 }
 
 impl Precision {
     /// Midpoints of `bits` bits (at least 16).
     pub fn new(bits: usize) -> Self {
-        Self {
-            bits: bits.max(16),
-            pi: OnceCell::new(),
-            ln2: OnceCell::new(),
-        }
+        Self { bits: bits.max(16) }
     }
 
     /// The number of bits kept.

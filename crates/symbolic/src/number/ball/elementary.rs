@@ -1,13 +1,23 @@
 //! π, ln 2, exp, log, sin, cos and atan of balls, by argument reduction and Taylor series in balls.
 
+use std::cell::RefCell;
 use std::cmp::Ordering;
+use std::thread::LocalKey;
 
 use dashu_int::IBig;
+use rustc_hash::FxHashMap;
 
 use super::{Ball, BallError, BallResult, Magnitude, Precision};
 
 /// Extra bits carried inside a function.
 const GUARD: usize = 24;
+/// Constants are computed to multiples of so many bits.
+const STEP: usize = 128;
+
+thread_local! {
+    static PI: RefCell<FxHashMap<usize, Ball>> = RefCell::default();
+    static LN2: RefCell<FxHashMap<usize, Ball>> = RefCell::default();
+}
 
 impl Precision {
     /// The same with more bits, for use inside a function.
@@ -17,29 +27,37 @@ impl Precision {
 
     /// π, by Machin's formula 16 atan(1/5) − 4 atan(1/239).
     pub fn pi(&self) -> BallResult {
-        if let Some(pi) = self.pi.get() {
-            return Ok(pi.clone());
-        }
-        let inner = self.guarded(GUARD);
-        let first = inner.reciprocal_series(5, -1)?.shift(4);
-        let second = inner.reciprocal_series(239, -1)?.shift(2);
-        let pi = inner.sub(&first, &second)?.rounded(self.bits());
-        Ok(self.pi.get_or_init(|| pi).clone())
+        self.constant(&PI, |inner| {
+            let first = inner.reciprocal_series(5, -1)?.shift(4);
+            let second = inner.reciprocal_series(239, -1)?.shift(2);
+            inner.sub(&first, &second)
+        })
     }
 
     /// ln 2 = 18 atanh(1/26) − 2 atanh(1/4801) + 8 atanh(1/8749).
     pub fn ln2(&self) -> BallResult {
-        if let Some(ln2) = self.ln2.get() {
-            return Ok(ln2.clone());
+        self.constant(&LN2, |inner| {
+            let first = inner.mul(&Ball::integer(18), &inner.reciprocal_series(26, 1)?)?;
+            let second = inner.reciprocal_series(4801, 1)?.shift(1);
+            let third = inner.reciprocal_series(8749, 1)?.shift(3);
+            inner.add(&inner.sub(&first, &second)?, &third)
+        })
+    }
+
+    /// A constant to these bits, from one that is known to more. How many these are depends on the bits asked for alone, so that
+    /// a value does not depend on what was asked before.
+    fn constant(
+        &self,
+        known: &'static LocalKey<RefCell<FxHashMap<usize, Ball>>>,
+        compute: impl Fn(&Precision) -> BallResult,
+    ) -> BallResult {
+        let bits = (self.bits() + GUARD).next_multiple_of(STEP);
+        if let Some(value) = known.with_borrow(|known| known.get(&bits).cloned()) {
+            return Ok(value.rounded(self.bits()));
         }
-        let inner = self.guarded(GUARD);
-        let first = inner.mul(&Ball::integer(18), &inner.reciprocal_series(26, 1)?)?;
-        let second = inner.reciprocal_series(4801, 1)?.shift(1);
-        let third = inner.reciprocal_series(8749, 1)?.shift(3);
-        let ln2 = inner
-            .add(&inner.sub(&first, &second)?, &third)?
-            .rounded(self.bits());
-        Ok(self.ln2.get_or_init(|| ln2).clone())
+        let value = compute(&Precision::new(bits))?;
+        known.with_borrow_mut(|known| known.insert(bits, value.clone()));
+        Ok(value.rounded(self.bits()))
     }
 
     /// Σ sign^k / ((2k+1) n^(2k+1)): atan(1/n) for sign −1, atanh(1/n) for sign 1.
