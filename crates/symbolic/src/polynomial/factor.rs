@@ -104,6 +104,13 @@ fn split_contents(p: &Polynomial, meter: &Meter) -> Result<Vec<Polynomial>, TooL
         if part.is_constant() {
             continue;
         }
+        // A x + B is its content times an irreducible polynomial.
+        if let Some(generator) = linear_generator(&part) {
+            let (content, rest) = part.split_content_in(generator, meter)?;
+            done.push(rest);
+            open.push(content);
+            continue;
+        }
         let mut split = None;
         for generator in part.generators() {
             let (content, rest) = part.split_content_in(generator, meter)?;
@@ -118,6 +125,13 @@ fn split_contents(p: &Polynomial, meter: &Meter) -> Result<Vec<Polynomial>, TooL
         }
     }
     Ok(done)
+}
+
+/// A generator that occurs to the first power at most, of those the one in the fewest terms.
+fn linear_generator(p: &Polynomial) -> Option<usize> {
+    let linear = p.generators().into_iter().filter(|&g| p.degree_in(g) == 1);
+    let count = |g: usize| p.terms().iter().filter(|(m, _)| m.exponent(g) > 0).count();
+    linear.min_by_key(|&g| count(g))
 }
 
 /// Square-free factors of a polynomial that is primitive in each of its generators.

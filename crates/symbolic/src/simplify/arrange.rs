@@ -25,6 +25,8 @@ const MOST_FACTORED: usize = 200;
 const MOST_FACTORIZATIONS: u32 = 150;
 /// How many terms one arranger regroups before sums stay as they are: what needs more is no formula for a reader.
 const MOST_REGROUPED: usize = 1_500;
+/// The place of the depth of what is not nested at all.
+const EXPANDED: usize = usize::MAX;
 /// How many arrangements of a numerator or denominator are tried against each other.
 const MOST_CANDIDATES: usize = 3;
 
@@ -34,7 +36,9 @@ pub(super) struct Arranger<'a, 'g> {
     g: &'g Graph,
     written: Written,
     lengths: RefCell<Lengths>,
+    /// What polynomials were arranged as at a depth of nesting, or at [`EXPANDED`].
     known: RefCell<FxHashMap<(Polynomial, usize), Expr>>,
+    monomials: RefCell<FxHashMap<Monomial, Expr>>,
     factorizations: Cell<u32>,
     regrouped: Cell<usize>,
     contracts: bool,
@@ -68,6 +72,7 @@ impl<'a, 'g> Arranger<'a, 'g> {
             written,
             lengths: RefCell::new(Lengths::written()),
             known: RefCell::default(),
+            monomials: RefCell::default(),
             factorizations: Cell::new(0),
             regrouped: Cell::new(0),
             contracts: false,
@@ -350,23 +355,36 @@ impl<'a, 'g> Arranger<'a, 'g> {
     }
 
     fn expanded(&self, p: &Polynomial) -> Expr {
-        if let Some(contracted) = self.contracted(p) {
-            return self.expanded(&contracted);
+        if let Some(&known) = self.known.borrow().get(&(p.clone(), EXPANDED)) {
+            return known;
         }
-        let terms: Vec<Expr> = p
-            .terms()
-            .iter()
-            .map(|(m, c)| self.g.scale(&Rational::from(c.clone()), self.monomial(m)))
-            .collect();
-        self.g.add(&terms)
+        let result = match self.contracted(p) {
+            Some(contracted) => self.expanded(&contracted),
+            None => {
+                let term = |(m, c): &(Monomial, IBig)| {
+                    self.g.scale(&Rational::from(c.clone()), self.monomial(m))
+                };
+                let terms: Vec<Expr> = p.terms().iter().map(term).collect();
+                self.g.add(&terms)
+            }
+        };
+        self.known
+            .borrow_mut()
+            .insert((p.clone(), EXPANDED), result);
+        result
     }
 
     fn monomial(&self, m: &Monomial) -> Expr {
+        if let Some(&known) = self.monomials.borrow().get(m) {
+            return known;
+        }
         let powers: Vec<Expr> = m
             .iter()
             .map(|(g, e)| self.g.powi(self.expression(g), i64::from(e)))
             .collect();
-        self.g.mul(&powers)
+        let result = self.g.mul(&powers);
+        self.monomials.borrow_mut().insert(m.clone(), result);
+        result
     }
 }
 
