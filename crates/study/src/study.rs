@@ -502,12 +502,13 @@ fn searched(
         return Searched::default();
     }
     let known = registry();
-    let other = prepared_system(system.for_stated_zeros());
     // An integral on one component is none on another, and a projection on its values would lead away from the motion.
+    let on = component_of_motions(system, prepared, Some(start));
     let other = match components_are_apart(system, prepared) {
-        true => prepared_system(component_of_start(system, start).map(|on| on.system)),
-        false => other,
+        true => on.map(|on| on.system),
+        false => system.for_stated_zeros().or(on.map(|on| on.system)),
     };
+    let other = prepared_system(other);
     let cx = match &other {
         Some((prepared, system)) => context_of(system, prepared, &known, proving(options)),
         None => context_of(system, prepared, &known, proving(options)),
@@ -605,7 +606,7 @@ pub(crate) fn known_formulations() -> String {
 }
 
 /// A system with its terms, where it has any.
-fn prepared_system(system: Option<System>) -> Option<(Prepared, System)> {
+pub(crate) fn prepared_system(system: Option<System>) -> Option<(Prepared, System)> {
     let system = system?;
     Some((Prepared::new(&system).ok()?, system))
 }
@@ -615,10 +616,24 @@ pub(crate) fn components_are_apart(system: &System, prepared: &Prepared) -> bool
     covered(system, &prepared.terms, &prepared.selection).is_some()
 }
 
-/// The component of the constraints on which a motion starts, where they have several.
-fn component_of_start(system: &System, start: &ConsistentState) -> Option<OnComponent> {
-    let on = system.on_component(|list| at_start(system, start, list))?;
-    on.condition.is_some().then_some(on)
+/// The system for what is asked of motions: with constraints as simpler equations of the same states, or on the component of the start,
+/// where components are apart and it is known. `None` where the system is this one.
+pub(crate) fn component_of_motions(
+    system: &System,
+    prepared: &Prepared,
+    start: Option<&ConsistentState>,
+) -> Option<OnComponent> {
+    let on = system.on_component(|list| at_start(system, start?, list))?;
+    speaks_of_motions(&on, system, prepared, start).then_some(on)
+}
+
+fn speaks_of_motions(
+    on: &OnComponent,
+    system: &System,
+    prepared: &Prepared,
+    start: Option<&ConsistentState>,
+) -> bool {
+    on.condition.is_none() || (start.is_some() && components_are_apart(system, prepared))
 }
 
 fn context_of<'a>(
@@ -720,11 +735,7 @@ fn decide(
         let values = system.stated_zeros();
         cx = cx.for_stated_values(chetaev_geometry::CLAIMS, &values, zeros);
     } else if let (None, Some((of, component))) = (&stated, &on) {
-        // Of components that are apart, integrals and measures are asked for on that of the start.
-        if start.is_some()
-            && component.condition.is_some()
-            && components_are_apart(system, prepared)
-        {
+        if speaks_of_motions(component, system, prepared, start) {
             cx = cx.on_component(&of_motions, of, component);
         }
     }

@@ -102,6 +102,36 @@ fn integrals_are_kept_on_the_component_of_the_start() {
     assert!(condition.contains("y' = 0"), "{condition}");
 }
 
+/// exp(z' − y x') = 1 and z'³ = y³ x'³ are z' = y x', whose integrals y' and x' √(1 + y²) and whose density √(1 + y²) are known; they are
+/// kept along the motion, and with them z' − y x'.
+#[test]
+fn constraints_that_are_functions_of_a_simpler_one_have_its_integrals() {
+    for c in ["exp(z' - y x') = 1", "z'^3 = y^3 x'^3"] {
+        let text = format!("name = \"curved\"\ncoordinates = [\"x\", \"y\", \"z\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2\"\n[constraints]\nc = \"{c}\"\n[initial]\ny = 1\n\"x'\" = 1\n\"y'\" = \"1/2\"\n\"z'\" = 1\n[simulation]\nt_end = 2\n");
+        let study = studied(&text, &["motion", "integrals"], keeping);
+        let kept = trajectory(&study).kept.expect("what was kept");
+        let formulas: Vec<&str> = kept.integrals.iter().map(|i| i.formula.as_str()).collect();
+        assert!(
+            formulas.contains(&"y'") && formulas.contains(&"x' sqrt(1 + y^2)"),
+            "{formulas:?}"
+        );
+        for (claim, said) in [
+            ("noether.integral#1", "y' keeps its value"),
+            ("measure.invariant", "N = sqrt(1 + y^2)"),
+            ("liouville.integrable", "2 independent integrals"),
+        ] {
+            let verdict = verdict(&study, claim);
+            assert_eq!(verdict.word(), "proved", "{claim}: {}", verdict.detail());
+            let detail = verdict.detail();
+            assert!(
+                detail.contains("with `c` written as y x' - z' = 0"),
+                "{detail}"
+            );
+            assert!(detail.contains(said), "{detail}");
+        }
+    }
+}
+
 /// What was kept is said by the record, the summary, the report and by each verdict on a drift, which is no evidence then; also of the
 /// energy and of stated integrals that are functions of what was kept. Nothing is said where nothing was kept.
 #[test]

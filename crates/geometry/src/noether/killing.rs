@@ -86,7 +86,7 @@ impl Search<'_, '_> {
             return Ok(all);
         }
         let columns: Vec<Vec<Expr>> = all.iter().map(|&e| vec![e]).collect();
-        let none = "no points of the constraint manifold were found over a prime field";
+        let none = "no velocities that satisfy the constraints were found modulo a prime, where functions are compared";
         let places = self.ansatz(&columns)?.independent().ok_or(none)?;
         let kept = places.into_iter().filter(|&i| !but_constants || i > 0);
         Ok(kept.map(|i| all[i]).collect())

@@ -222,7 +222,7 @@ impl Letters {
         let mut random = Random::stream(seed, 1 << 21);
         let at = draw_with_points(&points, &mut random)
             .and_then(|draw| points.at(&draw, &mut random))
-            .ok_or("no points of the constraint manifold were found over a prime field")?;
+            .ok_or("no velocities that satisfy the constraints were found modulo a prime, where functions are compared")?;
         let mut without = self.clone();
         let mut kept = at.iter().map(|value| !value.is_zero());
         without.velocities.retain(|_| kept.next().unwrap_or(true));

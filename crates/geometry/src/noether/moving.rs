@@ -626,7 +626,7 @@ fn kept_together(
     let outputs: Vec<Expr> = candidates.iter().flat_map(|c| [c.rate, c.value]).collect();
     let points = motion.points_with(&outputs, stated)?;
     let mut random = Random::stream(cx.prover.points_seed(), 1 << 22);
-    let none = "no points of the constraint manifold were found over a prime field";
+    let none = "no velocities that satisfy the constraints were found modulo a prime, where functions are compared";
     let draw = draw_with_points(&points, &mut random).ok_or(none)?;
     let mut all = Vec::new();
     for _ in 0..3 {

@@ -211,7 +211,7 @@ impl<'a> Table<'a> {
     /// # Errors
     /// A sentence that says why there is none.
     pub fn space(&self, family: &Family) -> Result<Space, String> {
-        let none = "no points of the constraint manifold were found over a prime field";
+        let none = "no velocities that satisfy the constraints were found modulo a prime, where functions are compared";
         let (integrals, supports) = self.vectors(family).ok_or(none)?;
         let size = supports.iter().map(Vec::len).max().unwrap_or(1);
         let degree = family.members.iter().map(degree).max().unwrap_or(0);
@@ -224,7 +224,7 @@ impl<'a> Table<'a> {
                 .ok_or(none)?
             {
                 return Err(
-                    "what vanished at the points of one draw does not at those of another".into(),
+                    "what vanished at some random states does not at others: the constraints may have several components".into(),
                 );
             }
         }

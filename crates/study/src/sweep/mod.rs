@@ -14,7 +14,9 @@ use crate::error::StudyError;
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
 use crate::start::{initial_data, settings};
-use crate::study::{components_are_apart, keeps, kept, movable, prepare};
+use crate::study::{
+    component_of_motions, components_are_apart, keeps, kept, movable, prepare, prepared_system,
+};
 use chetaev_ensemble::columns::Names;
 use chetaev_ensemble::outcome::Shape;
 use chetaev_ensemble::{Columns, Routh, Work};
@@ -133,12 +135,8 @@ impl Sweep {
         let (terms, selection) = (&prepared.terms, &prepared.selection);
         let cx = Context::new(&system, terms, selection, &known, Prover::default());
         check_applies(&cx, formulation.card())?;
-        if keeps(&base, &options.study) && components_are_apart(&system, &prepared) {
-            return Err(StudyError::KeptOnComponents);
-        }
-        let searched = kept(&base, &cx, &options.study, hooks);
-        settings.keep = movable(&system, &searched);
         drop(cx);
+        settings.keep = to_keep(&base, (&system, &prepared), &options.study, hooks)?;
         let columns = columns(&base, &system, &variations, options.samples);
         let mut sweep = Sweep {
             data: initial_data(&base, &system, &options.study)?,
@@ -258,6 +256,31 @@ impl Sweep {
             ("native code", format!("{}", self.numeric.is_native())),
         ]
     }
+}
+
+/// The integrals to keep on every trajectory, where that is asked for.
+fn to_keep(
+    base: &Model,
+    (system, prepared): (&System, &Prepared),
+    options: &StudyOptions,
+    hooks: &mut Hooks<'_>,
+) -> Result<Vec<Expr>, StudyError> {
+    if !keeps(base, options) {
+        return Ok(Vec::new());
+    }
+    if components_are_apart(system, prepared) {
+        return Err(StudyError::KeptOnComponents);
+    }
+    let other = component_of_motions(system, prepared, None).map(|on| on.system);
+    let other = prepared_system(other);
+    let (system, prepared) = other
+        .as_ref()
+        .map_or((system, prepared), |(prepared, system)| (system, prepared));
+    let known = registry();
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let cx = Context::new(system, terms, selection, &known, Prover::default());
+    let searched = kept(base, &cx, options, hooks);
+    Ok(movable(system, &searched))
 }
 
 /// The times at which states are kept: equally far apart, or the end alone.
