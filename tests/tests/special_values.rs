@@ -203,3 +203,16 @@ fn constraints_that_lose_their_velocities_at_special_values() {
         assert_eq!(own.len(), 2, "{own:?}");
     }
 }
+
+/// On the cone z'² = a² (x'² + y'²) with uniform forces along x and z: with the reaction λ (-a² x', -a² y', z') and a = 1 the rate of x' z' is -gz x' - gx z',
+/// that of y' z' is -gz y', whatever gx and gz are that the model states too.
+#[test]
+fn only_the_stated_values_that_matter_are_named() {
+    let cone = "name = \"cone\"\ncoordinates = [\"x\", \"y\", \"z\"]\n[parameters]\na = 1\ngz = 2\ngx = 3\n[lagrangian]\nT = \"(x'^2 + y'^2 + z'^2)/2\"\nV = \"gz z + gx x\"\n[constraints]\nc = \"z'^2 = a^2 (x'^2 + y'^2)\"\n";
+    let found = specials(cone);
+    let own = found.iter().find(|(own, _)| own == "a = 1");
+    let (_, own) = own.unwrap_or_else(|| panic!("{found:?}"));
+    let mut own = own.clone();
+    own.sort();
+    assert_eq!(own, ["x' z' + gz x + gx z", "y' z' + gz y"], "{found:?}");
+}

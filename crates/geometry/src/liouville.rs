@@ -331,12 +331,17 @@ fn counted_for(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
         true => reduced.constant.len(),
         false => 0,
     };
+    let themselves = free.max(constant);
     let many = invariant(cx, reduced, &values)
         .unwrap_or(0)
-        .max(free)
-        .max(constant);
+        .max(themselves);
     let m = reduced.variables;
-    let about = about(cx, reduced, many);
+    // The path of two oscillators with the ratio √2 is dense in a torus: what leaves the time out has no single value there.
+    let local = match many > themselves {
+        true => ", as functions of those found that exist near each general state",
+        false => "",
+    };
+    let about = format!("{}{local}", about(cx, reduced, many));
     if many + 1 >= m {
         let detail = match many {
             0 => format!("{about}; a single variable needs neither integrals nor a measure"),

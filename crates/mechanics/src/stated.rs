@@ -131,12 +131,16 @@ impl System {
     }
 
     fn for_values(&self, values: Vec<(Expr, Expr)>) -> Option<System> {
-        let thrust = |p: &crate::system::Particle| !matches!(p.thrust, Thrust::Isotropic);
-        let vary = !self.masses.is_empty() || self.particles.iter().any(thrust);
-        if values.is_empty() || vary {
+        if values.is_empty() || self.has_varying_masses() {
             return None;
         }
         self.put_in(values)
+    }
+
+    /// Whether masses have laws of their own, or what particles lose has its own velocity: such systems are not made for values.
+    pub fn has_varying_masses(&self) -> bool {
+        let thrust = |p: &crate::system::Particle| !matches!(p.thrust, Thrust::Isotropic);
+        !self.masses.is_empty() || self.particles.iter().any(thrust)
     }
 
     fn put_in(&self, values: Vec<(Expr, Expr)>) -> Option<System> {

@@ -671,11 +671,40 @@ fn special_at(
     let (mut found, mut missed) = table.special(cx, families, ties, &[]);
     let seen = found.iter().any(|special| is_stated(cx, &special.tie));
     if !seen && !values.is_empty() {
-        let (own, left_out) = table.special(cx, families, &[Tie::Values(values)], &[]);
-        found.extend(own);
+        let (own, left_out) = table.special(cx, families, &[Tie::Values(values.clone())], &[]);
+        found.extend(
+            own.into_iter()
+                .map(|special| with_fewest(cx, table, families, special, values.clone())),
+        );
         missed.extend(left_out);
     }
     Some((found, missed))
+}
+
+/// Of more values none are tried to be left out.
+const STATED: usize = 8;
+
+/// The same with the fewest of the stated values that as many integrals need.
+fn with_fewest(
+    cx: &Context<'_>,
+    table: &Table<'_>,
+    families: &[Family],
+    mut special: Special,
+    mut values: Vec<(Symbol, Rational)>,
+) -> Special {
+    if values.len() > STATED {
+        return special;
+    }
+    for place in (0..values.len()).rev() {
+        let mut fewer = values.clone();
+        fewer.remove(place);
+        let (found, _) = table.special(cx, families, &[Tie::Values(fewer.clone())], &[]);
+        let enough = |found: &Special| found.integrals.len() >= special.integrals.len();
+        if let Some(found) = found.into_iter().find(enough) {
+            (special, values) = (found, fewer);
+        }
+    }
+    special
 }
 
 /// The special values that are looked at, those that the model states first, and whether these are all.

@@ -7,7 +7,7 @@ use crate::noether::found::{in_families, is_independent};
 use crate::noether::letters::Letters;
 use crate::noether::motion::Motion;
 use crate::noether::search::Integral;
-use chetaev_mechanics::Context;
+use chetaev_mechanics::{Context, Prepared};
 use chetaev_symbolic::Expr;
 
 /// So many systems are searched.
@@ -22,7 +22,7 @@ pub struct PutIn {
     pub families: Vec<String>,
 }
 
-/// What there is more of at these values, where this was searched, and what is left of them. As many families as for so many values.
+/// What there is more of at these values, where this was searched, and what is left of those that have motions. As many families as for so many values.
 pub(super) fn put_in(
     cx: &Context<'_>,
     ties: Vec<Tie>,
@@ -30,7 +30,7 @@ pub(super) fn put_in(
     count: usize,
 ) -> (Vec<Special>, Vec<PutIn>, Vec<Tie>) {
     let (mut found, mut searched, mut left) = (Vec::new(), Vec::new(), Vec::new());
-    for tie in ties {
+    for tie in ties.into_iter().filter(|tie| has_motions(cx, tie)) {
         let within = searched.len() < SYSTEMS && !cx.is_out_of_time();
         match within.then(|| at(cx, &tie, integrals, count)).flatten() {
             Some((families, integrals)) => {
@@ -44,6 +44,15 @@ pub(super) fn put_in(
         }
     }
     (found, searched, left)
+}
+
+/// Whether there is a system at special values, as far as one can be made: y'² = a x'² says nothing definite at a = 0.
+fn has_motions(cx: &Context<'_>, tie: &Tie) -> bool {
+    let system = cx.system.with_parameters(&tie.pairs(&cx.system.graph));
+    match &system {
+        Some(system) => Prepared::new(system).is_ok_and(|own| own.left_out(system).is_ok()),
+        None => cx.system.has_varying_masses(),
+    }
 }
 
 /// The families searched in the system with the values, and the integrals there that are no functions of those for all values; `None`
