@@ -332,9 +332,7 @@ fn counted_for(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
         false => 0,
     };
     let themselves = free.max(constant);
-    let many = invariant(cx, reduced, &values)
-        .unwrap_or(0)
-        .max(themselves);
+    let many = invariant(cx, reduced, &values).unwrap_or(0).max(themselves);
     let m = reduced.variables;
     // The path of two oscillators with the ratio √2 is dense in a torus: what leaves the time out has no single value there.
     let local = match many > themselves {

@@ -30,6 +30,11 @@ const POWER: i8 = 2;
 type Product = (Vec<(Symbol, i8)>, Residue);
 
 impl Table<'_> {
+    /// Whether what the table contains is rational at its points, in all parameters.
+    pub(super) fn are_rational(&self) -> bool {
+        self.points.are_rational()
+    }
+
     /// Candidates for values of a parameter where the family contains more integrals, in terms of the others, while a `tie` holds; `None` where they were
     /// not found within the work left, counted in multiplications.
     pub(super) fn critical(
@@ -40,7 +45,7 @@ impl Table<'_> {
         others: &[Symbol],
         work: &mut u64,
     ) -> Option<Vec<Tie>> {
-        if !self.points.are_rational() {
+        if !self.are_rational() {
             return None;
         }
         let drawn = |number: usize| {

@@ -386,7 +386,24 @@ pub(super) fn special(
     let g = &cx.system.graph;
     let mut parameters = parameters;
     parameters.sort_by_key(|&s| g.symbol_name(s).to_owned());
-    let (further, critical) = critical(cx, table, letters, &parameters, (&ties, &found));
+    let plain = letters.without_roots(cx.system);
+    let without_roots = match table.are_rational() {
+        true => None,
+        false => Table::new(motion, &plain.all(), cx.prover.points_seed()).ok(),
+    };
+    let looked_at = match &without_roots {
+        Some(own) => (own, &plain),
+        None => (table, letters),
+    };
+    let (further, critical) = critical(
+        cx,
+        table,
+        letters,
+        looked_at,
+        &parameters,
+        (&ties, &found),
+        integrals,
+    );
     // A relation that the values stated satisfy says more than these.
     if further.iter().any(|special| is_stated(cx, &special.tie)) {
         found.retain(|special| !matches!(special.tie, Tie::Values(_)));
@@ -466,20 +483,23 @@ fn critical_family(cx: &Context<'_>, letters: &Letters) -> Option<(u32, Family)>
     Some((weight, family))
 }
 
-/// Further integrals, quadratic in the velocities and free of the time, at special values of one parameter each.
+/// Further integrals, quadratic in the velocities and free of the time, at special values of one parameter each. The values are found with
+/// letters that have no roots, and a table of these.
 fn critical(
     cx: &Context<'_>,
     table: &Table<'_>,
     letters: &Letters,
+    (rational, plain): (&Table<'_>, &Letters),
     parameters: &[Symbol],
     (known, at): (&[Tie], &[Special]),
+    integrals: &[Integral],
 ) -> (Vec<Special>, Critical) {
-    let Some((_, family)) = critical_family(cx, letters) else {
+    let Some((_, family)) = critical_family(cx, plain) else {
         return Default::default();
     };
     let mut search = CriticalSearch {
         cx,
-        table,
+        table: rational,
         family: &family,
         parameters,
         work: WORK,
@@ -487,13 +507,13 @@ fn critical(
         ties: Vec::new(),
     };
     let mut looked = parameters.to_vec();
-    let (inside, g) = (table.inside_functions(), &cx.system.graph);
+    let (inside, g) = (rational.inside_functions(), &cx.system.graph);
     looked.retain(|&parameter| {
         !inside.contains(&g.symbol_expr(parameter)) && search.looked_at(None, parameter)
     });
     let mut families = vec![family.clone()];
-    if letters.velocities.len() > 1 {
-        families.extend(quotients(cx, letters, CRITICAL));
+    if plain.velocities.len() > 1 {
+        families.extend(quotients(cx, plain, CRITICAL));
     }
     // Quotients may be kept where no polynomial is, as where two velocities fade alike.
     if let [_, quotients] = &families[..] {
@@ -501,7 +521,14 @@ fn critical(
         looked.retain(|&parameter| search.looked_at(None, parameter));
         search.family = &family;
     }
-    let (mut found, _) = table.special(cx, &families, &search.ties, &[]);
+    // With roots among the letters more may be found than that for which the values were looked for.
+    let searched = match table.are_rational() {
+        true => families.clone(),
+        false => families_at(cx, letters, known.len()),
+    };
+    let (mut found, missed) = table.special(cx, &searched, &search.ties, &[]);
+    let (own, ..) = put_in::put_in(cx, missed, integrals, search.ties.len());
+    found.extend(own);
     // Two conditions at once: an equality that adds nothing by itself, and a value of another parameter.
     let alone = search.ties.len();
     let mut pairs: Vec<Tie> = known.to_vec();
@@ -510,7 +537,7 @@ fn critical(
     let adding: Vec<Tie> = at.iter().chain(&found).map(|s| s.tie.clone()).collect();
     found.extend(
         table
-            .special(cx, &families, &search.ties[alone..], &adding)
+            .special(cx, &searched, &search.ties[alone..], &adding)
             .0,
     );
     let critical = Critical {
