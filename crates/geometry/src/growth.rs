@@ -13,7 +13,7 @@ use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{simplify, Expr, Symbol, Verdict};
+use chetaev_symbolic::{simplify, Expr, Function, Graph, Node, Symbol, Verdict};
 use std::sync::Arc;
 
 /// `distribution.growth`.
@@ -347,12 +347,97 @@ fn full_at(cx: &Context<'_>, flag: &Flag, with_time: bool) -> String {
     }
 }
 
+/// The fields times their denominators, which span the same where neither vanishes, and are defined at more places; `None` where they
+/// have none. Fields that are solved for one velocity say nothing of where its coefficient vanishes: `x z' = y x'` at x = 0.
+fn without_poles(cx: &Context<'_>, fields: &[Directed]) -> Option<Vec<Directed>> {
+    let g = &cx.system.graph;
+    let simple = |e: Expr| simplify::simplify(g, e, &simplify::Options::default());
+    let is_whole = |field: &Directed| denominator(g, &field.place) == Some(g.one());
+    let fields: Vec<Directed> = fields
+        .iter()
+        .map(|field| Directed {
+            place: field.place.iter().map(|&e| by_sines(g, e)).collect(),
+            ..field.clone()
+        })
+        .collect();
+    if fields.iter().all(is_whole) {
+        return None;
+    }
+    let scaled = fields.into_iter().map(|field| {
+        // What cannot be factorized stays as it is.
+        let by = denominator(g, &field.place).unwrap_or(g.one());
+        let times = |e: Expr| simple(g.mul(&[by, e]));
+        Directed {
+            time: times(field.time),
+            place: field.place.iter().map(|&e| times(e)).collect(),
+            ..field
+        }
+    });
+    Some(scaled.collect())
+}
+
+/// The least common denominator; `None` where one of the expressions cannot be factorized.
+fn denominator(g: &Graph, es: &[Expr]) -> Option<Expr> {
+    let mut powers: Vec<(Expr, i64)> = Vec::new();
+    for &e in es.iter().filter(|&&e| !g.is_zero(e)) {
+        for (factor, power) in factored(g, e)?.factors {
+            if power >= 0 {
+                continue;
+            }
+            match powers.iter_mut().find(|(own, _)| *own == factor) {
+                Some((_, own)) => *own = (*own).max(-power),
+                None => powers.push((factor, -power)),
+            }
+        }
+    }
+    let factors = powers.iter().map(|&(factor, power)| g.powi(factor, power));
+    Some(g.mul(&factors.collect::<Vec<Expr>>()))
+}
+
+/// Tangents, cotangents, secants and cosecants by sines and cosines, so that their poles are seen.
+fn by_sines(g: &Graph, e: Expr) -> Expr {
+    let quotient = |e: Expr| {
+        let Node::Apply {
+            function,
+            arguments,
+        } = g.node(e)
+        else {
+            return None;
+        };
+        let (sin, cos) = (g.sin(*arguments.first()?), g.cos(arguments[0]));
+        Some(match function {
+            Function::Tan => (e, g.div(sin, cos)),
+            Function::Cot => (e, g.div(cos, sin)),
+            Function::Sec => (e, g.div(g.one(), cos)),
+            Function::Csc => (e, g.div(g.one(), sin)),
+            _ => return None,
+        })
+    };
+    let pairs: Vec<(Expr, Expr)> = g.reachable(&[e]).into_iter().filter_map(quotient).collect();
+    g.substitute(e, &pairs)
+}
+
+/// Where everything is generated, as a part of the sentence.
+fn everywhere_at(cx: &Context<'_>, flag: &Flag, generated: &Generated) -> String {
+    let with_time = generated.with_time;
+    match without_poles(cx, &generated.generators) {
+        None => full_at(cx, flag, with_time),
+        Some(fields) => match Flag::of(cx, &fields, with_time, false) {
+            Ok(flag) => full_at(cx, &flag, with_time),
+            Err(_) => " at almost every place".into(),
+        },
+    }
+}
+
 fn reached(cx: &Context<'_>, flag: &Flag, generated: &Generated) -> Finding {
     let (n, drifts) = (cx.system.n(), generated.with_time);
     let rank = flag.growth.last().copied().unwrap_or(0);
     let growth = vector(flag, drifts);
-    let full = full_at(cx, flag, drifts);
     let missing = n + usize::from(drifts) - rank;
+    let full = match missing {
+        0 => everywhere_at(cx, flag, generated),
+        _ => String::new(),
+    };
     let mut sentence = match (missing, drifts) {
         (0, false) => format!("{growth}{full}: every configuration nearby can be reached"),
         (0, true) => format!(
