@@ -52,8 +52,18 @@ pub(super) fn refuted(cx: &Context<'_>, flow: &Flow<'_>) -> Option<Verdict> {
         Verdict::Refuted(mut found) => {
             flow.refuted_as_stated.set(true);
             "the rate of the energy".clone_into(&mut found.quantity);
+            let g = &system.graph;
+            let values = system.parameter_values();
+            let occurs = |&(p, _): &(Expr, Expr)| {
+                let symbol = g.as_symbol(p);
+                symbol.is_some_and(|s| g.any_contains_any(&[rate, energy], &[s]))
+            };
+            let stated = match values.iter().any(occurs) {
+                true => "for the values that the model states of its parameters ",
+                false => "",
+            };
             found.detail = format!(
-                "the energy has a strict minimum at rest at the origin of the coordinates, by its second derivative, and its rate keeps one sign and is not zero: motions carry small neighbourhoods of that state, bounded by levels of the energy, into smaller ones, forwards or backwards, so no positive density free of the time is kept there; for the rate of the energy {}",
+                "{stated}the energy has a strict minimum at rest at the origin of the coordinates, by its second derivative, and its rate keeps one sign and is not zero: motions carry small neighbourhoods of that state, bounded by levels of the energy, into smaller ones, forwards or backwards, so no positive density free of the time is kept there; for the rate of the energy {}",
                 found.detail
             );
             Some(Verdict::Refuted(found))

@@ -1,9 +1,10 @@
 //! What the laws that a model states for its controls add: the search and the verdicts are for any functions u(t) else.
 
+use super::narrowed::in_system;
 use crate::integrability::on_its_own;
 use crate::noether::found::found;
 use chetaev_mechanics::claims::{Context, Finding};
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::Expr;
 
 /// `u = sin(3 t)`, for the laws that a model states; `None` where it states none.
 fn laws(cx: &Context<'_>) -> Option<String> {
@@ -18,25 +19,8 @@ fn laws(cx: &Context<'_>) -> Option<String> {
 pub(super) fn by_laws(cx: &Context<'_>, name: Option<&str>) -> Option<Finding> {
     let laws = laws(cx)?;
     let system = cx.system.for_laws_of_controls()?;
-    let claim = format!("noether.inverse#{}", name?);
-    let found = on_its_own(cx, &system, |own| Finding::clone(&own.finding(&claim)))?;
     let words = "it keeps its value on motions for the laws of the controls that the model states, not for all functions of the time";
-    let (condition, proof) = match found.verdict {
-        Verdict::Proved(proof) => (laws, proof),
-        Verdict::Conditional {
-            condition, proof, ..
-        } => (format!("{laws}, {condition}"), proof),
-        _ => return None,
-    };
-    let verdict = Verdict::Conditional {
-        condition,
-        proof,
-        counterexample: None,
-    };
-    Some(Finding {
-        verdict: verdict.prefixed(words),
-        formulas: found.formulas,
-    })
+    in_system(cx, name, &system, (&laws, words))
 }
 
 /// Which integrals there are for the laws stated that are not among those for all functions of the time, in words.

@@ -2,6 +2,7 @@
 
 use super::controls::by_laws;
 use super::domain::{lasting, nowhere, undefined_at_samples, while_it_lasts};
+use super::narrowed::{by_values_on_part, on_components};
 use super::requirements;
 use super::states::{on_part, on_positions, on_sides};
 use super::symmetry::{symmetry, with_symmetry};
@@ -107,8 +108,9 @@ fn decided(
             let words = "it keeps its value as long as the motion stays on one component of the constraints";
             with_symmetry(found.prefixed(words), Some(symmetry(cx, value)))
         }
-        other => on_part(cx, motion, name, value)
+        other => on_stated_part(cx, motion, name, value)
             .or_else(|| on_sides(cx, value))
+            .or_else(|| on_components(cx, name))
             .or_else(|| by_definitions(cx, motion, value))
             .or_else(|| by_values(cx, motion, value))
             .or_else(|| on_positions(cx, motion, value))
@@ -121,6 +123,23 @@ fn decided(
                 other.prefixed(words).into()
             }),
     }
+}
+
+/// The verdict on the part that the model states; where it is refuted there, for stated values or laws or on a component.
+fn on_stated_part(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    name: Option<&str>,
+    value: Expr,
+) -> Option<Finding> {
+    let own = on_part(cx, motion, name, value)?;
+    if !matches!(own.verdict, Verdict::Refuted(_)) {
+        return Some(own);
+    }
+    let narrowed = by_values_on_part(cx, motion, name, value)
+        .or_else(|| by_laws(cx, name))
+        .or_else(|| on_components(cx, name));
+    Some(narrowed.unwrap_or(own))
 }
 
 /// What occurs in a function beside the state (t, q, v) and parameters: an acceleration, a reaction.

@@ -9,6 +9,7 @@ mod integral;
 mod inverse;
 mod killing;
 mod moving;
+mod narrowed;
 mod parts;
 mod reduced;
 mod states;
