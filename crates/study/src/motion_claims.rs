@@ -492,12 +492,7 @@ impl Claim for IntegralDrift {
         match evidence.integrals.iter().find(named) {
             Some(followed) => {
                 let what = format!("`{}`", followed.name);
-                match followed.jumps {
-                    Some(_) => decided(followed, &what, "noether.inverse").into(),
-                    None => no_value(followed, &what)
-                        .unwrap_or_else(|| followed_verdict(cx, &evidence, followed, &what))
-                        .into(),
-                }
+                decided(followed, &what, "noether.inverse").into()
             }
             None => Verdict::undecided("no such integral is stated").into(),
         }
@@ -521,7 +516,7 @@ fn no_value(followed: &Followed, what: &str) -> Option<Verdict> {
 }
 
 /// A found integral that is one on a component of the constraints need not be one of a motion on another, nor a stated one across
-/// its jumps.
+/// its jumps, or off the part with which it is stated.
 fn where_it_holds(cx: &Context<'_>, claim: &str, verdict: Verdict) -> Verdict {
     let Verdict::Refuted(found) = &verdict else {
         return verdict;

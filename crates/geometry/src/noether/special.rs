@@ -195,7 +195,7 @@ impl Table<'_> {
             if integrals.is_empty() {
                 continue;
             }
-            match leaves_no_motion(cx, tie) {
+            match leaves_no_motion(cx, tie) || !put_in::has_motions(cx, tie) {
                 true => missed.push(tie.clone()),
                 false => found.push(Special {
                     tie: tie.clone(),
@@ -320,7 +320,11 @@ fn leaves_no_motion(cx: &Context<'_>, tie: &Tie) -> bool {
         return false;
     };
     let pairs = tie.pairs(g);
+    let symbols: Vec<Symbol> = pairs.iter().filter_map(|&(s, _)| g.as_symbol(s)).collect();
     let mut mass = congruent(system, &cx.terms.mass_matrix, &chart.basis);
+    if !g.any_contains_any(&mass.concat(), &symbols) {
+        return false;
+    }
     for entry in mass.iter_mut().flatten() {
         *entry = g.substitute(*entry, &pairs);
     }
@@ -748,6 +752,7 @@ fn ties(cx: &Context<'_>, parameters: &[Symbol]) -> (Vec<Tie>, bool) {
         _ => true,
     }));
     ties.retain(|tie| is_stated(cx, tie) || is_admitted(cx, tie));
+    ties.retain(|tie| !leaves_no_motion(cx, tie));
     ties.sort_by_key(|tie| !is_stated(cx, tie));
     let all = ties.len() <= TIES;
     ties.truncate(TIES);

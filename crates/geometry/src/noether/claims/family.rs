@@ -311,7 +311,7 @@ fn families_at_special_values(cx: &Context<'_>, found: &Found) -> Vec<String> {
                 true => ", and not at other equalities or zeros",
                 false => "",
             };
-            Some(format!("where parameters are so{only}: {}", all.join("; ")))
+            (!all.is_empty()).then(|| format!("where parameters are so{only}: {}", all.join("; ")))
         }
     };
     let simple = places.map(|places| format!("{places}, {}", special.families.join(", ")));

@@ -47,6 +47,7 @@ pub(super) fn by_values_on_part(
     let sides = own.flat_map(|(_, left, right, _)| [*left, *right]);
     let mut all: Vec<Expr> = sides.chain([value]).collect();
     all.extend(motion.derivatives(&all.clone()));
+    all.extend(cx.terms.constraints.iter().chain([&system.lagrangian]));
     let occurring = g.symbols_in(&all);
     let mut values = system.parameter_values();
     values.retain(|&(p, _)| g.as_symbol(p).is_some_and(|s| occurring.contains(&s)));

@@ -47,7 +47,7 @@ pub(super) fn put_in(
 }
 
 /// Whether there is a system at special values, as far as one can be made: y'² = a x'² says nothing definite at a = 0.
-fn has_motions(cx: &Context<'_>, tie: &Tie) -> bool {
+pub(super) fn has_motions(cx: &Context<'_>, tie: &Tie) -> bool {
     let system = cx.system.with_parameters(&tie.pairs(&cx.system.graph));
     match &system {
         Some(system) => Prepared::new(system).is_ok_and(|own| own.left_out(system).is_ok()),
