@@ -217,3 +217,19 @@ fn only_the_stated_values_that_matter_are_named() {
     own.sort();
     assert_eq!(own, ["x' z' + gz x + gx z", "y' z' + gz y"], "{found:?}");
 }
+
+/// Beside letters with roots: z' = a y x' + (1 - a) x y' is z' = x y' at a = 0, z' = y x' at a = 1, and 2 z' = (x y)' at a = 1/2 (by hand).
+#[test]
+fn special_values_beside_roots() {
+    let text = "name = \"mixed\"\ncoordinates = [\"x\", \"y\", \"z\"]\nparameters = [\"a\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2\"\n[constraints]\nc = \"z' = a y x' + (1 - a) x y'\"\n";
+    let found = specials(text);
+    for (tie, integral) in [
+        ("a = 0", "y' sqrt(1 + x^2)"),
+        ("a = 1", "x' sqrt(1 + y^2)"),
+        ("a = 1/2", "x y - 2 z"),
+    ] {
+        let own = found.iter().find(|(own, _)| own == tie);
+        let own = own.map(|(_, own)| own.as_slice()).unwrap_or_default();
+        assert!(own.iter().any(|e| e == integral), "{tie}: {found:?}");
+    }
+}

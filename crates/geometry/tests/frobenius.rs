@@ -647,3 +647,40 @@ fn corners_of_holonomic_constraints_count_for_brackets() {
         "{detail}"
     );
 }
+
+/// Where fields that are solved for z' have poles nothing was looked at: x z' = y x' keeps x = 0, and z = 0 is kept by x z' = y z x'. The blade
+/// x' sin w = y' cos w generates everything at every angle, whichever velocity it is solved for.
+#[test]
+fn growth_says_where_it_was_looked_at() {
+    let at = |constraint: &str| {
+        let found = finding(&in_space(&[("c", constraint)]), GROWTH);
+        found.verdict.detail().to_owned()
+    };
+    let detail = at("x*z' - y*x'");
+    assert!(detail.contains("(2, 3) where x ≠ 0 ("), "{detail}");
+    let detail = at("x*z' - y*z*x'");
+    assert!(
+        detail.contains("(2, 3) where x ≠ 0 and z ≠ 0 ("),
+        "{detail}"
+    );
+    let detail = at("x'*sin(z) - y'*cos(z)");
+    assert!(detail.contains("(2, 3): every"), "{detail}");
+}
+
+/// The area that is swept on a circle or an ellipse, by hand: z' = y x' with x = cos s, y = sin s keeps z + s/2 - x y/2.
+#[test]
+fn areas_on_ellipses_are_kept() {
+    for (fixed, area) in [
+        ("x^2 + y^2 - 1", "2 z - x y + (x^2 + y^2) atan2(y, x)"),
+        (
+            "x^2 + 4*y^2 - 1",
+            "4 z - 2 x y + (x^2 + 4 y^2) atan2(2 y, x)",
+        ),
+    ] {
+        let own = in_space(&[("h", fixed), ("c", "z' - y*x'")]);
+        let found = finding(&own, "model.constraints-integrable#weak");
+        let detail = found.verdict.detail();
+        assert!(detail.contains(area), "{detail}");
+        assert!(!detail.contains("not found"), "{detail}");
+    }
+}

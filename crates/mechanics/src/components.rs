@@ -284,11 +284,22 @@ impl System {
         })
     }
 
-    /// The constraints nonlinear in the velocities for which there are simpler functions.
+    /// The constraints nonlinear in the velocities for which there are simpler functions, and holonomic ones that are products.
     fn simpler(&self) -> Vec<Simpler> {
         let (g, known) = (&self.graph, assumptions(self));
         let mut found = Vec::new();
         for (row, constraint) in self.constraints.iter().enumerate() {
+            if constraint.kind == ConstraintKind::Holonomic {
+                let equations = self.factors_of_position(constraint);
+                if equations.len() > 1 {
+                    found.push(Simpler {
+                        row,
+                        equations,
+                        assumptions: Vec::new(),
+                    });
+                }
+                continue;
+            }
             if constraint.kind != ConstraintKind::Nonlinear {
                 continue;
             }
@@ -315,6 +326,23 @@ impl System {
         found
     }
 
+    /// The factors of a holonomic constraint that may vanish: `x y = 0` holds on two components, `x y = 1` on others of which no product
+    /// says anything.
+    fn factors_of_position(&self, constraint: &Constraint) -> Vec<Expr> {
+        let (g, known) = (&self.graph, assumptions(self));
+        let factors = irreducible_factors(g, constraint.stated, &self.coordinate_symbols());
+        let all = factors.unwrap_or_default().into_iter().map(|(e, _)| e);
+        all.filter(|&e| !known_sign(g, e, &known).is_nonzero())
+            .collect()
+    }
+
+    /// Whether a holonomic constraint is a product, so that integrals of the motions that its derivative allows say nothing of it.
+    pub fn has_positions_apart(&self) -> bool {
+        let holonomic = |c: &&Constraint| c.kind == ConstraintKind::Holonomic;
+        let mut all = self.constraints.iter().filter(holonomic);
+        all.any(|c| self.factors_of_position(c).len() > 1)
+    }
+
     /// Whether another function in the place of a constraint's is affine in the velocities.
     fn is_affine(&self, constraint: &Constraint, f: Expr) -> bool {
         let own = Constraint::classify(self, constraint.name.clone(), f);
@@ -334,7 +362,7 @@ impl System {
             let text = format!("{} = 0", g.text(factor));
             let mut sentence = match simpler.equations.len() {
                 1 => format!("with `{name}` written as {text}"),
-                _ => format!("on the component {text} of `{name}`, the others apart"),
+                _ => format!("on the component {text} of `{name}`, the others left out"),
             };
             if !simpler.assumptions.is_empty() {
                 let texts = simpler.assumptions.iter().map(|a| a.text.as_str());

@@ -633,7 +633,8 @@ fn speaks_of_motions(
     prepared: &Prepared,
     start: Option<&ConsistentState>,
 ) -> bool {
-    on.condition.is_none() || (start.is_some() && components_are_apart(system, prepared))
+    let starts_there = || start.is_some() && components_are_apart(system, prepared);
+    on.condition.is_none() || system.has_positions_apart() || starts_there()
 }
 
 fn context_of<'a>(

@@ -295,3 +295,40 @@ fn hypotheses_have_verdicts() {
         }
     }
 }
+
+/// What stands apart: on x y = 0 the particle that starts on y = 0 is free in the plane of x and z (by hand); (x'² + y'² - 1)(x'² + y'² - 4) = 0 with the
+/// potential x²/2 keeps y' exp(-x²/8) at speed 2 alone, as y'' = x x' y'/4 there. Integrals that the model states for a part, or for its
+/// values, hold there, and their drift elsewhere says nothing.
+#[test]
+fn integrals_of_components_parts_and_values() {
+    let product = "name = \"crossed\"\ncoordinates = [\"x\", \"y\", \"z\"]\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2\"\n[constraints]\nh = \"x y = 0\"\n[initial]\nx = 1\n\"x'\" = 1\n\"z'\" = 1\n[simulation]\nt_end = 1\n";
+    let study = studied(product, &["motion", "integrals"], keeping);
+    let kept = trajectory(&study).kept.expect("what was kept");
+    let formulas: Vec<&str> = kept.integrals.iter().map(|i| i.formula.as_str()).collect();
+    assert_eq!(formulas, ["x'", "z'", "x z' - z x'", "t x' - x"]);
+    let Verdict::Conditional { condition, .. } = verdict(&study, "noether.family") else {
+        panic!("{:?}", verdict(&study, "noether.family"));
+    };
+    assert_eq!(condition, "y = 0");
+
+    let cones = "name = \"speeds\"\ncoordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2 - x^2/2\"\n[constraints]\nc = \"(x'^2 + y'^2 - 1) (x'^2 + y'^2 - 4) = 0\"\n[integrals]\nG = \"y' exp(-x^2/8)\"\n[initial]\nx = \"1/2\"\n\"x'\" = \"6/5\"\n\"y'\" = \"8/5\"\n[simulation]\nt_end = 1\n";
+    let study = studied(cones, &["motion", "noether.inverse"], |_| ());
+    let Verdict::Conditional { condition, .. } = verdict(&study, "noether.inverse#G") else {
+        panic!("{:?}", verdict(&study, "noether.inverse#G"));
+    };
+    assert!(condition.contains("- 4"), "{condition}");
+
+    let saddle = "name = \"saddle\"\ncoordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2 + k x^2/2\"\n[parameters]\nk = 1\n[integrals]\nout = { value = \"x exp(-t)\", on = [\"x' = x\"] }\nin = { value = \"y'\", on = [\"x = 0\", \"x' = 0\"] }\n[initial]\nx = 1\n\"y'\" = 1\n[simulation]\nt_end = 1\n";
+    let study = studied(saddle, &["motion", "noether.inverse"], |_| ());
+    let Verdict::Conditional { condition, .. } = verdict(&study, "noether.inverse#out") else {
+        panic!("{:?}", verdict(&study, "noether.inverse#out"));
+    };
+    assert!(
+        condition.contains("k = 1") && condition.contains("x' = x"),
+        "{condition}"
+    );
+    assert_eq!(
+        verdict(&study, "motion.integral-drift#out").word(),
+        "not-applicable"
+    );
+}

@@ -217,8 +217,12 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
         (true, _) => "; the energy is a function of these",
     };
     let controls = for_laws(cx, &shown).map_or(String::new(), |said| format!("; {said}"));
+    let shared = match cx.system.components().len() > 1 && components(cx).len() > 1 {
+        true => "; these are kept on all components of the constraints, on one of which by itself there may be more",
+        false => "",
+    };
     format!(
-        "{many} in the families searched, of which those of polynomials are larger with a larger time budget{}{energy}{open}{controls}{}",
+        "{many} in the families searched, of which those of polynomials are larger with a larger time budget{}{energy}{open}{shared}{controls}{}",
         dependent(cx, found),
         at_special_values(cx, found)
     )
