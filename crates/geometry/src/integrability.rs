@@ -311,7 +311,20 @@ fn answered(cx: &Context<'_>, strength: Strength) -> Finding {
     let pfaff = PfaffSystem::new(cx.system, cx.terms, cx.selection.clone());
     let mut finding = decide(cx, &pfaff, strength);
     finding.verdict = on_each_side(cx, &cx.selection.rows, finding.verdict);
-    finding
+    match (strength, &finding.verdict) {
+        (Strength::Weak, Verdict::Conditional { .. }) => on_real_points(cx).unwrap_or(finding),
+        _ => finding,
+    }
+}
+
+/// The verdict on the one component that has real points, as `z' = y x'` of `(z' − y x')(1 + x'²) = 0`.
+fn on_real_points(cx: &Context<'_>) -> Option<Finding> {
+    let [on] = &components::components(cx)[..] else {
+        return None;
+    };
+    let mut found = on_its_own(cx, &on.system, |own| answered(own, Strength::Weak))?;
+    found.verdict.prefix(&on.sentence);
+    Some(found)
 }
 
 /// What a verdict says of one system, to be compared with that of another.

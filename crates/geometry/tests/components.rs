@@ -131,3 +131,11 @@ fn roots_with_relations_prove_nothing_false() {
         assert_eq!(word, "proved", "{factor}: {detail}");
     }
 }
+
+/// 1 + x'² vanishes nowhere: what is left is z' = y x', which is nonholonomic.
+#[test]
+fn factors_without_real_zeros_do_not_count() {
+    let (word, detail) = verdict(&in_space(&[("a", "(z' - y*x')*(1 + x'^2)")]), WEAK);
+    assert_eq!(word, "refuted", "{detail}");
+    assert!(detail.contains("y x' - z' = 0"), "{detail}");
+}

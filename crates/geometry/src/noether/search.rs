@@ -24,10 +24,10 @@ use chetaev_symbolic::{Expr, Verdict};
 pub(super) const SURPLUS: usize = 10;
 
 /// The bound on the probability of error that is wanted, as log2.
-const WANTED_LOG2: f64 = -104.0;
+const WANTED_LOG2: f64 = -105.0;
 
 /// At most so many draws of prime and parameters beside the first.
-const MOST_DRAWS: usize = 6;
+const MOST_DRAWS: usize = 8;
 
 /// The letters and parameters of a system at points of N.
 #[derive(Debug)]

@@ -154,12 +154,8 @@ fn on_components(cx: &Context<'_>) -> Option<Finding> {
 
 fn verdict(cx: &Context<'_>, found: &Found) -> Verdict {
     let sentence = sentence(cx, found);
-    let bound = found
-        .families
-        .iter()
-        .map(|f| f.error_bound_log2)
-        .fold(f64::NEG_INFINITY, f64::max)
-        + 2.0;
+    let bounds = found.families.iter().map(|f| f.error_bound_log2);
+    let bound = bounds.map(f64::exp2).sum::<f64>().log2().ceil();
     let samples = found.families.iter().map(|f| f.draws).min().unwrap_or(0);
     let families = families(cx, found);
     if found.open > 0 {
