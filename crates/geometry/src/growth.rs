@@ -1,5 +1,7 @@
 //! `distribution.growth`: the growth vector of the admissible velocities, and what can be reached.
 
+mod poles;
+
 use crate::flag::{derived, horizontal, Directed, Flag, Obstacle};
 use crate::integrability::components::{are_apart, components};
 use crate::integrability::{integral, on_its_own};
@@ -13,7 +15,8 @@ use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{simplify, Expr, Function, Graph, Node, Symbol, Verdict};
+use chetaev_symbolic::{simplify, Expr, Symbol, Verdict};
+use poles::without_poles;
 use std::sync::Arc;
 
 /// `distribution.growth`.
@@ -345,76 +348,6 @@ fn full_at(cx: &Context<'_>, flag: &Flag, with_time: bool) -> String {
             texts.join(" and ")
         ),
     }
-}
-
-/// The fields times their denominators, which span the same where neither vanishes, and are defined at more places; `None` where they
-/// have none. Fields that are solved for one velocity say nothing of where its coefficient vanishes: `x z' = y x'` at x = 0.
-fn without_poles(cx: &Context<'_>, fields: &[Directed]) -> Option<Vec<Directed>> {
-    let g = &cx.system.graph;
-    let simple = |e: Expr| simplify::simplify(g, e, &simplify::Options::default());
-    let is_whole = |field: &Directed| denominator(g, &field.place) == Some(g.one());
-    let fields: Vec<Directed> = fields
-        .iter()
-        .map(|field| Directed {
-            place: field.place.iter().map(|&e| by_sines(g, e)).collect(),
-            ..field.clone()
-        })
-        .collect();
-    if fields.iter().all(is_whole) {
-        return None;
-    }
-    let scaled = fields.into_iter().map(|field| {
-        // What cannot be factorized stays as it is.
-        let by = denominator(g, &field.place).unwrap_or(g.one());
-        let times = |e: Expr| simple(g.mul(&[by, e]));
-        Directed {
-            time: times(field.time),
-            place: field.place.iter().map(|&e| times(e)).collect(),
-            ..field
-        }
-    });
-    Some(scaled.collect())
-}
-
-/// The least common denominator; `None` where one of the expressions cannot be factorized.
-fn denominator(g: &Graph, es: &[Expr]) -> Option<Expr> {
-    let mut powers: Vec<(Expr, i64)> = Vec::new();
-    for &e in es.iter().filter(|&&e| !g.is_zero(e)) {
-        for (factor, power) in factored(g, e)?.factors {
-            if power >= 0 {
-                continue;
-            }
-            match powers.iter_mut().find(|(own, _)| *own == factor) {
-                Some((_, own)) => *own = (*own).max(-power),
-                None => powers.push((factor, -power)),
-            }
-        }
-    }
-    let factors = powers.iter().map(|&(factor, power)| g.powi(factor, power));
-    Some(g.mul(&factors.collect::<Vec<Expr>>()))
-}
-
-/// Tangents, cotangents, secants and cosecants by sines and cosines, so that their poles are seen.
-fn by_sines(g: &Graph, e: Expr) -> Expr {
-    let quotient = |e: Expr| {
-        let Node::Apply {
-            function,
-            arguments,
-        } = g.node(e)
-        else {
-            return None;
-        };
-        let (sin, cos) = (g.sin(*arguments.first()?), g.cos(arguments[0]));
-        Some(match function {
-            Function::Tan => (e, g.div(sin, cos)),
-            Function::Cot => (e, g.div(cos, sin)),
-            Function::Sec => (e, g.div(g.one(), cos)),
-            Function::Csc => (e, g.div(g.one(), sin)),
-            _ => return None,
-        })
-    };
-    let pairs: Vec<(Expr, Expr)> = g.reachable(&[e]).into_iter().filter_map(quotient).collect();
-    g.substitute(e, &pairs)
 }
 
 /// Where everything is generated, as a part of the sentence.

@@ -17,6 +17,7 @@
 //! Where the pairs are too many, `dΘ(U, V) = 0` is tested for U and V with indeterminate coefficients in the basis: an
 //! identity in these coefficients is the same statement, one residual for each constraint.
 
+mod arctangents;
 pub(crate) mod components;
 mod eigenvectors;
 pub(crate) mod integral;

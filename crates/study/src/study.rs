@@ -503,12 +503,13 @@ fn searched(
     }
     let known = registry();
     // An integral on one component is none on another, and a projection on its values would lead away from the motion.
-    let on = component_of_motions(system, prepared, Some(start));
-    let other = match components_are_apart(system, prepared) {
-        true => on.map(|on| on.system),
-        false => system.for_stated_zeros().or(on.map(|on| on.system)),
+    let other = prepared_system(system.for_stated_zeros());
+    let (narrow, own) = match &other {
+        Some((prepared, system)) => (system, prepared),
+        None => (system, prepared),
     };
-    let other = prepared_system(other);
+    let on = component_of_motions(narrow, own, Some(start)).map(|on| on.system);
+    let other = prepared_system(on).or(other);
     let cx = match &other {
         Some((prepared, system)) => context_of(system, prepared, &known, proving(options)),
         None => context_of(system, prepared, &known, proving(options)),
@@ -611,30 +612,23 @@ pub(crate) fn prepared_system(system: Option<System>) -> Option<(Prepared, Syste
     Some((Prepared::new(&system).ok()?, system))
 }
 
-/// Whether no one choice of independent velocities describes all components of the constraints.
+/// Whether no one choice of independent velocities describes all components of the constraints, or a holonomic one is a product.
 pub(crate) fn components_are_apart(system: &System, prepared: &Prepared) -> bool {
-    covered(system, &prepared.terms, &prepared.selection).is_some()
+    covered(system, &prepared.terms, &prepared.selection).is_some() || system.has_positions_apart()
 }
 
 /// The system for what is asked of motions: with constraints as simpler equations of the same states, or on the component of the start,
-/// where components are apart and it is known. `None` where the system is this one.
+/// where components are apart and it is known; on the first one where positions are apart and it is not. `None` where the system is
+/// this one.
 pub(crate) fn component_of_motions(
     system: &System,
     prepared: &Prepared,
     start: Option<&ConsistentState>,
 ) -> Option<OnComponent> {
     let on = system.on_component(|list| at_start(system, start?, list))?;
-    speaks_of_motions(&on, system, prepared, start).then_some(on)
-}
-
-fn speaks_of_motions(
-    on: &OnComponent,
-    system: &System,
-    prepared: &Prepared,
-    start: Option<&ConsistentState>,
-) -> bool {
     let starts_there = || start.is_some() && components_are_apart(system, prepared);
-    on.condition.is_none() || system.has_positions_apart() || starts_there()
+    let speaks = on.condition.is_none() || system.has_positions_apart() || starts_there();
+    speaks.then_some(on)
 }
 
 fn context_of<'a>(
@@ -703,10 +697,25 @@ fn decide(
 ) -> (Vec<Decided>, Option<Arc<FoundIntegrals>>, Witness) {
     let known = registry();
     let proving = || proving(options);
+    let geometry = chetaev_geometry::CLAIMS.iter().copied();
+    let of_motions: Vec<&'static dyn Claim> = geometry.filter(|c| c.speaks_of_motions()).collect();
     let zeros = prepared_system(system.for_stated_zeros());
+    let (narrow, own) = match &zeros {
+        Some((prepared, system)) => (system, prepared),
+        None => (system, prepared),
+    };
+    let moving = component_of_motions(narrow, own, start);
+    let moving = moving.and_then(|on| Some((Prepared::new(&on.system).ok()?, on)));
+    let moving = moving
+        .as_ref()
+        .map(|(prepared, on)| (context_of(&on.system, prepared, &known, proving()), on));
+    let on_component = |cx| match &moving {
+        Some((of, on)) => Context::on_component(cx, &of_motions, of, on),
+        None => cx,
+    };
     let zeros = zeros
         .as_ref()
-        .map(|(prepared, system)| context_of(system, prepared, &known, proving()));
+        .map(|(prepared, system)| on_component(context_of(system, prepared, &known, proving())));
     let stated = prepared_system(system.for_stated_values());
     let narrow = stated.as_ref().map_or(system, |(_, system)| system);
     let component = narrow.on_component(|list| at_start(system, start?, list));
@@ -722,7 +731,7 @@ fn decide(
         .as_ref()
         .map(|(prepared, system)| narrowed(context(system, prepared), on.as_ref()));
     let cx = context(system, prepared);
-    let mut cx = match &stated {
+    let cx = match &stated {
         Some(stated) => {
             let values = system.stated_values();
             cx.for_stated_values(chetaev_principles::CLAIMS, &values, stated)
@@ -730,16 +739,12 @@ fn decide(
         }
         None => narrowed(cx, on.as_ref()),
     };
-    let geometry = chetaev_geometry::CLAIMS.iter().copied();
-    let of_motions: Vec<&'static dyn Claim> = geometry.filter(|c| c.speaks_of_motions()).collect();
-    if let Some(zeros) = &zeros {
-        let values = system.stated_zeros();
-        cx = cx.for_stated_values(chetaev_geometry::CLAIMS, &values, zeros);
-    } else if let (None, Some((of, component))) = (&stated, &on) {
-        if speaks_of_motions(component, system, prepared, start) {
-            cx = cx.on_component(&of_motions, of, component);
+    let cx = match &zeros {
+        Some(zeros) => {
+            cx.for_stated_values(chetaev_geometry::CLAIMS, &system.stated_zeros(), zeros)
         }
-    }
+        None => on_component(cx),
+    };
     let began = (hooks.clock)();
     let mut verdicts = Vec::new();
     let of = |group: Group| known.claims().iter().filter(move |c| c.group() == group);

@@ -11,6 +11,9 @@ use chetaev_report::data::{Report, SeriesGroup};
 use chetaev_study::page::report;
 use chetaev_study::record::{record, TrajectoryRecord};
 use chetaev_study::summary::{summary, Style};
+use chetaev_study::sweep::together::{Together, Variations};
+use chetaev_study::sweep::vary::Variation;
+use chetaev_study::sweep::{Sweep, SweepOptions};
 use chetaev_study::{study, ClaimSelection, Hooks, Study, StudyOptions};
 use chetaev_symbolic::Verdict;
 
@@ -310,6 +313,14 @@ fn integrals_of_components_parts_and_values() {
         panic!("{:?}", verdict(&study, "noether.family"));
     };
     assert_eq!(condition, "y = 0");
+    // So it is where a parameter is stated to be zero, for which the search has a system of its own.
+    let weightless = product
+        .replace("^2)/2\"", "^2)/2 - g z\"")
+        .replace("[constraints]", "[parameters]\ng = 0\n[constraints]");
+    let study = studied(&weightless, &["motion", "integrals"], keeping);
+    let kept = trajectory(&study).kept.expect("what was kept");
+    let of_weightless: Vec<&str> = kept.integrals.iter().map(|i| i.formula.as_str()).collect();
+    assert_eq!(of_weightless, formulas);
 
     let cones = "name = \"speeds\"\ncoordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2 - x^2/2\"\n[constraints]\nc = \"(x'^2 + y'^2 - 1) (x'^2 + y'^2 - 4) = 0\"\n[integrals]\nG = \"y' exp(-x^2/8)\"\n[initial]\nx = \"1/2\"\n\"x'\" = \"6/5\"\n\"y'\" = \"8/5\"\n[simulation]\nt_end = 1\n";
     let study = studied(cones, &["motion", "noether.inverse"], |_| ());
@@ -331,4 +342,30 @@ fn integrals_of_components_parts_and_values() {
         verdict(&study, "motion.integral-drift#out").word(),
         "not-applicable"
     );
+}
+
+/// Trajectories of a sweep may start on different components: what is kept on one would lead another away.
+#[test]
+fn no_integrals_are_kept_over_components() {
+    for constraint in ["x y = 0", "x' y' = 0"] {
+        let text = format!("name = \"crossed\"\ncoordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2\"\n[constraints]\nh = \"{constraint}\"\n[initial]\nx = 1\n\"x'\" = 1\n[simulation]\nt_end = 1\n");
+        let (model, _) = load("model.toml", &text, &NoFiles, &[])
+            .into_result()
+            .expect("a model");
+        let range = Variation::parse(&model, ("--initial", "x=1:2:3"), true).expect("a range");
+        let variations = Variations::new(Vec::new(), vec![range], Together::default());
+        let mut options = SweepOptions::default();
+        keeping(&mut options.study);
+        let mut hooks = Hooks {
+            clock: &|| 0.0,
+            interrupt: None,
+            progress: &mut |_, _| (),
+        };
+        let sweep = Sweep::new(&model, variations.expect("a range"), options, &mut hooks);
+        let refused = sweep.err().unwrap_or_else(|| panic!("{constraint}: kept"));
+        assert!(
+            refused.to_string().contains("each of its components"),
+            "{refused}"
+        );
+    }
 }

@@ -9,7 +9,7 @@
 use super::ansatz::Ansatz;
 use super::embedded::{dot, Embedded};
 use super::generator::Generator;
-use super::motion::Motion;
+use super::motion::{Motion, NO_POINTS};
 use super::shown::readable;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::{Expr, Symbol, Verdict};
@@ -86,8 +86,7 @@ impl Search<'_, '_> {
             return Ok(all);
         }
         let columns: Vec<Vec<Expr>> = all.iter().map(|&e| vec![e]).collect();
-        let none = "no velocities that satisfy the constraints were found modulo a prime, where functions are compared";
-        let places = self.ansatz(&columns)?.independent().ok_or(none)?;
+        let places = self.ansatz(&columns)?.independent().ok_or(NO_POINTS)?;
         let kept = places.into_iter().filter(|&i| !but_constants || i > 0);
         Ok(kept.map(|i| all[i]).collect())
     }

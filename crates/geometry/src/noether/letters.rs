@@ -3,7 +3,7 @@
 
 use super::conjugate;
 use super::family::{coefficients, monomials, product, CoefficientLetter, Family, Letter, Member};
-use super::motion::{draw_with_points, Motion};
+use super::motion::{draw_with_points, Motion, NO_POINTS};
 use super::occurring::Occurring;
 use super::written::{as_stated, degree, in_quasi_velocities};
 use chetaev_mechanics::claims::formulation::manifold;
@@ -222,7 +222,7 @@ impl Letters {
         let mut random = Random::stream(seed, 1 << 21);
         let at = draw_with_points(&points, &mut random)
             .and_then(|draw| points.at(&draw, &mut random))
-            .ok_or("no velocities that satisfy the constraints were found modulo a prime, where functions are compared")?;
+            .ok_or(NO_POINTS)?;
         let mut without = self.clone();
         let mut kept = at.iter().map(|value| !value.is_zero());
         without.velocities.retain(|_| kept.next().unwrap_or(true));

@@ -12,6 +12,10 @@ use chetaev_symbolic::number::random::Random;
 use chetaev_symbolic::zero::points::{Draw, Points, PointsOf};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 
+/// Why functions could not be compared.
+pub(super) const NO_POINTS: &str =
+    "no velocities that satisfy the constraints were found modulo a prime, where functions are compared";
+
 /// How many draws are tried until one has points.
 pub(crate) const DRAWS: usize = 12;
 

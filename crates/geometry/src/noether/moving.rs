@@ -7,7 +7,7 @@
 //! carry all particles along, as that of contact of a blade. All other fixed directions and axes come from linear equations.
 
 use super::fixed::{Axis, Fixed};
-use super::motion::{draw_with_points, Motion};
+use super::motion::{draw_with_points, Motion, NO_POINTS};
 use super::shown::readable;
 use super::vectors::{axis_of, cross, difference, dot, is_zero, padded, text, Vector};
 use chetaev_mechanics::{mass, particles, Context, Manifold, System};
@@ -626,11 +626,10 @@ fn kept_together(
     let outputs: Vec<Expr> = candidates.iter().flat_map(|c| [c.rate, c.value]).collect();
     let points = motion.points_with(&outputs, stated)?;
     let mut random = Random::stream(cx.prover.points_seed(), 1 << 22);
-    let none = "no velocities that satisfy the constraints were found modulo a prime, where functions are compared";
-    let draw = draw_with_points(&points, &mut random).ok_or(none)?;
+    let draw = draw_with_points(&points, &mut random).ok_or(NO_POINTS)?;
     let mut all = Vec::new();
     for _ in 0..3 {
-        all.push(points.at(&draw, &mut random).ok_or(none)?);
+        all.push(points.at(&draw, &mut random).ok_or(NO_POINTS)?);
     }
     let numbered = candidates.into_iter().enumerate();
     let kept = numbered.filter_map(|(i, candidate)| {

@@ -11,7 +11,7 @@
 
 use super::constants::constants;
 use super::family::{Family, Letter, Member};
-use super::motion::{draw_with_points, Motion, DRAWS};
+use super::motion::{draw_with_points, Motion, DRAWS, NO_POINTS};
 use super::parallel::in_parallel;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::number::modular_matrix::{null_space, NullSpace};
@@ -211,8 +211,7 @@ impl<'a> Table<'a> {
     /// # Errors
     /// A sentence that says why there is none.
     pub fn space(&self, family: &Family) -> Result<Space, String> {
-        let none = "no velocities that satisfy the constraints were found modulo a prime, where functions are compared";
-        let (integrals, supports) = self.vectors(family).ok_or(none)?;
+        let (integrals, supports) = self.vectors(family).ok_or(NO_POINTS)?;
         let size = supports.iter().map(Vec::len).max().unwrap_or(1);
         let degree = family.members.iter().map(degree).max().unwrap_or(0);
         let once = self.points.miss_log2(self.letters.len(), degree, size)
@@ -221,7 +220,7 @@ impl<'a> Table<'a> {
         for number in 1..=draws {
             if !self
                 .are_relations(family, &supports, size, number)
-                .ok_or(none)?
+                .ok_or(NO_POINTS)?
             {
                 return Err(
                     "what vanished at some random states does not at others: the constraints may have several components".into(),

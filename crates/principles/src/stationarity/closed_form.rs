@@ -74,30 +74,23 @@ pub(crate) fn zero_of(g: &Graph, factor: Expr, coordinates: &[Symbol]) -> Option
 
 /// tan, cot, sec, csc by sine and cosine, and sin acos x as √(1 − x²).
 fn as_quotient(g: &Graph, e: Expr) -> Option<Expr> {
-    let Node::Apply {
-        function,
-        arguments,
-    } = g.node(e)
-    else {
-        return None;
+    root_of_inverse(g, e).or_else(|| simplify::as_quotient(g, e))
+}
+
+fn root_of_inverse(g: &Graph, e: Expr) -> Option<Expr> {
+    let applied = |e: Expr| match g.node(e) {
+        Node::Apply {
+            function,
+            arguments,
+        } => Some((*function, *arguments.first()?)),
+        _ => None,
     };
-    let angle = *arguments.first()?;
-    let (sin, cos) = (g.sin(angle), g.cos(angle));
-    if let Node::Apply {
-        function: inner,
-        arguments,
-    } = g.node(angle)
-    {
-        if let (Function::Sin, Function::Acos) | (Function::Cos, Function::Asin) = (function, inner)
-        {
-            return Some(g.sqrt(g.sub(g.one(), g.powi(arguments[0], 2))));
+    let (outer, angle) = applied(e)?;
+    let (inner, x) = applied(angle)?;
+    match (outer, inner) {
+        (Function::Sin, Function::Acos) | (Function::Cos, Function::Asin) => {
+            Some(g.sqrt(g.sub(g.one(), g.powi(x, 2))))
         }
-    }
-    match function {
-        Function::Tan => Some(g.div(sin, cos)),
-        Function::Cot => Some(g.div(cos, sin)),
-        Function::Sec => Some(g.div(g.one(), cos)),
-        Function::Csc => Some(g.div(g.one(), sin)),
         _ => None,
     }
 }

@@ -16,6 +16,7 @@ mod direction;
 mod local;
 mod measure;
 mod polynomial_view;
+mod quotients;
 mod roots;
 mod squares;
 
@@ -34,6 +35,7 @@ pub use measure::{length, Lengths};
 pub use polynomial_view::{
     homogeneity, homogeneous_parts, linear_form, HomogeneousPart, LinearForm,
 };
+pub use quotients::{as_quotient, by_quotients};
 pub use squares::by_square;
 
 /// What a simplification may spend and produce.

@@ -213,7 +213,7 @@ fn sentence(cx: &Context<'_>, found: &Found) -> String {
         (true, _) => "; the energy is a function of these",
     };
     let controls = for_laws(cx, &shown).map_or(String::new(), |said| format!("; {said}"));
-    let shared = match cx.system.components().len() > 1 && components(cx).len() > 1 {
+    let shared = match components(cx).len() > 1 {
         true => "; these are kept on all components of the constraints, on one of which by itself there may be more",
         false => "",
     };

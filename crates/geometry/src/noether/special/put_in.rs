@@ -1,6 +1,7 @@
 //! Special values at which the motion found for all others says nothing: velocities chosen as independent are tied there, a root has
 //! no value, letters fall together. They are put into the system, which is then searched as any other.
 
+use super::ties::leaves_no_motion;
 use super::{families_at, in_words, Special, Tie};
 use crate::integrability::on_its_own;
 use crate::noether::found::{in_families, is_independent};
@@ -22,7 +23,8 @@ pub struct PutIn {
     pub families: Vec<String>,
 }
 
-/// What there is more of at these values, where this was searched, and what is left of those that have motions. As many families as for so many values.
+/// What there is more of at these values, where this was searched, and what is left of those that have motions. As many families as for so
+/// many values.
 pub(super) fn put_in(
     cx: &Context<'_>,
     ties: Vec<Tie>,
@@ -46,8 +48,12 @@ pub(super) fn put_in(
     (found, searched, left)
 }
 
-/// Whether there is a system at special values, as far as one can be made: y'² = a x'² says nothing definite at a = 0.
+/// Whether there are motions at special values: a mass matrix that is not singular, and a system as far as one can be made, as y'² = a x'² says
+/// nothing definite at a = 0.
 pub(super) fn has_motions(cx: &Context<'_>, tie: &Tie) -> bool {
+    if leaves_no_motion(cx, tie) {
+        return false;
+    }
     let system = cx.system.with_parameters(&tie.pairs(&cx.system.graph));
     match &system {
         Some(system) => Prepared::new(system).is_ok_and(|own| own.left_out(system).is_ok()),
