@@ -318,19 +318,23 @@ impl<'a> Table<'a> {
         }
         let (draw, mut random) = self.draw(number)?;
         let field = &draw.field;
-        let mut rows: Vec<Vec<Residue>> = Vec::new();
+        // The constant is a member too.
+        let mut used: Vec<usize> = supports.concat();
+        used.push(0);
+        used.sort_unstable();
+        used.dedup();
+        let mut matrix = Vec::with_capacity(used.len() * (size + 1 + SURPLUS));
         for _ in 0..size + 1 + SURPLUS {
             let at = self.at(&draw, &mut random)?;
-            let members = family.members.iter();
-            rows.push(members.map(|m| self.member(field, &at, m).0).collect());
+            let members = used.iter().map(|&m| &family.members[m]);
+            matrix.extend(members.map(|m| self.member(field, &at, m).0));
         }
+        // One elimination for all.
+        let all = null_space(field, used.len(), matrix);
         let is_dependent = |support: &Vec<usize>| {
-            let columns: Vec<usize> = std::iter::once(0).chain(support.iter().copied()).collect();
-            let matrix = rows[..columns.len() + SURPLUS].iter();
-            let matrix = matrix.flat_map(|row| columns.iter().map(|&c| row[c]));
-            !null_space(field, columns.len(), matrix.collect())
-                .vectors
-                .is_empty()
+            all.depends_within(field, |place| {
+                used[place] == 0 || support.contains(&used[place])
+            })
         };
         Some(supports.iter().all(is_dependent))
     }

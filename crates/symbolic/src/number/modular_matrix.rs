@@ -109,6 +109,23 @@ pub struct NullSpace {
     pub vectors: Vec<(usize, Vec<(usize, Residue)>)>,
 }
 
+impl NullSpace {
+    /// Whether some of the columns depend on each other: columns that are no pivots are combinations of pivots, and a combination of those
+    /// among them must need no pivot outside.
+    pub fn depends_within(&self, field: &PrimeField, is_inside: impl Fn(usize) -> bool) -> bool {
+        let own = self.vectors.iter().filter(|(column, _)| is_inside(*column));
+        let own: Vec<&Vec<(usize, Residue)>> = own.map(|(_, entries)| entries).collect();
+        let entry = |entries: &[(usize, Residue)], pivot: usize| {
+            let found = entries.iter().find(|(column, _)| *column == pivot);
+            found.map_or(Residue::ZERO, |&(_, value)| value)
+        };
+        let outside = self.pivots.iter().filter(|&&pivot| !is_inside(pivot));
+        let rows = outside.flat_map(|&pivot| own.iter().map(move |own| entry(own, pivot)));
+        let rows = rows.collect();
+        !null_space(field, own.len(), rows).vectors.is_empty()
+    }
+}
+
 /// The null space of a row-major matrix with `columns` columns, of which columns to the left are preferred as pivots.
 pub fn null_space(field: &PrimeField, columns: usize, mut matrix: Vec<Residue>) -> NullSpace {
     let rows = matrix.len().checked_div(columns).unwrap_or(0);
@@ -213,6 +230,42 @@ mod tests {
     fn random_matrix(field: &PrimeField, entries: usize, seed: u64) -> Vec<Residue> {
         let mut random = Random::new(seed);
         (0..entries).map(|_| field.random(&mut random)).collect()
+    }
+
+    /// Every set of columns of a matrix of rank 4 against the elimination of these alone.
+    #[test]
+    fn sets_of_columns_depend_on_each_other() {
+        let (field, rows, columns) = (field(), 12, 8);
+        let a = random_matrix(&field, rows * 4, 3);
+        // Columns 2 and 5 are combinations of 0 and 1, column 6 is column 3, column 7 is any.
+        let (zero, one) = (Residue::ZERO, field.one());
+        let two = field.from_u64(2);
+        let of = [
+            [one, zero, zero, zero],
+            [zero, one, zero, zero],
+            [one, two, zero, zero],
+            [zero, zero, one, zero],
+            [zero, zero, zero, one],
+            [two, one, zero, zero],
+            [zero, zero, one, zero],
+            [two, one, one, two],
+        ];
+        let entry = |row: usize, column: usize| {
+            let terms = (0..4).map(|k| field.mul(a[row * 4 + k], of[column][k]));
+            terms.fold(Residue::ZERO, |sum, term| field.add(sum, term))
+        };
+        let part = |set: &[usize]| -> Vec<Residue> {
+            let row = |row| set.iter().map(move |&column| entry(row, column));
+            (0..rows).flat_map(row).collect()
+        };
+        let all = null_space(&field, columns, part(&[0, 1, 2, 3, 4, 5, 6, 7]));
+        for chosen in 0..1_usize << columns {
+            let is_inside = |column: usize| chosen >> column & 1 == 1;
+            let set: Vec<usize> = (0..columns).filter(|&c| is_inside(c)).collect();
+            let alone = null_space(&field, set.len(), part(&set));
+            let depends = all.depends_within(&field, is_inside);
+            assert_eq!(depends, !alone.vectors.is_empty(), "{set:?}");
+        }
     }
 
     #[test]
