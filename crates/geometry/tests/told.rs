@@ -427,3 +427,36 @@ fn families_are_listed_after_a_short_sentence() {
         assert!(parts.len() >= found.families.len());
     });
 }
+
+/// The rate of log(x) has a value where log(x) has none: such states refute nothing, and functions that have a value far from the origin
+/// only are decided there. The motions are x = x0 cos t + v0 sin t, and uniform ones.
+#[test]
+fn functions_are_decided_where_they_have_a_value() {
+    let oscillator = || system("x", "x'^2/2 - x^2/2", &[]);
+    // x |x| is x^2 for x > 0, where the logarithms cancel, and -x^2 elsewhere.
+    let (word, detail) = stated(oscillator(), "x'^2 + x*abs(x) + log(x) - log(abs(x))");
+    assert_eq!(word, "proved", "{detail}");
+    assert!(
+        detail.starts_with("it has a real value where x > 0 only"),
+        "{detail}"
+    );
+    let (word, detail) = stated(oscillator(), "x'^2 + x*abs(x) + log(-x) - log(abs(x))");
+    assert_eq!(word, "refuted", "{detail}");
+    assert!(detail.contains(" x = -"), "{detail}");
+    for (value, symbol) in [
+        ("log(x')", "x'"),
+        ("sqrt(x' - 5)", "x'"),
+        ("x*log(x - 100)", "x"),
+    ] {
+        let (word, detail) = stated(oscillator(), value);
+        assert_eq!(word, "refuted", "{value}: {detail}");
+        let (_, at) = detail.split_once(&format!(" {symbol} = ")).unwrap();
+        let digits = at.find(|c: char| !"-0123456789".contains(c));
+        let at: f64 = at[..digits.unwrap_or(at.len())].parse().unwrap();
+        let least = value.chars().filter(char::is_ascii_digit);
+        let least: f64 = least.collect::<String>().parse().unwrap_or(0.0);
+        assert!(at > least, "{value} has no value there: {detail}");
+    }
+    let (word, detail) = stated(system("x", "x'^2/2", &[]), "sqrt(x' - 5)");
+    assert_eq!(word, "proved", "{detail}");
+}

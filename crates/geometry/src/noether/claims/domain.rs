@@ -4,8 +4,10 @@
 //! its structure and by what the model assumes. That decides only what is certain; else states are drawn.
 
 use crate::measure::arguments_of_signs;
+use crate::noether::motion::Motion;
 use chetaev_mechanics::claims::Context;
-use chetaev_mechanics::{prover, sample};
+use chetaev_mechanics::system::{Assumption, Relation};
+use chetaev_mechanics::{prover, sample, System};
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Function, Graph, Node, Verdict};
 
@@ -54,8 +56,13 @@ pub(super) fn nowhere(cx: &Context<'_>, value: Expr) -> Option<Verdict> {
     ))
 }
 
-/// The verdict on a function that may be undefined, where it is so at all states that were drawn.
-pub(super) fn undefined_at_samples(cx: &Context<'_>, value: Expr) -> Option<Verdict> {
+/// The verdict on a function that may be undefined, where it is so at all states that were drawn and none at which it is not zero could
+/// be enclosed.
+pub(super) fn undefined_at_samples(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    value: Expr,
+) -> Option<Verdict> {
     let (system, g) = (cx.system, &cx.system.graph);
     if demands(g, value).is_empty() {
         return None;
@@ -79,8 +86,44 @@ pub(super) fn undefined_at_samples(cx: &Context<'_>, value: Expr) -> Option<Verd
         }
         drawn += 1;
     }
+    if let Some((defined, _)) = where_defined(cx, value) {
+        let found = cx.prover.identity(&defined, &[value], &motion.manifold, "");
+        if let Verdict::Refuted(_) = found {
+            return None;
+        }
+    }
     let detail = format!("the function has no real value at any of {drawn} states that were drawn; whether it has one anywhere was not found out");
     (drawn > 0).then(|| Verdict::undecided(detail))
+}
+
+/// The system with all that a function demands and that is not known of it as assumptions, so that points at which it has no value are
+/// none, and these in words; `None` where it demands nothing more.
+pub(super) fn where_defined(cx: &Context<'_>, value: Expr) -> Option<(System, String)> {
+    let g = &cx.system.graph;
+    // A root has no rate where its argument vanishes.
+    let mut open: Vec<Expr> = demands(g, value).iter().map(|demand| demand.e).collect();
+    open.sort_unstable();
+    open.dedup();
+    let with = |more: &[Expr]| {
+        let mut system = cx.system.clone();
+        system.assumptions.extend(more.iter().map(|&e| Assumption {
+            left: g.zero(),
+            relation: Relation::Less,
+            right: e,
+            text: format!("{} > 0", g.text(e)),
+        }));
+        system
+    };
+    let mut place = 0;
+    while let Some(&e) = open.get(place) {
+        let others: Vec<Expr> = open.iter().copied().filter(|&other| other != e).collect();
+        match known_sign(g, e, &prover::assumptions(&with(&others))).is_positive() {
+            true => open = others,
+            false => place += 1,
+        }
+    }
+    let texts: Vec<String> = open.iter().map(|&e| format!("{} > 0", g.text(e))).collect();
+    (!open.is_empty()).then(|| (with(&open), texts.join(" and ")))
 }
 
 /// What the parts of a function demand. Powers with a fraction as exponent are roots of what is not negative.

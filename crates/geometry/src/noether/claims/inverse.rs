@@ -1,13 +1,14 @@
 //! `noether.inverse#NAME`: an integral that the model states is one, and its generator.
 
 use super::controls::by_laws;
-use super::domain::{lasting, nowhere, undefined_at_samples, while_it_lasts};
+use super::domain::{lasting, nowhere, undefined_at_samples, where_defined, while_it_lasts};
 use super::narrowed::{by_values_on_part, on_components};
 use super::requirements;
 use super::states::{on_part, on_positions, on_sides};
 use super::symmetry::{symmetry, with_symmetry};
 use super::trivial::{jumps, trivial, with_jumps};
 use super::values::{by_definitions, by_values};
+use crate::integrability::on_its_own;
 use crate::noether::motion::Motion;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_symbolic::{Expr, Verdict};
@@ -36,7 +37,7 @@ impl Claim for Inverse {
          independent ones, or for the values or the laws of controls that it states, or as long as the function does not jump, or on the part of the states that \
          the model states with `on`, which is proved to be invariant, or on one component of constraints that are products, or on one \
          side of the corners of constraints; the field is given and its equations are proved for these. `refuted` comes with an \
-         admissible state at which the rate of G is not zero, or, where motions leave the part stated with `on`, its second or third \
+         admissible state at which G has a real value and its rate is not zero, or, where motions leave the part stated with `on`, its second or third \
          derivative in time; `not-applicable` says that G has no real value at any state, that no state is as `on` states, or that \
          motions leave such states, which says nothing of G. G is trivial where the constraints fix its value."
     }
@@ -59,7 +60,7 @@ impl Claim for Inverse {
             let detail = format!("`{foreign}` occurs in it, which is not of (t, q, v)");
             return Verdict::not_applicable("the function is one of the state", detail).into();
         }
-        if let Some(verdict) = nowhere(cx, *value).or_else(|| undefined_at_samples(cx, *value)) {
+        if let Some(verdict) = nowhere(cx, *value) {
             return verdict.into();
         }
         let motion = match Motion::of(cx) {
@@ -67,12 +68,46 @@ impl Claim for Inverse {
             Err(why) => return Verdict::undecided(why).into(),
         };
         let jumps = jumps(cx, &motion, *value);
-        let found = decided(cx, &motion, subject, *value, &jumps);
+        let mut found = decided(cx, &motion, subject, *value, &jumps);
+        if let Verdict::Refuted(_) = &found.verdict {
+            let defined = decided_where_defined(cx, subject, *value, &jumps);
+            found = defined.unwrap_or(found);
+        }
+        if !matches!(found.verdict, Verdict::Refuted(_)) {
+            if let Some(verdict) = undefined_at_samples(cx, &motion, *value) {
+                return verdict.into();
+            }
+        }
         Finding {
             verdict: with_jumps(found.verdict, &jumps),
             formulas: found.formulas,
         }
     }
+}
+
+/// The verdict under the assumption that the function has a real value; `None` where nothing has to be assumed for it. Its rate may
+/// have a value where it has none, as that of log(x) has for x < 0, which refutes nothing.
+fn decided_where_defined(
+    cx: &Context<'_>,
+    name: Option<&str>,
+    value: Expr,
+    jumps: &[String],
+) -> Option<Finding> {
+    let (system, condition) = where_defined(cx, value)?;
+    let decided = on_its_own(cx, &system, |own| {
+        let motion = Motion::of(own).ok()?;
+        Some(decided(own, &motion, name, value, jumps))
+    });
+    let found = decided.flatten().unwrap_or_else(|| {
+        Verdict::undecided("the motion under this assumption could not be computed").into()
+    });
+    Some(match found.verdict {
+        Verdict::Refuted(_) => found,
+        other => Finding {
+            verdict: other.prefixed(&format!("it has a real value where {condition} only")),
+            formulas: found.formulas,
+        },
+    })
 }
 
 /// The verdict on a function of the state, and its symmetry where it is an integral.
