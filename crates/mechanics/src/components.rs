@@ -418,15 +418,21 @@ struct Unwrapped {
 
 /// A function that vanishes where another does and its gradient does not: arguments of functions that take no value twice.
 fn unwrapped(g: &Graph, f: Expr, velocities: &[Symbol]) -> Unwrapped {
+    let e = innermost(g, f);
+    solved_for_argument(g, e, velocities).unwrap_or(Unwrapped {
+        function: e,
+        assumptions: Vec::new(),
+    })
+}
+
+/// What vanishes where a function does, as the functions around it take no value twice: `u` of `exp(u) − 1`.
+pub(crate) fn innermost(g: &Graph, f: Expr) -> Expr {
     let mut e = f;
     // Each argument is a smaller expression.
     while let Some(inner) = argument(g, e) {
         e = inner;
     }
-    solved_for_argument(g, e, velocities).unwrap_or(Unwrapped {
-        function: e,
-        assumptions: Vec::new(),
-    })
+    e
 }
 
 /// `u − F⁻¹(w)` of `F(u) − w`, for w free of velocities: `a cos w − b sin w` of `atan2(a, b) − w` with `−π < w < π` and `b cos w + a sin w > 0`,

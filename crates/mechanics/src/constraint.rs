@@ -1,8 +1,9 @@
 //! Constraints and their classification.
 
+use crate::components::innermost;
 use crate::system::{System, SystemError};
 use chetaev_symbolic::factors::factors;
-use chetaev_symbolic::{Expr, Symbol};
+use chetaev_symbolic::{Expr, Function, Graph, Node, Rational, Symbol};
 
 /// What kind of constraint, by how it is written (T1 §0).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -119,7 +120,11 @@ fn refuse_repeated_factor(
     symbols: &[Symbol],
 ) -> Result<(), SystemError> {
     let g = &system.graph;
-    let list = factors(g, f, symbols).unwrap_or_default();
+    let inner = innermost(g, f);
+    let list = match root_of_square(g, inner) {
+        Some(root) => vec![(root, 2)],
+        None => factors(g, inner, symbols).unwrap_or_default(),
+    };
     match list.iter().find(|(_, power)| *power > 1) {
         None => Ok(()),
         Some(&(factor, power)) => Err(SystemError::RepeatedFactor {
@@ -131,6 +136,35 @@ fn refuse_repeated_factor(
                 power => format!("{power}th power"),
             },
         }),
+    }
+}
+
+/// Functions that take their largest or least value, which are squares: 1 − cos u = 2 sin²(u/2), cosh u − 1 = 2 sinh²(u/2).
+fn root_of_square(g: &Graph, e: Expr) -> Option<Expr> {
+    let Node::Sum { constant, terms } = g.node(e) else {
+        return None;
+    };
+    let [(term, weight)] = &**terms else {
+        return None;
+    };
+    let Node::Apply {
+        function,
+        arguments,
+    } = g.node(*term)
+    else {
+        return None;
+    };
+    let half = g.div(*arguments.first()?, g.integer(2));
+    let eighth_turn = g.div(g.pi(), g.integer(4));
+    let value = -constant.clone() / weight.clone();
+    let is = |number: i64| value == Rational::from(number);
+    match function {
+        Function::Cosh if is(1) => Some(g.apply(Function::Sinh, &[half])),
+        Function::Cos if is(1) => Some(g.sin(half)),
+        Function::Cos if is(-1) => Some(g.cos(half)),
+        Function::Sin if is(1) => Some(g.sin(g.sub(half, eighth_turn))),
+        Function::Sin if is(-1) => Some(g.sin(g.add(&[half, eighth_turn]))),
+        _ => None,
     }
 }
 
