@@ -161,3 +161,25 @@ fn the_drift_of_composed_constraints_has_a_size() {
         );
     }
 }
+
+/// A velocity that nobody gave is searched for where the constraint has no slope, or no value, with zero in its place.
+#[test]
+fn velocities_are_completed_where_zero_is_singular() {
+    let start = "[initial]\ny = 2\n\"x'\" = 1\n\"y'\" = 1\n[simulation]\nt_end = 0.1\n";
+    for (constraint, expected) in [
+        ("sqrt(z') = y x'", 4.0),
+        ("x'/z' = y", 0.5),
+        ("log(z') = y - 2", 1.0),
+    ] {
+        let ended = study(&[constraint], start);
+        let (_, found) = ended.text.split_once("z' = ").expect(&ended.text);
+        let found: f64 = found.lines().next().unwrap().parse().unwrap();
+        let error: f64 = found - expected;
+        assert!(error.abs() < 1e-12, "{constraint}: {}", ended.text);
+        assert_eq!(verdict(&ended, "motion.constraint-drift"), "numerical");
+    }
+    // What is singular whatever it is remains an error.
+    refused(&study(&["sqrt(x) z' = x'"], start), &["singular"]);
+    let rest = format!("{start}[expect]\n").replace("y = 2\n", "y = 2\n\"z'\" = 0\n");
+    refused(&study(&["sqrt(z') = y x'"], &rest), &["singular"]);
+}

@@ -8,12 +8,16 @@ use chetaev_mechanics::sample::add_weight;
 impl Search<'_> {
     /// Moves free velocities until f = 0.
     pub(super) fn velocities(&mut self) -> Result<(), InitialError> {
-        self.evaluate()?;
+        let movable = self.movable(&self.data.v_fixed);
+        if let Err(singular) = self.evaluate() {
+            // Where velocities that nobody gave are taken as zero, that is no reason to give up.
+            let is_found = self.system.r > 0 && self.search_velocities(&movable);
+            return if is_found { Ok(()) } else { Err(singular) };
+        }
         if self.system.r == 0 {
             return Ok(());
         }
         let given = self.v.clone();
-        let movable = self.movable(&self.data.v_fixed);
         if self.search_velocities(&movable) {
             return Ok(());
         }
