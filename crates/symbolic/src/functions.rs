@@ -68,6 +68,15 @@ impl Graph {
                 _ => None,
             };
         }
+        if function == Log {
+            // Roots of positive numbers are stored as powers.
+            let (base, exponent) = self.base_exponent(x);
+            if let (Some(b), Some(power)) = (self.as_number(base), self.as_number(exponent)) {
+                if !power.is_int() && *b > Rational::ZERO {
+                    return Some(self.scale(power, self.apply(Log, &[base])));
+                }
+            }
+        }
         if let Some(multiple) = self.multiple_of_pi(x) {
             if let Some(value) = self.trigonometric_value(function, &multiple) {
                 return Some(value);
@@ -229,5 +238,16 @@ mod tests {
         );
         assert_eq!(g.apply(Function::Tan, &[at(1, 4)]), g.one());
         assert_eq!(g.cos(g.pi()), g.integer(-1));
+    }
+
+    #[test]
+    fn logarithms_of_roots_of_numbers() {
+        let g = Graph::new();
+        let log = |e: Expr| g.apply(Function::Log, &[e]);
+        let (two, root) = (g.integer(2), g.sqrt(g.integer(2)));
+        assert_eq!(g.scale(&Rational::from(2), log(root)), log(two));
+        // A root of what may be negative stays.
+        let x = g.symbol("x", 0);
+        assert_eq!(g.text(log(g.sqrt(x))), "log(sqrt(x))");
     }
 }
