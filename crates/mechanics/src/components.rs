@@ -343,6 +343,18 @@ impl System {
         all.any(|c| self.factors_of_position(c).len() > 1)
     }
 
+    /// The constraints that may hold on several components, quoted: nonlinear ones, and holonomic ones that are products.
+    pub fn constraints_apart(&self) -> String {
+        let may_be_apart = |c: &&Constraint| match c.kind {
+            ConstraintKind::Nonlinear => true,
+            ConstraintKind::Holonomic => self.factors_of_position(c).len() > 1,
+            _ => false,
+        };
+        let names = self.constraints.iter().filter(may_be_apart);
+        let names: Vec<String> = names.map(|c| format!("`{}`", c.name)).collect();
+        names.join(" or ")
+    }
+
     /// Whether another function in the place of a constraint's is affine in the velocities.
     fn is_affine(&self, constraint: &Constraint, f: Expr) -> bool {
         let own = Constraint::classify(self, constraint.name.clone(), f);

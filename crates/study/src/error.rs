@@ -107,8 +107,11 @@ pub enum StudyError {
     #[error("a sweep runs in double precision only: leave `precision = \"double-double\"` out of [simulation], or pass --precision double; single motions are computed with it by `simulate` and `study`")]
     PreciseSweep,
     /// Integrals to be kept along motions that may be on different components of the constraints.
-    #[error("first integrals cannot be kept in this sweep: a constraint is a product, and each of its components has first integrals of its own; state the factor that vanishes along the motions as the constraint, or leave --keep-integrals out")]
-    KeptOnComponents,
+    #[error("first integrals cannot be kept in this sweep: {constraints} holds on several components, each of which has first integrals of its own; state the factor that vanishes along the motions as the constraint, or leave --keep-integrals out")]
+    KeptOnComponents {
+        /// The constraints that may have several.
+        constraints: String,
+    },
     /// A fixed step that is not positive.
     #[error("the fixed step must be a positive number")]
     Step,

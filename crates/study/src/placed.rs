@@ -36,6 +36,7 @@ fn keys(problem: &StudyError) -> &'static [&'static str] {
         StudyError::Tolerance { .. } | StudyError::PreciseTolerance { .. } => &["tolerance"],
         StudyError::PrecisionMethod { .. } => &["method", "precision"],
         StudyError::PreciseSweep => &["precision"],
+        StudyError::KeptOnComponents { .. } => &["keep_integrals"],
         StudyError::Step => &["step"],
         StudyError::StepMissing { .. }
         | StudyError::Run(RunError::Integrate(IntegrateError::UnknownMethod { .. })) => &["method"],

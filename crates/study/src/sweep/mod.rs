@@ -269,7 +269,9 @@ fn to_keep(
         return Ok(Vec::new());
     }
     if components_are_apart(system, prepared) {
-        return Err(StudyError::KeptOnComponents);
+        return Err(StudyError::KeptOnComponents {
+            constraints: system.constraints_apart(),
+        });
     }
     let other = component_of_motions(system, prepared, None).map(|on| on.system);
     let other = prepared_system(other);
