@@ -4,8 +4,8 @@
 //! values decide otherwise than others do, the verdict is conditional on them.
 
 use super::{decided, formula, jumps, Flow, Measure};
-use chetaev_mechanics::claims::{Context, Registry};
-use chetaev_mechanics::Prepared;
+use crate::integrability::on_its_own;
+use chetaev_mechanics::claims::Context;
 use chetaev_symbolic::{Expr, Verdict};
 
 /// The measure with a verdict that the stated values do not contradict.
@@ -56,12 +56,7 @@ pub(crate) fn at_stated_values<T>(
 }
 
 fn with_values<T>(cx: &Context<'_>, ask: impl FnOnce(&Context<'_>) -> T) -> Option<T> {
-    let system = cx.system.for_parameter_values()?;
-    let prepared = Prepared::new(&system).ok()?;
-    let known = Registry::new(&[chetaev_mechanics::claims::CLAIMS, crate::CLAIMS]);
-    let (terms, selection) = (&prepared.terms, &prepared.selection);
-    let valued = Context::new(&system, terms, selection, &known, cx.prover.clone());
-    Some(ask(&valued.allowing(cx.work())))
+    on_its_own(cx, &cx.system.for_parameter_values()?, ask)
 }
 
 /// Equations of values.
