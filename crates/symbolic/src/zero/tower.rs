@@ -40,6 +40,8 @@ pub(super) struct Tower<'a> {
     field: PrimeField,
     /// Signs of the roots of scalars.
     negative: &'a [bool],
+    /// Roots that are adjoined even where the radicand is a scalar.
+    adjoined: &'a [bool],
     levels: RefCell<Vec<Level>>,
     /// Equations prescribed for the first levels, found by splitting.
     prescribed: &'a [Option<Vec<Element>>],
@@ -59,12 +61,19 @@ impl<'a> Tower<'a> {
         Self {
             field,
             negative,
+            adjoined: &[],
             levels: RefCell::default(),
             prescribed,
             roots: RefCell::default(),
             zero_divisor: RefCell::default(),
             too_large: RefCell::default(),
         }
+    }
+
+    /// The same where these roots are adjoined whatever their radicand is at a point, so that both signs are followed: √(x² + y²) over
+    /// a solution of z² = x² + y² for x is z or −z, and a claim may be true of one of them.
+    pub(super) fn adjoining(self, adjoined: &'a [bool]) -> Self {
+        Self { adjoined, ..self }
     }
 
     /// Dimension over the prime field.
@@ -383,7 +392,7 @@ impl Ring for Tower<'_> {
         }
         let root = match &a[..] {
             [] => return Err(NoSquareRoot::Exceptional),
-            [scalar] => {
+            [scalar] if !self.adjoined.get(radical as usize).is_some_and(|&own| own) => {
                 let root = self.field.sqrt(*scalar).ok_or(NoSquareRoot::NonSquare)?;
                 let negative = self
                     .negative
