@@ -5,14 +5,15 @@
 
 mod real_factors;
 
-use self::real_factors::real_factors;
+use self::real_factors::{real_factors, RealFactors};
 use crate::constraint::{Constraint, ConstraintKind};
 use crate::prover::assumptions;
+use crate::sample::Generator;
 use crate::selection::Selection;
 use crate::system::{Assumption, Relation, System};
 use crate::terms::MotionTerms;
 use chetaev_symbolic::factors::{factored, irreducible_factors};
-use chetaev_symbolic::zero::assumptions::SignSet;
+use chetaev_symbolic::zero::assumptions::{Assumptions, SignSet};
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{rational, Expr, Function, Graph, Node, Rational, Symbol};
 
@@ -25,21 +26,68 @@ pub(crate) fn factors_of(system: &System, terms: &MotionTerms, row: usize) -> Ve
     if !g.any_contains_any(gradient, &velocities) {
         return Vec::new();
     }
-    let list = irreducible_factors(g, terms.constraints[row], &velocities).unwrap_or_default();
+    several(irreducible_factors(
+        g,
+        terms.constraints[row],
+        &velocities,
+    ))
+}
+
+/// Factors where there is more than one.
+fn several(list: Option<Vec<(Expr, u32)>>) -> Vec<Expr> {
+    let list = list.unwrap_or_default();
     match list.len() {
         0 | 1 => Vec::new(),
         _ => list.into_iter().map(|(factor, _)| factor).collect(),
     }
 }
 
+/// A function where others, affine in the velocities, vanish: these are solved for some of the symbols, one after the other. With
+/// `x' = y' + z'` the cone `x'² = y'² + z'²` is the product `2 y' z'`. `None` where there are none, or one cannot be solved.
+fn on_affine(g: &Graph, f: Expr, affine: &[Expr], symbols: &[Symbol]) -> Option<Expr> {
+    if affine.is_empty() || !g.contains_any(f, symbols) {
+        return None;
+    }
+    let mut solved: Vec<(Expr, Expr)> = Vec::new();
+    for &e in affine {
+        // What was solved before may contain what is solved now.
+        let e = g.substitute(e, &solved);
+        let gradient = g.gradient(e, symbols);
+        let mut values = Generator::new(0x00c0_5e1f);
+        let at = g.symbols_in(&gradient);
+        let at: Vec<(Symbol, f64)> = at.iter().map(|&s| (s, values.between(0.3, 1.7))).collect();
+        let value = |s: Symbol| at.iter().find(|(own, _)| *own == s).map(|(_, x)| *x);
+        let numbers = g.evaluate_f64(&gradient, &value).ok()?;
+        let usable = (0..symbols.len()).filter(|&j| numbers[j].abs() > 1e-9);
+        let j = usable.min_by_key(|&j| g.reachable(&[gradient[j]]).len())?;
+        let symbol = g.symbol_expr(symbols[j]);
+        let rest = g.substitute(e, &[(symbol, g.zero())]);
+        let own = (symbol, g.neg(g.div(rest, gradient[j])));
+        for (_, other) in &mut solved {
+            *other = g.substitute(*other, &[own]);
+        }
+        solved.push(own);
+    }
+    Some(g.substitute(f, &solved))
+}
+
 /// The components that the independent velocities of a selection describe, as equations, where they leave others out:
 /// `y' = z' + x` of `(y' - z' - x) z' = 0` solved for y'.
 pub fn covered(system: &System, terms: &MotionTerms, selection: &Selection) -> Option<String> {
     let g = &system.graph;
-    let rows = selection.rows.iter().zip(&selection.dependent);
-    let covered: Vec<String> = rows
+    let rows = || selection.rows.iter().zip(&selection.dependent);
+    let velocities: Vec<Symbol> = terms.jets.iter().map(|c| c.v_symbol).collect();
+    let affine = rows().filter(|(&row, _)| !g.any_contains_any(&terms.jacobian[row], &velocities));
+    let (affine, solved): (Vec<Expr>, Vec<Symbol>) = affine
+        .filter_map(|(&row, &j)| Some((terms.constraints[row], terms.jets.get(j)?.v_symbol)))
+        .unzip();
+    let covered: Vec<String> = rows()
         .filter_map(|(&row, &dependent)| {
-            let all = factors_of(system, terms, row);
+            let mut all = factors_of(system, terms, row);
+            if all.is_empty() && !affine.contains(&terms.constraints[row]) {
+                let f = on_affine(g, terms.constraints[row], &affine, &solved)?;
+                all = several(irreducible_factors(g, f, &velocities));
+            }
             let own = terms.jets.get(dependent)?.v_symbol;
             let with = all.iter().filter(|&&f| g.contains_any(f, &[own]));
             let with: Vec<String> = with.map(|&f| format!("{} = 0", g.text(f))).collect();
@@ -304,7 +352,11 @@ impl System {
                 continue;
             }
             let simple = unwrapped(g, constraint.f, &self.velocity_symbols());
-            let real = real_factors(g, simple.function, &self.velocity_symbols(), &known);
+            let mut real = real_factors(g, simple.function, &self.velocity_symbols(), &known);
+            if real.factors.len() < 2 {
+                let on_others = self.factors_on_affine(simple.function, &known);
+                real = on_others.unwrap_or(real);
+            }
             let same = simple.function == constraint.f;
             let equations = match real.factors.len() {
                 0 if same => continue,
@@ -324,6 +376,21 @@ impl System {
             });
         }
         found
+    }
+
+    /// The factors of a function that is a product on the constraints affine in the velocities.
+    fn factors_on_affine(&self, f: Expr, known: &Assumptions) -> Option<RealFactors> {
+        let (g, velocities) = (&self.graph, self.velocity_symbols());
+        let first_order = |c: &Constraint| c.kind != ConstraintKind::HigherOrder;
+        if !self.constraints.iter().all(first_order) {
+            return None;
+        }
+        let affine = self.constraints.iter();
+        let affine = affine.filter(|c| c.is_affine_in_velocities());
+        let affine: Vec<Expr> = affine.map(|c| c.f).collect();
+        let f = on_affine(g, f, &affine, &velocities)?;
+        let real = real_factors(g, f, &velocities, known);
+        (real.factors.len() > 1).then_some(real)
     }
 
     /// The factors of a holonomic constraint that may vanish: `x y = 0` holds on two components, `x y = 1` on others of which no product
