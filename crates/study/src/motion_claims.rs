@@ -400,7 +400,11 @@ fn followed_verdict(
         false => 0,
     };
     let samples = evidence.run.len() as u32 + steps;
-    let bound = bound(evidence, followed.scale);
+    let mut bound = bound(evidence, followed.scale);
+    if followed.drift.value > bound && evidence.run.precise.is_none() {
+        let rounding = evidence.rounding_of(&cx.system.graph, followed.expression);
+        bound = bound.max(rounding.unwrap_or(0.0));
+    }
     let beyond = without_value(evidence, std::iter::once(followed));
     let what = format!("{what}{}", without_jumps(cx, followed));
     let verdict = drift_verdict((&what, &beyond), &followed.drift, bound, samples, evidence);

@@ -12,7 +12,8 @@ use chetaev_motion::functions::FunctionsError;
 use chetaev_motion::keep::KeptReport;
 use chetaev_motion::observe::Observer;
 use chetaev_motion::{double_double, Binding, DoubleDouble, Run, RunError, RunSettings, Subject};
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::{Expr, Graph, Symbol};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// A quantity followed along the run.
@@ -273,6 +274,43 @@ impl FoundIntegrals {
         all
     }
 }
+
+impl MotionEvidence {
+    /// What the rounding of the state changes in a quantity at the start, which may be more than the size of its terms, as of z where all
+    /// motions have z = 0 and constraints hold to rounding: the largest slopes by coordinates and by velocities, each times the
+    /// largest of these along the run. `None` where it has no slopes there.
+    pub(crate) fn rounding_of(&self, g: &Graph, quantity: Expr) -> Option<f64> {
+        let layout = &self.run.layout;
+        let quantity = g.substitute(quantity, &self.binding.controls);
+        let state = self.binding.variables.get(1..)?;
+        let (positions, velocities) = state.split_at_checked(layout.positions().len())?;
+        let first = self.run.row(0);
+        let (q, v) = (&first[layout.positions()], &first[layout.v()]);
+        let values: BTreeMap<Symbol, f64> = positions
+            .iter()
+            .zip(q)
+            .chain(velocities.iter().zip(v))
+            .map(|(s, x)| (*s, *x))
+            .chain(self.binding.parameters.iter().copied())
+            .chain([(self.binding.variables[0], *self.run.times.first()?)])
+            .collect();
+        let largest = |range: std::ops::Range<usize>| {
+            let rows = (0..self.run.regular()).flat_map(|j| &self.run.row(j)[range.clone()]);
+            rows.fold(0.0, |m: f64, x| m.max(x.abs()))
+        };
+        let slope = |symbols: &[Symbol]| -> Option<f64> {
+            let gradient = g.gradient(quantity, symbols);
+            let found = g.evaluate_f64(&gradient, &|s| values.get(&s).copied());
+            Some(found.ok()?.iter().map(|x| x.abs()).sum())
+        };
+        let all = slope(positions)? * largest(layout.positions())
+            + slope(velocities)? * largest(layout.v());
+        Some(ROUNDINGS * f64::EPSILON * all).filter(|x| x.is_finite())
+    }
+}
+
+/// So many roundings of the state are no drift.
+const ROUNDINGS: f64 = 64.0;
 
 /// The rate of the energy is looked at for systems of up to this many coordinates.
 const RATE_COORDINATES: usize = 24;
