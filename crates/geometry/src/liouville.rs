@@ -20,8 +20,10 @@ use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::words::counted;
 use chetaev_mechanics::Characteristics;
+use chetaev_symbolic::matrix::inverse;
 use chetaev_symbolic::verdict::Proof;
-use chetaev_symbolic::{Expr, Function, Node, Symbol, Verdict};
+use chetaev_symbolic::zero::Pivots;
+use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol, Verdict};
 use involution::{in_involution, Involution};
 use kept::Kept;
 use turns::{turns, Around, Turn};
@@ -353,9 +355,10 @@ fn counted_for(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
     Ok(kept.concluded(&about, missing))
 }
 
-/// How many functions of the integrals do not contain what is left out. Shifts of it carry motions into motions, so they act on
-/// the values of the integrals, where these are closed under derivatives by it; a group has as many invariants as the
-/// dimension exceeds that of its orbits.
+/// How many functions of the integrals do not contain what is left out: those of the values of the integrals whose derivatives vanish
+/// along the directions in which shifts of it change these. Where the directions depend on the values alone, as those of shifts that
+/// carry motions into motions do, there are as many as values less directions: fields that commute have such directions in
+/// involution (Frobenius).
 fn invariant(cx: &Context<'_>, reduced: &Reduced, values: &[Expr]) -> Option<usize> {
     let (system, chart) = (cx.system, &reduced.chart);
     let g = &system.graph;
@@ -404,13 +407,37 @@ fn invariant(cx: &Context<'_>, reduced: &Reduced, values: &[Expr]) -> Option<usi
     }
     let rank = |matrix: &[Vec<Expr>]| {
         let rank = cx.prover.rank(system, matrix, &chart.manifold).ok()?;
-        matches!(rank.at_most, Verdict::Proved(_)).then_some(rank.maximum)
+        matches!(rank.at_most, Verdict::Proved(_)).then_some(rank)
+    };
+    let places = 0..=n + k + masses.len();
+    let depend_on_values = |more: &[Expr]| {
+        let all = [values, more].concat();
+        let gradients: Vec<Vec<Expr>> = places.clone().map(|place| along(&all, place)).collect();
+        rank(&gradients).is_some_and(|rank| rank.maximum == values.len())
     };
     let orbit = rank(&columns)?;
-    let all = [values, &moved].concat();
-    let places = 0..=n + k + masses.len();
-    let gradients: Vec<Vec<Expr>> = places.map(|place| along(&all, place)).collect();
-    (rank(&gradients)? == values.len()).then(|| values.len() - orbit)
+    let is_closed = depend_on_values(&moved) || reduced.turns.is_empty() && {
+        // With multiples of each other the directions may depend on the values alone: t ∂/∂G does.
+        let directions = echelon(g, &columns, &orbit.pivots)?;
+        depend_on_values(&directions.concat())
+    };
+    is_closed.then(|| values.len() - orbit.maximum)
+}
+
+/// The rows of a matrix that span all, with the unit matrix in the columns of the pivots.
+fn echelon(g: &Graph, matrix: &[Vec<Expr>], pivots: &Pivots) -> Option<Vec<Vec<Expr>>> {
+    let own: Vec<&Vec<Expr>> = pivots.rows.iter().map(|&i| &matrix[i]).collect();
+    let square = own.iter();
+    let square = square.map(|row| pivots.columns.iter().map(|&j| row[j]).collect());
+    let inverse = inverse(g, &square.collect::<Vec<Vec<Expr>>>()).ok()?;
+    let columns = own.first()?.len();
+    let entry = |factors: &Vec<Expr>, j: usize| {
+        let parts = factors.iter().zip(&own);
+        let parts: Vec<Expr> = parts.map(|(&a, row)| g.mul(&[a, row[j]])).collect();
+        g.add(&parts)
+    };
+    let row = |factors: &Vec<Expr>| (0..columns).map(|j| entry(factors, j)).collect();
+    Some(inverse.iter().map(row).collect())
 }
 
 fn about(cx: &Context<'_>, reduced: &Reduced, many: usize) -> String {
