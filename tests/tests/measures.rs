@@ -805,3 +805,55 @@ fn a_mass_that_has_vanished_is_no_state() {
     let (found, detail) = verdict(&stated(text));
     assert_eq!(found, "proved", "{detail}");
 }
+
+/// On the sphere of speeds |v| = c the chart (y', z') ends at x' = 0, where the motion is determined: W = 1 and the gradient is 2 v. The
+/// density exp(-27 z/c²) of these variables, for V = 9 z, is exp(-27 z/c²) |x'/y'| in (x', z'); the area of the sphere times exp(-18 z/c²),
+/// that is c exp(-18 z/c²)/|x'| in (y', z'), is smooth and positive. So is dy dy' with x' = 0, x y' = z' and z' for y': N = 1/|x|. Where
+/// x = y = 0 the constraint x x' + y y' = 0 has no gradient.
+#[test]
+fn densities_are_sought_that_do_not_end_with_the_variables() {
+    let text = |coordinates: &str, lagrangian: &str, rest: &str| {
+        format!(
+            "name = \"c\"\ncoordinates = [{coordinates}]\nlagrangian = \"{lagrangian}\"\n{rest}"
+        )
+    };
+    let space = "\"x\", \"y\", \"z\"";
+    let free = "(x'^2 + y'^2 + z'^2)/2";
+    let sphere = text(
+        space,
+        "(x'^2 + y'^2 + z'^2)/2 - 9 z",
+        "parameters = { c = 2 }\n[constraints]\na = \"x'^2 + y'^2 + z'^2 = c^2\"\n[initial]\n\"x'\" = 2\n",
+    );
+    let chart = text(
+        space,
+        free,
+        "[constraints]\na = \"x' = 0\"\nb = \"x y' = z'\"\n[velocities]\nindependent = [\"z'\"]\n",
+    );
+    let plane = text(
+        "\"x\", \"y\"",
+        "(x'^2 + y'^2)/2",
+        "[constraints]\na = \"x x' + y y' = 0\"\n[initial]\nx = 1\n",
+    );
+    let ends =
+        "these variables do not determine the motion; in others N is neither zero nor infinite";
+    for (model, words) in [
+        (
+            sphere,
+            ["N = sqrt((y'^2 + z'^2)/x'^2 + 1) exp(-18 z/c^2)", ends],
+        ),
+        (chart, ["N = sqrt(1 + 1/x^2)", ends]),
+        (
+            plane,
+            [
+                "where x^2 + y^2 = 0 the mass matrices are singular or infinite",
+                "whatever N is there",
+            ],
+        ),
+    ] {
+        let (word, detail) = verdict(&stated(&model));
+        assert_eq!(word, "proved", "{detail}");
+        for words in words {
+            assert!(detail.contains(words), "no `{words}` in: {detail}");
+        }
+    }
+}

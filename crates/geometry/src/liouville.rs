@@ -416,11 +416,12 @@ fn invariant(cx: &Context<'_>, reduced: &Reduced, values: &[Expr]) -> Option<usi
         rank(&gradients).is_some_and(|rank| rank.maximum == values.len())
     };
     let orbit = rank(&columns)?;
-    let is_closed = depend_on_values(&moved) || reduced.turns.is_empty() && {
-        // With multiples of each other the directions may depend on the values alone: t ∂/∂G does.
-        let directions = echelon(g, &columns, &orbit.pivots)?;
-        depend_on_values(&directions.concat())
-    };
+    let is_closed = depend_on_values(&moved)
+        || reduced.turns.is_empty() && {
+            // With multiples of each other the directions may depend on the values alone: t ∂/∂G does.
+            let directions = echelon(g, &columns, &orbit.pivots)?;
+            depend_on_values(&directions.concat())
+        };
     is_closed.then(|| values.len() - orbit.maximum)
 }
 

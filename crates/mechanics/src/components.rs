@@ -26,11 +26,7 @@ pub(crate) fn factors_of(system: &System, terms: &MotionTerms, row: usize) -> Ve
     if !g.any_contains_any(gradient, &velocities) {
         return Vec::new();
     }
-    several(irreducible_factors(
-        g,
-        terms.constraints[row],
-        &velocities,
-    ))
+    several(irreducible_factors(g, terms.constraints[row], &velocities))
 }
 
 /// Factors where there is more than one.

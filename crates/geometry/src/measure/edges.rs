@@ -7,7 +7,7 @@ use super::formula::{factors_by_form, is_nowhere_zero};
 use super::{products, Flow};
 use chetaev_mechanics::sample::{self, Generator, Point};
 use chetaev_mechanics::system::Relation;
-use chetaev_mechanics::{Context, Manifold};
+use chetaev_mechanics::{Context, Manifold, System};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol, Verdict};
@@ -28,8 +28,10 @@ pub struct Edges {
     pub of_density: Vec<Expr>,
     /// Where a function in N has a pole or jumps.
     pub of_formula: Vec<Expr>,
-    /// Where N is neither zero nor infinite and the mass matrices are singular or infinite.
+    /// Where N may be neither zero nor infinite and the motion is not determined.
     pub of_masses: Vec<Expr>,
+    /// Where the variables end, in which N may be neither zero nor infinite, and the motion is determined: in others N is zero or infinite.
+    pub of_variables: Vec<Expr>,
 }
 
 impl Edges {
@@ -42,12 +44,14 @@ impl Edges {
     /// Every edge.
     pub(super) fn all(&self) -> Vec<Expr> {
         let own = [&self.of_chart[..], &self.of_density[..]];
-        [own[0], own[1], &self.of_formula, &self.of_masses].concat()
+        let others = [&self.of_formula[..], &self.of_masses, &self.of_variables];
+        [own.concat(), others.concat()].concat()
     }
 
     /// Whether the density itself ends somewhere, whatever the variables.
     pub(super) fn ends(&self) -> bool {
-        !(self.of_density.is_empty() && self.of_formula.is_empty())
+        let all = [&self.of_density, &self.of_formula, &self.of_variables];
+        all.iter().any(|edges| !edges.is_empty())
     }
 }
 
@@ -69,7 +73,12 @@ pub(super) fn edges(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Edges {
             let parts = products::quotient(g, ratio).into_iter();
             let parts = parts.flat_map(|part| factors_by_form(g, part)).collect();
             let found = Ends::of(cx, flow, ratio, parts);
-            [found.of_powers, found.of_functions].concat()
+            // Masses that jump, as the constraints do, are regular on both sides.
+            let signs = g.reachable(&[ratio]).into_iter();
+            let signs: Vec<Expr> = signs.filter_map(|e| sign_of(g, e)).collect();
+            let functions = found.of_functions.into_iter();
+            let functions: Vec<Expr> = functions.filter(|e| !signs.contains(e)).collect();
+            [found.of_powers, functions].concat()
         }
     };
     let meet = |a: Expr, b: Expr| is_zero_where(cx, a, b) || is_zero_where(cx, b, a);
@@ -84,8 +93,10 @@ pub(super) fn edges(cx: &Context<'_>, flow: &Flow<'_>, density: Expr) -> Edges {
         let is_named = named.iter().any(|&edge| meet(h, edge));
         !is_named && may_vanish(cx, flow, h)
     });
+    let (of_variables, of_masses) = of_masses.partition(|&h| is_determined(cx, flow, h));
     Edges {
-        of_masses: of_masses.collect(),
+        of_masses,
+        of_variables,
         of_chart: of_chart
             .into_iter()
             .filter(|&edge| may_vanish(cx, flow, edge))
@@ -196,6 +207,107 @@ fn singular_where(g: &Graph, e: Expr) -> Option<Expr> {
         },
         _ => None,
     }
+}
+
+/// What a sign is taken of.
+fn sign_of(g: &Graph, e: Expr) -> Option<Expr> {
+    match g.node(e) {
+        Node::Apply {
+            function: Function::Sign,
+            arguments,
+        } => Some(arguments[0]),
+        _ => None,
+    }
+}
+
+/// Whether the motion is determined where a function vanishes, at a state that was found there: W bordered by the gradients of the
+/// constraints, `(W fᵥᵀ; fᵥ 0)`, is regular whatever variables describe the states.
+fn is_determined(cx: &Context<'_>, flow: &Flow<'_>, edge: Expr) -> bool {
+    let (system, g) = (cx.system, &cx.system.graph);
+    let (n, r) = (system.n(), cx.terms.constraints.len());
+    let at = |es: &[Expr], point: &Point| {
+        let values = g.evaluate_f64(es, &|s| point.get(&s).copied()).ok();
+        values.filter(|values| values.iter().all(|x| x.is_finite()))
+    };
+    let bordered: Vec<Expr> = (0..n + r)
+        .flat_map(|i| (0..n + r).map(move |j| (i.min(j), i.max(j))))
+        .map(|(i, j)| match (i < n, j < n) {
+            (true, true) => cx.terms.mass_matrix[i][j],
+            (true, false) => cx.terms.jacobian[j - n][i],
+            _ => g.zero(),
+        })
+        .collect();
+    let own = states(flow, system);
+    let together = |e: Expr| -> Vec<Expr> {
+        let gradient = g.gradient(e, &own);
+        std::iter::once(e).chain(gradient).collect()
+    };
+    let mut all: Vec<Vec<Expr>> = cx.terms.constraints.iter().map(|&f| together(f)).collect();
+    all.push(together(edge));
+    (0..STARTS as u64).any(|number| {
+        let seed = SEED.wrapping_add(number);
+        let Some(mut point) = sample::admissible_point(system, cx.terms, seed) else {
+            return false;
+        };
+        for _ in 0..STEPS {
+            for f in &all {
+                let Some(found) = at(f, &point) else {
+                    return false;
+                };
+                let square: f64 = found[1..].iter().map(|d| d * d).sum();
+                if found[0] != 0.0 {
+                    let step = found[0] / square;
+                    for (s, d) in own.iter().zip(&found[1..]) {
+                        point.entry(*s).and_modify(|x| *x -= step * d);
+                    }
+                }
+            }
+        }
+        let left: Vec<Expr> = all.iter().map(|f| f[0]).collect();
+        let is_there = at(&left, &point).is_some_and(|f| f.iter().all(|x| x.abs() < MET.sqrt()));
+        is_there && at(&bordered, &point).is_some_and(|entries| is_regular(entries, n + r))
+    })
+}
+
+/// All coordinates and velocities.
+fn states(flow: &Flow<'_>, system: &System) -> Vec<Symbol> {
+    let coordinates = system.coordinate_symbols().into_iter();
+    let all = coordinates.chain(system.velocity_symbols());
+    all.filter(|&s| flow.motion.moves(s)).collect()
+}
+
+/// Whether Gauss's elimination meets no pivot that is small beside the entries of its row.
+fn is_regular(mut entries: Vec<f64>, size: usize) -> bool {
+    let length = |row: &[f64]| row.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    for row in entries.chunks_mut(size) {
+        let scale = length(row);
+        row.iter_mut().for_each(|x| *x /= scale);
+    }
+    for i in 0..size {
+        let by_size = |&a: &usize, &b: &usize| {
+            entries[a * size + i]
+                .abs()
+                .total_cmp(&entries[b * size + i].abs())
+        };
+        let Some(pivot) = (i..size).max_by(by_size) else {
+            return false;
+        };
+        let value = entries[pivot * size + i];
+        // The negation refuses NaN too.
+        if !(value.abs() > MET.sqrt()) {
+            return false;
+        }
+        for j in 0..size {
+            entries.swap(i * size + j, pivot * size + j);
+        }
+        for row in i + 1..size {
+            let factor = entries[row * size + i] / value;
+            for j in i..size {
+                entries[row * size + j] -= factor * entries[i * size + j];
+            }
+        }
+    }
+    true
 }
 
 fn without_absolute_value(g: &Graph, e: Expr) -> Expr {

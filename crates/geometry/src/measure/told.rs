@@ -115,12 +115,15 @@ fn within(g: &Graph, proof: &mut Proof, edges: &Edges, n: &str) {
         }
     };
     say(&edges.of_masses, &|at| {
-        format!("where {at} the mass matrices are singular or infinite and do not determine the motion, while {n} is neither zero nor infinite")
+        format!("where {at} the mass matrices are singular or infinite and do not determine the motion, whatever {n} is there")
     });
     say(&edges.of_chart, &|at| {
         format!("where {at} these variables do not determine the motion; in others {n} is neither zero nor infinite there wherever the mass matrices are regular")
     });
     let each = "it is a measure on each of the parts into which this divides the states, and whether another one is smooth and positive across is not decided";
+    say(&edges.of_variables, &|at| {
+        format!("not where {at}, as these variables end there: in others that do not {n} is zero or infinite, {each}")
+    });
     say(&edges.of_density, &|at| {
         format!("not where {at}, as {n} is zero or infinite there: {each}")
     });

@@ -83,8 +83,7 @@ impl<'p> Variety<'p> {
                     "the constraints have too many components".to_owned(),
                 ));
             }
-            let tower =
-                Tower::new(*field, negative, &prescribed).adjoining(&self.program.adjoined);
+            let tower = Tower::new(*field, negative, &prescribed).adjoining(&self.program.adjoined);
             match self.part(&tower, point)? {
                 Part::Rank(dimension, pivots) => parts.add(dimension, pivots),
                 Part::Elsewhere => {}
