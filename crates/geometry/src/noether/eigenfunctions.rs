@@ -3,7 +3,7 @@
 //! Among the functions `c_0 + c_i u_i` of coordinates, functions of the time, and velocities u, then among their products two by two,
 //! those whose rates are such functions again are looked for, and of these the largest space that X̄ maps into itself. On it X̄ is a matrix of constants: its eigenvalues λ that are in the
 //! parameter field or roots of quadratics over it are formed, with eigenvectors and principal vectors of height two, for which
-//! `X̄F = λF + F_1` and `(F - t F_1) e^(-λt)` keeps its value; other quadratic factors λ² + b λ + c give a quadratic form times e^(bt), and for complex roots
+//! `X̄F = λF + F_1` and `(F - t F_1) e^(-λt)` keeps its value; other quadratic factors λ² + b λ + c give quadratic forms times e^(bt), of one function and of two, and for complex roots
 //! functions that turn with the time. For polynomials F these are Darboux polynomials of degree one with
 //! constant cofactors (Goriely 2001, ch. 2).
 
@@ -184,7 +184,7 @@ impl Invariant {
             }
         }
         let vectors = null_space(g, &polynomial, self.functions.len()).ok()?;
-        let found = vectors.iter().map(|vector| {
+        let functions = vectors.iter().map(|vector| {
             let own = self.coefficients(g, vector);
             let rate = self.coefficients(g, &times(g, &map, vector));
             // The leading coefficient may be that of the rate, where F_1 contains no velocity.
@@ -193,10 +193,20 @@ impl Invariant {
                 let scaled = own.into_iter().map(|e| readable(g, g.div(e, leading)));
                 combined(g, &scaled.collect::<Vec<Expr>>(), &self.members)
             };
-            pair(cx, motion, (b, c), (function(own), function(rate)))
+            Some((function(own), function(rate)))
         });
-        let found: Option<Vec<Vec<Eigenfunction>>> = found.collect();
-        Some(found?.into_iter().flatten().collect())
+        let functions: Vec<(Expr, Expr)> = functions.collect::<Option<_>>()?;
+        let mut found = Vec::new();
+        for &own in &functions {
+            found.extend(pair(cx, motion, (b, c), own)?);
+        }
+        if functions.len() <= MOST_PAIRED {
+            for (i, &own) in functions.iter().enumerate() {
+                let others = functions[..i].iter();
+                found.extend(others.filter_map(|&other| moment(cx, motion, b, (other, own))));
+            }
+        }
+        Some(found)
     }
 
     /// The coefficient of the first velocity, or of the first coordinate where there is none.
@@ -238,6 +248,9 @@ fn members(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Option<V
     let all = std::iter::once(g.one()).chain(timed).chain(places);
     independent(cx, motion, all.chain(velocities).collect())
 }
+
+/// Of more functions with one quadratic factor no two are taken together.
+const MOST_PAIRED: usize = 6;
 
 /// The most products of two members.
 const PRODUCTS: usize = 30;
@@ -437,6 +450,41 @@ fn proved(
             name: None,
         },
         rational,
+    })
+}
+
+/// For functions F and H with `X̄²F = -b X̄F - c F` and the same of H, `(F X̄H - H X̄F) e^(b t)` keeps its value, as the moment of momentum
+/// of an oscillator in the plane does times e^(b t) when it is damped; `None` where it is zero or not proved.
+fn moment(
+    cx: &Context<'_>,
+    motion: &Motion<'_>,
+    b: Expr,
+    (own, other): ((Expr, Expr), (Expr, Expr)),
+) -> Option<Eigenfunction> {
+    let g = &cx.system.graph;
+    let moment = g.sub(g.mul(&[own.0, other.1]), g.mul(&[other.0, own.1]));
+    let moment = readable(g, moment);
+    let rate = *motion.derivatives(&[moment]).first()?;
+    let residual = g.add(&[rate, g.mul(&[b, moment])]);
+    let on = "on the constraint manifold";
+    let verdict = cx
+        .prover
+        .identity(cx.system, &[residual], &motion.manifold, on);
+    if g.is_zero(moment) || !matches!(verdict, Verdict::Proved(_)) {
+        return None;
+    }
+    let time = g.symbol("t", 0);
+    let value = g.mul(&[moment, g.exp(g.mul(&[b, time]))]);
+    let words = "what stands before the exponential grows or decays at its inverse rate";
+    Some(Eigenfunction {
+        integral: Integral {
+            value,
+            shown: value,
+            verdict: verdict.prefixed(words),
+            independent: true,
+            name: None,
+        },
+        rational: g.add(&[g.apply(Function::Log, &[moment]), g.mul(&[b, time])]),
     })
 }
 

@@ -251,7 +251,7 @@ fn families(cx: &Context<'_>, found: &Found) -> String {
         _ => Some("functions up to second degree"),
     };
     families.extend(functions.map(|functions| format!(
-        "{functions} of velocities and coordinates times exponentials of the time, where these functions are mapped into themselves by the motion, with eigenvalues of equations of degree one or two that are seen to be real, or as quadratic forms of two functions that belong to others"
+        "{functions} of velocities and coordinates times exponentials of the time, where these functions are mapped into themselves by the motion, with eigenvalues of equations of degree one or two that are seen to be real, or as quadratic forms of two or four functions that belong to others"
     )));
     families.extend(families_at_special_values(cx, found));
     let each = families.into_iter();

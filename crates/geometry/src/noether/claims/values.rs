@@ -114,7 +114,14 @@ fn for_parameters(
     let Verdict::Proved(mut proof) = cx.prover.identity(system, &[rate], &manifold, &on) else {
         return None;
     };
-    let occurring = g.symbols_in(&[general, value]);
+    // The constraints may give what occurs its value, as sqrt(x' y') by x' y' = c.
+    let of_manifold = motion.manifold.solved.iter().map(|(_, e)| *e);
+    let implicit = motion.manifold.implicit.iter().map(|(f, _)| *f);
+    let all: Vec<Expr> = of_manifold
+        .chain(implicit)
+        .chain([general, value])
+        .collect();
+    let occurring = g.symbols_in(&all);
     let used = given
         .pairs
         .iter()
