@@ -718,6 +718,16 @@ fn eigenfunctions_that_turn() {
         ),
         2,
     );
+    // The moment of momentum of two equal damped oscillators decays as exp(-c t), whatever k is.
+    contains(
+        &model(
+            "\"x\", \"y\"",
+            "(x'^2 + y'^2)/2 - k (x^2 + y^2)/2",
+            "parameters = { c = {}, k = {} }\n[forces]\nx = \"-c x'\"\ny = \"-c y'\"",
+            "a = \"(x y' - y x') exp(c t)\"\nb = \"(x'^2 + c x x' + k x^2) exp(c t)\"",
+        ),
+        3,
+    );
     let damped = "[forces]\nx = \"-c x'\"";
     contains(
         &model(

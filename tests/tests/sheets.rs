@@ -1,0 +1,144 @@
+//! Constraints whose admissible velocities fall into sheets that none of them shows by itself: products on the others, and roots of what
+//! they make a square. What is said of one sheet must not be said of all.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "test code fails where it stands"
+)]
+
+use chetaev::symbolic::Verdict;
+use chetaev_tests::runs::{ended_text, Ask, Ended};
+
+fn ended(text: &str, claims: &[&'static str]) -> Ended {
+    let ask = Ask {
+        claims: claims.to_vec(),
+        ..Ask::default()
+    };
+    ended_text(text, &ask)
+}
+
+fn word_of(ended: &Ended, claim: &str) -> (&'static str, String) {
+    let verdict = ended.verdict(claim);
+    (verdict.word(), verdict.detail().to_owned())
+}
+
+/// With x' = y' + z' the cone x'² = y'² + z'² is y' z' = 0. With V = y + z a motion that begins with z' = 0 stays there, x' = y': then
+/// y'' = -1/2 while y, z - x and 2 z' + t, which the other sheet keeps, change.
+#[test]
+fn a_cone_and_a_plane_that_meet_in_two_lines() {
+    let text = |start: &str| {
+        format!(
+            "coordinates = [\"x\", \"y\", \"z\"]\nlagrangian = {{ T = \"1/2 (x'^2 + y'^2 + z'^2)\", V = \"y + z\" }}\n\
+             [constraints]\na = \"x'^2 = y'^2 + z'^2\"\nb = \"x' = y' + z'\"\n[initial]\n{start}\n[simulation]\nt_end = 1\n\
+             [integrals]\ny = \"y\"\nz = \"z\"\n"
+        )
+    };
+    for (start, kept, changes) in [
+        ("\"x'\" = 1\n\"y'\" = 1\n\"z'\" = 0", "z", "y"),
+        ("\"x'\" = 1\n\"y'\" = 0\n\"z'\" = 1", "y", "z"),
+    ] {
+        let claims = [
+            "noether.inverse",
+            "noether.integral",
+            "motion.integral-drift",
+        ];
+        let ended = ended(&text(start), &claims);
+        let (word, detail) = word_of(&ended, &format!("noether.inverse#{kept}"));
+        assert_eq!(word, "conditional", "{detail}");
+        assert!(
+            detail.contains(&format!("on the component {kept}' = 0")),
+            "{detail}"
+        );
+        let (word, detail) = word_of(&ended, &format!("noether.inverse#{changes}"));
+        assert_eq!(word, "refuted", "{detail}");
+        for number in 1..=4 {
+            let claim = format!("motion.integral-drift#{number}");
+            let (word, detail) = word_of(&ended, &claim);
+            assert_eq!(word, "numerical", "{claim}: {detail}");
+        }
+    }
+}
+
+/// Two points of which one pursues the other, with parallel velocities: these are along the line between them, or equal. The moment of
+/// the first about the second vanishes in the first case; with equal velocities both fall freely and it changes.
+#[test]
+fn parallel_velocities_of_a_pursuit() {
+    let text = "coordinates = [\"x1\", \"y1\", \"x2\", \"y2\"]\n\
+        lagrangian = { T = \"1/2 (x1'^2 + y1'^2) + (x2'^2 + y2'^2)\", V = \"y1 + 2 y2\" }\n\
+        [constraints]\npursue = \"(x1' - x2')(y1 - y2) = (y1' - y2')(x1 - x2)\"\npar = \"x1' y2' = x2' y1'\"\n\
+        [integrals]\nmoment = \"x1' (y1 - y2) - y1' (x1 - x2)\"\nspeed = \"x1'\"\n\
+        [initial]\nx1 = 1\n\"y1'\" = 1\n\"y2'\" = 1\n\"x1'\" = 0\n\"x2'\" = 0\n[simulation]\nt_end = 1\n";
+    let ended = ended(text, &["noether.inverse", "motion.integral-drift"]);
+    let (word, detail) = word_of(&ended, "noether.inverse#moment");
+    assert_eq!(word, "refuted", "{detail}");
+    let (word, detail) = word_of(&ended, "noether.inverse#speed");
+    assert_eq!(word, "conditional", "{detail}");
+    let (word, detail) = word_of(&ended, "motion.integral-drift#speed");
+    assert_eq!(word, "numerical", "{detail}");
+}
+
+/// On z'² = x'² + y'² the root of the right side is z' or -z', and the constraint does not say which. With V = z the speed ρ changes at
+/// the rate -1/2 where z' > 0 and 1/2 where z' < 0; z' at -1/2 on both.
+#[test]
+fn roots_of_what_a_constraint_makes_a_square() {
+    let text = "coordinates = [\"x\", \"y\", \"z\"]\nlagrangian = { T = \"1/2 (x'^2 + y'^2 + z'^2)\", V = \"z\" }\n\
+        constraints = { c = \"z'^2 = x'^2 + y'^2\" }\n\
+        [integrals]\na = \"sqrt(x'^2 + y'^2) + t/2\"\nb = \"z' - sqrt(x'^2 + y'^2)\"\nc = \"x' sqrt(x'^2 + y'^2) + x\"\n\
+        d = \"y' sqrt(x'^2 + y'^2) + y\"\ne = \"z' + t/2\"\nf = \"x' z' + x\"\n\
+        [initial]\n\"x'\" = 3\n\"y'\" = 4\n\"z'\" = -5\n";
+    let ended = ended(text, &["noether.inverse"]);
+    for (name, expected) in [
+        ("a", "refuted"),
+        ("b", "refuted"),
+        ("c", "refuted"),
+        ("d", "refuted"),
+        ("e", "proved"),
+        ("f", "proved"),
+    ] {
+        let (word, detail) = word_of(&ended, &format!("noether.inverse#{name}"));
+        assert_eq!(word, expected, "{name}: {detail}");
+    }
+}
+
+/// The force √(x'² + y'² + 1) - z' vanishes where z' > 0 and not where z' < 0: neither z' nor what is made of it keeps its value on all
+/// motions, and functions that are found do.
+#[test]
+fn forces_that_vanish_on_one_sheet() {
+    let text = "coordinates = [\"x\", \"y\", \"z\"]\nlagrangian = { T = \"1/2 (x'^2 + y'^2 + z'^2)\", V = \"0\" }\n\
+        forces = { z = \"sqrt(x'^2 + y'^2 + 1) - z'\" }\nconstraints = { c = \"z'^2 = x'^2 + y'^2 + 1\" }\n\
+        [initial]\n\"x'\" = 3\n\"y'\" = 4\n\"z'\" = \"-sqrt(26)\"\n[simulation]\nt_end = 1\n[integrals]\na = \"z'\"\nb = \"x'\"\nc = \"y'/x'\"\n";
+    let claims = [
+        "noether.inverse",
+        "noether.integral",
+        "motion.integral-drift",
+    ];
+    let ended = ended(text, &claims);
+    for (name, expected) in [("a", "refuted"), ("b", "refuted"), ("c", "proved")] {
+        let (word, detail) = word_of(&ended, &format!("noether.inverse#{name}"));
+        assert_eq!(word, expected, "{name}: {detail}");
+    }
+    let study = ended.study.as_ref().unwrap();
+    let drifts = study.verdicts.iter().filter(|d| {
+        let id = d.full_id();
+        id.starts_with("motion.integral-drift#") && id.ends_with(|c: char| c.is_ascii_digit())
+    });
+    let mut count = 0;
+    for drift in drifts {
+        let verdict = &drift.finding.verdict;
+        assert_eq!(verdict.word(), "numerical", "{}", verdict.detail());
+        count += 1;
+    }
+    assert!(count > 0);
+}
+
+/// x' y' = c makes √(x' y') a constant: x (√(x' y') - 2) vanishes for c = 4 and changes for others.
+#[test]
+fn conditions_name_parameters_of_constraints() {
+    let text = "coordinates = [\"x\", \"y\"]\nparameters = { c = 4 }\nlagrangian = { T = \"1/2 (x'^2 + y'^2)\", V = \"y\" }\n\
+        constraints = { k = \"x' y' = c\" }\n[integrals]\na = \"x (sqrt(x' y') - 2)\"\n";
+    let ended = ended(text, &["noether.inverse"]);
+    match ended.verdict("noether.inverse#a") {
+        Verdict::Conditional { condition, .. } => assert_eq!(condition, "c = 4"),
+        other => panic!("{}: {}", other.word(), other.detail()),
+    }
+}
