@@ -131,6 +131,45 @@ fn forces_that_vanish_on_one_sheet() {
     assert!(count > 0);
 }
 
+/// The difference of two constraints is y' z' = 0, which neither shows. With V = y + z z is kept on the sheet z' = 0 alone, y on the other;
+/// with z'² = w'² the difference w' - z' vanishes on one sheet and changes on the other.
+#[test]
+fn constraints_that_are_products_together() {
+    let text = |b: &str, start: &str, integrals: &str| {
+        format!(
+            "coordinates = [\"w\", \"x\", \"y\", \"z\"]\n\
+             lagrangian = {{ T = \"1/2 (w'^2 + x'^2 + y'^2 + z'^2)\", V = \"y + z\" }}\n\
+             [constraints]\na = \"w'^2 = x'^2 + y'^2\"\nb = \"{b}\"\n{start}[integrals]\n{integrals}"
+        )
+    };
+    let start = "[initial]\n\"x'\" = 1\n\"y'\" = 1\n\"z'\" = 0\n\"w'\" = \"sqrt(2)\"\n";
+    let stated = text(
+        "w'^2 = x'^2 + y'^2 + y' z'",
+        start,
+        "y = \"y\"\nz = \"z\"\n",
+    );
+    let meeting = ended(&stated, &["noether.inverse"]);
+    for name in ["y", "z"] {
+        let (word, detail) = word_of(&meeting, &format!("noether.inverse#{name}"));
+        assert_ne!(word, "proved", "{name}: {detail}");
+    }
+    let (word, detail) = word_of(&meeting, "noether.inverse#z");
+    assert!(
+        word == "conditional" && detail.contains("only that where"),
+        "{detail}"
+    );
+    let stated = text(
+        "z'^2 = x'^2 + y'^2",
+        "",
+        "a = \"w' - z'\"\nb = \"w'^2 - z'^2\"\n",
+    );
+    let apart = ended(&stated, &["noether.inverse"]);
+    let (word, detail) = word_of(&apart, "noether.inverse#b");
+    assert!(word == "proved" && detail.contains("trivial"), "{detail}");
+    let (word, detail) = word_of(&apart, "noether.inverse#a");
+    assert_ne!(word, "proved", "{detail}");
+}
+
 /// x' y' = c makes √(x' y') a constant: x (√(x' y') - 2) vanishes for c = 4 and changes for others.
 #[test]
 fn conditions_name_parameters_of_constraints() {

@@ -479,7 +479,7 @@ impl<'a> Context<'a> {
             return finding;
         };
         let sentence = format!(
-            "of the components of the constraints only {covered} was looked at, as no one velocity can be solved for on all"
+            "of the components of the constraints only that where {covered} was looked at, as no one velocity can be solved for on all"
         );
         finding.verdict = on_component(finding.verdict, covered);
         if !matches!(finding.verdict, Verdict::NotApplicable { .. }) {
