@@ -126,52 +126,95 @@ impl NullSpace {
     }
 }
 
-/// The null space of a row-major matrix with `columns` columns, of which columns to the left are preferred as pivots.
-pub fn null_space(field: &PrimeField, columns: usize, mut matrix: Vec<Residue>) -> NullSpace {
-    let rows = matrix.len().checked_div(columns).unwrap_or(0);
-    let mut pivots: Vec<usize> = Vec::new();
-    for column in 0..columns {
-        let rank = pivots.len();
-        let found = (rank..rows).find(|&row| !matrix[row * columns + column].is_zero());
-        let Some(pivot) = found else { continue };
-        swap_rows(&mut matrix, columns, pivot, rank);
-        let Some(reciprocal) = field.inv(matrix[rank * columns + column]) else {
-            continue;
+/// Rows in echelon form, in the order of their first columns, each with a one there.
+struct Echelon {
+    columns: usize,
+    pivots: Vec<usize>,
+    rows: Vec<Vec<Residue>>,
+}
+
+impl Echelon {
+    /// Adds what a row has that the others do not span. Of four rows at a time the multiples are found in the columns of their pivots, so
+    /// that the other entries take one reduction for four products.
+    fn insert(&mut self, field: &PrimeField, mut row: Vec<Residue>) {
+        for (pivots, rows) in self.pivots.chunks(4).zip(self.rows.chunks(4)) {
+            let mut factors = [Residue::ZERO; 4];
+            for (k, &pivot) in pivots.iter().enumerate() {
+                let known = factors[..k].iter().zip(rows);
+                let terms = known.map(|(&factor, own)| field.mul(factor, own[pivot]));
+                let value = terms.fold(row[pivot], |sum, term| field.add(sum, term));
+                factors[k] = field.neg(value);
+            }
+            if factors.iter().all(|factor| factor.is_zero()) {
+                continue;
+            }
+            let first = pivots[0];
+            let target = &mut row[first..];
+            if let [a, b, c, d] = rows {
+                let (a, b) = (&a[first..], &b[first..]);
+                let (c, d) = (&c[first..], &d[first..]);
+                for ((((x, &a), &b), &c), &d) in target.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+                    *x = field.add(*x, field.sum_of_products(factors, [a, b, c, d]));
+                }
+            } else {
+                for (&factor, own) in factors.iter().zip(rows) {
+                    for (x, &own) in target.iter_mut().zip(&own[first..]) {
+                        *x = field.add(*x, field.mul(factor, own));
+                    }
+                }
+            }
+        }
+        let Some(pivot) = (0..self.columns).find(|&column| !row[column].is_zero()) else {
+            return;
         };
-        for entry in &mut matrix[rank * columns + column..(rank + 1) * columns] {
+        let Some(reciprocal) = field.inv(row[pivot]) else {
+            return;
+        };
+        for entry in &mut row[pivot..] {
             *entry = field.mul(*entry, reciprocal);
         }
-        eliminate(field, &mut matrix, columns, rank, column, field.one());
-        pivots.push(column);
+        let place = self.pivots.partition_point(|&other| other < pivot);
+        self.pivots.insert(place, pivot);
+        self.rows.insert(place, row);
     }
+}
+
+/// The null space of a row-major matrix with `columns` columns, of which columns to the left are preferred as pivots: the first columns of
+/// rows in echelon form are the same whatever the order of the rows.
+pub fn null_space(field: &PrimeField, columns: usize, matrix: Vec<Residue>) -> NullSpace {
+    let mut echelon = Echelon {
+        columns,
+        pivots: Vec::new(),
+        rows: Vec::new(),
+    };
+    for row in matrix.chunks_exact(columns.max(1)) {
+        if echelon.pivots.len() == columns {
+            break;
+        }
+        echelon.insert(field, row.to_vec());
+    }
+    let Echelon { pivots, rows, .. } = echelon;
     let mut is_pivot = vec![false; columns];
     pivots.iter().for_each(|&column| is_pivot[column] = true);
     let vectors = (0..columns)
         .filter(|&column| !is_pivot[column])
-        .map(|column| {
-            (
-                column,
-                back_substituted(field, columns, &matrix, &pivots, column),
-            )
-        })
+        .map(|column| (column, back_substituted(field, &rows, &pivots, column)))
         .collect();
     NullSpace { pivots, vectors }
 }
 
-/// The vector with a one at `free` that the triangular rows of a matrix annul.
+/// The vector with a one at `free` that rows in echelon form annul.
 fn back_substituted(
     field: &PrimeField,
-    columns: usize,
-    matrix: &[Residue],
+    rows: &[Vec<Residue>],
     pivots: &[usize],
     free: usize,
 ) -> Vec<(usize, Residue)> {
     let mut known: Vec<(usize, Residue)> = vec![(free, field.one())];
-    for (row, &pivot) in pivots.iter().enumerate().rev() {
+    for (row, &pivot) in rows.iter().zip(pivots).rev() {
         if pivot > free {
             continue;
         }
-        let row = &matrix[row * columns..(row + 1) * columns];
         let sum = known.iter().fold(Residue::ZERO, |sum, &(column, x)| {
             field.add(sum, field.mul(row[column], x))
         });
@@ -230,6 +273,34 @@ mod tests {
     fn random_matrix(field: &PrimeField, entries: usize, seed: u64) -> Vec<Residue> {
         let mut random = Random::new(seed);
         (0..entries).map(|_| field.random(&mut random)).collect()
+    }
+
+    /// Rows in any order, more of them than the rank, and ranks that are no multiples of the rows taken at a time.
+    #[test]
+    fn null_spaces_do_not_depend_on_the_order_of_rows() {
+        let (field, rows, columns) = (field(), 40, 24);
+        for inner in [1, 4, 7, 13, 24] {
+            let a = random_matrix(&field, rows * inner, 5);
+            let b = random_matrix(&field, inner * columns, 6);
+            let entry = |row: usize, column: usize| {
+                let terms =
+                    (0..inner).map(|k| field.mul(a[row * inner + k], b[k * columns + column]));
+                terms.fold(Residue::ZERO, |sum, term| field.add(sum, term))
+            };
+            let row = |row: usize| (0..columns).map(move |column| entry(row, column));
+            let space = null_space(&field, columns, (0..rows).flat_map(row).collect());
+            let reversed = (0..rows).rev().flat_map(row).collect();
+            assert_eq!(space, null_space(&field, columns, reversed));
+            assert_eq!(space.pivots, (0..inner).collect::<Vec<usize>>());
+            assert_eq!(space.vectors.len(), columns - inner);
+            for (free, entries) in &space.vectors {
+                for i in 0..rows {
+                    let terms = entries.iter().map(|&(j, x)| field.mul(entry(i, j), x));
+                    let sum = terms.fold(entry(i, *free), |sum, term| field.add(sum, term));
+                    assert!(sum.is_zero(), "rank {inner}, column {free}");
+                }
+            }
+        }
     }
 
     /// Every set of columns of a matrix of rank 4 against the elimination of these alone.

@@ -140,6 +140,12 @@ impl PrimeField {
         Residue(self.reduce(u128::from(a.0) * u128::from(b.0)))
     }
 
+    /// Σ aᵢ bᵢ with one reduction: four products are below 4 p² < 2^64 p.
+    pub fn sum_of_products(&self, a: [Residue; 4], b: [Residue; 4]) -> Residue {
+        let product = |i: usize| u128::from(a[i].0) * u128::from(b[i].0);
+        Residue(self.reduce(product(0) + product(1) + product(2) + product(3)))
+    }
+
     /// a^exponent; 0^0 = 1.
     pub fn pow(&self, a: Residue, exponent: u64) -> Residue {
         let mut result = self.one();
