@@ -287,7 +287,7 @@ const UNDECIDED: &[(&str, &str, &str)] = &[
     (
         "roller-racer/model.toml",
         "liouville.integrable",
-        "an invariant measure of the reduced motion is missing",
+        "no invariant measure of the reduced motion is known",
     ),
     // Gravity moves all momenta; the search for axes and directions is over candidates.
     (

@@ -377,12 +377,14 @@ fn reached(cx: &Context<'_>, flag: &Flag, generated: &Generated) -> Finding {
             "{growth}{full}: the configurations that can be reached at a time fill an open set"
         ),
         (_, true) => format!(
-            "{growth}, of {} dimensions, {n} coordinates and the time: {}",
+            "{growth}, of {} dimensions, {} and the time: {}",
             n + 1,
+            counted(n, "coordinate", "coordinates"),
             keeping(missing, drifts)
         ),
         (_, false) => format!(
-            "{growth} with {n} coordinates: {}",
+            "{growth} with {}: {}",
+            counted(n, "coordinate", "coordinates"),
             keeping(missing, drifts)
         ),
     };

@@ -36,9 +36,17 @@ impl Kept {
                 }
                 _ => "the invariant measure is known".into(),
             };
+            // A density that does not return after the turn of an angle is one near every place.
+            let is_whole = matches!(
+                measure.verdict,
+                Verdict::Proved(_) | Verdict::Conditional { .. }
+            );
             return Ok(Kept {
                 evidence,
-                suffices: "the measure of `measure.invariant` is kept",
+                suffices: match is_whole {
+                    true => "the measure of `measure.invariant` is kept",
+                    false => "a measure near every place is kept, for whose density `measure.invariant` says why it is none of all states",
+                },
                 known,
             });
         }
@@ -113,7 +121,7 @@ impl Kept {
                 Verdict::Proved(Proof::exact(on, detail)).and(evidence)
             }
             (0, _) => Verdict::undecided(format!(
-                "{about}; an invariant measure of the reduced motion is missing (`measure.invariant`)"
+                "{about}; no invariant measure of the reduced motion is known whose density is a formula or a quadrature (`measure.invariant` says whether one exists)"
             )),
             (missing, _) => {
                 let measure = match usable {

@@ -75,15 +75,22 @@ fn variables(cx: &Context<'_>, measure: &Measure, density: Expr) -> (String, Str
     )
 }
 
+/// Whether a density contains the time, or controls, which are functions of it.
 fn is_of_time(cx: &Context<'_>, density: Expr) -> bool {
     let g = &cx.system.graph;
-    g.contains_any(density, &g.symbols_in(&[g.symbol("t", 0)]))
+    let controls = &cx.system.controls;
+    let changes = |name: &str| name == "t" || controls.iter().any(|u| u.name == name);
+    let own = g.symbols_in(&[density]);
+    own.into_iter().any(|s| changes(g.symbol_name(s)))
 }
 
 /// Whether nothing changes a density but the time.
 fn is_of_time_only(cx: &Context<'_>, density: Expr) -> bool {
     let g = &cx.system.graph;
-    let stays = |name: &str| name == "t" || !cx.system.moves(name);
+    let controls = &cx.system.controls;
+    let stays = |name: &str| {
+        name == "t" || controls.iter().any(|u| u.name == name) || !cx.system.moves(name)
+    };
     let own = g.symbols_in(&[density]);
     is_of_time(cx, density) && own.into_iter().all(|s| stays(g.symbol_name(s)))
 }
