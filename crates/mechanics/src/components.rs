@@ -4,11 +4,12 @@
 //! another factor vanishes, the equation says nothing of it.
 
 mod real_factors;
+mod together;
 
 use self::real_factors::{real_factors, RealFactors};
+use self::together::{covered_by_choice, on_affine};
 use crate::constraint::{Constraint, ConstraintKind};
 use crate::prover::assumptions;
-use crate::sample::{self, Generator};
 use crate::selection::Selection;
 use crate::system::{Assumption, Relation, System};
 use crate::terms::MotionTerms;
@@ -38,35 +39,6 @@ fn several(list: Option<Vec<(Expr, u32)>>) -> Vec<Expr> {
     }
 }
 
-/// A function where others, affine in the velocities, vanish: these are solved for some of the symbols, one after the other. With
-/// `x' = y' + z'` the cone `x'² = y'² + z'²` is the product `2 y' z'`. `None` where there are none, or one cannot be solved.
-fn on_affine(g: &Graph, f: Expr, affine: &[Expr], symbols: &[Symbol]) -> Option<Expr> {
-    if affine.is_empty() || !g.contains_any(f, symbols) {
-        return None;
-    }
-    let mut solved: Vec<(Expr, Expr)> = Vec::new();
-    for &e in affine {
-        // What was solved before may contain what is solved now.
-        let e = g.substitute(e, &solved);
-        let gradient = g.gradient(e, symbols);
-        let mut values = Generator::new(0x00c0_5e1f);
-        let at = g.symbols_in(&gradient);
-        let at: Vec<(Symbol, f64)> = at.iter().map(|&s| (s, values.between(0.3, 1.7))).collect();
-        let value = |s: Symbol| at.iter().find(|(own, _)| *own == s).map(|(_, x)| *x);
-        let numbers = g.evaluate_f64(&gradient, &value).ok()?;
-        let usable = (0..symbols.len()).filter(|&j| numbers[j].abs() > 1e-9);
-        let j = usable.min_by_key(|&j| g.reachable(&[gradient[j]]).len())?;
-        let symbol = g.symbol_expr(symbols[j]);
-        let rest = g.substitute(e, &[(symbol, g.zero())]);
-        let own = (symbol, g.neg(g.div(rest, gradient[j])));
-        for (_, other) in &mut solved {
-            *other = g.substitute(*other, &[own]);
-        }
-        solved.push(own);
-    }
-    Some(g.substitute(f, &solved))
-}
-
 /// The components that the independent velocities of a selection describe, as equations, where they leave others out:
 /// `y' = z' + x` of `(y' - z' - x) z' = 0` solved for y'.
 pub fn covered(system: &System, terms: &MotionTerms, selection: &Selection) -> Option<String> {
@@ -94,77 +66,6 @@ pub fn covered(system: &System, terms: &MotionTerms, selection: &Selection) -> O
         true => covered_by_choice(system, terms, selection),
         false => Some(covered.join(", ")),
     }
-}
-
-/// Places at which components are looked for that no equation shows.
-const PLACES: u64 = 16;
-
-/// The same where several constraints are such products together only: at some states the constraints are independent, but not to be
-/// solved for these velocities, although the states were drawn at random.
-fn covered_by_choice(
-    system: &System,
-    terms: &MotionTerms,
-    selection: &Selection,
-) -> Option<String> {
-    let (g, n) = (&system.graph, terms.jets.len());
-    let velocities: Vec<Symbol> = terms.jets.iter().map(|c| c.v_symbol).collect();
-    let rows = selection.rows.iter().map(|&row| &terms.jacobian[row]);
-    let rows: Vec<Vec<Expr>> = rows.cloned().collect();
-    let nonlinear = rows
-        .iter()
-        .filter(|row| g.any_contains_any(row, &velocities));
-    if nonlinear.count() == 0 || rows.len() < 2 || terms.order > 1 {
-        return None;
-    }
-    let entries = rows.concat();
-    let is_elsewhere = |number: u64| {
-        let point = sample::admissible_point(system, terms, 0x00c0_4e5e ^ number)?;
-        let values = g.evaluate_f64(&entries, &|s| point.get(&s).copied()).ok()?;
-        let chosen = values.chunks(n);
-        let chosen = chosen.map(|row| selection.dependent.iter().map(|&j| row[j]).collect());
-        let all = values.chunks(n).map(<[f64]>::to_vec).collect();
-        Some(least_pivot(all) > 1e-4 && least_pivot(chosen.collect()) < 1e-9)
-    };
-    let mut places = (0..PLACES).filter_map(is_elsewhere);
-    places.any(|elsewhere| elsewhere).then(|| {
-        let symbols = selection.dependent.iter().map(|&j| velocities[j]);
-        let texts: Vec<String> = symbols.map(|s| g.symbol_text(s)).collect();
-        let verb = if texts.len() == 1 {
-            "follows"
-        } else {
-            "follow"
-        };
-        format!("{} {verb} from the other velocities", texts.join(", "))
-    })
-}
-
-/// The smallest pivot of Gauss's elimination with the largest entry of what is left as pivot, rows scaled to one; 0 for a matrix without
-/// finite entries.
-fn least_pivot(mut rows: Vec<Vec<f64>>) -> f64 {
-    let largest = |row: &[f64]| row.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    for row in &mut rows {
-        let scale = largest(row);
-        row.iter_mut().for_each(|x| *x /= scale);
-    }
-    let mut least = f64::INFINITY;
-    while !rows.is_empty() {
-        let sizes = rows.iter().map(|row| largest(row)).enumerate();
-        let Some((i, pivot)) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)) else {
-            break;
-        };
-        // Not a number is not larger either.
-        if !(pivot > 0.0) {
-            return 0.0;
-        }
-        least = least.min(pivot);
-        let own = rows.swap_remove(i);
-        let column = own.iter().position(|x| x.abs() == pivot).unwrap_or(0);
-        for row in &mut rows {
-            let factor = row[column] / own[column];
-            row.iter_mut().zip(&own).for_each(|(x, y)| *x -= factor * y);
-        }
-    }
-    least
 }
 
 /// A system for which claims are decided in the place of one whose constraints are products, or functions of simpler ones.

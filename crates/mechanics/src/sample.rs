@@ -202,6 +202,34 @@ fn free_point(
     Some(point)
 }
 
+/// The smallest pivot of Gauss's elimination with the largest entry of what is left as pivot, rows scaled to one; 0 for a matrix without
+/// finite entries.
+pub fn least_pivot(mut rows: Vec<Vec<f64>>) -> f64 {
+    let largest = |row: &[f64]| row.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    for row in &mut rows {
+        let scale = largest(row);
+        row.iter_mut().for_each(|x| *x /= scale);
+    }
+    let mut least = f64::INFINITY;
+    while !rows.is_empty() {
+        let sizes = rows.iter().map(|row| largest(row)).enumerate();
+        let Some((i, pivot)) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)) else {
+            break;
+        };
+        if pivot.is_nan() || pivot <= 0.0 {
+            return 0.0;
+        }
+        least = least.min(pivot);
+        let own = rows.swap_remove(i);
+        let column = own.iter().position(|x| x.abs() == pivot).unwrap_or(0);
+        for row in &mut rows {
+            let factor = row[column] / own[column];
+            row.iter_mut().zip(&own).for_each(|(x, y)| *x -= factor * y);
+        }
+    }
+    least
+}
+
 /// Bounds of a symbol that assumptions of the form `number < symbol < number` state.
 fn bounds(system: &System, symbol: Symbol, default: (f64, f64)) -> (f64, f64) {
     let g = &system.graph;

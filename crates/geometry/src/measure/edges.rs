@@ -265,7 +265,11 @@ fn is_determined(cx: &Context<'_>, flow: &Flow<'_>, edge: Expr) -> bool {
         }
         let left: Vec<Expr> = all.iter().map(|f| f[0]).collect();
         let is_there = at(&left, &point).is_some_and(|f| f.iter().all(|x| x.abs() < MET.sqrt()));
-        is_there && at(&bordered, &point).is_some_and(|entries| is_regular(entries, n + r))
+        is_there
+            && at(&bordered, &point).is_some_and(|entries| {
+                let rows = entries.chunks(n + r).map(<[f64]>::to_vec);
+                sample::least_pivot(rows.collect()) > MET.sqrt()
+            })
     })
 }
 
@@ -274,40 +278,6 @@ fn states(flow: &Flow<'_>, system: &System) -> Vec<Symbol> {
     let coordinates = system.coordinate_symbols().into_iter();
     let all = coordinates.chain(system.velocity_symbols());
     all.filter(|&s| flow.motion.moves(s)).collect()
-}
-
-/// Whether Gauss's elimination meets no pivot that is small beside the entries of its row.
-fn is_regular(mut entries: Vec<f64>, size: usize) -> bool {
-    let length = |row: &[f64]| row.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    for row in entries.chunks_mut(size) {
-        let scale = length(row);
-        row.iter_mut().for_each(|x| *x /= scale);
-    }
-    for i in 0..size {
-        let by_size = |&a: &usize, &b: &usize| {
-            entries[a * size + i]
-                .abs()
-                .total_cmp(&entries[b * size + i].abs())
-        };
-        let Some(pivot) = (i..size).max_by(by_size) else {
-            return false;
-        };
-        let value = entries[pivot * size + i];
-        // The negation refuses NaN too.
-        if !(value.abs() > MET.sqrt()) {
-            return false;
-        }
-        for j in 0..size {
-            entries.swap(i * size + j, pivot * size + j);
-        }
-        for row in i + 1..size {
-            let factor = entries[row * size + i] / value;
-            for j in i..size {
-                entries[row * size + j] -= factor * entries[i * size + j];
-            }
-        }
-    }
-    true
 }
 
 fn without_absolute_value(g: &Graph, e: Expr) -> Expr {
