@@ -51,15 +51,17 @@ pub fn covered(system: &System, terms: &MotionTerms, selection: &Selection) -> O
         .unzip();
     let covered: Vec<String> = rows()
         .filter_map(|(&row, &dependent)| {
-            let mut all = factors_of(system, terms, row);
-            if all.is_empty() && !affine.contains(&terms.constraints[row]) {
-                let f = on_affine(g, terms.constraints[row], &affine, &solved)?;
-                all = several(irreducible_factors(g, f, &velocities));
+            if affine.contains(&terms.constraints[row]) {
+                return None;
             }
+            let all = match on_affine(g, terms.constraints[row], &affine, &solved) {
+                Some(f) => several(irreducible_factors(g, f, &velocities)),
+                None => factors_of(system, terms, row),
+            };
             let own = terms.jets.get(dependent)?.v_symbol;
             let with = all.iter().filter(|&&f| g.contains_any(f, &[own]));
             let with: Vec<String> = with.map(|&f| format!("{} = 0", g.text(f))).collect();
-            (with.len() < all.len()).then(|| with.join(" or "))
+            (!with.is_empty() && with.len() < all.len()).then(|| with.join(" or "))
         })
         .collect();
     match covered.is_empty() {

@@ -8,7 +8,7 @@ use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::assumptions::{Assumptions, Relation as Sign};
 use chetaev_symbolic::zero::{decide_zero, generic_rank, GenericRank, Options, RankTest, ZeroTest};
-use chetaev_symbolic::{Expr, Graph, Verdict};
+use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 
 /// How hard to try, and with which random choices.
 #[derive(Clone, Debug)]
@@ -125,11 +125,10 @@ impl Prover {
         match self.identity(system, &values, manifold, on) {
             Verdict::Refuted(mut found) => {
                 if let Some((name, value)) = residuals.get(place_of(&found)) {
-                    let symbols: Vec<String> = g
-                        .symbols_in(&[*value])
-                        .into_iter()
-                        .map(|s| g.symbol_text(s))
-                        .collect();
+                    let mut symbols = g.symbols_in(&[*value]);
+                    symbols.extend(parameters_of(system, manifold, &symbols));
+                    let symbols = symbols.into_iter().map(|s| g.symbol_text(s));
+                    let symbols: Vec<String> = symbols.collect();
                     found.quantity = quantity(g, name, *value);
                     found.detail = not_zero(&found, |name| symbols.iter().any(|s| s == name));
                 }
@@ -309,6 +308,21 @@ impl Prover {
             other => other,
         }
     }
+}
+
+/// The parameters by which dependent velocities follow from the others: with other values the point would not be admissible.
+fn parameters_of(system: &System, manifold: &Manifold, symbols: &[Symbol]) -> Vec<Symbol> {
+    let g = &system.graph;
+    let own = |s: &Symbol| symbols.contains(s);
+    let solved = manifold.solved.iter().filter(|(s, _)| own(s));
+    let all: Vec<Expr> = solved
+        .map(|(_, e)| *e)
+        .chain(manifold.implicit.iter().map(|(f, _)| *f))
+        .collect();
+    let parameters = system.parameters.iter().filter_map(|p| g.as_symbol(p.expr));
+    let occurring = g.symbols_in(&all);
+    let parameters = parameters.filter(|s| occurring.contains(s) && !own(s));
+    parameters.collect()
 }
 
 /// Formulas of more signs are named, not written out.

@@ -202,14 +202,15 @@ fn free_point(
     Some(point)
 }
 
-/// The smallest pivot of Gauss's elimination with the largest entry of what is left as pivot, rows scaled to one; 0 for a matrix without
-/// finite entries.
+/// A row over its largest entry.
+pub fn scaled(row: &[f64]) -> Vec<f64> {
+    let scale = row.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    row.iter().map(|x| x / scale).collect()
+}
+
+/// The smallest pivot of Gauss's elimination with the largest entry of what is left as pivot; 0 for a matrix without finite entries.
 pub fn least_pivot(mut rows: Vec<Vec<f64>>) -> f64 {
     let largest = |row: &[f64]| row.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    for row in &mut rows {
-        let scale = largest(row);
-        row.iter_mut().for_each(|x| *x /= scale);
-    }
     let mut least = f64::INFINITY;
     while !rows.is_empty() {
         let sizes = rows.iter().map(|row| largest(row)).enumerate();

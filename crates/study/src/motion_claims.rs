@@ -6,6 +6,7 @@
 use crate::kept::LONGEST;
 use crate::method_order::Orders;
 use crate::motion_evidence::{Followed, FoundIntegrals, MotionEvidence};
+use chetaev_geometry::noether::claims::corners_of_motions;
 use chetaev_geometry::noether::found::if_searched;
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::claims::formulation::{derive, REFERENCE};
@@ -402,7 +403,8 @@ fn followed_verdict(
     let samples = evidence.run.len() as u32 + steps;
     let mut bound = bound(evidence, followed.scale);
     if followed.drift.value > bound && evidence.run.precise.is_none() {
-        let rounding = evidence.rounding_of(&cx.system.graph, followed.expression);
+        let rounding =
+            evidence.rounding_of(&cx.system.graph, followed.expression, followed.drift.t);
         bound = bound.max(rounding.unwrap_or(0.0));
     }
     let beyond = without_value(evidence, std::iter::once(followed));
@@ -485,7 +487,8 @@ impl Claim for IntegralDrift {
         let decided = |followed: &Followed, what: &str, claim: &str| {
             let verdict = no_value(followed, what)
                 .unwrap_or_else(|| followed_verdict(cx, &evidence, followed, what));
-            where_it_holds(cx, &format!("{claim}#{}", followed.name), verdict)
+            let claim = format!("{claim}#{}", followed.name);
+            where_it_holds(cx, &claim, followed.expression, verdict)
         };
         if let Some(found) = found_along(cx) {
             if let Some(followed) = found.all().into_iter().find(|own| named(own)) {
@@ -520,8 +523,8 @@ fn no_value(followed: &Followed, what: &str) -> Option<Verdict> {
 }
 
 /// A found integral that is one on a component of the constraints need not be one of a motion on another, nor a stated one across
-/// its jumps, or off the part with which it is stated.
-fn where_it_holds(cx: &Context<'_>, claim: &str, verdict: Verdict) -> Verdict {
+/// its jumps, or off the part with which it is stated, nor any where the motion meets a corner of the constraints.
+fn where_it_holds(cx: &Context<'_>, claim: &str, value: Expr, verdict: Verdict) -> Verdict {
     let Verdict::Refuted(found) = &verdict else {
         return verdict;
     };
@@ -533,8 +536,26 @@ fn where_it_holds(cx: &Context<'_>, claim: &str, verdict: Verdict) -> Verdict {
             );
             Verdict::not_applicable(claim, detail)
         }
+        Verdict::Proved(_) => match corner_met(cx, value) {
+            Some(corner) => {
+                let detail = format!(
+                    "`{claim}` holds while {corner} keeps its sign, which it does not along this motion ({})",
+                    found.detail
+                );
+                Verdict::not_applicable(claim, detail)
+            }
+            None => verdict,
+        },
         _ => verdict,
     }
+}
+
+/// A function at whose zeros motions may jump or end that does not keep its sign along the run.
+fn corner_met(cx: &Context<'_>, value: Expr) -> Option<String> {
+    let (evidence, g) = (evidence(cx)?, &cx.system.graph);
+    let corners = corners_of_motions(cx, value).into_iter();
+    let mut met = corners.filter(|&e| evidence.changes_sign(g, e) == Some(true));
+    met.next().map(|e| g.text(e))
 }
 
 /// What a search has found, along the run: nothing where neither a claim has searched yet nor the run itself, to keep it.

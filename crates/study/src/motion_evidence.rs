@@ -276,38 +276,74 @@ impl FoundIntegrals {
 }
 
 impl MotionEvidence {
-    /// What the rounding of the state changes in a quantity at the start, which may be more than the size of its terms, as of z where all
-    /// motions have z = 0 and constraints hold to rounding: the largest slopes by coordinates and by velocities, each times the
-    /// largest of these along the run. `None` where it has no slopes there.
-    pub(crate) fn rounding_of(&self, g: &Graph, quantity: Expr) -> Option<f64> {
+    /// What rounding of the state, or an error of the tolerance asked, changes in a quantity, which may be more than the size of its terms,
+    /// as of z where all motions have z = 0 and constraints hold to rounding, or of a quotient near 0/0: its slopes by coordinates and by velocities at the start, or at the time `t` of its largest
+    /// deviation, each times the largest of these along the run. `None` where it has no slopes there.
+    pub(crate) fn rounding_of(&self, g: &Graph, quantity: Expr, t: f64) -> Option<f64> {
         let layout = &self.run.layout;
-        let quantity = g.substitute(quantity, &self.binding.controls);
-        let state = self.binding.variables.get(1..)?;
-        let (positions, velocities) = state.split_at_checked(layout.positions().len())?;
-        let first = self.run.row(0);
-        let (q, v) = (&first[layout.positions()], &first[layout.v()]);
-        let values: BTreeMap<Symbol, f64> = positions
-            .iter()
-            .zip(q)
-            .chain(velocities.iter().zip(v))
-            .map(|(s, x)| (*s, *x))
-            .chain(self.binding.parameters.iter().copied())
-            .chain([(self.binding.variables[0], *self.run.times.first()?)])
-            .collect();
-        let largest = |range: std::ops::Range<usize>| {
+        let (positions, velocities) = self.state()?;
+        let symbols = [positions, velocities].map(|own| g.gradient(self.bound(g, quantity), own));
+        let largest = |range: Range<usize>| {
             let rows = (0..self.run.regular()).flat_map(|j| &self.run.row(j)[range.clone()]);
             rows.fold(0.0, |m: f64, x| m.max(x.abs()))
         };
-        let slope = |symbols: &[Symbol]| -> Option<f64> {
-            let gradient = g.gradient(quantity, symbols);
-            let found = g.evaluate_f64(&gradient, &|s| values.get(&s).copied());
-            Some(found.ok()?.iter().map(|x| x.abs()).sum())
+        let reach = [layout.positions(), layout.v()].map(largest);
+        let there = self.run.times.partition_point(|&own| own < t);
+        let at = |j: usize| -> Option<f64> {
+            let values = self.values_at(j)?;
+            let parts = symbols.iter().zip(reach).map(|(gradient, reach)| {
+                let found = g.evaluate_f64(gradient, &|s| values.get(&s).copied());
+                Some(found.ok()?.iter().map(|x| x.abs()).sum::<f64>() * reach)
+            });
+            parts.sum()
         };
-        let all = slope(positions)? * largest(layout.positions())
-            + slope(velocities)? * largest(layout.v());
-        Some(ROUNDINGS * f64::EPSILON * all).filter(|x| x.is_finite())
+        let rows = [0, there.min(self.run.regular().checked_sub(1)?)];
+        let all = rows.into_iter().filter_map(at).fold(0.0, f64::max);
+        let error = (ROUNDINGS * f64::EPSILON).max(self.tolerance.min(1e-6));
+        Some(error * all).filter(|x| x.is_finite())
+    }
+
+    /// Whether a function of the state does not keep its sign along the rows; `None` where it has no value.
+    pub(crate) fn changes_sign(&self, g: &Graph, e: Expr) -> Option<bool> {
+        let e = [self.bound(g, e)];
+        let mut signs = Vec::new();
+        for j in 0..self.run.regular() {
+            let values = self.values_at(j)?;
+            let value = g.evaluate_f64(&e, &|s| values.get(&s).copied()).ok()?[0];
+            signs.push(if value.abs() < MET {
+                0.0
+            } else {
+                value.signum()
+            });
+        }
+        Some(signs.iter().any(|&sign| sign == 0.0 || sign != signs[0]))
+    }
+
+    fn bound(&self, g: &Graph, e: Expr) -> Expr {
+        g.substitute(e, &self.binding.controls)
+    }
+
+    /// Symbols of the positions and of the velocities.
+    fn state(&self) -> Option<(&[Symbol], &[Symbol])> {
+        let state = self.binding.variables.get(1..)?;
+        state.split_at_checked(self.run.layout.positions().len())
+    }
+
+    /// The state at a row, with the parameters.
+    fn values_at(&self, j: usize) -> Option<BTreeMap<Symbol, f64>> {
+        let (layout, row) = (&self.run.layout, self.run.row(j));
+        let (positions, velocities) = self.state()?;
+        let of_state = positions.iter().zip(&row[layout.positions()]);
+        let of_state = of_state.chain(velocities.iter().zip(&row[layout.v()]));
+        let of_state = of_state.map(|(s, x)| (*s, *x));
+        let time = [(*self.binding.variables.first()?, *self.run.times.get(j)?)];
+        let all = of_state.chain(self.binding.parameters.iter().copied());
+        Some(all.chain(time).collect())
     }
 }
+
+/// What is so near to zero along a run has met it.
+const MET: f64 = 1e-9;
 
 /// So many roundings of the state are no drift.
 const ROUNDINGS: f64 = 64.0;

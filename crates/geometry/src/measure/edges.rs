@@ -267,7 +267,7 @@ fn is_determined(cx: &Context<'_>, flow: &Flow<'_>, edge: Expr) -> bool {
         let is_there = at(&left, &point).is_some_and(|f| f.iter().all(|x| x.abs() < MET.sqrt()));
         is_there
             && at(&bordered, &point).is_some_and(|entries| {
-                let rows = entries.chunks(n + r).map(<[f64]>::to_vec);
+                let rows = entries.chunks(n + r).map(sample::scaled);
                 sample::least_pivot(rows.collect()) > MET.sqrt()
             })
     })

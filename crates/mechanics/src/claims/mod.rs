@@ -478,6 +478,11 @@ impl<'a> Context<'a> {
         let Some(covered) = &covered.0 else {
             return finding;
         };
+        // What holds on a component that was found by itself may be another one.
+        if matches!(&finding.verdict, Verdict::Conditional { proof, .. } if proof.on.starts_with("on the component "))
+        {
+            return finding;
+        }
         let sentence = format!(
             "of the components of the constraints only that where {covered} was looked at, as no one velocity can be solved for on all"
         );

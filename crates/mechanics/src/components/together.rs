@@ -38,8 +38,9 @@ pub(super) fn on_affine(g: &Graph, f: Expr, affine: &[Expr], symbols: &[Symbol])
 /// Places at which components are looked for that no equation shows.
 const PLACES: u64 = 16;
 
-/// What the independent velocities of a selection describe, where several constraints are products together only: at some states the
-/// constraints are independent, but not to be solved for these velocities, although the states were drawn at random.
+/// What the independent velocities of a selection describe, where constraints are products without a factor to be seen, several of
+/// them together or with roots: at some states the constraints are independent, but not to be solved for these velocities, although the
+/// states were drawn at random.
 pub(super) fn covered_by_choice(
     system: &System,
     terms: &MotionTerms,
@@ -52,17 +53,18 @@ pub(super) fn covered_by_choice(
     let nonlinear = rows
         .iter()
         .filter(|row| g.any_contains_any(row, &velocities));
-    if nonlinear.count() == 0 || rows.len() < 2 || terms.order > 1 {
+    if nonlinear.count() == 0 || terms.order > 1 {
         return None;
     }
     let entries = rows.concat();
     let is_elsewhere = |number: u64| {
         let point = sample::admissible_point(system, terms, 0x00c0_4e5e ^ number)?;
         let values = g.evaluate_f64(&entries, &|s| point.get(&s).copied()).ok()?;
-        let chosen = values.chunks(n);
+        let rows: Vec<Vec<f64>> = values.chunks(n).map(sample::scaled).collect();
+        let chosen = rows.iter();
         let chosen = chosen.map(|row| selection.dependent.iter().map(|&j| row[j]).collect());
-        let all = values.chunks(n).map(<[f64]>::to_vec).collect();
-        Some(sample::least_pivot(all) > 1e-4 && sample::least_pivot(chosen.collect()) < 1e-9)
+        let chosen = sample::least_pivot(chosen.collect());
+        Some(chosen < 1e-9 && sample::least_pivot(rows) > 1e-4)
     };
     let mut places = (0..PLACES).filter_map(is_elsewhere);
     places.any(|elsewhere| elsewhere).then(|| {

@@ -285,7 +285,7 @@ impl Case<'_> {
         let vanishing = finding.parts.get(&0).copied().unwrap_or(0);
         let all: usize = finding.parts.values().sum();
         self.search(&format!(
-            "zero on some components of the constraints only: {vanishing} of {all} solutions over a point make it vanish"
+            "zero for {vanishing} of {all} solutions over a point only, which belong to components of the constraints, or to signs of roots that no real state has"
         ))
     }
 

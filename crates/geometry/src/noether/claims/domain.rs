@@ -162,20 +162,30 @@ fn demands(g: &Graph, value: Expr) -> Vec<Demand> {
     found
 }
 
-/// How long what is proved of a function holds, in words; `None` where nothing that it depends on jumps. Velocities may jump at zeros of
-/// what the constraints or L take signs of, accelerations at those of velocities in forces, where dry friction ends the motion.
-pub(super) fn lasting(cx: &Context<'_>, value: Expr) -> Option<String> {
+/// At the zeros of which functions motions may jump, or end, on which a function keeps its value: velocities jump at zeros of what the
+/// constraints or L take signs of, reactions where gradients of constraints or momenta jump, accelerations at zeros of velocities that forces
+/// take signs of, where dry friction ends the motion.
+pub fn corners_of_motions(cx: &Context<'_>, value: Expr) -> Vec<Expr> {
     let (system, g) = (cx.system, &cx.system.graph);
+    let velocities = system.velocity_symbols();
     let mut all: Vec<Expr> = system.constraints.iter().map(|c| c.f).collect();
     all.extend([value, system.lagrangian]);
-    let velocities = system.velocity_symbols();
+    all.extend(cx.terms.jacobian.concat());
+    all.extend(g.gradient(system.lagrangian, &velocities));
     let of_forces = arguments_of_signs(g, &system.forces).into_iter();
     let of_forces = of_forces.filter(|&e| g.contains_any(e, &velocities));
     let mut own = arguments_of_signs(g, &all);
     own.extend(of_forces);
     own.sort_unstable();
     own.dedup();
-    let texts = own.iter().map(|&e| format!("{} keeps its sign", g.text(e)));
+    own
+}
+
+/// How long what is proved of a function holds, in words; `None` where nothing that it depends on jumps.
+pub(super) fn lasting(cx: &Context<'_>, value: Expr) -> Option<String> {
+    let g = &cx.system.graph;
+    let own = corners_of_motions(cx, value).into_iter();
+    let texts = own.map(|e| format!("{} keeps its sign", g.text(e)));
     let texts: Vec<String> = texts.collect();
     (!texts.is_empty()).then(|| texts.join(" and "))
 }

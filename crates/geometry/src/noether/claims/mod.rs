@@ -19,6 +19,7 @@ mod trivial;
 mod values;
 
 pub use contraction::Contraction;
+pub use domain::corners_of_motions;
 pub use embedded::EmbeddedField;
 pub use family::FamilySearched;
 pub use integral::{symmetry_named, FirstIntegral};

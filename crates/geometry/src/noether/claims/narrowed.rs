@@ -14,6 +14,19 @@ pub(super) fn in_system(
     system: &System,
     (narrower, words): (&str, &str),
 ) -> Option<Finding> {
+    let found = kept_in(cx, name, system, narrower)?;
+    Some(Finding {
+        verdict: found.verdict.prefixed(words),
+        formulas: found.formulas,
+    })
+}
+
+fn kept_in(
+    cx: &Context<'_>,
+    name: Option<&str>,
+    system: &System,
+    narrower: &str,
+) -> Option<Finding> {
     let claim = format!("noether.inverse#{}", name?);
     let found = on_its_own(cx, system, |own| Finding::clone(&own.finding(&claim)))?;
     let (condition, proof) = match found.verdict {
@@ -29,7 +42,7 @@ pub(super) fn in_system(
         counterexample: None,
     };
     Some(Finding {
-        verdict: verdict.prefixed(words),
+        verdict,
         formulas: found.formulas,
     })
 }
@@ -68,17 +81,28 @@ pub(super) fn on_components(cx: &Context<'_>, name: Option<&str>) -> Option<Find
     if all.len() < 2 {
         return None;
     }
-    let words = "it keeps its value as long as the motion stays on one component of the constraints, not on all of them";
     let found = all.iter().filter_map(|on| {
         let condition = on.condition.as_ref()?;
-        let own = in_system(cx, name, &on.system, (condition, words))?;
+        let own = kept_in(cx, name, &on.system, condition)?;
         Some((condition.as_str(), own))
     });
     let found: Vec<(&str, Finding)> = found.collect();
     let conditions: Vec<&str> = found.iter().map(|(condition, _)| *condition).collect();
     let together = conditions.join(" or ");
+    let which = match conditions.len() == all.len() {
+        true => "whichever it is",
+        false => "not on all of them",
+    };
+    let words = format!(
+        "it keeps its value as long as the motion stays on one component of the constraints, {which}"
+    );
     let (_, mut first) = found.into_iter().next()?;
-    if let Verdict::Conditional { condition, .. } = &mut first.verdict {
+    first.verdict.prefix(&words);
+    if let Verdict::Conditional {
+        condition, proof, ..
+    } = &mut first.verdict
+    {
+        proof.on = format!("on the component {together}, {}", proof.on);
         if conditions.len() > 1 {
             *condition = together;
         }
