@@ -10,8 +10,10 @@ impl Search<'_> {
     pub(super) fn velocities(&mut self) -> Result<(), InitialError> {
         let movable = self.movable(&self.data.v_fixed);
         if let Err(singular) = self.evaluate() {
-            // Where velocities that nobody gave are taken as zero, that is no reason to give up.
-            let is_found = self.system.r > 0 && self.search_velocities(&movable);
+            // Where velocities that nobody gave are taken as zero, that is no reason to give up, where others were given.
+            let mut given = self.data.q_fixed.iter().chain(&self.data.v_fixed);
+            let is_asked = self.system.r > 0 && given.any(|&given| given);
+            let is_found = is_asked && self.search_velocities(&movable);
             return if is_found { Ok(()) } else { Err(singular) };
         }
         if self.system.r == 0 {
