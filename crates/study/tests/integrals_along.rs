@@ -364,7 +364,9 @@ fn no_integrals_are_kept_over_components() {
         let sweep = Sweep::new(&model, variations.expect("a range"), options, &mut hooks);
         let refused = sweep.err().unwrap_or_else(|| panic!("{constraint}: kept"));
         assert!(
-            refused.to_string().contains("`h` holds on several components"),
+            refused
+                .to_string()
+                .contains("`h` holds on several components"),
             "{refused}"
         );
     }
