@@ -239,3 +239,24 @@ fn conditions_name_parameters_of_constraints() {
         other => panic!("{}: {}", other.word(), other.detail()),
     }
 }
+
+/// The energy changes under z' = y x' + b, b stated as 1/2; the counterexample tells x', y and z', and these are admissible with its b alone.
+#[test]
+fn counterexamples_name_parameters_of_constraints() {
+    let text = "coordinates = [\"x\", \"y\", \"z\"]\nparameters = { b = 0.5 }\nlagrangian = \"(x'^2 + y'^2 + z'^2)/2\"\n\
+        constraints = { c = \"z' = y x' + b\" }\n[integrals]\na = \"(x'^2 + y'^2 + z'^2)/2\"\n";
+    let ended = ended(text, &["noether.inverse"]);
+    let (word, detail) = word_of(&ended, "noether.inverse#a");
+    assert_eq!(word, "refuted", "{detail}");
+    let (_, point) = detail.split_once(" at ").unwrap();
+    let value = |name: &str| -> f64 {
+        let told = point
+            .split(", ")
+            .find_map(|own| own.strip_prefix(name)?.strip_prefix(" = "));
+        told.unwrap_or_else(|| panic!("no {name} in: {detail}"))
+            .parse()
+            .unwrap()
+    };
+    let defect = value("z'") - value("y") * value("x'") - value("b");
+    assert!(defect.abs() < 1e-9, "{detail}");
+}

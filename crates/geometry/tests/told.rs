@@ -460,3 +460,18 @@ fn functions_are_decided_where_they_have_a_value() {
     let (word, detail) = stated(system("x", "x'^2/2", &[]), "sqrt(x' - 5)");
     assert_eq!(word, "proved", "{detail}");
 }
+
+/// With z' = t x' + x + y' the motion is x'' (t² + 2) + 2 t x' = 0: (t² + 2) x' is kept, a function of three integrals found that contain
+/// x, y and z, which shifts of x change at rates with the factor t. Three variables t, x', y', one integral, and the density.
+#[test]
+fn integrals_are_counted_where_shifts_act_with_the_time() {
+    let own = system(
+        "x y z",
+        "(x'^2 + y'^2 + z'^2)/2",
+        &[("f", "z' - t*x' - x - y'")],
+    );
+    let found = finding(&own, "liouville.integrable");
+    let detail = found.verdict.detail();
+    assert_eq!(found.verdict.word(), "proved", "{detail}");
+    assert!(detail.contains("with 1 integral of them"), "{detail}");
+}
