@@ -249,19 +249,9 @@ fn is_determined(cx: &Context<'_>, flow: &Flow<'_>, edge: Expr) -> bool {
         let Some(mut point) = sample::admissible_point(system, cx.terms, seed) else {
             return false;
         };
-        for _ in 0..STEPS {
-            for f in &all {
-                let Some(found) = at(f, &point) else {
-                    return false;
-                };
-                let square: f64 = found[1..].iter().map(|d| d * d).sum();
-                if found[0] != 0.0 {
-                    let step = found[0] / square;
-                    for (s, d) in own.iter().zip(&found[1..]) {
-                        point.entry(*s).and_modify(|x| *x -= step * d);
-                    }
-                }
-            }
+        let is_led = (0..STEPS).all(|_| all.iter().all(|f| is_stepped(g, f, &own, &mut point)));
+        if !is_led {
+            return false;
         }
         let left: Vec<Expr> = all.iter().map(|f| f[0]).collect();
         let is_there = at(&left, &point).is_some_and(|f| f.iter().all(|x| x.abs() < MET.sqrt()));
@@ -271,6 +261,21 @@ fn is_determined(cx: &Context<'_>, flow: &Flow<'_>, edge: Expr) -> bool {
                 sample::least_pivot(rows.collect()) > MET.sqrt()
             })
     })
+}
+
+/// One of Newton's steps along the gradient; `all` are the function and its derivatives by `own`. Whether they have values there.
+fn is_stepped(g: &Graph, all: &[Expr], own: &[Symbol], point: &mut Point) -> bool {
+    let Ok(found) = g.evaluate_f64(all, &|s| point.get(&s).copied()) else {
+        return false;
+    };
+    let (value, slopes) = (found[0], &found[1..]);
+    let square: f64 = slopes.iter().map(|d| d * d).sum();
+    if value != 0.0 {
+        for (s, d) in own.iter().zip(slopes) {
+            point.entry(*s).and_modify(|x| *x -= value / square * d);
+        }
+    }
+    found.iter().all(|x| x.is_finite())
 }
 
 /// All coordinates and velocities.

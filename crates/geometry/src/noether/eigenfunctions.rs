@@ -464,28 +464,10 @@ fn moment(
     let g = &cx.system.graph;
     let moment = g.sub(g.mul(&[own.0, other.1]), g.mul(&[other.0, own.1]));
     let moment = readable(g, moment);
-    let rate = *motion.derivatives(&[moment]).first()?;
-    let residual = g.add(&[rate, g.mul(&[b, moment])]);
-    let on = "on the constraint manifold";
-    let verdict = cx
-        .prover
-        .identity(cx.system, &[residual], &motion.manifold, on);
-    if g.is_zero(moment) || !matches!(verdict, Verdict::Proved(_)) {
-        return None;
+    match g.is_zero(moment) {
+        true => None,
+        false => proved(cx, motion, g.neg(b), (moment, g.zero())),
     }
-    let time = g.symbol("t", 0);
-    let value = g.mul(&[moment, g.exp(g.mul(&[b, time]))]);
-    let words = "what stands before the exponential grows or decays at its inverse rate";
-    Some(Eigenfunction {
-        integral: Integral {
-            value,
-            shown: value,
-            verdict: verdict.prefixed(words),
-            independent: true,
-            name: None,
-        },
-        rational: g.add(&[g.apply(Function::Log, &[moment]), g.mul(&[b, time])]),
-    })
 }
 
 /// What follows from `X̄F_1 = F_2` and `X̄F_2 = -b F_2 - c F_1`, where these are proved.
