@@ -74,7 +74,7 @@ const CLAIMS: &[&str] = &[
     "motion.method-order",
 ];
 
-/// Claims on the variational principles (claims.md §3 and §4) that every study of a system of first order states, with constraints
+/// Claims on the variational principles (catalogue of claims, §3 and §4) that every study of a system of first order states, with constraints
 /// or without.
 const PRINCIPLES: &[&str] = &[
     "variation.hoelder",
@@ -501,7 +501,7 @@ fn nothing_is_undecided_without_a_reason_known_here() {
     none(found);
 }
 
-/// The catalogue's demands on each verdict (claims.md, "Verdicts").
+/// What the catalogue of claims demands of each verdict ("Verdicts").
 #[test]
 fn every_verdict_carries_what_it_must() {
     let mut failures = Vec::new();

@@ -52,7 +52,7 @@ fn ask(formulation: &'static str) -> Ask {
     }
 }
 
-/// E1 of theory 2: P1(1) = 3 − 5 + (20/√2) ln 2.
+/// E1 of T2: P1(1) = 3 − 5 + (20/√2) ln 2.
 fn rocket(mass: &str, masses: &str) -> String {
     format!(
         r#"
@@ -95,7 +95,7 @@ fn the_speed_of_the_rocket_in_every_form() {
     }
 }
 
-/// (1a), (1b), (1c) and (1d) of theory 2 §1.
+/// (1a), (1b), (1c) and (1d) of T2 §1.
 #[test]
 fn closed_forms_of_the_point_law() {
     let line = |mass: &str, force: &str, thrust: &str, t_end: &str| {

@@ -188,7 +188,7 @@ fn embedded_mass_matrix() {
     });
 }
 
-/// claims.md §6, `noether.embedded`, for linear and nonlinear constraints, and without any.
+/// Catalogue of claims, §6, `noether.embedded`, for linear and nonlinear constraints, and without any.
 #[test]
 fn the_motion_is_the_kernel() {
     let systems = [
@@ -207,7 +207,7 @@ fn the_motion_is_the_kernel() {
     }
 }
 
-/// claims.md §6, `cartan.form`: for the Lagrangian and for nonlinear constraints.
+/// Catalogue of claims, §6, `cartan.form`: for the Lagrangian and for nonlinear constraints.
 #[test]
 fn cartan_forms() {
     let appell = system("x y z", APPELL, &[CONE]);

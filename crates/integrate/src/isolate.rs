@@ -1,4 +1,4 @@
-//! Zeros of a switching function within one step, told apart by its Taylor series along the dense output (theory 5, events):
+//! Zeros of a switching function within one step, told apart by its Taylor series along the dense output (T5, events):
 //! the variations of sign of its Bernstein coefficients bound the number of zeros, so that none is missed where the series is
 //! the function.
 

@@ -15,7 +15,7 @@ use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 pub struct Prover {
     /// Seed of all random choices; stated in the verdicts.
     pub seed: u64,
-    /// Replay with another parametrization of the circle and other primes (theory 6.6).
+    /// Replay with another parametrization of the circle and other primes (T6 §6.6).
     pub replay: bool,
     /// At most so many field operations for one proof.
     pub budget: u64,

@@ -5,7 +5,7 @@ use crate::order::lifting;
 use crate::system::{Coordinate, System};
 use chetaev_symbolic::{Expr, Symbol};
 
-/// `W a - Jᵀ λ = b` for constraints of one order m, and for m = 1 `J a = g` (theory 5.1 (1)).
+/// `W a - Jᵀ λ = b` for constraints of one order m, and for m = 1 `J a = g` (T5 §5.1 (1)).
 ///
 /// Constraints of different orders are brought to the highest one by total derivatives (T2 §2), which change neither J nor
 /// the equations of motion.

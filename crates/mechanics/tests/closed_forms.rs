@@ -1,4 +1,4 @@
-//! Accelerations and multipliers against closed forms derived by hand (theory note 1 §1).
+//! Accelerations and multipliers against closed forms derived by hand (T1 §1).
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,

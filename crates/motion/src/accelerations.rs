@@ -1,4 +1,4 @@
-//! Accelerations and multipliers of the multiplier form at a state (theory 5.1 (2)).
+//! Accelerations and multipliers of the multiplier form at a state (T5 §5.1 (2)).
 //!
 //! With `B` spanning ker J and `J a* = g`: `a = a* + B c`, `(Bᵀ M B) c = Bᵀ (b - M a*)`. The matrix is symmetric unless a mass
 //! contains velocities.

@@ -1,4 +1,4 @@
-//! Which velocities are independent, chosen by conditioning at a state, and when to choose again (theory 5.2).
+//! Which velocities are independent, chosen by conditioning at a state, and when to choose again (T5 §5.2).
 
 /// A choice of independent constraints and dependent velocities.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub struct Chart {
 /// Relative size below which a pivot of the scaled Jacobian counts as zero.
 pub const RANK_TOLERANCE: f64 = 1e-10;
 
-/// A chart is replaced when its pivot fell below this fraction of its value at the time of choice (theory 5.2).
+/// A chart is replaced when its pivot fell below this fraction of its value at the time of choice (T5 §5.2).
 pub(crate) const DEGRADED: f64 = 0.1;
 
 /// Where the pivot falls below this fraction of its value at the last accepted state, a step of independent velocities is

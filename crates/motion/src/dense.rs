@@ -11,7 +11,7 @@ pub struct SmallPivot {
     pub threshold: f64,
 }
 
-/// `c₀ n ε`, the relative size below which a pivot counts as zero (theory 5.1, c₀ = 10).
+/// `c₀ n ε`, the relative size below which a pivot counts as zero (T5 §5.1, c₀ = 10).
 fn negligible(n: usize) -> f64 {
     10.0 * n.max(1) as f64 * f64::EPSILON
 }
@@ -105,7 +105,7 @@ impl Lu {
     }
 }
 
-/// A symmetric solve: LDLᵀ without pivoting while the pivots are positive, LU otherwise (theory 5.1).
+/// A symmetric solve: LDLᵀ without pivoting while the pivots are positive, LU otherwise (T5 §5.1).
 ///
 /// What lies left of the first entry of a row of the matrix is zero in L too (the envelope; A. George, J. Liu, Computer
 /// Solution of Large Sparse Positive Definite Systems, 1981, ch. 4) and is passed over: free coordinates cost little.

@@ -1,4 +1,4 @@
-//! Consistent initial data (theory 5.10): what is given is fixed, the rest is projected in the kinetic metric.
+//! Consistent initial data (T5 §5.10): what is given is fixed, the rest is projected in the kinetic metric.
 
 pub mod branches;
 mod forms;

@@ -294,7 +294,7 @@ impl NumericSystem {
 
     /// The program whose outputs are the rates of (q, masses with a law of their own, v) and whose variables are (t, q, masses,
     /// v), with the parameters in the order of the binding; `rows` are independent rows of J. The matrix of its linear
-    /// system is factorized once for each expansion (theory 5.4 (3)).
+    /// system is factorized once for each expansion (T5 §5.4 (3)).
     ///
     /// # Errors
     /// [`FunctionsError`].

@@ -1,4 +1,4 @@
-//! Positions and velocities back on the constraints, by steps of least kinetic norm (theory 5.6).
+//! Positions and velocities back on the constraints, by steps of least kinetic norm (T5 §5.6).
 
 use crate::least_norm::least_step;
 use crate::numeric::{NumericSystem, States};

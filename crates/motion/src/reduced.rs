@@ -6,7 +6,7 @@
 //!
 //! as one linear system of the graph; with velocities eliminated that a constraint gives without a division. There with
 //! `a_d = a* + B a_i` the system is `Bᵀ M B a_i − J'ᵀ λ' = Bᵀ (b − M a*)` for the velocities and constraints that are left
-//! (theory 5.1 (2)), and what was written with sines and cosines of a heading often does not depend on it any more.
+//! (T5 §5.1 (2)), and what was written with sines and cosines of a heading often does not depend on it any more.
 
 use crate::functions::FunctionsError;
 use chetaev_symbolic::simplify::{simplify_all, Options};

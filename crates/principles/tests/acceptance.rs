@@ -1,4 +1,4 @@
-//! Acceptance of theory 1 §4.2, §4.3 and §5.1, exact: on which motions of S1 and S4 the constrained extremum coincides with the
+//! Acceptance of T1 §4.2, §4.3 and §5.1, exact: on which motions of S1 and S4 the constrained extremum coincides with the
 //! motion (last column of the table of §4.3), condition (14) with constants, the three systems of the energy law (16), (17), and
 //! for which systems the method of Hamilton and Jacobi applies (capabilities C6, C7, C11).
 //!

@@ -1,5 +1,5 @@
 //! Principles of least action: the identity (18), Lagrange's (19) and Jacobi's (21), (22) principles, and the parametric form (28)–(31)
-//! of theory 1, on the systems named there.
+//! of T1, on the systems named there.
 //! (Capabilities C8, C9, C13.)
 
 #![allow(clippy::unwrap_used)] // a panic is how a test fails

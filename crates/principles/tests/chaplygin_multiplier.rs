@@ -1,4 +1,4 @@
-//! Chaplygin's reducing multiplier: the checks of theory 1 §6.2.
+//! Chaplygin's reducing multiplier: the checks of T1 §6.2.
 
 #![allow(clippy::unwrap_used)] // a panic is how a test fails
 

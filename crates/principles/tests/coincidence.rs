@@ -1,4 +1,4 @@
-//! The constrained extremum beside the motion: the table of theory 1 §4.3.
+//! The constrained extremum beside the motion: the table of T1 §4.3.
 
 #![allow(clippy::unwrap_used)] // a panic is how a test fails
 

@@ -1,4 +1,4 @@
-//! Parametric constraints f(q, v, t, u) = 0 with controls u(t), held in every variation (δu = 0): theory 1 §1 and capability C3 with
+//! Parametric constraints f(q, v, t, u) = 0 with controls u(t), held in every variation (δu = 0): T1 §1 and capability C3 with
 //! Rumyantsev's parametric constraints. Expected values are worked out by hand in the comments.
 
 #![allow(clippy::unwrap_used)] // a panic is how a test fails

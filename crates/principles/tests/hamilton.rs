@@ -1,4 +1,4 @@
-//! Hamilton's principle in four forms: the checks of theory 1 §3, exact.
+//! Hamilton's principle in four forms: the checks of T1 §3, exact.
 
 #![allow(clippy::unwrap_used)] // a panic is how a test fails
 

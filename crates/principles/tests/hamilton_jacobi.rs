@@ -1,4 +1,4 @@
-//! The generalized method of Hamilton and Jacobi on the systems of theory 1 §6.1 (capability C11).
+//! The generalized method of Hamilton and Jacobi on the systems of T1 §6.1 (capability C11).
 
 #![allow(clippy::unwrap_used)] // a panic is how a test fails
 

@@ -1,5 +1,5 @@
-//! Which test checks what: the acceptance checks of theory 1 (§1–§9, capabilities C1–C22), each with a file and a test in it. A test
-//! reads this table and fails where something that it names is gone. The last test is the numerical check of (19) that theory 1 §8 suggests.
+//! Which test checks what: the acceptance checks of T1 (§1–§9, capabilities C1–C22), each with a file and a test in it. A test
+//! reads this table and fails where something that it names is gone. The last test is the numerical check of (19) that T1 §8 suggests.
 
 #![allow(clippy::unwrap_used)] // a panic is how a test fails
 

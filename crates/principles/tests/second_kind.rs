@@ -1,4 +1,4 @@
-//! Principles of the second, first and intermediate kind: the checks of theory 1 §7, exact.
+//! Principles of the second, first and intermediate kind: the checks of T1 §7, exact.
 
 #![allow(clippy::unwrap_used)] // a panic is how a test fails
 

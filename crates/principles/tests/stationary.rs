@@ -1,4 +1,4 @@
-//! Stationary action: the table of theory 1 §4.3, with κ and the subsets of motions in closed form.
+//! Stationary action: the table of T1 §4.3, with κ and the subsets of motions in closed form.
 
 #![allow(clippy::unwrap_used)] // a panic is how a test fails
 

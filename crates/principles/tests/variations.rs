@@ -1,4 +1,4 @@
-//! Variations of the velocity: the list of theory 1 §2, exact.
+//! Variations of the velocity: the list of T1 §2, exact.
 
 #![allow(clippy::unwrap_used)] // a panic is how a test fails
 

@@ -1,4 +1,4 @@
-//! Claims about the motion computed (claims.md §8) and the initial state.
+//! Claims about the motion computed (catalogue of claims, §8) and the initial state.
 //!
 //! A drift is a number, not a proof: these verdicts are `numerical` with the largest residual found, or `refuted` with the
 //! time at which the bound was exceeded.

@@ -1,4 +1,4 @@
-//! Replays the verdicts of a record from the embedded model (theory 6.6).
+//! Replays the verdicts of a record from the embedded model (T6 §6.6).
 
 mod notices;
 mod texts;

@@ -4,7 +4,7 @@
 
 use crate::rational::Rational;
 
-/// How a proof was made (theory 6).
+/// How a proof was made (T6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Method {
     /// True by construction; the detail says why.
@@ -107,7 +107,7 @@ pub struct Evidence {
     pub why_no_proof: String,
 }
 
-/// What is known about a claim (claims.md, "Verdicts").
+/// What is known about a claim (the catalogue of claims, "Verdicts").
 #[derive(Clone, Debug, PartialEq)]
 #[must_use]
 pub enum Verdict {

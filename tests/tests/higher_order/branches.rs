@@ -1,4 +1,4 @@
-//! All real solutions for the highest derivatives, which of them is followed, and where it ends (theory 2 E3, E4).
+//! All real solutions for the highest derivatives, which of them is followed, and where it ends (T2 E3, E4).
 
 use super::{by, follows, keeps, refused, run, says, stops, ALL_FORMS};
 use chetaev_tests::runs::ended_text;

@@ -1,4 +1,4 @@
-//! Motions that the differentiated equations determine, against closed forms (theory 2 §5).
+//! Motions that the differentiated equations determine, against closed forms (T2 §5).
 
 use super::{by, follows, moves_in_every_form, refused, ALL_FORMS};
 use chetaev_tests::runs::{ended_text, Ask};

@@ -1,4 +1,4 @@
-//! Data of the start beyond velocities: in any of their shapes, too few, contradictory (theory 2 E4b, E5).
+//! Data of the start beyond velocities: in any of their shapes, too few, contradictory (T2 E4b, E5).
 
 use super::branches::{jerk, magnitude};
 use super::{by, follows, keeps, refused, run, says, stops, ALL_FORMS};

@@ -1,5 +1,5 @@
 //! Motions under constraints of order two and three: branches, data of the start beyond velocities, and where a run ends
-//! (theory 2 §5, E3, E4, E4b and E5).
+//! (T2 §5, E3, E4, E4b and E5).
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,

@@ -158,7 +158,7 @@ fn appell_and_hamel_in_several_forms() {
     .check();
 }
 
-/// L̄ = ½ m (1 + ρ²) s² − m g z (theory 3 §8.5), p̃ = m (1 + ρ²) v, and in closed form (theory 1 §9.1)
+/// L̄ = ½ m (1 + ρ²) s² − m g z (T3 §8.5), p̃ = m (1 + ρ²) v, and in closed form (T1 §9.1)
 /// H̃ = p̃²/(2 m (1 + ρ²)) + m g z, p̃' = −m g ρ p̃/|p̃|.
 fn appell_and_hamel_on_the_constraints() {
     Page {

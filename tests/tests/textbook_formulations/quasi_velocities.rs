@@ -291,7 +291,7 @@ fn the_sphere_of_chaplygin() {
 }
 
 /// The skate on an incline with T and V stated: F = (m G cos φ, 0) with G = g s, F* = (-m u', -J w'). kane-levinson1985, ch. 6;
-/// theory 1 §9.3.
+/// T1 §9.3.
 #[test]
 fn kanes_forces_of_a_potential() {
     Page {

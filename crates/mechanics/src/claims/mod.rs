@@ -32,15 +32,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The groups that `--claims` selects, in the order they are decided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Group {
-    /// claims.md §1.
+    /// Catalogue of claims, §1.
     Model,
-    /// claims.md §2.
+    /// Catalogue of claims, §2.
     Formulations,
-    /// claims.md §8.
+    /// Catalogue of claims, §8.
     Motion,
-    /// claims.md §3–4.
+    /// Catalogue of claims, §3–4.
     Principles,
-    /// claims.md §6.
+    /// Catalogue of claims, §6.
     Integrals,
 }
 

@@ -1,4 +1,4 @@
-//! The claims of claims.md §1 that need no geometry: regularity and the form of the constraints.
+//! The claims of the catalogue, §1, that need no geometry: regularity and the form of the constraints.
 
 use super::{order, stating, Claim, Context, Finding, Formula, Group};
 use crate::characteristics::Manifold;

@@ -1,4 +1,4 @@
-//! Claims about constraints of order m (claims.md §5, T2 §2 and §5).
+//! Claims about constraints of order m (catalogue of claims, §5, T2 §2 and §5).
 
 use super::formulation::basis;
 use super::{stating, Claim, Context, Finding, Group};

@@ -28,7 +28,7 @@ static CARD: Card = Card {
     identity: None,
     unknowns: "rates of the momenta of all coordinates and one multiplier for each independent constraint",
     highest_order: 1,
-    sources: &[Source { key: "rumyantsev1982", place: "canonical equations with multipliers; theory note 1, (10)" }],
+    sources: &[Source { key: "rumyantsev1982", place: "canonical equations with multipliers; T1 (10)" }],
 };
 
 const SCHEMA: Schema = Schema {

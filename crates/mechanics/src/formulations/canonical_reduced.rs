@@ -36,8 +36,8 @@ static CARD: Card = Card {
     unknowns: "rates of the k momenta of the independent velocities",
     highest_order: 1,
     sources: &[
-        Source { key: "rumyantsev1982", place: "canonical equations without multipliers; theory note 1, (44)–(46)" },
-        Source { key: "bates1993", place: "the bracket of linear constraints; theory note 1, (47)" },
+        Source { key: "rumyantsev1982", place: "canonical equations without multipliers; T1 (44)–(46)" },
+        Source { key: "bates1993", place: "the bracket of linear constraints; T1 (47)" },
     ],
 };
 

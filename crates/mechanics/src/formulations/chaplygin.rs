@@ -27,7 +27,7 @@ static CARD: Card = Card {
     highest_order: 1,
     sources: &[
         Source { key: "chaplygin1897", place: "§ 1" },
-        Source { key: "rumyantsev1982", place: "Hamilton's principle in the form of Voronets; theory note 1, (9)" },
+        Source { key: "rumyantsev1982", place: "Hamilton's principle in the form of Voronets; T1 (9)" },
     ],
 };
 

@@ -32,8 +32,8 @@ static CARD: Card = Card {
     unknowns: "accelerations of all coordinates",
     highest_order: 1,
     sources: &[
-        Source { key: "gauss1829", place: "the principle; theory note 1, (50)" },
-        Source { key: "udwadia-kalaba1992", place: "the explicit formula; theory note 1, (51)" },
+        Source { key: "gauss1829", place: "the principle; T1 (50)" },
+        Source { key: "udwadia-kalaba1992", place: "the explicit formula; T1 (51)" },
     ],
 };
 

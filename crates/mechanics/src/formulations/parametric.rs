@@ -28,7 +28,7 @@ static CARD: Card = Card {
     identity: Some("The left sides minus the right sides, contracted with x', vanish for arbitrary curves and arbitrary multipliers"),
     unknowns: "second derivatives of coordinates and time by the parameter and one multiplier for each independent constraint",
     highest_order: 1,
-    sources: &[Source { key: "rumyantsev1982", place: "parametric form of the equations; theory note 1, (28)–(29)" }],
+    sources: &[Source { key: "rumyantsev1982", place: "parametric form of the equations; T1 (28)–(29)" }],
 };
 
 const SCHEMA: Schema = Schema {

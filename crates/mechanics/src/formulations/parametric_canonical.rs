@@ -28,7 +28,7 @@ static CARD: Card = Card {
     identity: Some("K keeps its value, DK = 0, for arbitrary multipliers"),
     unknowns: "rates of the n + 1 momenta and one multiplier for each independent constraint",
     highest_order: 1,
-    sources: &[Source { key: "rumyantsev1982", place: "canonical equations of extended phase space; theory note 1, (30)–(31)" }],
+    sources: &[Source { key: "rumyantsev1982", place: "canonical equations of extended phase space; T1 (30)–(31)" }],
 };
 
 const SCHEMA: Schema = Schema {

@@ -30,7 +30,7 @@ static CARD: Card = Card {
     identity: Some("Zhu's differential principle equals δZ + Σ Q δq − D(Σ ∂L/∂v δq) for arbitrary curves and variations, and Dq = v follows from the closed equations"),
     unknowns: "rates of coordinates and velocities and one multiplier for each independent constraint",
     highest_order: 1,
-    sources: &[Source { key: "zhu1998", place: "closed equations of the state space; theory note 1, (34)–(38)" }],
+    sources: &[Source { key: "zhu1998", place: "closed equations of the state space; T1 (34)–(38)" }],
 };
 
 const SCHEMA: Schema = Schema {

@@ -24,7 +24,7 @@ static CARD: Card = Card {
     identity: None,
     unknowns: "rates of coordinates and momenta and one multiplier for each independent constraint",
     highest_order: 1,
-    sources: &[Source { key: "zhu1998", place: "Hamilton form of the second-kind principles; theory note 1, (40)" }],
+    sources: &[Source { key: "zhu1998", place: "Hamilton form of the second-kind principles; T1 (40)" }],
 };
 
 const SCHEMA: Schema = Schema {

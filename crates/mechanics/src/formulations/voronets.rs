@@ -27,7 +27,7 @@ static CARD: Card = Card {
     highest_order: 1,
     sources: &[
         Source { key: "voronets1901", place: "§§ 1–3" },
-        Source { key: "rumyantsev1982", place: "Hamilton's principle in the form of Voronets; theory note 1, (7) and (9)" },
+        Source { key: "rumyantsev1982", place: "Hamilton's principle in the form of Voronets; T1 (7) and (9)" },
     ],
 };
 

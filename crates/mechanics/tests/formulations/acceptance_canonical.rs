@@ -1,4 +1,4 @@
-//! Acceptance of theory 1 §5.3 and §6: Lagrange's least action on S4, the Hamilton–Jacobi method on S2 and its failure on S4,
+//! Acceptance of T1 §5.3 and §6: Lagrange's least action on S4, the Hamilton–Jacobi method on S2 and its failure on S4,
 //! Chaplygin's reducing multiplier (25)–(27), the extended configuration space (28), (29) with the chain to Jacobi's principle,
 //! and the relations K of the extended phase space (30), (31) (capabilities C8, C11, C12, C13).
 //!

@@ -1,4 +1,4 @@
-//! Acceptance of theory 3 §4 and §5: X ⌟ Ω = 0 of the free body and others, the embedded equations (10) as (7) on the constraint
+//! Acceptance of T3 §4 and §5: X ⌟ Ω = 0 of the free body and others, the embedded equations (10) as (7) on the constraint
 //! manifold before any equation of motion, W̄ = Bᵀ W B, the curvature as the bracket part of the natural frame, the bracket lemma
 //! (11a), Ω̄ of (11) as the restriction of Ω, its rank 2k, Zhao's Lemma 2, and integrable constraints in adapted frames.
 //!
@@ -378,7 +378,7 @@ fn the_mass_matrix_of_the_embedding() {
     }
 }
 
-/// In the natural frame K = 0 and G^α_i + A^j ∂_jC^α_i is A^α_i of theory 1 (7), with the accelerations free.
+/// In the natural frame K = 0 and G^α_i + A^j ∂_jC^α_i is A^α_i of T1 (7), with the accelerations free.
 #[test]
 fn the_bracket_part_is_the_curvature() {
     for text in [SKATE, DISC, PARTICLE, APPELL_HAMEL, BENT, CUBIC] {

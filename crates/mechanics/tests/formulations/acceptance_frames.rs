@@ -1,4 +1,4 @@
-//! Acceptance of theory 3 §1–§3: structure coefficients of moving frames (antisymmetry, Jacobi's identity, both sides of (1)),
+//! Acceptance of T3 §1–§3: structure coefficients of moving frames (antisymmetry, Jacobi's identity, both sides of (1)),
 //! Cartan forms (3) and (4) in frames, that a change of the frame leaves Θ(F) alone, remark 3° and Θ(hf), and the 3-form of
 //! z' - y x'.
 //!

@@ -1,4 +1,4 @@
-//! Acceptance of theory 2 §2, §5 and §6: one constraint of orders one, two and three, the pendulum as a constraint of order two,
+//! Acceptance of T2 §2, §5 and §6: one constraint of orders one, two and three, the pendulum as a constraint of order two,
 //! E1 in polar characteristics, E2 with thrust, and the determinant (13) on both branches of E3.
 
 use crate::acceptance_support::Sheet;
@@ -98,7 +98,7 @@ fn a_slipping_edge_has_other_accelerations() {
     s.differ(a, s.read("-phi' y'"));
 }
 
-/// The pendulum of theory 2 §2, F = (ξ² + η² - l²)/2 with gravity along η, as a constraint of the order m in Cartesian coordinates.
+/// The pendulum of T2 §2, F = (ξ² + η² - l²)/2 with gravity along η, as a constraint of the order m in Cartesian coordinates.
 fn pendulum(order: u32, formulas: [&str; 2]) -> Case {
     let primes = "'".repeat(order as usize);
     let [xi, eta] = formulas;

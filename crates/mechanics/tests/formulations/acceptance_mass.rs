@@ -1,4 +1,4 @@
-//! Acceptance of theory 2 §1: the point law of Meshchersky with all laws of masses and all modes of thrust, the closed forms
+//! Acceptance of T2 §1: the point law of Meshchersky with all laws of masses and all modes of thrust, the closed forms
 //! (1a)–(1d), and E1, the rocket on Appell's constraint (§6).
 
 use crate::common::{expect, Case};

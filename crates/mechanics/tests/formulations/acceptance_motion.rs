@@ -1,6 +1,6 @@
-//! Acceptance of theory 1 §0 (virtual displacements, regularity), §1 (accelerations, multipliers and motions of S1–S4) and §4
+//! Acceptance of T1 §0 (virtual displacements, regularity), §1 (accelerations, multipliers and motions of S1–S4) and §4
 //! (numbers of constants, the conditions (13)–(15), the second variation), the change of multipliers with the form of a
-//! constraint (theory 0 §3, theory 3 §3), and the implicit constraint z'³ + z' = x'y': capabilities C1, C2, C5, C6 and C22.
+//! constraint (T0 §3, T3 §3), and the implicit constraint z'³ + z' = x'y': capabilities C1, C2, C5, C6 and C22.
 //!
 //! The separating examples for R2 and R3 are in `corrections.rs`, R4 and R5 in `hypotheses.rs`, the equations (11) in
 //! `vakonomic.rs`; the refusal of f² = 0 is a test of the command line.

@@ -1,4 +1,4 @@
-//! Acceptance of theory 2 §2–§6: constraints of order m, their lifting, Maggi's and Volterra's equations on the jet of the
+//! Acceptance of T2 §2–§6: constraints of order m, their lifting, Maggi's and Volterra's equations on the jet of the
 //! characteristics, and the worked examples E2–E8.
 
 use crate::common::{expect, Case};

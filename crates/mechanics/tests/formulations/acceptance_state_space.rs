@@ -1,4 +1,4 @@
-//! Acceptance of theory 1 §7 (Zhu): the identities (33), (34), (35), the kinematic law and singular Hessians, (40), the universal
+//! Acceptance of T1 §7 (Zhu): the identities (33), (34), (35), the kinematic law and singular Hessians, (40), the universal
 //! relation (41)–(43) with a symbolic operator of first order, the four operators, the damped oscillator and S4 with operator 3
 //! (capabilities C14, C15, C16).
 //!

@@ -1,4 +1,4 @@
-//! Acceptance of theory 1 §2 and §3: the central identity (4a), the variation of a constraint under the definitions of Hölder
+//! Acceptance of T1 §2 and §3: the central identity (4a), the variation of a constraint under the definitions of Hölder
 //! (5)–(7) and of Suslov (8), E[f] beside its contraction with virtual displacements, the curvature without solved constraints,
 //! and the integrands of the four forms of Hamilton's principle (capabilities C3 and C4).
 //!

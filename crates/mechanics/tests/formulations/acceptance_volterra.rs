@@ -1,4 +1,4 @@
-//! Acceptance of theory 2 §3 and §4 for m = 1: the lemmas (8), (9), (2.10), (2.18), (3.16), (3.26) and (12) for arbitrary T1(t,q,v),
+//! Acceptance of T2 §3 and §4 for m = 1: the lemmas (8), (9), (2.10), (2.18), (3.16), (3.26) and (12) for arbitrary T1(t,q,v),
 //! masses μ(t), and characteristics q' = φ(t,q,P); first and second form term for term; the pendulum in its angle.
 //!
 //! Both forms on worked systems are in `volterra.rs`, the pendulum in Cartesian coordinates in `volterra_cartesian.rs`.
@@ -181,7 +181,7 @@ fn derivatives_of_total_derivatives() {
     s.differ(s.by(once, "x'"), moved);
 }
 
-/// The pendulum of theory 2 §2 in its angle, ξ = l cos θ and η = l sin θ with gravity along η: l θ'' + g cos θ = 0, and P = θ'
+/// The pendulum of T2 §2 in its angle, ξ = l cos θ and η = l sin θ with gravity along η: l θ'' + g cos θ = 0, and P = θ'
 /// turns μ [(ξ² + η²) P' + g ξ] = 0 into μ l times it. In both forms.
 #[test]
 fn the_pendulum_in_its_angle() {

@@ -1,4 +1,4 @@
-//! Acceptance of theory 2 §4 for m = 2 and 3: the lemmas (8), (2.10) and (2.18) in Cartesian coordinates with two masses μ(t), and
+//! Acceptance of T2 §4 for m = 2 and 3: the lemmas (8), (2.10) and (2.18) in Cartesian coordinates with two masses μ(t), and
 //! E8, a metric that depends on coordinates and time, with a mass μ(t).
 
 use crate::acceptance_support::Sheet;

@@ -1,4 +1,4 @@
-//! Canonical equations with multipliers (theory 1 §3 (10)).
+//! Canonical equations with multipliers (T1 §3 (10)).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::states::{
@@ -90,7 +90,7 @@ fn names_of_momenta_do_not_collide() {
     expect(&case, "formulation.equivalent#canonical", "proved");
 }
 
-/// Singular Lagrangians (theory 1 §7.2): the form does not apply, and says why.
+/// Singular Lagrangians (T1 §7.2): the form does not apply, and says why.
 #[test]
 fn singular_lagrangians() {
     for lagrangian in ["x y' - x^2 y", "1/2 (x' + y')^2"] {

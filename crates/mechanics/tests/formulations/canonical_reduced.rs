@@ -1,4 +1,4 @@
-//! Canonical equations on the constraint manifold (theory 1 §9.1).
+//! Canonical equations on the constraint manifold (T1 §9.1).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::states::{

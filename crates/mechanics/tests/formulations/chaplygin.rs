@@ -1,4 +1,4 @@
-//! Chaplygin's equations (theory 1 §3).
+//! Chaplygin's equations (T1 §3).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, SKATE};
 

@@ -1,4 +1,4 @@
-//! Systems of the theory notes as models, and what tests ask of them.
+//! Systems of the notes on the theory as models, and what tests ask of them.
 
 use chetaev_mechanics::claims::formulation::derive;
 use chetaev_mechanics::claims::CLAIMS;
@@ -12,7 +12,7 @@ use chetaev_symbolic::{Expr, Graph, Verdict};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// S1: a skate on an incline, G = g sin α (theory 1 §0).
+/// S1: a skate on an incline, G = g sin α (T1 §0).
 pub const SKATE: &str = r#"
 coordinates = ["x", "y", "phi"]
 parameters = { m = {}, J = {}, G = {} }

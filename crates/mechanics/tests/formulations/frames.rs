@@ -1,4 +1,4 @@
-//! Moving frames, and the formulations in them (theory 3 §1–5).
+//! Moving frames, and the formulations in them (T3 §1–5).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use chetaev_mechanics::formulations::boltzmann_hamel::Embedding;

@@ -1,4 +1,4 @@
-//! Gauss's principle, and Udwadia's and Kalaba's formula (theory 1 §9.4).
+//! Gauss's principle, and Udwadia's and Kalaba's formula (T1 §9.4).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::nielsen::expect_different;

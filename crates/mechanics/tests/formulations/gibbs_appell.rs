@@ -1,4 +1,4 @@
-//! The equations of Gibbs and Appell (theory 1 §9.2).
+//! The equations of Gibbs and Appell (T1 §9.2).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::nielsen::expect_different;

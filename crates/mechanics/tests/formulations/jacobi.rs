@@ -1,4 +1,4 @@
-//! Jacobi's principle (theory 1 §5.4).
+//! Jacobi's principle (T1 §5.4).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::states::{assert_state_follows_motion, changed, compared};

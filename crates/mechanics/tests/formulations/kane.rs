@@ -1,4 +1,4 @@
-//! Kane's equations (theory 1 §9.3).
+//! Kane's equations (T1 §9.3).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::gibbs_appell::{
@@ -82,7 +82,7 @@ fn a_potential_is_an_active_force() {
     }
 }
 
-/// S3 in the parameters ρ, ψ of the cone: m (1 + a²) ρ' = -m g a, m ρ² ψ' = 0 (theory 1 §9.3).
+/// S3 in the parameters ρ, ψ of the cone: m (1 + a²) ρ' = -m g a, m ρ² ψ' = 0 (T1 §9.3).
 #[test]
 fn appells_cone_in_stated_characteristics() {
     let cone = "coordinates = [\"x\", \"y\", \"z\"]\nparameters = { m = {}, g = {}, a = {} }\n\

@@ -1,4 +1,4 @@
-//! The principle of d'Alembert and Lagrange (theory 1 §§0–1).
+//! The principle of d'Alembert and Lagrange (T1 §§0–1).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 

@@ -1,4 +1,4 @@
-//! Maggi's equations (theory 2 §3).
+//! Maggi's equations (T2 §3).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 

@@ -1,4 +1,4 @@
-//! Every formulation against the examples of the theory notes, one file for each.
+//! Every formulation against the examples of the notes on the theory, one file for each.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,

@@ -1,4 +1,4 @@
-//! Nielsen's equations and Tsenov's (theory 1 §9.5, theory 3 (12)).
+//! Nielsen's equations and Tsenov's (T1 §9.5, T3 (12)).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::voronets::CUBIC;
@@ -48,7 +48,7 @@ fn nielsen_and_tsenov_are_lagrange_identically() {
     }
 }
 
-/// The general form for orders 1 to 4, with a T that depends on q, v and t (theory 1 (52)); with m in the place of m + 1 it is
+/// The general form for orders 1 to 4, with a T that depends on q, v and t (T1 (52)); with m in the place of m + 1 it is
 /// wrong.
 #[test]
 fn the_forms_of_order_one_to_four() {

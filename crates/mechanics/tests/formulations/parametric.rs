@@ -1,4 +1,4 @@
-//! Extended configuration space (theory 1 §6.3).
+//! Extended configuration space (T1 §6.3).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::states::{

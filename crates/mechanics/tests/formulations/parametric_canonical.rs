@@ -1,4 +1,4 @@
-//! Extended phase space (theory 1 §6.4).
+//! Extended phase space (T1 §6.4).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::states::{assert_state_follows_motion, vanishes, DRIVEN, QUARTIC, RELATIVISTIC};

@@ -1,4 +1,4 @@
-//! What particles give to a system (theory 1 §9.2, theory 2 §2).
+//! What particles give to a system (T1 §9.2, T2 §2).
 
 use crate::common::{expect, Case, PARTICLE};
 use crate::gibbs_appell::{BEAD, PARTICLE_POLAR};

@@ -1,4 +1,4 @@
-//! Zhu's closed equations in (q, v) (theory 1 §7.2).
+//! Zhu's closed equations in (q, v) (T1 §7.2).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::states::{

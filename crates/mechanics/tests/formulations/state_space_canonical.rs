@@ -1,4 +1,4 @@
-//! Zhu's closed equations in (q, p) (theory 1 §7.3).
+//! Zhu's closed equations in (q, p) (T1 §7.3).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::states::{

@@ -1,4 +1,4 @@
-//! The constrained extremum (theory 1 §4.1, §4.3, §6.1).
+//! The constrained extremum (T1 §4.1, §4.3, §6.1).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, SKATE};
 use crate::states::vanishes;

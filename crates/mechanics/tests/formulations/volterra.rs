@@ -1,4 +1,4 @@
-//! Volterra's equations in generalized coordinates (theory 2 §§3–4 with m = 1).
+//! Volterra's equations in generalized coordinates (T2 §§3–4 with m = 1).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use crate::voronets::CUBIC;
@@ -99,7 +99,7 @@ fn the_particle_of_the_notes() {
     assert!(case.equal(left, case.read("(1 + y^2) x'' + y x' y'")));
 }
 
-/// Without constraints and with P = v, both forms are Lagrange's left sides (theory 2 §4, end of the special cases).
+/// Without constraints and with P = v, both forms are Lagrange's left sides (T2 §4, end of the special cases).
 #[test]
 fn without_constraints_they_are_lagrange() {
     let case = Case::new(POLAR);

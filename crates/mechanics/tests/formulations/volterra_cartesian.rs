@@ -1,8 +1,8 @@
-//! Volterra's equations in Cartesian coordinates (theory 2 §§2–4 with m = 1).
+//! Volterra's equations in Cartesian coordinates (T2 §§2–4 with m = 1).
 
 use crate::common::{expect, Case, PARTICLE};
 
-/// The pendulum of theory 2 §2: Cartesian coordinates, the thread as a constraint, a frame with ξ' = -P η, η' = P ξ.
+/// The pendulum of T2 §2: Cartesian coordinates, the thread as a constraint, a frame with ξ' = -P η, η' = P ξ.
 const PENDULUM: &str = r#"
 coordinates = ["xi", "eta"]
 parameters = { mu = {}, g = {}, l = {} }

@@ -1,4 +1,4 @@
-//! Voronets' equations and the curvature of constraints (theory 1 §§2–3).
+//! Voronets' equations and the curvature of constraints (T1 §§2–3).
 
 use crate::common::{expect, Case, APPELL_HAMEL, DISC, PARTICLE, POLAR, SKATE};
 use chetaev_mechanics::curvature::curvature;
@@ -7,7 +7,7 @@ use chetaev_symbolic::Expr;
 
 const CLAIM: &str = "formulation.equivalent#voronets";
 
-/// An implicit constraint with one real root (theory 1 §9.6).
+/// An implicit constraint with one real root (T1 §9.6).
 pub const CUBIC: &str = r#"
 coordinates = ["x", "y", "z"]
 parameters = { m = {}, g = {} }

@@ -108,7 +108,7 @@ pub(crate) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
 }
 
-/// Systems of theory 1 §0.
+/// Systems of T1 §0.
 pub(crate) mod worked {
     use super::Text;
 

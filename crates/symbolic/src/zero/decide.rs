@@ -38,7 +38,7 @@ pub struct Options {
     /// The bound on the probability of error to reach, as its log2.
     pub error_bound_log2: f64,
     /// Turns every circle by a rational rotation of this parameter (numerator, denominator): another parametrization
-    /// for a replay (theory 6.6).
+    /// for a replay (T6 §6.6).
     pub rotation: Option<(i64, i64)>,
     /// At most so many operations are evaluated by the modular proof.
     pub budget: u64,
@@ -62,7 +62,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// For a replay (theory 6.6): other primes and points than those of `self`, and circles parametrized from another point.
+    /// For a replay (T6 §6.6): other primes and points than those of `self`, and circles parametrized from another point.
     #[must_use]
     pub fn replay(self) -> Self {
         let seed = self

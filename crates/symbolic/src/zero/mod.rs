@@ -1,6 +1,6 @@
 //! Zero testing: is an expression identically zero, everywhere or on the constraints of a model?
 //!
-//! [`decide_zero`] combines the ways of theory 6: expressions that cancel in canonical form are zero by exact arithmetic;
+//! [`decide_zero`] combines the ways of T6: expressions that cancel in canonical form are zero by exact arithmetic;
 //! the *modular proof* evaluates a program over the field of §6.1 at random points of random prime fields and states
 //! its bound on the probability of error; what is not zero is *refuted* by a verified enclosure at a point with small
 //! rational data. What can be neither proved nor refuted is `numerical` or `undecided`, never called proved.

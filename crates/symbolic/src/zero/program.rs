@@ -1,4 +1,4 @@
-//! The expressions under test as a straight-line program over the field of theory 6.1.
+//! The expressions under test as a straight-line program over the field of T6 §6.1.
 //!
 //! Values are numbered; an operation uses smaller numbers only. Every operation is algebraic over the
 //! generators, so a program can be run in any ring that offers values for the generators and roots for the radicals.
@@ -115,7 +115,7 @@ pub(super) enum Generator {
     /// A symbol determined by a nonlinear constraint: the number of the constraint.
     Dependent(u32),
     /// A transcendental element, described for people; `independent` if it is known to be algebraically independent of
-    /// all the others (theory 6.1: zero in the field proves; non-zero refutes only where this is known).
+    /// all the others (T6 §6.1: zero in the field proves; non-zero refutes only where this is known).
     Transcendental {
         text: String,
         independent: bool,

@@ -1,4 +1,4 @@
-//! Verified counterexamples (theory 6.4): rational independent data, dependent data enclosed with existence and uniqueness,
+//! Verified counterexamples (T6 §6.4): rational independent data, dependent data enclosed with existence and uniqueness,
 //! and a residual whose enclosure excludes zero.
 
 use std::cell::OnceCell;

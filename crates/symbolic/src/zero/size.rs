@@ -1,4 +1,4 @@
-//! Degrees and heights of every value of a program: what the error bound of a modular proof is made of (theory 6.3).
+//! Degrees and heights of every value of a program: what the error bound of a modular proof is made of (T6 §6.3).
 //!
 //! A value is v = A / Π d_j^(k_j): A is a polynomial over ℤ in the generators and algebraic elements, the *poles* d_j are
 //! the expressions (and integers) divided by. `degree` bounds the total degree of A, `height` the base-2 logarithm of

@@ -1,4 +1,4 @@
-//! The claims about first integrals (claims.md §6), one file each.
+//! The claims about first integrals (catalogue of claims, §6), one file each.
 
 mod contraction;
 mod controls;

@@ -1,4 +1,4 @@
-//! The constraint manifold with its fields, its 2-form and the motion on it (theory 3 §5).
+//! The constraint manifold with its fields, its 2-form and the motion on it (T3 §5).
 
 use crate::common::Case;
 use chetaev_mechanics::claims::formulation::{basis, derive};

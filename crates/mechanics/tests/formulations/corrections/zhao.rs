@@ -204,7 +204,7 @@ fn zeta(n: &OnManifold<'_>, chi: &[Expr], printed: bool) -> Vec<Expr> {
     g.solve(&n.mass.concat(), &right).unwrap()
 }
 
-/// Zhao's ζ: with all terms of (16) Ȳ ⌟ Ω̄ = dG holds, with the printed ones it does not (theory 3 §6).
+/// Zhao's ζ: with all terms of (16) Ȳ ⌟ Ω̄ = dG holds, with the printed ones it does not (T3 §6).
 #[test]
 fn zhao_16_the_velocity_part_of_the_generator() {
     let particle = format!("{PARTICLE}velocities = {{ independent = [\"x'\", \"y'\"] }}\n");

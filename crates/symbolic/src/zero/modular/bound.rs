@@ -5,7 +5,7 @@ use super::super::size::{Sizes, Weight, SLACK};
 use super::Plan;
 use crate::number::prime::LOG2_PRIME_COUNT;
 
-/// Beyond this log2 of the degree no bound is attempted (theory 6.3).
+/// Beyond this log2 of the degree no bound is attempted (T6 §6.3).
 const LARGEST_LOG2_DEGREE: f64 = 40.0;
 /// A trial that errs with a larger probability than 2^this is useless.
 const WORST_TRIAL: f64 = -4.0;

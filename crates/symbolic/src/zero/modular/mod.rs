@@ -1,4 +1,4 @@
-//! The modular proof (theory 6.3): a program is run at random points of random prime fields until the proven bound on the
+//! The modular proof (T6 §6.3): a program is run at random points of random prime fields until the proven bound on the
 //! probability that something non-zero vanished each time is small enough.
 //!
 //! The outputs form a matrix and the question is its generic rank; "all outputs are zero" is rank 0 of one row.

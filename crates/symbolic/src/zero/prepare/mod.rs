@@ -1,4 +1,4 @@
-//! From expressions to a program over the field of theory 6.1: generators are collected, dependent ones rewritten.
+//! From expressions to a program over the field of T6 §6.1: generators are collected, dependent ones rewritten.
 //!
 //! What makes the rewriting sound: each generator has, at every point where the expressions under test are defined and
 //! the conditions listed hold, a true real value for which every operation of the program is true. So a program that is

@@ -1,4 +1,4 @@
-//! The traps of theory 6.7, random identities, planted errors, varieties and scale.
+//! The traps of T6 §6.7, random identities, planted errors, varieties and scale.
 
 mod random;
 mod ranks;

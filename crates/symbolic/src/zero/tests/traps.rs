@@ -1,4 +1,4 @@
-//! Every trap of theory 6.7.
+//! Every trap of T6 §6.7.
 
 use super::super::assumptions::{Assumptions, Relation};
 use super::*;
