@@ -1,4 +1,10 @@
-//! What can be concluded about a system without integrating it: integrability, distributions.
+//! What can be concluded about a system without integrating it: integrability, first integrals, invariant measures.
+//!
+//! - [`exterior`], [`cartan`]: exterior calculus and Cartan forms (T3 §2); [`jacobi`]: structure coefficients of frames;
+//! - [`integrability`]: Frobenius' condition, and what integrable constraints keep; [`distribution`], [`flag`], [`growth`]: what a
+//!   distribution generates;
+//! - [`noether`]: first integrals, where they are searched and how they are proved, symmetries, the inverse theorem;
+//! - [`measure`]: invariant measures; [`liouville`]: the count of Euler and Jacobi.
 
 pub mod cartan;
 pub mod cartan_claim;

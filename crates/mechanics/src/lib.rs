@@ -1,4 +1,13 @@
 //! A constrained system, the registry of claims, and the equations of motion that follow.
+//!
+//! - The system: [`system`], [`constraint`], [`particles`], [`mass`] (masses that vary, thrust), [`order`] (constraints of order m);
+//! - what is derived once: [`terms`] (`W, b, J, g`), [`selection`] (independent constraints and velocities), [`frame`],
+//!   [`characteristics`], [`curvature`], [`linear`];
+//! - the forms of the equations: [`formulations`], one file each, which deliver [`equations`] with a [`card`];
+//! - claims: [`claims`] (registry, context, the claims of model, hypotheses and formulations), [`prover`] (the bridge to zero tests);
+//! - constraints that are special: [`redundancy`] (they follow from others, or contradict them), [`components`] (they are products);
+//! - for computing: [`regular`] (quasi-velocities without singular places), [`reduced_equations`], [`choice`];
+//! - [`sample`]: states for heuristic choices, evidence only where a verdict says `numerical`.
 
 pub mod card;
 pub mod characteristics;

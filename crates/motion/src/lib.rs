@@ -2,6 +2,13 @@
 //!
 //! Knows numbers and systems, nothing of files or reports. [`run::Subject`] integrates one formulation;
 //! [`observe`] evaluates expressions along the rows; [`double_double`] does both with about 31 digits.
+//!
+//! - the start: [`initial`] (consistent data, branches of the highest derivatives);
+//! - what is integrated: [`multiplier_flow`] (Routh, solved at each state), [`formulation_flow`] (any other form in its own state),
+//!   [`jet_flow`] (constraints of order two and more), on [`numeric`] terms, with [`chart`]s of independent velocities;
+//! - on the way: [`watch`] (what makes the equations singular), [`happening`] (events), [`follow`] (what is conserved), [`drift`],
+//!   [`keep`] (projection on integrals), [`stop`] (why a run ended);
+//! - many runs: [`repeat`] (compiled once, for many starts and parameters).
 
 pub mod accelerations;
 mod along;

@@ -1,4 +1,11 @@
-//! What the variational principles say of a system.
+//! What the variational principles say of a system (T1).
+//!
+//! - [`variations`]: δf and δv by the rules of Hölder and of Suslov; [`hamilton`]: four forms of Hamilton's principle;
+//! - [`stationarity`]: on which motions the action is stationary among admissible curves (closure of the conditions on κ, T1 §4.3);
+//!   [`coincidence`]: the constrained extremum beside the motion;
+//! - [`action`]: least action at varied times, Jacobi's principle; [`energy`]: the power balance;
+//! - [`second_kind`], [`universal_relation`]: the principles of the second, first and intermediate kind (T1 §7);
+//! - [`chaplygin_multiplier`]: Chaplygin's reducing multiplier; [`hamilton_jacobi`]: the generalized method of Hamilton and Jacobi.
 
 pub mod action;
 pub mod chaplygin_multiplier;

@@ -3,6 +3,12 @@
 //! [`study::study`] takes a resolved model through its claims and its motion; [`record`] writes `study.json`,
 //! [`page`] the report, [`table`] the trajectory, [`summary`] the text for a terminal; [`verify`] replays a record.
 //! Clocks, files and interruption come from outside.
+//!
+//! - [`study`](mod@study): the loop over the claims of [`registry`], with its budget; [`options`], [`error`];
+//! - the run: [`motion_evidence`] (what a run tells), [`motion_claims`], [`method_order`], [`jumps`], [`witness`] (integrals of the
+//!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
+//! - [`sweep`]: a model as an ensemble;
+//! - for people: [`derivation`], [`story`], [`summary`], [`page`], [`typeset`]; for programs: [`record`], [`table`]; [`verify`].
 
 pub mod beside;
 pub mod derivation;

@@ -1,6 +1,14 @@
 //! Exact expressions: an interned graph, its calculus, zero testing and printing; owns [`Verdict`].
 //!
 //! Nothing here knows mechanics: symbols carry a name and an order of differentiation, and that is all.
+//!
+//! - [`syntax`]: text to tree to expression, with diagnostics;
+//! - [`graph`], [`construct`], [`mod@functions`], [`linear`]: the hash-consed graph and its canonical constructors;
+//! - [`calculus`], [`substitute`], [`evaluate`]: derivatives, replacement, values in double precision;
+//! - [`number`], [`polynomial`], [`matrix`], [`factors`], [`quadratic_factors`]: exact arithmetic, normal forms, factorization;
+//! - [`zero`]: whether expressions vanish, on their own or on constraints: exact forms, modular proofs, refutation by balls;
+//! - [`mod@simplify`], [`print`]: formulas for reading; no proof rests on a simplification;
+//! - [`verdict`]: what is known about a statement.
 
 pub mod calculus;
 pub mod construct;
