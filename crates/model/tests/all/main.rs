@@ -1,0 +1,14 @@
+//! All integration tests of this package in one program, so that the package is linked once. A test is run by its module and name:
+//! `cargo test -p chetaev-model --test all MODULE::`.
+
+mod common;
+mod complete_integral;
+mod documentation;
+mod frames;
+mod masses;
+mod particles;
+mod reading;
+mod rejections;
+mod robustness;
+mod units;
+mod variation;

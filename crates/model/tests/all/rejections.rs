@@ -1,0 +1,235 @@
+//! Models that must be refused because of their text, after the section "Rejections" of the published reference cases.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "test code fails where it stands"
+)]
+
+use chetaev_model::{load, Loaded, NoFiles, Severity, Style};
+
+fn read(text: &str) -> Loaded {
+    load("model.toml", text, &NoFiles, &[])
+}
+
+/// The model is refused, and the message a person reads contains each of the words.
+fn refused(text: &str, words: &[&str]) -> String {
+    let loaded = read(text);
+    assert!(loaded.model.is_none(), "accepted: {text}");
+    let message = loaded.diagnostics.render(Style::Plain);
+    for word in words {
+        assert!(
+            word.split('|').any(|word| message.contains(word)),
+            "{word} is missing in\n{message}"
+        );
+    }
+    message
+}
+
+#[test]
+fn unknown_symbol() {
+    let message = refused(
+        "coordinates = [\"x\", \"theta\"]\nparameters = { m = 1, R = 0.5 }\n[lagrangian]\nL = \"m*(x'^2 + R^2*thta'^2)/2\"\n",
+        &["thta", "did you mean `theta`?", "model.toml:4:20"],
+    );
+    // The offending text is underlined: four letters, not five with the prime.
+    assert!(
+        message.contains("                    ^^^^ not defined"),
+        "{message}"
+    );
+}
+
+#[test]
+fn derivative_of_parameter() {
+    refused(
+        "coordinates = [\"x\"]\nparameters = { m = 1 }\n[lagrangian]\nL = \"m'*x'^2/2\"",
+        &["`m` is a parameter", "4:6"],
+    );
+}
+
+#[test]
+fn wrong_arity() {
+    refused(
+        "coordinates = [\"x\"]\nparameters = { m = 1 }\nlagrangian = \"m*x'^2/2 - sin(x, 2)\"",
+        &["`sin` takes one argument, not 2"],
+    );
+}
+
+#[test]
+fn unbalanced_parenthesis() {
+    refused(
+        "coordinates = [\"x\"]\nparameters = { m = 1 }\nlagrangian = \"m*(x'^2/2 - cos(x)\"",
+        &["parenthes", "add `)`", "3:17"],
+    );
+}
+
+#[test]
+fn circular_definition() {
+    let message = refused(
+        "coordinates = [\"x\"]\nparameters = { m = 1 }\nlagrangian = \"m*x'^2/2 - u\"\n[define]\nu = \"v + x\"\nv = \"u - x\"",
+        &["`u` and `v` need each other"],
+    );
+    assert!(
+        message.ends_with("1 error"),
+        "the circle is reported once: {message}"
+    );
+    refused(
+        "coordinates = [\"x\"]\nlagrangian = \"x'^2\"\n[define]\nu = \"2 u\"",
+        &["`u` needs `u` itself"],
+    );
+    refused("coordinates = [\"x\"]\nlagrangian = \"x'^2\"\n[parameters]\na = \"b\"\nb = \"c + 1\"\nc = \"a\"", &["`a`, `b` and `c`"]);
+}
+
+#[test]
+fn reserved_parameter_name() {
+    refused(
+        "coordinates = [\"x\"]\nparameters = { m = 1, t = 3 }\nlagrangian = \"m*x'^2/2\"",
+        &["`t` is the time", "2:23"],
+    );
+    refused(
+        "coordinates = [\"x\"]\nparameters = { sin = 1 }\nlagrangian = \"x'^2\"",
+        &["`sin` is a function"],
+    );
+    refused(
+        "coordinates = [\"lambda_a\"]\nlagrangian = \"1\"",
+        &["lambda_"],
+    );
+    refused(
+        "coordinates = [\"x\", \"x\"]\nlagrangian = \"x'^2\"",
+        &["`x` is a coordinate already"],
+    );
+}
+
+#[test]
+fn constraint_without_coordinate() {
+    let model = |equation: &str| {
+        format!("coordinates = [\"x\"]\nparameters = {{ m = 1 }}\nlagrangian = \"x'^2\"\nconstraints = {{ rod = \"{equation}\" }}")
+    };
+    refused(
+        &model("m = 2"),
+        &["no coordinate occurs in the constraint `rod`"],
+    );
+    refused(&model("x' = x'"), &["both sides are the same"]);
+    refused(&model("x'"), &["left = right"]);
+}
+
+#[test]
+fn all_errors_are_reported_at_once() {
+    let text = r#"
+cordinates = ["x"]
+coordinates = ["x", "y"]
+[parameters]
+m = "1 + "
+t = 2
+[lagrangian]
+T = "m*x''^2 + sin(x, 2)"
+V = "g y"
+[constraints]
+one = "x' = z'"
+two = "x' + (y'"
+[initial]
+q = 1
+x = "y"
+[simulation]
+t_end = "x"
+methd = "rk"
+"#;
+    let loaded = read(text);
+    let lines: Vec<usize> = loaded
+        .diagnostics
+        .to_data()
+        .iter()
+        .filter(|d| d.severity == Severity::Error.word())
+        .map(|d| d.at.line)
+        .collect();
+    assert_eq!(
+        lines,
+        [2, 5, 6, 8, 8, 9, 11, 12, 14, 15, 17, 18],
+        "{}",
+        loaded.diagnostics
+    );
+}
+
+#[test]
+fn a_suggestion_carried_out_gives_a_model() {
+    let text = "coordinates = [\"x\", \"theta\"]\nlagrangian = \"x'^2 + thta'^2\"\n";
+    let data = read(text).diagnostics.to_data();
+    let suggestion = data[0].suggestion.clone().unwrap();
+    let mut fixed = text.to_owned();
+    fixed.replace_range(
+        suggestion.at.start..suggestion.at.end,
+        &suggestion.replacement,
+    );
+    assert!(read(&fixed).model.is_some(), "{fixed}");
+}
+
+/// Wrong models of the gallery that this crate refuses: the first line says what the message contains.
+#[test]
+fn wrong_particles_and_frames_of_the_gallery() {
+    for text in [
+        include_str!("../../../../gallery/wrong/massless-particle.toml"),
+        include_str!("../../../../gallery/wrong/two-thrusts.toml"),
+        include_str!("../../../../gallery/wrong/mass-without-start.toml"),
+        include_str!("../../../../gallery/wrong/velocity-in-position.toml"),
+        include_str!("../../../../gallery/wrong/incomplete-frame.toml"),
+        include_str!("../../../../gallery/wrong/dependent-fields.toml"),
+    ] {
+        let first = text.lines().next().unwrap();
+        let words = first
+            .strip_prefix("# expect: exit 2; message contains: ")
+            .unwrap();
+        let message = refused(text, &words.split(", ").collect::<Vec<_>>());
+        assert!(message.ends_with("1 error"), "{message}");
+    }
+}
+
+#[test]
+fn the_degree_of_a_search() {
+    let text = |degree: &str| {
+        let head = "coordinates = [\"x\"]\nlagrangian = \"x'^2/2\"\n[search]\n";
+        format!("{head}degree = {degree}\n")
+    };
+    for degree in ["1", "7", "-3"] {
+        refused(
+            &text(degree),
+            &["`degree` must be a number from 2 to 6", "4:10"],
+        );
+    }
+    refused(&text("2.5"), &["`degree` must be an integer"]);
+    refused(
+        &text("3\ndegre = 3"),
+        &["`degre` is no key of [search]", "did you mean `degree`?"],
+    );
+    let model = read(&text("3")).model.expect("a degree in range");
+    assert_eq!(model.search_degree, Some(3));
+}
+
+/// The function of an event that never changes has no zeros to be met; one that is constant on pieces has.
+#[test]
+fn events_that_cannot_happen() {
+    let text = |when: &str| {
+        format!(
+            "coordinates = [\"x\", \"y\"]\nlagrangian = \"(x'^2 + y'^2)/2\"\n[parameters]\nk = 1\n[events.e]\nwhen = \"{when}\"\n"
+        )
+    };
+    for when in [
+        "1",
+        "cos(x)^2 + sin(x)^2 - 1",
+        "cos(x)^2 + sin(x)^2 - 2",
+        "(x' + y')^2 - x'^2 - 2 x' y' - y'^2",
+        "k (cosh(t)^2 - sinh(t)^2) - k^2",
+        "k - 1",
+    ] {
+        refused(&text(when), &["zero never or always", "model.toml:6:"]);
+    }
+    for when in [
+        "sign(x) - 1",
+        "abs(x) - x",
+        "cos(x)^2 - sin(x)^2",
+        "k x",
+        "t - 1",
+        "atan(x) + atan(1/x) - 1",
+    ] {
+        let loaded = read(&text(when));
+        assert!(loaded.model.is_some(), "{when}: {}", loaded.diagnostics);
+    }
+}

@@ -1,0 +1,8 @@
+//! All integration tests of this package in one program, so that the package is linked once. A test is run by its module and name:
+//! `cargo test -p chetaev-motion --test all MODULE::`.
+
+mod closed_forms;
+mod direct;
+mod double_double;
+mod kept_integrals;
+mod long_runs;
