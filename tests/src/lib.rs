@@ -7,6 +7,8 @@
 
 pub mod cases;
 pub mod checks;
+pub mod citations;
+pub mod extent;
 pub mod literature;
 pub mod pages;
 pub mod places;

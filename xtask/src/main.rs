@@ -1,12 +1,21 @@
-//! House tasks: `cargo xtask test`, `cargo xtask laws`, `cargo xtask bench`.
+//! House tasks: `cargo xtask test`, `cargo xtask laws`, `cargo xtask measure`, `cargo xtask bench`.
 
 mod bench;
 mod browser;
+// A test and a figure of the house, by the same rules.
+#[path = "../../tests/src/citations.rs"]
+#[allow(dead_code, unreachable_pub, reason = "public where the tests are")]
+mod citations;
+// The tests and the task that runs them agree on what is long.
+#[path = "../../tests/src/extent.rs"]
+#[allow(dead_code, unreachable_pub, reason = "public where the tests are")]
+mod extent;
 mod laws;
 // The arguments of the laws are read here too, so that a slip is refused before anything is built.
 #[path = "../../crates/laws/src/arguments.rs"]
 #[allow(unreachable_pub, reason = "public in its own crate")]
 mod laws_arguments;
+mod measure;
 mod summary;
 mod test;
 
@@ -18,10 +27,11 @@ House tasks
 
 Usage: cargo xtask <TASK> [ARGUMENTS]
 
-  test    all tests of the workspace; installs what they need
-  laws    random systems and the laws they must obey
-  bench   the benchmark, and the page of the book made of it
-  help    this text
+  test      all tests of the workspace; installs what they need
+  laws      random systems and the laws they must obey
+  measure   figures of the house: lines, circles of imports, errors that are texts, citations
+  bench     the benchmark, and the page of the book made of it
+  help      this text
 
 `cargo xtask <TASK> --help` says more.
 ";
@@ -38,6 +48,7 @@ fn main() -> ExitCode {
     let status = match task {
         "test" => test::run(rest),
         "laws" => laws::run(rest),
+        "measure" => measure::run(rest),
         "bench" => bench::run(rest),
         "help" | "--help" | "-h" => {
             out(HELP);

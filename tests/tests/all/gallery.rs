@@ -1,6 +1,7 @@
 //! Every model of the gallery goes through the whole main job, has every claim of the catalogue, and moves as the literature says.
 #![allow(clippy::expect_used, reason = "test code fails where it stands")]
 
+use chetaev_tests::extent::Extent;
 use chetaev_tests::literature::{CLOSED_FORMS, NUMBERS};
 use chetaev_tests::places::{root, scratch};
 use chetaev_tests::program::{run, text};
@@ -386,14 +387,17 @@ fn every_record_follows_the_schema() {
     none(studies().iter().filter_map(problem).collect());
 }
 
+/// A replay takes as long as a study: a fifth of the gallery in one run (`chetaev_tests::extent`).
 #[test]
-fn every_study_is_confirmed_when_it_is_replayed() {
+fn studies_are_confirmed_when_they_are_replayed() {
+    let extent = Extent::of_run(&root());
+    let replayed = extent.of(studies());
     none(
-        in_parallel(studies(), |study| {
+        in_parallel(&replayed, |study| {
             let finished = run(&["verify", text(&study.folder.join("study.json")), "--json"]);
             let mut failures = Vec::new();
             if finished.status != Some(0) {
-                failures.push(format!("{}: {}", study.file, finished.both()));
+                failures.push(format!("{extent:?}, {}: {}", study.file, finished.both()));
             }
             let lines = finished.json();
             let lines = lines.as_array().expect("a list");
