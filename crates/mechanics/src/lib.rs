@@ -5,6 +5,7 @@
 //!   [`characteristics`], [`curvature`], [`linear`];
 //! - the forms of the equations: [`formulations`], one file each, which deliver [`equations`] with a [`card`];
 //! - claims: [`claims`] (registry, context, the claims of model, hypotheses and formulations), [`prover`] (the bridge to zero tests);
+//! - the set where all constraints hold: [`positions`] (what finite ones determine);
 //! - constraints that are special: [`redundancy`] (they follow from others, or contradict them), [`components`] (they are products);
 //! - for computing: [`regular`] (quasi-velocities without singular places), [`reduced_equations`], [`choice`];
 //! - [`sample`]: states for heuristic choices, evidence only where a verdict says `numerical`.
@@ -24,6 +25,7 @@ pub mod linear;
 pub mod mass;
 pub mod order;
 pub mod particles;
+pub mod positions;
 pub mod prover;
 mod quadratic_forms;
 mod radicals;

@@ -305,6 +305,10 @@ impl Prover {
                 ),
                 ..counterexample
             }),
+            Verdict::Numerical(evidence) => Verdict::undecided(format!(
+                "at {} computed states the rank is {rank}, and {names} {follow} from the other constraints there to {:.0e}; this is no proof",
+                evidence.samples, evidence.residual
+            )),
             other => other,
         }
     }

@@ -1,8 +1,11 @@
 //! Deterministic sample states in double precision, for heuristic choices only: never evidence of a claim.
 
+mod positions;
+
 use crate::system::{Coordinate, Relation, System};
 use crate::terms::MotionTerms;
 use chetaev_symbolic::{Expr, Graph, Node, Symbol};
+use positions::Finite;
 use std::collections::BTreeMap;
 
 /// A tiny deterministic generator (splitmix64; Steele, Lea, Flood 2014).
@@ -34,7 +37,7 @@ impl Generator {
 /// A state with values for every symbol of a system.
 pub type Point = BTreeMap<Symbol, f64>;
 
-/// Draws a regular state that satisfies the first-order constraints to rounding, within simple bounds of the assumptions;
+/// Draws a regular state that satisfies the constraints to rounding, finite ones included, within simple bounds of the assumptions;
 /// `None` when two hundred draws fail, and as many with more patience. Later draws reach further in the velocities and less
 /// far in the positions, as some constraints need. A state at which the gradient of a constraint vanishes, as that of x'^2 + y'^2 = 0 does wherever it
 /// holds, or one of its roots, which then has no slope, is not regular.
@@ -53,6 +56,8 @@ const PATIENT_STEPS: usize = 400;
 fn drawn(system: &System, terms: &MotionTerms, seed: u64, steps: usize) -> Option<Point> {
     let mut generator = Generator::new(seed);
     let roots = radicands(&system.graph, &terms.constraints);
+    let mut finite = Finite::of(system, terms);
+    let mut missed = 0;
     (0..200).find_map(|attempt| {
         let (place, reach) = match attempt {
             0..10 => (1.0, 1.0),
@@ -61,6 +66,16 @@ fn drawn(system: &System, terms: &MotionTerms, seed: u64, steps: usize) -> Optio
         let mut point = free_point(system, terms, place, &mut generator)?;
         for c in &terms.jets {
             point.entry(c.v_symbol).and_modify(|v| *v *= reach);
+        }
+        if let Some(set) = &finite {
+            if !set.reach(system, &mut point) {
+                missed += 1;
+                // Nothing seems to lie on the set within reach; velocities are looked at all the same.
+                if missed == MOST_MISSED {
+                    finite = None;
+                }
+                return None;
+            }
         }
         let usual = usual_gradients(system, terms, &point, seed.wrapping_add(attempt as u64))?;
         let sizes = values(system, &roots, &point)?;
@@ -76,6 +91,132 @@ fn drawn(system: &System, terms: &MotionTerms, seed: u64, steps: usize) -> Optio
             .all(|(u, a)| a.abs() > 1e-8 * u.abs());
         (is_regular && has_slopes).then_some(point)
     })
+}
+
+/// The set of positions is given up after so many draws from which it was not reached.
+const MOST_MISSED: usize = 30;
+
+/// The rank that the gradients of the constraints by the velocities have at almost all states of the set of positions near the position
+/// q: the largest at some neighbours. `None` where nothing is found out.
+pub fn rank_near(system: &System, terms: &MotionTerms, state: &Point) -> Option<usize> {
+    let finite = Finite::of(system, terms)?;
+    let mut generator = Generator::new(0x6e65_6172);
+    let (n, r) = (system.n(), terms.constraints.len());
+    let ranks = (0..NEIGHBOURS).filter_map(|_| {
+        let next = finite.neighbour(system, state, 1e-2, &mut generator)?;
+        let entries = values(system, &terms.jacobian.concat(), &next)?;
+        let cost = vec![vec![0; n]; r];
+        Some(crate::selection::eliminate(entries, cost, n).rows.len())
+    });
+    ranks.max()
+}
+
+/// A solution of as many equations as unknowns over the other values of a point, by Newton's steps halved until they help, begun at several
+/// places; symbols that the point does not contain are drawn.
+pub fn solution(
+    system: &System,
+    equations: &[Expr],
+    unknowns: &[Symbol],
+    mut point: Point,
+) -> Option<Point> {
+    let g = &system.graph;
+    let mut roots = equations.to_vec();
+    roots.extend(g.jacobian(equations, unknowns).concat());
+    let mut generator = Generator::new(0x736f_6c76);
+    for symbol in g.symbols_in(&roots) {
+        let drawn = generator.between(-1.3, 1.3);
+        point.entry(symbol).or_insert(drawn);
+    }
+    (0..STARTS).find_map(|start| {
+        let mut point = point.clone();
+        if start > 0 {
+            for symbol in unknowns {
+                let drawn = generator.between(-2.0, 2.0);
+                point.insert(*symbol, drawn);
+            }
+        }
+        newton(system, &roots, unknowns, point)
+    })
+}
+
+/// Places at which a search begins.
+const STARTS: usize = 12;
+
+fn newton(system: &System, roots: &[Expr], unknowns: &[Symbol], mut point: Point) -> Option<Point> {
+    let n = unknowns.len();
+    let count = roots.len() / (n + 1);
+    let size = |values: &[f64]| values[..count].iter().map(|x| x * x).sum::<f64>().sqrt();
+    let mut now = values(system, roots, &point)?;
+    for _ in 0..STEPS {
+        if size(&now) <= 1e-12 {
+            return Some(point);
+        }
+        let (f, gradient) = now.split_at(count);
+        let step = least_norm_step(gradient, f, n);
+        let next = (0..12).find_map(|halving| {
+            let mut next = point.clone();
+            for (symbol, dx) in unknowns.iter().zip(&step) {
+                let part = dx * 0.5_f64.powi(halving);
+                next.entry(*symbol).and_modify(|x| *x -= part);
+            }
+            let found = values(system, roots, &next)?;
+            (size(&found) < size(&now)).then_some((next, found))
+        });
+        (point, now) = next?;
+    }
+    (size(&now) <= 1e-10).then_some(point)
+}
+
+/// Neighbours that are looked at.
+const NEIGHBOURS: usize = 5;
+
+/// The largest residuals of the constraints that `rows` leave out at states that satisfy those of `rows`, where all finite constraints hold: relative
+/// to their gradients and velocities, at how many states. `None` where no state is found.
+pub fn left_out_residual(
+    system: &System,
+    terms: &MotionTerms,
+    rows: &[usize],
+) -> Option<(f64, u32)> {
+    let keep = |row: &usize| rows.contains(row);
+    let mut own = terms.clone();
+    let of = |list: &[Expr]| -> Vec<Expr> { rows.iter().map(|&row| list[row]).collect() };
+    own.constraints = of(&terms.constraints);
+    own.constraint_rate = of(&terms.constraint_rate);
+    own.jacobian = rows
+        .iter()
+        .map(|&row| terms.jacobian[row].clone())
+        .collect();
+    let others: Vec<usize> = (0..terms.constraints.len())
+        .filter(|row| !keep(row))
+        .collect();
+    let residuals: Vec<Expr> = others.iter().map(|&row| terms.constraints[row]).collect();
+    let (mut largest, mut count) = (0.0_f64, 0);
+    for seed in 0..8 {
+        let Some(mut point) = admissible_point(system, terms, 0x1ef7 + seed) else {
+            continue;
+        };
+        let mut generator = Generator::new(seed ^ 0x0a11);
+        for c in &terms.jets {
+            let v = generator.between(-1.3, 1.3);
+            point.entry(c.v_symbol).and_modify(|own| *own = v);
+        }
+        if !project_velocities(system, &own, &mut point, STEPS) {
+            continue;
+        }
+        let Some(found) = values(system, &residuals, &point) else {
+            continue;
+        };
+        let Some(norms) = gradient_norms(system, terms, &point) else {
+            continue;
+        };
+        let speeds = terms.jets.iter().filter_map(|c| point.get(&c.v_symbol));
+        let speed = speeds.fold(1.0, |m: f64, v| m.max(v.abs()));
+        for (&row, f) in others.iter().zip(&found) {
+            largest = largest.max(f.abs() / (norms[row].max(1e-300) * speed));
+        }
+        count += 1;
+    }
+    (count > 0).then_some((largest, count))
 }
 
 fn values(system: &System, es: &[Expr], point: &Point) -> Option<Vec<f64>> {

@@ -2,6 +2,8 @@
 
 use crate::characteristics::CharacteristicsError;
 use crate::components;
+use crate::formulations::Basis;
+use crate::order::determined::with_multipliers;
 use crate::sample;
 use crate::system::System;
 use crate::terms::MotionTerms;
@@ -48,10 +50,12 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
             names: constraint_names(system, terms),
         }
     })?;
-    let values = system
-        .graph
-        .evaluate_f64(&terms.jacobian.concat(), &|s| point.get(&s).copied())
-        .unwrap_or_else(|_| vec![f64::NAN; n * r]);
+    let values_at = |point: &sample::Point| {
+        let values = system
+            .graph
+            .evaluate_f64(&terms.jacobian.concat(), &|s| point.get(&s).copied());
+        values.unwrap_or_else(|_| vec![f64::NAN; n * r])
+    };
     let cost: Vec<Vec<usize>> = (0..r)
         .map(|row| {
             let factors = components::factors_of(system, terms, row);
@@ -67,7 +71,35 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
             (0..n).map(cost).collect()
         })
         .collect();
-    Ok(eliminate(values, cost, n))
+    let selection = eliminate(values_at(&point), cost.clone(), n);
+    // The equations of motion determine derivatives of order two and more as the constraints do: a choice serves if it does at their
+    // solutions, of which there are few.
+    if terms.order > 1 && !terms.affine.iter().all(|&affine| affine) {
+        if let Some(point) = solution(system, terms, &selection, point) {
+            let there = eliminate(values_at(&point), cost, n);
+            if there.rows.len() == selection.rows.len() {
+                return Ok(there);
+            }
+        }
+    }
+    Ok(selection)
+}
+
+/// A state with derivatives of order m that constraints and equations of motion determine, from a sampled one.
+fn solution(
+    system: &System,
+    terms: &MotionTerms,
+    selection: &Selection,
+    point: sample::Point,
+) -> Option<sample::Point> {
+    let basis = Basis {
+        system,
+        terms,
+        selection,
+        characteristics: None,
+    };
+    let determined = with_multipliers(&basis);
+    sample::solution(system, &determined.equations, &determined.unknowns, point)
 }
 
 fn constraint_names(system: &System, terms: &MotionTerms) -> String {

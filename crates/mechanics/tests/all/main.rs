@@ -2,4 +2,5 @@
 //! `cargo test -p chetaev-mechanics --test all MODULE::`.
 
 mod closed_forms;
+mod constraint_set;
 mod formulations;

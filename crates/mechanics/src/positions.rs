@@ -1,0 +1,112 @@
+//! The set of positions: the finite constraints as exact data of a zero test.
+
+use crate::characteristics::Manifold;
+use crate::system::System;
+use crate::terms::MotionTerms;
+use chetaev_symbolic::{Expr, Symbol};
+
+/// Coordinates that finite constraints determine.
+#[derive(Clone, Debug, Default)]
+pub struct Positions {
+    /// Coordinates as functions of the others, where a constraint is affine in them with a number as coefficient.
+    pub solved: Vec<(Symbol, Expr)>,
+    /// Further constraints, each with a coordinate that it determines, in an order in which each contains those of the former alone.
+    pub implicit: Vec<(Expr, Symbol)>,
+    /// Whether all finite constraints are among them. What is proved of more positions than there are is true of these; what is
+    /// refuted need not be.
+    pub is_whole: bool,
+}
+
+/// The set of positions of a system.
+pub fn of(system: &System, terms: &MotionTerms) -> Positions {
+    let g = &system.graph;
+    let stated = terms
+        .constraint_index
+        .iter()
+        .map(|&l| &system.constraints[l]);
+    let mut rest: Vec<Expr> = stated.filter(|c| c.order == 0).map(|c| c.stated).collect();
+    let mut found = Positions {
+        is_whole: true,
+        ..Positions::default()
+    };
+    let symbols = system.coordinate_symbols();
+    while let Some((index, symbol, value)) = solvable(system, &rest, &symbols) {
+        rest.remove(index);
+        let pair = [(g.symbol_expr(symbol), value)];
+        rest = g.substitute_all(&rest, &pair);
+        rest.retain(|&e| !g.is_zero(e));
+        for (_, e) in &mut found.solved {
+            *e = g.substitute(*e, &pair);
+        }
+        found.solved.push((symbol, value));
+    }
+    // One constraint is always in order; several may be coupled.
+    let mut used: Vec<Symbol> = Vec::new();
+    while let Some((index, symbol)) = triangular(system, &rest, &symbols, &used) {
+        used.push(symbol);
+        found.implicit.push((rest.remove(index), symbol));
+    }
+    found.is_whole = rest.is_empty();
+    found
+}
+
+/// A constraint that is affine in a coordinate with a number as coefficient, with the coordinate and its value.
+fn solvable(system: &System, rest: &[Expr], symbols: &[Symbol]) -> Option<(usize, Symbol, Expr)> {
+    let g = &system.graph;
+    rest.iter().enumerate().find_map(|(index, &f)| {
+        symbols.iter().find_map(|&symbol| {
+            let coefficient = g.diff(f, symbol);
+            if g.is_zero(coefficient) || g.as_number(coefficient).is_none() {
+                return None;
+            }
+            let others = g.substitute(f, &[(g.symbol_expr(symbol), g.zero())]);
+            Some((index, symbol, g.neg(g.div(others, coefficient))))
+        })
+    })
+}
+
+/// A constraint with a coordinate that no other one contains, so that it can come last; found from the last to the first it would be the
+/// other way round, so constraints are taken whose other coordinates are free or used already.
+fn triangular(
+    system: &System,
+    rest: &[Expr],
+    symbols: &[Symbol],
+    used: &[Symbol],
+) -> Option<(usize, Symbol)> {
+    let g = &system.graph;
+    rest.iter().enumerate().find_map(|(index, &f)| {
+        let others: Vec<Expr> = rest
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| *i != index)
+            .map(|(_, e)| *e)
+            .collect();
+        let is_own = |symbol: &&Symbol| {
+            let own = [**symbol];
+            !used.contains(symbol) && g.contains_any(f, &own) && !g.any_contains_any(&others, &own)
+        };
+        let symbol = symbols.iter().find(is_own)?;
+        Some((index, *symbol))
+    })
+}
+
+impl Positions {
+    /// The manifold of velocities over these positions.
+    pub fn joined(&self, manifold: &Manifold) -> Manifold {
+        Manifold {
+            solved: [&self.solved[..], &manifold.solved].concat(),
+            implicit: [&self.implicit[..], &manifold.implicit].concat(),
+        }
+    }
+
+    /// Expressions with the coordinates that are solved for put in.
+    pub fn put_in(&self, system: &System, es: &[Expr]) -> Vec<Expr> {
+        let g = &system.graph;
+        let pairs: Vec<(Expr, Expr)> = self
+            .solved
+            .iter()
+            .map(|&(symbol, value)| (g.symbol_expr(symbol), value))
+            .collect();
+        g.substitute_all(es, &pairs)
+    }
+}
