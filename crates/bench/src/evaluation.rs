@@ -120,7 +120,13 @@ fn of_flow(question: &Question, mut prepared: Prepared) -> Result<Ready, String>
         .iter()
         .map(|state| solve(&mut prepared, &mut solver, state))
         .collect();
-    let watch = Watch::new(&prepared.system, &prepared.terms, &prepared.binding).map_err(words)?;
+    let watch = Watch::new(
+        &prepared.system,
+        &prepared.terms,
+        &prepared.binding,
+        prepared.selection.rows.len(),
+    )
+    .map_err(words)?;
     let info = json!({"native": prepared.numeric.is_native()});
     let (n, start) = (prepared.numeric.n, prepared.start);
     let mut flow = MultiplierFlow::new(prepared.numeric, &start, StateKind::Full, watch);

@@ -186,7 +186,7 @@ fn heaviness(mass: f64) -> f64 {
 }
 
 /// What a column of the Jacobian is divided by.
-fn scale(mass: f64) -> f64 {
+pub(crate) fn scale(mass: f64) -> f64 {
     heaviness(mass).sqrt()
 }
 

@@ -1,13 +1,26 @@
 //! A run that is made step by step, so that several may go on in turns. A watched quantity that comes near zero ends a piece of
 //! it, and the run where it is zero.
 
+use crate::crossing::{self, Crossing, Passage, Path, State};
 use crate::happening::{self, Passed, WithEvents};
 use crate::run::{End, Looking, RunError, RunSettings, Subject, WatchedFlow, Watcher};
 use crate::stop;
 use crate::watch::Watched;
-use chetaev_integrate::{Event, Expansion, HaltReason, Solution, Stepping, Stop};
+use chetaev_integrate::{
+    Direction, Event, EventKind, EventRecord, Expansion, HaltReason, Solution, Stepping, Stop,
+};
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
+
+/// What a run gave.
+pub(crate) struct Pieces {
+    /// The pieces that have ended.
+    pub(crate) solutions: Vec<Solution>,
+    /// How many quantities were watched.
+    pub(crate) watched: usize,
+    /// Where the rank fell on the way.
+    pub(crate) crossings: Vec<Crossing>,
+}
 
 /// A run on the way, of a flow that is handed in at every step.
 pub(crate) struct Course<'o> {
@@ -16,6 +29,7 @@ pub(crate) struct Course<'o> {
     passed: Vec<Option<Passed>>,
     /// The pieces that have ended.
     pieces: Vec<Solution>,
+    crossings: Vec<Crossing>,
     stepping: Option<Stepping<'o>>,
     events: Vec<Event<'static>>,
     /// Where the next piece begins.
@@ -37,6 +51,7 @@ impl<'o> Course<'o> {
             passed: vec![None; watched.len()],
             watched,
             pieces: Vec::new(),
+            crossings: Vec::new(),
             stepping: None,
             events: Vec::new(),
             at,
@@ -100,7 +115,7 @@ impl<'o> Course<'o> {
         let Some(solution) = ended.map(|stepping| stepping.finish(&mut with_events)) else {
             return Ok(false);
         };
-        self.end = self.after(solution, (subject, flow), settings);
+        self.end = self.after(solution, (subject, flow), settings, looking);
         Ok(self.end.is_none())
     }
 
@@ -110,9 +125,38 @@ impl<'o> Course<'o> {
         mut solution: Solution,
         (subject, flow): (&Subject<'_>, &mut F),
         settings: &RunSettings,
+        looking: &mut Looking,
     ) -> Option<End> {
         let own = self.watched.len();
         let (t, stop) = (solution.t, solution.stop);
+        let is_met = matches!(
+            stop,
+            Stop::Halted {
+                reason: HaltReason::Custom(crossing::MET),
+                ..
+            }
+        );
+        let falls = match is_met {
+            true => flow.seems_to_fall(),
+            false if fails(&stop) => flow.track().and_then(|track| track.ahead()),
+            false => None,
+        };
+        if let Some(guess) = falls {
+            let passed = self.pass(&mut solution, flow, guess, (settings, looking));
+            if let Some(end) = passed {
+                self.pieces.push(solution);
+                return end;
+            }
+        }
+        if is_met {
+            // Nothing is met: the run goes on from here.
+            self.at = (t, solution.state.clone());
+            if solution.times.last() == Some(&t) && !settings.times.contains(&t) {
+                forget_last(&mut solution);
+            }
+            self.pieces.push(solution);
+            return None;
+        }
         self.at = (t, solution.state.clone());
         let y = &self.at.1[..];
         if let Stop::Halted {
@@ -181,14 +225,207 @@ impl<'o> Course<'o> {
         Some(End::Stopped(stop, t, y.to_vec()))
     }
 
-    /// The pieces, how many quantities were watched, and why it ended; an interruption where it has not.
-    pub(crate) fn finish(self) -> (Vec<Solution>, usize, End) {
+    /// Follows the motion past a place where the rank seems to fall; what follows then, or `None` where nothing was found out.
+    fn pass<F: WatchedFlow>(
+        &mut self,
+        solution: &mut Solution,
+        flow: &mut F,
+        guess: f64,
+        (settings, looking): (&RunSettings, &mut Looking),
+    ) -> Option<Option<End>> {
+        let accuracy = settings.tolerance.clamp(3e-12, 1e-8);
+        let (from, passage) = flow.track()?.pass(guess, accuracy);
+        let (paths, crossing, why) = match passage {
+            Passage::Unknown => return None,
+            Passage::Passed { paths, crossing } => (paths, crossing, None),
+            Passage::Ended { paths, why } => (paths, None, Some(why)),
+        };
+        flow.forget_step();
+        let forward = settings.t_end >= from;
+        let is_later = |a: f64, b: f64| if forward { a > b } else { a < b };
+        for piece in self.pieces.iter_mut().chain([&mut *solution]) {
+            while piece.times.last().is_some_and(|&t| is_later(t, from)) {
+                forget_last(piece);
+            }
+            piece.events.retain(|event| !is_later(event.t, from));
+        }
+        self.crossings
+            .retain(|crossing| !is_later(crossing.t, from));
+        let last = paths.last().map_or(from, |path| path.end().t);
+        let end = why.as_ref().map_or(last, |why| why.t);
+        let until = if is_later(end, settings.t_end) {
+            settings.t_end
+        } else {
+            end
+        };
+        let mut along = Along {
+            paths: &paths,
+            flow,
+        };
+        let stopped = self.events_on(solution, &mut along, (from, until), (settings, looking));
+        let until = stopped.as_ref().map_or(until, |(t, _)| *t);
+        let mut times: Vec<f64> = settings
+            .times
+            .iter()
+            .copied()
+            .filter(|&t| is_later(t, from) && !is_later(t, until))
+            .collect();
+        if (stopped.is_some() || why.is_some()) && times.last() != Some(&until) {
+            times.push(until);
+        }
+        for t in times {
+            if let Some(row) = along.row(t) {
+                solution.times.push(t);
+                solution.rows.extend(row);
+            }
+        }
+        self.crossings
+            .extend(crossing.filter(|crossing| !is_later(crossing.t, until)));
+        let state = along.state(until).unwrap_or(State {
+            t: from,
+            q: Vec::new(),
+            v: Vec::new(),
+        });
+        solution.t = until;
+        if let Some((_, ending)) = stopped {
+            return Some(Some(End::Happened(ending)));
+        }
+        if let Some(why) = why.filter(|why| !is_later(why.t, until)) {
+            return Some(Some(End::Vanished(stop::undetermined(why.reason, why.t))));
+        }
+        let y = flow.enter(&state)?;
+        solution.state.clone_from(&y);
+        self.at = (until, y.clone());
+        Some((until == settings.t_end).then_some(End::Stopped(Stop::Finished, until, y)))
+    }
+
+    /// Events of the model on the way: the zeros of their functions between places close to each other. The one that ends the run.
+    fn events_on<F: WatchedFlow>(
+        &self,
+        solution: &mut Solution,
+        along: &mut Along<'_, F>,
+        (from, until): (f64, f64),
+        (settings, looking): (&RunSettings, &mut Looking),
+    ) -> Option<(f64, stop::Ending)> {
+        const PARTS: usize = 64;
+        let own = self.watched.len();
+        let mut ended: Option<(f64, stop::Ending)> = None;
+        for (k, observer) in looking.observers.iter_mut().enumerate() {
+            let event = &settings.events[k];
+            let mut value = |t: f64, along: &mut Along<'_, F>| {
+                along.row(t).map_or(f64::NAN, |row| observer.value(t, &row))
+            };
+            let time = |i: usize| from + (until - from) * i as f64 / PARTS as f64;
+            let mut before = value(from, along);
+            for i in 1..=PARTS {
+                let after = value(time(i), along);
+                let rises = before < 0.0 && after >= 0.0;
+                let falls = before > 0.0 && after <= 0.0;
+                let counts = match event.direction {
+                    Direction::Up => rises,
+                    Direction::Down => falls,
+                    _ => rises || falls,
+                };
+                if counts {
+                    let (mut low, mut high) = (time(i - 1), time(i));
+                    for _ in 0..60 {
+                        let middle = 0.5 * (low + high);
+                        match (value(middle, along) > 0.0) == (before > 0.0) {
+                            true => low = middle,
+                            false => high = middle,
+                        }
+                    }
+                    solution.events.push(EventRecord {
+                        t: high,
+                        index: own + k,
+                        kind: if rises {
+                            EventKind::Up
+                        } else {
+                            EventKind::Down
+                        },
+                        row: along.row(high).unwrap_or_default(),
+                    });
+                    let is_first = ended
+                        .as_ref()
+                        .is_none_or(|(t, _)| (high - t) * (until - from) < 0.0);
+                    if event.stops && is_first {
+                        ended = Some((high, stop::happened(&event.name, high)));
+                    }
+                }
+                before = after;
+            }
+        }
+        let end = ended.as_ref().map_or(until, |(t, _)| *t);
+        solution
+            .events
+            .retain(|event| (event.t - end) * (until - from) <= 0.0);
+        solution
+            .events
+            .sort_by(|a, b| ((a.t - b.t) * (until - from)).total_cmp(&0.0));
+        ended
+    }
+
+    /// The pieces, and why it ended; an interruption where it has not.
+    pub(crate) fn finish(self) -> (Pieces, End) {
         let (t, y) = self.at;
         let end = self
             .end
             .unwrap_or(End::Stopped(Stop::Interrupted { t }, t, y));
-        (self.pieces, self.watched.len(), end)
+        let pieces = Pieces {
+            solutions: self.pieces,
+            watched: self.watched.len(),
+            crossings: self.crossings,
+        };
+        (pieces, end)
     }
+}
+
+/// The motion along paths, as a flow sees it.
+struct Along<'p, F> {
+    paths: &'p [Path],
+    flow: &'p mut F,
+}
+
+impl<F: WatchedFlow> Along<'_, F> {
+    fn path(&self, t: f64) -> Option<(&Path, f64)> {
+        let mut parts = self
+            .paths
+            .iter()
+            .map(|path| (path, (t - path.start) / path.length));
+        let within = |(_, theta): &(&Path, f64)| (-1e-9..=1.0 + 1e-9).contains(theta);
+        parts.rfind(within)
+    }
+
+    fn state(&self, t: f64) -> Option<State> {
+        let (path, theta) = self.path(t)?;
+        let state = match theta >= 1.0 {
+            true => path.end(),
+            false => path.at(theta),
+        };
+        Some(State { t, ..state })
+    }
+
+    fn row(&mut self, t: f64) -> Option<Vec<f64>> {
+        let (path, theta) = self.path(t)?;
+        let (state, a) = (self.state(t)?, path.accelerations(theta));
+        let lambda = self.flow.track()?.reactions(&state);
+        self.flow.row_of(&state, &a, &lambda)
+    }
+}
+
+/// Whether the integrator could not go on.
+fn fails(stop: &Stop) -> bool {
+    matches!(
+        stop,
+        Stop::Singular { .. }
+            | Stop::Divergence { .. }
+            | Stop::StepTooSmall { .. }
+            | Stop::NotFinite { .. }
+            | Stop::Halted {
+                reason: HaltReason::RankDrop { .. },
+                ..
+            }
+    )
 }
 
 /// Whether the watcher wants no further step.

@@ -6,8 +6,9 @@
 
 use crate::accelerations::Accelerations;
 use crate::chart::{self, Chart, BLIND, DEGRADED, HYSTERESIS};
+use crate::crossing::{self, State, Track};
 use crate::dense::Lu;
-use crate::follow::Follow;
+use crate::follow::{Deviation, Follow};
 use crate::functions::{Functions, FunctionsError};
 use crate::initial::ConsistentState;
 use crate::leaving::Anchor;
@@ -128,6 +129,12 @@ pub struct FormulationFlow<'a> {
     zero_between: bool,
     /// Quantities followed at accepted steps.
     pub follow: Option<Follow>,
+    /// Follows the rank of the constraints, where it may fall.
+    track: Option<Box<Track>>,
+    /// Where it seems to fall.
+    falls: Option<f64>,
+    /// What was measured before the last step.
+    before: Vec<Deviation>,
 }
 
 impl std::fmt::Debug for FormulationFlow<'_> {
@@ -164,7 +171,10 @@ impl<'a> FormulationFlow<'a> {
         )?;
         let mut flow = FormulationFlow {
             follow: None,
-            watch: watch((system, terms, binding), &equations)?,
+            track: None,
+            falls: None,
+            before: Vec::new(),
+            watch: watch((system, terms, binding), &equations, start.chart.rank())?,
             matrix: equations.regular.as_ref().map(|regular| regular.name),
             zero_between: false,
             anchor: Anchor::default(),
@@ -193,6 +203,19 @@ impl<'a> FormulationFlow<'a> {
         };
         flow.settle(start.t);
         Ok(flow)
+    }
+
+    /// Follows the rank of the constraints, which is that of the start at almost all states.
+    pub(crate) fn follow_rank(&mut self) {
+        let track = Track::new(self.numeric.clone(), self.chart.rank());
+        self.track = self.own.is_empty().then(|| Box::new(track));
+    }
+
+    /// Where the rank of the constraints seems to fall, before the state last evaluated or soon after it.
+    fn rank_falls(&mut self, t: f64) -> Option<f64> {
+        let a = self.current.motion.group(1);
+        let at = (t, &self.q[..], &self.v[..], a);
+        self.track.as_mut()?.record(at)
     }
 
     /// Layout of the rows.
@@ -474,13 +497,14 @@ fn needs_reactions(
 fn watch(
     (system, terms, binding): (&System, &MotionTerms, &Binding),
     equations: &Equations,
+    rank: usize,
 ) -> Result<Watch, FunctionsError> {
     match &equations.regular {
         Some(regular) if regular.rows.len() <= LARGEST_DETERMINANT => {
             let variables = state(system, equations);
             Watch::with_determinant((system, terms), binding, &variables, regular)
         }
-        _ => Watch::new(system, terms, binding),
+        _ => Watch::new(system, terms, binding, rank),
     }
 }
 
@@ -657,6 +681,9 @@ impl Flow for FormulationFlow<'_> {
         if self.evaluate(t, y).is_err() {
             return Control::Continue;
         }
+        if let (Some(_), Some(follow)) = (&self.track, &self.follow) {
+            self.before = follow.deviations.clone();
+        }
         let modified = self.project(t, y) && self.evaluate(t, y).is_ok();
         let control = match self.rechoose(t, y, HYSTERESIS) {
             Control::Continue if modified => Control::StateModified,
@@ -669,7 +696,15 @@ impl Flow for FormulationFlow<'_> {
         let (q, v) = (q.to_vec(), v.to_vec());
         self.watch.record(t, &q, &v);
         self.settle(t);
-        match self.watch.vanished() {
+        let vanished = self.watch.vanished();
+        if self.track.is_some() && vanished.is_none() && !matches!(control, Control::Stop(_)) {
+            let _ = self.evaluate(t, y);
+            self.falls = self.rank_falls(t);
+            if self.falls.is_some() {
+                return Control::Stop(HaltReason::Custom(crossing::MET));
+            }
+        }
+        match vanished {
             Some(index) => Control::Stop(HaltReason::Custom(index as u32)),
             None => control,
         }
@@ -755,5 +790,50 @@ impl WatchedFlow for FormulationFlow<'_> {
 
     fn settled(&self) -> f64 {
         self.anchor.t
+    }
+
+    fn track(&mut self) -> Option<&mut Track> {
+        self.track.as_deref_mut()
+    }
+
+    fn seems_to_fall(&mut self) -> Option<f64> {
+        self.falls.take()
+    }
+
+    fn forget_step(&mut self) {
+        let before = std::mem::take(&mut self.before);
+        if let Some(follow) = self.follow.as_mut().filter(|_| !before.is_empty()) {
+            follow.deviations = before;
+        }
+    }
+
+    fn enter(&mut self, state: &State) -> Option<Vec<f64>> {
+        self.q.copy_from_slice(&state.q);
+        self.v.copy_from_slice(&state.v);
+        let mut y = self.pack(state.t, &state.q, &state.v).ok()?;
+        self.chart.pivot = self.current.pivot;
+        // A better chart, where there is one: it changes the vector.
+        let _ = self.rechoose(state.t, &mut y, 1.0);
+        self.evaluate(state.t, &y).ok()?;
+        if let Some(follow) = &mut self.follow {
+            follow.record(state.t, &self.q, &self.v);
+        }
+        self.settle(state.t);
+        if let Some(track) = &mut self.track {
+            track.leave();
+        }
+        self.rank_falls(state.t);
+        Some(y)
+    }
+
+    fn row_of(&mut self, state: &State, a: &[f64], lambda: &[f64]) -> Option<Vec<f64>> {
+        let y = self.pack(state.t, &state.q, &state.v).ok()?;
+        let layout = self.layout();
+        let mut row = vec![0.0; layout.len()];
+        layout.write(&mut row, &state.q, &state.v, a, lambda);
+        for (value, &place) in row[layout.own()].iter_mut().zip(&self.apart) {
+            *value = y[state.q.len() + place];
+        }
+        Some(row)
     }
 }

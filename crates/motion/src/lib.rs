@@ -6,7 +6,7 @@
 //! - the start: [`initial`] (consistent data, branches of the highest derivatives);
 //! - what is integrated: [`multiplier_flow`] (Routh, solved at each state), [`formulation_flow`] (any other form in its own state),
 //!   [`jet_flow`] (constraints of order two and more), on [`numeric`] terms, with [`chart`]s of independent velocities;
-//! - on the way: [`watch`] (what makes the equations singular), [`happening`] (events), [`follow`] (what is conserved), [`drift`],
+//! - on the way: [`watch`] (what makes the equations singular), [`crossing`] (where the rank of the constraints falls), [`happening`] (events), [`follow`] (what is conserved), [`drift`],
 //!   [`keep`] (projection on integrals), [`stop`] (why a run ended);
 //! - many runs: [`repeat`] (compiled once, for many starts and parameters).
 
@@ -14,6 +14,7 @@ pub mod accelerations;
 mod along;
 pub mod chart;
 mod course;
+pub mod crossing;
 pub mod dense;
 pub mod double_double;
 pub mod drift;

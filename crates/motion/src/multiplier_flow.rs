@@ -7,8 +7,9 @@
 use crate::accelerations::Accelerations;
 use crate::along::FunctionAlong;
 use crate::chart::{self, Chart, DEGRADED, HYSTERESIS};
+use crate::crossing::{self, State, Track};
 use crate::drift::Drift;
-use crate::follow::Follow;
+use crate::follow::{Deviation, Follow};
 use crate::functions::{Functions, FunctionsError};
 use crate::initial::ConsistentState;
 use crate::keep::Keep;
@@ -71,6 +72,12 @@ pub struct MultiplierFlow {
     full: Vec<f64>,
     /// The state without whole turns of its angles.
     reduced: Vec<f64>,
+    /// Follows the rank of the constraints, where it may fall.
+    track: Option<Box<Track>>,
+    /// Where it seems to fall.
+    falls: Option<f64>,
+    /// What was measured before the last step.
+    before: (Vec<Deviation>, Option<Drift>),
     /// Time and state at which the accelerations were computed last, where nothing has changed since.
     solved: Option<f64>,
     solved_state: Vec<f64>,
@@ -129,6 +136,9 @@ impl MultiplierFlow {
             events: Vec::new(),
             full: Vec::new(),
             reduced: Vec::new(),
+            track: None,
+            falls: None,
+            before: (Vec::new(), None),
             solved: None,
             solved_state: Vec::new(),
             system,
@@ -165,6 +175,10 @@ impl MultiplierFlow {
         self.anchor = Anchor::default();
         self.zero_between = false;
         self.solved = None;
+        self.falls = None;
+        if let Some(track) = &mut self.track {
+            track.begin();
+        }
         let at = (start.t, &start.q[..], &start.v[..]);
         if let Some(follow) = &mut self.follow {
             follow.begin(at);
@@ -173,6 +187,28 @@ impl MultiplierFlow {
             keep.begin(at);
         }
         self.settle(start.t);
+        self.falls = self.rank_falls(start.t);
+    }
+
+    /// Follows the rank of the constraints, which is `rank` at almost all states.
+    pub(crate) fn follow_rank(&mut self, rank: usize) {
+        self.track = Some(Box::new(Track::new(self.system.clone(), rank)));
+    }
+
+    /// Where the rank of the constraints seems to fall, before the present (q, v) or soon after it.
+    fn rank_falls(&mut self, t: f64) -> Option<f64> {
+        self.track.as_ref()?;
+        let known = self.solve_here(t);
+        if known.is_err() {
+            self.solved = None;
+        }
+        let unknown = vec![f64::NAN; self.system.n];
+        let a = match known {
+            Ok(()) => &self.accelerations.a,
+            Err(_) => &unknown,
+        };
+        let at = (t, &self.q[..], &self.v[..], &a[..]);
+        self.track.as_mut()?.record(at)
     }
 
     /// Sets other values of the parameters, in the order of the binding.
@@ -182,6 +218,9 @@ impl MultiplierFlow {
     pub(crate) fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
         self.system.set_parameters(values)?;
         self.watch.set_parameters(values)?;
+        if let Some(track) = &mut self.track {
+            track.system_mut().set_parameters(values)?;
+        }
         if let Some(follow) = &mut self.follow {
             follow.set_parameters(values)?;
         }
@@ -367,18 +406,27 @@ impl MultiplierFlow {
         Control::ChartSwitched(change)
     }
 
-    /// The row whose gradient has vanished, if any; keeps the largest length seen of each.
+    /// The row whose gradient has vanished, if any, and the rank with it; keeps the largest length seen of each. A constraint that the
+    /// others imply may lose its gradient: the rank is theirs.
     fn vanished_gradient(&mut self) -> Option<usize> {
         let (n, r) = (self.system.n, self.system.r);
+        let mut gone: Option<usize> = None;
+        let mut left = Vec::new();
         for row in 0..r {
             let gradient = &self.system.jacobian()[row * n..(row + 1) * n];
             let length = gradient.iter().map(|x| x * x).sum::<f64>().sqrt();
             self.reference_gradient[row] = self.reference_gradient[row].max(length);
             if length <= VANISHED * self.reference_gradient[row] {
-                return Some(row);
+                if left.is_empty() {
+                    left = self.system.jacobian().to_vec();
+                }
+                left[row * n..(row + 1) * n].fill(0.0);
+                gone = gone.or(Some(row));
             }
         }
-        None
+        let row = gone?;
+        let rest = chart::choose(&left, r, n, &self.system.mass_diagonal());
+        (rest.rank() < self.chart.rank()).then_some(row)
     }
 
     fn rank_drop(&self, to: usize, constraint: usize) -> Control {
@@ -678,6 +726,11 @@ impl System for MultiplierFlow {
     }
 
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Control {
+        if self.track.is_some() {
+            let followed = self.follow.as_ref();
+            let deviations = followed.map_or(Vec::new(), |follow| follow.deviations.clone());
+            self.before = (deviations, Some(self.drift.clone()));
+        }
         let moved = self.bring_back(t, y);
         let control = match self.settle_and_choose(t, y) {
             Control::Continue if moved => Control::StateModified,
@@ -693,8 +746,15 @@ impl System for MultiplierFlow {
             // The system was last evaluated at this state.
             self.anchor.settle(&self.system, t, &self.q, &self.v);
         }
+        if self.track.is_some() && !matches!(control, Control::Stop(_)) {
+            self.falls = self.rank_falls(t);
+            if self.falls.is_some() {
+                return Control::Stop(HaltReason::Custom(crossing::MET));
+            }
+        }
         control
     }
+
     fn repivot(&mut self, t: f64, y: &mut [f64]) -> Control {
         if self.unpack(t, y).is_err() || self.system.evaluate(t, &self.q, &self.v).is_err() {
             return Control::Continue;
@@ -780,6 +840,53 @@ impl WatchedFlow for MultiplierFlow {
 
     fn settled(&self) -> f64 {
         self.anchor.t
+    }
+
+    fn track(&mut self) -> Option<&mut Track> {
+        self.track.as_deref_mut()
+    }
+
+    fn seems_to_fall(&mut self) -> Option<f64> {
+        self.falls.take()
+    }
+
+    fn forget_step(&mut self) {
+        let (deviations, drift) = std::mem::take(&mut self.before);
+        if let Some(follow) = self.follow.as_mut().filter(|_| !deviations.is_empty()) {
+            follow.deviations = deviations;
+        }
+        if let Some(drift) = drift {
+            self.drift = drift;
+        }
+    }
+
+    fn enter(&mut self, state: &State) -> Option<Vec<f64>> {
+        self.q.copy_from_slice(&state.q);
+        self.v.copy_from_slice(&state.v);
+        self.solved = None;
+        self.system.evaluate(state.t, &self.q, &self.v).ok()?;
+        let next = self.choose();
+        if next.rank() == self.chart.rank() {
+            self.accepted_pivot = next.pivot;
+            self.chart = next;
+        }
+        if let Some(follow) = &mut self.follow {
+            follow.record(state.t, &self.q, &self.v);
+        }
+        self.watch.record(state.t, &self.q, &self.v);
+        self.settle(state.t);
+        if let Some(track) = &mut self.track {
+            track.leave();
+        }
+        self.rank_falls(state.t);
+        Some(self.pack(&state.q, &state.v))
+    }
+
+    fn row_of(&mut self, state: &State, a: &[f64], lambda: &[f64]) -> Option<Vec<f64>> {
+        let layout = self.layout();
+        let mut row = vec![0.0; layout.len()];
+        layout.write(&mut row, &state.q, &state.v, a, lambda);
+        Some(row)
     }
 
     fn event_series(

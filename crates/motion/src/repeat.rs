@@ -71,8 +71,16 @@ impl Subject<'_> {
     /// # Errors
     /// [`RunError`].
     pub fn compile_routh(&self, settings: &RunSettings) -> Result<CompiledRouth, RunError> {
-        let watch = Watch::new(self.system, self.terms, self.binding)?;
+        let watch = Watch::new(
+            self.system,
+            self.terms,
+            self.binding,
+            self.selection.rows.len(),
+        )?;
         let mut flow = MultiplierFlow::idle(self.numeric.clone(), watch);
+        if self.rank_may_fall() {
+            flow.follow_rank(self.selection.rows.len());
+        }
         let residuals = self.residuals();
         if !settings.follow.is_empty() {
             let followed = [settings.follow.clone(), residuals.clone()].concat();
@@ -276,7 +284,7 @@ impl RouthCourse<'_> {
         settings: &RunSettings,
     ) -> Run {
         let flow = &mut compiled.flow;
-        let (pieces, watched, end) = self.0.finish();
+        let (pieces, end) = self.0.finish();
         let ending = match end {
             End::Vanished(ending) | End::Happened(ending) => ending,
             End::Stopped(stop, t, y) => {
@@ -299,7 +307,7 @@ impl RouthCourse<'_> {
             "routh",
             (flow.layout(), Vec::new()),
             settings,
-            (pieces, watched),
+            pieces,
             ending,
             (drift, flow.follow.as_ref()),
         );

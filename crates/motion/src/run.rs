@@ -1,6 +1,7 @@
 //! One run: settings, the trajectory as rows (q, v, a, λ), and why it ended, in words.
 
-use crate::course::Course;
+use crate::course::{Course, Pieces};
+use crate::crossing::{self, Crossing, State, Track};
 use crate::double_double::{Precise, PreciseRows};
 use crate::follow::{Deviation, Follow};
 use crate::formulation_flow::{FlowError, FormulationFlow};
@@ -18,8 +19,9 @@ use crate::turns::outside_angles;
 use crate::watch::{Watch, Watched};
 use chetaev_integrate::{
     integrate, method, ChartChange, ErrorControl, IntegrateError, Note, Options, Output, Piece,
-    Progress, Solution, Statistics, StiffnessPolicy, Stop,
+    Progress, Statistics, StiffnessPolicy, Stop,
 };
+use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::{Constraint, ConstraintKind, Formulation, MotionTerms, Selection, System};
 use chetaev_symbolic::Expr;
@@ -151,6 +153,9 @@ pub struct Run {
     pub events: Vec<Happened>,
     /// Times, rows and events with all their digits; `None` for a run in doubles.
     pub precise: Option<PreciseRows>,
+    /// Places at which the rank of the constraints falls and the motion went on along the one branch of the constraint set that contains
+    /// its velocity.
+    pub crossings: Vec<Crossing>,
 }
 
 /// How closely the time of a singularity is found, relative to the time.
@@ -227,6 +232,31 @@ pub(crate) trait WatchedFlow: chetaev_integrate::System {
     /// The time of the last accepted state from which constraints are followed.
     fn settled(&self) -> f64;
 
+    /// What follows the rank of the constraints, where it may fall.
+    fn track(&mut self) -> Option<&mut Track> {
+        None
+    }
+
+    /// Where the rank seems to fall, if that ended the last step.
+    fn seems_to_fall(&mut self) -> Option<f64> {
+        None
+    }
+
+    /// Forgets what was measured over the last step, which is made anew.
+    fn forget_step(&mut self) {}
+
+    /// Goes on from a state: the vector of it, in a chart that serves there.
+    fn enter(&mut self, state: &State) -> Option<Vec<f64>> {
+        let _ = state;
+        None
+    }
+
+    /// The output row of a state with its accelerations and multipliers.
+    fn row_of(&mut self, state: &State, a: &[f64], lambda: &[f64]) -> Option<Vec<f64>> {
+        let _ = (state, a, lambda);
+        None
+    }
+
     /// Writes the Taylor coefficients of event number `event`, with the function `value` of an output row, along a piece of the
     /// motion; false where it has none, and it is sampled.
     fn event_series(
@@ -296,7 +326,7 @@ impl Subject<'_> {
         y0: Vec<f64>,
         settings: &RunSettings,
         (looking, watcher): (&mut Looking, &mut Watcher<'_>),
-    ) -> Result<(Vec<Solution>, usize, End), RunError> {
+    ) -> Result<(Pieces, End), RunError> {
         let mut course = Course::new(watched, (self.start.t, y0), watcher.interrupt);
         while course.advance((self, &mut *flow), settings, (&mut *looking, &mut *watcher))? {}
         Ok(course.finish())
@@ -334,7 +364,7 @@ impl Subject<'_> {
         }
         let (watched, flow_names) = (flow.watch.quantities.clone(), flow.own_names());
         let mut looking = self.looking(settings, &flow_names)?;
-        let (pieces, watched, end) =
+        let (pieces, end) =
             self.watched(&mut flow, watched, y0, settings, (&mut looking, watcher))?;
         let constraints: Vec<String> = self.constraint_names();
         let ending = match end {
@@ -357,7 +387,7 @@ impl Subject<'_> {
             name,
             layout,
             settings,
-            (pieces, watched),
+            pieces,
             ending,
             (None, followed.as_ref()),
         ))
@@ -367,6 +397,11 @@ impl Subject<'_> {
     fn is_parametrized(&self, formulation: &'static dyn Formulation) -> bool {
         let name = formulation.card().name;
         self.system.characteristics.is_some() && (name == "maggi" || name.starts_with("volterra"))
+    }
+
+    /// Whether the rank of the constraints is to be followed.
+    pub(crate) fn rank_may_fall(&self) -> bool {
+        crossing::may_fall(self.system, self.terms, self.selection)
     }
 
     /// Names of the constraints by row of the terms.
@@ -401,10 +436,13 @@ impl Subject<'_> {
         let numeric = self.numeric.clone();
         let mut flow = FormulationFlow::new(formulation, of, numeric, self.start, &settings.own)?;
         flow.follow = self.follow(settings)?;
+        if self.rank_may_fall() && formulation.card().relation == Relation::Equivalent {
+            flow.follow_rank();
+        }
         let y0 = flow.start(self.start)?;
         let (watched, flow_names) = (flow.watch.quantities.clone(), flow.own_names());
         let mut looking = self.looking(settings, &flow_names)?;
-        let (pieces, watched, end) =
+        let (pieces, end) =
             self.watched(&mut flow, watched, y0, settings, (&mut looking, watcher))?;
         let ending = match end {
             End::Vanished(ending) | End::Happened(ending) => ending,
@@ -428,7 +466,7 @@ impl Subject<'_> {
             name,
             layout,
             settings,
-            (pieces, watched),
+            pieces,
             ending,
             (None, followed.as_ref()),
         ))
@@ -557,11 +595,16 @@ impl Subject<'_> {
         formulation: &'static str,
         (layout, own): (RowLayout, Vec<String>),
         settings: &RunSettings,
-        (pieces, watched): (Vec<Solution>, usize),
+        pieces: Pieces,
         ending: Ending,
         (drift, followed): (Option<crate::drift::Drift>, Option<&Follow>),
     ) -> Run {
         let ended_early = !ending.finished && !ending.interrupted;
+        let Pieces {
+            solutions: pieces,
+            watched,
+            crossings,
+        } = pieces;
         let mut run = Run {
             formulation,
             method: pieces.first().map_or("", |s| s.method),
@@ -580,6 +623,7 @@ impl Subject<'_> {
             ends_between: false,
             events: Vec::new(),
             precise: None,
+            crossings,
         };
         for piece in pieces {
             run.times.extend(&piece.times);
@@ -609,7 +653,13 @@ fn add(total: &mut Statistics, part: &Statistics) {
 impl Subject<'_> {
     /// The final (q, v) of Routh's equations by fixed steps of magnitude h; `None` when the run does not get there.
     pub fn routh_fixed(&self, settings: &RunSettings, h: f64) -> Option<Vec<f64>> {
-        let watch = Watch::new(self.system, self.terms, self.binding).ok()?;
+        let watch = Watch::new(
+            self.system,
+            self.terms,
+            self.binding,
+            self.selection.rows.len(),
+        )
+        .ok()?;
         let mut flow = MultiplierFlow::new(
             self.numeric.clone(),
             self.start,

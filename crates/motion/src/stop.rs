@@ -83,6 +83,11 @@ pub fn vanished(what: &Watched, t: f64, constraints: &[String]) -> Ending {
     early(reason, t)
 }
 
+/// The motion is not determined beyond a place, for this reason.
+pub(crate) fn undetermined(reason: String, t: f64) -> Ending {
+    early(reason, t)
+}
+
 /// The run was to end at an event, and did.
 pub fn happened(name: &str, t: f64) -> Ending {
     Ending {

@@ -76,7 +76,8 @@ const SOON: f64 = 1e-3;
 const MOST: usize = 12;
 
 impl Watch {
-    /// Collects what can vanish in the Lagrangian and the constraints of `system`.
+    /// Collects what can vanish in the Lagrangian and the constraints of `system`. Where `rank` independent constraints imply others,
+    /// no single gradient says where the rank falls, and none is watched: the rank of all is followed.
     ///
     /// # Errors
     /// [`FunctionsError`].
@@ -84,10 +85,15 @@ impl Watch {
         system: &System,
         terms: &MotionTerms,
         binding: &Binding,
+        rank: usize,
     ) -> Result<Watch, FunctionsError> {
         let g = &system.graph;
         let mut found: Vec<(Watched, Expr)> = Vec::new();
-        for (row, gradient) in terms.jacobian.iter().enumerate() {
+        let are_independent = rank == terms.constraints.len();
+        // Where sheets of finite constraints cross, the motion may go on: their rank is followed too.
+        let is_finite = |row: usize| system.constraints[terms.constraint_index[row]].order == 0;
+        let gradients = terms.jacobian.iter().enumerate();
+        for (row, gradient) in gradients.filter(|(row, _)| are_independent && !is_finite(*row)) {
             // A gradient with a number among its entries vanishes nowhere.
             let is_number = |&e: &Expr| g.as_number(e).is_some() && !g.is_zero(e);
             if gradient.iter().any(is_number) {
@@ -430,7 +436,13 @@ mod tests {
         };
         let system = System::new(g, parts).unwrap();
         let binding = Binding::new(&system).unwrap();
-        Watch::new(&system, &MotionTerms::new(&system), &binding).unwrap()
+        Watch::new(
+            &system,
+            &MotionTerms::new(&system),
+            &binding,
+            system.constraints.len(),
+        )
+        .unwrap()
     }
 
     #[test]

@@ -114,7 +114,7 @@ impl PreciseFlow {
             bound: settings.project.then(|| super::run::bound(settings)),
             drift: Drift::new(&numeric),
             followed: None,
-            watch: Watch::new(system, subject.terms, binding)?,
+            watch: Watch::new(system, subject.terms, binding, subject.selection.rows.len())?,
             observers: observers?,
             inputs: Vec::new(),
             row: vec![DoubleDouble::ZERO; layout.len()],

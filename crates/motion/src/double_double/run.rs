@@ -3,6 +3,7 @@
 use super::flow::PreciseFlow;
 use super::start::ROUNDED;
 use super::{rounded, Precise, PreciseRows};
+use crate::course::Pieces;
 use crate::multiplier_flow::StateKind;
 use crate::run::{Run, RunError, RunSettings, Subject, Watcher};
 use crate::stop::{self, Ending};
@@ -152,7 +153,11 @@ impl Subject<'_> {
         let drift = (self.numeric.r > 0).then(|| flow.drift.clone());
         let piece = in_doubles(&solution, flow.layout.len());
         let layout = (flow.layout, Vec::new());
-        let pieces = (vec![piece], own);
+        let pieces = Pieces {
+            solutions: vec![piece],
+            watched: own,
+            crossings: Vec::new(),
+        };
         let run = self.collect(REFERENCE, layout, settings, pieces, ending, (drift, None));
         let met = solution.events.into_iter().filter(|met| met.index >= own);
         let rows = PreciseRows {

@@ -2,6 +2,7 @@
 //! `cargo test -p chetaev-motion --test all MODULE::`.
 
 mod closed_forms;
+mod crossings;
 mod direct;
 mod double_double;
 mod kept_integrals;
