@@ -634,6 +634,9 @@ impl Claim for FormulationsAgree {
         if other.asked() < evidence.run.asked() {
             return ended_first(other, &evidence.run);
         }
+        if let Some(why) = &evidence.unknown_error {
+            return Verdict::undecided(why.clone()).into();
+        }
         let error = evidence.global_error.unwrap_or(0.0);
         if error > LOST {
             let why = match evidence.step {

@@ -54,6 +54,8 @@ pub struct MotionEvidence {
     pub comparison: Option<Run>,
     /// Estimated global error: largest difference to a run at a tenth of the tolerance, over the scale of each component.
     pub global_error: Option<f64>,
+    /// Why a second run tells no error, if it does not.
+    pub unknown_error: Option<String>,
     /// Energy.
     pub energy: Followed,
     /// Its rate by the computed accelerations, of systems with few coordinates.
@@ -143,7 +145,11 @@ impl MotionEvidence {
             .fold(0.0, |m: f64, x| m.max(x.abs()));
         Ok(MotionEvidence {
             disagreement: comparison.as_ref().map(|other| difference(&run, other)),
-            global_error: finer.as_ref().map(|other| difference(&run, other).value),
+            unknown_error: finer.as_ref().and_then(|other| not_comparable(&run, other)),
+            global_error: finer
+                .as_ref()
+                .filter(|other| not_comparable(&run, other).is_none())
+                .map(|other| difference(&run, other).value),
             tolerance: settings.tolerance,
             step: settings.step,
             searched: Searched::default(),
@@ -163,6 +169,24 @@ impl MotionEvidence {
             run,
         })
     }
+}
+
+/// Why the second run is another motion, or ended elsewhere, so that the difference of both is no error.
+fn not_comparable(run: &Run, other: &Run) -> Option<String> {
+    if other.asked() < run.asked() {
+        return Some(format!(
+            "the second, sharper run ended earlier: {}",
+            other.ending.reason
+        ));
+    }
+    if other.crossings.len() != run.crossings.len() {
+        return Some(format!(
+            "the rank of the constraints falls {} times in one run and {} times in the sharper one",
+            run.crossings.len(),
+            other.crossings.len()
+        ));
+    }
+    None
 }
 
 impl MotionEvidence {

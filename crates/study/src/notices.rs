@@ -7,9 +7,11 @@ use crate::study::{keeps, Motion};
 use crate::witness::{determinant, gram, zeros};
 use chetaev_integrate::Note;
 use chetaev_mechanics::claims::formulation::REFERENCE;
+use chetaev_mechanics::redundancy::Reactions;
 use chetaev_mechanics::words::quoted;
 use chetaev_mechanics::{choice, Prepared, System};
 use chetaev_model::model::{MassLaw, Model};
+use chetaev_motion::crossing::Crossing;
 use chetaev_motion::initial::branches::describe;
 use chetaev_motion::keep::Missed;
 use chetaev_motion::observe::Observer;
@@ -33,7 +35,7 @@ pub(crate) fn notices(
     notices.extend(mass_in_potential(model));
     if let Some(start) = start {
         notices.extend(unused_beyond(start));
-        notices.extend(redundant(start));
+        notices.extend(redundant(system, prepared, start));
         notices.extend(completed(start));
         notices.extend(branches(system, start));
         notices.extend(unused_branch(model, start, options));
@@ -228,17 +230,39 @@ fn unused_beyond(start: &Start) -> Option<String> {
 }
 
 /// Constraints that depend on the others where the motion begins.
-fn redundant(start: &Start) -> Option<String> {
+fn redundant(system: &System, prepared: &Prepared, start: &Start) -> Option<String> {
     let names = &start.start.redundant;
-    (!names.is_empty()).then(|| {
-        format!(
-            "redundant constraints: {} depend{} on the others at the initial state (rank {} of {}); motion and reactions are unique, the single multipliers are not, and those of the constraints left out are given as zero",
-            quoted(names),
-            if names.len() == 1 { "s" } else { "" },
-            start.start.chart.rank(),
-            start.numeric.r,
-        )
-    })
+    if names.is_empty() {
+        return None;
+    }
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let reactions = Reactions::of(system, terms, selection);
+    let single: Vec<String> = (reactions.undetermined.iter())
+        .map(|&row| {
+            format!(
+                "lambda_{}",
+                system.constraints[terms.constraint_index[row]].name
+            )
+        })
+        .collect();
+    let texts = reactions.texts(system).into_iter().map(|(text, _)| text);
+    let texts: Vec<String> = texts.collect();
+    let what = match texts.is_empty() {
+        true => "combinations of them are".to_owned(),
+        false => format!(
+            "{} {}",
+            texts.join(", "),
+            if texts.len() == 1 { "is" } else { "are" }
+        ),
+    };
+    Some(format!(
+        "redundant constraints: {} depend{} on the others at the initial state (rank {} of {}); motion and reactions are unique, the single multipliers {} are not determined, and are not given; {what} determined",
+        quoted(names),
+        if names.len() == 1 { "s" } else { "" },
+        start.start.chart.rank(),
+        start.numeric.r,
+        single.join(", "),
+    ))
 }
 
 /// Initial data that the constraints determine.
@@ -368,6 +392,9 @@ const MOST_TIMES: usize = 4;
 pub(crate) fn rank_falls(system: &System, prepared: &Prepared, motion: &Motion) -> Option<String> {
     let (rows, n) = (&prepared.selection.rows, system.n());
     let r = rows.len();
+    if let Some(said) = crossings(&motion.evidence.run.crossings) {
+        return Some(said);
+    }
     if prepared.terms.order != 1 || !(2..=MOST_CONSTRAINTS).contains(&r) {
         return None;
     }
@@ -401,6 +428,21 @@ pub(crate) fn rank_falls(system: &System, prepared: &Prepared, motion: &Motion) 
             shown.join(", ")
         )
     })
+}
+
+/// Places at which the motion went on along the one branch that contains its velocity.
+fn crossings(crossings: &[Crossing]) -> Option<String> {
+    let shown = crossings.iter().take(MOST_TIMES);
+    let shown: Vec<String> = shown.map(|crossing| format!("{:.6}", crossing.t)).collect();
+    let more = match crossings.len() > MOST_TIMES {
+        true => format!(", … ({} times)", crossings.len()),
+        false => String::new(),
+    };
+    let (from, to) = crossings.first()?.rank;
+    Some(format!(
+        "the rank of the constraints falls at t = {}{more}, from {from} to {to}: branches of the constraint set meet there; exactly one branch of the tangent cone contains the velocity, and simply, and the motion goes on along it, with the velocity unchanged",
+        shown.join(", ")
+    ))
 }
 
 /// The squared volume of r rows of n numbers, each over its length.

@@ -26,6 +26,8 @@ use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::claims::full_id;
 use chetaev_mechanics::components::{covered, OnComponent};
 use chetaev_mechanics::formulations::{Maggi, Routh};
+use chetaev_mechanics::sample::rank_near;
+use chetaev_mechanics::MotionTerms;
 use chetaev_mechanics::{
     formulation, Claim, Context, Finding, Formulation, Group, Prepared, Prover, Registry, System,
     FORMULATIONS,
@@ -169,7 +171,7 @@ pub(crate) fn prepare(
     let system = System::from_model(model)?;
     check_initial_data(model, &system)?;
     (hooks.progress)("deriving", None);
-    let terms = chetaev_mechanics::MotionTerms::new(&system);
+    let terms = MotionTerms::new(&system);
     let start = start_of_motion(model, &system, &terms, options)?;
     let selection = match chetaev_mechanics::characteristics::select(&system, &terms) {
         Ok(selection) => selection,
@@ -181,6 +183,7 @@ pub(crate) fn prepare(
             _ => return Err(error.into()),
         },
     };
+    let selection = on_component_of(&system, &terms, start.as_ref().ok(), selection);
     if let (Ok(start), 1) = (&start, terms.order) {
         check_rank(start, selection.rows.len())?;
     }
@@ -203,6 +206,37 @@ pub(crate) fn prepare(
         }
     }
     Ok((system, prepared, start))
+}
+
+/// The selection on the component of the constraint set on which the motion begins, where the rank there is another than that of the
+/// state that was sampled.
+fn on_component_of(
+    system: &System,
+    terms: &MotionTerms,
+    start: Option<&Start>,
+    selection: Selection,
+) -> Selection {
+    let Some(start) = start.filter(|_| terms.order == 1) else {
+        return selection;
+    };
+    let chart = &start.start.chart;
+    if chart.rank() == selection.rows.len() {
+        return selection;
+    }
+    let g = &system.graph;
+    let known = start.binding.parameters.iter().copied();
+    let moving = start.binding.variables.iter().copied();
+    let values = [&[start.start.t][..], &start.start.q, &start.start.v].concat();
+    let state = known.chain(moving.zip(values)).collect();
+    let laws = |e| g.substitute_all(&[e], &start.binding.controls)[0];
+    let is_plain = terms.jacobian.concat().into_iter().all(|e| laws(e) == e);
+    match is_plain.then(|| rank_near(system, terms, &state)).flatten() {
+        Some(rank) if rank == chart.rank() => Selection {
+            rows: chart.rows.clone(),
+            dependent: chart.dependent.clone(),
+        },
+        _ => selection,
+    }
 }
 
 /// Why constraints and equations of motion determine no derivatives of order m at any state, if that is so.

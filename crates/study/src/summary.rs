@@ -237,6 +237,9 @@ fn trajectory(text: &mut String, study: &Study) {
             text,
             "  estimated global error {error:.1e} (second run at half the step)"
         ),
-        (None, _) => writeln!(text, "  global error not estimated"),
+        (None, _) => match &evidence.unknown_error {
+            Some(why) => writeln!(text, "  global error not estimated: {why}"),
+            None => writeln!(text, "  global error not estimated"),
+        },
     };
 }

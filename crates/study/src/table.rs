@@ -6,7 +6,9 @@ use crate::study::{Motion, Study};
 use chetaev_ensemble::columns::{array_names, numbered};
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::formulation;
+use chetaev_mechanics::redundancy::Reactions;
 use chetaev_motion::double_double::decimal;
+use chetaev_motion::observe::Observer;
 use chetaev_motion::{DoubleDouble, PreciseRows, Run};
 use std::fmt::Write as _;
 use std::io::{Cursor, Write};
@@ -72,18 +74,15 @@ impl Table {
         let is_other = formulation(run.formulation)
             .is_some_and(|f| f.card().relation == Relation::Coincidence);
         if !is_other {
-            for (&l, i) in study
-                .prepared
-                .terms
-                .constraint_index
-                .iter()
-                .zip(run.layout.lambda())
-            {
-                table.push(
-                    format!("lambda_{}", study.system.constraints[l].name),
-                    column(i),
-                );
+            let (system, prepared) = (&study.system, &study.prepared);
+            let reactions = Reactions::of(system, &prepared.terms, &prepared.selection);
+            let rows = prepared.terms.constraint_index.iter().enumerate();
+            for ((row, &l), i) in rows.zip(run.layout.lambda()) {
+                if !reactions.undetermined.contains(&row) {
+                    table.push(format!("lambda_{}", system.constraints[l].name), column(i));
+                }
             }
+            table.combinations(study, run, &reactions);
         }
         for (name, i) in run.own.iter().zip(run.layout.own()) {
             table.push(name.clone(), column(i));
@@ -120,6 +119,27 @@ impl Table {
             text.push('\n');
         }
         Some(text)
+    }
+
+    /// The determined ones among the combinations of multipliers that are not determined one by one.
+    fn combinations(&mut self, study: &Study, run: &Run, reactions: &Reactions) {
+        let (system, terms) = (&study.system, &study.prepared.terms);
+        let Some(motion) = &study.motion else {
+            return;
+        };
+        // With all digits they are not evaluated.
+        if run.precise.is_some() {
+            return;
+        }
+        for (text, value) in reactions.texts(system) {
+            let observer = Observer::with_own(system, terms, &motion.binding, &run.own, &[value]);
+            let Ok(mut observer) = observer else {
+                continue;
+            };
+            if let Some(values) = observer.along(run).pop() {
+                self.push(text.replace(',', ";"), (values, None));
+            }
+        }
     }
 
     fn push(&mut self, name: String, (column, precise): (Vec<f64>, Option<Vec<DoubleDouble>>)) {
