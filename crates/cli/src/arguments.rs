@@ -30,6 +30,10 @@ pub(crate) enum Command {
     Principles(Principles),
     /// Compute the motion only and write the trajectory
     Simulate(Simulate),
+    /// Linearize about a steady motion: exact matrices, characteristic polynomial, eigenvalues
+    Linearize(Linearize),
+    /// Decide the stability of a steady motion, also over a range of a parameter, with enclosed boundaries
+    Stability(Stability),
     /// Compute thousands of motions: parameters and initial values over ranges, from rows of a file, or at random
     Sweep(Sweep),
     /// Read a model and report everything wrong or doubtful in it
@@ -68,7 +72,7 @@ pub(crate) struct Study {
     /// Folder to write into [default: out/NAME, NAME of the model's folder or file]
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
-    /// Groups (model, formulations, motion, principles, integrals) and claim ids, separated by commas
+    /// Groups (model, formulations, motion, principles, integrals, stability) and claim ids, separated by commas
     #[arg(long)]
     pub(crate) claims: Option<String>,
     /// Seconds for all claims together; more than 60 also make searches for integrals look at more
@@ -111,6 +115,41 @@ pub(crate) struct MotionArguments {
     /// Which branch of the motion to follow where constraints of order two and more admit several, as they are listed
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub(crate) branch: Option<usize>,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev linearize gallery/whipple-bicycle/model.toml
+  chetaev linearize gallery/double-pendulum/model.toml --about hanging
+  chetaev linearize model.toml --about rest --json")]
+pub(crate) struct Linearize {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// A motion of [steady.NAME], rest (at the initial positions), or start (the initial state)
+    #[arg(long, value_name = "NAME")]
+    pub(crate) about: Option<String>,
+    /// Print JSON: matrices as exact text, eigenvalues as pairs
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev stability gallery/whipple-bicycle/model.toml --over v=0:10
+  chetaev stability gallery/chaplygin-sleigh/model.toml --over u=-2:2
+  chetaev stability model.toml --about upright --json")]
+pub(crate) struct Stability {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// A motion of [steady.NAME], rest (at the initial positions), or start (the initial state)
+    #[arg(long, value_name = "NAME")]
+    pub(crate) about: Option<String>,
+    /// A parameter with a range, exact numbers: --over v=0:10
+    #[arg(long, value_name = "NAME=FROM:TO", allow_hyphen_values = true)]
+    pub(crate) over: Option<String>,
+    /// Print JSON: regions, and critical values with their enclosures
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Args, Debug)]

@@ -32,6 +32,8 @@ fn main() -> ExitCode {
         Command::Derive(a) => commands::derive::run(&a),
         Command::Principles(a) => commands::principles::run(&a),
         Command::Simulate(a) => commands::simulate::run(&a),
+        Command::Linearize(a) => commands::stability::linearize(&a),
+        Command::Stability(a) => commands::stability::run(&a),
         Command::Sweep(a) => commands::sweep::run(&a),
         Command::Check(a) => commands::check::run(&a),
         Command::Explain(a) => commands::explain::run(&a),

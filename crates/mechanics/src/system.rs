@@ -162,6 +162,17 @@ pub struct Particle {
     pub thrust: Thrust,
 }
 
+/// A steady motion that the model names: what is given of it.
+#[derive(Clone, Debug)]
+pub struct SteadyMotion {
+    /// Its name, the subject of claims.
+    pub name: String,
+    /// q, where given; length n.
+    pub positions: Vec<Option<Expr>>,
+    /// q', where given; length n.
+    pub velocities: Vec<Option<Expr>>,
+}
+
 /// How a sign or range is assumed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
@@ -243,6 +254,8 @@ pub struct SystemParts {
     pub variations: Vec<VariationOperator>,
     /// A complete integral of the equation of Hamilton and Jacobi that the model states.
     pub complete_integral: Option<CompleteIntegral>,
+    /// Steady motions that the model names.
+    pub steady: Vec<SteadyMotion>,
     /// Assumptions.
     pub assumptions: Vec<Assumption>,
 }
@@ -364,6 +377,8 @@ pub struct System {
     pub variations: Vec<VariationOperator>,
     /// A complete integral of the equation of Hamilton and Jacobi that the model states.
     pub complete_integral: Option<CompleteIntegral>,
+    /// Steady motions that the model names.
+    pub steady: Vec<SteadyMotion>,
     /// Assumptions of the model.
     pub assumptions: Vec<Assumption>,
     /// Places of the coordinates by name.
@@ -471,6 +486,7 @@ impl System {
             integrals: parts.integrals,
             variations: parts.variations,
             complete_integral: parts.complete_integral,
+            steady: parts.steady,
             assumptions: parts.assumptions,
             places: places(&parts.coordinates),
             coordinates,

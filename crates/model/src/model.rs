@@ -75,6 +75,8 @@ pub struct Model {
     pub initial: Initial,
     /// How to compute the motion.
     pub simulation: Simulation,
+    /// Steady motions, about which is linearized.
+    pub steady: Vec<SteadyStated>,
     /// What is looked for along the motion.
     pub events: Vec<EventStated>,
     /// Candidate first integrals.
@@ -387,6 +389,17 @@ pub struct ExtraInitialValue {
     pub order: u32,
     /// An expression of parameters.
     pub value: Expr,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// A steady motion that the model names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SteadyStated {
+    /// Its name.
+    pub name: String,
+    /// Given values by number of coordinate and order of derivative (0 or 1), expressions of parameters.
+    pub values: BTreeMap<(usize, u32), InitialValue>,
     /// Where it is stated.
     pub place: Place,
 }

@@ -10,12 +10,15 @@
 //! 4. *Which eigenvalues?* [`characteristic`]: det(λE − F), with the zeros of the family of steady motions split off; [`eigenvalues`] in
 //!    double precision.
 //! 5. *Are they left of the axis?* [`hurwitz`]: Hurwitz's determinants, at a value or over a range of one parameter, with boundaries
-//!    enclosed by [`real_roots`].
+//!    enclosed by [`real_roots`]; [`question`] puts it together, and for even polynomials asks whether all are imaginary and simple.
+//! 6. *What is stated?* [`claims`].
 
 pub mod characteristic;
+pub mod claims;
 pub mod eigenvalues;
 pub mod hurwitz;
 pub mod linearization;
+pub mod question;
 pub mod real_roots;
 pub mod reduction;
 pub mod steady;

@@ -5,11 +5,12 @@
 //! `h_q δq = 0` takes the dependent coordinates out of them.
 
 use crate::reduction::ClosedSystem;
-use crate::steady::{at_point, closed, echelon, State, SteadyMotion};
+use crate::steady::{at_point, closed, completed, echelon, State};
 use chetaev_mechanics::characteristics::{CharacteristicsError, Direction};
 use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_mechanics::prover::assumptions;
-use chetaev_mechanics::{MotionTerms, Selection, System};
+use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
+use chetaev_symbolic::number::ball::Precision;
 use chetaev_symbolic::zero::{decide_zero, ZeroTest};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 
@@ -54,6 +55,8 @@ pub enum LinearizationError {
         constraint: String,
         /// Left side minus right side.
         residual: String,
+        /// Lower and upper bound of it, where it is a number.
+        enclosure: Option<(String, String)>,
     },
     /// Something changes that should be constant.
     #[error("the motion `{motion}` is not steady: {quantity} has the rate {rate}")]
@@ -64,6 +67,8 @@ pub enum LinearizationError {
         quantity: String,
         /// Its rate (for quasi-velocities the force that changes it).
         rate: String,
+        /// Lower and upper bound of it, where it is a number.
+        enclosure: Option<(String, String)>,
     },
 }
 
@@ -109,7 +114,7 @@ pub fn linearize(
     values: &[(Expr, Expr)],
 ) -> Result<Linearization, LinearizationError> {
     let own = ClosedSystem::new(system, terms, selection)?;
-    let state = motion.completed(system, terms, &selection.rows, values)?;
+    let state = completed(motion, system, terms, &selection.rows, values)?;
     let about = About {
         system,
         terms,
@@ -220,7 +225,8 @@ impl About<'_> {
                 return Err(LinearizationError::NotAdmissible {
                     motion: self.motion.name.clone(),
                     constraint: constraint.name.clone(),
-                    residual: text(g, residual),
+                    residual: g.text(residual),
+                    enclosure: enclosure(g, residual),
                 });
             }
         }
@@ -243,7 +249,8 @@ impl About<'_> {
             Some((name, rate)) => Err(LinearizationError::NotSteady {
                 motion: self.motion.name.clone(),
                 quantity: name.clone(),
-                rate: text(g, rate),
+                rate: g.text(rate),
+                enclosure: enclosure(g, rate),
             }),
         }
     }
@@ -552,7 +559,11 @@ fn vanish_on(system: &System, es: &[Expr], equations: &[(Expr, Symbol)]) -> bool
     matches!(decide_zero(g, &test), Verdict::Proved(_))
 }
 
-/// An expression as a person reads it.
-fn text(g: &Graph, e: Expr) -> String {
-    g.text(e)
+/// Bounds of a number, with 20 digits.
+fn enclosure(g: &Graph, e: Expr) -> Option<(String, String)> {
+    let ball = g
+        .enclose(&[e], &Precision::new(128), &|_| None)
+        .ok()?
+        .pop()?;
+    ball.excludes_zero().then(|| ball.to_decimal_interval(20))
 }

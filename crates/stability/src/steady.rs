@@ -4,22 +4,11 @@
 //! constraints leave free are zero. Positions of ignorable coordinates need not be given.
 
 use crate::linearization::LinearizationError;
-use chetaev_mechanics::{MotionTerms, System};
+use chetaev_mechanics::{MotionTerms, SteadyMotion, System};
 use chetaev_symbolic::polynomial::normal_form::normal_form;
 use chetaev_symbolic::polynomial::Budget;
 use chetaev_symbolic::simplify::{simplify, Options};
 use chetaev_symbolic::{Expr, Graph, Symbol};
-
-/// A steady motion as it is asked for: what is given, by coordinate.
-#[derive(Clone, Debug)]
-pub struct SteadyMotion {
-    /// Its name, the subject of claims.
-    pub name: String,
-    /// q, where given; length n.
-    pub positions: Vec<Option<Expr>>,
-    /// q', where given; length n.
-    pub velocities: Vec<Option<Expr>>,
-}
 
 /// A state with all velocities.
 #[derive(Clone, Debug)]
@@ -30,59 +19,52 @@ pub(crate) struct State {
     pub(crate) without_position: Vec<usize>,
 }
 
-impl SteadyMotion {
-    /// Rest at these positions.
-    pub fn rest(system: &System, name: &str, positions: Vec<Option<Expr>>) -> SteadyMotion {
-        let zero = system.graph.zero();
-        SteadyMotion {
-            name: name.into(),
-            positions,
-            velocities: vec![Some(zero); system.n()],
-        }
+/// Rest at these positions, length n.
+pub fn rest(system: &System, name: &str, positions: Vec<Option<Expr>>) -> SteadyMotion {
+    let zero = system.graph.zero();
+    SteadyMotion {
+        name: name.into(),
+        positions,
+        velocities: vec![Some(zero); system.n()],
     }
+}
 
-    /// The state with the velocities that the constraints of `rows` determine; `values` are those of parameters.
-    pub(crate) fn completed(
-        &self,
-        system: &System,
-        terms: &MotionTerms,
-        rows: &[usize],
-        values: &[(Expr, Expr)],
-    ) -> Result<State, LinearizationError> {
-        let g = &system.graph;
-        let coordinates = system.coordinates.iter();
-        let given = coordinates.clone().zip(&self.positions);
-        let mut state: Vec<(Expr, Expr)> = given
-            .filter_map(|(c, position)| position.map(|position| (c.q, position)))
-            .collect();
-        let given = coordinates.clone().zip(&self.velocities);
-        state.extend(given.filter_map(|(c, v)| v.map(|v| (c.v, v))));
-        let unknown: Vec<usize> = (0..system.n())
-            .filter(|&j| self.velocities[j].is_none())
-            .collect();
-        let constraints: Vec<Expr> = rows.iter().map(|&row| terms.constraints[row]).collect();
-        let at = at_point(g, &constraints, &[&state, values]);
-        let symbols: Vec<Symbol> = unknown
+/// The state of a motion with the velocities that the constraints of `rows` determine; `values` are those of parameters.
+pub(crate) fn completed(
+    motion: &SteadyMotion,
+    system: &System,
+    terms: &MotionTerms,
+    rows: &[usize],
+    values: &[(Expr, Expr)],
+) -> Result<State, LinearizationError> {
+    let g = &system.graph;
+    let coordinates = system.coordinates.iter();
+    let given = coordinates.clone().zip(&motion.positions);
+    let mut state: Vec<(Expr, Expr)> = given
+        .filter_map(|(c, position)| position.map(|position| (c.q, position)))
+        .collect();
+    let given = coordinates.clone().zip(&motion.velocities);
+    state.extend(given.filter_map(|(c, v)| v.map(|v| (c.v, v))));
+    let unknown = (0..system.n()).filter(|&j| motion.velocities[j].is_none());
+    let symbols: Vec<Symbol> = unknown.map(|j| system.coordinates[j].v_symbol).collect();
+    let constraints: Vec<Expr> = rows.iter().map(|&row| terms.constraints[row]).collect();
+    let at = at_point(g, &constraints, &[&state, values]);
+    let found = affine_solution(g, &at, &symbols);
+    let found = found.ok_or_else(|| LinearizationError::VelocitiesNotDetermined {
+        motion: motion.name.clone(),
+    })?;
+    state.extend(
+        symbols
             .iter()
-            .map(|&j| system.coordinates[j].v_symbol)
-            .collect();
-        let found = affine_solution(g, &at, &symbols);
-        let found = found.ok_or_else(|| LinearizationError::VelocitiesNotDetermined {
-            motion: self.name.clone(),
-        })?;
-        state.extend(
-            symbols
-                .iter()
-                .zip(found)
-                .map(|(&s, value)| (g.symbol_expr(s), value)),
-        );
-        Ok(State {
-            values: state,
-            without_position: (0..system.n())
-                .filter(|&j| self.positions[j].is_none())
-                .collect(),
-        })
-    }
+            .zip(found)
+            .map(|(&s, value)| (g.symbol_expr(s), value)),
+    );
+    Ok(State {
+        values: state,
+        without_position: (0..system.n())
+            .filter(|&j| motion.positions[j].is_none())
+            .collect(),
+    })
 }
 
 /// Expressions at a point: the lists of replacements one after the other, then closed forms.

@@ -1,13 +1,12 @@
 //! Linearizations and ranges of stability against published values: Meijaard, Papadopoulos, Ruina, Schwab 2007 for the bicycle, Routh
 //! 1905 for the disc, Neimark and Fufaev 1972 for the sleigh, textbooks for the rest.
 
-use chetaev_mechanics::{Prepared, System};
+use chetaev_mechanics::{Prepared, SteadyMotion, System};
 use chetaev_model::{load, Model};
 use chetaev_stability::characteristic::Characteristic;
 use chetaev_stability::eigenvalues::eigenvalues;
 use chetaev_stability::hurwitz::{ranges, Crossing, Ranges};
 use chetaev_stability::linearization::{linearize, Linearization, LinearizationError, Variable};
-use chetaev_stability::steady::SteadyMotion;
 use chetaev_symbolic::{Expr, Rational};
 use std::collections::BTreeMap;
 

@@ -7,7 +7,7 @@
 //! - [`study`](mod@study): the loop over the claims of [`registry`], with its budget; [`options`], [`error`];
 //! - the run: [`motion_evidence`] (what a run tells), [`motion_claims`], [`method_order`], [`jumps`], [`witness`] (integrals of the
 //!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
-//! - [`sweep`]: a model as an ensemble;
+//! - [`sweep`]: a model as an ensemble; [`stability`](mod@stability): linear equations about a steady motion;
 //! - for people: [`derivation`], [`story`], [`summary`], [`page`], [`typeset`]; for programs: [`record`], [`table`]; [`verify`].
 
 pub mod beside;
@@ -27,6 +27,7 @@ mod plain;
 mod precise;
 pub mod record;
 pub mod registry;
+pub mod stability;
 mod start;
 pub mod story;
 pub mod study;

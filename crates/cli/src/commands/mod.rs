@@ -8,6 +8,7 @@ pub(crate) mod gallery;
 pub(crate) mod new;
 pub(crate) mod principles;
 pub(crate) mod simulate;
+pub(crate) mod stability;
 pub(crate) mod study;
 pub(crate) mod sweep;
 pub(crate) mod verify;

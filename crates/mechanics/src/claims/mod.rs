@@ -42,16 +42,19 @@ pub enum Group {
     Principles,
     /// Catalogue of claims, §6.
     Integrals,
+    /// Catalogue of claims, §9.
+    Stability,
 }
 
 impl Group {
     /// All groups, cheapest first.
-    pub const ALL: [Group; 5] = [
+    pub const ALL: [Group; 6] = [
         Group::Model,
         Group::Formulations,
         Group::Motion,
         Group::Principles,
         Group::Integrals,
+        Group::Stability,
     ];
 
     /// The word on the command line.
@@ -62,6 +65,7 @@ impl Group {
             Group::Motion => "motion",
             Group::Principles => "principles",
             Group::Integrals => "integrals",
+            Group::Stability => "stability",
         }
     }
 }

@@ -18,6 +18,7 @@ mod particles;
 mod run;
 pub(crate) mod scope;
 mod sections;
+mod steady;
 mod system;
 mod variation;
 
@@ -108,6 +109,7 @@ const SECTIONS: &[&str] = &[
     "characteristics",
     "controls",
     "initial",
+    "steady",
     "simulation",
     "events",
     "integrals",
@@ -173,6 +175,7 @@ impl Resolver {
         let characteristics = self.characteristics(root, &constraints);
         let independent = self.independent_velocities(root);
         let initial = self.initial(root, &constraints);
+        let steady = self.steady(root);
         let simulation = self.simulation(root);
         let events = self.events(root, &constraints);
         let (integrals, integral_conditions) = self.integrals(root);
@@ -218,6 +221,7 @@ impl Resolver {
             frame: self.frame.take().and_then(frame::FrameStated::solved),
             characteristics,
             initial,
+            steady,
             simulation,
             events,
             integrals,

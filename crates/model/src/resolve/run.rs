@@ -88,7 +88,7 @@ impl Resolver {
         false
     }
 
-    fn initial_coordinate(
+    pub(super) fn initial_coordinate(
         &mut self,
         key: &Text,
         text: &Text,
