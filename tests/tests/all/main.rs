@@ -28,6 +28,7 @@ mod record;
 mod series;
 mod sheets;
 mod special_values;
+mod stability;
 mod start;
 mod symmetries;
 mod textbook;
