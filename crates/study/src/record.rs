@@ -34,7 +34,7 @@ pub struct Record {
     /// The files written beside the record, with their checksums.
     #[serde(default)]
     pub files: Vec<WrittenRecord>,
-    /// The work that the claims took.
+    /// How work is counted, which budgets are.
     #[serde(default)]
     pub work: WorkRecord,
 }
@@ -53,8 +53,6 @@ pub struct WrittenRecord {
 pub struct WorkRecord {
     /// Units that count as a second of the budget.
     pub units_per_second: f64,
-    /// Units that the claims took.
-    pub spent: u64,
 }
 
 /// The texts of the model.
@@ -366,7 +364,6 @@ pub fn record(study: &Study, files: &[String]) -> Record {
         files: Vec::new(),
         work: WorkRecord {
             units_per_second: UNITS_PER_SECOND,
-            spent: study.work,
         },
     }
 }

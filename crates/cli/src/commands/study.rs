@@ -113,7 +113,7 @@ impl Written {
 }
 
 /// Seconds that the page may take after an interruption.
-const GRACE: f64 = 0.1;
+const GRACE: f64 = 0.15;
 
 /// Writes the trajectory and report.html, and study.json last: it has the checksums of the others, so that what does not belong
 /// together is seen.

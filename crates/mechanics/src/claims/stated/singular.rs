@@ -142,7 +142,8 @@ fn zero_of(value: &dyn Fn(f64) -> Option<f64>) -> Option<f64> {
         let [(mut low, at_low), (mut high, at_high)] = *pair else {
             return None;
         };
-        if !(at_low * at_high < 0.0) {
+        let changes = at_low * at_high < 0.0;
+        if !changes {
             return None;
         }
         for _ in 0..80 {

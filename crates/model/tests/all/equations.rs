@@ -5,10 +5,8 @@
     reason = "test code fails where it stands"
 )]
 
-mod common;
-
+use crate::common::{model, refused, same};
 use chetaev_model::{load, reload};
-use common::{model, refused, same};
 use std::collections::BTreeMap;
 
 const DISC: &str = r#"
