@@ -255,7 +255,10 @@ impl<'a, 'c> Question<'a, 'c> {
         };
         let (own_least, own_most) = own;
         if all.minimum >= n + own_most {
-            let counted = counted(self.equations.len(), "equation", "equations");
+            let counted = match self.equations.len() {
+                1 => "equation".to_owned(),
+                many => format!("{many} equations"),
+            };
             let with = match self.cx.terms.constraints.is_empty() {
                 true => "",
                 false => " and the constraints",
@@ -263,7 +266,8 @@ impl<'a, 'c> Question<'a, 'c> {
             let sentence = format!("the motion satisfies the {counted} stated, and the equations{with} determine all accelerations");
             let holds = match (is_linear, all.at_least.clone()) {
                 (true, Verdict::Proved(at_least)) => {
-                    holds.and(Verdict::Proved(Proof { detail: String::new(), ..at_least }))
+                    let detail = format!("the rank: {}", at_least.detail);
+                    holds.and(Verdict::Proved(Proof { detail, ..at_least }))
                 }
                 (true, other) => return other.prefixed("the motion satisfies the equations; that no other accelerations do was not proved"),
                 (false, _) => match self.other_solutions(on_motion, &columns) {
