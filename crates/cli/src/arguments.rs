@@ -75,7 +75,8 @@ pub(crate) struct Study {
     /// Groups (model, formulations, motion, principles, integrals, stability) and claim ids, separated by commas
     #[arg(long)]
     pub(crate) claims: Option<String>,
-    /// Seconds for all claims together; more than 60 also make searches for integrals look at more
+    /// Work for all claims together, in seconds of a usual machine (the same work everywhere; the clock stops what takes twice as long);
+    /// more than 60 also make searches for integrals look at more
     #[arg(long, default_value_t = 60.0, allow_hyphen_values = true, value_parser = seconds)]
     pub(crate) budget: f64,
     #[command(flatten)]
@@ -225,7 +226,8 @@ pub(crate) struct Principles {
     /// Folder to write the report of --compare into
     #[arg(long, requires = "compare")]
     pub(crate) out: Option<PathBuf>,
-    /// Seconds for all claims together; more than 60 also make searches for integrals look at more
+    /// Work for all claims together, in seconds of a usual machine (the same work everywhere; the clock stops what takes twice as long);
+    /// more than 60 also make searches for integrals look at more
     #[arg(long, default_value_t = 60.0, allow_hyphen_values = true, value_parser = seconds)]
     pub(crate) budget: f64,
     #[command(flatten)]
@@ -360,6 +362,9 @@ pub(crate) struct Explain {
 pub(crate) struct Verify {
     /// A study.json
     pub(crate) record: PathBuf,
+    /// Work allowed for each of the two replays, in seconds of the budget of a study, whatever the record asks for
+    #[arg(long, default_value_t = 120.0, allow_hyphen_values = true, value_parser = seconds)]
+    pub(crate) budget: f64,
     /// Print the result as JSON
     #[arg(long)]
     pub(crate) json: bool,

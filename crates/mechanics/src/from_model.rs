@@ -3,7 +3,7 @@
 use crate::mass::NamedMasses;
 use crate::system::{
     Assumption, CharacteristicFormulas, CompleteIntegral, FrameFields, Particle, Relation,
-    SteadyMotion, System, SystemError, SystemParts, Thrust, VariationOperator,
+    StatedEquations, SteadyMotion, System, SystemError, SystemParts, Thrust, Twin, VariationOperator,
 };
 use chetaev_model::model::{MassLaw, Model, SteadyStated, Thrust as StatedThrust};
 use chetaev_symbolic::syntax::Relation as Stated;
@@ -131,6 +131,31 @@ impl System {
                 motion: s.motion.clone(),
             }),
             steady: model.steady.iter().map(|s| steady(model, s)).collect(),
+            equations: model
+                .equations
+                .iter()
+                .map(|set| StatedEquations {
+                    name: set.name.clone(),
+                    unknowns: set.unknowns.clone(),
+                    equations: set
+                        .equations
+                        .iter()
+                        .map(|e| (e.name.clone(), e.left, e.right))
+                        .collect(),
+                })
+                .collect(),
+            twins: model
+                .twins
+                .iter()
+                .map(|twin| {
+                    Ok(Twin {
+                        name: twin.name.clone(),
+                        system: Arc::new(System::from_model(&twin.model)?),
+                        map: twin.map.clone(),
+                        symbols: twin.symbols.clone(),
+                    })
+                })
+                .collect::<Result<_, SystemError>>()?,
             assumptions: model.assumptions.iter().filter_map(assumption).collect(),
         };
         System::new(Arc::clone(&model.graph), parts)

@@ -186,7 +186,7 @@ pub fn ending(stop: &Stop, names: &Names<'_>, pivot: f64) -> Ending {
             ),
             *t,
         ),
-        other => early(format!("the run ended early: {other:?}"), f64::NAN),
+        _ => early("the run ended early, by a condition that has no words here".to_owned(), f64::NAN),
     }
 }
 
@@ -234,6 +234,6 @@ fn halted(reason: &HaltReason, t: f64, names: &Names<'_>) -> String {
         HaltReason::Contradiction { constraint } => {
             format!("constraint `{}` contradicts the others at t = {t:.9}", name(*constraint))
         }
-        other => format!("the run was halted at t = {t:.9}: {other:?}"),
+        _ => format!("the run was halted at t = {t:.9} by a condition of the program that runs it"),
     }
 }

@@ -11,6 +11,9 @@ use chetaev_motion::{InitialError, NumericError, RunError};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
+    /// It was interrupted before there was anything to keep.
+    #[error("interrupted before anything was computed")]
+    Interrupted,
     /// No system.
     #[error(transparent)]
     System(#[from] SystemError),

@@ -36,6 +36,7 @@ pub mod sweep;
 pub mod table;
 pub mod typeset;
 pub mod verify;
+mod watch;
 pub mod witness;
 
 pub use error::{StudyError, UnknownClaim};
@@ -43,3 +44,4 @@ pub use options::{ClaimSelection, Hooks, StudyOptions};
 pub use placed::{diagnostics, placed};
 pub use registry::registry;
 pub use study::{check, study, Decided, Motion, Outcome, Study};
+pub use watch::{in_time, interruptible};

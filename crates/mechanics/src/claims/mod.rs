@@ -10,9 +10,12 @@ pub mod hypotheses;
 pub mod mass;
 pub mod metric;
 pub mod model;
+pub mod on_set;
 pub mod order;
 pub mod particles;
 mod roots;
+pub mod stated;
+pub mod twin;
 
 use crate::card::Card;
 use crate::characteristics::{self, Selection};
@@ -221,6 +224,8 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &formulation::Identities,
     &mass::Balance,
     &gauss::Least,
+    &stated::Stated,
+    &twin::SameMotion,
 ];
 
 /// Everything a claim may look at while it is decided. Results are kept by id, so each is decided once.
@@ -427,6 +432,14 @@ impl<'a> Context<'a> {
         self.out_of_time.store(true, Ordering::Relaxed);
         for instead in &self.instead {
             instead.context.spend_time();
+        }
+    }
+
+    /// Forgets what was being decided when that was stopped.
+    pub fn abandon(&self) {
+        lock(&self.in_progress).clear();
+        for instead in &self.instead {
+            instead.context.abandon();
         }
     }
 
