@@ -2,6 +2,7 @@
 //! it, and the run where it is zero.
 
 use crate::happening::{self, Passed, WithEvents};
+use crate::multiplier_flow::STUCK;
 use crate::run::{End, Looking, RunError, RunSettings, Subject, WatchedFlow, Watcher};
 use crate::stop;
 use crate::watch::Watched;
@@ -89,7 +90,8 @@ impl<'o> Course<'o> {
                 let options = subject.options(settings, t, absolute, self.interrupt)?;
                 self.events = happening::events(own, &settings.events);
                 let (span, events) = ((t, settings.t_end), &mut self.events);
-                none.insert(Stepping::new(&with_events, span, y, events, options)?)
+                let begun = Stepping::new(&with_events, span, y, events, options);
+                none.insert(begun.map_err(|problem| subject.named(problem))?)
             }
         };
         let goes_on = stepping.advance(&mut with_events, &mut self.events);
@@ -146,6 +148,20 @@ impl<'o> Course<'o> {
                     }
                     return None;
                 }
+            }
+            Stop::Crowd { index, t, count } => {
+                let what = match index.checked_sub(own) {
+                    Some(event) => format!("the event `{}`", settings.events[event].name),
+                    None => "a quantity whose vanishing makes the equations singular".to_owned(),
+                };
+                return Some(End::Vanished(stop::crowd(&what, t, count)));
+            }
+            Stop::Halted {
+                t,
+                reason: HaltReason::Custom(STUCK),
+            } => {
+                let text = flow.stuck().unwrap_or("what is under a sign");
+                return Some(End::Vanished(stop::stuck(text, t)));
             }
             Stop::Halted {
                 t,

@@ -37,6 +37,7 @@ pub mod repeat;
 pub mod row;
 pub mod run;
 mod series;
+mod sticking;
 pub mod stop;
 mod turns;
 pub mod watch;

@@ -6,6 +6,7 @@ use crate::functions::{Functions, FunctionsError};
 use crate::reduced::Bordered;
 use crate::series::{self, RateSeries};
 use crate::turns::Turns;
+use chetaev_compile::rounding::Rounded;
 use chetaev_compile::Program;
 use chetaev_integrate::EvaluationFailure;
 use chetaev_mechanics::{reduced_equations, ConstraintKind, MotionTerms, System};
@@ -54,6 +55,8 @@ pub struct NumericSystem {
     pub constrained_velocities: Vec<bool>,
     /// Which coordinates occur in the holonomic constraints.
     pub constrained_positions: Vec<bool>,
+    /// Whether the holonomic constraints are linear in the coordinates.
+    pub is_flat: bool,
     /// Whether a constraint contains a function with a jump: an angle with its cut, or a sign.
     pub jumps: bool,
     /// Whether constraints of order two and more are left out here, which also determine accelerations.
@@ -235,6 +238,11 @@ impl NumericSystem {
             holonomic,
             constrained_velocities: occurring(g, &terms.jacobian.concat(), system.n()),
             constrained_positions: occurring(g, &gradient, system.n()),
+            is_flat: {
+                let present = g.symbols_in(&gradient);
+                let mut coordinates = system.coordinate_symbols().into_iter();
+                !coordinates.any(|q| present.contains(&q))
+            },
             jumps: has_jumps(g, &[terms.constraints.clone(), stated.clone()].concat()),
             is_part,
             directing: {
@@ -478,6 +486,16 @@ impl NumericSystem {
         Ok(())
     }
 
+    /// J and f at the state last evaluated, with what rounding leaves open in them; without bounds where there are none.
+    pub(crate) fn rounded(&self) -> RoundedConstraints {
+        RoundedConstraints::of(&self.dynamics, (JACOBIAN, RESIDUAL))
+    }
+
+    /// The same for ∂φ/∂q and φ of the holonomic constraints.
+    pub(crate) fn rounded_positions(&self) -> RoundedConstraints {
+        RoundedConstraints::of(&self.positions, (1, 0))
+    }
+
     /// M as a metric: its symmetric part.
     pub fn metric(&self) -> Vec<f64> {
         let (n, mass) = (self.n, self.mass());
@@ -536,6 +554,37 @@ impl NumericSystem {
     /// Whether all constraints are affine in the velocities.
     pub fn is_affine(&self) -> bool {
         self.affine.iter().all(|&a| a)
+    }
+}
+
+/// Constraints at a state, with what rounding leaves open in them.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct RoundedConstraints {
+    /// Gradients, row by row.
+    pub(crate) gradient: Vec<Rounded>,
+    /// Residuals.
+    pub(crate) residual: Vec<Rounded>,
+}
+
+impl RoundedConstraints {
+    fn of(functions: &Functions, (gradient, residual): (usize, usize)) -> RoundedConstraints {
+        let bounded = functions.rounded();
+        let group = |index: usize| match &bounded {
+            Some(all) => all[functions.range(index)].to_vec(),
+            None => {
+                let values = functions.group(index).iter();
+                values.map(|&value| Rounded::nearest(value)).collect()
+            }
+        };
+        RoundedConstraints {
+            gradient: group(gradient),
+            residual: group(residual),
+        }
+    }
+
+    /// Whether all residuals vanish to `factor` times what rounding leaves open in them.
+    pub(crate) fn are_met(&self, factor: f64) -> bool {
+        self.residual.iter().all(|f| f.is_zero(factor))
     }
 }
 

@@ -28,7 +28,8 @@ impl Projection {
     pub(crate) fn of(settings: &RunSettings) -> Projection {
         let tolerance = match settings.step {
             Some(_) => 0.0,
-            None => settings.tolerance.min(settings.absolute_tolerance),
+            // Relative, as the bound is.
+            None => settings.tolerance,
         };
         let bound = (HARMLESS * tolerance).max(ROUNDED);
         Projection {

@@ -205,6 +205,16 @@ pub enum RunError {
     /// The singular set cannot be watched.
     #[error(transparent)]
     Functions(#[from] crate::functions::FunctionsError),
+    /// A tolerance that double precision cannot resolve beside the size of a quantity.
+    #[error("the absolute tolerance {requested:e} for `{name}` cannot be met: at its size of the start double precision resolves {attainable:.1e}; raise `absolute_tolerance` to that, leave it out (then it follows from `tolerance`), or compute with `precision = \"double-double\"`")]
+    Tolerance {
+        /// The coordinate or velocity.
+        name: String,
+        /// As asked.
+        requested: f64,
+        /// The least that can be met.
+        attainable: f64,
+    },
     /// It is done in double precision only.
     #[error("double-double arithmetic is not for {what}: {fix}")]
     NotPrecise {
@@ -226,6 +236,11 @@ pub(crate) trait WatchedFlow: chetaev_integrate::System {
 
     /// The time of the last accepted state from which constraints are followed.
     fn settled(&self) -> f64;
+
+    /// The function under a sign on whose zero the motion sticks.
+    fn stuck(&self) -> Option<&str> {
+        None
+    }
 
     /// Writes the Taylor coefficients of event number `event`, with the function `value` of an output row, along a piece of the
     /// motion; false where it has none, and it is sampled.
@@ -483,6 +498,30 @@ impl Subject<'_> {
             values: settings.events.iter().map(|event| event.value).collect(),
             cyclic: self.cyclic(series),
         })
+    }
+
+    /// An error of the integrator with the name of the quantity in the place of its number in a state of coordinates and velocities.
+    pub(crate) fn named(&self, problem: IntegrateError) -> RunError {
+        let IntegrateError::ToleranceTooSmall {
+            component,
+            requested,
+            attainable,
+            ..
+        } = problem
+        else {
+            return problem.into();
+        };
+        let (numeric, positions) = (self.numeric, self.numeric.positions());
+        let places = numeric.coordinates.iter().chain(&numeric.masses).cloned();
+        let speeds = numeric.coordinates.iter().map(|name| format!("{name}'"));
+        match places.chain(speeds).nth(component) {
+            Some(name) if component < positions + numeric.n => RunError::Tolerance {
+                name,
+                requested,
+                attainable,
+            },
+            _ => problem.into(),
+        }
     }
 
     fn follow(&self, settings: &RunSettings) -> Result<Option<Follow>, RunError> {

@@ -174,9 +174,9 @@ impl Laboratory<'_> {
         numeric.evaluate(t, &q, &v).ok()?;
         let chart = chart::choose(
             numeric.jacobian(),
-            numeric.r,
-            numeric.n,
+            (numeric.r, numeric.n),
             &numeric.mass_diagonal(),
+            chart::Floor::Along(self.subject.start.chart.pivot),
         );
         let same = chart.rank() == self.subject.start.chart.rank();
         let start = self.subject.start.clone();

@@ -68,6 +68,8 @@ pub struct MotionEvidence {
     pub positions: Vec<Followed>,
     /// Largest difference of the two formulations over the scale of each component, with its time.
     pub disagreement: Option<Extreme>,
+    /// Largest differences of the run and of the other formulation to a run at a sharper tolerance.
+    pub losses: Option<(f64, f64)>,
     /// Observed order.
     pub orders: Option<Orders>,
     /// Tolerance asked.
@@ -143,6 +145,9 @@ impl MotionEvidence {
             .fold(0.0, |m: f64, x| m.max(x.abs()));
         Ok(MotionEvidence {
             disagreement: comparison.as_ref().map(|other| difference(&run, other)),
+            losses: finer.as_ref().zip(comparison.as_ref()).map(|(finer, other)| {
+                (difference(finer, &run).value, difference(finer, other).value)
+            }),
             global_error: finer.as_ref().map(|other| difference(&run, other).value),
             tolerance: settings.tolerance,
             step: settings.step,
