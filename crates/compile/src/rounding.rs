@@ -136,7 +136,12 @@ pub fn rounding(program: &Program, parameters: &[f64], variables: &[f64]) -> Opt
     for group in &program.outputs {
         run(&program.body[done..group.end], &mut file)?;
         done = group.end;
-        outputs.extend(group.registers.iter().map(|register| file[register.index()]));
+        outputs.extend(
+            group
+                .registers
+                .iter()
+                .map(|register| file[register.index()]),
+        );
     }
     Some(outputs)
 }

@@ -38,7 +38,11 @@ impl Crowd {
 
     /// Takes a step from time t of length h and all records so far into account; the function whose zeros repeat without end, if
     /// there is one, and in how many steps they were met.
-    pub(crate) fn after(&mut self, (t, h): (f64, f64), all: &[EventRecord]) -> Option<(usize, u64)> {
+    pub(crate) fn after(
+        &mut self,
+        (t, h): (f64, f64),
+        all: &[EventRecord],
+    ) -> Option<(usize, u64)> {
         self.longest = self.longest.max(h.abs());
         let recent = &all[self.seen.min(all.len())..];
         self.seen = all.len();
@@ -85,7 +89,9 @@ mod tests {
 
     #[test]
     fn short_steps_with_an_event_each_are_a_crowd() {
-        let shrinking = std::iter::once(1.0).chain(std::iter::repeat(1e-5)).take(500);
+        let shrinking = std::iter::once(1.0)
+            .chain(std::iter::repeat(1e-5))
+            .take(500);
         assert!(steps(shrinking).is_some_and(|(_, count)| count < 200));
         // A zero in every step of ordinary length is an oscillation.
         assert_eq!(steps(std::iter::repeat_n(1.0, 500)), None);

@@ -144,7 +144,9 @@ impl Accelerations {
         let mass = system.mass();
         for &row in &chart.rows {
             let entries = system.jacobian()[row * n..(row + 1) * n].iter();
-            let weighed = entries.enumerate().map(|(j, x)| x * x / heaviness(mass[j * n + j]));
+            let weighed = entries
+                .enumerate()
+                .map(|(j, x)| x * x / heaviness(mass[j * n + j]));
             self.weights.push(weighed.sum::<f64>().sqrt());
         }
     }

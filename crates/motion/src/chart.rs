@@ -53,7 +53,11 @@ pub fn choose(
 ) -> Chart {
     let (mut a, factors) = scaled(jacobian, r, n, mass_diagonal);
     let mut errors = match floor {
-        Floor::Rounding(entries) => entries.iter().zip(&factors).map(|(e, s)| e.error * s).collect(),
+        Floor::Rounding(entries) => entries
+            .iter()
+            .zip(&factors)
+            .map(|(e, s)| e.error * s)
+            .collect(),
         Floor::Along(_) => Vec::new(),
     };
     let least = match floor {

@@ -87,7 +87,12 @@ impl<'o> Course<'o> {
             Some(stepping) => stepping,
             none => {
                 let (t, y) = (self.at.0, &self.at.1[..]);
-                let options = subject.options(settings, t, absolute, self.interrupt)?;
+                let scales = match looking.scales.len() == y.len() {
+                    true => &looking.scales[..],
+                    false => &[],
+                };
+                let measure = (absolute, scales);
+                let options = subject.options(settings, t, measure, self.interrupt)?;
                 self.events = happening::events(own, &settings.events);
                 let (span, events) = ((t, settings.t_end), &mut self.events);
                 let begun = Stepping::new(&with_events, span, y, events, options);

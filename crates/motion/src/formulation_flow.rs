@@ -15,6 +15,7 @@ use crate::multiplier_flow::STUCK;
 use crate::numeric::{Binding, NumericSystem};
 use crate::row::RowLayout;
 use crate::run::WatchedFlow;
+use crate::scales::{power, Scales};
 use crate::series::RateSeries;
 use crate::turns::Turns;
 use crate::watch::Watch;
@@ -228,6 +229,17 @@ impl<'a> FormulationFlow<'a> {
             y[q.len() + place] = value;
         }
         Ok(y)
+    }
+
+    /// Natural sizes of the components of the state: those of its variables with all velocities of their natural sizes.
+    pub(crate) fn scales(&mut self, start: &ConsistentState, scales: &Scales) -> Vec<f64> {
+        let mut all = scales.positions.clone();
+        let own = match self.pack(start.t, &start.q, &scales.velocities) {
+            Ok(y) => y[start.q.len()..].to_vec(),
+            Err(_) => return Vec::new(),
+        };
+        all.extend(own.into_iter().map(|value| power(value.abs())));
+        all
     }
 
     /// The state vector of the start, from which the velocities of the start must come back.

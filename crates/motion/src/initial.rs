@@ -262,7 +262,10 @@ impl Search<'_> {
         let mut generator = chetaev_mechanics::sample::Generator::new(5);
         self.evaluate_positions(t)?;
         let metric = self.metric(t);
-        let of = (self.system.position_gradient(), self.system.position_residual());
+        let of = (
+            self.system.position_gradient(),
+            self.system.position_residual(),
+        );
         let step = least_step_of(of, self.system.n, movable, &metric, self.dependent);
         let reach = reach(&start, &step, &metric);
         let mut nearest = Nearest::to(&start, &metric);
@@ -479,7 +482,9 @@ impl Search<'_> {
 
     fn describe_values(&self, given: &[f64], found: &[f64], prime: &str) -> Vec<(String, f64)> {
         let masses = self.system.mass_diagonal().into_iter();
-        let size = masses.zip(found).fold(0.0, |m: f64, (mass, x)| m.max(mass.abs().sqrt() * x.abs()));
+        let size = masses
+            .zip(found)
+            .fold(0.0, |m: f64, (mass, x)| m.max(mass.abs().sqrt() * x.abs()));
         self.system
             .coordinates
             .iter()

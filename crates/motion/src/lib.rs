@@ -36,6 +36,7 @@ mod reduced;
 pub mod repeat;
 pub mod row;
 pub mod run;
+pub mod scales;
 mod series;
 mod sticking;
 pub mod stop;

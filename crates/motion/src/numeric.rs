@@ -4,6 +4,7 @@ use crate::chart::Chart;
 use crate::dense::Lu;
 use crate::functions::{Functions, FunctionsError};
 use crate::reduced::Bordered;
+use crate::scales::angles;
 use crate::series::{self, RateSeries};
 use crate::turns::Turns;
 use chetaev_compile::rounding::Rounded;
@@ -61,7 +62,7 @@ pub struct NumericSystem {
     pub jumps: bool,
     /// Whether constraints of order two and more are left out here, which also determine accelerations.
     pub is_part: bool,
-    /// Coordinates on which the velocity constraints depend.
+    /// Angles on which the velocity constraints depend.
     pub(crate) directing: Vec<bool>,
     mass_envelope: Vec<usize>,
     dynamics: Functions,
@@ -248,7 +249,9 @@ impl NumericSystem {
             directing: {
                 let present = g.symbols_in(&terms.constraints);
                 let coordinates = system.coordinate_symbols();
-                coordinates.iter().map(|q| present.contains(q)).collect()
+                let all = coordinates.iter().zip(angles(system, &terms));
+                all.map(|(q, is_angle)| is_angle && present.contains(q))
+                    .collect()
             },
             mass_envelope: envelope(g, &terms.mass_matrix),
             dynamics: Functions::new(g, binding, &binding.variables, &groups)?,

@@ -64,7 +64,11 @@ impl Sticking {
         let texts = values.iter().map(|&e| g.text(e)).collect();
         let drift = freeze_accelerations(system, &values);
         let slopes = g.jacobian(&values, &system.velocity_symbols()).concat();
-        let groups = [("value", values.clone()), ("drift", drift), ("slope", slopes)];
+        let groups = [
+            ("value", values.clone()),
+            ("drift", drift),
+            ("slope", slopes),
+        ];
         Ok(Some(Sticking {
             functions: Functions::new(g, binding, &binding.variables, &groups)?,
             n: system.n(),

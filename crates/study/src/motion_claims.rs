@@ -693,7 +693,8 @@ fn of_equal_forms(
     let is_proved = |name: &str| {
         name == REFERENCE
             || matches!(
-                cx.finding(&format!("formulation.equivalent#{name}")).verdict,
+                cx.finding(&format!("formulation.equivalent#{name}"))
+                    .verdict,
                 Verdict::Proved(_)
             )
     };

@@ -145,9 +145,15 @@ impl MotionEvidence {
             .fold(0.0, |m: f64, x| m.max(x.abs()));
         Ok(MotionEvidence {
             disagreement: comparison.as_ref().map(|other| difference(&run, other)),
-            losses: finer.as_ref().zip(comparison.as_ref()).map(|(finer, other)| {
-                (difference(finer, &run).value, difference(finer, other).value)
-            }),
+            losses: finer
+                .as_ref()
+                .zip(comparison.as_ref())
+                .map(|(finer, other)| {
+                    (
+                        difference(finer, &run).value,
+                        difference(finer, other).value,
+                    )
+                }),
             global_error: finer.as_ref().map(|other| difference(&run, other).value),
             tolerance: settings.tolerance,
             step: settings.step,
@@ -458,7 +464,7 @@ fn deviation(times: &[f64], changes: &[f64]) -> Extreme {
     drift
 }
 
-/// Largest difference of positions and velocities at common times, each component over 1 + its largest magnitude.
+/// Largest difference of positions and velocities at common times, each component over its natural size and its largest magnitude.
 fn difference(a: &Run, b: &Run) -> Extreme {
     let width = a.layout.v().end;
     let rows = a.asked().min(b.asked());
@@ -471,7 +477,8 @@ fn difference(a: &Run, b: &Run) -> Extreme {
         _ => a.row(j)[i] - b.row(j)[i],
     };
     for i in 0..width {
-        let scale = 1.0 + (0..rows).fold(0.0, |m: f64, j| m.max(a.row(j)[i].abs()));
+        let size = a.scales.get(i).copied().unwrap_or(1.0);
+        let scale = size + (0..rows).fold(0.0, |m: f64, j| m.max(a.row(j)[i].abs()));
         for j in (0..rows).filter(|&j| a.times[j] == b.times[j]) {
             largest.record(gap(i, j) / scale, a.times[j]);
         }

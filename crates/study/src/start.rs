@@ -320,6 +320,7 @@ pub(crate) fn settings(
         .absolute_tolerance
         .as_ref()
         .map_or(settings.tolerance, rational::to_f64);
+    settings.is_natural = simulation.absolute_tolerance.is_none();
     let is_precise = precise::is_asked(model, options);
     settings.method = match options.method.as_ref().or(simulation.method.as_ref()) {
         Some(method) => method_name(method),
