@@ -64,6 +64,8 @@ pub struct NumericSystem {
     pub is_part: bool,
     /// Angles on which the velocity constraints depend.
     pub(crate) directing: Vec<bool>,
+    /// Coordinates that stand in the argument of a function without dimension.
+    pub(crate) angles: Vec<bool>,
     mass_envelope: Vec<usize>,
     dynamics: Functions,
     kinematics: Functions,
@@ -219,6 +221,7 @@ impl NumericSystem {
             .map(|&row| constraint(row).stated)
             .collect();
         let gradient = g.jacobian(&stated, &system.coordinate_symbols()).concat();
+        let angles = angles(system, &terms);
         let groups = [
             ("mass", terms.mass_matrix.concat()),
             ("force", terms.force.clone()),
@@ -248,11 +251,10 @@ impl NumericSystem {
             is_part,
             directing: {
                 let present = g.symbols_in(&terms.constraints);
-                let coordinates = system.coordinate_symbols();
-                let all = coordinates.iter().zip(angles(system, &terms));
-                all.map(|(q, is_angle)| is_angle && present.contains(q))
-                    .collect()
+                let all = system.coordinate_symbols().into_iter().zip(&angles);
+                all.map(|(q, is)| *is && present.contains(&q)).collect()
             },
+            angles,
             mass_envelope: envelope(g, &terms.mass_matrix),
             dynamics: Functions::new(g, binding, &binding.variables, &groups)?,
             kinematics: Functions::new(g, binding, &binding.variables, &groups[2..5])?,

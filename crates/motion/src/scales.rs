@@ -36,7 +36,7 @@ impl Scales {
             return ones;
         }
         let masses: Vec<f64> = numeric.mass_diagonal().iter().map(|m| m.abs()).collect();
-        let is_angle = angles(subject.system, subject.terms);
+        let is_angle = numeric.angles.clone();
         let span = (t_end - start.t).abs();
         let q = &start.q[..n];
         let length = |i: usize| if is_angle[i] { 1.0 } else { q[i].abs() };

@@ -378,7 +378,7 @@ fn elsewhere(cx: &Context<'_>, evidence: &MotionEvidence) -> Option<Verdict> {
         return Some(Verdict::undecided(tried));
     };
     let Extreme { value, t } = rate.drift;
-    (value > NO_RATE * (1.0 + rate.scale)).then(|| {
+    (value > NO_RATE * rate.scale).then(|| {
         let detail = format!(
             "`{integral}` is conditional: it holds where {condition}, and this motion is elsewhere (|dH/dt| = {value:.3e} at t = {t:.6})"
         );

@@ -317,16 +317,17 @@ impl MotionEvidence {
     /// Whether a function of the state does not keep its sign along the rows; `None` where it has no value.
     pub(crate) fn changes_sign(&self, g: &Graph, e: Expr) -> Option<bool> {
         let e = [self.bound(g, e)];
-        let mut signs = Vec::new();
+        let mut all = Vec::new();
         for j in 0..self.run.regular() {
             let values = self.values_at(j)?;
-            let value = g.evaluate_f64(&e, &|s| values.get(&s).copied()).ok()?[0];
-            signs.push(if value.abs() < MET {
-                0.0
-            } else {
-                value.signum()
-            });
+            all.push(g.evaluate_f64(&e, &|s| values.get(&s).copied()).ok()?[0]);
         }
+        let largest = all.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let sign = |value: &f64| match value.abs() <= MET * largest {
+            true => 0.0,
+            false => value.signum(),
+        };
+        let signs: Vec<f64> = all.iter().map(sign).collect();
         Some(signs.iter().any(|&sign| sign == 0.0 || sign != signs[0]))
     }
 
@@ -353,7 +354,7 @@ impl MotionEvidence {
     }
 }
 
-/// What is so near to zero along a run has met it.
+/// What is so near to zero along a run, beside its largest value, has met it.
 const MET: f64 = 1e-9;
 
 /// So many roundings of the state are no drift.
@@ -497,7 +498,7 @@ fn exact_start(model: &Model, subject: &Subject<'_>) -> Option<Vec<(Expr, Expr)>
                 None => g.zero(),
             };
             let stated = g.evaluate_f64(&[given], &|_| None).ok()?[0];
-            if (stated - used).abs() > 1e-12 * (1.0 + used.abs()) {
+            if (stated - used).abs() > 1e-12 * used.abs().max(stated.abs()) {
                 return None;
             }
             exact.push((symbol, given));

@@ -25,6 +25,7 @@ mod mutants;
 mod principles;
 mod published;
 mod record;
+mod scales;
 mod series;
 mod sheets;
 mod special_values;
