@@ -8,6 +8,7 @@
 use crate::double_double::from_rational;
 use crate::program::{Binary, Constant, Exact, Fused, Instruction, Program, Register, Unary};
 use chetaev_symbolic::evaluate::apply;
+use chetaev_symbolic::rational::to_i64;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number with a bound of its error.
@@ -148,7 +149,10 @@ pub fn rounding(program: &Program, parameters: &[f64], variables: &[f64]) -> Opt
 
 fn of_constant(constant: &Constant) -> Rounded {
     let is_exact = match &constant.exact {
-        Exact::Rational(exact) => from_rational(exact).low() == 0.0,
+        Exact::Rational(exact) => {
+            to_i64(exact).is_some_and(|n| n.unsigned_abs() < 1 << 53)
+                || from_rational(exact).low() == 0.0
+        }
         Exact::Pi => false,
     };
     match is_exact {

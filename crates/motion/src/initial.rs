@@ -392,13 +392,14 @@ impl Search<'_> {
     /// Ranks, inertia, and the list of what was completed.
     fn finish(mut self) -> Result<ConsistentState, InitialError> {
         self.evaluate()?;
-        self.check_gradients()?;
+        let rounded = self.system.rounded();
+        self.check_gradients(&rounded)?;
         let system = &*self.system;
         let chart = chart::choose(
             system.jacobian(),
             (system.r, system.n),
             &system.mass_diagonal(),
-            Floor::Rounding(&system.rounded().gradient),
+            Floor::Rounding(&rounded.gradient),
         );
         self.check_inertia(&chart)?;
         let mut completed = self.describe_values(&self.data.q, &self.q, "");
@@ -418,8 +419,8 @@ impl Search<'_> {
         })
     }
 
-    fn check_gradients(&self) -> Result<(), InitialError> {
-        match self.vanishing_gradient() {
+    fn check_gradients(&self, at: &RoundedConstraints) -> Result<(), InitialError> {
+        match self.vanishing_gradient(at) {
             None => Ok(()),
             Some(row) => Err(InitialError::VanishingGradient {
                 name: self.system.constraints[row].clone(),
@@ -430,12 +431,12 @@ impl Search<'_> {
     }
 
     fn has_gradients(&self) -> bool {
-        self.vanishing_gradient().is_none()
+        self.vanishing_gradient(&self.system.rounded()).is_none()
     }
 
     /// A row whose gradient vanishes at the state last evaluated.
-    fn vanishing_gradient(&self) -> Option<usize> {
-        let (gradient, n) = (self.system.rounded().gradient, self.system.n);
+    fn vanishing_gradient(&self, at: &RoundedConstraints) -> Option<usize> {
+        let (gradient, n) = (&at.gradient, self.system.n);
         let vanishes = |x: &Rounded| x.value.abs() <= VANISHED * x.size() || x.is_zero(EXACT);
         (0..self.system.r).find(|&row| gradient[row * n..(row + 1) * n].iter().all(vanishes))
     }

@@ -573,7 +573,11 @@ pub(crate) struct RoundedConstraints {
 
 impl RoundedConstraints {
     fn of(functions: &Functions, (gradient, residual): (usize, usize)) -> RoundedConstraints {
-        let bounded = functions.rounded();
+        // Without constraints nothing is asked.
+        let bounded = match functions.range(residual).is_empty() {
+            true => None,
+            false => functions.rounded(),
+        };
         let group = |index: usize| match &bounded {
             Some(all) => all[functions.range(index)].to_vec(),
             None => {

@@ -404,7 +404,8 @@ fn dry_friction_sticks_or_turns() {
         9.81 * (0.3f64.sin() + 0.1 * 0.3f64.cos()),
         9.81 * (0.3f64.sin() - 0.1 * 0.3f64.cos()),
     );
-    near(row[1], -down * (3.0 - 2.0 / up), 1e-7);
+    // One step crosses the jump.
+    near(row[1], -down * (3.0 - 2.0 / up), 1e-6);
 }
 
 /// A ball that slips ends to do so at |u₀|/(μ g (1 + m r²/I)), where the force has no direction.

@@ -257,7 +257,9 @@ impl Resolver {
             (false, true) => (2.3e-16, "double precision"),
             (false, false) => (2.3e-14, "double precision"),
         };
-        if !(sharpest..=0.1).contains(&number) {
+        // An absolute tolerance has units: no number is too small or too large for it by itself.
+        let has_units = key == "absolute_tolerance" && !of_precise;
+        if !has_units && !(sharpest..=0.1).contains(&number) {
             let message = format!(
                 "{what} is out of range: it must lie between {sharpest:e} ({arithmetic}) and 0.1"
             );
