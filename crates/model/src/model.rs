@@ -407,7 +407,7 @@ pub struct Constraint {
     pub place: Place,
 }
 
-/// Initial data at the start of the run. What is given is fixed; everything else is free, with 0 as the first guess.
+/// Initial data at the start of the run. What is given is fixed; everything else is free, with 0 as the first guess or the one stated.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Initial {
     /// Given values by number of coordinate and order of derivative, free of coordinates and time.
@@ -427,6 +427,8 @@ pub struct InitialValue {
     pub value: Expr,
     /// As it is written.
     pub text: String,
+    /// Whether it is a first guess, near which the value is searched for, and not the value itself.
+    pub is_guess: bool,
     /// Where it is stated.
     pub place: Place,
 }

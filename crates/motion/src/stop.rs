@@ -83,6 +83,22 @@ pub fn vanished(what: &Watched, t: f64, constraints: &[String]) -> Ending {
     early(reason, t)
 }
 
+/// Zeros of one function repeat at every one of many very short steps.
+pub(crate) fn crowd(what: &str, t: f64, count: u64) -> Ending {
+    early(
+        format!("{what} repeats without end near t = {t:.9}, in {count} very short steps in a row: the motion grazes its zero or chatters across it, since a force jumps or is undetermined there; end the run at it (`action = \"stop\"` at a threshold above zero), smooth the force, for example by tanh(v/eps), or go on with the equations that hold beyond"),
+        t,
+    )
+}
+
+/// The motion sticks on the zero of a function under a sign.
+pub(crate) fn stuck(text: &str, t: f64) -> Ending {
+    early(
+        format!("the motion sticks at t = {t:.9}: {text} is zero there, and the force, which jumps with its sign, drives it back from both sides, so that no motion with either sign goes on; go on with {text} = 0 as a constraint, or smooth the jump, for example by tanh(v/eps)"),
+        t,
+    )
+}
+
 /// The run was to end at an event, and did.
 pub fn happened(name: &str, t: f64) -> Ending {
     Ending {

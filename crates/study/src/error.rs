@@ -92,6 +92,9 @@ pub enum StudyError {
         /// The sharpest one of the method.
         sharpest: f64,
     },
+    /// An absolute tolerance that is none.
+    #[error("the absolute tolerance must be a positive number, in the units of coordinates and velocities")]
+    AbsoluteTolerance,
     /// A tolerance out of range in double-double arithmetic.
     #[error("the tolerance {tolerance:e} is out of range: it must lie between {sharpest:e} (double-double arithmetic) and 0.1")]
     PreciseTolerance {

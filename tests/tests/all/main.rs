@@ -26,6 +26,7 @@ mod principles;
 mod published;
 mod record;
 mod running;
+mod scales;
 mod series;
 mod sheets;
 mod special_values;

@@ -369,6 +369,7 @@ pub(crate) fn with_values(model: &Model, variations: &Variations, values: &[f64]
                 let given = InitialValue {
                     value: number,
                     text: format!("{value}"),
+                    is_guess: stated.is_some_and(|given| given.is_guess),
                     place: stated.map_or(with.coordinates[at].place, |given| given.place),
                 };
                 with.initial.values.insert((at, order), given);
