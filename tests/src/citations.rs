@@ -1,4 +1,4 @@
-//! Citations of the theory notes: `T3 §8.5` is a heading of note 3, `T1 (42)` an equation of note 1, `T2 E1` a name there.
+//! Citations of the theory, which is in notes: `T3 §8.5` is a heading of note 3, `T1 (42)` an equation of note 1, `T2 E1` a name there.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

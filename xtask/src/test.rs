@@ -16,8 +16,8 @@ Looks for Chromium or Chrome, which the tests of the report need: the program th
 names, else one in PATH. Where there is none, it is installed by apt-get if that is possible and allowed. Then every test
 runs, also after a failure, and the last line sums them up. The exit status is cargo's.
 
-What is long is taken by fifths: the replays of the gallery, the random systems of the laws (ten of fifty of each family),
-the mutated models that are studied. Which fifth follows from the commit that is checked out and is said at the start; the
+What is long is taken by fifths: the replays of the gallery, and the random systems of the laws (ten of fifty of each family).
+Which fifth follows from the commit that is checked out and is said at the start; the
 environment variable CHETAEV_TESTS, a number from 0 to 4, takes another.
 
   --full    all of it, and more: all replays, a thousand systems of each family, five thousand mutated models

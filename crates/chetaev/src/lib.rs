@@ -30,5 +30,6 @@ pub use chetaev_mechanics as mechanics;
 pub use chetaev_model as model;
 pub use chetaev_motion as motion;
 pub use chetaev_principles as principles;
+pub use chetaev_stability as stability;
 pub use chetaev_study as study;
 pub use chetaev_symbolic as symbolic;

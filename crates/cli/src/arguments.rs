@@ -30,6 +30,10 @@ pub(crate) enum Command {
     Principles(Principles),
     /// Compute the motion only and write the trajectory
     Simulate(Simulate),
+    /// Linearize about a steady motion: exact matrices, characteristic polynomial, eigenvalues
+    Linearize(Linearize),
+    /// Decide the stability of a steady motion, also over a range of a parameter, with enclosed boundaries
+    Stability(Stability),
     /// Compute thousands of motions: parameters and initial values over ranges, from rows of a file, or at random
     Sweep(Sweep),
     /// Read a model and report everything wrong or doubtful in it
@@ -68,10 +72,11 @@ pub(crate) struct Study {
     /// Folder to write into [default: out/NAME, NAME of the model's folder or file]
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
-    /// Groups (model, formulations, motion, principles, integrals) and claim ids, separated by commas
+    /// Groups (model, formulations, motion, principles, integrals, stability) and claim ids, separated by commas
     #[arg(long)]
     pub(crate) claims: Option<String>,
-    /// Seconds for all claims together; more than 60 also make searches for integrals look at more
+    /// Work for all claims together, in seconds of a usual machine (the same work everywhere; the clock stops what takes twice as long);
+    /// more than 60 also make searches for integrals look at more
     #[arg(long, default_value_t = 60.0, allow_hyphen_values = true, value_parser = seconds)]
     pub(crate) budget: f64,
     #[command(flatten)]
@@ -111,6 +116,41 @@ pub(crate) struct MotionArguments {
     /// Which branch of the motion to follow where constraints of order two and more admit several, as they are listed
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub(crate) branch: Option<usize>,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev linearize gallery/whipple-bicycle/model.toml
+  chetaev linearize gallery/double-pendulum/model.toml --about hanging
+  chetaev linearize model.toml --about rest --json")]
+pub(crate) struct Linearize {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// A motion of [steady.NAME], rest (at the initial positions), or start (the initial state)
+    #[arg(long, value_name = "NAME")]
+    pub(crate) about: Option<String>,
+    /// Print JSON: matrices as exact text, eigenvalues as pairs
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev stability gallery/whipple-bicycle/model.toml --over v=0:10
+  chetaev stability gallery/chaplygin-sleigh/model.toml --over u=-2:2
+  chetaev stability model.toml --about upright --json")]
+pub(crate) struct Stability {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// A motion of [steady.NAME], rest (at the initial positions), or start (the initial state)
+    #[arg(long, value_name = "NAME")]
+    pub(crate) about: Option<String>,
+    /// A parameter with a range, exact numbers: --over v=0:10
+    #[arg(long, value_name = "NAME=FROM:TO", allow_hyphen_values = true)]
+    pub(crate) over: Option<String>,
+    /// Print JSON: regions, and critical values with their enclosures
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Args, Debug)]
@@ -186,7 +226,8 @@ pub(crate) struct Principles {
     /// Folder to write the report of --compare into
     #[arg(long, requires = "compare")]
     pub(crate) out: Option<PathBuf>,
-    /// Seconds for all claims together; more than 60 also make searches for integrals look at more
+    /// Work for all claims together, in seconds of a usual machine (the same work everywhere; the clock stops what takes twice as long);
+    /// more than 60 also make searches for integrals look at more
     #[arg(long, default_value_t = 60.0, allow_hyphen_values = true, value_parser = seconds)]
     pub(crate) budget: f64,
     #[command(flatten)]
@@ -321,6 +362,9 @@ pub(crate) struct Explain {
 pub(crate) struct Verify {
     /// A study.json
     pub(crate) record: PathBuf,
+    /// Work allowed for each of the two replays, in seconds of the budget of a study, whatever the record asks for
+    #[arg(long, default_value_t = 120.0, allow_hyphen_values = true, value_parser = seconds)]
+    pub(crate) budget: f64,
     /// Print the result as JSON
     #[arg(long)]
     pub(crate) json: bool,

@@ -7,13 +7,67 @@ use chetaev::study::placed;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-/// The file system for included files.
-pub(crate) struct Disk;
+/// The file system for included files: regular files below the folder of the model, or of the nearest `chetaev.toml` above it. What a
+/// model includes ends up in records that are passed on, so that it may not be any file of the machine.
+pub(crate) struct Disk {
+    root: PathBuf,
+}
+
+/// The file that says that models below its folder may include each other.
+const PROJECT: &str = "chetaev.toml";
+
+/// Most bytes of one text.
+const MOST_BYTES: u64 = 16 << 20;
+
+impl Disk {
+    /// What a model at this path may include.
+    fn beside(model: &Path) -> Disk {
+        let folder = match model.parent() {
+            Some(folder) if folder != Path::new("") => folder,
+            _ => Path::new("."),
+        };
+        let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+        let project = folder
+            .ancestors()
+            .find(|above| above.join(PROJECT).is_file());
+        Disk {
+            root: project.unwrap_or(&folder).to_owned(),
+        }
+    }
+}
 
 impl Files for Disk {
     fn read(&self, path: &str) -> Result<String, String> {
-        std::fs::read_to_string(path).map_err(|e| e.to_string())
+        let found = Path::new(path).canonicalize().map_err(|e| e.to_string())?;
+        if !found.starts_with(&self.root) {
+            return Err(format!(
+                "it lies outside of {}, and a model includes what is below its own folder only; a file {PROJECT} in a folder above both allows what is below that",
+                self.root.display()
+            ));
+        }
+        text_of(&found, true)
     }
+}
+
+/// The text of a file of bounded size. One that is no regular file may never end, or never begin.
+fn text_of(path: &Path, regular: bool) -> Result<String, String> {
+    use std::io::Read;
+    // Opening a pipe waits for whoever writes into it.
+    if regular
+        && !std::fs::metadata(path)
+            .map_err(|e| e.to_string())?
+            .is_file()
+    {
+        return Err("it is not a regular file".into());
+    }
+    let file = std::fs::File::open(path).map_err(|e| e.to_string())?;
+    let mut bytes = Vec::new();
+    let read = file.take(MOST_BYTES + 1).read_to_end(&mut bytes);
+    read.map_err(|e| e.to_string())?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(format!("it has more than {} MiB", MOST_BYTES >> 20));
+    }
+    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".into())
 }
 
 /// A model with the texts it was read from.
@@ -65,14 +119,8 @@ pub(crate) fn report(diagnostics: &Diagnostics) {
 pub(crate) fn load(arguments: &ModelArguments) -> Option<(Option<Model>, Diagnostics)> {
     let overrides = overrides(&arguments.set)?;
     let path = arguments.model.to_string_lossy().into_owned();
-    let text = match std::fs::read(&arguments.model) {
-        Ok(bytes) => match String::from_utf8(bytes) {
-            Ok(text) => text,
-            Err(_) => {
-                terminal::err(&format!("error: {path} is not UTF-8 text"));
-                return None;
-            }
-        },
+    let text = match text_of(&arguments.model, false) {
+        Ok(text) => text,
         Err(problem) => {
             terminal::err(&format!("error: {path} cannot be read: {problem}"));
             if arguments.model.is_dir() {
@@ -81,7 +129,8 @@ pub(crate) fn load(arguments: &ModelArguments) -> Option<(Option<Model>, Diagnos
             return None;
         }
     };
-    let loaded = model::load(&path, &text, &Disk, &overrides);
+    let disk = Disk::beside(&arguments.model);
+    let loaded = model::load(&path, &text, &disk, &overrides);
     Some((loaded.model, loaded.diagnostics))
 }
 
@@ -117,18 +166,79 @@ pub(crate) fn default_folder(model: &Path) -> PathBuf {
     Path::new("out").join(folder.unwrap_or(stem))
 }
 
-/// Writes a file completely or not at all: to a temporary name, then renamed. What could not be written is removed.
+/// Writes a file completely or not at all: to a name of its own beside it, then renamed. What could not be written is removed. Another
+/// process that writes the same file has another such name, and a link that somebody put there is replaced, not followed.
 pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), String> {
+    replace(path, |file| std::io::Write::write_all(file, content))
+}
+
+/// [`write`] for what is written piece by piece.
+pub(crate) fn replace(
+    path: &Path,
+    write: impl FnOnce(&mut std::fs::File) -> std::io::Result<()>,
+) -> Result<(), String> {
     let describe = |e: std::io::Error| format!("{} cannot be written: {e}", path.display());
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(describe)?;
     }
-    let mut partial = path.as_os_str().to_owned();
-    partial.push(".partial");
-    let written = std::fs::write(&partial, content).and_then(|()| std::fs::rename(&partial, path));
+    let (partial, mut file) = own_beside(path).map_err(describe)?;
+    let written = write(&mut file)
+        .and_then(|()| file.sync_all())
+        .and_then(|()| std::fs::rename(&partial, path));
     written.map_err(|problem| {
         // It may never have been there, and what went wrong is said already.
         let _ = std::fs::remove_file(&partial);
         describe(problem)
     })
+}
+
+/// A new file beside `path` that is nobody else's: `NAME.1234-0.partial`, with the number of the process.
+fn own_beside(path: &Path) -> std::io::Result<(PathBuf, std::fs::File)> {
+    use std::sync::atomic::{AtomicU64, Ordering};
+    static NUMBER: AtomicU64 = AtomicU64::new(0);
+    let name = path.file_name().unwrap_or_default();
+    let mut tries = 0;
+    loop {
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let mut own = name.to_owned();
+        own.push(format!(".{}-{number}.partial", std::process::id()));
+        let partial = path.with_file_name(own);
+        // What is there already, a link also, is never opened.
+        let made = std::fs::OpenOptions::new()
+            .write(true)
+            .create_new(true)
+            .open(&partial);
+        match made {
+            Err(e) if e.kind() == std::io::ErrorKind::AlreadyExists && tries < 100 => tries += 1,
+            made => return made.map(|file| (partial, file)),
+        }
+    }
+}
+
+/// A link in the place of the file is an error.
+pub(crate) fn not_followed(options: &mut std::fs::OpenOptions) {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::OpenOptionsExt;
+        options.custom_flags(rustix::fs::OFlags::NOFOLLOW.bits() as i32);
+    }
+    #[cfg(not(unix))]
+    let _ = options;
+}
+
+/// The checksum of a file's content, SHA-256 (FIPS 180-4) in hexadecimal digits.
+pub(crate) fn checksum(content: &[u8]) -> String {
+    use sha2::{Digest, Sha256};
+    let digest = Sha256::digest(content);
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The checksum of a file; `None` where it cannot be read.
+pub(crate) fn checksum_of(path: &Path) -> Option<String> {
+    use sha2::{Digest, Sha256};
+    let mut digest = Sha256::new();
+    let mut file = std::fs::File::open(path).ok()?;
+    std::io::copy(&mut file, &mut digest).ok()?;
+    let digest = digest.finalize();
+    Some(digest.iter().map(|byte| format!("{byte:02x}")).collect())
 }

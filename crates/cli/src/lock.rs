@@ -40,6 +40,7 @@ pub(crate) fn folder(folder: &Path) -> Result<File, String> {
 fn options() -> OpenOptions {
     let mut options = OpenOptions::new();
     options.read(true).write(true).create(true).truncate(false);
+    crate::files::not_followed(&mut options);
     options
 }
 

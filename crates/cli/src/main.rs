@@ -29,11 +29,13 @@ fn main() -> ExitCode {
     }
     let status = match arguments.command {
         Command::Study(a) => commands::study::run(&a),
-        Command::Derive(a) => commands::derive::run(&a),
+        Command::Derive(a) => commands::as_a_whole(|| commands::derive::run(&a)),
         Command::Principles(a) => commands::principles::run(&a),
         Command::Simulate(a) => commands::simulate::run(&a),
+        Command::Linearize(a) => commands::stability::linearize(&a),
+        Command::Stability(a) => commands::stability::run(&a),
         Command::Sweep(a) => commands::sweep::run(&a),
-        Command::Check(a) => commands::check::run(&a),
+        Command::Check(a) => commands::as_a_whole(|| commands::check::run(&a)),
         Command::Explain(a) => commands::explain::run(&a),
         Command::Verify(a) => commands::verify::run(&a),
         Command::New(a) => commands::new::run(&a),

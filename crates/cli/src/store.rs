@@ -7,9 +7,10 @@
 //! sweep.journal   which bytes of it those are
 //! failures.csv    the trajectories that ended early or did not begin
 //! sweep.npz       all columns; when it is there and no journal is, the sweep is complete
+//! sweep.sha256    checksums of both, as `sha256sum` writes and checks them; a sweep is believed to be complete by these only
 //! ```
 
-use crate::lock;
+use crate::{files, lock};
 use chetaev::ensemble::{archive, Columns, Journal, Outcome, Record};
 use serde_json::{json, Map, Value};
 use std::collections::BTreeMap;
@@ -27,6 +28,7 @@ const SYNC: Duration = Duration::from_millis(500);
 const RECORD: &str = "sweep.json";
 const DATA: &str = "sweep.data";
 const JOURNAL: &str = "sweep.journal";
+const SUMS: &str = "sweep.sha256";
 /// The results.
 pub(crate) const ARCHIVE: &str = "sweep.npz";
 /// The reasons.
@@ -147,16 +149,19 @@ pub(crate) fn open(folder: &Path, asked: &Asked<'_>) -> Result<Opened, String> {
     // What is complete stays as it is, and may lie where nothing can be written.
     if is_complete() {
         check_record(folder, asked)?;
+        check_sums(folder)?;
         return Ok(Opened::Complete(first_of_file(&path(FAILURES))));
     }
     let lock = lock::folder(folder)?;
     check_record(folder, asked)?;
     if is_complete() {
+        check_sums(folder)?;
         return Ok(Opened::Complete(first_of_file(&path(FAILURES))));
     }
     let editable = |name: &str| {
         let mut options = OpenOptions::new();
         let options = options.read(true).write(true).create(true).truncate(false);
+        files::not_followed(options);
         options.open(path(name)).map_err(at(&path(name), "opened"))
     };
     let mut store = Store {
@@ -194,6 +199,28 @@ fn check_record(folder: &Path, asked: &Asked<'_>) -> Result<(), String> {
             })
         }
         Err(problem) => Err(at(&path(RECORD), "read")(problem)),
+    }
+}
+
+/// The files that a complete sweep consists of, as `sha256sum` lists them.
+fn sums(folder: &Path) -> Result<String, String> {
+    let line = |name: &str| {
+        let sum = files::checksum_of(&folder.join(name));
+        let sum = sum.ok_or_else(|| format!("{} cannot be read", folder.join(name).display()))?;
+        Ok(format!("{sum}  {name}\n"))
+    };
+    [ARCHIVE, FAILURES].into_iter().map(line).collect()
+}
+
+/// What lies in the folder is what a sweep wrote.
+fn check_sums(folder: &Path) -> Result<(), String> {
+    let stated = std::fs::read_to_string(folder.join(SUMS)).unwrap_or_default();
+    match sums(folder)? == stated {
+        true => Ok(()),
+        false => Err(format!(
+            "{0} holds {ARCHIVE} and {FAILURES} that are not what a sweep wrote there: their checksums are not those of {SUMS}; choose another folder with --out, or delete {0}",
+            folder.display()
+        )),
     }
 }
 
@@ -239,21 +266,8 @@ fn replace(
     path: &Path,
     write: impl FnOnce(&mut File) -> std::io::Result<()>,
 ) -> Result<(), String> {
-    let mut partial = path.as_os_str().to_owned();
-    partial.push(".partial");
-    let partial = PathBuf::from(partial);
-    let written = File::create(&partial).and_then(|mut file| {
-        write(&mut file)?;
-        file.sync_all()
-    });
-    let replaced = written
-        .and_then(|()| std::fs::rename(&partial, path))
-        .and_then(|()| sync_folder(path.parent()));
-    replaced.map_err(|problem| {
-        // What is not whole helps nobody; whether it can be deleted changes nothing.
-        let _ = std::fs::remove_file(&partial);
-        at(path, "written")(problem)
-    })
+    files::replace(path, write)?;
+    sync_folder(path.parent()).map_err(at(path, "written"))
 }
 
 /// Brings the names in a folder to the disk, where the system can.
@@ -416,6 +430,8 @@ impl Store {
             }
             Ok(())
         })?;
+        let sums = sums(&folder)?;
+        replace(&folder.join(SUMS), |file| file.write_all(sums.as_bytes()))?;
         // A sweep without journal is complete: it goes first.
         for name in [JOURNAL, DATA] {
             let path = folder.join(name);

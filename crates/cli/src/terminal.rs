@@ -6,11 +6,46 @@ use std::sync::OnceLock;
 /// Why standard output could not be written.
 static FAILURE: OnceLock<String> = OnceLock::new();
 
+/// What is printed, with a picture in the place of every control character that is not ours: names in a model or a record may
+/// contain any. Ours are the codes for colours.
+fn shown(text: &str) -> std::borrow::Cow<'_, str> {
+    let is_obeyed = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    if !text.contains(is_obeyed) {
+        return text.into();
+    }
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(sign) = rest.chars().next() {
+        if let Some(length) = colour(rest) {
+            out.push_str(&rest[..length]);
+            rest = &rest[length..];
+            continue;
+        }
+        match sign {
+            '\0'..='\u{1f}' if is_obeyed(sign) => {
+                out.push(char::from_u32(0x2400 + sign as u32).unwrap_or('\u{fffd}'));
+            }
+            sign if is_obeyed(sign) => out.push('\u{fffd}'),
+            sign => out.push(sign),
+        }
+        rest = &rest[sign.len_utf8()..];
+    }
+    out.into()
+}
+
+/// The length of a code for a colour, bold or dim letters, or their end, at the beginning of a text.
+fn colour(text: &str) -> Option<usize> {
+    let code = text.strip_prefix("\u{1b}[")?;
+    let end = code.find('m').filter(|&end| end <= 5)?;
+    let is_one = |number: &str| matches!(number.parse::<u8>(), Ok(0..=2 | 30..=37 | 90..=97));
+    code[..end].split(';').all(is_one).then_some(end + 3)
+}
+
 /// Writes to standard output. A reader that went away is no error; any other failure is kept for [`failure`].
 pub(crate) fn out(text: &str) {
     let mut stdout = std::io::stdout().lock();
     let written = stdout
-        .write_all(text.as_bytes())
+        .write_all(shown(text).as_bytes())
         .and_then(|()| stdout.flush());
     if let Err(problem) = written {
         if problem.kind() != ErrorKind::BrokenPipe {
@@ -27,7 +62,7 @@ pub(crate) fn failure() -> Option<&'static str> {
 /// Writes a line to standard error.
 pub(crate) fn err(text: &str) {
     let mut stderr = std::io::stderr().lock();
-    let _ = writeln!(stderr, "{}", text.trim_end());
+    let _ = writeln!(stderr, "{}", shown(text.trim_end()));
 }
 
 /// Whether standard output is a terminal that wants colours.
@@ -74,7 +109,19 @@ fn quoted(argument: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::written;
+    use super::{shown, written};
+
+    #[test]
+    fn control_characters_are_shown_and_not_obeyed() {
+        let red = "\u{1b}[1;31merror\u{1b}[0m: x\n\ty";
+        assert_eq!(shown(red), red);
+        assert_eq!(
+            shown("A\u{1b}]0;x\u{7}\u{1b}[2J\u{9b}1m"),
+            "A␛]0;x␇␛[2J\u{fffd}1m"
+        );
+        // Letters that are hidden are none of ours.
+        assert_eq!(shown("\u{1b}[8m"), "␛[8m");
+    }
 
     #[test]
     fn commands_are_written_as_they_can_be_given_again() {

@@ -112,12 +112,15 @@ impl<W: Word> Factored<W> {
         }
     }
 
-    /// Whether the pivots of L D Lᵀ are positive and none is negligible.
+    /// Whether the pivots of L D Lᵀ are positive and none is negligible beside its terms, which add up to the entry of the diagonal.
     fn is_definite(&self, l: usize) -> bool {
-        let PivotRange { smallest, largest } = self.ranges[l];
-        let threshold = SAFETY * self.size as f64 * f64::EPSILON * largest;
-        let are_positive = self.pivots.iter().all(|pivot| pivot.lane(l) > 0.0);
-        are_positive && largest.is_finite() && smallest > threshold
+        let n = self.size;
+        let negligible = SAFETY * n as f64 * f64::EPSILON;
+        let mut pivots = self.pivots.iter().enumerate();
+        pivots.all(|(k, pivot)| {
+            let (pivot, terms) = (pivot.lane(l), self.given[k * n + k].lane(l));
+            pivot > negligible * terms && pivot > 0.0 && pivot.is_finite()
+        })
     }
 
     /// Factorizes again with pivoting, in state l only.

@@ -53,6 +53,7 @@ pub mod lower;
 pub mod native;
 mod pairs;
 pub mod program;
+pub mod rounding;
 mod scalar;
 mod schedule;
 mod sums;

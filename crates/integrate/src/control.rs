@@ -195,6 +195,9 @@ impl Controller {
     }
 }
 
+/// The part of the span that is tried where nothing tells a first step.
+const SHORT: f64 = 1e-7;
+
 /// Magnitude of a first step, for a method whose error behaves as h^q.
 ///
 /// Source: Hairer, Nørsett, Wanner 1993, II.4 (algorithm "starting step size"). `f0` is F(t, y); `work` are two
@@ -208,14 +211,14 @@ pub fn initial_step(
 ) -> f64 {
     let d0 = scale.norm(y, y);
     let d1 = scale.norm(f0, y);
-    let mut h0 = if d0 < 1e-5 || d1 < 1e-5 {
-        1e-6
+    // Times are compared with the span: it is the only one that is known.
+    let mut h0 = if d0 < 1e-5 || d1 * span < 1e-5 {
+        SHORT * span
     } else {
-        0.01 * d0 / d1
-    }
-    .min(span);
+        (0.01 * d0 / d1).min(span)
+    };
     if !h0.is_finite() || h0 <= 0.0 {
-        h0 = (1e-6_f64).min(span);
+        h0 = SHORT * span;
     }
     for _ in 0..20 {
         for i in 0..y.len() {
@@ -233,11 +236,13 @@ pub fn initial_step(
         y1[i] = f1[i] - f0[i];
     }
     let d2 = scale.norm(y1, y) / h0;
-    let steepest = d1.max(d2);
+    // In units of the time in which the state changes by itself, so that it does not depend on those of time.
+    let unit = 100.0 * h0;
+    let steepest = (d1 * unit).max(d2 * unit * unit);
     let h1 = if steepest <= 1e-15 {
-        (h0 * 1e-3).max(1e-6)
+        (h0 * 1e-3).max(SHORT * span)
     } else {
-        (0.01 / steepest).powf(1.0 / q)
+        unit * (0.01 / steepest).powf(1.0 / q)
     };
     (100.0 * h0).min(h1).min(span)
 }

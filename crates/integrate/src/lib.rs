@@ -19,6 +19,7 @@
 mod collapse;
 pub mod compensated;
 pub mod control;
+mod crowd;
 pub mod dense;
 pub mod double_double;
 mod error;

@@ -58,6 +58,16 @@ pub enum Stop {
         /// The component.
         component: usize,
     },
+    /// Zeros of one function repeat without end, one or more in each of many very short steps: the motion grazes zero or chatters across
+    /// it.
+    Crowd {
+        /// Time.
+        t: f64,
+        /// Number of the event in the list given.
+        index: usize,
+        /// In how many steps in a row it was met.
+        count: u64,
+    },
     /// The number of steps reached its limit.
     StepLimit {
         /// Time.

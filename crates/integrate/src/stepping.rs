@@ -9,6 +9,7 @@ use std::sync::atomic::Ordering;
 use crate::collapse::Collapse;
 use crate::compensated::Time;
 use crate::control::least_step;
+use crate::crowd::Crowd;
 use crate::dense::{DenseStep, Trajectory};
 use crate::event::Event;
 use crate::integrate::{Options, Progress, StepSize};
@@ -64,6 +65,7 @@ pub struct Stepping<'o> {
     /// Whether the system was already asked for another chart at this starting point.
     repivoted: bool,
     collapse: Collapse,
+    crowd: Crowd,
     /// Time when the steps were last seen to get on.
     got_on: Time,
     detector: Detector,
@@ -118,6 +120,7 @@ impl<'o> Stepping<'o> {
             changed: false,
             repivoted: false,
             collapse: Collapse::new(span.0, n),
+            crowd: Crowd::new(events.len()),
             got_on: Time::exact(span.0),
             detector: Detector::new(),
             point: vec![0.0; n],
@@ -250,12 +253,21 @@ impl<'o> Stepping<'o> {
         }
         let attempt = self.attempt_until_accepted(system)?;
         let ended_by = self.locate_events(system, events)?;
+        let step = (self.now.t.high, self.now.t.until(self.next.t.high));
+        let crowd = match self.has_events {
+            true => self.crowd.after(step, &self.solution.events),
+            false => None,
+        };
         self.record_inside(system)?;
         self.commit(&attempt, ended_by.is_some());
         self.call_accepted_hook(system, ended_by)?;
         self.record_end(system)?;
         if let Some(stop) = ended_by {
             return Err(stop);
+        }
+        if let Some((index, count)) = crowd {
+            let t = self.now.t.high;
+            return Err(Stop::Crowd { t, index, count });
         }
         if self.now.t.high == self.span.1 {
             return Err(Stop::Finished);

@@ -2,10 +2,10 @@
 
 use crate::mass::NamedMasses;
 use crate::system::{
-    Assumption, CharacteristicFormulas, CompleteIntegral, FrameFields, Particle, Relation, System,
-    SystemError, SystemParts, Thrust, VariationOperator,
+    Assumption, CharacteristicFormulas, CompleteIntegral, FrameFields, Particle, Relation,
+    StatedEquations, SteadyMotion, System, SystemError, SystemParts, Thrust, Twin, VariationOperator,
 };
-use chetaev_model::model::{MassLaw, Model, Thrust as StatedThrust};
+use chetaev_model::model::{MassLaw, Model, SteadyStated, Thrust as StatedThrust};
 use chetaev_symbolic::syntax::Relation as Stated;
 use std::sync::Arc;
 
@@ -130,9 +130,47 @@ impl System {
                 quadratures: s.quadratures.clone(),
                 motion: s.motion.clone(),
             }),
+            steady: model.steady.iter().map(|s| steady(model, s)).collect(),
+            equations: model
+                .equations
+                .iter()
+                .map(|set| StatedEquations {
+                    name: set.name.clone(),
+                    unknowns: set.unknowns.clone(),
+                    equations: set
+                        .equations
+                        .iter()
+                        .map(|e| (e.name.clone(), e.left, e.right))
+                        .collect(),
+                })
+                .collect(),
+            twins: model
+                .twins
+                .iter()
+                .map(|twin| {
+                    Ok(Twin {
+                        name: twin.name.clone(),
+                        system: Arc::new(System::from_model(&twin.model)?),
+                        map: twin.map.clone(),
+                        symbols: twin.symbols.clone(),
+                    })
+                })
+                .collect::<Result<_, SystemError>>()?,
             assumptions: model.assumptions.iter().filter_map(assumption).collect(),
         };
         System::new(Arc::clone(&model.graph), parts)
+    }
+}
+
+fn steady(model: &Model, stated: &SteadyStated) -> SteadyMotion {
+    let of = |order: u32| {
+        let value = |i: usize| stated.values.get(&(i, order)).map(|given| given.value);
+        (0..model.coordinates.len()).map(value).collect()
+    };
+    SteadyMotion {
+        name: stated.name.clone(),
+        positions: of(0),
+        velocities: of(1),
     }
 }
 

@@ -48,5 +48,5 @@ pub use formulations::{formulation, Basis, Formulation, Identity, FORMULATIONS};
 pub use frame::Frame;
 pub use prover::Prover;
 pub use redundancy::LeftOut;
-pub use system::{System, SystemError, SystemParts};
+pub use system::{SteadyMotion, System, SystemError, SystemParts};
 pub use terms::MotionTerms;

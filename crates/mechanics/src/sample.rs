@@ -461,12 +461,13 @@ fn project_velocities(
     false
 }
 
-/// Whether constraints vanish up to rounding of summands of the size of `∂f/∂v · v`.
+/// Whether constraints vanish beside what the largest velocity changes in them, each in its own units.
 fn is_satisfied(f: &[f64], jacobian: &[f64], speeds: &[f64]) -> bool {
     let rows = jacobian.chunks(speeds.len().max(1));
+    let fastest = speeds.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     f.iter().zip(rows).all(|(f, row)| {
-        let summands = row.iter().zip(speeds).map(|(j, v)| (j * v).abs());
-        f.abs() < 1e-11 + 1e-14 * summands.sum::<f64>()
+        let slopes: f64 = row.iter().map(|j| j.abs()).sum();
+        f.abs() <= 1e-11 * slopes * fastest
     })
 }
 

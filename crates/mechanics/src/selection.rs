@@ -71,12 +71,18 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
             (0..n).map(cost).collect()
         })
         .collect();
-    let selection = eliminate(values_at(&point), cost.clone(), n);
+    let constraints = terms.constraint_index.iter();
+    let mut all = constraints.map(|&l| &system.constraints[l]);
+    let least = match all.all(|constraint| constraint.is_affine_in_velocities()) {
+        true => AT_EXACT_STATES,
+        false => AT_SOLVED_STATES,
+    };
+    let selection = eliminate_beyond(least, values_at(&point), cost.clone(), n);
     // The equations of motion determine derivatives of order two and more as the constraints do: a choice serves if it does at their
     // solutions, of which there are few.
     if terms.order > 1 && !terms.affine.iter().all(|&affine| affine) {
         if let Some(point) = solution(system, terms, &selection, point) {
-            let there = eliminate(values_at(&point), cost, n);
+            let there = eliminate_beyond(least, values_at(&point), cost, n);
             if there.rows.len() == selection.rows.len() {
                 return Ok(there);
             }
@@ -142,16 +148,24 @@ fn cost_of(system: &System, entry: Expr, j: usize, own: Option<Symbol>) -> usize
     wanted + nonlinear + kind + size
 }
 
-/// Gaussian elimination that takes, among pivots that are not small, the cheapest.
-pub(crate) fn eliminate(mut a: Vec<f64>, cost: Vec<Vec<usize>>, n: usize) -> Selection {
+/// The part of its terms below which a pivot counts as zero where the state is known to some eleven digits, as one at which
+/// constraints nonlinear in the velocities were solved.
+const AT_SOLVED_STATES: f64 = 1e-9;
+/// The same at states that are exact: what rounding leaves of terms that cancel.
+const AT_EXACT_STATES: f64 = 1e-13;
+
+/// Gaussian elimination that takes, among pivots that are not small, the cheapest, at a state that is known to some digits.
+pub(crate) fn eliminate(a: Vec<f64>, cost: Vec<Vec<usize>>, n: usize) -> Selection {
+    eliminate_beyond(AT_SOLVED_STATES, a, cost, n)
+}
+
+/// The same where pivots up to the part `least` of the terms of which they were made count as zero, whatever the units of rows and
+/// columns.
+fn eliminate_beyond(least: f64, mut a: Vec<f64>, cost: Vec<Vec<usize>>, n: usize) -> Selection {
     let r = cost.len();
-    let scale: Vec<f64> = (0..r)
-        .map(|i| {
-            a[i * n..(i + 1) * n]
-                .iter()
-                .fold(0.0, |m: f64, x| m.max(x.abs()))
-        })
-        .collect();
+    let mut sizes: Vec<f64> = a.iter().map(|x| x.abs()).collect();
+    let largest = |row: &[f64]| row.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let scale: Vec<f64> = a.chunks(n.max(1)).map(largest).collect();
     let mut selection = Selection {
         rows: Vec::new(),
         dependent: Vec::new(),
@@ -161,7 +175,8 @@ pub(crate) fn eliminate(mut a: Vec<f64>, cost: Vec<Vec<usize>>, n: usize) -> Sel
         let mut best: Option<(usize, usize, usize)> = None;
         for &i in &open {
             for j in (0..n).filter(|j| !selection.dependent.contains(j)) {
-                let usable = a[i * n + j].abs() > 1e-9 * scale[i].max(1e-300);
+                let entry = a[i * n + j].abs();
+                let usable = entry > least * sizes[i * n + j] && entry > least * scale[i];
                 let better = best.is_none_or(|(c, _, _)| cost[i][j] < c);
                 if usable && better {
                     best = Some((cost[i][j], i, j));
@@ -176,6 +191,7 @@ pub(crate) fn eliminate(mut a: Vec<f64>, cost: Vec<Vec<usize>>, n: usize) -> Sel
             let factor = a[o * n + j] / a[i * n + j];
             for c in 0..n {
                 a[o * n + c] -= factor * a[i * n + c];
+                sizes[o * n + c] += factor.abs() * sizes[i * n + c];
             }
             a[o * n + j] = 0.0;
         }

@@ -118,6 +118,30 @@ pub struct CompleteIntegral {
     pub motion: Vec<(Symbol, Expr)>,
 }
 
+/// Equations that somebody states as the equations of motion.
+#[derive(Clone, Debug)]
+pub struct StatedEquations {
+    /// Their name in the model.
+    pub name: String,
+    /// Unknowns of their own.
+    pub unknowns: Vec<Symbol>,
+    /// Triples (name, left, right), functions of (t, q, q', q''), of `lambda_NAME` and the unknowns.
+    pub equations: Vec<(String, Expr, Expr)>,
+}
+
+/// Another system that is said to have the same motion.
+#[derive(Clone, Debug)]
+pub struct Twin {
+    /// Its name in the model.
+    pub name: String,
+    /// The other system, on a graph of its own.
+    pub system: Arc<System>,
+    /// Its coordinates as functions of (q, t), by its coordinates.
+    pub map: Vec<Expr>,
+    /// Its parameters and controls by ours.
+    pub symbols: Vec<(String, Expr)>,
+}
+
 /// A mass with a law of its own, M' = Φ(t, q, v, M): a state beside the coordinates.
 #[derive(Clone, Debug)]
 pub struct MassVariable {
@@ -160,6 +184,17 @@ pub struct Particle {
     pub force: Vec<Expr>,
     /// The thrust of the matter that it loses or gains.
     pub thrust: Thrust,
+}
+
+/// A steady motion that the model names: what is given of it.
+#[derive(Clone, Debug)]
+pub struct SteadyMotion {
+    /// Its name, the subject of claims.
+    pub name: String,
+    /// q, where given; length n.
+    pub positions: Vec<Option<Expr>>,
+    /// q', where given; length n.
+    pub velocities: Vec<Option<Expr>>,
 }
 
 /// How a sign or range is assumed.
@@ -243,6 +278,12 @@ pub struct SystemParts {
     pub variations: Vec<VariationOperator>,
     /// A complete integral of the equation of Hamilton and Jacobi that the model states.
     pub complete_integral: Option<CompleteIntegral>,
+    /// Steady motions that the model names.
+    pub steady: Vec<SteadyMotion>,
+    /// Equations that are compared with the equations of motion.
+    pub equations: Vec<StatedEquations>,
+    /// Systems that are said to have the same motion.
+    pub twins: Vec<Twin>,
     /// Assumptions.
     pub assumptions: Vec<Assumption>,
 }
@@ -364,6 +405,12 @@ pub struct System {
     pub variations: Vec<VariationOperator>,
     /// A complete integral of the equation of Hamilton and Jacobi that the model states.
     pub complete_integral: Option<CompleteIntegral>,
+    /// Steady motions that the model names.
+    pub steady: Vec<SteadyMotion>,
+    /// Equations that are compared with the equations of motion.
+    pub equations: Vec<StatedEquations>,
+    /// Systems that are said to have the same motion.
+    pub twins: Vec<Twin>,
     /// Assumptions of the model.
     pub assumptions: Vec<Assumption>,
     /// Places of the coordinates by name.
@@ -471,6 +518,9 @@ impl System {
             integrals: parts.integrals,
             variations: parts.variations,
             complete_integral: parts.complete_integral,
+            steady: parts.steady,
+            equations: parts.equations,
+            twins: parts.twins,
             assumptions: parts.assumptions,
             places: places(&parts.coordinates),
             coordinates,

@@ -1,5 +1,6 @@
 //! Problems of a model, each at its place in one of the texts.
 
+use std::collections::HashSet;
 use std::fmt;
 
 use chetaev_symbolic::syntax::{self, Severity};
@@ -9,7 +10,7 @@ use crate::source::{Place, Sources};
 use crate::text::Text;
 
 /// One problem. The message is lower case and without a final period.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Diagnostic {
     /// How bad it is.
     pub severity: Severity,
@@ -30,7 +31,7 @@ pub struct Diagnostic {
 }
 
 /// A replacement of a piece of text that would solve a problem.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Suggestion {
     /// The text to replace.
     pub place: Place,
@@ -121,6 +122,17 @@ impl Diagnostic {
     }
 }
 
+/// Which problems were found already.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Known(HashSet<Diagnostic>);
+
+impl Known {
+    /// Whether a problem was not found before; it is from then on.
+    pub(crate) fn is_new(&mut self, diagnostic: &Diagnostic) -> bool {
+        !self.0.contains(diagnostic) && self.0.insert(diagnostic.clone())
+    }
+}
+
 /// All problems of a model with the texts they are about. As an error it shows every problem.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Diagnostics {
@@ -138,11 +150,16 @@ impl Diagnostics {
             .any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// Adds a problem unless the same one is there.
-    pub(crate) fn push(&mut self, diagnostic: Diagnostic) {
-        if !self.list.contains(&diagnostic) {
-            self.list.push(diagnostic);
+    /// The problems without those that are there twice.
+    pub(crate) fn once(sources: Sources, all: Vec<Diagnostic>) -> Diagnostics {
+        let mut known = Known::default();
+        let mut list = Vec::with_capacity(all.len());
+        for diagnostic in all {
+            if known.is_new(&diagnostic) {
+                list.push(diagnostic);
+            }
         }
+        Diagnostics { sources, list }
     }
 
     /// Sorts by place, errors before warnings at one place.

@@ -1,5 +1,7 @@
 //! From text to model: includes followed, overrides laid over.
 
+use std::collections::BTreeMap;
+
 use chetaev_symbolic::syntax::Span;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -9,8 +11,10 @@ use crate::resolve::{self, Override};
 use crate::source::{joined, Files, Place, SourceId, Sources};
 use crate::text::Text;
 
-/// Most files that one model includes, directly or not.
+/// Most files that one model reads; one that is included twice counts twice.
 const MOST_FILES: usize = 100;
+/// Most bytes of all of them together.
+const MOST_BYTES: usize = 16 << 20;
 
 /// What reading a model gives: the model where it has no error, and everything there is to say about it.
 #[derive(Clone, Debug)]
@@ -51,9 +55,16 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
         },
         open: Vec::new(),
         failed: false,
+        files_read: 0,
+        bytes_read: text.len(),
+        is_too_large: false,
     };
     let source = loader.sources.add(path, text);
     let table = loader.file(path, text, source);
+    let others = match &table {
+        Some(table) => loader.others(path, table),
+        None => BTreeMap::new(),
+    };
     let overrides = loader.overrides(overrides);
     let Loader {
         sources,
@@ -68,17 +79,12 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
     };
     let mut model = None;
     if let Some(table) = table.filter(|_| !failed) {
-        let (resolved, found) = resolve::resolve(&table, file, sources.clone(), kept, overrides);
+        let (resolved, found) =
+            resolve::resolve(&table, file, sources.clone(), kept, overrides, others);
         diagnostics.extend(found);
         model = resolved;
     }
-    let mut all = Diagnostics {
-        sources,
-        list: Vec::new(),
-    };
-    for diagnostic in diagnostics {
-        all.push(diagnostic);
-    }
+    let mut all = Diagnostics::once(sources, diagnostics);
     all.sort();
     if all.has_errors() {
         model = None;
@@ -104,6 +110,9 @@ struct Loader<'f> {
     open: Vec<String>,
     /// Whether a file could not be read at all; what it would have declared is then unknown.
     failed: bool,
+    files_read: usize,
+    bytes_read: usize,
+    is_too_large: bool,
 }
 
 impl Loader<'_> {
@@ -122,6 +131,9 @@ impl Loader<'_> {
         self.open.push(path.to_owned());
         let mut base = Table::default();
         for item in self.include_paths(&include) {
+            if self.is_too_large {
+                break;
+            }
             if let Some(included) = self.include(path, &item) {
                 base.overlay(included);
             }
@@ -129,6 +141,60 @@ impl Loader<'_> {
         self.open.pop();
         base.overlay(table);
         Some(base)
+    }
+
+    /// The models that `[twin.NAME]` names, each by the place of its path. What they say of equations and twins themselves is left out.
+    fn others(&mut self, path: &str, table: &Table) -> BTreeMap<Place, Option<Model>> {
+        let mut others = BTreeMap::new();
+        let twins = table.get("twin").and_then(Raw::table);
+        for (_, raw) in twins.iter().flat_map(|table| &table.entries) {
+            let named = raw.table().and_then(|table| table.get("model"));
+            if let Some(Kind::Text(named)) = named.map(|raw| &raw.kind) {
+                let other = self.other(path, named);
+                others.insert(named.place, other);
+            }
+        }
+        others
+    }
+
+    fn other(&mut self, from: &str, named: &Text) -> Option<Model> {
+        let path = joined(from, &named.content);
+        let text = match path == self.kept.path {
+            true => self.kept.text.clone(),
+            false => self.read(&path, named)?,
+        };
+        let source = self.sources.add(path.clone(), text.clone());
+        let open = std::mem::take(&mut self.open);
+        let table = self.file(&path, &text, source);
+        self.open = open;
+        let mut table = table?;
+        for section in [
+            "twin",
+            "equations",
+            "expect",
+            "events",
+            "drawing",
+            "initial",
+        ] {
+            table.remove(section);
+        }
+        let file = Place {
+            source,
+            span: Span::new(0, text.len()),
+        };
+        let kept = ModelText {
+            path,
+            text,
+            ..ModelText::default()
+        };
+        let sources = self.sources.clone();
+        let (model, found) =
+            resolve::resolve(&table, file, sources, kept, Vec::new(), BTreeMap::new());
+        let is_error = |d: &&Diagnostic| d.severity == chetaev_symbolic::syntax::Severity::Error;
+        // Warnings are those of the other file.
+        let errors = found.iter().filter(is_error).cloned();
+        self.diagnostics.extend(errors);
+        model
     }
 
     fn include_paths(&mut self, raw: &Raw) -> Vec<Text> {
@@ -153,23 +219,43 @@ impl Loader<'_> {
 
     fn include(&mut self, from: &str, named: &Text) -> Option<Table> {
         let path = joined(from, &named.content);
-        if self.open.contains(&path) || self.kept.path == path {
+        if self.open.contains(&path) {
             let message = format!("`{}` includes itself", named.content);
             self.fail(Diagnostic::error("circular-include", named.place, message));
             return None;
         }
-        if self.kept.includes.len() >= MOST_FILES {
-            let message = format!("a model is made of {MOST_FILES} files at most");
-            self.fail(Diagnostic::error("too-large", named.place, message));
+        let text = self.read(&path, named)?;
+        let source = self.sources.add(path.clone(), text.clone());
+        self.file(&path, &text, source)
+    }
+
+    /// The text of another file, which is kept.
+    fn read(&mut self, path: &str, named: &Text) -> Option<String> {
+        self.files_read += 1;
+        if self.files_read > MOST_FILES {
+            // Said once, however many more there are.
+            if !self.is_too_large {
+                let message = format!("a model is made of {MOST_FILES} files at most, counting each as often as it is included");
+                self.fail(Diagnostic::error("too-large", named.place, message));
+            }
+            self.is_too_large = true;
             return None;
         }
-        match self.files.read(&path) {
+        match self.files.read(path) {
             Ok(text) => {
-                if self.kept.includes.iter().all(|(own, _)| *own != path) {
-                    self.kept.includes.push((path.clone(), text.clone()));
+                self.bytes_read = self.bytes_read.saturating_add(text.len());
+                if self.bytes_read > MOST_BYTES {
+                    let message = format!(
+                        "the files of a model have at most {} MiB together",
+                        MOST_BYTES >> 20
+                    );
+                    self.fail(Diagnostic::error("too-large", named.place, message));
+                    return None;
                 }
-                let source = self.sources.add(path.clone(), text.clone());
-                self.file(&path, &text, source)
+                if self.kept.includes.iter().all(|(own, _)| own != path) {
+                    self.kept.includes.push((path.to_owned(), text.clone()));
+                }
+                Some(text)
             }
             Err(reason) => {
                 let message = format!("`{path}` cannot be read: {reason}");

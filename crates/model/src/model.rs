@@ -75,6 +75,8 @@ pub struct Model {
     pub initial: Initial,
     /// How to compute the motion.
     pub simulation: Simulation,
+    /// Steady motions, about which is linearized.
+    pub steady: Vec<SteadyStated>,
     /// What is looked for along the motion.
     pub events: Vec<EventStated>,
     /// Candidate first integrals.
@@ -85,6 +87,10 @@ pub struct Model {
     pub complete_integral: Option<CompleteIntegral>,
     /// Where such an integral holds on a part of the states only: the name of the integral, and an equation of the part.
     pub integral_conditions: Vec<IntegralCondition>,
+    /// Equations of a paper, a student or another program, to be compared with the equations of motion.
+    pub equations: Vec<StatedEquations>,
+    /// Models that are said to have the same motion.
+    pub twins: Vec<Twin>,
     /// Functions of (t, q) that may occur in first integrals and invariant measures, beside those that occur in the model.
     pub search: Vec<Definition>,
     /// The degree in the velocities up to which first integrals are searched, where it is more than usual.
@@ -95,6 +101,8 @@ pub struct Model {
     pub expect: Expect,
     /// Integer sizes such as the number of links.
     pub sizes: Vec<(String, i64)>,
+    /// Warnings of parameters and definitions that occur nowhere.
+    pub unused: Vec<crate::Diagnostic>,
     /// Whether units are stated, and checked.
     pub has_units: bool,
     /// The texts it was read from, for diagnostics of later stages.
@@ -222,6 +230,51 @@ pub struct CompleteIntegral {
     pub quadratures: Vec<(usize, Expr)>,
     /// What constants are on the motions of the system, put in after S was differentiated by them.
     pub motion: Vec<(Symbol, Expr)>,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// Equations that somebody states as the equations of motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StatedEquations {
+    /// Their name.
+    pub name: String,
+    /// Unknowns of their own beside accelerations and multipliers: symbols of order 0.
+    pub unknowns: Vec<Symbol>,
+    /// The equations, functions of t, q, q', q'', `lambda_NAME` and the unknowns.
+    pub equations: Vec<StatedEquation>,
+    /// A word about them; may be empty.
+    pub description: String,
+    /// Where they are stated.
+    pub place: Place,
+}
+
+/// One equation of such.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StatedEquation {
+    /// Its name, or its number from 1.
+    pub name: String,
+    /// Left side.
+    pub left: Expr,
+    /// Right side.
+    pub right: Expr,
+    /// As it is written.
+    pub text: String,
+}
+
+/// Another model that is said to have the same motion.
+#[derive(Clone, Debug)]
+pub struct Twin {
+    /// Its name.
+    pub name: String,
+    /// The other model, on a graph of its own.
+    pub model: Box<Model>,
+    /// Its coordinates as functions of ours and the time, in its order; on our graph.
+    pub map: Vec<Expr>,
+    /// Its parameters, and its controls where they have no law, by ours; on our graph.
+    pub symbols: Vec<(String, Expr)>,
+    /// A word about it; may be empty.
+    pub description: String,
     /// Where it is stated.
     pub place: Place,
 }
@@ -354,7 +407,7 @@ pub struct Constraint {
     pub place: Place,
 }
 
-/// Initial data at the start of the run. What is given is fixed; everything else is free, with 0 as the first guess.
+/// Initial data at the start of the run. What is given is fixed; everything else is free, with 0 as the first guess or the one stated.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Initial {
     /// Given values by number of coordinate and order of derivative, free of coordinates and time.
@@ -374,6 +427,8 @@ pub struct InitialValue {
     pub value: Expr,
     /// As it is written.
     pub text: String,
+    /// Whether it is a first guess, near which the value is searched for, and not the value itself.
+    pub is_guess: bool,
     /// Where it is stated.
     pub place: Place,
 }
@@ -387,6 +442,17 @@ pub struct ExtraInitialValue {
     pub order: u32,
     /// An expression of parameters.
     pub value: Expr,
+    /// Where it is stated.
+    pub place: Place,
+}
+
+/// A steady motion that the model names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SteadyStated {
+    /// Its name.
+    pub name: String,
+    /// Given values by number of coordinate and order of derivative (0 or 1), expressions of parameters.
+    pub values: BTreeMap<(usize, u32), InitialValue>,
     /// Where it is stated.
     pub place: Place,
 }

@@ -1,5 +1,7 @@
 //! The model file as a tree of values that know their places, before anything is given a meaning.
 
+use std::collections::HashMap;
+
 use chetaev_symbolic::syntax::Span;
 use toml_edit::{Document, Item, TableLike, Value};
 
@@ -93,10 +95,16 @@ impl Table {
     ///
     /// A plain value laid over a table that has a value of its own, as a parameter with its unit has, replaces that.
     pub(crate) fn overlay(&mut self, over: Table) {
+        let own = self.entries.iter().enumerate();
+        let mut places: HashMap<String, usize> =
+            own.map(|(i, (key, _))| (key.content.clone(), i)).collect();
         for (key, value) in over.entries {
-            match self.get_mut(&key.content) {
-                None => self.entries.push((key, value)),
-                Some(own) => own.overlay(value),
+            match places.get(&key.content) {
+                Some(&place) => self.entries[place].1.overlay(value),
+                None => {
+                    places.insert(key.content.clone(), self.entries.len());
+                    self.entries.push((key, value));
+                }
             }
         }
     }

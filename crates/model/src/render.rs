@@ -144,7 +144,7 @@ fn excerpt(
         at.line,
         at.column
     );
-    let line = line_around(&source.text, place.span.start).replace('\t', " ");
+    let line = pictured(line_around(&source.text, place.span.start));
     let marked = place.span.text(&source.text).lines().next().unwrap_or("");
     let window = Window::around(&line, at.column - 1, columns(marked).max(1));
     let marks: String = std::iter::repeat_n(mark, window.marks).collect();
@@ -228,6 +228,19 @@ fn line_around(text: &str, at: usize) -> &str {
     text.get(start..)
         .and_then(|rest| rest.lines().next())
         .unwrap_or("")
+}
+
+/// A line with a blank for each tab and a picture for every other control character, which a terminal would obey.
+fn pictured(line: &str) -> String {
+    line.chars()
+        .map(|sign| match sign {
+            '\t' => ' ',
+            '\0'..='\u{1f}' => char::from_u32(0x2400 + sign as u32).unwrap_or(' '),
+            '\u{7f}' => '\u{2421}',
+            '\u{80}'..='\u{9f}' => '\u{fffd}',
+            sign => sign,
+        })
+        .collect()
 }
 
 /// Columns of a terminal: combining signs take none, East Asian wide letters two.

@@ -1,6 +1,7 @@
 //! Texts a model is made of, and places in them.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use chetaev_symbolic::syntax::Span;
 
@@ -21,6 +22,29 @@ pub struct Source {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sources {
     list: Vec<Source>,
+    lines: Vec<Lines>,
+}
+
+/// Where the lines of a text begin, found when it is first asked for.
+#[derive(Clone, Debug, Default)]
+struct Lines(OnceLock<Vec<usize>>);
+
+/// It follows from the text.
+impl PartialEq for Lines {
+    fn eq(&self, _: &Lines) -> bool {
+        true
+    }
+}
+
+impl Eq for Lines {}
+
+impl Lines {
+    fn of(&self, text: &str) -> &[usize] {
+        self.0.get_or_init(|| {
+            let after = text.match_indices('\n').map(|(at, _)| at + 1);
+            std::iter::once(0).chain(after).collect()
+        })
+    }
 }
 
 /// A range of bytes of one text.
@@ -48,6 +72,7 @@ impl Sources {
             name: name.into(),
             text: text.into(),
         });
+        self.lines.push(Lines::default());
         SourceId(self.list.len() - 1)
     }
 
@@ -73,11 +98,14 @@ impl Sources {
     /// Line and column of a byte of a text.
     pub fn line_column(&self, source: SourceId, byte: usize) -> LineColumn {
         let text = &self.get(source).text;
-        let before = text.get(..byte.min(text.len())).unwrap_or(text);
-        let start = before.rfind('\n').map_or(0, |at| at + 1);
+        let none = Lines::default();
+        let lines = self.lines.get(source.0).unwrap_or(&none).of(text);
+        let line = lines.partition_point(|&start| start <= byte.min(text.len()));
+        let start = lines.get(line.saturating_sub(1)).copied().unwrap_or(0);
+        let before = text.get(start..byte.min(text.len())).unwrap_or("");
         LineColumn {
-            line: before.matches('\n').count() + 1,
-            column: before[start..].chars().count() + 1,
+            line: line.max(1),
+            column: before.chars().count() + 1,
         }
     }
 }

@@ -3,7 +3,7 @@
 //! With `B` spanning ker J and `J a* = g`: `a = a* + B c`, `(Bᵀ M B) c = Bᵀ (b - M a*)`. The matrix is symmetric unless a mass
 //! contains velocities.
 
-use crate::chart::Chart;
+use crate::chart::{heaviness, Chart};
 use crate::dense::{Lu, SmallPivot, Symmetric};
 use crate::numeric::NumericSystem;
 use chetaev_integrate::EvaluationFailure;
@@ -22,6 +22,7 @@ pub struct Accelerations {
     /// In the place of `reduced` where M is not symmetric.
     general: Lu,
     block: Vec<f64>,
+    weights: Vec<f64>,
     /// B restricted to dependent rows: ρ × k.
     slope: Vec<f64>,
     column: Vec<f64>,
@@ -112,7 +113,9 @@ impl Accelerations {
         }
         if rank > 0 {
             self.factorizations += 1;
-            self.dependent.factor(rank, &self.block)?;
+            self.weigh_rows(system, chart);
+            let weights = &self.weights;
+            self.dependent.factor_weighted(rank, &self.block, weights)?;
         }
         self.slope.clear();
         self.slope.resize(rank * k, 0.0);
@@ -129,6 +132,23 @@ impl Accelerations {
             }
         }
         Ok(())
+    }
+
+    /// The lengths of the rows of J in the metric of the masses, where there are several to compare.
+    fn weigh_rows(&mut self, system: &NumericSystem, chart: &Chart) {
+        let n = system.n;
+        self.weights.clear();
+        if let [_] = chart.rows[..] {
+            return self.weights.push(1.0);
+        }
+        let mass = system.mass();
+        for &row in &chart.rows {
+            let entries = system.jacobian()[row * n..(row + 1) * n].iter();
+            let weighed = entries
+                .enumerate()
+                .map(|(j, x)| x * x / heaviness(mass[j * n + j]));
+            self.weights.push(weighed.sum::<f64>().sqrt());
+        }
     }
 
     /// a* with independent components zero.
@@ -256,9 +276,16 @@ fn is_free(system: &NumericSystem, chart: &Chart) -> bool {
 
 /// A unit null vector by complete pivoting; `None` for a regular matrix.
 fn null_vector(matrix: &[f64], k: usize) -> Option<Vec<f64>> {
-    let mut a = matrix.to_vec();
+    // By the diagonal all entries become numbers of one kind.
+    let size = |i: usize| match matrix[i * k + i].abs() {
+        size if size > 0.0 && size.is_finite() => size.sqrt(),
+        _ => 1.0,
+    };
+    let mut a: Vec<f64> = (0..k * k)
+        .map(|place| matrix[place] / (size(place / k) * size(place % k)))
+        .collect();
     let mut columns: Vec<usize> = (0..k).collect();
-    let largest = matrix.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let largest = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     for s in 0..k {
         let mut best = (s, s, 0.0f64);
         for i in s..k {
@@ -269,7 +296,11 @@ fn null_vector(matrix: &[f64], k: usize) -> Option<Vec<f64>> {
             }
         }
         if best.2 <= 1e-12 * largest.max(f64::MIN_POSITIVE) {
-            return Some(back_substitute(&a, &columns, s, k));
+            let mut direction = back_substitute(&a, &columns, s, k);
+            (direction.iter_mut().enumerate()).for_each(|(i, x)| *x /= size(i));
+            let largest = direction.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+            direction.iter_mut().for_each(|x| *x /= largest);
+            return Some(direction);
         }
         for c in 0..k {
             a.swap(s * k + c, best.0 * k + c);

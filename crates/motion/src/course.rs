@@ -3,6 +3,7 @@
 
 use crate::crossing::{self, Crossing, Passage, Path, State};
 use crate::happening::{self, Passed, WithEvents};
+use crate::multiplier_flow::STUCK;
 use crate::run::{End, Looking, RunError, RunSettings, Subject, WatchedFlow, Watcher};
 use crate::stop;
 use crate::watch::Watched;
@@ -101,10 +102,16 @@ impl<'o> Course<'o> {
             Some(stepping) => stepping,
             none => {
                 let (t, y) = (self.at.0, &self.at.1[..]);
-                let options = subject.options(settings, t, absolute, self.interrupt)?;
+                let scales = match looking.scales.len() == y.len() {
+                    true => &looking.scales[..],
+                    false => &[],
+                };
+                let measure = (absolute, scales);
+                let options = subject.options(settings, t, measure, self.interrupt)?;
                 self.events = happening::events(own, &settings.events);
                 let (span, events) = ((t, settings.t_end), &mut self.events);
-                none.insert(Stepping::new(&with_events, span, y, events, options)?)
+                let begun = Stepping::new(&with_events, span, y, events, options);
+                none.insert(begun.map_err(|problem| subject.named(problem))?)
             }
         };
         let goes_on = stepping.advance(&mut with_events, &mut self.events);
@@ -190,6 +197,20 @@ impl<'o> Course<'o> {
                     }
                     return None;
                 }
+            }
+            Stop::Crowd { index, t, count } => {
+                let what = match index.checked_sub(own) {
+                    Some(event) => format!("the event `{}`", settings.events[event].name),
+                    None => "a quantity whose vanishing makes the equations singular".to_owned(),
+                };
+                return Some(End::Vanished(stop::crowd(&what, t, count)));
+            }
+            Stop::Halted {
+                t,
+                reason: HaltReason::Custom(STUCK),
+            } => {
+                let text = flow.stuck().unwrap_or("what is under a sign");
+                return Some(End::Vanished(stop::stuck(text, t)));
             }
             Stop::Halted {
                 t,

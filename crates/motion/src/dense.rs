@@ -11,10 +11,13 @@ pub struct SmallPivot {
     pub threshold: f64,
 }
 
-/// `c₀ n ε`, the relative size below which a pivot counts as zero (T5 §5.1, c₀ = 10).
+/// `c₀ n ε`, the part of its terms below which a pivot counts as zero (T5 §5.1, c₀ = 10).
 fn negligible(n: usize) -> f64 {
     10.0 * n.max(1) as f64 * f64::EPSILON
 }
+
+/// Pivots whose ratio is above this need no closer look: rounding leaves pivots near ε.
+const UNSUSPICIOUS: f64 = 1e-8;
 
 /// An LU factorization with row interchanges of an n × n matrix kept by rows.
 #[derive(Clone, Debug, Default)]
@@ -22,6 +25,7 @@ pub struct Lu {
     n: usize,
     a: Vec<f64>,
     order: Vec<usize>,
+    weights: Vec<f64>,
     scratch: Vec<f64>,
 }
 
@@ -29,27 +33,50 @@ impl Lu {
     /// Factors `a` (n × n, row by row).
     ///
     /// # Errors
-    /// [`SmallPivot`] when a pivot is negligible against the largest entry.
+    /// [`SmallPivot`] when a pivot is negligible against the terms of which elimination made it, whatever the units of rows
+    /// and columns.
     pub fn factor(&mut self, n: usize, a: &[f64]) -> Result<(), SmallPivot> {
+        let largest = |row: &[f64]| row.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let mut weights = std::mem::take(&mut self.weights);
+        weights.clear();
+        weights.extend(a.chunks(n.max(1)).map(largest));
+        let factored = self.factor_weighted(n, a, &weights);
+        self.weights = weights;
+        factored
+    }
+
+    /// The same with the size of each row, by which rows are compared for pivots.
+    ///
+    /// # Errors
+    /// [`SmallPivot`].
+    pub fn factor_weighted(
+        &mut self,
+        n: usize,
+        a: &[f64],
+        weights: &[f64],
+    ) -> Result<(), SmallPivot> {
         self.n = n;
         self.a.clear();
         self.a.extend_from_slice(a);
         self.order.clear();
         self.order.extend(0..n);
-        let largest = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-        let threshold = negligible(n) * largest;
+        let (mut smallest, mut largest) = (f64::INFINITY, 0.0_f64);
         for k in 0..n {
+            let part = |i: usize| self.a[i * n + k].abs() / weights[self.order[i]];
             let p = (k..n)
-                .max_by(|&i, &j| self.a[i * n + k].abs().total_cmp(&self.a[j * n + k].abs()))
+                .max_by(|&i, &j| part(i).total_cmp(&part(j)))
                 .unwrap_or(k);
             let pivot = self.a[p * n + k];
-            if pivot.is_nan() || pivot.abs() <= threshold {
+            if pivot.is_nan() || pivot == 0.0 {
+                let threshold = 0.0;
                 return Err(SmallPivot {
                     index: k,
                     pivot,
                     threshold,
                 });
             }
+            smallest = smallest.min(pivot.abs());
+            largest = largest.max(pivot.abs());
             if p != k {
                 for j in 0..n {
                     self.a.swap(k * n + j, p * n + j);
@@ -63,6 +90,33 @@ impl Lu {
                     for j in k + 1..n {
                         self.a[i * n + j] -= factor * self.a[k * n + j];
                     }
+                }
+            }
+        }
+        match smallest > UNSUSPICIOUS * largest {
+            true => Ok(()),
+            false => self.check(a),
+        }
+    }
+
+    /// Compares the pivots with the sums of the sizes of their terms.
+    fn check(&self, given: &[f64]) -> Result<(), SmallPivot> {
+        let n = self.n;
+        let rows = self.order.iter().map(|&i| &given[i * n..(i + 1) * n]);
+        let mut sizes: Vec<f64> = rows.flatten().map(|x| x.abs()).collect();
+        for k in 0..n {
+            let (pivot, threshold) = (self.a[k * n + k], negligible(n) * sizes[k * n + k]);
+            if pivot.abs() <= threshold {
+                return Err(SmallPivot {
+                    index: k,
+                    pivot,
+                    threshold,
+                });
+            }
+            for i in k + 1..n {
+                let factor = self.a[i * n + k].abs();
+                for j in k + 1..n {
+                    sizes[i * n + j] += factor * sizes[k * n + j];
                 }
             }
         }
@@ -189,14 +243,14 @@ impl Symmetric {
             let row = i * n + from..i * n + i + 1;
             self.l[row.clone()].copy_from_slice(&a[row]);
         }
-        let largest = (0..n).fold(0.0, |m: f64, i| m.max(a[i * n + i].abs()));
         for j in 0..n {
             let from = self.first[j];
             let mut d = self.l[j * n + j];
             for m in from..j {
                 d -= self.l[j * n + m] * self.l[j * n + m] * self.l[m * n + m];
             }
-            if d.is_nan() || d <= negligible(n) * largest {
+            // The terms of a pivot of a definite matrix add up to its diagonal entry.
+            if d.is_nan() || d <= negligible(n) * a[j * n + j] {
                 return false;
             }
             self.l[j * n + j] = d;

@@ -12,9 +12,11 @@ use crate::follow::{Deviation, Follow};
 use crate::functions::{Functions, FunctionsError};
 use crate::initial::ConsistentState;
 use crate::leaving::Anchor;
+use crate::multiplier_flow::STUCK;
 use crate::numeric::{Binding, NumericSystem};
 use crate::row::RowLayout;
 use crate::run::WatchedFlow;
+use crate::scales::{power, Scales};
 use crate::series::RateSeries;
 use crate::turns::Turns;
 use crate::watch::Watch;
@@ -252,6 +254,17 @@ impl<'a> FormulationFlow<'a> {
         Ok(y)
     }
 
+    /// Natural sizes of the components of the state: those of its variables with all velocities of their natural sizes.
+    pub(crate) fn scales(&mut self, start: &ConsistentState, scales: &Scales) -> Vec<f64> {
+        let mut all = scales.positions.clone();
+        let own = match self.pack(start.t, &start.q, &scales.velocities) {
+            Ok(y) => y[start.q.len()..].to_vec(),
+            Err(_) => return Vec::new(),
+        };
+        all.extend(own.into_iter().map(|value| power(value.abs())));
+        all
+    }
+
     /// The state vector of the start, from which the velocities of the start must come back.
     ///
     /// # Errors
@@ -342,7 +355,12 @@ impl<'a> FormulationFlow<'a> {
         if factor > 1.0 && before >= DEGRADED * self.current.pivot {
             return Control::Continue;
         }
-        let next = chart::choose(numeric.jacobian(), numeric.r, numeric.n, &diagonal);
+        let next = chart::choose(
+            numeric.jacobian(),
+            (numeric.r, numeric.n),
+            &diagonal,
+            chart::Floor::Along(self.current.pivot),
+        );
         if next.rank() < self.chart.rank() {
             let constraint = (0..numeric.r)
                 .find(|row| !next.rows.contains(row))
@@ -696,6 +714,12 @@ impl Flow for FormulationFlow<'_> {
         let (q, v) = (q.to_vec(), v.to_vec());
         self.watch.record(t, &q, &v);
         self.settle(t);
+        if self.watch.may_stick() {
+            let state = (&self.q[..], &self.v[..], self.current.motion.group(1));
+            if self.watch.sticks(t, state) {
+                return Control::Stop(HaltReason::Custom(STUCK));
+            }
+        }
         let vanished = self.watch.vanished();
         if self.track.is_some() && vanished.is_none() && !matches!(control, Control::Stop(_)) {
             let _ = self.evaluate(t, y);
@@ -734,9 +758,9 @@ impl Flow for FormulationFlow<'_> {
             system.evaluate(t, &self.q, &self.v)?;
             *reference = chart::choose(
                 system.jacobian(),
-                system.r,
-                system.n,
+                (system.r, system.n),
                 &system.mass_diagonal(),
+                chart::Floor::Along(reference.pivot),
             );
             // Where the reactions have no value the row says so.
             match accelerations.solve(system, reference) {
@@ -786,6 +810,10 @@ impl WatchedFlow for FormulationFlow<'_> {
         let (q, v, a) = self.pieces(y);
         let (q, v) = (q.to_vec(), v.to_vec());
         self.watch.lost_mass(at, &q, &v, &a)
+    }
+
+    fn stuck(&self) -> Option<&str> {
+        self.watch.stuck()
     }
 
     fn settled(&self) -> f64 {

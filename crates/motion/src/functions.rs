@@ -1,6 +1,7 @@
 //! Compiled functions of the state: the program of expressions, with parameter values set.
 
 use crate::numeric::Binding;
+use chetaev_compile::rounding::{rounding, Rounded};
 use chetaev_compile::{
     backend, Backend, EvaluateFailure, Evaluator, LowerError, Lowering, VerifyError, Workspace,
 };
@@ -42,6 +43,8 @@ pub struct Functions {
     computed: Vec<f64>,
     places: Vec<usize>,
     groups: Vec<Range<usize>>,
+    /// Values of the parameters.
+    parameters: Vec<f64>,
     /// What became of the evaluation at `inputs`: several callers ask at one state.
     known: Option<Result<(), EvaluationFailure>>,
 }
@@ -86,6 +89,7 @@ impl Functions {
             computed: vec![0.0; places.len()],
             places,
             groups: ranges,
+            parameters: values,
             known: None,
         })
     }
@@ -96,6 +100,8 @@ impl Functions {
     /// [`FunctionsError::Prepare`]; the functions then have no values until other parameters are set.
     pub fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
         self.known = None;
+        self.parameters.clear();
+        self.parameters.extend_from_slice(values);
         Ok(self.backend.prepare(values, &mut self.workspace)?)
     }
 
@@ -155,6 +161,22 @@ impl Functions {
     /// Whether machine code runs.
     pub(crate) fn is_native(&self) -> bool {
         self.backend.is_native()
+    }
+
+    /// All values at the state of the last evaluation with bounds of what rounding leaves open in them; `None` where a linear system is
+    /// singular.
+    pub(crate) fn rounded(&self) -> Option<Vec<Rounded>> {
+        let computed = rounding(self.backend.program(), &self.parameters, &self.inputs)?;
+        let mut all = vec![Rounded::default(); self.outputs.len()];
+        for (&place, value) in self.places.iter().zip(computed) {
+            all[place] = value;
+        }
+        Some(all)
+    }
+
+    /// Where group number `index` is among all values.
+    pub(crate) fn range(&self, index: usize) -> Range<usize> {
+        self.groups[index].clone()
     }
 
     /// The values of group number `index` of the last evaluation.

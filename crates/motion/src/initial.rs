@@ -6,10 +6,11 @@ pub mod jets;
 mod velocities;
 
 use crate::accelerations::{Accelerations, SolveFailure};
-use crate::chart::{self, Chart};
-use crate::least_norm::{identity, least_step, norm};
-use crate::nearest::{both, draw, perturb, Nearest, DRAWS};
-use crate::numeric::NumericSystem;
+use crate::chart::{self, Chart, Floor};
+use crate::least_norm::{identity, least_step_of, DEPENDENT, DEPENDENT_BY_ROUNDING};
+use crate::nearest::{both, draw, perturb, reach, Nearest, DRAWS};
+use crate::numeric::{NumericSystem, RoundedConstraints};
+use chetaev_compile::rounding::Rounded;
 
 /// Given and free initial data of the coordinates and velocities.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,6 +117,8 @@ pub enum InitialError {
 }
 
 const STARTS: usize = 12;
+/// Of more data than these it is not said which cannot hold.
+const MOST_NAMED: usize = 4;
 
 /// Completes and checks initial data.
 ///
@@ -136,13 +139,23 @@ struct Search<'a> {
     data: &'a InitialData,
     q: Vec<f64>,
     v: Vec<f64>,
+    /// Which rows count as dependent on others ([`least_step_of`]).
+    dependent: f64,
 }
+
+/// Residuals within so many bounds of their rounding are as small as they become.
+const EXACT: f64 = 4.0;
+/// Residuals within so many satisfy a constraint: 2e-12 of its terms, what Newton's method leaves where gradients nearly depend.
+const SATISFIED: f64 = 16_384.0;
+/// A gradient all of whose entries are below this part of their terms vanishes.
+const VANISHED: f64 = 1e-7;
 
 impl Search<'_> {
     fn new<'a>(system: &'a mut NumericSystem, data: &'a InitialData) -> Search<'a> {
         Search {
             q: data.q.clone(),
             v: data.v.clone(),
+            dependent: DEPENDENT,
             system,
             data,
         }
@@ -184,11 +197,16 @@ impl Search<'_> {
         let movable = self.movable(&self.data.q_fixed);
         let all: Vec<usize> = (0..self.system.n).collect();
         let t = self.data.t;
-        if self.search_positions(t, &movable)? {
+        let is_found = match self.moves_data(&self.data.q_fixed) {
+            true => self.nearest_positions(t, &movable)?,
+            false => self.search_positions(t, &movable)?,
+        };
+        if is_found {
             return Ok(());
         }
         let worst = self.position_violations()?;
-        if !self.search_positions(t, &all)? {
+        let cannot_hold = self.wrong_positions(t, &movable);
+        if !self.nearest_positions(t, &all)? {
             return Err(InitialError::NoPosition {
                 names: worst.0,
                 residual: worst.1,
@@ -200,47 +218,94 @@ impl Search<'_> {
             kind: "position",
             constraint: worst.0,
             residual: worst.1,
-            advice: advice(&nearest),
+            advice: advice(&nearest, &cannot_hold, self.system.is_flat),
         })
+    }
+
+    /// Whether data that are given are moved by a projection.
+    fn moves_data(&self, fixed: &[bool]) -> bool {
+        self.data.project && fixed.contains(&true)
+    }
+
+    /// Given coordinates of which each may be the wrong one: with it free the others can hold.
+    fn wrong_positions(&mut self, t: f64, movable: &[usize]) -> Vec<String> {
+        let mut wrong = Vec::new();
+        for i in (0..self.system.n).filter(|i| !movable.contains(i)) {
+            if wrong.len() == MOST_NAMED || !self.system.constrained_positions[i] {
+                continue;
+            }
+            self.q.clone_from(&self.data.q);
+            let with: Vec<usize> = movable.iter().copied().chain([i]).collect();
+            if self.solve_positions(t, &with).unwrap_or(false) {
+                wrong.push(self.system.coordinates[i].clone());
+            }
+        }
+        self.q.clone_from(&self.data.q);
+        wrong
     }
 
     /// Newton from the start, and where that fails from several starting points, of whose solutions the nearest is taken;
     /// leaves q as it was when none converges.
     fn search_positions(&mut self, t: f64, movable: &[usize]) -> Result<bool, InitialError> {
-        if self.solve_positions(t, movable)? {
-            return Ok(true);
+        match self.solve_positions(t, movable)? {
+            true => Ok(true),
+            false => self.nearest_positions(t, movable),
         }
+    }
+
+    /// The nearest of the solutions that several starting points lead to, each moved to where the distance is least; leaves q as it was when
+    /// none is found.
+    fn nearest_positions(&mut self, t: f64, movable: &[usize]) -> Result<bool, InitialError> {
         let start = self.data.q.clone();
+        self.q.clone_from(&start);
         let searched = both(movable, &self.system.constrained_positions);
         let mut generator = chetaev_mechanics::sample::Generator::new(5);
-        let mut nearest = Nearest::default();
-        for _ in 1..STARTS {
+        self.evaluate_positions(t)?;
+        let metric = self.metric(t);
+        let of = (
+            self.system.position_gradient(),
+            self.system.position_residual(),
+        );
+        let step = least_step_of(of, self.system.n, movable, &metric, self.dependent);
+        let reach = reach(&start, &step, &metric);
+        let mut nearest = Nearest::to(&start, &metric);
+        let starts = if self.system.is_flat { 1 } else { STARTS };
+        for count in 0..starts {
             self.q.clone_from(&start);
-            perturb(&mut self.q, &searched, &mut generator);
+            if count > 0 {
+                perturb(&mut self.q, &searched, &reach, &mut generator);
+            }
             // A start outside the domain of a function is no reason to give up, unless it is the given one.
             if !self.solve_positions(t, movable).unwrap_or(false) {
                 continue;
             }
-            nearest.offer(&start, &self.q);
-            if self.draw_positions_near(t, &start, movable)
+            nearest.offer(&self.q);
+            if self.draw_positions_near(t, (&start, &metric), movable)
                 && self.solve_positions(t, movable).unwrap_or(false)
             {
-                nearest.offer(&start, &self.q);
+                nearest.offer(&self.q);
             }
         }
-        let found = nearest.found.is_some();
-        self.q = nearest.found.unwrap_or(start);
-        Ok(found)
+        let found = nearest.found.clone();
+        let is_found = found.is_some();
+        self.q = found.unwrap_or(start);
+        Ok(is_found)
     }
 
     fn solve_positions(&mut self, t: f64, movable: &[usize]) -> Result<bool, InitialError> {
         self.newton_positions(t, movable)?;
-        Ok(self.largest_position_residual()? <= tolerance(&self.q))
+        self.evaluate_positions(t)?;
+        Ok(self.system.rounded_positions().are_met(SATISFIED))
     }
 
     /// Moves q on the constraints towards the point nearest to `start`: half-way, again and again, to the point of the
     /// linearized constraints with the least change.
-    fn draw_positions_near(&mut self, t: f64, start: &[f64], movable: &[usize]) -> bool {
+    fn draw_positions_near(
+        &mut self,
+        t: f64,
+        (start, metric): (&[f64], &[f64]),
+        movable: &[usize],
+    ) -> bool {
         let n = self.system.n;
         for _ in 0..DRAWS {
             if self.evaluate_positions(t).is_err() {
@@ -248,9 +313,8 @@ impl Search<'_> {
             }
             let gradient = self.system.position_gradient().to_vec();
             let residual = self.system.position_residual().to_vec();
-            let metric = self.metric(t);
             draw(&mut self.q, start, (&gradient, &residual), |f| {
-                least_step(&gradient, f, n, movable, &metric)
+                least_step_of((&gradient, f), n, movable, metric, self.dependent)
             });
         }
         true
@@ -260,21 +324,20 @@ impl Search<'_> {
         let n = self.system.n;
         for _ in 0..50 {
             self.evaluate_positions(t)?;
-            let residual = self.system.position_residual().to_vec();
-            if residual
-                .iter()
-                .all(|x| x.abs() <= 1e-15 * (1.0 + largest(&self.q)))
-            {
+            if self.system.rounded_positions().are_met(EXACT) {
                 return Ok(());
             }
             let gradient = self.system.position_gradient().to_vec();
+            let residual = self.system.position_residual().to_vec();
             let metric = self.metric(t);
-            let step = least_step(&gradient, &residual, n, movable, &metric);
-            let size = largest(&step);
+            let of = (&gradient[..], &residual[..]);
+            let step = least_step_of(of, n, movable, &metric, self.dependent);
+            let mut moved = false;
             for (x, dx) in self.q.iter_mut().zip(&step) {
+                moved |= dx.abs() > 4.0 * f64::EPSILON * x.abs();
                 *x -= dx;
             }
-            if size <= 4.0 * f64::EPSILON * (1.0 + largest(&self.q)) {
+            if !moved {
                 return Ok(());
             }
         }
@@ -288,25 +351,25 @@ impl Search<'_> {
             .map_err(|_| self.not_finite("a holonomic constraint"))
     }
 
-    fn largest_position_residual(&mut self) -> Result<f64, InitialError> {
-        self.evaluate_positions(self.data.t)?;
-        Ok(largest(self.system.position_residual()))
-    }
-
     fn position_violations(&mut self) -> Result<(String, f64), InitialError> {
         self.evaluate_positions(self.data.t)?;
         let rows = self.system.holonomic.clone();
-        Ok(self.violations(&rows, self.system.position_residual()))
+        Ok(self.violations(&rows, &self.system.rounded_positions()))
     }
 
-    fn violations(&self, rows: &[usize], residual: &[f64]) -> (String, f64) {
-        let mut names = Vec::new();
-        for (&row, &value) in rows.iter().zip(residual) {
-            if value.abs() > 1e-9 {
-                names.push(format!("constraint `{}`", self.system.constraints[row]));
-            }
-        }
-        (names.join(" and "), largest(residual))
+    /// The constraints that are not satisfied, and the largest residual of these.
+    fn violations(&self, rows: &[usize], at: &RoundedConstraints) -> (String, f64) {
+        let residuals = rows.iter().zip(&at.residual);
+        let violated: Vec<(usize, Rounded)> = residuals
+            .filter(|(_, f)| !f.is_zero(SATISFIED))
+            .map(|(&row, &f)| (row, f))
+            .collect();
+        let names: Vec<String> = violated
+            .iter()
+            .map(|(row, _)| format!("constraint `{}`", self.system.constraints[*row]))
+            .collect();
+        let values: Vec<f64> = violated.iter().map(|(_, f)| f.value).collect();
+        (names.join(" and "), largest(&values))
     }
 
     /// The diagonal of M as a metric; 1 where it is not positive.
@@ -329,13 +392,14 @@ impl Search<'_> {
     /// Ranks, inertia, and the list of what was completed.
     fn finish(mut self) -> Result<ConsistentState, InitialError> {
         self.evaluate()?;
-        self.check_gradients()?;
+        let rounded = self.system.rounded();
+        self.check_gradients(&rounded)?;
         let system = &*self.system;
         let chart = chart::choose(
             system.jacobian(),
-            system.r,
-            system.n,
+            (system.r, system.n),
             &system.mass_diagonal(),
+            Floor::Rounding(&rounded.gradient),
         );
         self.check_inertia(&chart)?;
         let mut completed = self.describe_values(&self.data.q, &self.q, "");
@@ -355,8 +419,8 @@ impl Search<'_> {
         })
     }
 
-    fn check_gradients(&self) -> Result<(), InitialError> {
-        match self.vanishing_gradient() {
+    fn check_gradients(&self, at: &RoundedConstraints) -> Result<(), InitialError> {
+        match self.vanishing_gradient(at) {
             None => Ok(()),
             Some(row) => Err(InitialError::VanishingGradient {
                 name: self.system.constraints[row].clone(),
@@ -367,14 +431,14 @@ impl Search<'_> {
     }
 
     fn has_gradients(&self) -> bool {
-        self.vanishing_gradient().is_none()
+        self.vanishing_gradient(&self.system.rounded()).is_none()
     }
 
     /// A row whose gradient vanishes at the state last evaluated.
-    fn vanishing_gradient(&self) -> Option<usize> {
-        let (system, n) = (&*self.system, self.system.n);
-        let scale = largest(system.jacobian()).max(1e-3);
-        (0..system.r).find(|&row| norm(&system.jacobian()[row * n..(row + 1) * n]) <= 1e-7 * scale)
+    fn vanishing_gradient(&self, at: &RoundedConstraints) -> Option<usize> {
+        let (gradient, n) = (&at.gradient, self.system.n);
+        let vanishes = |x: &Rounded| x.value.abs() <= VANISHED * x.size() || x.is_zero(EXACT);
+        (0..self.system.r).find(|&row| gradient[row * n..(row + 1) * n].iter().all(vanishes))
     }
 
     fn check_inertia(&self, chart: &Chart) -> Result<(), InitialError> {
@@ -418,26 +482,39 @@ impl Search<'_> {
     }
 
     fn describe_values(&self, given: &[f64], found: &[f64], prime: &str) -> Vec<(String, f64)> {
+        let masses = self.system.mass_diagonal().into_iter();
+        let size = masses
+            .zip(found)
+            .fold(0.0, |m: f64, (mass, x)| m.max(mass.abs().sqrt() * x.abs()));
         self.system
             .coordinates
             .iter()
             .zip(given.iter().zip(found))
-            .filter(|(_, (a, b))| (*a - *b).abs() > 1e-13 * (1.0 + a.abs()))
+            .zip(self.system.mass_diagonal())
+            .filter(|((_, (a, b)), mass)| (*a - *b).abs() * mass.abs().sqrt() > 1e-13 * size)
+            .map(|(known, _)| known)
             .map(|(name, (_, b))| (format!("{name}{prime}"), *b))
             .collect()
     }
 }
 
-fn advice(nearest: &str) -> String {
-    if nearest.is_empty() {
-        "give other initial data, or set `project = true`".to_string()
-    } else {
-        format!("the nearest consistent values are {nearest}; set `project = true` (or `--project`) to use them")
-    }
-}
-
-fn tolerance(x: &[f64]) -> f64 {
-    2e-12 * (1.0 + largest(x))
+/// What to do about data that contradict the constraints: which of them cannot hold, and what is near.
+fn advice(nearest: &str, cannot_hold: &[String], is_proved: bool) -> String {
+    let wrong = match cannot_hold {
+        [] => String::new(),
+        [one] => format!("`{one}` cannot have the value given beside the other data; "),
+        several => {
+            let names: Vec<String> = several.iter().map(|name| format!("`{name}`")).collect();
+            let names = names.join(" or ");
+            format!("one of the data given cannot hold, {names}: state it as `{{ guess = … }}`, near which it is searched for; ")
+        }
+    };
+    let what = match (nearest.is_empty(), is_proved) {
+        (true, _) => return format!("{wrong}give other initial data, or set `project = true`"),
+        (_, true) => "the nearest consistent values, in the kinetic metric, are".to_owned(),
+        (_, false) => format!("the nearest consistent values found (a local minimum of the distance in the kinetic metric, the best of {STARTS} starts) are"),
+    };
+    format!("{wrong}{what} {nearest}; set `project = true` (or `--project`) to use them")
 }
 
 fn largest(x: &[f64]) -> f64 {
@@ -448,8 +525,4 @@ fn largest(x: &[f64]) -> f64 {
             m.max(v.abs())
         }
     })
-}
-
-fn pivot_column(line: &[f64]) -> Option<usize> {
-    (0..line.len()).max_by(|&i, &j| line[i].abs().total_cmp(&line[j].abs()))
 }

@@ -343,7 +343,7 @@ impl<'a> JetFlow<'a> {
         let Some(a) = self.gradient(t, y) else {
             return Control::Continue;
         };
-        let next = chart::choose(&a, r, n, &vec![1.0; n]);
+        let next = chart::choose(&a, (r, n), &vec![1.0; n], chart::Floor::Along(1.0));
         if next.rank() < self.current.selection.rows.len() {
             return Control::Continue;
         }

@@ -25,6 +25,23 @@ pub(crate) fn least_step(
     movable: &[usize],
     metric: &[f64],
 ) -> Vec<f64> {
+    least_step_of((jacobian, f), n, movable, metric, DEPENDENT)
+}
+
+/// Rows of which no more than this part is independent of those before them are taken to depend on them: next to the states at
+/// which rows depend they do not quite.
+pub(crate) const DEPENDENT: f64 = 1e-10;
+/// The same where that has not helped: what rounding leaves of a row that depends.
+pub(crate) const DEPENDENT_BY_ROUNDING: f64 = 1e-14;
+
+/// The same, where rows of which no more than the part `least` is independent of those before them are left out.
+pub(crate) fn least_step_of(
+    (jacobian, f): (&[f64], &[f64]),
+    n: usize,
+    movable: &[usize],
+    metric: &[f64],
+    least: f64,
+) -> Vec<f64> {
     let m = movable.len();
     let mut step = vec![0.0; n];
     if m == 0 || f.is_empty() {
@@ -46,7 +63,7 @@ pub(crate) fn least_step(
             value -= along * component;
         }
         let length = norm(&direction);
-        if length > 1e-10 * original && length > 0.0 {
+        if length > least * original && length > 0.0 {
             direction.iter_mut().for_each(|x| *x /= length);
             basis.push((direction, value / length));
         }
@@ -134,13 +151,12 @@ fn take_out(rests: &mut [Vec<f64>], i: usize) {
 /// L with `L Lᵀ = A`; `None` when A is not safely positive definite.
 fn cholesky(a: &[f64], m: usize) -> Option<Vec<f64>> {
     let mut l = vec![0.0; m * m];
-    let scale = (0..m).fold(0.0, |s: f64, i| s.max(a[i * m + i].abs()));
     for i in 0..m {
         for j in 0..=i {
             let sum: f64 = (0..j).map(|k| l[i * m + k] * l[j * m + k]).sum();
             let value = a[i * m + j] - sum;
             if i == j {
-                if value.is_nan() || value <= 1e-12 * scale {
+                if value.is_nan() || value <= 1e-12 * a[i * m + i].abs() {
                     return None;
                 }
                 l[i * m + i] = value.sqrt();

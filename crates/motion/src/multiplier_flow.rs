@@ -6,7 +6,7 @@
 
 use crate::accelerations::Accelerations;
 use crate::along::FunctionAlong;
-use crate::chart::{self, Chart, DEGRADED, HYSTERESIS};
+use crate::chart::{self, Chart, Floor, DEGRADED, HYSTERESIS};
 use crate::crossing::{self, State, Track};
 use crate::drift::Drift;
 use crate::follow::{Deviation, Follow};
@@ -90,6 +90,8 @@ const UNUSABLE: f64 = 1e-3;
 type Way = fn(&mut Keep, f64, &mut [f64], &mut [f64], &[f64]) -> bool;
 /// The rate of a watched quantity that is not near zero: negative as on the way there, so that its minimum is a zero of the rate.
 pub(crate) const AWAY: f64 = -1e-12;
+/// The motion sticks on a zero of what is under a sign ([`Watch::sticks`]).
+pub(crate) const STUCK: u32 = u32::MAX;
 /// A gradient counts as vanished below this fraction of its largest length so far.
 const VANISHED: f64 = 1e-8;
 
@@ -384,9 +386,9 @@ impl MultiplierFlow {
         let system = &self.system;
         chart::choose(
             system.jacobian(),
-            system.r,
-            system.n,
+            (system.r, system.n),
             &system.mass_diagonal(),
+            Floor::Along(self.chart.pivot),
         )
     }
 
@@ -739,6 +741,12 @@ impl System for MultiplierFlow {
         if matches!(control, Control::Stop(HaltReason::LeftConstraint { .. })) {
             return control;
         }
+        if self.watch.may_stick() && self.evaluate(t, y).is_ok() {
+            let state = (&self.q[..], &self.v[..], &self.accelerations.a[..]);
+            if self.watch.sticks(t, state) {
+                return Control::Stop(HaltReason::Custom(STUCK));
+            }
+        }
         if let Some(follow) = &mut self.follow {
             follow.record(t, &self.q, &self.v);
         }
@@ -887,6 +895,10 @@ impl WatchedFlow for MultiplierFlow {
         let mut row = vec![0.0; layout.len()];
         layout.write(&mut row, &state.q, &state.v, a, lambda);
         Some(row)
+    }
+
+    fn stuck(&self) -> Option<&str> {
+        self.watch.stuck()
     }
 
     fn event_series(

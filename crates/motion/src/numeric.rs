@@ -4,8 +4,10 @@ use crate::chart::Chart;
 use crate::dense::Lu;
 use crate::functions::{Functions, FunctionsError};
 use crate::reduced::Bordered;
+use crate::scales::angles;
 use crate::series::{self, RateSeries};
 use crate::turns::Turns;
+use chetaev_compile::rounding::Rounded;
 use chetaev_compile::Program;
 use chetaev_integrate::EvaluationFailure;
 use chetaev_mechanics::{reduced_equations, ConstraintKind, MotionTerms, System};
@@ -54,12 +56,16 @@ pub struct NumericSystem {
     pub constrained_velocities: Vec<bool>,
     /// Which coordinates occur in the holonomic constraints.
     pub constrained_positions: Vec<bool>,
+    /// Whether the holonomic constraints are linear in the coordinates.
+    pub is_flat: bool,
     /// Whether a constraint contains a function with a jump: an angle with its cut, or a sign.
     pub jumps: bool,
     /// Whether constraints of order two and more are left out here, which also determine accelerations.
     pub is_part: bool,
-    /// Coordinates on which the velocity constraints depend.
+    /// Angles on which the velocity constraints depend.
     pub(crate) directing: Vec<bool>,
+    /// Coordinates that stand in the argument of a function without dimension.
+    pub(crate) angles: Vec<bool>,
     mass_envelope: Vec<usize>,
     dynamics: Functions,
     kinematics: Functions,
@@ -215,6 +221,7 @@ impl NumericSystem {
             .map(|&row| constraint(row).stated)
             .collect();
         let gradient = g.jacobian(&stated, &system.coordinate_symbols()).concat();
+        let angles = angles(system, &terms);
         let groups = [
             ("mass", terms.mass_matrix.concat()),
             ("force", terms.force.clone()),
@@ -235,13 +242,19 @@ impl NumericSystem {
             holonomic,
             constrained_velocities: occurring(g, &terms.jacobian.concat(), system.n()),
             constrained_positions: occurring(g, &gradient, system.n()),
+            is_flat: {
+                let present = g.symbols_in(&gradient);
+                let mut coordinates = system.coordinate_symbols().into_iter();
+                !coordinates.any(|q| present.contains(&q))
+            },
             jumps: has_jumps(g, &[terms.constraints.clone(), stated.clone()].concat()),
             is_part,
             directing: {
                 let present = g.symbols_in(&terms.constraints);
-                let coordinates = system.coordinate_symbols();
-                coordinates.iter().map(|q| present.contains(q)).collect()
+                let all = system.coordinate_symbols().into_iter().zip(&angles);
+                all.map(|(q, is)| *is && present.contains(&q)).collect()
             },
+            angles,
             mass_envelope: envelope(g, &terms.mass_matrix),
             dynamics: Functions::new(g, binding, &binding.variables, &groups)?,
             kinematics: Functions::new(g, binding, &binding.variables, &groups[2..5])?,
@@ -478,6 +491,16 @@ impl NumericSystem {
         Ok(())
     }
 
+    /// J and f at the state last evaluated, with what rounding leaves open in them; without bounds where there are none.
+    pub(crate) fn rounded(&self) -> RoundedConstraints {
+        RoundedConstraints::of(&self.dynamics, (JACOBIAN, RESIDUAL))
+    }
+
+    /// The same for ∂φ/∂q and φ of the holonomic constraints.
+    pub(crate) fn rounded_positions(&self) -> RoundedConstraints {
+        RoundedConstraints::of(&self.positions, (1, 0))
+    }
+
     /// M as a metric: its symmetric part.
     pub fn metric(&self) -> Vec<f64> {
         let (n, mass) = (self.n, self.mass());
@@ -536,6 +559,41 @@ impl NumericSystem {
     /// Whether all constraints are affine in the velocities.
     pub fn is_affine(&self) -> bool {
         self.affine.iter().all(|&a| a)
+    }
+}
+
+/// Constraints at a state, with what rounding leaves open in them.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct RoundedConstraints {
+    /// Gradients, row by row.
+    pub(crate) gradient: Vec<Rounded>,
+    /// Residuals.
+    pub(crate) residual: Vec<Rounded>,
+}
+
+impl RoundedConstraints {
+    fn of(functions: &Functions, (gradient, residual): (usize, usize)) -> RoundedConstraints {
+        // Without constraints nothing is asked.
+        let bounded = match functions.range(residual).is_empty() {
+            true => None,
+            false => functions.rounded(),
+        };
+        let group = |index: usize| match &bounded {
+            Some(all) => all[functions.range(index)].to_vec(),
+            None => {
+                let values = functions.group(index).iter();
+                values.map(|&value| Rounded::nearest(value)).collect()
+            }
+        };
+        RoundedConstraints {
+            gradient: group(gradient),
+            residual: group(residual),
+        }
+    }
+
+    /// Whether all residuals vanish to `factor` times what rounding leaves open in them.
+    pub(crate) fn are_met(&self, factor: f64) -> bool {
+        self.residual.iter().all(|f| f.is_zero(factor))
     }
 }
 

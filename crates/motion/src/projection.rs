@@ -1,5 +1,6 @@
 //! Positions and velocities back on the constraints, by steps of least kinetic norm (T5 §5.6).
 
+use crate::chart::heaviness;
 use crate::least_norm::least_step;
 use crate::numeric::{NumericSystem, States};
 use crate::run::RunSettings;
@@ -28,7 +29,8 @@ impl Projection {
     pub(crate) fn of(settings: &RunSettings) -> Projection {
         let tolerance = match settings.step {
             Some(_) => 0.0,
-            None => settings.tolerance.min(settings.absolute_tolerance),
+            // Relative, as the bound is.
+            None => settings.tolerance,
         };
         let bound = (HARMLESS * tolerance).max(ROUNDED);
         Projection {
@@ -74,7 +76,11 @@ fn positions(
     let (n, mut changed) = (system.n, false);
     for _ in 0..MOST {
         let known = system.evaluate_positions(t, q, v);
-        if known.is_err() || is_small(system.position_residual(), q, bound) {
+        let of = |system: &NumericSystem| {
+            let rows = (system.position_residual(), system.position_gradient());
+            is_small(rows, q, system, bound)
+        };
+        if known.is_err() || of(system) {
             break;
         }
         // The metric is that of the last evaluation, at the state from which the projection starts.
@@ -101,7 +107,8 @@ fn velocities(
     let most = if system.is_affine() { 1 } else { MOST };
     for _ in 0..most {
         let is_unknown = has_moved && system.evaluate(t, q, v).is_err();
-        if is_unknown || is_small(system.residual(), v, bound) {
+        let rows = (system.residual(), system.jacobian());
+        if is_unknown || is_small(rows, v, system, bound) {
             break;
         }
         has_moved = true;
@@ -113,9 +120,23 @@ fn velocities(
     changed
 }
 
-fn is_small(residual: &[f64], x: &[f64], bound: f64) -> bool {
-    let scale = x.iter().fold(1e-300, |m: f64, x| m.max(x.abs()));
-    residual.iter().all(|f| f.abs() <= bound * scale)
+/// Whether residuals are small beside what the whole of x could make of them, in the metric of the masses: the length of the gradient times
+/// that of x.
+fn is_small(
+    (residual, gradient): (&[f64], &[f64]),
+    x: &[f64],
+    system: &NumericSystem,
+    bound: f64,
+) -> bool {
+    let (n, mass) = (system.n, system.mass());
+    let weight = |j: usize| heaviness(mass[j * n + j]);
+    let square: f64 = (0..n).map(|j| weight(j) * x[j] * x[j]).sum();
+    let rows = gradient.chunks(n.max(1)).zip(residual);
+    let mut all = rows.map(|(row, f)| {
+        let length: f64 = (0..n).map(|j| row[j] * row[j] / weight(j)).sum();
+        f.abs() <= bound * (length * square).sqrt()
+    });
+    all.all(|is_small| is_small)
 }
 
 fn all(n: usize) -> Vec<usize> {

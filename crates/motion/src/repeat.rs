@@ -160,6 +160,11 @@ impl Subject<'_> {
             Projection::of(settings),
         );
         let y0 = flow.pack(&self.start.q, &self.start.v);
+        compiled.looking.scales = match settings.is_natural && flow.kind() == StateKind::Full {
+            true => self.scales(settings).of_state(),
+            false => Vec::new(),
+        };
+        let flow = &mut compiled.flow;
         let watched = flow.watch.wanted();
         RouthCourse(Course::new(watched, (self.start.t, y0), interrupt))
     }

@@ -14,6 +14,7 @@ use crate::multiplier_flow::{MultiplierFlow, StateKind};
 use crate::numeric::{Binding, NumericSystem};
 use crate::observe::Observer;
 use crate::row::RowLayout;
+use crate::scales::Scales;
 use crate::stop::{self, Ending};
 use crate::turns::outside_angles;
 use crate::watch::{Watch, Watched};
@@ -38,6 +39,8 @@ pub struct RunSettings {
     pub tolerance: f64,
     /// Absolute tolerance.
     pub absolute_tolerance: f64,
+    /// Whether the absolute tolerance is in the natural sizes of coordinates and velocities ([`Scales`]), and not in their units.
+    pub is_natural: bool,
     /// Fixed step size; required by methods without an error estimate, and taken with any method where given.
     pub step: Option<f64>,
     /// Name of the method.
@@ -72,6 +75,7 @@ impl RunSettings {
             t_end,
             tolerance: 1e-10,
             absolute_tolerance: 1e-10,
+            is_natural: false,
             step: None,
             method: "dormand-prince-853".into(),
             times: equal_times(t_start, t_end, 500),
@@ -156,6 +160,8 @@ pub struct Run {
     /// Places at which the rank of the constraints falls and the motion went on along the one branch of the constraint set that contains
     /// its velocity.
     pub crossings: Vec<Crossing>,
+    /// Natural sizes of positions and velocities at the start, by which differences of runs are judged.
+    pub scales: Vec<f64>,
 }
 
 /// How closely the time of a singularity is found, relative to the time.
@@ -210,6 +216,16 @@ pub enum RunError {
     /// The singular set cannot be watched.
     #[error(transparent)]
     Functions(#[from] crate::functions::FunctionsError),
+    /// A tolerance that double precision cannot resolve beside the size of a quantity.
+    #[error("the absolute tolerance {requested:e} for `{name}` cannot be met: at its size of the start double precision resolves {attainable:.1e}; raise `absolute_tolerance` to that, leave it out (then it follows from `tolerance`), or compute with `precision = \"double-double\"`")]
+    Tolerance {
+        /// The coordinate or velocity.
+        name: String,
+        /// As asked.
+        requested: f64,
+        /// The least that can be met.
+        attainable: f64,
+    },
     /// It is done in double precision only.
     #[error("double-double arithmetic is not for {what}: {fix}")]
     NotPrecise {
@@ -257,6 +273,11 @@ pub(crate) trait WatchedFlow: chetaev_integrate::System {
         None
     }
 
+    /// The function under a sign on whose zero the motion sticks.
+    fn stuck(&self) -> Option<&str> {
+        None
+    }
+
     /// Writes the Taylor coefficients of event number `event`, with the function `value` of an output row, along a piece of the
     /// motion; false where it has none, and it is sampled.
     fn event_series(
@@ -279,6 +300,8 @@ pub(crate) struct Looking {
     pub(crate) values: Vec<Expr>,
     /// Coordinates whose errors are measured absolutely.
     cyclic: Vec<bool>,
+    /// Natural sizes of the components of the state; empty where the absolute tolerance is in their units.
+    pub(crate) scales: Vec<f64>,
 }
 
 impl Looking {
@@ -442,6 +465,10 @@ impl Subject<'_> {
         let y0 = flow.start(self.start)?;
         let (watched, flow_names) = (flow.watch.quantities.clone(), flow.own_names());
         let mut looking = self.looking(settings, &flow_names)?;
+        let scales = self.scales(settings);
+        if settings.is_natural {
+            looking.scales = flow.scales(self.start, &scales);
+        }
         let (pieces, end) =
             self.watched(&mut flow, watched, y0, settings, (&mut looking, watcher))?;
         let ending = match end {
@@ -520,7 +547,37 @@ impl Subject<'_> {
             observers: observers?,
             values: settings.events.iter().map(|event| event.value).collect(),
             cyclic: self.cyclic(series),
+            scales: Vec::new(),
         })
+    }
+
+    /// An error of the integrator with the name of the quantity in the place of its number in a state of coordinates and velocities.
+    pub(crate) fn named(&self, problem: IntegrateError) -> RunError {
+        let IntegrateError::ToleranceTooSmall {
+            component,
+            requested,
+            attainable,
+            ..
+        } = problem
+        else {
+            return problem.into();
+        };
+        let (numeric, positions) = (self.numeric, self.numeric.positions());
+        let places = numeric.coordinates.iter().chain(&numeric.masses).cloned();
+        let speeds = numeric.coordinates.iter().map(|name| format!("{name}'"));
+        match places.chain(speeds).nth(component) {
+            Some(name) if component < positions + numeric.n => RunError::Tolerance {
+                name,
+                requested,
+                attainable,
+            },
+            _ => problem.into(),
+        }
+    }
+
+    /// Natural sizes at the start.
+    pub(crate) fn scales(&self, settings: &RunSettings) -> Scales {
+        Scales::new(self, settings.t_end)
     }
 
     fn follow(&self, settings: &RunSettings) -> Result<Option<Follow>, RunError> {
@@ -537,7 +594,7 @@ impl Subject<'_> {
         &self,
         settings: &RunSettings,
         t: f64,
-        absolute: Vec<bool>,
+        (absolute, scales): (Vec<bool>, &[f64]),
         interrupt: Option<&'o AtomicBool>,
     ) -> Result<Options<'o>, RunError> {
         let forward = settings.t_end >= self.start.t;
@@ -561,7 +618,10 @@ impl Subject<'_> {
         options.error = ErrorControl {
             rtol: settings.tolerance,
             atol: settings.absolute_tolerance,
-            atol_of: Vec::new(),
+            atol_of: scales
+                .iter()
+                .map(|s| s * settings.absolute_tolerance)
+                .collect(),
             absolute,
         };
         options.output = Output::Times(times);
@@ -624,6 +684,7 @@ impl Subject<'_> {
             events: Vec::new(),
             precise: None,
             crossings,
+            scales: self.scales(settings).of_state(),
         };
         for piece in pieces {
             run.times.extend(&piece.times);

@@ -88,6 +88,22 @@ pub(crate) fn undetermined(reason: String, t: f64) -> Ending {
     early(reason, t)
 }
 
+/// Zeros of one function repeat at every one of many very short steps.
+pub(crate) fn crowd(what: &str, t: f64, count: u64) -> Ending {
+    early(
+        format!("{what} repeats without end near t = {t:.9}, in {count} very short steps in a row: the motion grazes its zero or chatters across it, since a force jumps or is undetermined there; end the run at it (`action = \"stop\"` at a threshold above zero), smooth the force, for example by tanh(v/eps), or go on with the equations that hold beyond"),
+        t,
+    )
+}
+
+/// The motion sticks on the zero of a function under a sign.
+pub(crate) fn stuck(text: &str, t: f64) -> Ending {
+    early(
+        format!("the motion sticks at t = {t:.9}: {text} is zero there, and the force, which jumps with its sign, drives it back from both sides, so that no motion with either sign goes on; go on with {text} = 0 as a constraint, or smooth the jump, for example by tanh(v/eps)"),
+        t,
+    )
+}
+
 /// The run was to end at an event, and did.
 pub fn happened(name: &str, t: f64) -> Ending {
     Ending {
@@ -191,7 +207,7 @@ pub fn ending(stop: &Stop, names: &Names<'_>, pivot: f64) -> Ending {
             ),
             *t,
         ),
-        other => early(format!("the run ended early: {other:?}"), f64::NAN),
+        _ => early("the run ended early, by a condition that has no words here".to_owned(), f64::NAN),
     }
 }
 
@@ -239,6 +255,6 @@ fn halted(reason: &HaltReason, t: f64, names: &Names<'_>) -> String {
         HaltReason::Contradiction { constraint } => {
             format!("constraint `{}` contradicts the others at t = {t:.9}", name(*constraint))
         }
-        other => format!("the run was halted at t = {t:.9}: {other:?}"),
+        _ => format!("the run was halted at t = {t:.9} by a condition of the program that runs it"),
     }
 }

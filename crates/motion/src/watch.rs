@@ -6,6 +6,7 @@
 use crate::functions::{Functions, FunctionsError};
 use crate::numeric::Binding;
 use crate::positive::corners;
+use crate::sticking::Sticking;
 use chetaev_integrate::EvaluationFailure;
 use chetaev_mechanics::equations::RegularMatrix;
 use chetaev_mechanics::system::Thrust;
@@ -61,6 +62,8 @@ pub struct Watch {
     corners: Vec<usize>,
     /// Whether all are, with the present parameters: then nothing is watched.
     is_idle: bool,
+    /// Functions under a sign in the forces, on whose zeros the motion may stick.
+    sticking: Option<Sticking>,
 }
 
 /// Only the neighbourhood of zero is looked at: values below this fraction of the largest seen.
@@ -130,6 +133,7 @@ impl Watch {
             n: system.n(),
             corners,
             is_idle: false,
+            sticking: Sticking::new(system, terms, binding)?,
         })
     }
 
@@ -180,6 +184,7 @@ impl Watch {
             n: state.len(),
             corners: Vec::new(),
             is_idle: false,
+            sticking: None,
         })
     }
 
@@ -188,12 +193,33 @@ impl Watch {
     /// # Errors
     /// [`FunctionsError::Prepare`].
     pub(crate) fn set_parameters(&mut self, values: &[f64]) -> Result<(), FunctionsError> {
+        if let Some(sticking) = &mut self.sticking {
+            sticking.set_parameters(values)?;
+        }
         self.functions.set_parameters(values)
+    }
+
+    /// Whether it is asked for where the motion sticks.
+    pub(crate) fn may_stick(&self) -> bool {
+        self.sticking.is_some()
+    }
+
+    /// Takes an accepted state with its accelerations into account; true where the motion sticks on the zero of a function under a sign.
+    pub(crate) fn sticks(&mut self, t: f64, state: (&[f64], &[f64], &[f64])) -> bool {
+        (self.sticking.as_mut()).is_some_and(|sticking| sticking.look(t, state))
+    }
+
+    /// The function on whose zero the motion sticks.
+    pub(crate) fn stuck(&self) -> Option<&str> {
+        self.sticking.as_ref()?.text()
     }
 
     /// Forgets the values seen, for a run from (t, q, v).
     pub(crate) fn begin(&mut self, t: f64, q: &[f64], v: &[f64]) {
         self.reference.fill(0.0);
+        if let Some(sticking) = &mut self.sticking {
+            sticking.begin();
+        }
         self.is_idle = false;
         self.record(t, q, v);
         self.is_idle = !self.quantities.is_empty() && self.are_positive(t, q, v);
@@ -331,6 +357,16 @@ pub(crate) fn vanishing_parts(system: &System, constraints: &[Expr]) -> Vec<(Wat
     let mut roots = constraints.to_vec();
     roots.push(system.lagrangian);
     let parts = g.reachable(&roots).into_iter();
+    // Forces are not differentiated: only what they divide by matters.
+    let in_forces = g.reachable(&system.forces).into_iter();
+    let divided = in_forces.filter(|e| match g.node(*e) {
+        Node::Power { exponent, .. } => g.as_number(*exponent).is_some_and(rational::is_negative),
+        _ => false,
+    });
+    let mut parts: Vec<Expr> = parts.chain(divided).collect();
+    let mut seen = std::collections::BTreeSet::new();
+    parts.retain(|e| seen.insert(*e));
+    let parts = parts.into_iter();
     let moving = |value: &Expr| {
         !g.is_free_of(*value, &|s| {
             system.moves(g.symbol_name(s)) || g.symbol_name(s) == "t"

@@ -36,7 +36,7 @@ pub struct Gap {
     pub coordinate: usize,
     /// |motion − extremum| at the times of the motion, as long as both go.
     pub values: Vec<f64>,
-    /// The largest magnitude of the coordinate on either curve.
+    /// The largest magnitude of the coordinate on either curve, and its natural size.
     pub size: f64,
 }
 
@@ -59,7 +59,7 @@ const TOLERANCES: f64 = 1e3;
 impl Beside {
     /// Whether the curves are one, as far as runs of this tolerance can tell: without a common time after the start they cannot.
     pub fn agree(&self, tolerance: f64) -> bool {
-        let within = |gap: &Gap| gap.largest().1 <= TOLERANCES * tolerance * gap.size.max(1.0);
+        let within = |gap: &Gap| gap.largest().1 <= TOLERANCES * tolerance * gap.size;
         !self.gaps.is_empty() && self.gaps.iter().all(within)
     }
 }
@@ -147,11 +147,12 @@ fn gaps(cx: &Context<'_>, a: &Run, b: &Run) -> Vec<Gap> {
     let places = a.layout.q().take(cx.system.n()).enumerate();
     places
         .map(|(coordinate, i)| {
+            let natural = a.scales.get(coordinate).copied().unwrap_or(1.0);
             let pairs = (0..shared).map(|j| (a.row(j)[i], b.row(j)[i]));
             Gap {
                 coordinate,
                 values: pairs.clone().map(|(x, y)| (x - y).abs()).collect(),
-                size: pairs.fold(0.0, |most, (x, y)| most.max(x.abs()).max(y.abs())),
+                size: pairs.fold(natural, |most, (x, y)| most.max(x.abs()).max(y.abs())),
             }
         })
         .collect()

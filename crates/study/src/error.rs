@@ -11,6 +11,9 @@ use chetaev_motion::{InitialError, NumericError, RunError};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
+    /// It was interrupted before there was anything to keep.
+    #[error("interrupted before anything was computed")]
+    Interrupted,
     /// No system.
     #[error(transparent)]
     System(#[from] SystemError),
@@ -89,6 +92,9 @@ pub enum StudyError {
         /// The sharpest one of the method.
         sharpest: f64,
     },
+    /// An absolute tolerance that is none.
+    #[error("the absolute tolerance must be a positive number, in the units of coordinates and velocities")]
+    AbsoluteTolerance,
     /// A tolerance out of range in double-double arithmetic.
     #[error("the tolerance {tolerance:e} is out of range: it must lie between {sharpest:e} (double-double arithmetic) and 0.1")]
     PreciseTolerance {

@@ -7,7 +7,7 @@
 //! - [`study`](mod@study): the loop over the claims of [`registry`], with its budget; [`options`], [`error`];
 //! - the run: [`motion_evidence`] (what a run tells), [`motion_claims`], [`method_order`], [`jumps`], [`witness`] (integrals of the
 //!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
-//! - [`sweep`]: a model as an ensemble;
+//! - [`sweep`]: a model as an ensemble; [`stability`](mod@stability): linear equations about a steady motion;
 //! - for people: [`derivation`], [`story`], [`summary`], [`page`], [`typeset`]; for programs: [`record`], [`table`]; [`verify`].
 
 pub mod beside;
@@ -27,6 +27,7 @@ mod plain;
 mod precise;
 pub mod record;
 pub mod registry;
+pub mod stability;
 mod start;
 pub mod story;
 pub mod study;
@@ -35,6 +36,7 @@ pub mod sweep;
 pub mod table;
 pub mod typeset;
 pub mod verify;
+mod watch;
 pub mod witness;
 
 pub use error::{StudyError, UnknownClaim};
@@ -42,3 +44,4 @@ pub use options::{ClaimSelection, Hooks, StudyOptions};
 pub use placed::{diagnostics, placed};
 pub use registry::registry;
 pub use study::{check, study, Decided, Motion, Outcome, Study};
+pub use watch::{in_time, interruptible};

@@ -133,7 +133,8 @@ impl Laboratory<'_> {
                 };
                 let room = self.room(start.t);
                 let length = (24.0 * self.average * length).abs().min(room.abs());
-                if length <= 1e-9 * (1.0 + start.t.abs()) || spent >= most {
+                let span = (self.run.t - self.subject.start.t).abs();
+                if length <= 1e-9 * span.max(start.t.abs()) || spent >= most {
                     continue;
                 }
                 spent += COUNTS.iter().sum::<u32>() + REFERENCE;
@@ -174,9 +175,9 @@ impl Laboratory<'_> {
         numeric.evaluate(t, &q, &v).ok()?;
         let chart = chart::choose(
             numeric.jacobian(),
-            numeric.r,
-            numeric.n,
+            (numeric.r, numeric.n),
             &numeric.mass_diagonal(),
+            chart::Floor::Along(self.subject.start.chart.pivot),
         );
         let same = chart.rank() == self.subject.start.chart.rank();
         let start = self.subject.start.clone();
@@ -196,7 +197,7 @@ impl Laboratory<'_> {
             let states = self.states(start, length, count, PLACES)?;
             points.push((
                 (length / f64::from(count)).abs(),
-                error(&states, &reference),
+                error(&self.run.scales, (&states, &reference)),
             ));
         }
         let (observed, spread) = settled(&points, self.nominal);
@@ -223,7 +224,7 @@ impl Laboratory<'_> {
             let states = self.states(&start, length, count, 1)?;
             points.push((
                 (length / f64::from(count)).abs(),
-                error(&states, &reference),
+                error(&self.run.scales, (&states, &reference)),
             ));
         }
         let logs = logarithms(&points);
@@ -298,12 +299,15 @@ fn better(a: &Orders, b: &Orders) -> bool {
     }
 }
 
-fn error(states: &[f64], reference: &[f64]) -> f64 {
-    let squares: f64 = states
-        .iter()
-        .zip(reference)
-        .map(|(a, b)| ((a - b) / (1.0 + b.abs())).powi(2))
-        .sum();
+/// The distance of states, one after the other, each number over its natural size and its own.
+fn error(scales: &[f64], (states, reference): (&[f64], &[f64])) -> f64 {
+    let pairs = states.iter().zip(reference).enumerate();
+    let natural = |i: usize| match scales.len() {
+        0 => 1.0,
+        width => scales[i % width],
+    };
+    let part = |(i, (a, b)): (usize, (&f64, &f64))| ((a - b) / (natural(i) + b.abs())).powi(2);
+    let squares: f64 = pairs.map(part).sum();
     (squares / states.len().max(1) as f64).sqrt()
 }
 

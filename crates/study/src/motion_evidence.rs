@@ -70,6 +70,8 @@ pub struct MotionEvidence {
     pub positions: Vec<Followed>,
     /// Largest difference of the two formulations over the scale of each component, with its time.
     pub disagreement: Option<Extreme>,
+    /// Largest differences of the run and of the other formulation to a run at a sharper tolerance.
+    pub losses: Option<(f64, f64)>,
     /// Observed order.
     pub orders: Option<Orders>,
     /// Tolerance asked.
@@ -145,6 +147,15 @@ impl MotionEvidence {
             .fold(0.0, |m: f64, x| m.max(x.abs()));
         Ok(MotionEvidence {
             disagreement: comparison.as_ref().map(|other| difference(&run, other)),
+            losses: finer
+                .as_ref()
+                .zip(comparison.as_ref())
+                .map(|(finer, other)| {
+                    (
+                        difference(finer, &run).value,
+                        difference(finer, other).value,
+                    )
+                }),
             unknown_error: finer.as_ref().and_then(|other| not_comparable(&run, other)),
             global_error: finer
                 .as_ref()
@@ -330,16 +341,17 @@ impl MotionEvidence {
     /// Whether a function of the state does not keep its sign along the rows; `None` where it has no value.
     pub(crate) fn changes_sign(&self, g: &Graph, e: Expr) -> Option<bool> {
         let e = [self.bound(g, e)];
-        let mut signs = Vec::new();
+        let mut all = Vec::new();
         for j in 0..self.run.regular() {
             let values = self.values_at(j)?;
-            let value = g.evaluate_f64(&e, &|s| values.get(&s).copied()).ok()?[0];
-            signs.push(if value.abs() < MET {
-                0.0
-            } else {
-                value.signum()
-            });
+            all.push(g.evaluate_f64(&e, &|s| values.get(&s).copied()).ok()?[0]);
         }
+        let largest = all.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let sign = |value: &f64| match value.abs() <= MET * largest {
+            true => 0.0,
+            false => value.signum(),
+        };
+        let signs: Vec<f64> = all.iter().map(sign).collect();
         Some(signs.iter().any(|&sign| sign == 0.0 || sign != signs[0]))
     }
 
@@ -366,7 +378,7 @@ impl MotionEvidence {
     }
 }
 
-/// What is so near to zero along a run has met it.
+/// What is so near to zero along a run, beside its largest value, has met it.
 const MET: f64 = 1e-9;
 
 /// So many roundings of the state are no drift.
@@ -477,7 +489,7 @@ fn deviation(times: &[f64], changes: &[f64]) -> Extreme {
     drift
 }
 
-/// Largest difference of positions and velocities at common times, each component over 1 + its largest magnitude.
+/// Largest difference of positions and velocities at common times, each component over its natural size and its largest magnitude.
 fn difference(a: &Run, b: &Run) -> Extreme {
     let width = a.layout.v().end;
     let rows = a.asked().min(b.asked());
@@ -490,7 +502,8 @@ fn difference(a: &Run, b: &Run) -> Extreme {
         _ => a.row(j)[i] - b.row(j)[i],
     };
     for i in 0..width {
-        let scale = 1.0 + (0..rows).fold(0.0, |m: f64, j| m.max(a.row(j)[i].abs()));
+        let size = a.scales.get(i).copied().unwrap_or(1.0);
+        let scale = size + (0..rows).fold(0.0, |m: f64, j| m.max(a.row(j)[i].abs()));
         for j in (0..rows).filter(|&j| a.times[j] == b.times[j]) {
             largest.record(gap(i, j) / scale, a.times[j]);
         }
@@ -509,7 +522,7 @@ fn exact_start(model: &Model, subject: &Subject<'_>) -> Option<Vec<(Expr, Expr)>
                 None => g.zero(),
             };
             let stated = g.evaluate_f64(&[given], &|_| None).ok()?[0];
-            if (stated - used).abs() > 1e-12 * (1.0 + used.abs()) {
+            if (stated - used).abs() > 1e-12 * used.abs().max(stated.abs()) {
                 return None;
             }
             exact.push((symbol, given));

@@ -97,7 +97,7 @@ impl ClaimSelection {
 pub struct StudyOptions {
     /// Which claims.
     pub claims: ClaimSelection,
-    /// Seconds for all claims together.
+    /// Work for all claims together, in seconds by [`UNITS_PER_SECOND`](chetaev_symbolic::meter::UNITS_PER_SECOND).
     pub budget: f64,
     /// Seconds for which searches choose what they look at, where it is not the budget: a replay with more time looks at the same.
     pub searches_for: Option<f64>,
@@ -172,7 +172,7 @@ impl Default for StudyOptions {
 /// Clock, interruption and progress.
 pub struct Hooks<'a> {
     /// Seconds since some moment.
-    pub clock: &'a dyn Fn() -> f64,
+    pub clock: &'a (dyn Fn() -> f64 + Sync),
     /// When it becomes true, the study ends soon and keeps what it has.
     pub interrupt: Option<&'a AtomicBool>,
     /// What is being done, and how much of it in [0, 1] where known.

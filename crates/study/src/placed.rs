@@ -34,6 +34,9 @@ pub fn diagnostics(problem: &StudyError, model: &Model) -> Vec<Diagnostic> {
 fn keys(problem: &StudyError) -> &'static [&'static str] {
     match problem {
         StudyError::Tolerance { .. } | StudyError::PreciseTolerance { .. } => &["tolerance"],
+        StudyError::AbsoluteTolerance | StudyError::Run(RunError::Tolerance { .. }) => {
+            &["absolute_tolerance", "tolerance"]
+        }
         StudyError::PrecisionMethod { .. } => &["method", "precision"],
         StudyError::PreciseSweep => &["precision"],
         StudyError::KeptOnComponents { .. } => &["keep_integrals"],

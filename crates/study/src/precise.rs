@@ -77,8 +77,8 @@ impl Reader<'_> {
         let given = |order: u32| {
             let places = 0..system.n();
             let values = places.map(|i| match self.model.initial.values.get(&(i, order)) {
-                Some(given) => self.value(given.value, &given.text).map(Some),
-                None => Ok(None),
+                Some(given) if !given.is_guess => self.value(given.value, &given.text).map(Some),
+                _ => Ok(None),
             });
             values.collect::<Result<Given, StudyError>>()
         };

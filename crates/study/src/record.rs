@@ -4,6 +4,7 @@ use crate::kept::Kept;
 use crate::study::{Decided, Motion, Study};
 use chetaev_integrate::EventKind;
 use chetaev_model::model::Precision;
+use chetaev_symbolic::meter::UNITS_PER_SECOND;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, Proof};
 use chetaev_symbolic::{Expr, Graph, Verdict};
 use serde::{Deserialize, Serialize};
@@ -30,6 +31,28 @@ pub struct Record {
     /// Options that change verdicts.
     #[serde(default)]
     pub options: OptionsRecord,
+    /// The files written beside the record, with their checksums.
+    #[serde(default)]
+    pub files: Vec<WrittenRecord>,
+    /// How work is counted, which budgets are.
+    #[serde(default)]
+    pub work: WorkRecord,
+}
+
+/// A file written beside the record.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct WrittenRecord {
+    /// Its name in the folder of the record.
+    pub name: String,
+    /// SHA-256 of its content, in hexadecimal digits.
+    pub sha256: String,
+}
+
+/// Work by which the budget is counted.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct WorkRecord {
+    /// Units that count as a second of the budget.
+    pub units_per_second: f64,
 }
 
 /// The texts of the model.
@@ -141,6 +164,18 @@ pub struct VerdictRecord {
     #[serde(default)]
     pub expected: Vec<String>,
 }
+
+impl VerdictRecord {
+    /// Whether the clock or a person ended what was decided, which says nothing of the claim.
+    pub fn is_stopped(&self) -> bool {
+        self.verdict == "undecided"
+            && (self.detail.starts_with(LATE) || self.detail.starts_with(INTERRUPTED))
+    }
+}
+
+/// What the details of verdicts begin with that the clock, or a person, ended.
+pub(crate) const LATE: &str = "time: ";
+pub(crate) const INTERRUPTED: &str = "interrupted ";
 
 /// A counterexample.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -325,6 +360,10 @@ pub fn record(study: &Study, files: &[String]) -> Record {
             project: study.options.project,
             keep_integrals: study.options.keep_integrals,
             branch: study.options.branch,
+        },
+        files: Vec::new(),
+        work: WorkRecord {
+            units_per_second: UNITS_PER_SECOND,
         },
     }
 }

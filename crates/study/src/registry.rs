@@ -9,6 +9,7 @@ pub fn registry() -> Registry {
         chetaev_mechanics::claims::CLAIMS,
         chetaev_geometry::CLAIMS,
         chetaev_principles::CLAIMS,
+        chetaev_stability::claims::CLAIMS,
         motion_claims::CLAIMS,
         witness::CLAIMS,
     ])

@@ -219,8 +219,8 @@ pub(crate) fn initial_data(
         let value = number(g, given.value, &values)
             .ok_or_else(|| StudyError::InitialValue { name: name() })?;
         match order {
-            0 => (data.q[i], data.q_fixed[i]) = (value, true),
-            1 => (data.v[i], data.v_fixed[i]) = (value, true),
+            0 => (data.q[i], data.q_fixed[i]) = (value, !given.is_guess),
+            1 => (data.v[i], data.v_fixed[i]) = (value, !given.is_guess),
             _ if system.order() > 1 && order <= system.order() => {}
             _ => return Err(StudyError::UnusedInitialValue { name: name() }),
         }
@@ -320,6 +320,7 @@ pub(crate) fn settings(
         .absolute_tolerance
         .as_ref()
         .map_or(settings.tolerance, rational::to_f64);
+    settings.is_natural = simulation.absolute_tolerance.is_none();
     let is_precise = precise::is_asked(model, options);
     settings.method = match options.method.as_ref().or(simulation.method.as_ref()) {
         Some(method) => method_name(method),
@@ -334,19 +335,23 @@ pub(crate) fn settings(
         true => LEAST_TOLERANCE,
         false => sharpest(&settings.method),
     };
-    for tolerance in [settings.tolerance, settings.absolute_tolerance] {
-        if !(sharpest..=LOOSEST).contains(&tolerance) {
-            return Err(match is_precise {
-                true => StudyError::PreciseTolerance {
-                    tolerance,
-                    sharpest,
-                },
-                false => StudyError::Tolerance {
-                    tolerance,
-                    sharpest,
-                },
-            });
-        }
+    // An absolute tolerance has the unit of what it is for: no number is too small for it.
+    let absolute = settings.absolute_tolerance;
+    if !(absolute > 0.0 && absolute.is_finite()) {
+        return Err(StudyError::AbsoluteTolerance);
+    }
+    let tolerance = settings.tolerance;
+    if !(sharpest..=LOOSEST).contains(&tolerance) {
+        return Err(match is_precise {
+            true => StudyError::PreciseTolerance {
+                tolerance,
+                sharpest,
+            },
+            false => StudyError::Tolerance {
+                tolerance,
+                sharpest,
+            },
+        });
     }
     let step = simulation.step.and_then(|h| number(g, h, &values));
     settings.step = options.step.or(step);

@@ -12,10 +12,12 @@ use crate::notices::{
     rank_falls, stiffness, unused_multipliers,
 };
 use crate::options::{Hooks, StudyOptions};
+use crate::record;
 use crate::registry::registry;
 use crate::start::{
     add_jets, asks_for_motion, check_rank, of_start, settings, sharpest, start_of_motion, Start,
 };
+use crate::watch::{ending, in_time, interruptible, is_interrupted, watched};
 use crate::witness::{self, Witness};
 use chetaev_geometry::noether::found::{found, is_function_of};
 use chetaev_geometry::noether::search::Integral;
@@ -37,9 +39,9 @@ use chetaev_motion::run::equal_times;
 use chetaev_motion::{
     Binding, ConsistentState, Precise, Run, RunError, RunSettings, Subject, Watcher,
 };
+use chetaev_symbolic::meter::{within, Stopped, Work, UNITS_PER_SECOND};
 use chetaev_symbolic::{Expr, Verdict};
 use std::ops::ControlFlow;
-use std::sync::atomic::Ordering;
 use std::sync::Arc;
 
 /// A claim with its verdict.
@@ -124,6 +126,8 @@ pub struct Study {
     pub outcome: Outcome,
     /// Options used.
     pub options: StudyOptions,
+    /// Units of work that the claims took.
+    pub work: u64,
 }
 
 /// How a study ended; the exit status of the command line.
@@ -154,10 +158,28 @@ impl Outcome {
 /// # Errors
 /// The first problem.
 pub fn check(model: &Model, hooks: &mut Hooks<'_>) -> Result<(), StudyError> {
-    let (system, prepared, _) = prepare(model, &StudyOptions::default(), hooks)?;
-    match wrong_characteristics(&system, &prepared) {
-        Some(detail) => Err(StudyError::WrongCharacteristics { detail }),
-        None => Ok(()),
+    let options = StudyOptions::default();
+    let (system, prepared, start) = prepare(model, &options, hooks)?;
+    if let Some(detail) = wrong_characteristics(&system, &prepared) {
+        return Err(StudyError::WrongCharacteristics { detail });
+    }
+    match start {
+        Ok(start) if asks_for_motion(model) => {
+            let settings = settings(model, &system, start.start.t, &options)?;
+            check_step(&settings)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A method without an estimate of its error needs a step.
+fn check_step(settings: &RunSettings) -> Result<(), StudyError> {
+    let method = chetaev_integrate::method(&settings.method).map_err(RunError::from)?;
+    match method.card().adaptive || settings.step.is_some() {
+        true => Ok(()),
+        false => Err(StudyError::StepMissing {
+            method: settings.method.clone(),
+        }),
     }
 }
 
@@ -270,20 +292,28 @@ pub fn study(
     hooks: &mut Hooks<'_>,
 ) -> Result<Study, StudyError> {
     let known = registry();
-    let (system, prepared, numeric) = prepare(&model, &options, hooks)?;
-    let mut notices = notices(&model, &system, &prepared, numeric.as_ref().ok(), &options);
-    if let Some(detail) = wrong_characteristics(&system, &prepared) {
-        notices.push(format!(
-            "{detail}; Maggi's and Volterra's equations are not derived by them"
-        ));
-    }
+    let began = interruptible(hooks, |hooks| {
+        let (system, prepared, numeric) = prepare(&model, &options, hooks)?;
+        let mut notices = notices(&model, &system, &prepared, numeric.as_ref().ok(), &options);
+        if let Some(detail) = wrong_characteristics(&system, &prepared) {
+            notices.push(format!(
+                "{detail}; Maggi's and Volterra's equations are not derived by them"
+            ));
+        }
+        Ok::<_, StudyError>((system, prepared, numeric, notices))
+    });
+    let (system, prepared, numeric, mut notices) = began.unwrap_or(Err(StudyError::Interrupted))?;
     let start = numeric.as_ref().ok().map(|numeric| numeric.start.clone());
     let asks = options.claims.wants_group(Group::Motion, known.claims());
     let wants_motion = options.motion && (asks || options.claims.names_witness());
     let motion = match numeric {
-        Ok(numeric) if wants_motion => Some(compute(
-            &model, &system, &prepared, numeric, &options, hooks,
-        )?),
+        Ok(numeric) if wants_motion => {
+            let motion = compute(&model, &system, &prepared, numeric, &options, hooks)?;
+            if motion.is_none() {
+                notices.push("interrupted before the motion was computed".into());
+            }
+            motion
+        }
         Ok(_) => None,
         Err(why) => {
             notices.push(why);
@@ -291,19 +321,30 @@ pub fn study(
         }
     };
     if let Some(motion) = &motion {
-        notices.extend(left_assumptions(&system, &prepared, motion));
-        notices.extend(events_not_followed(&model, motion));
-        notices.extend(stiffness(motion));
-        notices.extend(integrals_not_kept(&model, motion, &options));
-        notices.extend(negative_masses(&system, &prepared, motion));
-        notices.extend(rank_falls(&system, &prepared, motion));
+        let of_motion = in_time(hooks, GRACE, || {
+            let mut notices = left_assumptions(&system, &prepared, motion);
+            notices.extend(events_not_followed(&model, motion));
+            notices.extend(stiffness(motion));
+            notices.extend(integrals_not_kept(&model, motion, &options));
+            notices.extend(negative_masses(&system, &prepared, motion));
+            notices.extend(rank_falls(&system, &prepared, motion));
+            notices
+        });
+        notices.extend(of_motion.unwrap_or_default());
     }
     let known_motion = KnownMotion {
         start: start.as_ref(),
         motion: motion.as_ref(),
     };
-    let (verdicts, found, witness) =
-        decide(&model, &system, &prepared, known_motion, &options, hooks);
+    let work = Work::of_seconds(options.budget);
+    let (verdicts, found, witness) = decide(
+        &model,
+        &system,
+        &prepared,
+        known_motion,
+        (&options, &work),
+        hooks,
+    );
     let mut motion = motion;
     if let Some(motion) = &mut motion {
         motion.found = found.map_or_else(FoundIntegrals::default, |found| (*found).clone());
@@ -318,9 +359,18 @@ pub fn study(
     let mut unmatched = unmatched(&model, &verdicts, &options);
     unmatched.extend(options.claims.without_subject(&verdicts));
     let outcome = match outcome(&model, &verdicts, motion.as_ref()) {
+        _ if is_interrupted(hooks) => Outcome::Stopped,
         Outcome::Done if !unmatched.is_empty() => Outcome::Unmet,
         outcome => outcome,
     };
+    if is_interrupted(hooks) {
+        let open = |d: &&Decided| matches!(d.finding.verdict, Verdict::Undecided { .. });
+        let open = verdicts.iter().filter(open).count();
+        notices.push(format!(
+            "interrupted: {open} of {} claims are undecided, and what was computed is kept",
+            verdicts.len()
+        ));
+    }
     notices.extend(contradictions(&verdicts));
     notices.extend(unmatched);
     notices.extend(options.claims.without_witness(&verdicts));
@@ -333,6 +383,7 @@ pub fn study(
         notices,
         outcome,
         options,
+        work: work.spent(),
     })
 }
 
@@ -343,14 +394,9 @@ fn compute(
     numeric: Start,
     options: &StudyOptions,
     hooks: &mut Hooks<'_>,
-) -> Result<Motion, StudyError> {
+) -> Result<Option<Motion>, StudyError> {
     let settings = settings(model, system, numeric.start.t, options)?;
-    let method = chetaev_integrate::method(&settings.method).map_err(RunError::from)?;
-    if !method.card().adaptive && settings.step.is_none() {
-        return Err(StudyError::StepMissing {
-            method: settings.method,
-        });
-    }
+    check_step(&settings)?;
     let subject = Subject {
         system,
         terms: &prepared.terms,
@@ -369,11 +415,24 @@ fn compute(
     let known = registry();
     let (terms, selection) = (&prepared.terms, &prepared.selection);
     let cx = Context::new(system, terms, selection, &known, Prover::default());
-    check_applies(&cx, formulation.card())?;
-    let searched = searched(model, (system, prepared), &numeric.start, options, hooks);
+    let before = interruptible(hooks, |hooks| {
+        check_applies(&cx, formulation.card())?;
+        let start = &numeric.start;
+        Ok::<_, StudyError>(searched(model, (system, prepared), start, options, hooks))
+    });
+    let Ok(searched) = before else {
+        return Ok(None);
+    };
+    let searched = searched?;
     let keep = searched.to_keep.clone();
     let settings = RunSettings { keep, ..settings };
-    let run = integrate(&subject, formulation, &settings, "integrating", hooks)?;
+    let run = ending(hooks, |hooks| {
+        integrate(&subject, formulation, &settings, "integrating", hooks)
+    });
+    let Ok(run) = run else {
+        return Ok(None);
+    };
+    let run = run?;
     let other: &'static dyn Formulation = if name == REFERENCE { &Maggi } else { &Routh };
     let along = |numbers: &Arc<Precise>| {
         let rows = run.precise.as_ref()?;
@@ -391,21 +450,19 @@ fn compute(
         keep: Vec::new(),
         ..in_doubles(reached.clone())
     };
-    let comparison = match check_applies(&cx, other.card()) {
-        Ok(()) => integrate(
-            &subject,
-            other,
-            &unprojected,
-            "integrating the other form",
-            hooks,
-        )
-        .ok(),
-        Err(_) => None,
-    };
+    let what = "integrating the other form";
+    let comparison = interruptible(hooks, |hooks| {
+        check_applies(&cx, other.card()).ok()?;
+        integrate(&subject, other, &unprojected, what, hooks).ok()
+    });
+    let comparison = comparison.ok().flatten();
     let plain = match (&comparison, settings.keep.is_empty()) {
         (Some(_), false) => {
             let what = "integrating without projection";
-            integrate(&subject, formulation, &unprojected, what, hooks).ok()
+            let again = interruptible(hooks, |hooks| {
+                integrate(&subject, formulation, &unprojected, what, hooks).ok()
+            });
+            again.ok().flatten()
         }
         _ => None,
     };
@@ -421,14 +478,13 @@ fn compute(
             step: settings.step.map(|h| h / 2.0),
             ..reached.clone()
         };
-        integrate(
-            &subject,
-            formulation,
-            &finer,
-            "estimating the global error",
-            hooks,
-        )
-        .ok()
+        let what = "estimating the global error";
+        let finer = interruptible(hooks, |hooks| {
+            integrate(&subject, formulation, &finer, what, hooks).ok()
+        });
+        // One that ended early says nothing of the error at the end.
+        let finer = finer.ok().flatten();
+        finer.filter(|finer| !finer.ending.interrupted)
     } else {
         None
     };
@@ -436,7 +492,12 @@ fn compute(
     let order = known.claims().iter().find(is_order);
     let wants_order = order.is_some_and(|c| options.claims.wants_claim(*c));
     let orders = match settings.precise {
-        None if wants_order => observed_order(&subject, &settings, &run, hooks),
+        None if wants_order => {
+            let found = interruptible(hooks, |hooks| {
+                observed_order(&subject, &settings, &run, hooks)
+            });
+            found.ok().flatten()
+        }
         _ => None,
     };
     let mut evidence =
@@ -448,13 +509,20 @@ fn compute(
     let is_witness = |c: &&dyn Claim| c.id().starts_with("witness");
     let mut witnesses = known.claims().iter().filter(|c| is_witness(c));
     if prepared.terms.order == 1 && witnesses.any(|c| options.claims.wants_claim(*c)) {
-        evidence.dense = dense(&subject, formulation, &evidence.run, &settings, hooks);
+        let run = &evidence.run;
+        let found = interruptible(hooks, |hooks| {
+            dense(&subject, formulation, run, &settings, hooks)
+        });
+        evidence.dense = found.ok().flatten();
     }
     let beside = options.extremum.as_ref().map(|given| {
         let reached = in_doubles(reached);
-        beside::of(&cx, &subject, &evidence.run, &reached, given, hooks)
+        let found = interruptible(hooks, |hooks| {
+            beside::of(&cx, &subject, &evidence.run, &reached, given, hooks)
+        });
+        found.unwrap_or_else(|_| Err("interrupted before it was computed".into()))
     });
-    Ok(Motion {
+    Ok(Some(Motion {
         beside,
         start: numeric.start,
         binding: numeric.binding,
@@ -462,7 +530,7 @@ fn compute(
         found: FoundIntegrals::default(),
         witness: Witness::default(),
         settings,
-    })
+    }))
 }
 
 /// The same run in doubles, with a tolerance that they can meet; other settings are left as they are.
@@ -726,7 +794,7 @@ fn decide(
     system: &System,
     prepared: &Prepared,
     KnownMotion { start, motion }: KnownMotion<'_>,
-    options: &StudyOptions,
+    (options, work): (&StudyOptions, &Arc<Work>),
     hooks: &mut Hooks<'_>,
 ) -> (Vec<Decided>, Option<Arc<FoundIntegrals>>, Witness) {
     let known = registry();
@@ -779,19 +847,44 @@ fn decide(
         }
         None => on_component(cx),
     };
-    let began = (hooks.clock)();
+    let deadline = (hooks.clock)() + LATE * options.budget;
+    let verdicts = watched(hooks, work, Some(deadline), |hooks| {
+        decide_all(&cx, model, work, options, hooks)
+    });
+    let found = cx.known::<FoundIntegrals>();
+    let witnessed = witness::computed(cx.deciding(witness::STATIONARY));
+    (verdicts, found, witnessed)
+}
+
+/// Seconds for what is said of a motion after an interruption.
+const GRACE: f64 = 0.05;
+
+/// What takes so many times the time of its work is stopped.
+const LATE: f64 = 2.0;
+
+/// Decides every claim that is wanted, as far as the work suffices.
+fn decide_all(
+    cx: &Context<'_>,
+    model: &Model,
+    work: &Arc<Work>,
+    options: &StudyOptions,
+    hooks: &mut Hooks<'_>,
+) -> Vec<Decided> {
+    let known = cx.registry();
     let mut verdicts = Vec::new();
     let of = |group: Group| known.claims().iter().filter(move |c| c.group() == group);
     // Claims about the motion are asked once more: which integrals a search finds is known after it only.
     let groups = Group::ALL.into_iter().chain([Group::Motion]);
     for claim in groups.flat_map(of) {
-        if (hooks.clock)() - began > options.budget {
+        if work.is_spent() || work.stopped().is_some() {
             cx.spend_time();
         }
         if !options.claims.wants_claim(*claim) {
             continue;
         }
-        for subject in claim.subjects(cx.deciding(claim.id())) {
+        let subjects = within(work, || claim.subjects(cx.deciding(claim.id())));
+        // What subjects there are was not found in time: the claim itself stands for them.
+        for subject in subjects.unwrap_or_else(|_| vec![None]) {
             let full = full_id(claim.id(), subject.as_deref());
             let is_decided = verdicts.iter().any(|d: &Decided| d.full_id() == full);
             if is_decided || !options.claims.wants(*claim, &full) {
@@ -799,28 +892,16 @@ fn decide(
             }
             (hooks.progress)(&full, None);
             let start = (hooks.clock)();
-            let interrupted = hooks.interrupt.is_some_and(|i| i.load(Ordering::Relaxed));
-            if interrupted || start - began > options.budget {
+            let finding = within(work, || cx.finding(&full)).unwrap_or_else(|stopped| {
+                cx.abandon();
                 cx.spend_time();
-            }
-            let finding = if interrupted {
-                Arc::new(Finding::from(Verdict::undecided(
-                    "interrupted before this claim",
-                )))
-            } else if start - began > options.budget {
-                let tried = format!(
-                    "the time budget of {} s was spent before this claim",
-                    options.budget
-                );
-                Arc::new(Finding::from(Verdict::undecided(tried)))
-            } else {
-                cx.finding(&full)
-            };
+                Arc::new(Finding::from(stopped_verdict(stopped, options.budget)))
+            });
             verdicts.push(Decided {
                 claim: claim.id(),
                 title: claim.title_of(subject.as_deref()),
                 group: claim.group(),
-                requires: hypotheses(&cx, claim.requires(subject.as_deref())),
+                requires: hypotheses(cx, claim.requires(subject.as_deref())),
                 finding,
                 seconds: (hooks.clock)() - start,
                 expected: expected(model, claim.id(), subject.as_deref()),
@@ -831,7 +912,19 @@ fn decide(
     // Where they follow each other is the order of the groups.
     let place = |d: &Decided| Group::ALL.iter().position(|&g| g == d.group);
     verdicts.sort_by_key(place);
-    let found = cx.known::<FoundIntegrals>();
-    let witnessed = witness::computed(cx.deciding(witness::STATIONARY));
-    (verdicts, found, witnessed)
+    verdicts
+}
+
+/// What is known of a claim that was stopped.
+fn stopped_verdict(stopped: Stopped, budget: f64) -> Verdict {
+    Verdict::undecided(match stopped {
+        Stopped::Spent => format!(
+            "the work of the budget was spent ({budget} s at {UNITS_PER_SECOND:e} units per second); a larger --budget decides more"
+        ),
+        Stopped::Late => format!(
+            "{}the claims took more than {LATE} times the {budget} s of their budget on this machine",
+            record::LATE
+        ),
+        Stopped::Interrupted => format!("{}before this claim was decided", record::INTERRUPTED),
+    })
 }

@@ -37,6 +37,7 @@ impl Graph {
                 Node::Solve { matrix, rhs } => {
                     let mut a = vector[matrix].clone();
                     let mut b: Vec<f64> = rhs.iter().map(|b| scalar[b]).collect();
+                    crate::meter::spend((a.len() * b.len()) as u64 / 8);
                     if !solve_dense(&mut a, &mut b) {
                         return Err(EvaluateError::Singular);
                     }

@@ -4,6 +4,7 @@
 //! The canonical constructors are in [`construct`](crate::construct) and [`functions`](crate::functions).
 
 use crate::digest;
+use crate::meter;
 use crate::node::{Expr, Node, Symbol};
 use crate::rational::{self, Rational};
 use crate::simplify;
@@ -50,6 +51,10 @@ impl std::fmt::Debug for Graph {
         write!(f, "Graph({} nodes)", self.nodes.count())
     }
 }
+
+/// Units of [`meter`] for making or finding a node, and for passing one.
+const INTERNING: u64 = 30;
+const REACHING: u64 = 3;
 
 /// A poisoned lock only means that another thread stopped between two consistent states.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -107,6 +112,8 @@ impl Graph {
 
     /// Stores `node` as it is, or finds it. Callers guarantee canonical form.
     pub(crate) fn intern(&self, node: Node) -> Expr {
+        // Before any lock is taken.
+        meter::spend(INTERNING);
         let digest = digest::of_node(
             &node,
             |child| self.digest(child),
@@ -260,6 +267,7 @@ impl Graph {
             });
         }
         found.sort_unstable();
+        meter::spend(REACHING * found.len() as u64 + seen.len() as u64 / 8);
         found
     }
 

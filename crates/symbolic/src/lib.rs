@@ -19,6 +19,7 @@ pub mod functions;
 pub mod graph;
 pub mod linear;
 pub mod matrix;
+pub mod meter;
 pub mod node;
 pub mod number;
 pub mod polynomial;

@@ -1,7 +1,7 @@
 //! Simultaneous substitution.
 
 use crate::graph::Graph;
-use crate::node::{Expr, Node};
+use crate::node::{Expr, Node, Symbol};
 use rustc_hash::FxHashMap;
 
 impl Graph {
@@ -31,6 +31,73 @@ impl Graph {
             .iter()
             .map(|r| image.get(r).copied().unwrap_or(*r))
             .collect()
+    }
+
+    /// Expressions of another graph in this one, each symbol replaced by what `symbol` gives for it.
+    pub fn copied(
+        &self,
+        other: &Graph,
+        roots: &[Expr],
+        symbol: &mut dyn FnMut(Symbol) -> Expr,
+    ) -> Vec<Expr> {
+        let mut image: FxHashMap<Expr, Expr> = FxHashMap::default();
+        let mut solutions: FxHashMap<Expr, Vec<Expr>> = FxHashMap::default();
+        for e in other.reachable(roots) {
+            let of = |e: &Expr| image.get(e).copied().unwrap_or_else(|| self.zero());
+            let value = match other.node(e) {
+                Node::Number(value) => self.number(value.clone()),
+                Node::Pi => self.pi(),
+                Node::Symbol(own) => symbol(*own),
+                Node::Sum { constant, terms } => {
+                    let mut parts: Vec<Expr> =
+                        terms.iter().map(|(t, c)| self.scale(c, of(t))).collect();
+                    parts.push(self.number(constant.clone()));
+                    self.add(&parts)
+                }
+                Node::Product {
+                    coefficient,
+                    factors,
+                } => {
+                    let mut parts: Vec<Expr> = factors.iter().map(of).collect();
+                    parts.push(self.number(coefficient.clone()));
+                    self.mul(&parts)
+                }
+                Node::Power { base, exponent } => self.pow(of(base), of(exponent)),
+                Node::Apply {
+                    function,
+                    arguments,
+                } => {
+                    let arguments: Vec<Expr> = arguments.iter().map(of).collect();
+                    self.apply(*function, &arguments)
+                }
+                // Its entries make the solution anew.
+                Node::Matrix { .. } => continue,
+                Node::Solve { matrix, rhs } => {
+                    let Node::Matrix { entries, .. } = other.node(*matrix) else {
+                        continue;
+                    };
+                    let entries: Vec<Expr> = entries.iter().map(of).collect();
+                    let rhs: Vec<Expr> = rhs.iter().map(of).collect();
+                    let found = self.solve(&entries, &rhs).unwrap_or_else(|_| {
+                        let size = rhs.len();
+                        match self.matrix(size, size, &entries) {
+                            Some(matrix) => self.solve_entries(matrix, &rhs),
+                            None => rhs,
+                        }
+                    });
+                    solutions.insert(e, found);
+                    continue;
+                }
+                Node::Entry { of: solve, index } => {
+                    let found = solutions.get(solve);
+                    let found = found.and_then(|all| all.get(*index as usize));
+                    found.copied().unwrap_or_else(|| self.zero())
+                }
+            };
+            image.insert(e, value);
+        }
+        let of = |r: &Expr| image.get(r).copied().unwrap_or_else(|| self.zero());
+        roots.iter().map(of).collect()
     }
 
     /// The node with its children replaced through `child`, in canonical form; the node itself when none changes.
@@ -148,6 +215,22 @@ mod tests {
         let e = g.add(&[x, g.mul(&[g.integer(2), y])]);
         let swapped = g.substitute(e, &[(x, y), (y, x)]);
         assert_eq!(swapped, g.add(&[y, g.mul(&[g.integer(2), x])]));
+    }
+
+    #[test]
+    fn another_graph_is_copied_with_its_solves() {
+        let (g, other) = (Graph::new(), Graph::new());
+        let [a, b, c, d, u, v] = ["a", "b", "c", "d", "u", "v"].map(|n| other.symbol(n, 0));
+        let x = other.solve(&[a, b, c, d], &[u, other.sin(v)]).unwrap();
+        // Symbols of this graph have other handles.
+        let [w, v, u, d, c, b, a] = ["w", "v", "u", "d", "c", "b", "a"].map(|n| g.symbol(n, 0));
+        let expected = g.solve(&[a, b, c, w], &[u, g.sin(v)]).unwrap();
+        let copied = g.copied(&other, &x, &mut |s| match other.symbol_name(s) {
+            "d" => w,
+            name => g.symbol(name, other.symbol_order(s)),
+        });
+        assert_eq!(copied, expected);
+        assert_ne!(copied[0], d);
     }
 
     #[test]

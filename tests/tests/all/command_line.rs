@@ -548,8 +548,10 @@ fn an_interrupted_run_keeps_what_it_has() {
             .is_some_and(|r| r.contains("interrupt")),
         "{trajectory}"
     );
-    let report = std::fs::read_to_string(out.join("report.html")).expect("report.html");
-    assert!(report.trim_end().ends_with("</html>"));
+    // There is little time for the page: it is whole, or not there.
+    if let Ok(report) = std::fs::read_to_string(out.join("report.html")) {
+        assert!(report.trim_end().ends_with("</html>"));
+    }
     let (_, rows) = csv(&out.join("trajectory.csv"));
     assert_eq!(Some(rows.len() as u64), trajectory["rows"].as_u64());
     assert!(!std::fs::read_dir(&out).expect("the folder").any(|e| e

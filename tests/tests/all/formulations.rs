@@ -477,8 +477,9 @@ fn with_kappa(constant: &str) -> String {
     let folder = scratch(&format!("formulations-kappa-{}", constant.len()));
     let path = folder.join("model.toml");
     let gallery = root().join("gallery/appell-hamel/model.toml");
-    let include = text(&gallery).replace('\\', "/");
-    let content = format!("include = \"{include}\"\nname = \"weight\"\n[initial]\nkappa_cone = \"m s0/rho{constant}\"\n");
+    // A model includes what is below its own folder.
+    std::fs::copy(&gallery, folder.join("base.toml")).expect("a copy");
+    let content = format!("include = \"base.toml\"\nname = \"weight\"\n[initial]\nkappa_cone = \"m s0/rho{constant}\"\n");
     std::fs::write(&path, content).expect("a scratch file");
     text(&path).to_owned()
 }

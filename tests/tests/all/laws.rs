@@ -45,9 +45,16 @@ fn obeys_the_laws(family: Family) {
         .filter(|o| tried(o, Expected::Proved))
         .collect();
     let spoilt = determined.iter().filter(|o| tried(o, Expected::Refuted));
-    assert!(determined.len() * 2 > outcomes.len(), "{report}");
-    let least = if are_many { 9 } else { 5 };
-    assert!(spoilt.count() * 10 >= determined.len() * least, "{report}");
+    // Tenths of the systems; among ten systems chance may take more away than among many.
+    let (least_determined, least_spoilt) = if are_many { (5, 9) } else { (1, 5) };
+    assert!(
+        determined.len() * 10 > outcomes.len() * least_determined,
+        "{report}"
+    );
+    assert!(
+        spoilt.count() * 10 >= determined.len() * least_spoilt,
+        "{report}"
+    );
 }
 
 #[test]

@@ -49,9 +49,9 @@ fn rates(file: &str) -> Option<Rates> {
             let v = speeds.find(|v| numeric.evaluate(0.3, &q, v).is_ok())?;
             let chart = chart::choose(
                 numeric.jacobian(),
-                numeric.r,
-                numeric.n,
+                (numeric.r, numeric.n),
                 &numeric.mass_diagonal(),
+                chart::Floor::Along(1.0),
             );
             let program = numeric.rates_program(&chart.rows).unwrap();
             (program, [&[0.3][..], &q, &v].concat())

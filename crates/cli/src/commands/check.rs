@@ -12,6 +12,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         return INPUT;
     };
     if let Some(model) = &model {
+        found.list.extend(model.unused.iter().cloned());
         if let Err(problem) = with_hooks(|hooks| check(model, hooks)) {
             found.list.extend(diagnostics(&problem, model));
         }

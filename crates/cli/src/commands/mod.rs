@@ -8,17 +8,18 @@ pub(crate) mod gallery;
 pub(crate) mod new;
 pub(crate) mod principles;
 pub(crate) mod simulate;
+pub(crate) mod stability;
 pub(crate) mod study;
 pub(crate) mod sweep;
 pub(crate) mod verify;
 
 use crate::arguments::{self, MotionArguments};
 use crate::progress::ProgressLine;
-use crate::{files, terminal};
+use crate::{files, terminal, INPUT, STOPPED};
 use chetaev::integrate::IntegrateError;
 use chetaev::model::{Model, Precision};
 use chetaev::motion::{double_double, RunError};
-use chetaev::study::{diagnostics, Hooks, StudyError, StudyOptions};
+use chetaev::study::{diagnostics, interruptible, Hooks, StudyError, StudyOptions};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Set by Ctrl-C; a run then ends after its present step and keeps what it has.
@@ -26,12 +27,39 @@ static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// Listens to Ctrl-C.
 fn listen() {
+    // Commands within commands listen once.
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(listen_once);
+}
+
+fn listen_once() {
     // Where the handler cannot be installed, Ctrl-C ends the program at once.
     let _ = ctrlc::set_handler(|| {
         if INTERRUPTED.swap(true, Ordering::Relaxed) {
             std::process::exit(130);
         }
     });
+}
+
+/// Whether Ctrl-C was pressed.
+fn interrupted() -> bool {
+    INTERRUPTED.load(Ordering::Relaxed)
+}
+
+/// Runs a command of which nothing is kept when it is interrupted.
+pub(crate) fn as_a_whole(work: impl FnOnce() -> u8) -> u8 {
+    listen();
+    let began = std::time::Instant::now();
+    let clock = || began.elapsed().as_secs_f64();
+    let mut hooks = Hooks {
+        clock: &clock,
+        interrupt: Some(&INTERRUPTED),
+        progress: &mut |_, _| {},
+    };
+    interruptible(&mut hooks, |_| work()).unwrap_or_else(|_| {
+        error("interrupted");
+        STOPPED
+    })
 }
 
 /// Runs `work` with a progress line.
@@ -43,7 +71,8 @@ fn with_progress<T>(work: impl FnOnce(&ProgressLine) -> T) -> T {
 fn with_hooks<T>(work: impl FnOnce(&mut Hooks<'_>) -> T) -> T {
     listen();
     with_progress(|line| {
-        let clock = || line.seconds();
+        let began = std::time::Instant::now();
+        let clock = || began.elapsed().as_secs_f64();
         let mut show = |what: &str, fraction: Option<f64>| line.show(what, fraction);
         work(&mut Hooks {
             clock: &clock,
@@ -93,11 +122,16 @@ fn options(motion: &MotionArguments, model: &Model) -> Option<StudyOptions> {
 }
 
 /// Prints what is wrong with a study: of an option where it comes from one, else at its place in the model.
-fn refuse(problem: &StudyError, motion: &MotionArguments, read: &files::Read) {
+fn refuse(problem: &StudyError, motion: &MotionArguments, read: &files::Read) -> u8 {
+    if *problem == StudyError::Interrupted {
+        error(problem);
+        return STOPPED;
+    }
     match of_option(problem, motion) {
         Some(option) => error(format!("{option}: {problem}")),
         None => read.refuse_all(diagnostics(problem, &read.model)),
     }
+    INPUT
 }
 
 /// The option that a problem comes from, with its value.

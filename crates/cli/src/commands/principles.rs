@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let result = with_hooks(|hooks| {
         let study = study(read.model.clone(), options, hooks)?;
         let written = match arguments.compare {
-            true => write_all(&study, &folder).map(|_| ()),
+            true => write_all(&study, &folder, hooks).map(|_| ()),
             false => Ok(()),
         };
         Ok::<_, StudyError>((study, written))
@@ -37,8 +37,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let (study, written) = match result {
         Ok(found) => found,
         Err(problem) => {
-            refuse(&problem, &arguments.motion, &read);
-            return INPUT;
+            return refuse(&problem, &arguments.motion, &read);
         }
     };
     if let Err(problem) = written {

@@ -24,8 +24,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let study = match with_hooks(|hooks| study(read.model.clone(), options, hooks)) {
         Ok(study) => study,
         Err(problem) => {
-            refuse(&problem, &arguments.motion, &read);
-            return INPUT;
+            return refuse(&problem, &arguments.motion, &read);
         }
     };
     let Some(motion) = &study.motion else {

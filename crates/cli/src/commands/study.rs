@@ -5,12 +5,14 @@ use super::{error, options, refuse, with_hooks};
 use crate::arguments::Study as Arguments;
 use crate::{files, terminal, INPUT};
 use chetaev::model::Model;
+use chetaev::study::record::WrittenRecord;
 use chetaev::study::summary::Style;
 use chetaev::study::table::Table;
 use chetaev::study::{
-    page, record, registry, study, summary, ClaimSelection, Study, StudyError, StudyOptions,
+    in_time, page, record, registry, study, summary, ClaimSelection, Hooks, Study, StudyError,
+    StudyOptions,
 };
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let Some(read) = files::model(&arguments.model) else {
@@ -26,7 +28,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let result = with_hooks(|hooks| {
         let study = study(read.model.clone(), options, hooks)?;
         (hooks.progress)("writing the report", None);
-        let written = write_all(&study, &folder);
+        let written = write_all(&study, &folder, hooks);
         Ok::<_, StudyError>((study, written))
     });
     let (study, written) = match result {
@@ -36,8 +38,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             return INPUT;
         }
         Err(problem) => {
-            refuse(&problem, &arguments.motion, &read);
-            return INPUT;
+            return refuse(&problem, &arguments.motion, &read);
         }
     };
     if arguments.json {
@@ -49,10 +50,12 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             Style::Plain
         };
         terminal::out(&summary::summary(&study, style));
-        terminal::out(&format!(
-            "\nreport: {}\n",
-            folder.join("report.html").display()
-        ));
+        let has_report = written.files.iter().any(|file| file.name == REPORT);
+        let report = match has_report {
+            true => folder.join(REPORT).display().to_string(),
+            false => "not written, as the study was interrupted".to_owned(),
+        };
+        terminal::out(&format!("\nreport: {report}\n"));
     }
     study.outcome.exit_status()
 }
@@ -80,31 +83,68 @@ fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
     })
 }
 
-fn json(study: &Study, files: &[String]) -> String {
-    let record = record::record(study, files);
+fn json(study: &Study, written: &Written) -> String {
+    let mut record = record::record(study, &written.data);
+    record.files.clone_from(&written.files);
     // Serialising plain data to a string does not fail; an empty text would be visible.
     let mut text = serde_json::to_string_pretty(&record).unwrap_or_default();
     text.push('\n');
     text
 }
 
-/// Writes report.html, study.json and the trajectory; names of the data files.
-pub(super) fn write_all(study: &Study, folder: &Path) -> Result<Vec<String>, String> {
-    let mut names = Vec::new();
+/// What was written beside the record.
+#[derive(Default)]
+pub(super) struct Written {
+    /// Names of the data files.
+    data: Vec<String>,
+    /// All files with their checksums.
+    files: Vec<WrittenRecord>,
+}
+
+impl Written {
+    fn file(&mut self, folder: &Path, name: &str, content: &[u8]) -> Result<(), String> {
+        files::write(&folder.join(name), content)?;
+        self.files.push(WrittenRecord {
+            name: name.to_owned(),
+            sha256: files::checksum(content),
+        });
+        Ok(())
+    }
+}
+
+/// Seconds that the page may take after an interruption.
+const GRACE: f64 = 0.15;
+
+/// Writes the trajectory and report.html, and study.json last: it has the checksums of the others, so that what does not belong
+/// together is seen.
+pub(super) fn write_all(
+    study: &Study,
+    folder: &Path,
+    hooks: &mut Hooks<'_>,
+) -> Result<Written, String> {
+    let mut written = Written::default();
     if let Some(motion) = &study.motion {
         let table = Table::new(study, motion);
-        files::write(&folder.join("trajectory.csv"), table.to_csv().as_bytes())?;
+        written.file(folder, "trajectory.csv", table.to_csv().as_bytes())?;
         let archive = table.to_npz().map_err(|e| e.to_string())?;
-        files::write(&folder.join("trajectory.npz"), &archive)?;
-        names.extend(["trajectory.csv".to_string(), "trajectory.npz".to_string()]);
+        written.file(folder, "trajectory.npz", &archive)?;
+        written
+            .data
+            .extend(["trajectory.csv".to_string(), "trajectory.npz".to_string()]);
         if let Some(events) = Table::events(study, motion) {
-            files::write(&folder.join("events.csv"), events.as_bytes())?;
-            names.push("events.csv".to_string());
+            written.file(folder, "events.csv", events.as_bytes())?;
+            written.data.push("events.csv".to_string());
         }
     }
-    files::write(&folder.join("study.json"), json(study, &names).as_bytes())?;
-    let html = page::page(study, Some(terminal::command()), &names);
-    let report: PathBuf = folder.join("report.html");
-    files::write(&report, html.as_bytes())?;
-    Ok(names)
+    let html = in_time(hooks, GRACE, || {
+        page::page(study, Some(terminal::command()), &written.data)
+    });
+    if let Some(html) = html {
+        written.file(folder, REPORT, html.as_bytes())?;
+    }
+    files::write(&folder.join("study.json"), json(study, &written).as_bytes())?;
+    Ok(written)
 }
+
+/// The page.
+const REPORT: &str = "report.html";

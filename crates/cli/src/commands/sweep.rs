@@ -11,6 +11,7 @@ use chetaev::model::Diagnostics;
 use chetaev::study::sweep::together::{Together, Variations};
 use chetaev::study::sweep::vary::{rows, Variation};
 use chetaev::study::sweep::{Sweep, SweepOptions};
+use chetaev::study::{interruptible, StudyError};
 use serde_json::{json, Map, Value};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -29,13 +30,15 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         study,
         samples: arguments.samples,
     };
-    let made = with_hooks(|hooks| Sweep::new(&read.model, variations, options, hooks));
+    let made = with_hooks(|hooks| {
+        let made = interruptible(hooks, |hooks| {
+            Sweep::new(&read.model, variations, options, hooks)
+        });
+        made.unwrap_or(Err(StudyError::Interrupted))
+    });
     let sweep = match made {
         Ok(sweep) => sweep,
-        Err(problem) => {
-            refuse(&problem, &arguments.motion, &read);
-            return INPUT;
-        }
+        Err(problem) => return refuse(&problem, &arguments.motion, &read),
     };
     let folder = arguments.out.clone().unwrap_or_else(|| {
         let mut folder = files::default_folder(&arguments.model.model).into_os_string();

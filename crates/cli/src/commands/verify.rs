@@ -1,9 +1,14 @@
 //! `chetaev verify`.
 
-use super::{error, with_hooks};
+use super::{error, interrupted, with_hooks};
 use crate::arguments::Verify as Arguments;
-use crate::{terminal, DONE, INPUT, UNMET};
-use chetaev::study::verify::{agrees, read, verify, Replay, Verified};
+use crate::files::checksum_of;
+use crate::{terminal, DONE, INPUT, STOPPED, UNMET};
+use chetaev::study::record::{Record, WrittenRecord};
+use chetaev::study::verify::{agrees, read, verify, Replay, Verified, VerifyError};
+use chetaev::study::StudyError;
+use std::ffi::OsStr;
+use std::path::Path;
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let text = match std::fs::read_to_string(&arguments.record) {
@@ -17,8 +22,21 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         }
     };
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    let lines = read(text).and_then(|record| with_hooks(|hooks| verify(&record, hooks)));
+    let budget = arguments.budget;
+    let lines = read(text).and_then(|record| {
+        let mut lines = with_hooks(|hooks| verify(&record, budget, hooks))?;
+        lines.extend(files(&record, &arguments.record));
+        Ok(lines)
+    });
     match lines {
+        Ok(_) if interrupted() => {
+            error("interrupted; nothing is verified");
+            STOPPED
+        }
+        Err(VerifyError::Study(StudyError::Interrupted)) => {
+            error("interrupted; nothing is verified");
+            STOPPED
+        }
         Ok(lines) => {
             report(&lines, arguments.json);
             if agrees(&lines) {
@@ -32,6 +50,38 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             INPUT
         }
     }
+}
+
+/// The files beside the record are those that were written with it.
+fn files(record: &Record, path: &Path) -> Vec<Verified> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let line = |file: &WrittenRecord| {
+        // A record may come from anybody; it names files beside itself only.
+        let is_plain = Path::new(&file.name).file_name() == Some(OsStr::new(&file.name));
+        let found = is_plain
+            .then(|| checksum_of(&folder.join(&file.name)))
+            .flatten();
+        let replay = match found {
+            _ if !is_plain => Replay::Differs {
+                found: "no file name".into(),
+                detail: "files of a record lie beside it".into(),
+            },
+            None => Replay::Remark {
+                what: "it is not beside the record, or cannot be read".into(),
+            },
+            Some(found) if found == file.sha256 => Replay::Confirmed,
+            Some(found) => Replay::Differs {
+                found,
+                detail: "the content is not what was written with this record".into(),
+            },
+        };
+        Verified {
+            claim: file.name.clone(),
+            recorded: "sha256".into(),
+            replay,
+        }
+    };
+    record.files.iter().map(line).collect()
 }
 
 fn report(lines: &[Verified], json: bool) {

@@ -10,9 +10,12 @@ pub mod hypotheses;
 pub mod mass;
 pub mod metric;
 pub mod model;
+pub mod on_set;
 pub mod order;
 pub mod particles;
 mod roots;
+pub mod stated;
+pub mod twin;
 
 use crate::card::Card;
 use crate::characteristics::{self, Selection};
@@ -42,16 +45,19 @@ pub enum Group {
     Principles,
     /// Catalogue of claims, §6.
     Integrals,
+    /// Catalogue of claims, §9.
+    Stability,
 }
 
 impl Group {
     /// All groups, cheapest first.
-    pub const ALL: [Group; 5] = [
+    pub const ALL: [Group; 6] = [
         Group::Model,
         Group::Formulations,
         Group::Motion,
         Group::Principles,
         Group::Integrals,
+        Group::Stability,
     ];
 
     /// The word on the command line.
@@ -62,6 +68,7 @@ impl Group {
             Group::Motion => "motion",
             Group::Principles => "principles",
             Group::Integrals => "integrals",
+            Group::Stability => "stability",
         }
     }
 }
@@ -217,6 +224,8 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &formulation::Identities,
     &mass::Balance,
     &gauss::Least,
+    &stated::Stated,
+    &twin::SameMotion,
 ];
 
 /// Everything a claim may look at while it is decided. Results are kept by id, so each is decided once.
@@ -423,6 +432,14 @@ impl<'a> Context<'a> {
         self.out_of_time.store(true, Ordering::Relaxed);
         for instead in &self.instead {
             instead.context.spend_time();
+        }
+    }
+
+    /// Forgets what was being decided when that was stopped.
+    pub fn abandon(&self) {
+        lock(&self.in_progress).clear();
+        for instead in &self.instead {
+            instead.context.abandon();
         }
     }
 

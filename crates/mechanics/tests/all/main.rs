@@ -4,3 +4,4 @@
 mod closed_forms;
 mod constraint_set;
 mod formulations;
+mod stated;

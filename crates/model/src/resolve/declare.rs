@@ -31,6 +31,9 @@ pub(crate) struct Instance {
     pub(crate) bindings: Bindings,
 }
 
+/// Where a control depends on the state.
+const FEEDBACK: &str = "state feedback belongs to [forces]: a force there may depend on coordinates and velocities, and needs no control";
+
 /// Most members of a family.
 const MOST_INSTANCES: i128 = 5_000;
 
@@ -519,7 +522,10 @@ impl Resolver {
                 let law = self.expression(
                     &text,
                     &instance.bindings,
-                    Context::time("a control"),
+                    Context {
+                        hint: FEEDBACK,
+                        ..Context::time("a control")
+                    },
                     expected,
                 );
                 self.controls[at].law = law;

@@ -110,7 +110,12 @@ impl Resolver {
     }
 
     /// Whether every multiplier that occurs is that of a constraint.
-    fn multipliers_exist(&mut self, value: Expr, text: &Text, constraints: &[Constraint]) -> bool {
+    pub(crate) fn multipliers_exist(
+        &mut self,
+        value: Expr,
+        text: &Text,
+        constraints: &[Constraint],
+    ) -> bool {
         let g = self.graph.clone();
         let symbols = g.symbols_in(&[value]);
         let mut unknown = symbols.iter().filter_map(|&symbol| {

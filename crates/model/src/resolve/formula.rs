@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use chetaev_symbolic::syntax::lower::Bindings;
-use chetaev_symbolic::syntax::{lower, NodeId, Parsed};
+use chetaev_symbolic::syntax::{self, lower, NodeId, Parsed};
 use chetaev_symbolic::{Expr, Rational};
 
 use super::scope::{Context, ModelScope};
@@ -60,12 +60,51 @@ pub(crate) struct Formula {
     pub(crate) define: Option<usize>,
 }
 
+/// Suggestions of so many problems of one text are tried.
+const CHECKED: usize = 20;
+
+/// What may be done about a name that nothing is called.
+pub(crate) const UNDECLARED: &str = "state a constant under [parameters], as in m = 1, what moves under coordinates, and an abbreviation under [define]";
+
+/// The diagnostic with its suggestion only where the text with it carried out `is_good`.
+fn checked(
+    diagnostic: &syntax::Diagnostic,
+    text: &Text,
+    is_good: impl FnOnce(&str) -> bool,
+) -> syntax::Diagnostic {
+    let mut diagnostic = diagnostic.clone();
+    let Some(suggestion) = &diagnostic.suggestion else {
+        return diagnostic;
+    };
+    let (span, content) = (suggestion.span, &text.content);
+    let parts = (content.get(..span.start), content.get(span.end..));
+    let good = match parts {
+        (Some(before), Some(after)) => {
+            is_good(&format!("{before}{}{after}", suggestion.replacement))
+        }
+        _ => false,
+    };
+    if !good {
+        // The sentence that goes with it would mislead as much.
+        diagnostic.suggestion = None;
+        diagnostic
+            .hints
+            .retain(|hint| !hint.starts_with("did you mean") && !hint.starts_with("write `"));
+    }
+    diagnostic
+}
+
 impl Resolver {
     /// Parses a text and reports what is wrong with it.
     pub(crate) fn parse(&mut self, text: &Text, parser: fn(&str) -> Parsed) -> Rc<Parsed> {
         let parsed = parser(&text.content);
+        let errors = |parsed: &Parsed| parsed.diagnostics.iter().filter(|d| d.is_error()).count();
         for diagnostic in &parsed.diagnostics {
-            self.push(Diagnostic::of_expression(diagnostic, text));
+            let diagnostic = checked(diagnostic, text, |written| {
+                let again = parser(written);
+                errors(&again) < errors(&parsed) || !diagnostic.is_error() && !again.has_errors()
+            });
+            self.push(Diagnostic::of_expression(&diagnostic, text));
         }
         Rc::new(parsed)
     }
@@ -95,11 +134,60 @@ impl Resolver {
         );
         let wanted = scope.wanted.into_inner();
         if wanted.is_empty() {
-            for diagnostic in &found {
-                self.push(Diagnostic::of_expression(diagnostic, text));
+            let place = parsed.sides.iter().position(|own| *own == side);
+            let before = found.len();
+            let diagnostics: Vec<_> = found
+                .iter()
+                .take(CHECKED)
+                .map(|diagnostic| {
+                    checked(diagnostic, text, |written| {
+                        self.reads_better(written, place, bindings, context, before)
+                    })
+                })
+                .chain(found.iter().skip(CHECKED).cloned())
+                .collect();
+            for diagnostic in &diagnostics {
+                let mut own = Diagnostic::of_expression(diagnostic, text);
+                if own.code == "unknown-name" && own.hints.is_empty() {
+                    own = own.hint(UNDECLARED);
+                }
+                self.push(own);
             }
         }
         (value, wanted)
+    }
+
+    /// Whether a text with a suggestion carried out is read, and has fewer problems.
+    fn reads_better(
+        &self,
+        written: &str,
+        place: Option<usize>,
+        bindings: &Bindings,
+        context: Context,
+        before: usize,
+    ) -> bool {
+        let again = chetaev_symbolic::syntax::parse_relation(written);
+        let is_single = again.relations.is_empty();
+        let errors = again.diagnostics.iter().filter(|d| d.is_error());
+        // A single expression is no comparison, which is no matter here.
+        if errors
+            .filter(|d| !is_single || d.code != "missing-relation")
+            .count()
+            > 0
+        {
+            return false;
+        }
+        let Some(&side) = place.and_then(|place| again.sides.get(place)) else {
+            return false;
+        };
+        let scope = ModelScope {
+            resolver: self,
+            context,
+            wanted: RefCell::new(Vec::new()),
+        };
+        let mut found = Vec::new();
+        let _ = lower(&self.graph, &again.tree, side, &scope, bindings, &mut found);
+        found.len() < before
     }
 
     /// Lowers one side, reporting what is wrong.

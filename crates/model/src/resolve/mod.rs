@@ -8,6 +8,7 @@ mod complete_integral;
 mod declare;
 mod define;
 mod drawing;
+mod equations;
 mod events;
 pub(crate) mod formula;
 pub(crate) mod frame;
@@ -18,17 +19,19 @@ mod particles;
 mod run;
 pub(crate) mod scope;
 mod sections;
+mod steady;
 mod system;
+mod twin;
 mod variation;
 
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use chetaev_symbolic::syntax::{names, Span};
 use chetaev_symbolic::Graph;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Known};
 use crate::dimension;
 use crate::model::{Control, Coordinate, Definition, Model, ModelText, Parameter};
 use crate::raw::{Kind, Raw, Table};
@@ -58,6 +61,7 @@ pub(crate) struct Stated {
 pub(crate) struct Resolver {
     pub(crate) graph: Arc<Graph>,
     pub(crate) diagnostics: Vec<Diagnostic>,
+    known: Known,
     pub(crate) overrides: Vec<Override>,
     pub(crate) sizes: Vec<(String, i64)>,
     pub(crate) indices: Vec<declare::Index>,
@@ -81,6 +85,12 @@ pub(crate) struct Resolver {
     pub(crate) formulas: Vec<Formula>,
     /// Keys of quantities whose unit is stated, but wrong.
     pub(crate) unreadable_units: Vec<Place>,
+    /// Names that occur in expressions other than assumptions.
+    pub(crate) used: RefCell<BTreeSet<String>>,
+    /// Unknowns of the equations that are being read.
+    pub(crate) unknowns: Vec<String>,
+    /// The models of twins by the place of the text that names them; none where one could not be read.
+    pub(crate) others: BTreeMap<Place, Option<Model>>,
 }
 
 /// The keys of the file, in the order in which the documentation explains them.
@@ -108,11 +118,14 @@ const SECTIONS: &[&str] = &[
     "characteristics",
     "controls",
     "initial",
+    "steady",
     "simulation",
     "events",
     "integrals",
     "variation",
     "complete_integral",
+    "equations",
+    "twin",
     "search",
     "drawing",
     "expect",
@@ -125,10 +138,12 @@ pub(crate) fn resolve(
     sources: Sources,
     text: ModelText,
     overrides: Vec<Override>,
+    others: BTreeMap<Place, Option<Model>>,
 ) -> (Option<Model>, Vec<Diagnostic>) {
     let mut resolver = Resolver {
         graph: Arc::new(Graph::new()),
         diagnostics: Vec::new(),
+        known: Known::default(),
         overrides,
         sizes: Vec::new(),
         indices: Vec::new(),
@@ -144,6 +159,9 @@ pub(crate) fn resolve(
         contents: RefCell::default(),
         formulas: Vec::new(),
         unreadable_units: Vec::new(),
+        used: RefCell::default(),
+        unknowns: Vec::new(),
+        others,
     };
     resolver.known_keys(root, SECTIONS, "of a model file");
     let model = resolver.model(root, file, sources, text);
@@ -173,12 +191,15 @@ impl Resolver {
         let characteristics = self.characteristics(root, &constraints);
         let independent = self.independent_velocities(root);
         let initial = self.initial(root, &constraints);
+        let steady = self.steady(root);
         let simulation = self.simulation(root);
         let events = self.events(root, &constraints);
         let (integrals, integral_conditions) = self.integrals(root);
         let (search, search_degree) = self.search(root);
         let variations = self.variations(root);
         let complete_integral = self.complete_integral(root);
+        let equations = self.stated_equations(root, &constraints);
+        let twins = self.twins(root);
         let drawing = self.drawing(root);
         let expect = self.expect(root);
         let has_units = dimension::check(self);
@@ -188,6 +209,7 @@ impl Resolver {
         let description = self.prose(root, "description");
         let history = self.prose(root, "history");
         let source = self.references(root);
+        let unused = self.unused(&twins);
         let lagrangian = lagrangian?;
         let masses = self.masses();
         Some(Model {
@@ -218,21 +240,58 @@ impl Resolver {
             frame: self.frame.take().and_then(frame::FrameStated::solved),
             characteristics,
             initial,
+            steady,
             simulation,
             events,
             integrals,
             variations,
             complete_integral,
             integral_conditions,
+            equations,
+            twins,
             search,
             search_degree,
             drawing,
             expect,
             sizes: std::mem::take(&mut self.sizes),
+            unused,
             has_units,
             sources,
             text,
         })
+    }
+
+    /// Parameters and definitions that occur nowhere.
+    fn unused(&self, twins: &[crate::model::Twin]) -> Vec<Diagnostic> {
+        let used = self.used.borrow();
+        let of_twins = |name: &str| {
+            twins
+                .iter()
+                .any(|t| t.symbols.iter().any(|(n, _)| n == name))
+        };
+        let is_definition = |number: usize| {
+            matches!(
+                self.defines.get(number).map(|d| d.kind),
+                Some(define::DefineKind::Definition)
+            )
+        };
+        let mut found: Vec<Diagnostic> = Vec::new();
+        for (name, named) in &self.names {
+            let what = match named.kind {
+                scope::NamedKind::Parameter => "the parameter",
+                scope::NamedKind::Define(number) if is_definition(number) => "the definition",
+                _ => continue,
+            };
+            if used.contains(name) || of_twins(name) {
+                continue;
+            }
+            let message = format!("{what} `{name}` occurs nowhere");
+            found.push(
+                Diagnostic::warning("unused", named.place, message)
+                    .hint("leave it out, or see whether a formula lacks it"),
+            );
+        }
+        found
     }
 
     /// Declares every name and gives it its value.
@@ -274,7 +333,7 @@ impl Resolver {
     }
 
     pub(crate) fn push(&mut self, diagnostic: Diagnostic) {
-        if !self.diagnostics.contains(&diagnostic) {
+        if self.known.is_new(&diagnostic) {
             self.diagnostics.push(diagnostic);
         }
     }
@@ -291,7 +350,11 @@ impl Resolver {
                 format!("`{}` is no key {of}", key.content),
             )
             .label("not known");
-            diagnostic = match near_key(&key.content, known) {
+            let near = match self.diagnostics.len() < GUESSED {
+                true => near_key(&key.content, known),
+                false => None,
+            };
+            diagnostic = match near {
                 Some(near) => diagnostic
                     .hint(format!("did you mean `{near}`?"))
                     .suggest(key.place, near),
@@ -319,11 +382,30 @@ impl Resolver {
     pub(crate) fn optional_text(&mut self, table: &Table, key: &str) -> Option<Text> {
         let raw = table.get(key)?;
         match &raw.kind {
-            Kind::Text(text) => Some(text.clone()),
+            Kind::Text(text) => {
+                self.control_characters(text);
+                Some(text.clone())
+            }
             _ => {
                 self.wrong_kind(raw, &format!("`{key}`"), "a text");
                 None
             }
+        }
+    }
+
+    /// Refuses what terminals and browsers would obey instead of showing.
+    fn control_characters(&mut self, text: &Text) {
+        let obeyed = |c: &char| c.is_control() && !matches!(c, '\n' | '\t' | '\r');
+        if let Some(sign) = text.content.chars().find(obeyed) {
+            let message = format!(
+                "the text contains the control character U+{:04X}",
+                sign as u32
+            );
+            let diagnostic = Diagnostic::error("control-character", text.place, message);
+            self.push(
+                diagnostic
+                    .hint("leave it out: terminals obey such characters instead of showing them"),
+            );
         }
     }
 
@@ -343,12 +425,18 @@ impl Resolver {
             return Vec::new();
         };
         match &raw.kind {
-            Kind::Text(text) => vec![text.content.trim().to_owned()],
+            Kind::Text(text) => {
+                self.control_characters(text);
+                vec![text.content.trim().to_owned()]
+            }
             Kind::Array(items) => {
                 let mut list = Vec::new();
                 for item in items {
                     match &item.kind {
-                        Kind::Text(text) => list.push(text.content.trim().to_owned()),
+                        Kind::Text(text) => {
+                            self.control_characters(text);
+                            list.push(text.content.trim().to_owned());
+                        }
                         _ => self.wrong_kind(item, "a reference", "a text"),
                     }
                 }
@@ -361,6 +449,10 @@ impl Resolver {
         }
     }
 }
+
+/// For the names and keys after so many problems nothing is guessed: nobody reads that many guesses, and each takes time in
+/// proportion to what there is to choose from.
+pub(crate) const GUESSED: usize = 200;
 
 /// The nearest key, also where the words or the number of a noun differ.
 fn near_key<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {

@@ -45,11 +45,15 @@ impl Resolver {
                 initial.branch = branch.map(|branch| branch as usize);
                 continue;
             }
-            let Some(text) = self.expression_text(raw, "an initial value") else {
+            let Some((value, is_guess)) = self.value_or_guess(raw) else {
+                continue;
+            };
+            let Some(text) = self.expression_text(value, "an initial value") else {
                 continue;
             };
             for instance in self.instances(key, "an initial value", &[]) {
-                if !self.initial_value(key, &text, &instance, constraints, &mut initial) {
+                let stated = (&text, is_guess);
+                if !self.initial_value(key, stated, &instance, constraints, &mut initial) {
                     break;
                 }
             }
@@ -57,11 +61,28 @@ impl Resolver {
         initial
     }
 
+    /// A value, or the one in `{ guess = -1.8 }`, and whether it is a guess.
+    fn value_or_guess<'r>(&mut self, raw: &'r Raw) -> Option<(&'r Raw, bool)> {
+        let Kind::Table(table) = &raw.kind else {
+            return Some((raw, false));
+        };
+        self.known_keys(table, &["guess"], "of an initial value");
+        let guess = table.get("guess");
+        if guess.is_none() {
+            self.push(Diagnostic::error(
+                "missing-value",
+                raw.place,
+                "an initial value is a number, an expression of parameters, or `{ guess = … }`, near which it is searched for",
+            ));
+        }
+        guess.map(|guess| (guess, true))
+    }
+
     /// Whether the other instances of the key are worth looking at.
     fn initial_value(
         &mut self,
         key: &Text,
-        text: &Text,
+        (text, is_guess): (&Text, bool),
         instance: &Instance,
         constraints: &[Constraint],
         initial: &mut Initial,
@@ -69,13 +90,16 @@ impl Resolver {
         let name = &instance.name;
         let coordinate = self.coordinates.iter().position(|own| own.name == *name);
         if let Some(coordinate) = coordinate {
-            return self.initial_coordinate(key, text, instance, coordinate, initial);
+            return self.initial_coordinate(key, (text, is_guess), instance, coordinate, initial);
         }
         let multiplier = name
             .strip_prefix("lambda_")
             .or_else(|| name.strip_prefix("kappa_"));
         if let Some(of) = multiplier {
-            if constraints.iter().any(|constraint| constraint.name == of) {
+            if is_guess {
+                let message = "a guess can be given for coordinates and velocities only";
+                self.push(Diagnostic::error("not-a-guess", key.place, message));
+            } else if constraints.iter().any(|constraint| constraint.name == of) {
                 self.initial_multiplier(key, text, instance, initial);
             } else {
                 let message = format!("there is no constraint `{of}` with such a multiplier");
@@ -88,10 +112,10 @@ impl Resolver {
         false
     }
 
-    fn initial_coordinate(
+    pub(super) fn initial_coordinate(
         &mut self,
         key: &Text,
-        text: &Text,
+        (text, is_guess): (&Text, bool),
         instance: &Instance,
         coordinate: usize,
         initial: &mut Initial,
@@ -105,13 +129,22 @@ impl Resolver {
             );
             return false;
         }
+        if is_guess && instance.order > 1 {
+            let message = "a guess can be given for coordinates and velocities only";
+            self.push(Diagnostic::error("not-a-guess", key.place, message));
+            return false;
+        }
         let expected = Expected::Quantity(instance.name.clone(), instance.order);
         if let Some(value) = self.expression(text, &instance.bindings, INITIAL, expected) {
             let text = text.content.clone();
             let place = key.place;
-            initial
-                .values
-                .insert(at, InitialValue { value, text, place });
+            let stated = InitialValue {
+                value,
+                text,
+                is_guess,
+                place,
+            };
+            initial.values.insert(at, stated);
         }
         true
     }
@@ -224,7 +257,9 @@ impl Resolver {
             (false, true) => (2.3e-16, "double precision"),
             (false, false) => (2.3e-14, "double precision"),
         };
-        if !(sharpest..=0.1).contains(&number) {
+        // An absolute tolerance has units: no number is too small or too large for it by itself.
+        let has_units = key == "absolute_tolerance" && !of_precise;
+        if !has_units && !(sharpest..=0.1).contains(&number) {
             let message = format!(
                 "{what} is out of range: it must lie between {sharpest:e} ({arithmetic}) and 0.1"
             );

@@ -7,7 +7,7 @@ use chetaev_symbolic::Expr;
 
 use super::define::{DefineKind, State};
 use super::variation::DISPLACEMENT;
-use super::Resolver;
+use super::{Resolver, GUESSED};
 use crate::source::Place;
 
 /// Highest derivative of a definition that is taken; its size grows with each.
@@ -99,6 +99,14 @@ impl Context {
             multipliers: true,
             hint: "only the time, coordinates with two derivatives, multipliers and parameters may occur there",
             ..Context::state(what)
+        }
+    }
+
+    /// An equation of motion.
+    pub(crate) const fn equation_of_motion(what: &'static str) -> Self {
+        Context {
+            hint: "only the time, coordinates with two derivatives, multipliers, unknowns of their own and parameters may occur there",
+            ..Context::motion(what)
         }
     }
 
@@ -272,6 +280,13 @@ impl ModelScope<'_> {
             coordinates
         };
         match allowed {
+            None if time => refused(
+                "not-of-time",
+                format!(
+                    "the {word} `{name}` may not occur in {what}, which is a function of the time"
+                ),
+                hint,
+            ),
             None => refused(
                 "not-constant",
                 format!("the {word} `{name}` may not occur in {what}, which is constant"),
@@ -493,10 +508,21 @@ impl Scope for ModelScope<'_> {
                 ),
             };
         }
+        if resolver.names.contains_key(name) && self.context.what != "an assumption" {
+            resolver.used.borrow_mut().insert(name.to_owned());
+        }
         match resolver.names.get(name).map(|named| named.kind) {
             None if self.is_displacement(name) => {
                 Resolution::Known(resolver.graph.symbol(name, order))
             }
+            None if resolver.unknowns.iter().any(|own| own == name) => match order {
+                0 => Resolution::Known(resolver.graph.symbol(name, 0)),
+                _ => refused(
+                    "order-too-high",
+                    format!("`{name}` is an unknown of these equations, which has no derivative there"),
+                    "a quantity with a derivative is a function of the state: state it under [define]",
+                ),
+            },
             None => Resolution::Unknown,
             Some(NamedKind::Coordinate) => self.varying(name, order, "coordinate"),
             Some(NamedKind::Control) => self.varying(name, order, "control"),
@@ -527,6 +553,9 @@ impl Scope for ModelScope<'_> {
     }
 
     fn names(&self) -> Vec<String> {
+        if self.resolver.diagnostics.len() >= GUESSED {
+            return Vec::new();
+        }
         let rank = |kind: NamedKind| match kind {
             NamedKind::Coordinate => 0,
             NamedKind::Parameter => 1,

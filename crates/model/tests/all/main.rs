@@ -4,6 +4,7 @@
 mod common;
 mod complete_integral;
 mod documentation;
+mod equations;
 mod frames;
 mod masses;
 mod particles;

@@ -1,8 +1,11 @@
 //! The velocities of consistent initial data, and why there are none.
 
-use super::{advice, largest, pivot_column, InitialError, Search, STARTS};
-use crate::least_norm::{least_step, norm};
-use crate::nearest::{both, draw, perturb, Nearest, DRAWS};
+use super::{advice, largest, InitialError, Search, EXACT, MOST_NAMED, SATISFIED, STARTS};
+use super::{DEPENDENT, DEPENDENT_BY_ROUNDING};
+use crate::chart::scale;
+use crate::least_norm::{identity, least_step, least_step_of, norm};
+use crate::nearest::{both, draw, perturb, reach, Nearest, DRAWS};
+use chetaev_compile::rounding::Rounded;
 use chetaev_mechanics::sample::add_weight;
 
 impl Search<'_> {
@@ -20,15 +23,24 @@ impl Search<'_> {
             return Ok(());
         }
         let given = self.v.clone();
-        if self.search_velocities(&movable) {
+        let is_found = match self.moves_data(&self.data.v_fixed) && !self.system.is_affine() {
+            true => self.nearest_velocities(&movable),
+            false => self.search_velocities(&movable),
+        };
+        if is_found {
             return Ok(());
         }
         self.contradiction()?;
         self.evaluate()?;
         let rows: Vec<usize> = (0..self.system.r).collect();
-        let worst = self.violations(&rows, self.system.residual());
+        let worst = self.violations(&rows, &self.system.rounded());
+        let cannot_hold = self.wrong_velocities(&movable);
         let all: Vec<usize> = (0..self.system.n).collect();
-        if !self.search_velocities(&all) {
+        let is_found = match self.system.is_affine() {
+            true => self.search_velocities(&all),
+            false => self.nearest_velocities(&all),
+        };
+        if !is_found {
             return Err(self.no_real_velocity(&given));
         }
         let nearest = self.describe(&given, &self.v.clone(), "'");
@@ -36,7 +48,7 @@ impl Search<'_> {
             kind: "velocity",
             constraint: worst.0,
             residual: worst.1,
-            advice: advice(&nearest),
+            advice: advice(&nearest, &cannot_hold, self.system.is_affine()),
         })
     }
 
@@ -49,28 +61,25 @@ impl Search<'_> {
             if self.evaluate().is_err() {
                 return false;
             }
-            let residual = self.system.residual().to_vec();
-            let size = largest(&residual);
-            let jacobian = self.system.jacobian().to_vec();
-            let scale = largest(&jacobian) * (1.0 + largest(&self.v));
-            if size <= 4.0 * f64::EPSILON * scale.max(f64::MIN_POSITIVE) {
+            let at = self.system.rounded();
+            if at.are_met(EXACT) {
                 // A state that is given may be singular and is diagnosed as such; one that is searched for must not be.
                 return step == 0 || self.has_gradients();
             }
+            // Relative to the terms: residuals of different constraints have different units.
+            let size = relative(&at.residual);
             stalled = if size < 0.9 * best { 0 } else { stalled + 1 };
             best = best.min(size);
             if stalled > 8 {
                 break;
             }
-            let metric = self.system.mass().to_vec();
-            let change = least_step(&jacobian, &residual, n, movable, &metric);
+            let of = (self.system.jacobian(), self.system.residual());
+            let change = least_step_of(of, n, movable, self.system.mass(), self.dependent);
             for (x, dx) in self.v.iter_mut().zip(&change) {
                 *x -= dx;
             }
         }
-        self.evaluate().is_ok()
-            && self.has_gradients()
-            && largest(self.system.residual()) <= 2e-12 * (1.0 + largest(&self.v))
+        self.evaluate().is_ok() && self.has_gradients() && self.system.rounded().are_met(SATISFIED)
     }
 
     /// Newton's steps halved until they help. Directions in which the gradients are seen to change count as heavier from then
@@ -84,7 +93,7 @@ impl Search<'_> {
         let weight = 10.0 * largest(&metric);
         for _ in 0..200 {
             let residual = self.system.residual().to_vec();
-            if largest(&residual) < 1e-9 {
+            if relative(&self.system.rounded().residual) < 1e-9 {
                 return true;
             }
             let jacobian = self.system.jacobian().to_vec();
@@ -110,33 +119,80 @@ impl Search<'_> {
     /// leaves v as it was when none converges.
     fn search_velocities(&mut self, movable: &[usize]) -> bool {
         let start = self.v.clone();
-        if self.newton_velocities(movable) {
-            return true;
+        for dependent in [DEPENDENT, DEPENDENT_BY_ROUNDING] {
+            self.dependent = dependent;
+            if self.newton_velocities(movable) {
+                return true;
+            }
+            self.v.clone_from(&start);
         }
-        self.v.clone_from(&start);
+        self.dependent = DEPENDENT;
         if self.damped_velocities(movable) && self.newton_velocities(movable) {
             return true;
         }
+        self.nearest_velocities(movable)
+    }
+
+    /// The nearest of the solutions that several starting points lead to, each moved to where the distance is least; leaves v as it was when
+    /// none is found.
+    fn nearest_velocities(&mut self, movable: &[usize]) -> bool {
+        let start = self.v.clone();
         let searched = both(movable, &self.system.constrained_velocities);
         let mut generator = chetaev_mechanics::sample::Generator::new(7);
-        let mut nearest = Nearest::default();
-        for _ in 1..STARTS {
+        let (metric, step) = match self.evaluate() {
+            Ok(()) => {
+                let metric = self.system.metric();
+                let of = (self.system.jacobian(), self.system.residual());
+                let step = least_step_of(of, self.system.n, movable, &metric, self.dependent);
+                (metric, step)
+            }
+            // Where there is none at the start, as at a root of zero, velocities count alike.
+            Err(_) => (identity(self.system.n), vec![0.0; self.system.n]),
+        };
+        let reach = reach(&start, &step, &metric);
+        let mut nearest = Nearest::to(&start, &metric);
+        for count in 0..STARTS {
             self.v.clone_from(&start);
-            perturb(&mut self.v, &searched, &mut generator);
+            if count > 0 {
+                perturb(&mut self.v, &searched, &reach, &mut generator);
+            }
             if !self.newton_velocities(movable) {
                 continue;
             }
-            nearest.offer(&start, &self.v);
-            if self.draw_velocities_near(&start, movable) && self.newton_velocities(movable) {
-                nearest.offer(&start, &self.v);
+            nearest.offer(&self.v);
+            if self.draw_velocities_near((&start, &metric), movable)
+                && self.newton_velocities(movable)
+            {
+                nearest.offer(&self.v);
             }
         }
-        let found = nearest.found.is_some();
-        self.v = nearest.found.unwrap_or(start);
-        found && self.evaluate().is_ok()
+        let found = nearest.found.clone();
+        let is_found = found.is_some();
+        self.v = found.unwrap_or(start);
+        is_found && self.evaluate().is_ok()
     }
 
-    fn draw_velocities_near(&mut self, start: &[f64], movable: &[usize]) -> bool {
+    /// Given velocities of which each may be the wrong one: with it free the others can hold.
+    fn wrong_velocities(&mut self, movable: &[usize]) -> Vec<String> {
+        let (mut wrong, given) = (Vec::new(), self.v.clone());
+        for i in (0..self.system.n).filter(|i| !movable.contains(i)) {
+            if wrong.len() == MOST_NAMED || !self.system.constrained_velocities[i] {
+                continue;
+            }
+            let with: Vec<usize> = movable.iter().copied().chain([i]).collect();
+            if self.newton_velocities(&with) {
+                wrong.push(format!("{}'", self.system.coordinates[i]));
+            }
+            self.v.clone_from(&given);
+        }
+        wrong
+    }
+
+    fn draw_velocities_near(
+        &mut self,
+        (start, metric): (&[f64], &[f64]),
+        movable: &[usize],
+    ) -> bool {
         let n = self.system.n;
         for _ in 0..DRAWS {
             if self.evaluate().is_err() {
@@ -144,9 +200,8 @@ impl Search<'_> {
             }
             let jacobian = self.system.jacobian().to_vec();
             let residual = self.system.residual().to_vec();
-            let metric = self.system.mass().to_vec();
             draw(&mut self.v, start, (&jacobian, &residual), |f| {
-                least_step(&jacobian, f, n, movable, &metric)
+                least_step(&jacobian, f, n, movable, metric)
             });
         }
         true
@@ -154,58 +209,48 @@ impl Search<'_> {
 
     fn no_real_velocity(&mut self, given: &[f64]) -> InitialError {
         self.v = given.to_vec();
-        let residual = match self.evaluate() {
-            Ok(()) => largest(self.system.residual()),
-            Err(error) => return error,
-        };
-        let names: Vec<String> = (0..self.system.r)
-            .filter(|&row| self.system.residual()[row].abs() > 1e-9)
-            .map(|row| format!("constraint `{}`", self.system.constraints[row]))
-            .collect();
+        if let Err(error) = self.evaluate() {
+            return error;
+        }
+        let rows: Vec<usize> = (0..self.system.r).collect();
+        let (names, residual) = self.violations(&rows, &self.system.rounded());
         InitialError::NoRealVelocity {
-            names: names.join(" and "),
+            names,
             residual,
             starts: STARTS,
         }
     }
 
-    /// For affine rows: elimination that ends in `0 = c ≠ 0` is a contradiction.
+    /// For affine rows: elimination that ends in `0 = c ≠ 0`, beyond rounding, is a contradiction.
     fn contradiction(&mut self) -> Result<(), InitialError> {
         self.evaluate()?;
-        let n = self.system.n;
+        let (n, at) = (self.system.n, self.system.rounded());
+        let scales: Vec<f64> = self.system.mass_diagonal().into_iter().map(scale).collect();
         let rows: Vec<usize> = (0..self.system.r)
             .filter(|&row| self.system.affine[row])
             .collect();
-        let jacobian = self.system.jacobian();
-        let mut reduced: Vec<(Vec<f64>, f64, Vec<f64>)> = Vec::new();
+        let mut reduced: Vec<Line> = Vec::new();
         for (position, &row) in rows.iter().enumerate() {
-            let mut line = jacobian[row * n..(row + 1) * n].to_vec();
-            let along: f64 = line.iter().zip(&self.v).map(|(a, v)| a * v).sum();
-            let mut value = self.system.residual()[row] - along;
-            let mut combination = vec![0.0; rows.len()];
-            combination[position] = 1.0;
-            let length = norm(&line).max(f64::MIN_POSITIVE);
-            for (pivot_line, pivot_value, pivot_combination) in &reduced {
-                let Some(column) = pivot_column(pivot_line) else {
-                    continue;
-                };
-                let factor = line[column] / pivot_line[column];
-                line.iter_mut()
-                    .zip(pivot_line)
-                    .for_each(|(a, b)| *a -= factor * b);
-                line[column] = 0.0;
-                value -= factor * pivot_value;
-                combination
-                    .iter_mut()
-                    .zip(pivot_combination)
-                    .for_each(|(a, b)| *a -= factor * b);
+            let entries = at.gradient[row * n..(row + 1) * n].to_vec();
+            let speeds = self.v.iter().map(|&v| Rounded::exact(v));
+            let along = entries.iter().zip(speeds).map(|(&a, v)| a * v);
+            let mut combination = vec![Rounded::default(); rows.len()];
+            combination[position] = Rounded::exact(1.0);
+            let mut line = Line {
+                value: along.fold(at.residual[row], |sum, part| sum - part),
+                entries,
+                combination,
+            };
+            for known in &reduced {
+                line.reduce(known, &scales);
             }
-            if norm(&line) <= 1e-10 * length {
-                if value.abs() > 1e-9 * (1.0 + value.abs()) {
-                    return Err(self.contradiction_of(&rows, &combination, value));
+            match line.entries.iter().all(|a| a.is_zero(EXACT)) {
+                false => reduced.push(line),
+                true if line.value.is_zero(SATISFIED) => {}
+                true => {
+                    let factors: Vec<f64> = line.combination.iter().map(|c| c.value).collect();
+                    return Err(self.contradiction_of(&rows, &factors, line.value.value));
                 }
-            } else {
-                reduced.push((line, value, combination));
             }
         }
         Ok(())
@@ -230,6 +275,41 @@ impl Search<'_> {
             combination: format!("{sum} gives 0 = {}", short(sign * value)),
         }
     }
+}
+
+/// `Σ aⱼ vⱼ + c = 0` with the multiples of the constraints of which it was made.
+struct Line {
+    entries: Vec<Rounded>,
+    value: Rounded,
+    combination: Vec<Rounded>,
+}
+
+impl Line {
+    /// Takes out the velocity that is heaviest in another line.
+    fn reduce(&mut self, other: &Line, scales: &[f64]) {
+        let size = |j: &usize| other.entries[*j].value.abs() / scales[*j];
+        let columns = (0..scales.len()).filter(|&j| !other.entries[j].is_zero(EXACT));
+        let Some(column) = columns.max_by(|i, j| size(i).total_cmp(&size(j))) else {
+            return;
+        };
+        let factor = self.entries[column] / other.entries[column];
+        let parts = self.entries.iter_mut().chain(&mut self.combination);
+        let others = other.entries.iter().chain(&other.combination);
+        parts.zip(others).for_each(|(a, &b)| *a = *a - factor * b);
+        self.value = self.value - factor * other.value;
+        self.entries[column] = Rounded::default();
+    }
+}
+
+/// The largest residual relative to the size of its terms.
+fn relative(residual: &[Rounded]) -> f64 {
+    let parts = residual.iter().map(|f| match f.value.abs() {
+        size if size > 0.0 => size / f.size(),
+        // Infinite for what is not a number.
+        size if size.is_nan() => f64::INFINITY,
+        _ => 0.0,
+    });
+    parts.fold(0.0, f64::max)
 }
 
 /// `a - 2 b + 0.3333 c`.

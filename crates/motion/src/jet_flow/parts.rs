@@ -170,7 +170,7 @@ impl Parts<'_> {
             return wanted.clone();
         }
         let (a, unit) = (reactions.group(1), vec![1.0; n]);
-        let best = chart::choose(a, r, n, &unit);
+        let best = chart::choose(a, (r, n), &unit, chart::Floor::Along(1.0));
         let present = Chart {
             rows: wanted.rows.clone(),
             dependent: wanted.dependent.clone(),

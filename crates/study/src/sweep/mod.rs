@@ -238,24 +238,35 @@ impl Sweep {
         vec![
             ("version", env!("CARGO_PKG_VERSION").into()),
             ("model", text.text.clone()),
-            ("includes", format!("{:?}", text.includes)),
-            ("overrides", format!("{:?}", text.overrides)),
+            ("includes", pairs(&text.includes, "\n")),
+            ("overrides", pairs(&text.overrides, "=")),
             ("variations", self.variations.describe()),
-            ("end of the run", format!("{:?}", study.t_end)),
+            ("end of the run", given(study.t_end)),
             (
                 "tolerance",
                 format!("{:e} {:e}", settings.tolerance, settings.absolute_tolerance),
             ),
-            ("step", format!("{:?}", settings.step)),
+            ("step", given(settings.step)),
             ("method", settings.method.clone()),
             ("formulation", self.formulation.card().name.into()),
             ("project", format!("{}", study.project)),
             ("keep-integrals", format!("{}", settings.keep.len())),
-            ("branch", format!("{:?}", study.branch)),
+            ("branch", given(study.branch)),
             ("samples", self.options.samples.to_string()),
             ("native code", format!("{}", self.numeric.is_native())),
         ]
     }
+}
+
+/// Pairs one after another.
+fn pairs(list: &[(String, String)], between: &str) -> String {
+    let all = list.iter().map(|(a, b)| format!("{a}{between}{b}"));
+    all.collect::<Vec<String>>().join("; ")
+}
+
+/// What was given, or that nothing was.
+fn given(value: Option<impl std::fmt::Display>) -> String {
+    value.map_or_else(|| "as the model says".to_owned(), |value| value.to_string())
 }
 
 /// The integrals to keep on every trajectory, where that is asked for.
@@ -358,6 +369,7 @@ pub(crate) fn with_values(model: &Model, variations: &Variations, values: &[f64]
                 let given = InitialValue {
                     value: number,
                     text: format!("{value}"),
+                    is_guess: stated.is_some_and(|given| given.is_guess),
                     place: stated.map_or(with.coordinates[at].place, |given| given.place),
                 };
                 with.initial.values.insert((at, order), given);

@@ -163,6 +163,11 @@ impl Variations {
 
     /// What was asked for, for a record: enough to tell whether another sweep is the same.
     pub fn describe(&self) -> String {
-        format!("{:?} axes {:?} seed {}", self.list, self.axes, self.seed)
+        let axis = |places: &Vec<usize>| {
+            let own = places.iter().map(|&place| self.list[place].describe());
+            own.collect::<Vec<String>>().join(" with ")
+        };
+        let axes: Vec<String> = self.axes.iter().map(axis).collect();
+        format!("{}; seed {}", axes.join("; "), self.seed)
     }
 }

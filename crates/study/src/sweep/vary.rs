@@ -40,6 +40,30 @@ pub struct Variation {
     pub(crate) count: u64,
 }
 
+impl Variation {
+    /// In words, with all digits.
+    pub(crate) fn describe(&self) -> String {
+        let kind = match self.target {
+            Target::Parameter(_) => "",
+            Target::Initial(..) => "initial ",
+        };
+        let (name, count) = (&self.name, self.count);
+        match &self.values {
+            Values::Linear(from, to) => format!("{kind}{name} from {from} to {to}, {count} values"),
+            Values::Logarithmic(from, to) => {
+                format!("{kind}{name} from {from} to {to} by equal ratios, {count} values")
+            }
+            Values::List(list) => {
+                let list: Vec<String> = list.iter().map(f64::to_string).collect();
+                format!("{kind}{name} = {}", list.join(", "))
+            }
+            Values::Random(from, to) => {
+                format!("{kind}{name} random from {from} to {to}, {count} values")
+            }
+        }
+    }
+}
+
 /// A text of the command line or a file, for messages.
 struct Said<'a> {
     label: &'a str,

@@ -156,10 +156,15 @@ fn states(what: &str, a: &[NamedValue], b: &[NamedValue], tolerance: f64) -> Opt
     a.iter().zip(b).find_map(|(x, y)| match (x.value, y.value) {
         (None, None) => None,
         (Some(u), Some(v)) if (u - v).abs() <= tolerance * (1.0 + u.abs()) => None,
-        (u, v) => Some(format!(
-            "`{what}`: {} is {u:?}, the replay finds {v:?}",
-            x.name
-        )),
+        (u, v) => {
+            let word = |x: Option<f64>| x.map_or("no number".to_owned(), |x| x.to_string());
+            Some(format!(
+                "`{what}`: {} is {}, the replay finds {}",
+                x.name,
+                word(u),
+                word(v)
+            ))
+        }
     })
 }
 

@@ -219,10 +219,24 @@ pub(super) fn projection(
         .collect();
     let rates = solved(r, &matrix, &right)?;
     let forth = transposed_times(jacobian, n, &rates);
-    let value = eta.iter().zip(&back).map(|(a, b)| a - b).collect();
+    let value = eta.iter().zip(&back).map(|(a, b)| sum_of(&[*a, -b]));
     let parts = rate.iter().zip(&moved_back).zip(&forth);
-    Some((value, parts.map(|((a, b), c)| a - b - c).collect()))
+    let moved = parts.map(|((a, b), c)| sum_of(&[*a, -b, -c]));
+    Some((value.collect(), moved.collect()))
 }
+
+/// A sum whose terms cancel but for their rounding is zero: a quotient of rounding by rounding would be no evidence.
+fn sum_of(terms: &[f64]) -> f64 {
+    let size: f64 = terms.iter().map(|x| x.abs()).sum();
+    let sum: f64 = terms.iter().sum();
+    match sum.abs() <= CANCELLED * size {
+        true => 0.0,
+        false => sum,
+    }
+}
+
+/// What rounding leaves of terms that cancel, which come from small linear systems.
+const CANCELLED: f64 = 1e3 * f64::EPSILON;
 
 /// The forms in independent velocities, each by its own rule: in those of the system, or in others where these are dependent along too
 /// much of the motion.

@@ -224,7 +224,8 @@ impl Course {
         let one = |(&i, x): (&usize, &f64)| {
             let value = interpolated(at, |j| run.row(first + j)[i]);
             let size = run.row(self.span.first)[i].abs().max(value.abs());
-            (x - value).abs() / (1.0 + size)
+            let natural = run.scales.get(i).copied().unwrap_or(1.0);
+            (x - value).abs() / (natural + size)
         };
         self.compared.iter().zip(state).map(one).fold(0.0, f64::max)
     }

@@ -1,6 +1,7 @@
 //! Dense linear algebra over a prime field: one factorization serves every right-hand side.
 
 use super::prime_field::{PrimeField, Residue};
+use crate::meter;
 
 /// The factors P A = L U of a nonsingular square matrix.
 #[derive(Clone, Debug)]
@@ -149,6 +150,7 @@ impl Echelon {
                 continue;
             }
             let first = pivots[0];
+            meter::spend(2 * (self.columns - first) as u64);
             let target = &mut row[first..];
             if let [a, b, c, d] = rows {
                 let (a, b) = (&a[first..], &b[first..]);
@@ -244,6 +246,7 @@ fn eliminate(
         }
         let factor = field.mul(target[column], reciprocal);
         target[column] = factor;
+        meter::spend((width - column) as u64);
         for (entry, &pivot_entry) in target[column + 1..]
             .iter_mut()
             .zip(&pivot_row[column + 1..])

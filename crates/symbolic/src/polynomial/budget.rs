@@ -1,5 +1,6 @@
 //! How large an exact computation may become before it is given up.
 
+use crate::meter;
 use std::cell::{Cell, RefCell};
 
 use thiserror::Error;
@@ -100,6 +101,7 @@ impl Meter {
     /// # Errors
     /// [`TooLarge::Work`] when the total exceeds the budget.
     pub fn spend(&self, steps: u64) -> Result<(), TooLarge> {
+        meter::spend(steps);
         let total = self.spent.get().saturating_add(steps);
         self.spent.set(total);
         if total > self.budget.work {

@@ -233,7 +233,11 @@ impl Sympy {
                 ));
             }
             equations.extend(system.rows().iter().map(|(left, right)| {
-                format!("sp.Eq({}, {})", self.formula(left), self.formula(right))
+                format!(
+                    "sp.Eq({}, {}, evaluate=False)",
+                    self.formula(left),
+                    self.formula(right)
+                )
             }));
         }
         equations
@@ -250,7 +254,11 @@ impl Sympy {
         match statement {
             Statement::Expression(e) => self.formula(e),
             Statement::Equation(left, right) => {
-                format!("sp.Eq({}, {})", self.formula(left), self.formula(right))
+                format!(
+                    "sp.Eq({}, {}, evaluate=False)",
+                    self.formula(left),
+                    self.formula(right)
+                )
             }
         }
     }

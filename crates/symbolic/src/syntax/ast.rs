@@ -158,6 +158,75 @@ impl Tree {
             .map(|(place, node)| (NodeId(place as u32), node))
     }
 
+    /// Whether two parts of short texts are read alike.
+    pub(crate) fn means_same(&self, a: NodeId, other: &Tree, b: NodeId) -> bool {
+        let same = |a: NodeId, b: NodeId| self.means_same(a, other, b);
+        let all = |a: &[NodeId], b: &[NodeId]| {
+            a.len() == b.len() && a.iter().zip(b).all(|(&a, &b)| same(a, b))
+        };
+        match (self.node(a), other.node(b)) {
+            (Node::Negate(a), Node::Negate(b)) => same(*a, *b),
+            (
+                Node::Binary {
+                    operation,
+                    left,
+                    right,
+                },
+                Node::Binary {
+                    operation: own,
+                    left: a,
+                    right: b,
+                },
+            ) => operation == own && same(*left, *a) && same(*right, *b),
+            (
+                Node::Call {
+                    function,
+                    arguments,
+                    power,
+                },
+                Node::Call {
+                    function: own,
+                    arguments: others,
+                    power: raised,
+                },
+            ) => function == own && power == raised && all(arguments, others),
+            (Node::Number(a), Node::Number(b)) => a == b,
+            // Names by their letters, and by the indices in them.
+            (
+                Node::Name {
+                    parts: a, order, ..
+                },
+                Node::Name {
+                    parts: b,
+                    order: own,
+                    ..
+                },
+            ) => {
+                let part = |(a, b): (&NamePart, &NamePart)| match (a, b) {
+                    (NamePart::Text(a), NamePart::Text(b)) => a == b,
+                    (NamePart::Index(a), NamePart::Index(b)) => same(*a, *b),
+                    _ => false,
+                };
+                order == own && a.len() == b.len() && a.iter().zip(b).all(part)
+            }
+            (
+                Node::Sum {
+                    index,
+                    from,
+                    to,
+                    body,
+                },
+                Node::Sum {
+                    index: own,
+                    from: a,
+                    to: b,
+                    body: c,
+                },
+            ) => index == own && same(*from, *a) && same(*to, *b) && same(*body, *c),
+            _ => false,
+        }
+    }
+
     pub(crate) fn push(&mut self, node: Node, span: Span) -> NodeId {
         let id = NodeId(self.nodes.len() as u32);
         self.nodes.push(node);

@@ -17,6 +17,9 @@ pub(crate) fn unknown_name(
     let base = Diagnostic::error("unknown-name", span, format!("unknown name `{name}`"))
         .label("not defined");
     if before_parenthesis {
+        if advice(name).is_some() {
+            return not_a_function(name, span);
+        }
         let function = Builtin::of_any_name(name)
             .map(Builtin::name)
             .or_else(|| closest(name, Builtin::all_names()));
@@ -34,6 +37,16 @@ pub(crate) fn unknown_name(
         let hint = format!("write `{product}` for a product: letters together are one name");
         return base.hint(hint).suggest(span, product);
     }
+    if let Some((hint, replacement)) = derivative(name, &known) {
+        let base = base.hint(hint);
+        return match replacement {
+            Some(replacement) => base.suggest(span, replacement),
+            None => base,
+        };
+    }
+    if matches!(name, "deg" | "degree" | "degrees" | "grad") {
+        return base.hint("angles are in radians: 30 degrees are 30 pi/180; or state a parameter with its unit, as in slope = { value = 30, unit = \"deg\" }");
+    }
     match closest(name, names.iter().map(String::as_str)) {
         Some(near) => base
             .hint(format!("did you mean `{near}`?"))
@@ -44,6 +57,59 @@ pub(crate) fn unknown_name(
         }
         None => base,
     }
+}
+
+/// What to write in the place of something that other languages have as a function and expressions here do not.
+pub(crate) fn advice(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "min" | "max" => "a larger or smaller of two has a corner, at which the equations have no derivatives; write a smooth one, max(a, b) ≈ (a + b + sqrt((a - b)^2 + eps^2))/2, or let the run stop where they are equal, under [events]",
+        "if" | "ifelse" | "piecewise" | "Piecewise" | "where" | "when" | "cases" | "heaviside" | "Heaviside" | "step" => {
+            "there are no distinctions of cases: join the cases smoothly, as by (1 + tanh(x/eps))/2 for a step at x = 0, or let the run stop where they meet, under [events]"
+        }
+        "sat" | "saturate" | "saturation" | "clip" | "clamp" => "write a smooth saturation, as L tanh(x/L)",
+        "table" | "lookup" | "interp" | "interp1" | "interpolate" | "spline" => "there are no tables: write a formula that fits the numbers",
+        "floor" | "ceil" | "round" | "mod" | "fmod" | "rem" => "functions with jumps are not available",
+        "diff" | "Derivative" | "derivative" | "der" | "deriv" | "ddt" | "Dt" | "D" | "d" => "derivatives with respect to the time are written by primes: x', x''",
+        _ => return None,
+    })
+}
+
+/// The diagnostic for it.
+pub(crate) fn not_a_function(name: &str, span: Span) -> Diagnostic {
+    let message = format!("`{name}` is not available in expressions");
+    let diagnostic =
+        Diagnostic::error("no-such-function", span, message).label("not a function here");
+    match advice(name) {
+        Some(advice) => diagnostic.hint(advice),
+        None => diagnostic,
+    }
+}
+
+/// A name that stands for a derivative elsewhere: `xdot`, `x_dot`, `dx` of dx/dt, `dt`; with what to write in its place.
+fn derivative(name: &str, known: &dyn Fn(&str) -> bool) -> Option<(String, Option<String>)> {
+    let dots = [("dddot", 3), ("ddot", 2), ("dot", 1)];
+    let dotted = dots.iter().find_map(|(end, order)| {
+        let stem = name.strip_suffix(end)?;
+        let stem = stem.strip_suffix('_').unwrap_or(stem);
+        known(stem).then(|| format!("{stem}{}", "'".repeat(*order)))
+    });
+    if let Some(written) = dotted {
+        return Some((
+            format!("write `{written}`: primes are derivatives with respect to the time"),
+            Some(written),
+        ));
+    }
+    let stem = name.strip_prefix('d').filter(|stem| known(stem))?;
+    Some(match stem {
+        "t" => (
+            "primes are derivatives with respect to the time: write x' for dx/dt".into(),
+            None,
+        ),
+        stem => (
+            format!("write `{stem}'` for the derivative d{stem}/dt"),
+            None,
+        ),
+    })
 }
 
 /// Splits a name that was meant as a product, `mgx` where `m`, `g` and `x` are known, into the fewest factors.

@@ -1,5 +1,6 @@
 //! Evaluation of expressions in balls: arbitrary precision with verified bounds.
 
+use crate::meter;
 use rustc_hash::FxHashMap;
 use thiserror::Error;
 
@@ -40,7 +41,10 @@ impl Graph {
             scalars: FxHashMap::default(),
             vectors: FxHashMap::default(),
         };
+        // A node costs the more the more bits it has.
+        let units = 20 + precision.bits() as u64 / 8;
         for e in self.reachable(roots) {
+            meter::spend(units);
             if let Node::Solve { matrix, rhs } = self.node(e) {
                 let solution = evaluation.solve(*matrix, rhs)?;
                 evaluation.vectors.insert(e, solution);

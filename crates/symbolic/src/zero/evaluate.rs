@@ -1,5 +1,6 @@
 //! Running a program at a point of a ring over a prime field.
 
+use crate::meter;
 use rustc_hash::FxHashMap;
 
 use super::program::{Operation, Program, Value};
@@ -7,6 +8,9 @@ use super::ring::{NoSquareRoot, Ring};
 use crate::number::prime_field::{PrimeField, Residue};
 use crate::number::random::Random;
 use crate::rational::Rational;
+
+/// Units of [`meter`] for an operation of a program.
+const OPERATION: u64 = 4;
 
 /// Values for everything that is free in a program.
 #[derive(Clone, Debug)]
@@ -173,6 +177,7 @@ impl<'p, R: Ring> Run<'p, R> {
     ) -> Result<(), Stop> {
         while self.values.len() < end {
             let value = self.values.len() as Value;
+            meter::spend(OPERATION);
             let element = match self.point.cuts.get(&value) {
                 Some(&cut) => ring.scalar(cut),
                 None if wanted(value as usize) => self.step(ring, value)?,

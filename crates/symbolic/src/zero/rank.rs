@@ -7,6 +7,7 @@ use super::modular::{self, Finding, Outcome};
 use super::prepare::{prepare, Question};
 use super::ring::Ring;
 use crate::graph::Graph;
+use crate::meter;
 use crate::node::{Expr, Symbol};
 use crate::number::ball::Precision;
 use crate::verdict::{Method, Proof, Verdict};
@@ -38,6 +39,7 @@ pub(super) fn rank_over<R: Ring>(
             if ring.is_zero(&factor) {
                 continue;
             }
+            meter::spend(columns as u64);
             for (entry, pivot_entry) in current.iter_mut().zip(pivot_row) {
                 let product = ring.mul(&factor, pivot_entry);
                 ring.add_scaled(entry, &product, minus_one);

@@ -247,6 +247,7 @@ impl<'a> Tower<'a> {
             return Vec::new();
         }
         let width = top.below;
+        crate::meter::spend((a.len() * b.len()) as u64);
         let (blocks_a, blocks_b): (Vec<_>, Vec<_>) =
             (a.chunks(width).collect(), b.chunks(width).collect());
         let mut product: Vec<Element> = vec![Vec::new(); blocks_a.len() + blocks_b.len() - 1];

@@ -16,6 +16,8 @@ pub fn solve(
     mut matrix: Vec<Ball>,
     right_hand_sides: &[Vec<Ball>],
 ) -> Result<Vec<Vec<Ball>>, BallError> {
+    let units = 20 + precision.bits() as u64 / 8;
+    crate::meter::spend((size * size * size) as u64 * units);
     let mut columns = right_hand_sides.to_vec();
     for step in 0..size {
         let pivot = best_pivot(&matrix, size, step)

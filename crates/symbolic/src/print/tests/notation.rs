@@ -199,7 +199,10 @@ fn equations_are_aligned() {
     );
     assert_eq!(
         document.parts(Format::Sympy).statements,
-        ["sp.Eq(x.diff(t, 2), F)", "sp.Eq(y.diff(t, 2), -g)"]
+        [
+            "sp.Eq(x.diff(t, 2), F, evaluate=False)",
+            "sp.Eq(y.diff(t, 2), -g, evaluate=False)"
+        ]
     );
 }
 

@@ -6,6 +6,7 @@ use crate::syntax::diagnostic::Diagnostic;
 use crate::syntax::functions::Builtin;
 use crate::syntax::lexer::{Token, TokenKind};
 use crate::syntax::span::Span;
+use crate::syntax::unknown::{advice, not_a_function};
 
 impl Parser<'_> {
     pub(super) fn close(&mut self, token: &Token) -> State {
@@ -274,6 +275,15 @@ impl Parser<'_> {
             })
         );
         let diagnostic = match called {
+            Some(name) if advice(&name).is_some() => {
+                let own = self.frames.last().map_or(span, |frame| match &frame.kind {
+                    FrameKind::Group {
+                        after: Some((_, own)),
+                    } => *own,
+                    _ => span,
+                });
+                not_a_function(&name, own)
+            }
             _ if in_sum => {
                 Diagnostic::error("malformed-sum", span, "`sum` needs a range and a body")
                     .hint("write sum(i = 1..n, body)")
@@ -338,6 +348,16 @@ impl Parser<'_> {
         }
         if let Some(frame) = self.frames.last_mut() {
             frame.poisoned = true;
+        }
+        let called = match self.frames.last().map(|frame| &frame.kind) {
+            Some(FrameKind::Group {
+                after: Some((name, own)),
+            }) if advice(name).is_some() => Some((name.clone(), *own)),
+            _ => None,
+        };
+        if let Some((name, own)) = called {
+            self.error(not_a_function(&name, own));
+            return State::Operand;
         }
         let mut diagnostic = Diagnostic::error(
             "unexpected-relation",

@@ -1,7 +1,7 @@
 //! Where an operator is expected: operations by strength, implicit products.
 
-use super::{FrameKind, Operand, Operator, Parser, State};
-use crate::syntax::ast::{Binary, Node};
+use super::{FrameKind, Operand, Operator, Parser, State, MOST_DIAGNOSTICS};
+use crate::syntax::ast::{Binary, Node, NodeId};
 use crate::syntax::diagnostic::Diagnostic;
 use crate::syntax::lexer::TokenKind;
 use crate::syntax::span::Span;
@@ -169,23 +169,60 @@ impl Parser<'_> {
         if matches!(self.tree.node(below), Node::Number(_)) {
             return;
         }
-        let text = |span: Span| span.text(self.source).to_owned();
-        let (below, factor) = (text(self.tree.span(below)), text(right.span));
+        if self.diagnostics.len() >= MOST_DIAGNOSTICS {
+            return;
+        }
         let whole = left.span.to(right.span);
         let diagnostic = Diagnostic::warning(
             "quotient-then-factor",
             whole,
             format!(
-                "`{}` is read as ({}) * {factor}",
-                text(whole),
-                text(left.span)
+                "`{}` is read as ({}) * {}",
+                clipped(whole.text(self.source)),
+                clipped(left.span.text(self.source)),
+                clipped(right.span.text(self.source))
             ),
-        )
-        .hint(format!(
-            "write `{}/({below} {factor})` if the whole product is below the line",
-            text(self.tree.span(above))
-        ));
-        self.error(diagnostic);
+        );
+        let hint = match self.all_below(above, below, right) {
+            Some(text) => format!("write `{text}` if the whole product is below the line"),
+            None => "put what is below the line in parentheses, if it is the whole product".into(),
+        };
+        self.error(diagnostic.hint(hint));
+    }
+
+    /// `above/(below factor)` with the parentheses that it needs, if it is short and is read so.
+    fn all_below(&self, above: NodeId, below: NodeId, factor: Operand) -> Option<String> {
+        const LONGEST: usize = 120;
+        let own = |node: NodeId| in_parentheses(self.source, self.tree.span(node));
+        let (a, b, c) = (own(above), own(below), factor.span);
+        if a.end - a.start + (b.end - b.start) + (c.end - c.start) > LONGEST {
+            return None;
+        }
+        let [a, b, c] = [a, b, c].map(|span| span.text(self.source));
+        let text = format!("{a}/({b} {c})");
+        let read = super::parse_expression(&text);
+        let root = read.root();
+        let Node::Binary {
+            operation: Binary::Divide,
+            left,
+            right,
+        } = *read.tree.node(root)
+        else {
+            return None;
+        };
+        let Node::Binary {
+            operation: Binary::Multiply,
+            left: first,
+            right: second,
+        } = *read.tree.node(right)
+        else {
+            return None;
+        };
+        let is_meant = read.diagnostics.is_empty()
+            && read.tree.means_same(left, &self.tree, above)
+            && read.tree.means_same(first, &self.tree, below)
+            && read.tree.means_same(second, &self.tree, factor.node);
+        is_meant.then_some(text)
     }
 
     /// Reduces everything in the innermost frame and takes its value off the stack.
@@ -200,5 +237,35 @@ impl Parser<'_> {
             span: at,
             grouped: false,
         })
+    }
+}
+
+/// The extent of a part with the parentheses right around it.
+fn in_parentheses(source: &str, span: Span) -> Span {
+    let mut span = span;
+    loop {
+        let before = source[..span.start].trim_end();
+        let after = source[span.end..].trim_start();
+        let (Some(_), Some(_)) = (before.strip_suffix('('), after.strip_prefix(')')) else {
+            return span;
+        };
+        // The parenthesis of a call is not that of its argument.
+        let head = before[..before.len() - 1].trim_end();
+        if head.ends_with(|c: char| c.is_alphanumeric() || c == '_')
+            && before.len() - 1 == head.len()
+        {
+            return span;
+        }
+        let end = source.len() - after.len() + 1;
+        span = Span::new(before.len() - 1, end);
+    }
+}
+
+/// A text that is short enough for a sentence.
+fn clipped(text: &str) -> std::borrow::Cow<'_, str> {
+    const LONGEST: usize = 60;
+    match text.char_indices().nth(LONGEST) {
+        None => text.into(),
+        Some((end, _)) => format!("{}…", &text[..end]).into(),
     }
 }

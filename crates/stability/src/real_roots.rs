@@ -1,0 +1,178 @@
+//! Real zeros of functions of one parameter, enclosed: none is left out, and each interval holds exactly one.
+//!
+//! An interval on which the function is enclosed away from zero holds no zero; one on which the derivative is, and at whose ends the
+//! signs differ, exactly one (interval bisection with the mean value form, Moore 1966). Polynomials are split into square-free
+//! factors first, so that zeros are simple.
+
+use chetaev_symbolic::factors::factors;
+use chetaev_symbolic::number::ball::{Ball, Precision};
+use chetaev_symbolic::{Expr, Graph, Symbol};
+use dashu_int::IBig;
+use dashu_ratio::RBig;
+use std::cmp::Ordering;
+
+/// Bits of the enclosures.
+const BITS: usize = 256;
+/// At most so many intervals are looked at for one function: some hundred serve a polynomial of degree 20.
+const INTERVALS: usize = 40_000;
+/// A zero is enclosed to 2^−64 of the range: more than double precision shows.
+const REFINEMENTS: usize = 64;
+
+/// An interval with exactly one zero, or the zero itself where both ends are equal.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Root {
+    /// The lower end.
+    pub low: RBig,
+    /// The upper end.
+    pub high: RBig,
+}
+
+/// The zeros of `e` as a function of `symbol` in the closed interval from `low` to `high`, ascending. `None` where that was not decided:
+/// other symbols occur, a zero is multiple and cannot be divided out, or the function is not defined everywhere there.
+pub fn real_roots(
+    g: &Graph,
+    e: Expr,
+    symbol: Symbol,
+    low: &RBig,
+    high: &RBig,
+) -> Option<Vec<Root>> {
+    let parts = match factors(g, e, &[symbol]) {
+        Some(list) => list.into_iter().map(|(factor, _)| factor).collect(),
+        None => vec![e],
+    };
+    let mut found = Vec::new();
+    for part in parts {
+        found.extend(Function::new(g, part, symbol).roots(low, high)?);
+    }
+    found.sort_by(|a, b| a.low.cmp(&b.low));
+    found.dedup();
+    Some(found)
+}
+
+/// The sign of `e` at a value of `symbol`; `None` where it is not decided.
+pub fn sign_at(g: &Graph, e: Expr, symbol: Symbol, at: &RBig) -> Option<Ordering> {
+    let value = g.substitute(e, &[(g.symbol_expr(symbol), g.number(at.clone()))]);
+    if g.is_zero(crate::steady::closed(g, value)) {
+        return Some(Ordering::Equal);
+    }
+    Function::new(g, e, symbol).over(e, &point(at))?.sign()
+}
+
+/// A function with its derivative.
+struct Function<'g> {
+    graph: &'g Graph,
+    value: Expr,
+    slope: Expr,
+    symbol: Symbol,
+    precision: Precision,
+}
+
+impl Function<'_> {
+    fn new(graph: &Graph, value: Expr, symbol: Symbol) -> Function<'_> {
+        Function {
+            graph,
+            value,
+            slope: graph.diff(value, symbol),
+            symbol,
+            precision: Precision::new(BITS),
+        }
+    }
+
+    fn over(&self, e: Expr, interval: &Ball) -> Option<Ball> {
+        let value = |s: Symbol| (s == self.symbol).then(|| interval.clone());
+        self.graph
+            .enclose(&[e], &self.precision, &value)
+            .ok()?
+            .pop()
+    }
+
+    fn sign(&self, at: &RBig) -> Option<Ordering> {
+        sign_at(self.graph, self.value, self.symbol, at)
+    }
+
+    /// The value over an interval by the mean value form.
+    fn mean_value(&self, low: &RBig, high: &RBig, slope: &Ball) -> Option<Ball> {
+        let middle = (low + high) / RBig::from(2);
+        let own = self.over(self.value, &point(&middle))?;
+        let width = self.precision.sub(&ball(low, high), &point(&middle)).ok()?;
+        let change = self.precision.mul(slope, &width).ok()?;
+        self.precision.add(&own, &change).ok()
+    }
+
+    fn roots(&self, low: &RBig, high: &RBig) -> Option<Vec<Root>> {
+        let mut found: Vec<Root> = Vec::new();
+        for end in [low, high] {
+            if self.sign(end)? == Ordering::Equal {
+                found.push(Root {
+                    low: end.clone(),
+                    high: end.clone(),
+                });
+            }
+        }
+        found.dedup();
+        let mut open = vec![(low.clone(), high.clone())];
+        let mut looked = 0;
+        while let Some((a, b)) = open.pop() {
+            looked += 1;
+            if looked > INTERVALS {
+                return None;
+            }
+            let over = ball(&a, &b);
+            let slope = self.over(self.slope, &over);
+            let value = slope
+                .as_ref()
+                .and_then(|slope| self.mean_value(&a, &b, slope));
+            let excludes = |value: Option<Ball>| value.is_some_and(|value| value.excludes_zero());
+            if excludes(value) || excludes(self.over(self.value, &over)) {
+                continue;
+            }
+            if slope.is_some_and(|slope| slope.excludes_zero()) {
+                let (left, right) = (self.sign(&a)?, self.sign(&b)?);
+                if left != Ordering::Equal && right != Ordering::Equal && left != right {
+                    found.push(self.refined(a, b, left)?);
+                }
+                continue;
+            }
+            let middle = self.between(&a, &b)?;
+            open.push((a, middle.clone()));
+            open.push((middle, b));
+        }
+        Some(found)
+    }
+
+    /// A place near the middle where the function does not vanish: zeros lie inside of intervals.
+    fn between(&self, a: &RBig, b: &RBig) -> Option<RBig> {
+        let at = |part: i64| a + (b - a) * RBig::from_parts(IBig::from(part), 64_u32.into());
+        let mut places = [32, 31, 35, 27].into_iter().map(at);
+        places.find(|place| self.sign(place).is_some_and(|s| s != Ordering::Equal))
+    }
+
+    /// The zero between two places with different signs, `left` being that of the lower one.
+    fn refined(&self, mut a: RBig, mut b: RBig, left: Ordering) -> Option<Root> {
+        for _ in 0..REFINEMENTS {
+            let middle = (&a + &b) / RBig::from(2);
+            match self.sign(&middle)? {
+                Ordering::Equal => {
+                    return Some(Root {
+                        low: middle.clone(),
+                        high: middle,
+                    })
+                }
+                own if own == left => a = middle,
+                _ => b = middle,
+            }
+        }
+        Some(Root { low: a, high: b })
+    }
+}
+
+fn point(at: &RBig) -> Ball {
+    Precision::new(BITS).rational(at)
+}
+
+/// The smallest ball about the middle that holds an interval.
+fn ball(low: &RBig, high: &RBig) -> Ball {
+    let precision = Precision::new(BITS);
+    let union = precision.union(&point(low), &point(high));
+    union.unwrap_or_else(|_| point(low))
+}

@@ -1,0 +1,158 @@
+//! The motion about which is linearized: positions and velocities, exact in the parameters.
+//!
+//! Velocities that are not given follow from the constraints, which are affine in them at given positions; those that the
+//! constraints leave free are zero. Positions of ignorable coordinates need not be given.
+
+use crate::linearization::LinearizationError;
+use chetaev_mechanics::{MotionTerms, SteadyMotion, System};
+use chetaev_symbolic::polynomial::normal_form::normal_form;
+use chetaev_symbolic::polynomial::Budget;
+use chetaev_symbolic::simplify::{simplify, Options};
+use chetaev_symbolic::{Expr, Graph, Symbol};
+
+/// A state with all velocities.
+#[derive(Clone, Debug)]
+pub(crate) struct State {
+    /// Pairs of symbols and values, of the positions that are given and of all velocities.
+    pub(crate) values: Vec<(Expr, Expr)>,
+    /// Coordinates without a position.
+    pub(crate) without_position: Vec<usize>,
+}
+
+/// Rest at these positions, length n.
+pub fn rest(system: &System, name: &str, positions: Vec<Option<Expr>>) -> SteadyMotion {
+    let zero = system.graph.zero();
+    SteadyMotion {
+        name: name.into(),
+        positions,
+        velocities: vec![Some(zero); system.n()],
+    }
+}
+
+/// The state of a motion with the velocities that the constraints of `rows` determine; `values` are those of parameters.
+pub(crate) fn completed(
+    motion: &SteadyMotion,
+    system: &System,
+    terms: &MotionTerms,
+    rows: &[usize],
+    values: &[(Expr, Expr)],
+) -> Result<State, LinearizationError> {
+    let g = &system.graph;
+    let coordinates = system.coordinates.iter();
+    let given = coordinates.clone().zip(&motion.positions);
+    let mut state: Vec<(Expr, Expr)> = given
+        .filter_map(|(c, position)| position.map(|position| (c.q, position)))
+        .collect();
+    let given = coordinates.clone().zip(&motion.velocities);
+    state.extend(given.filter_map(|(c, v)| v.map(|v| (c.v, v))));
+    let unknown = (0..system.n()).filter(|&j| motion.velocities[j].is_none());
+    let symbols: Vec<Symbol> = unknown.map(|j| system.coordinates[j].v_symbol).collect();
+    let constraints: Vec<Expr> = rows.iter().map(|&row| terms.constraints[row]).collect();
+    let at = at_point(g, &constraints, &[&state, values]);
+    let found = affine_solution(g, &at, &symbols);
+    let found = found.ok_or_else(|| LinearizationError::VelocitiesNotDetermined {
+        motion: motion.name.clone(),
+    })?;
+    state.extend(
+        symbols
+            .iter()
+            .zip(found)
+            .map(|(&s, value)| (g.symbol_expr(s), value)),
+    );
+    Ok(State {
+        values: state,
+        without_position: (0..system.n())
+            .filter(|&j| motion.positions[j].is_none())
+            .collect(),
+    })
+}
+
+/// Expressions at a point: the lists of replacements one after the other, then closed forms.
+pub(crate) fn at_point(g: &Graph, es: &[Expr], replacements: &[&[(Expr, Expr)]]) -> Vec<Expr> {
+    let mut es = es.to_vec();
+    for list in replacements {
+        es = g.substitute_all(&es, list);
+    }
+    es.into_iter().map(|e| closed(g, e)).collect()
+}
+
+/// The exact normal form of an expression, so that what vanishes is zero by its form; as it is where that is too large.
+pub(crate) fn closed(g: &Graph, e: Expr) -> Expr {
+    if g.as_number(e).is_some() {
+        return e;
+    }
+    match normal_form(g, e, &Budget::PROOF) {
+        Ok(form) if form.is_zero() => g.zero(),
+        Ok(form) => form.to_expr(),
+        Err(_) => simplify(g, e, &Options::default()),
+    }
+}
+
+/// A solution of equations that are affine in the unknowns, those that are free being zero; `None` where they are not affine or
+/// contradict each other.
+fn affine_solution(g: &Graph, equations: &[Expr], unknowns: &[Symbol]) -> Option<Vec<Expr>> {
+    let matrix = g.jacobian(equations, unknowns);
+    if g.any_contains_any(&matrix.concat(), unknowns) {
+        return None;
+    }
+    let vanishing: Vec<(Expr, Expr)> = unknowns
+        .iter()
+        .map(|&s| (g.symbol_expr(s), g.zero()))
+        .collect();
+    let constant = g.substitute_all(equations, &vanishing);
+    let rows = matrix.into_iter().zip(constant);
+    let mut rows: Vec<Vec<Expr>> = rows
+        .map(|(mut row, c)| {
+            row.push(g.neg(c));
+            row.iter().map(|&e| closed(g, e)).collect()
+        })
+        .collect();
+    let pivots = echelon(g, &mut rows, unknowns.len());
+    let is_contradiction = |row: &Vec<Expr>| !g.is_zero(row[unknowns.len()]);
+    if rows[pivots.len()..].iter().any(is_contradiction) {
+        return None;
+    }
+    let mut solution = vec![g.zero(); unknowns.len()];
+    for (row, &column) in rows.iter().zip(&pivots) {
+        solution[column] = row[unknowns.len()];
+    }
+    Some(solution)
+}
+
+/// Brings rows of closed expressions to reduced echelon form in the first `columns`; the pivot columns, one for each of the first rows.
+/// A pivot is a number where there is one, since an expression may vanish for some values of parameters.
+pub(crate) fn echelon(g: &Graph, rows: &mut [Vec<Expr>], columns: usize) -> Vec<usize> {
+    let mut pivots = Vec::new();
+    while pivots.len() < rows.len() {
+        let done = pivots.len();
+        let places = (done..rows.len()).flat_map(|r| (0..columns).map(move |c| (r, c)));
+        let nonzero = places.filter(|&(r, c)| !g.is_zero(rows[r][c]));
+        let cost = |&(r, c): &(usize, usize)| {
+            (
+                g.as_number(rows[r][c]).is_none(),
+                g.reachable(&[rows[r][c]]).len(),
+            )
+        };
+        let Some((row, column)) = nonzero.min_by_key(cost) else {
+            break;
+        };
+        rows.swap(done, row);
+        let pivot = rows[done][column];
+        rows[done] = rows[done]
+            .iter()
+            .map(|&e| closed(g, g.div(e, pivot)))
+            .collect();
+        let own = rows[done].clone();
+        for (other, line) in rows.iter_mut().enumerate() {
+            let factor = line[column];
+            if other == done || g.is_zero(factor) {
+                continue;
+            }
+            for (entry, &by) in line.iter_mut().zip(&own) {
+                *entry = closed(g, g.sub(*entry, g.mul(&[factor, by])));
+            }
+        }
+        pivots.push(column);
+    }
+    pivots
+}

@@ -1,0 +1,475 @@
+//! Linearizations and ranges of stability against published values: Meijaard, Papadopoulos, Ruina, Schwab 2007 for the bicycle, Routh
+//! 1905 for the disc, Neimark and Fufaev 1972 for the sleigh, textbooks for the rest.
+
+use chetaev_mechanics::{Prepared, SteadyMotion, System};
+use chetaev_model::{load, Model};
+use chetaev_stability::characteristic::Characteristic;
+use chetaev_stability::eigenvalues::eigenvalues;
+use chetaev_stability::hurwitz::{ranges, Crossing, Ranges};
+use chetaev_stability::linearization::{linearize, Linearization, LinearizationError, Variable};
+use chetaev_symbolic::{Expr, Rational};
+use std::collections::BTreeMap;
+
+/// A system with what is derived from it once.
+struct Case {
+    model: Model,
+    system: System,
+    prepared: Prepared,
+}
+
+impl Case {
+    fn new(text: &str) -> Case {
+        let loaded = load(
+            "case.toml",
+            &format!("name = \"case\"\n{text}"),
+            &BTreeMap::new(),
+            &[],
+        );
+        let model = loaded
+            .model
+            .unwrap_or_else(|| panic!("{}", loaded.diagnostics));
+        let system = System::from_model(&model).unwrap();
+        Case {
+            prepared: Prepared::new(&system).unwrap(),
+            model,
+            system,
+        }
+    }
+
+    fn gallery(name: &str) -> Case {
+        let path = format!(
+            "{}/../../gallery/{name}/model.toml",
+            env!("CARGO_MANIFEST_DIR")
+        );
+        let text = std::fs::read_to_string(path).unwrap();
+        let start = text.find("\nname = ").map_or(0, |at| at + 1);
+        let rest = text[start..].split_once('\n').unwrap().1;
+        Case::new(rest)
+    }
+
+    fn read(&self, text: &str) -> Expr {
+        self.model.expression(text).unwrap()
+    }
+
+    /// A motion from pairs of a coordinate or velocity and its value; other positions and velocities are not given.
+    fn motion(&self, given: &[(&str, &str)]) -> SteadyMotion {
+        let of = |name: String| {
+            given
+                .iter()
+                .find(|(own, _)| *own == name)
+                .map(|(_, value)| self.read(value))
+        };
+        let names = self.system.coordinates.iter().map(|c| &c.name);
+        SteadyMotion {
+            name: "asked".into(),
+            positions: names.clone().map(|name| of(name.clone())).collect(),
+            velocities: names.map(|name| of(format!("{name}'"))).collect(),
+        }
+    }
+
+    /// The values of all parameters but one, as the model states them.
+    fn values(&self, but: &str) -> Vec<(Expr, Expr)> {
+        let parameters = self.system.parameters.iter().filter(|p| p.name != but);
+        parameters
+            .filter_map(|p| Some((p.expr, p.value?)))
+            .collect()
+    }
+
+    fn linear(
+        &self,
+        motion: &SteadyMotion,
+        but: &str,
+    ) -> Result<Linearization, LinearizationError> {
+        let (terms, selection) = (&self.prepared.terms, &self.prepared.selection);
+        linearize(&self.system, terms, selection, motion, &self.values(but))
+    }
+
+    fn number(&self, e: Expr, free: &[(&str, f64)]) -> f64 {
+        let g = &self.system.graph;
+        let value = |s| {
+            free.iter()
+                .find(|(name, _)| *name == g.symbol_name(s))
+                .map(|(_, value)| *value)
+        };
+        g.evaluate_f64(&[e], &value).unwrap()[0]
+    }
+
+    fn numbers(&self, rows: &[Vec<Expr>], free: &[(&str, f64)]) -> Vec<Vec<f64>> {
+        let row = |row: &Vec<Expr>| row.iter().map(|&e| self.number(e, free)).collect();
+        rows.iter().map(row).collect()
+    }
+
+    fn ranges(&self, linear: &Linearization, symbol: &str, low: i64, high: i64) -> Ranges {
+        let g = &self.system.graph;
+        let polynomial = Characteristic::of(g, linear).unwrap();
+        let symbol = g.intern_symbol(symbol, 0);
+        ranges(
+            g,
+            &polynomial.coefficients,
+            symbol,
+            &Rational::from(low),
+            &Rational::from(high),
+        )
+        .unwrap()
+    }
+}
+
+fn decimal(text: &str) -> Rational {
+    let (whole, part) = text.split_once('.').unwrap();
+    let digits: dashu_int::IBig = format!("{whole}{part}").parse().unwrap();
+    let power = dashu_int::UBig::from(10_u8).pow(part.len());
+    Rational::from_parts(digits, power)
+}
+
+#[test]
+fn the_bicycle_is_stable_between_the_weave_speed_and_the_capsize_speed() {
+    let case = Case::gallery("whipple-bicycle");
+    let motion = case.motion(&[
+        ("phi", "0"),
+        ("theta", "0"),
+        ("delta", "0"),
+        ("phi'", "0"),
+        ("delta'", "0"),
+        ("thR'", "v/rR"),
+    ]);
+    let linear = case.linear(&motion, "v").unwrap();
+    assert_eq!(linear.names, ["phi", "delta", "phi'", "delta'", "thR'"]);
+    assert_eq!(linear.ignorable, ["x", "y", "psi", "thR", "thF"]);
+    assert_eq!(linear.dependent.len(), 1);
+    assert_eq!(linear.family, 1);
+    // M, and what multiplies deviations and velocities at two speeds, against the sixteen coefficients.
+    let m = [
+        [80.81722, 2.319_413_322_087_091_35],
+        [2.319_413_322_087_091_35, 0.297_841_881_996_855_53],
+    ];
+    let c1 = [
+        [0.0, 33.866_413_914_924_943_9],
+        [-0.850_356_414_569_784_37, 1.685_403_973_975_596_74],
+    ];
+    let k0 = [
+        [-80.95, -2.599_516_852_498_716_41],
+        [-2.599_516_852_498_716_41, -0.803_294_884_586_176_881],
+    ];
+    let k2 = [
+        [0.0, 76.597_345_895_732_221_5],
+        [0.0, 2.654_315_237_946_040_25],
+    ];
+    for v in [0.0, 1.0, 3.7, 9.25] {
+        let left = case.numbers(&linear.left, &[("v", v)]);
+        let right = case.numbers(&linear.right, &[("v", v)]);
+        for i in 0..2 {
+            for j in 0..2 {
+                let close = |own: f64, expected: f64| {
+                    let scale = expected.abs().max(1e-3);
+                    assert!(
+                        (own - expected).abs() <= 1e-13 * scale,
+                        "v = {v}, [{i}][{j}]: {own} {expected}"
+                    );
+                };
+                close(left[2 + i][2 + j], m[i][j]);
+                close(-right[2 + i][2 + j], v * c1[i][j]);
+                close(-right[2 + i][j], 9.81 * k0[i][j] + v * v * k2[i][j]);
+            }
+        }
+    }
+    let found = case.ranges(&linear, "v", 0, 10);
+    let stable: Vec<_> = found.regions.iter().filter(|r| r.is_asymptotic).collect();
+    assert_eq!(stable.len(), 1);
+    let inside = [
+        ("4.292382536341103959", Crossing::Pair),
+        ("6.024262015388358890", Crossing::Zero),
+    ];
+    let ends = [&stable[0].low, &stable[0].high];
+    for ((text, crossing), end) in inside.into_iter().zip(ends) {
+        let boundary = found
+            .boundaries
+            .iter()
+            .find(|b| b.root.low == *end || b.root.high == *end)
+            .unwrap();
+        let (low, high) = (&boundary.root.low, &boundary.root.high);
+        let half = decimal("0.0000000000000000005");
+        let expected = decimal(text);
+        assert!(
+            *low <= &expected + &half && &expected - &half <= *high,
+            "{text}"
+        );
+        assert!(high - low < decimal("0.0000000000000001"));
+        assert_eq!(boundary.crossing, crossing);
+    }
+}
+
+#[test]
+fn eigenvalues_of_the_bicycle() {
+    let case = Case::gallery("whipple-bicycle");
+    let motion = case.motion(&[
+        ("phi", "0"),
+        ("theta", "0"),
+        ("delta", "0"),
+        ("phi'", "0"),
+        ("delta'", "0"),
+        ("thR'", "v/rR"),
+    ]);
+    let linear = case.linear(&motion, "v").unwrap();
+    let free = [("v", 2.0)];
+    let found = eigenvalues(
+        &case.numbers(&linear.left, &free),
+        &case.numbers(&linear.right, &free),
+    )
+    .unwrap();
+    let expected = [
+        (-8.673_879_848_317_371_63, 0.0),
+        (-3.071_586_456_415_142_51, 0.0),
+        (0.0, 0.0),
+        (2.682_345_175_127_453_45, -1.680_662_965_906_757_76),
+        (2.682_345_175_127_453_45, 1.680_662_965_906_757_76),
+    ];
+    for (own, (re, im)) in found.iter().zip(expected) {
+        assert!(
+            (own.re - re).abs() < 1e-11 && (own.im - im).abs() < 1e-11,
+            "{own} {re} {im}"
+        );
+    }
+}
+
+const DISC: &str = r#"
+coordinates = ["x", "y", "phi", "theta", "psi"]
+parameters = { m = 1.5, r = 0.4, A = 0.06, Cc = 0.12, g = 9.81, v = 2, Om = 6 }
+[define]
+cx = "x + r sin(phi) sin(theta)"
+cy = "y - r cos(phi) sin(theta)"
+cz = "r cos(theta)"
+[lagrangian]
+T = "1/2 m (cx'^2 + cy'^2 + cz'^2) + 1/2 A (theta'^2 + phi'^2 cos(theta)^2) + 1/2 Cc (psi' + phi' sin(theta))^2"
+V = "m g cz"
+[constraints]
+roll_x = "x' = r psi' cos(phi)"
+roll_y = "y' = r psi' sin(phi)"
+"#;
+
+/// λ² (λ² + W), W = (C (C + m r²) v²/r² − A m g r)/(A (A + m r²)) rolling straight, Ω² − m g r/(A + m r²) spinning upright (Routh 1905). Two
+/// zeros belong to the family of both.
+#[test]
+fn the_disc_that_rolls_or_spins_upright() {
+    let case = Case::new(DISC);
+    let cases = [
+        ("psi'", "v/r", "phi'", "v", 40.38),
+        ("phi'", "Om", "psi'", "Om", 16.38),
+    ];
+    for (moving, rate, still, free, expected) in cases {
+        let motion = case.motion(&[
+            ("theta", "0"),
+            ("theta'", "0"),
+            (moving, rate),
+            (still, "0"),
+        ]);
+        let linear = case.linear(&motion, free).unwrap();
+        assert_eq!(linear.names[0], "theta");
+        assert_eq!(linear.family, 2, "{moving}");
+        let polynomial = Characteristic::of(&case.system.graph, &linear).unwrap();
+        assert_eq!(
+            (
+                polynomial.zeros,
+                polynomial.further_zeros,
+                polynomial.degree()
+            ),
+            (2, 0, 2)
+        );
+        let at = [("v", 2.0), ("Om", 6.0)];
+        let values: Vec<f64> = polynomial
+            .coefficients
+            .iter()
+            .map(|&e| case.number(e, &at))
+            .collect();
+        assert!((values[0] / values[2] - expected).abs() < 1e-12 * expected);
+        assert_eq!(values[1], 0.0);
+    }
+}
+
+/// A steady circle: the lean is constant, heading and spin run on; the contact moves on a circle, so that neither x' nor y' is constant.
+#[test]
+fn the_disc_on_a_circle_is_steady() {
+    let case = Case::new(DISC);
+    // With theta = lean, b = 0 is one equation between phi' and psi'; sin and cos of the lean are rational here.
+    let lean = "asin(3/5)";
+    let unsteady = case.motion(&[
+        ("theta", lean),
+        ("theta'", "0"),
+        ("phi'", "1"),
+        ("psi'", "1"),
+    ]);
+    let refused = case.linear(&unsteady, "").unwrap_err();
+    assert!(
+        matches!(&refused, LinearizationError::NotSteady { quantity, .. } if quantity == "theta'"),
+        "{refused}"
+    );
+}
+
+/// u' = a ω², ω' = −m a u ω/(J + m a²): the zero of the line ω = 0, and −m a u/(J + m a²).
+#[test]
+fn the_sleigh_is_stable_with_its_mass_ahead() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "y", "phi"]
+parameters = { m = 2, J = 0.3, a = 0.25, u = 1.2 }
+[define]
+cx = "x + a cos(phi)"
+cy = "y + a sin(phi)"
+[lagrangian]
+T = "1/2 m (cx'^2 + cy'^2) + 1/2 J phi'^2"
+[constraints]
+blade = "x' sin(phi) = y' cos(phi)"
+"#,
+    );
+    let motion = case.motion(&[("phi", "0"), ("x'", "u"), ("phi'", "0")]);
+    let linear = case.linear(&motion, "u").unwrap();
+    assert_eq!(linear.ignorable, ["x", "y", "phi"]);
+    assert_eq!(linear.family, 1);
+    let polynomial = Characteristic::of(&case.system.graph, &linear).unwrap();
+    let values: Vec<f64> = polynomial
+        .coefficients
+        .iter()
+        .map(|&e| case.number(e, &[("u", 1.2)]))
+        .collect();
+    assert!((values[0] / values[1] - 1.411_764_705_882_352_94).abs() < 1e-15);
+    let found = case.ranges(&linear, "u", -3, 3);
+    let stable: Vec<bool> = found.regions.iter().map(|r| r.is_asymptotic).collect();
+    assert_eq!(stable, [false, true]);
+    assert_eq!(found.boundaries.len(), 1);
+    assert_eq!(found.boundaries[0].root.low, Rational::from(0));
+}
+
+/// Hanging, and upside down: the frequencies of the double pendulum.
+#[test]
+fn the_double_pendulum() {
+    let case = Case::new(
+        r#"
+coordinates = ["a", "b"]
+parameters = { m1 = 1, m2 = 1, l1 = 0.5, l2 = 0.5, g = 9.81 }
+[define]
+x1 = "l1 sin(a)"
+y1 = "-l1 cos(a)"
+x2 = "x1 + l2 sin(b)"
+y2 = "y1 - l2 cos(b)"
+[lagrangian]
+T = "1/2 m1 (x1'^2 + y1'^2) + 1/2 m2 (x2'^2 + y2'^2)"
+V = "m1 g y1 + m2 g y2"
+"#,
+    );
+    let of = |a: &str, b: &str| {
+        let linear = case
+            .linear(
+                &case.motion(&[("a", a), ("b", b), ("a'", "0"), ("b'", "0")]),
+                "",
+            )
+            .unwrap();
+        eigenvalues(
+            &case.numbers(&linear.left, &[]),
+            &case.numbers(&linear.right, &[]),
+        )
+        .unwrap()
+    };
+    let hanging = of("0", "0");
+    let mut frequencies: Vec<f64> = hanging.iter().map(|l| l.im).collect();
+    frequencies.sort_by(f64::total_cmp);
+    for (own, expected) in frequencies[2..]
+        .iter()
+        .zip([3.390_151_900_172_007_8, 8.184_550_695_900_180_25])
+    {
+        assert!((own - expected).abs() < 1e-12 * expected);
+    }
+    let folded = of("0", "pi");
+    assert!((folded[3].re - 5.267_529_790_495_742_88).abs() < 1e-12);
+    let outside = case.motion(&[("a", "1"), ("b", "0"), ("a'", "0"), ("b'", "0")]);
+    assert!(matches!(
+        case.linear(&outside, ""),
+        Err(LinearizationError::NotSteady { .. })
+    ));
+}
+
+/// The caster with an elastic pivot: stable exactly below v = e c/(J − m b (e − b)) (Den Hartog 1940; Stépán 1991 for the class).
+#[test]
+fn shimmy_of_a_caster() {
+    let case = Case::new(
+        r#"
+coordinates = ["X", "y", "theta"]
+parameters = { m = 5, J = 0.06, b = 0.03, e = 0.1, k = 20000, c = 2, v = 1, M = 1 }
+[define]
+cx = "X - b cos(theta)"
+cy = "y - b sin(theta)"
+[lagrangian]
+T = "1/2 m (cx'^2 + cy'^2) + 1/2 J theta'^2"
+V = "1/2 k y^2"
+[forces]
+theta = "-c theta'"
+[constraints]
+drive = "X' = v"
+wheel = "-X' sin(theta) + y' cos(theta) - e theta' = 0"
+"#,
+    );
+    let motion = case.motion(&[
+        ("y", "0"),
+        ("theta", "0"),
+        ("theta'", "0"),
+        ("y'", "0"),
+        ("X'", "v"),
+    ]);
+    let linear = case.linear(&motion, "v").unwrap();
+    let found = case.ranges(&linear, "v", 1, 10);
+    assert_eq!(found.boundaries.len(), 1, "{found:?}");
+    assert_eq!(found.boundaries[0].crossing, Crossing::Pair);
+    // 0.2/0.0495 = 400/99.
+    let expected = Rational::from_parts(400.into(), 99_u32.into());
+    let root = &found.boundaries[0].root;
+    assert!(root.low <= expected && expected <= root.high);
+    let stable: Vec<bool> = found.regions.iter().map(|r| r.is_asymptotic).collect();
+    assert_eq!(stable, [true, false]);
+}
+
+#[test]
+fn what_is_not_admissible_or_depends_on_the_time_is_refused() {
+    let case = Case::gallery("whipple-bicycle");
+    let lifted = case.motion(&[
+        ("phi", "0"),
+        ("theta", "1/10"),
+        ("delta", "0"),
+        ("phi'", "0"),
+        ("delta'", "0"),
+        ("thR'", "v/rR"),
+    ]);
+    let refused = case.linear(&lifted, "v").unwrap_err();
+    assert!(
+        matches!(&refused, LinearizationError::NotAdmissible { constraint, .. } if constraint == "front_contact"),
+        "{refused}"
+    );
+    let missing = case.motion(&[
+        ("phi", "0"),
+        ("theta", "0"),
+        ("phi'", "0"),
+        ("delta'", "0"),
+        ("thR'", "v/rR"),
+    ]);
+    assert!(
+        matches!(case.linear(&missing, "v"), Err(LinearizationError::PositionMissing { coordinate, .. }) if coordinate == "delta")
+    );
+    let driven = Case::new(
+        "coordinates = [\"x\"]\nlagrangian = { L = \"1/2 x'^2 - 1/2 x^2 (1 + cos(t))\" }\n",
+    );
+    let rest = driven.motion(&[("x", "0"), ("x'", "0")]);
+    assert_eq!(
+        driven.linear(&rest, "").unwrap_err(),
+        LinearizationError::NotAutonomous
+    );
+}
+
+/// Variables are named by what they are.
+#[test]
+fn variables_know_what_they_are() {
+    let case = Case::new("coordinates = [\"x\"]\nlagrangian = { L = \"1/2 x'^2 - 1/2 x^2\" }\n");
+    let linear = case
+        .linear(&case.motion(&[("x", "0"), ("x'", "0")]), "")
+        .unwrap();
+    assert_eq!(
+        linear.variables,
+        [Variable::Coordinate(0), Variable::Speed(0)]
+    );
+}
