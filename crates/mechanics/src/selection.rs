@@ -30,7 +30,8 @@ const LOSES_COMPONENTS: usize = 200_000;
 /// Chooses independent rows and dependent velocities: those the user wants independent stay so where possible, then
 /// pivots that are numbers are preferred to parameters, parameters to functions of the state.
 ///
-/// The choice is heuristic (one sampled state); that it is regular is a claim of its own.
+/// The choice is heuristic (one sampled state, of a motion where highest derivatives are restricted nonlinearly); that it is regular is a
+/// claim of its own.
 ///
 /// # Errors
 /// [`CharacteristicsError::NoAdmissibleState`].
@@ -48,6 +49,7 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
             names: constraint_names(system, terms),
         }
     })?;
+    let point = sample::on_motion(system, terms, &point).unwrap_or(point);
     let values = system
         .graph
         .evaluate_f64(&terms.jacobian.concat(), &|s| point.get(&s).copied())
