@@ -29,6 +29,7 @@ mod series;
 mod sheets;
 mod special_values;
 mod start;
+mod strata;
 mod symmetries;
 mod textbook;
 mod textbook_formulations;
