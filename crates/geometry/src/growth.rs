@@ -7,8 +7,8 @@ use crate::integrability::components::{are_apart, components};
 use crate::integrability::{integral, on_its_own};
 use crate::parameters;
 use chetaev_mechanics::claims::formulation::basis;
-use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
-use chetaev_mechanics::components::OnComponent;
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group, Scope};
+use chetaev_mechanics::components::Stratum;
 use chetaev_mechanics::prover::assumptions;
 use chetaev_mechanics::words::counted;
 use chetaev_symbolic::factors::factored;
@@ -47,9 +47,17 @@ impl Claim for Growth {
         ]
     }
 
-    fn speaks_of_motions(&self) -> bool {
+    fn scope(&self) -> Scope {
         // Components are looked at one by one here.
+        Scope::Functions
+    }
+
+    fn is_for_any_controls(&self) -> bool {
         false
+    }
+
+    fn is_asked_of_values(&self) -> bool {
+        true
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
@@ -162,25 +170,22 @@ fn smooth(cx: &Context<'_>) -> Finding {
         Err(Obstacle::Undecided(tried)) => return Verdict::undecided(tried.clone()).into(),
         Err(Obstacle::Contradiction(verdict)) => return Verdict::clone(verdict).into(),
     };
-    let mut finding = reached(cx, flag, generated);
+    let finding = reached(cx, flag, generated);
     let own = vector(flag, generated.with_time);
-    let stated = parameters::where_stated(cx, &own, |own| match &*self::generated(own) {
+    parameters::notice(cx, &own, |own| match &*self::generated(own) {
         Ok(generated) => {
             let flag = generated.flag.as_ref().ok()?;
             Some(vector(flag, generated.with_time))
         }
         Err(_) => None,
     });
-    if let Some(stated) = stated {
-        finding.verdict.prefix(&stated);
-    }
     finding
 }
 
 /// What is said of several systems in the place of one: of sides of corners, each by itself. Near a place of one side only that side counts.
 fn apart(
     cx: &Context<'_>,
-    systems: Vec<OnComponent>,
+    systems: Vec<Stratum>,
     words: &str,
     decide: impl Fn(&Context<'_>) -> Finding,
 ) -> Finding {

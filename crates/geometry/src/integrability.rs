@@ -232,6 +232,10 @@ impl Claim for ConstraintsIntegrable {
         Group::Model
     }
 
+    fn is_for_any_controls(&self) -> bool {
+        false
+    }
+
     fn title(&self) -> &'static str {
         "The constraints are integrable"
     }
@@ -282,12 +286,6 @@ fn decided(cx: &Context<'_>, strength: Strength) -> Finding {
     if matches!(finding.verdict, Verdict::Refuted(_)) {
         sentences.extend(sides_apart(cx, strength));
     }
-    if let Some(general) = answer(&finding.verdict, strength) {
-        let stated = parameters::where_stated(cx, general, |own| {
-            answer(&answered(own, strength).verdict, strength).map(str::to_owned)
-        });
-        sentences.extend(stated);
-    }
     if strength == Strength::Weak {
         let (said, formulas) = what_is_kept(cx, &finding.verdict);
         sentences.extend(said);
@@ -326,21 +324,6 @@ fn on_real_points(cx: &Context<'_>) -> Option<Finding> {
     let mut found = on_its_own(cx, &on.system, |own| answered(own, Strength::Weak))?;
     found.verdict.prefix(&on.sentence);
     Some(found)
-}
-
-/// What a verdict says of one system, to be compared with that of another.
-fn answer(verdict: &Verdict, strength: Strength) -> Option<&'static str> {
-    match (verdict, strength) {
-        (Verdict::Proved(_) | Verdict::Conditional { .. }, Strength::Weak) => {
-            Some("the constraints are integrable")
-        }
-        (Verdict::Refuted(_), Strength::Weak) => Some("the constraints are not integrable"),
-        (Verdict::Proved(_) | Verdict::Conditional { .. }, Strength::Strong) => {
-            Some("Frobenius' condition holds at all states")
-        }
-        (Verdict::Refuted(_), Strength::Strong) => Some("Frobenius' condition fails"),
-        _ => None,
-    }
 }
 
 /// On which sides of corners the condition holds, where it does not hold on all: what vanishes on one side may not on another.

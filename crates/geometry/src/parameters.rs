@@ -1,7 +1,8 @@
-//! What claims about constraints say of parameters: those that a model defines by others are put in before anything is decided; for the
-//! numbers that it states the question is asked once more, and an answer that differs from the general one is said beside it.
+//! What claims about constraints say of parameters: those that a model defines by others are put in before anything is decided; where
+//! the numbers that it states for others are exceptional this is noticed.
 
 use crate::integrability::on_its_own;
+use chetaev_mechanics::prover::those_that_matter;
 use chetaev_mechanics::{Context, Finding};
 use chetaev_symbolic::{Expr, Graph, Verdict};
 
@@ -38,24 +39,26 @@ pub(crate) fn with_definitions(
     }
 }
 
-/// What `decide` says in the place of `general` where the parameters have the values that the model states, where these make a
-/// difference: a sentence.
-pub(crate) fn where_stated(
+/// Notices the parameters in constraints at whose stated values `decide` says another thing than `general`.
+pub(crate) fn notice(
     cx: &Context<'_>,
     general: &str,
     decide: impl Fn(&Context<'_>) -> Option<String>,
-) -> Option<String> {
+) {
     let system = cx.system;
-    let pairs = system.values_in_constraints();
     if cx.is_out_of_time() {
-        return None;
+        return;
     }
-    let stated = system.with_constraints_for(pairs.clone())?;
-    let said = on_its_own(cx, &stated, decide)??;
-    let equations = equations(&system.graph, &pairs);
-    (said != general).then(|| {
-        format!("this is for general values of the parameters: for {equations}, as the model states, {said}")
-    })
+    let differs = |values: &[(Expr, Expr)]| {
+        let stated = system.with_constraints_for(values.to_vec());
+        let said = stated.and_then(|stated| on_its_own(cx, &stated, &decide)?);
+        said.is_some_and(|said| said != general)
+    };
+    let values = system.values_in_constraints();
+    if differs(&values) {
+        let own = those_that_matter(&values, differs);
+        cx.prover.exceptional.add_stated(own);
+    }
 }
 
 /// `a = 1 and b = 2`.

@@ -36,6 +36,14 @@ pub struct Manifold {
 }
 
 impl Manifold {
+    /// What symbols are given by, and the functions that stay implicit.
+    pub fn expressions(&self) -> Vec<Expr> {
+        let solved = self.solved.iter().map(|&(_, e)| e);
+        solved
+            .chain(self.implicit.iter().map(|&(f, _)| f))
+            .collect()
+    }
+
     /// The manifold for these values of parameters.
     pub fn substituted(&self, g: &Graph, values: &[(Expr, Expr)]) -> Manifold {
         let solved = self.solved.iter();

@@ -3,8 +3,11 @@
 //! A chart that gives a dependent velocity by the others covers the components in whose factor that velocity occurs; where
 //! another factor vanishes, the equation says nothing of it.
 
+mod distinct;
 mod real_factors;
 mod together;
+
+pub use self::distinct::{distinct, of_start};
 
 use self::real_factors::{real_factors, RealFactors};
 use self::together::{covered_by_choice, on_affine};
@@ -70,15 +73,18 @@ pub fn covered(system: &System, terms: &MotionTerms, selection: &Selection) -> O
     }
 }
 
-/// A system for which claims are decided in the place of one whose constraints are products, or functions of simpler ones.
+/// A part of the states of a system, as a system of its own: a component of constraints that are products, or functions of simpler ones,
+/// or a side of their corners.
 #[derive(Clone, Debug)]
-pub struct OnComponent {
-    /// The system with each such constraint replaced by the factor chosen.
+pub struct Stratum {
+    /// The system with each such constraint replaced by the factor chosen, or written without corners.
     pub system: System,
     /// What was replaced, in words.
     pub sentence: String,
-    /// The equations of the component, where the constraints have others.
+    /// The equations of the component or signs of the side, where there are others.
     pub condition: Option<String>,
+    /// The factors that were chosen: they vanish on the component.
+    pub equations: Vec<Expr>,
 }
 
 /// A factor that is at most so large in units of the model vanishes at the start.
@@ -147,10 +153,7 @@ impl System {
     ///
     /// What is said of motions depends on the set of admissible states, not on the function that vanishes on it, as long as its
     /// gradient does not vanish there; on the factor it is the gradient of the product but for a multiplier.
-    pub fn on_component(
-        &self,
-        at_start: impl Fn(&[Expr]) -> Option<Vec<f64>>,
-    ) -> Option<OnComponent> {
+    pub fn on_component(&self, at_start: impl Fn(&[Expr]) -> Option<Vec<f64>>) -> Option<Stratum> {
         let list = self.simpler();
         let place = |own: &Simpler| match own.equations.as_slice() {
             [_] => 0,
@@ -162,7 +165,7 @@ impl System {
 
     /// The systems on all components of constraints nonlinear in the velocities that are products or functions of simpler ones, as
     /// [`on_component`](System::on_component) makes one; none where there are no such constraints, or too many.
-    pub fn components(&self) -> Vec<OnComponent> {
+    pub fn components(&self) -> Vec<Stratum> {
         let list = self.simpler();
         let many = list
             .iter()
@@ -187,18 +190,18 @@ impl System {
     /// The systems on all sides of the corners of constraints, where an absolute value or a sign is written without it:
     /// for `abs(x') = y'` those with x' = y' and x' > 0, and with -x' = y' and x' < 0; for `z' = abs(y) x'` those with y > 0 and with
     /// y < 0. Sides that the assumptions exclude are left out. None where there are no corners, or too many.
-    pub fn sides(&self) -> Vec<OnComponent> {
+    pub fn sides(&self) -> Vec<Stratum> {
         self.sides_of(&self.corners())
     }
 
     /// As [`sides`](System::sides), with the corners of functions of the place that constraints keep at their values too.
-    pub fn all_sides(&self) -> Vec<OnComponent> {
+    pub fn all_sides(&self) -> Vec<Stratum> {
         let constraints = self.constraints.iter();
         let all = constraints.flat_map(|c| [c.f, c.stated]);
         self.sides_of(&self.all_corners(&all.collect::<Vec<Expr>>()))
     }
 
-    fn sides_of(&self, corners: &[Corner]) -> Vec<OnComponent> {
+    fn sides_of(&self, corners: &[Corner]) -> Vec<Stratum> {
         if corners.is_empty() || 1 << corners.len() > COMPONENTS {
             return Vec::new();
         }
@@ -265,7 +268,7 @@ impl System {
     }
 
     /// The system where the insides of corners are positive, or negative.
-    fn with_signs(&self, signs: &[(&Corner, bool)]) -> Option<OnComponent> {
+    fn with_signs(&self, signs: &[(&Corner, bool)]) -> Option<Stratum> {
         let (g, mut system) = (&self.graph, self.clone());
         let mut pairs = Vec::new();
         for &(corner, is_positive) in signs {
@@ -298,10 +301,11 @@ impl System {
             *constraint = Constraint::classify(self, name, smooth(constraint.stated)).ok()?;
         }
         let condition = conditions.join(" and ");
-        Some(OnComponent {
+        Some(Stratum {
             system,
             sentence: format!("where {condition}"),
             condition: Some(condition),
+            equations: Vec::new(),
         })
     }
 
@@ -402,9 +406,10 @@ impl System {
     }
 
     /// The system with one of the simpler functions in the place of each such constraint.
-    fn with_equations(&self, list: &[Simpler], places: &[usize]) -> Option<OnComponent> {
+    fn with_equations(&self, list: &[Simpler], places: &[usize]) -> Option<Stratum> {
         let g = &self.graph;
         let (mut system, mut sentences, mut conditions) = (self.clone(), Vec::new(), Vec::new());
+        let mut chosen = Vec::new();
         for (simpler, &place) in list.iter().zip(places) {
             let factor = simpler.equations[place];
             let name = self.constraints[simpler.row].name.clone();
@@ -414,7 +419,7 @@ impl System {
             let text = format!("{} = 0", g.text(factor));
             let mut sentence = match simpler.equations.len() {
                 1 => format!("with `{name}` written as {text}"),
-                _ => format!("on the component {text} of `{name}`, the others left out"),
+                _ => format!("on the component {text} of `{name}`"),
             };
             if !simpler.assumptions.is_empty() {
                 let texts = simpler.assumptions.iter().map(|a| a.text.as_str());
@@ -426,12 +431,14 @@ impl System {
             system.constraints[simpler.row] = own;
             if simpler.equations.len() > 1 && !conditions.contains(&text) {
                 conditions.push(text);
+                chosen.push(factor);
             }
         }
-        (!sentences.is_empty()).then(|| OnComponent {
+        (!sentences.is_empty()).then(|| Stratum {
             system,
             sentence: sentences.join(" and "),
             condition: (!conditions.is_empty()).then(|| conditions.join(" and ")),
+            equations: chosen,
         })
     }
 }
@@ -471,9 +478,57 @@ struct Unwrapped {
 /// A function that vanishes where another does and its gradient does not: arguments of functions that take no value twice.
 fn unwrapped(g: &Graph, f: Expr, velocities: &[Symbol]) -> Unwrapped {
     let e = innermost(g, f);
-    solved_for_argument(g, e, velocities).unwrap_or(Unwrapped {
+    let simple = by_logarithms(g, e, velocities);
+    let simple = simple.or_else(|| solved_for_argument(g, e, velocities));
+    simple.unwrap_or(Unwrapped {
         function: e,
         assumptions: Vec::new(),
+    })
+}
+
+/// `Π u^n − exp(−w)` of `Σ n log u + w`, for whole n and w free of velocities, with the factors of negative powers on the other side,
+/// where every u is positive: `z' − x' y` of `log z' − log x' − log y`.
+fn by_logarithms(g: &Graph, e: Expr, velocities: &[Symbol]) -> Option<Unwrapped> {
+    let Node::Sum { constant, terms } = g.node(e) else {
+        return None;
+    };
+    let (constant, terms) = (constant.clone(), terms.to_vec());
+    let logarithm = |term: Expr| match g.node(term) {
+        Node::Apply {
+            function: Function::Log,
+            arguments,
+        } => Some(arguments[0]),
+        _ => None,
+    };
+    let all = terms.iter().map(|(term, c)| (logarithm(*term), *term, c));
+    let (logarithms, others): (Vec<_>, Vec<_>) = all.partition(|(u, ..)| u.is_some());
+    let moves = |(_, term, _): &(Option<Expr>, Expr, &Rational)| g.contains_any(*term, velocities);
+    if logarithms.iter().filter(|l| moves(l)).count() < 2 || others.iter().any(moves) {
+        return None;
+    }
+    let one = Rational::from(1);
+    let multiple = logarithms.iter().fold(one, |multiple, &(_, _, c)| {
+        let over = (multiple.clone() * c.clone()).denominator().clone();
+        multiple * Rational::from(over)
+    });
+    let (mut sides, mut assumptions) = ([Vec::new(), Vec::new()], Vec::new());
+    for (u, _, c) in logarithms {
+        let (u, power) = (u?, multiple.clone() * c.clone());
+        let is_below = power < Rational::from(0);
+        let power = if is_below { -power } else { power };
+        sides[usize::from(is_below)].push(g.pow(u, g.scale(&power, g.one())));
+        assumptions.push(assumption(g, g.zero(), Relation::Less, u));
+    }
+    let mut rest: Vec<Expr> = others
+        .iter()
+        .map(|(_, term, c)| g.scale(c, *term))
+        .collect();
+    rest.push(g.scale(&constant, g.one()));
+    let w = g.scale(&-multiple, g.add(&rest));
+    sides[1].push(g.apply(Function::Exp, &[w]));
+    Some(Unwrapped {
+        function: g.sub(g.mul(&sides[0]), g.mul(&sides[1])),
+        assumptions,
     })
 }
 

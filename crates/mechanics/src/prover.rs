@@ -1,14 +1,61 @@
 //! The bridge between claims about systems and zero tests of expressions.
 
 use crate::characteristics::Manifold;
+use crate::counterexample;
 use crate::redundancy::LeftOut;
 use crate::system::{Relation, System};
 use crate::words;
+use chetaev_symbolic::factors::irreducible_factors;
 use chetaev_symbolic::matrix::determinant;
-use chetaev_symbolic::verdict::{Counterexample, Proof};
+use chetaev_symbolic::verdict::{Counterexample, PointValue, Proof};
 use chetaev_symbolic::zero::assumptions::{Assumptions, Relation as Sign};
 use chetaev_symbolic::zero::{decide_zero, generic_rank, GenericRank, Options, RankTest, ZeroTest};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
+use std::collections::BTreeSet;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Values of parameters at which a question was answered otherwise than at general ones: there the strata of the question split. Clones
+/// share what is noticed, so that it is known which claim asked.
+#[derive(Clone, Debug, Default)]
+pub struct Exceptional(Arc<Mutex<Noticed>>);
+
+/// What was noticed: parameters whose stated values are exceptional, and other values of these that may be.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Noticed {
+    /// The parameters whose stated values are exceptional together.
+    pub stated: BTreeSet<Expr>,
+    /// (Parameter, value), at which what vanishes at the stated value vanishes too.
+    pub others: BTreeSet<(Expr, Expr)>,
+}
+
+impl Noticed {
+    /// Both together.
+    pub fn extend(&mut self, other: Noticed) {
+        self.stated.extend(other.stated);
+        self.others.extend(other.others);
+    }
+}
+
+impl Exceptional {
+    /// What was noticed since the last time, which is forgotten.
+    pub fn take(&self) -> Noticed {
+        std::mem::take(&mut *self.lock())
+    }
+
+    /// Notices values.
+    pub fn add(&self, noticed: Noticed) {
+        self.lock().extend(noticed);
+    }
+
+    /// Notices that the stated values of parameters are exceptional.
+    pub fn add_stated(&self, parameters: impl IntoIterator<Item = Expr>) {
+        self.lock().stated.extend(parameters);
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Noticed> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
 
 /// How hard to try, and with which random choices.
 #[derive(Clone, Debug)]
@@ -19,6 +66,8 @@ pub struct Prover {
     pub replay: bool,
     /// At most so many field operations for one proof.
     pub budget: u64,
+    /// Where the values that the model states are exceptional.
+    pub exceptional: Exceptional,
 }
 
 impl Default for Prover {
@@ -27,6 +76,7 @@ impl Default for Prover {
             seed: 0x43_68_65_74_61_65_76,
             replay: false,
             budget: 2_000_000_000,
+            exceptional: Exceptional::default(),
         }
     }
 }
@@ -67,7 +117,9 @@ impl Prover {
         }
     }
 
-    /// Decides whether every residual vanishes on `manifold`; `on` says in words where that is.
+    /// Decides whether every residual vanishes on `manifold`; `on` says in words where that is. Parameters are arbitrary, but a
+    /// counterexample has the values that the model states, where one with them exists; where none does, these values are
+    /// exceptional.
     pub fn identity(
         &self,
         system: &System,
@@ -75,18 +127,14 @@ impl Prover {
         manifold: &Manifold,
         on: &str,
     ) -> Verdict {
-        let assumptions = assumptions(system);
-        let verdict = decide_zero(
-            &system.graph,
-            &ZeroTest {
-                residuals,
-                solved: &manifold.solved,
-                implicit: &manifold.implicit,
-                assumptions: &assumptions,
-                options: self.options(),
-            },
-        );
-        match verdict {
+        let manifold = &*system.with_names(residuals, manifold);
+        match self.vanish(system, residuals, manifold) {
+            Verdict::Refuted(found) => {
+                let occurring = [residuals, &manifold.expressions()[..]].concat();
+                let values = stated_among(system, &occurring);
+                let verdict = self.refuted_as_stated(system, residuals, manifold, &values, found);
+                checked(system, residuals, manifold, verdict)
+            }
             Verdict::Proved(mut proof) => {
                 proof.on = located(&proof.on, on, system);
                 Verdict::Proved(proof)
@@ -109,6 +157,55 @@ impl Prover {
             },
             other => other,
         }
+    }
+
+    /// Whether residuals vanish, for all values of the symbols that occur.
+    fn vanish(&self, system: &System, residuals: &[Expr], manifold: &Manifold) -> Verdict {
+        let test = ZeroTest {
+            residuals,
+            solved: &manifold.solved,
+            implicit: &manifold.implicit,
+            assumptions: &assumptions(system),
+            options: self.options(),
+        };
+        decide_zero(&system.graph, &test)
+    }
+
+    /// A refutation with the values of parameters that the model states; that for others where there is none with them.
+    fn refuted_as_stated(
+        &self,
+        system: &System,
+        residuals: &[Expr],
+        manifold: &Manifold,
+        values: &[(Expr, Expr)],
+        found: Counterexample,
+    ) -> Verdict {
+        let g = &system.graph;
+        let at = |values: &[(Expr, Expr)]| {
+            let own = g.substitute_all(residuals, values);
+            self.vanish(system, &own, &manifold.substituted(g, values))
+        };
+        if values.is_empty() {
+            return Verdict::Refuted(found);
+        }
+        match at(values) {
+            Verdict::Refuted(mut own) => {
+                own.point.extend(values.iter().map(|pair| stated(g, pair)));
+                return Verdict::Refuted(own);
+            }
+            Verdict::Proved(_) | Verdict::Numerical(_) => {
+                let is_as_before =
+                    |values: &[(Expr, Expr)]| !matches!(at(values), Verdict::Refuted(_));
+                let stated = those_that_matter(values, is_as_before);
+                if let &[parameter] = stated.as_slice() {
+                    let others = common_zeros(system, residuals, manifold, parameter);
+                    self.exceptional.lock().others.extend(others);
+                }
+                self.exceptional.add_stated(stated);
+            }
+            _ => {}
+        }
+        Verdict::Refuted(found)
     }
 
     /// [`identity`](Prover::identity) for residuals with names: a refutation says which one does not vanish, what it is, and
@@ -149,17 +246,35 @@ impl Prover {
         matrix: &[Vec<Expr>],
         manifold: &Manifold,
     ) -> Result<GenericRank, Box<Verdict>> {
+        let (g, entries) = (&system.graph, matrix.concat());
+        let manifold = &*system.with_names(&entries, manifold);
         let assumptions = assumptions(system);
-        let test = RankTest {
-            rows: matrix.len(),
-            columns: matrix.first().map_or(0, Vec::len),
-            entries: &matrix.concat(),
-            solved: &manifold.solved,
-            implicit: &manifold.implicit,
-            assumptions: &assumptions,
-            options: self.options(),
+        let rank = |entries: &[Expr], manifold: &Manifold| {
+            let test = RankTest {
+                rows: matrix.len(),
+                columns: matrix.first().map_or(0, Vec::len),
+                entries,
+                solved: &manifold.solved,
+                implicit: &manifold.implicit,
+                assumptions: &assumptions,
+                options: self.options(),
+            };
+            generic_rank(g, &test)
         };
-        generic_rank(&system.graph, &test)
+        let found = rank(&entries, manifold)?;
+        let values = stated_among(system, &[&entries[..], &manifold.expressions()].concat());
+        let falls = |values: &[(Expr, Expr)]| {
+            let own = rank(
+                &g.substitute_all(&entries, values),
+                &manifold.substituted(g, values),
+            );
+            own.is_ok_and(|own| (own.minimum, own.maximum) != (found.minimum, found.maximum))
+        };
+        if !values.is_empty() && falls(&values) {
+            self.exceptional
+                .add_stated(those_that_matter(&values, falls));
+        }
+        Ok(found)
     }
 
     /// Decides whether a square matrix is nonsingular at almost every point of `manifold`; `what` names its determinant.
@@ -327,6 +442,105 @@ fn parameters_of(system: &System, manifold: &Manifold, symbols: &[Symbol]) -> Ve
     let occurring = g.symbols_in(&all);
     let parameters = parameters.filter(|s| occurring.contains(s) && !own(s));
     parameters.collect()
+}
+
+/// A refutation whose point is one, by substitution into the system as it is written.
+fn checked(system: &System, residuals: &[Expr], manifold: &Manifold, verdict: Verdict) -> Verdict {
+    let Verdict::Refuted(found) = &verdict else {
+        return verdict;
+    };
+    let is_admissible = !manifold.solved.is_empty() || !manifold.implicit.is_empty();
+    match counterexample::check(system, residuals, found, is_admissible) {
+        Ok(()) => verdict,
+        Err(violation) => Verdict::undecided(format!(
+            "{}; but where that was found {violation}",
+            found.detail
+        )),
+    }
+}
+
+/// The parameters with the values that the model states for them, of those that occur.
+fn stated_among(system: &System, es: &[Expr]) -> Vec<(Expr, Expr)> {
+    let occurring = system.graph.symbols_in(es);
+    let mut values = system.parameter_values();
+    values.retain(|&(p, _)| {
+        system
+            .graph
+            .as_symbol(p)
+            .is_some_and(|s| occurring.contains(&s))
+    });
+    values
+}
+
+/// Of the values at which something is so those parameters without whose values it is not.
+pub fn those_that_matter(
+    values: &[(Expr, Expr)],
+    is_so: impl Fn(&[(Expr, Expr)]) -> bool,
+) -> Vec<Expr> {
+    let mut own = values.to_vec();
+    for pair in values {
+        let fewer: Vec<(Expr, Expr)> = own.iter().copied().filter(|other| other != pair).collect();
+        if !fewer.is_empty() && is_so(&fewer) {
+            own = fewer;
+        }
+    }
+    own.into_iter().map(|(parameter, _)| parameter).collect()
+}
+
+/// Values of a parameter at which all functions vanish whatever else has which value, as 0, 1 and −1 for k (k² − 1) x y; rational ones that
+/// a factor of first degree shows.
+fn common_zeros(
+    system: &System,
+    residuals: &[Expr],
+    manifold: &Manifold,
+    parameter: Expr,
+) -> Vec<(Expr, Expr)> {
+    let g = &system.graph;
+    let solved: Vec<(Expr, Expr)> = manifold
+        .solved
+        .iter()
+        .map(|&(s, e)| (g.symbol_expr(s), e))
+        .collect();
+    let Some(symbol) = g.as_symbol(parameter) else {
+        return Vec::new();
+    };
+    let zeros = |e: Expr| -> Option<BTreeSet<Expr>> {
+        // What is solved for may occur in what others are solved by.
+        let e = solved.iter().fold(e, |e, _| g.substitute(e, &solved));
+        let list = irreducible_factors(g, e, &[symbol])?.into_iter();
+        let alone = list.filter(|(f, _)| g.symbols_in(&[*f]) == [symbol]);
+        let values = alone.filter_map(|(f, _)| {
+            let slope = g.diff(f, symbol);
+            let at_zero = g.substitute(f, &[(parameter, g.zero())]);
+            g.as_number(slope)?;
+            let value = g.neg(g.div(at_zero, slope));
+            g.as_number(value).map(|_| value)
+        });
+        Some(values.collect())
+    };
+    let nonzero = residuals.iter().filter(|&&e| !g.is_zero(e));
+    let all = nonzero.map(|&e| zeros(e).unwrap_or_default());
+    let common = all.reduce(|a, b| a.intersection(&b).copied().collect());
+    common
+        .unwrap_or_default()
+        .into_iter()
+        .map(|value| (parameter, value))
+        .collect()
+}
+
+/// The value of a parameter at a point: as it is stated where that is rational, else between bounds in double precision.
+fn stated(g: &Graph, &(parameter, value): &(Expr, Expr)) -> PointValue {
+    let exact = g.as_number(value).cloned();
+    let number = g.evaluate_f64(&[value], &|_| None).ok();
+    let enclosure = number.and_then(|x| x.first().copied()).map(|x| {
+        let width = 4.0 * f64::EPSILON * x.abs();
+        (format!("{:e}", x - width), format!("{:e}", x + width))
+    });
+    PointValue {
+        name: g.text(parameter),
+        enclosure: enclosure.filter(|_| exact.is_none()),
+        exact,
+    }
 }
 
 /// Formulas of more signs are named, not written out.

@@ -1,6 +1,9 @@
 //! Deterministic sample states in double precision, for heuristic choices only: never evidence of a claim.
 
+mod on_motion;
 mod positions;
+
+pub use on_motion::on_motion;
 
 use crate::system::{Coordinate, Relation, System};
 use crate::terms::MotionTerms;

@@ -32,7 +32,8 @@ const LOSES_COMPONENTS: usize = 200_000;
 /// Chooses independent rows and dependent velocities: those the user wants independent stay so where possible, then
 /// pivots that are numbers are preferred to parameters, parameters to functions of the state.
 ///
-/// The choice is heuristic (one sampled state); that it is regular is a claim of its own.
+/// The choice is heuristic (one sampled state, of a motion where highest derivatives are restricted nonlinearly); that it is regular is a
+/// claim of its own.
 ///
 /// # Errors
 /// [`CharacteristicsError::NoAdmissibleState`].
@@ -50,6 +51,7 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
             names: constraint_names(system, terms),
         }
     })?;
+    let point = sample::on_motion(system, terms, &point).unwrap_or(point);
     let values_at = |point: &sample::Point| {
         let values = system
             .graph
@@ -77,35 +79,7 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
         true => AT_EXACT_STATES,
         false => AT_SOLVED_STATES,
     };
-    let selection = eliminate_beyond(least, values_at(&point), cost.clone(), n);
-    // The equations of motion determine derivatives of order two and more as the constraints do: a choice serves if it does at their
-    // solutions, of which there are few.
-    if terms.order > 1 && !terms.affine.iter().all(|&affine| affine) {
-        if let Some(point) = solution(system, terms, &selection, point) {
-            let there = eliminate_beyond(least, values_at(&point), cost, n);
-            if there.rows.len() == selection.rows.len() {
-                return Ok(there);
-            }
-        }
-    }
-    Ok(selection)
-}
-
-/// A state with derivatives of order m that constraints and equations of motion determine, from a sampled one.
-fn solution(
-    system: &System,
-    terms: &MotionTerms,
-    selection: &Selection,
-    point: sample::Point,
-) -> Option<sample::Point> {
-    let basis = Basis {
-        system,
-        terms,
-        selection,
-        characteristics: None,
-    };
-    let determined = with_multipliers(&basis);
-    sample::solution(system, &determined.equations, &determined.unknowns, point)
+    Ok(eliminate_beyond(least, values_at(&point), cost, n))
 }
 
 fn constraint_names(system: &System, terms: &MotionTerms) -> String {

@@ -4,6 +4,7 @@
 
 use crate::constraint::Constraint;
 use crate::mass::{self, NamedMasses};
+use crate::names::Names;
 use crate::particles;
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 use std::collections::BTreeMap;
@@ -415,6 +416,8 @@ pub struct System {
     pub assumptions: Vec<Assumption>,
     /// Places of the coordinates by name.
     places: BTreeMap<String, usize>,
+    /// Quantities that the model does not name.
+    pub(crate) names: Names,
 }
 
 impl System {
@@ -523,6 +526,7 @@ impl System {
             twins: parts.twins,
             assumptions: parts.assumptions,
             places: places(&parts.coordinates),
+            names: Names::default(),
             coordinates,
             graph: graph.clone(),
         };
@@ -637,7 +641,7 @@ impl System {
                 None => self.prescribed_rate(s),
             }
         };
-        g.derive(&[e], &rate).swap_remove(0)
+        g.derive(&[self.defined(e)], &rate).swap_remove(0)
     }
 
     /// The same along the jets of further symbols too, given by name: multipliers with their derivatives.
@@ -651,7 +655,7 @@ impl System {
                 false => self.prescribed_rate(s),
             }
         };
-        g.derive(&[e], &rate).swap_remove(0)
+        g.derive(&[self.defined(e)], &rate).swap_remove(0)
     }
 
     /// The explicit time derivative ∂/∂t with q and all its derivatives frozen; controls and masses with a law of their own

@@ -6,7 +6,7 @@
 
 use crate::stationarity::{every_motion, Closure};
 use chetaev_mechanics::claims::formulation::{basis, derive, manifold, residuals, REFERENCE};
-use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
+use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group, Scope};
 use chetaev_mechanics::formulations::{extremum_matrix, kappa_symbols};
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::matrix::determinant;
@@ -31,6 +31,10 @@ impl Claim for VakonomicCoincides {
 
     fn group(&self) -> Group {
         Group::Formulations
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::Components
     }
 
     fn title(&self) -> &'static str {

@@ -19,6 +19,7 @@ use crate::start::{
 };
 use crate::watch::{ending, in_time, interruptible, is_interrupted, watched};
 use crate::witness::{self, Witness};
+use chetaev_geometry::noether::claims::FAMILY;
 use chetaev_geometry::noether::found::{found, is_function_of};
 use chetaev_geometry::noether::search::Integral;
 use chetaev_integrate::double_double::LEAST_TOLERANCE;
@@ -26,7 +27,8 @@ use chetaev_integrate::Progress;
 use chetaev_mechanics::characteristics::Selection;
 use chetaev_mechanics::claims::formulation::REFERENCE;
 use chetaev_mechanics::claims::full_id;
-use chetaev_mechanics::components::{covered, OnComponent};
+use chetaev_mechanics::claims::strata::{Grounds, Strata};
+use chetaev_mechanics::components::covered;
 use chetaev_mechanics::formulations::{Maggi, Routh};
 use chetaev_mechanics::sample::rank_near;
 use chetaev_mechanics::MotionTerms;
@@ -580,19 +582,18 @@ pub(crate) fn keeps(model: &Model, options: &StudyOptions) -> bool {
     options.keep_integrals || model.simulation.keep_integrals == Some(true)
 }
 
-/// The prover of a study, and how much work its searches may do.
-fn proving(options: &StudyOptions) -> (Prover, f64) {
+/// The prover of a study.
+fn proving(options: &StudyOptions) -> Prover {
     let usual = Prover::default();
-    let prover = Prover {
+    Prover {
         replay: options.replay,
         seed: options.seed.unwrap_or(usual.seed),
         ..usual
-    };
-    (prover, options.work())
+    }
 }
 
-/// What is found before a run whose integrals are to be kept. The search is that of the claims, which have a system of their own
-/// where parameters are stated to be zero.
+/// What is found before a run whose integrals are to be kept: by the search of the claims, on the component on which the motion starts.
+/// An integral on one component is none on another, and a projection on its values would lead away from the motion.
 fn searched(
     model: &Model,
     (system, prepared): (&System, &Prepared),
@@ -604,23 +605,17 @@ fn searched(
         return Searched::default();
     }
     let known = registry();
-    // An integral on one component is none on another, and a projection on its values would lead away from the motion.
-    let other = prepared_system(system.for_stated_zeros());
-    let (narrow, own) = match &other {
-        Some((prepared, system)) => (system, prepared),
-        None => (system, prepared),
+    let grounds = Grounds::new(system, prepared, &|on, list| at_start(on, start, list));
+    let strata = strata(&grounds, &known, options, None);
+    let Some(family) = known.find(FAMILY) else {
+        return Searched::default();
     };
-    let on = component_of_motions(narrow, own, Some(start)).map(|on| on.system);
-    let other = prepared_system(on).or(other);
-    let cx = match &other {
-        Some((prepared, system)) => context_of(system, prepared, &known, proving(options)),
-        None => context_of(system, prepared, &known, proving(options)),
-    };
-    let integrals = kept(model, &cx, options, hooks);
+    let cx = strata.context(family);
+    let integrals = kept(model, cx, options, hooks);
     let to_keep = movable(system, &integrals);
     let mut functions = vec![system.energy()];
     functions.extend(model.integrals.iter().map(|i| i.value));
-    functions.retain(|&value| !to_keep.is_empty() && is_function_of(&cx, &to_keep, value));
+    functions.retain(|&value| !to_keep.is_empty() && is_function_of(cx, &to_keep, value));
     Searched {
         integrals,
         to_keep,
@@ -708,58 +703,26 @@ pub(crate) fn known_formulations() -> String {
     names.join(", ")
 }
 
-/// A system with its terms, where it has any.
-pub(crate) fn prepared_system(system: Option<System>) -> Option<(Prepared, System)> {
-    let system = system?;
-    Some((Prepared::new(&system).ok()?, system))
-}
-
 /// Whether no one choice of independent velocities describes all components of the constraints, or a holonomic one is a product.
 pub(crate) fn components_are_apart(system: &System, prepared: &Prepared) -> bool {
     covered(system, &prepared.terms, &prepared.selection).is_some() || system.has_positions_apart()
 }
 
-/// The system for what is asked of motions: with constraints as simpler equations of the same states, or on the component of the start,
-/// where components are apart and it is known; on the first one where positions are apart and it is not. `None` where the system is
-/// this one.
-pub(crate) fn component_of_motions(
-    system: &System,
-    prepared: &Prepared,
-    start: Option<&ConsistentState>,
-) -> Option<OnComponent> {
-    let on = system.on_component(|list| at_start(system, start?, list))?;
-    let starts_there = || start.is_some() && components_are_apart(system, prepared);
-    let speaks = on.condition.is_none() || system.has_positions_apart() || starts_there();
-    speaks.then_some(on)
-}
-
-fn context_of<'a>(
-    system: &'a System,
-    prepared: &'a Prepared,
+/// Where the claims of a study are asked, with the motion, where there is one.
+fn strata<'a>(
+    grounds: &'a Grounds<'a>,
     known: &'a Registry,
-    (prover, work): (Prover, f64),
-) -> Context<'a> {
-    let (terms, selection) = (&prepared.terms, &prepared.selection);
-    Context::new(system, terms, selection, known, prover).allowing(work)
-}
-
-/// Claims on the principles are decided on the component, and so are their witnesses: these compare numbers of the motion with
-/// what the principles say, and both must be of one system.
-fn narrowed<'a>(cx: Context<'a>, on: Option<&'a (Context<'a>, &OnComponent)>) -> Context<'a> {
-    match on {
-        Some((of, on)) => cx
-            .on_component(chetaev_principles::CLAIMS, of, on)
-            .on_component(witness::CLAIMS, of, on),
-        None => cx,
-    }
-}
-
-/// With the motion computed, where there is one.
-fn with_motion<'a>(cx: Context<'a>, motion: Option<&Motion>) -> Context<'a> {
-    match motion {
-        Some(motion) => cx.with(Arc::clone(&motion.evidence)),
-        None => cx,
-    }
+    options: &'a StudyOptions,
+    motion: Option<&'a Motion>,
+) -> Strata<'a> {
+    let with = move |cx: Context<'a>| {
+        let cx = cx.allowing(options.work());
+        match motion {
+            Some(motion) => cx.with(Arc::clone(&motion.evidence)),
+            None => cx,
+        }
+    };
+    Strata::new(grounds, known, move || proving(options), with)
 }
 
 /// What is known of a motion when claims are decided.
@@ -772,9 +735,9 @@ struct KnownMotion<'a> {
 }
 
 /// The hypotheses but those that are nothing to ask of this system, as how masses vary where none does.
-fn hypotheses(cx: &Context<'_>, mut requires: Vec<String>) -> Vec<String> {
-    let is_asked = |id: &String| match cx.registry().find(id) {
-        Some(claim) => !claim.subjects(cx.deciding(id)).is_empty(),
+fn hypotheses(strata: &Strata<'_>, known: &Registry, mut requires: Vec<String>) -> Vec<String> {
+    let is_asked = |id: &String| match known.find(id) {
+        Some(claim) => !claim.subjects(strata.context(claim)).is_empty(),
         None => true,
     };
     requires.retain(is_asked);
@@ -798,61 +761,17 @@ fn decide(
     hooks: &mut Hooks<'_>,
 ) -> (Vec<Decided>, Option<Arc<FoundIntegrals>>, Witness) {
     let known = registry();
-    let proving = || proving(options);
-    let geometry = chetaev_geometry::CLAIMS.iter().copied();
-    let of_motions: Vec<&'static dyn Claim> = geometry.filter(|c| c.speaks_of_motions()).collect();
-    let zeros = prepared_system(system.for_stated_zeros());
-    let (narrow, own) = match &zeros {
-        Some((prepared, system)) => (system, prepared),
-        None => (system, prepared),
-    };
-    let moving = component_of_motions(narrow, own, start);
-    let moving = moving.and_then(|on| Some((Prepared::new(&on.system).ok()?, on)));
-    let moving = moving
-        .as_ref()
-        .map(|(prepared, on)| (context_of(&on.system, prepared, &known, proving()), on));
-    let on_component = |cx| match &moving {
-        Some((of, on)) => Context::on_component(cx, &of_motions, of, on),
-        None => cx,
-    };
-    let zeros = zeros
-        .as_ref()
-        .map(|(prepared, system)| on_component(context_of(system, prepared, &known, proving())));
-    let stated = prepared_system(system.for_stated_values());
-    let narrow = stated.as_ref().map_or(system, |(_, system)| system);
-    let component = narrow.on_component(|list| at_start(system, start?, list));
-    let component = component.and_then(|on| Some((Prepared::new(&on.system).ok()?, on)));
-    let context = |system, prepared| {
-        let cx = context_of(system, prepared, &known, proving());
-        with_motion(cx, motion)
-    };
-    let on = component
-        .as_ref()
-        .map(|(prepared, on)| (context(&on.system, prepared), on));
-    let stated = stated
-        .as_ref()
-        .map(|(prepared, system)| narrowed(context(system, prepared), on.as_ref()));
-    let cx = context(system, prepared);
-    let cx = match &stated {
-        Some(stated) => {
-            let values = system.stated_values();
-            cx.for_stated_values(chetaev_principles::CLAIMS, &values, stated)
-                .for_stated_values(witness::CLAIMS, &values, stated)
-        }
-        None => narrowed(cx, on.as_ref()),
-    };
-    let cx = match &zeros {
-        Some(zeros) => {
-            cx.for_stated_values(chetaev_geometry::CLAIMS, &system.stated_zeros(), zeros)
-        }
-        None => on_component(cx),
-    };
+    let grounds = Grounds::new(system, prepared, &|on, list| at_start(on, start?, list));
+    let strata = strata(&grounds, &known, options, motion);
     let deadline = (hooks.clock)() + LATE * options.budget;
     let verdicts = watched(hooks, work, Some(deadline), |hooks| {
-        decide_all(&cx, model, work, options, hooks)
+        decide_all(&strata, &known, model, work, options, hooks)
     });
-    let found = cx.known::<FoundIntegrals>();
-    let witnessed = witness::computed(cx.deciding(witness::STATIONARY));
+    let of_run = known
+        .find(witness::STATIONARY)
+        .map(|claim| strata.context(claim));
+    let found = of_run.and_then(|cx| cx.known::<FoundIntegrals>());
+    let witnessed = of_run.map(witness::computed).unwrap_or_default();
     (verdicts, found, witnessed)
 }
 
@@ -864,25 +783,25 @@ const LATE: f64 = 2.0;
 
 /// Decides every claim that is wanted, as far as the work suffices.
 fn decide_all(
-    cx: &Context<'_>,
+    strata: &Strata<'_>,
+    known: &Registry,
     model: &Model,
     work: &Arc<Work>,
     options: &StudyOptions,
     hooks: &mut Hooks<'_>,
 ) -> Vec<Decided> {
-    let known = cx.registry();
     let mut verdicts = Vec::new();
     let of = |group: Group| known.claims().iter().filter(move |c| c.group() == group);
     // Claims about the motion are asked once more: which integrals a search finds is known after it only.
     let groups = Group::ALL.into_iter().chain([Group::Motion]);
     for claim in groups.flat_map(of) {
         if work.is_spent() || work.stopped().is_some() {
-            cx.spend_time();
+            strata.spend_time();
         }
         if !options.claims.wants_claim(*claim) {
             continue;
         }
-        let subjects = within(work, || claim.subjects(cx.deciding(claim.id())));
+        let subjects = within(work, || claim.subjects(strata.context(*claim)));
         // What subjects there are was not found in time: the claim itself stands for them.
         for subject in subjects.unwrap_or_else(|_| vec![None]) {
             let full = full_id(claim.id(), subject.as_deref());
@@ -892,16 +811,16 @@ fn decide_all(
             }
             (hooks.progress)(&full, None);
             let start = (hooks.clock)();
-            let finding = within(work, || cx.finding(&full)).unwrap_or_else(|stopped| {
-                cx.abandon();
-                cx.spend_time();
+            let finding = within(work, || Arc::new(strata.finding(*claim, subject.as_deref()))).unwrap_or_else(|stopped| {
+                strata.abandon();
+                strata.spend_time();
                 Arc::new(Finding::from(stopped_verdict(stopped, options.budget)))
             });
             verdicts.push(Decided {
                 claim: claim.id(),
                 title: claim.title_of(subject.as_deref()),
                 group: claim.group(),
-                requires: hypotheses(cx, claim.requires(subject.as_deref())),
+                requires: hypotheses(strata, known, claim.requires(subject.as_deref())),
                 finding,
                 seconds: (hooks.clock)() - start,
                 expected: expected(model, claim.id(), subject.as_deref()),

@@ -2,6 +2,10 @@
 //!
 //! There is no conversion to `bool`: a caller has to say what each of the six verdicts means for it.
 
+mod union;
+
+pub use union::Part;
+
 use crate::rational::Rational;
 
 /// How a proof was made (T6).

@@ -32,6 +32,7 @@ mod sheets;
 mod special_values;
 mod stability;
 mod start;
+mod strata;
 mod symmetries;
 mod textbook;
 mod textbook_formulations;

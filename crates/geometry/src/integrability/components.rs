@@ -1,50 +1,19 @@
 //! Frobenius' condition on each component of constraints that are products, and which components there are.
 
 use super::{answered, on_its_own, Strength};
-use chetaev_mechanics::components::{covered, OnComponent};
-use chetaev_mechanics::{Characteristics, Context, Prepared};
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_mechanics::components::{covered, distinct, Stratum};
+use chetaev_mechanics::Context;
+use chetaev_symbolic::Verdict;
 
 /// Whether no one choice of independent velocities describes all components.
 pub(crate) fn are_apart(cx: &Context<'_>) -> bool {
     covered(cx.system, cx.terms, cx.selection).is_some()
 }
 
-/// The components of constraints that are products or functions of simpler ones, without those that are empty, or in another one: with
-/// `x' + y' = 0` the constraint `(x' + y')(z' + 1) = 0` says nothing more, and `z' = -1` is no component.
-pub(crate) fn components(cx: &Context<'_>) -> Vec<OnComponent> {
-    let all = cx.system.components();
-    if all.len() < 2 {
-        return all;
-    }
-    let prepared: Vec<Option<Prepared>> = all.iter().map(prepared).collect();
-    let lies_in = |i: usize, j: usize| match (&prepared[i], &prepared[j]) {
-        (Some(inner), Some(outer)) => lies_in(cx, (&all[i], inner), outer),
-        _ => false,
-    };
-    let is_within = |i: usize, j: usize| i != j && lies_in(i, j) && (j < i || !lies_in(j, i));
-    let is_own = |&i: &usize| prepared[i].is_some() && !(0..all.len()).any(|j| is_within(i, j));
-    let own: Vec<usize> = (0..all.len()).filter(is_own).collect();
-    own.into_iter().map(|i| all[i].clone()).collect()
-}
-
-/// `None` where no velocities are admissible.
-fn prepared(on: &OnComponent) -> Option<Prepared> {
-    let prepared = Prepared::new(&on.system).ok()?;
-    prepared.left_out(&on.system).ok()?;
-    Some(prepared)
-}
-
-/// Whether all constraints of another component hold on one.
-fn lies_in(cx: &Context<'_>, inner: (&OnComponent, &Prepared), outer: &Prepared) -> bool {
-    let (on, own) = inner;
-    let chart = Characteristics::independent_velocities(&on.system, &own.terms, &own.selection);
-    let Ok(chart) = chart else {
-        return false;
-    };
-    let others: Vec<Expr> = outer.terms.constraints.clone();
-    let verdict = cx.prover.identity(&on.system, &others, &chart.manifold, "");
-    matches!(verdict, Verdict::Proved(_))
+/// The components of constraints that are products or functions of simpler ones.
+pub(crate) fn components(cx: &Context<'_>) -> Vec<Stratum> {
+    let all = distinct(cx.system, &cx.prover).into_iter();
+    all.map(|(on, _)| on).collect()
 }
 
 /// The condition on each component by itself; `None` where there is one.

@@ -16,7 +16,7 @@ use crate::noether::family::coefficients;
 use crate::noether::letters::{fixed_coordinates, Letters};
 use crate::noether::motion::Motion;
 use chetaev_mechanics::characteristics::derive_along;
-use chetaev_mechanics::components::OnComponent;
+use chetaev_mechanics::components::Stratum;
 use chetaev_mechanics::{Characteristics, Context, Formula, Manifold, Prepared, System};
 use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::rational::content;
@@ -88,7 +88,7 @@ pub(super) fn is_nothing(cx: &Context<'_>) -> bool {
 }
 
 /// The same on each of several systems in the place of this one.
-fn on_each(cx: &Context<'_>, systems: Vec<OnComponent>, words: &str) -> Vec<Kept> {
+fn on_each(cx: &Context<'_>, systems: Vec<Stratum>, words: &str) -> Vec<Kept> {
     let on = systems.into_iter().map(|on| {
         let place = on.condition.map(|condition| format!("{words}{condition}"));
         let unknown = || Kept {

@@ -92,8 +92,7 @@ pub fn found(cx: &Context<'_>) -> Arc<Result<Found, String>> {
 
 /// The same, where some claim has asked for it already.
 pub fn if_searched(cx: &Context<'_>) -> Option<Arc<Result<Found, String>>> {
-    let deciding = cx.deciding(super::claims::family::ID);
-    deciding.known::<Result<Found, String>>()
+    cx.of_motions().known::<Result<Found, String>>()
 }
 
 fn search(cx: &Context<'_>) -> Result<Found, String> {

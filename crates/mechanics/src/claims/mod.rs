@@ -15,13 +15,14 @@ pub mod order;
 pub mod particles;
 mod roots;
 pub mod stated;
+pub mod strata;
 pub mod twin;
 
 use crate::card::Card;
 use crate::characteristics::{self, Selection};
-use crate::components::{self, OnComponent};
+use crate::components;
 use crate::formulations::DeriveError;
-use crate::prover::Prover;
+use crate::prover::{Noticed, Prover};
 use crate::redundancy::LeftOut;
 use crate::system::System;
 use crate::terms::MotionTerms;
@@ -71,6 +72,21 @@ impl Group {
             Group::Stability => "stability",
         }
     }
+}
+
+/// What a claim is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// The functions that the model states, as they are written.
+    Functions,
+    /// Equations on the admissible states: on all components at once, where one choice of independent velocities describes them.
+    Equations,
+    /// Motions: on all components at once too, where positions are not apart.
+    Motions,
+    /// Motions and the curves beside them: on each component by itself.
+    Components,
+    /// The motion that was computed: on the component on which it starts.
+    Run,
 }
 
 /// A formula shown with a verdict.
@@ -153,9 +169,37 @@ pub trait Claim: Sync {
         1
     }
 
-    /// Whether it is about states that satisfy the constraints, so that it holds on those components of them that were looked at.
-    fn speaks_of_motions(&self) -> bool {
-        !matches!(self.group(), Group::Model | Group::Motion)
+    /// What it is about, and with that on which parts of the states it is asked.
+    fn scope(&self) -> Scope {
+        match self.group() {
+            Group::Model => Scope::Functions,
+            Group::Formulations => Scope::Equations,
+            Group::Integrals => Scope::Motions,
+            Group::Principles => Scope::Components,
+            Group::Motion => Scope::Run,
+        }
+    }
+
+    /// Whether it speaks of all functions of the time that controls may be; else of the laws that the model states.
+    fn is_for_any_controls(&self) -> bool {
+        !matches!(self.group(), Group::Principles | Group::Motion)
+    }
+
+    /// Whether it is asked once more for stated values of parameters that are seen to be exceptional.
+    fn is_asked_of_values(&self) -> bool {
+        self.group() != Group::Integrals
+    }
+
+    /// Decides for another part of the states what it states of `subject` on this one, as of the integral with this number: by itself
+    /// there, where the subjects are the same.
+    fn decide_there(
+        &self,
+        cx: &Context<'_>,
+        subject: Option<&str>,
+        there: &Context<'_>,
+    ) -> Finding {
+        let _ = cx;
+        Finding::clone(&there.finding(&full_id(self.id(), subject)))
     }
 
     /// Decides the claim; its hypotheses hold.
@@ -239,28 +283,32 @@ pub struct Context<'a> {
     /// Zero tests.
     pub prover: Prover,
     registry: &'a Registry,
-    decided: Mutex<BTreeMap<String, Arc<Finding>>>,
+    decided: Mutex<BTreeMap<String, Known<Finding>>>,
     in_progress: Mutex<Vec<String>>,
     extensions: BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>,
-    shared: Mutex<BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>>,
+    shared: Mutex<BTreeMap<TypeId, Known<dyn Any + Send + Sync>>>,
     out_of_time: AtomicBool,
     work: f64,
-    instead: Vec<Instead<'a>>,
+    of_motions: Option<Arc<Context<'a>>>,
+}
+
+/// What is known, and values of parameters at which it is, or may be, otherwise.
+struct Known<T: ?Sized> {
+    value: Arc<T>,
+    exceptional: Noticed,
+}
+
+impl<T: ?Sized> Clone for Known<T> {
+    fn clone(&self) -> Known<T> {
+        Known {
+            value: Arc::clone(&self.value),
+            exceptional: self.exceptional.clone(),
+        }
+    }
 }
 
 /// The components of the constraints that the chart covers, where it leaves out others.
 struct Covered(Option<String>);
-
-/// Claims that are decided for another system in the place of the context's, and the context of that system.
-#[derive(Clone)]
-struct Instead<'a> {
-    claims: &'a [&'static dyn Claim],
-    context: &'a Context<'a>,
-    /// What the other system is.
-    sentence: String,
-    /// The component of the constraints that it is on, where there are others.
-    component: Option<String>,
-}
 
 impl std::fmt::Debug for Context<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -338,49 +386,21 @@ impl<'a> Context<'a> {
             shared: Mutex::default(),
             out_of_time: AtomicBool::new(false),
             work: 1.0,
-            instead: Vec::new(),
+            of_motions: None,
         }
     }
 
-    /// Decides these claims for the system with such values that the model states ([`System::stated_values`],
-    /// [`System::stated_zeros`]), whose context is given; their verdicts say so.
+    /// Adds the context of the system on which its motions are, where that is another one.
     #[must_use]
-    pub fn for_stated_values(
-        mut self,
-        claims: &'a [&'static dyn Claim],
-        values: &[(Expr, Expr)],
-        context: &'a Context<'a>,
-    ) -> Context<'a> {
-        let g = &self.system.graph;
-        let values: Vec<String> = values
-            .iter()
-            .map(|&(symbol, value)| format!("{} = {}", g.text(symbol), g.text(value)))
-            .collect();
-        self.instead.push(Instead {
-            claims,
-            context,
-            sentence: format!("for {}, as the model states it", values.join(" and ")),
-            component: None,
-        });
+    pub fn with_motions_of(mut self, other: Arc<Context<'a>>) -> Context<'a> {
+        self.of_motions = Some(other);
         self
     }
 
-    /// Decides these claims for one component of constraints that are products, whose context is given; what is proved there is
-    /// `conditional`.
-    #[must_use]
-    pub fn on_component(
-        mut self,
-        claims: &'a [&'static dyn Claim],
-        context: &'a Context<'a>,
-        on: &OnComponent,
-    ) -> Context<'a> {
-        self.instead.push(Instead {
-            claims,
-            context,
-            sentence: on.sentence.clone(),
-            component: on.condition.clone(),
-        });
-        self
+    /// The context in which integrals of the motions are sought: of the component on which they start, with the values that the model
+    /// states for the parameters that are zero.
+    pub fn of_motions(&self) -> &Context<'a> {
+        self.of_motions.as_deref().unwrap_or(self)
     }
 
     /// Adds data of a higher layer (a computed motion, initial data), found again by its type.
@@ -402,15 +422,31 @@ impl<'a> Context<'a> {
         if let Some(known) = self.known::<T>() {
             return known;
         }
-        let computed = Arc::new(compute(self));
-        lock(&self.shared).insert(TypeId::of::<T>(), computed.clone());
-        computed
+        let computed = self.noticing(|| Arc::new(compute(self)));
+        let value = Arc::clone(&computed.value);
+        let known = Known {
+            value: computed.value as Arc<dyn Any + Send + Sync>,
+            exceptional: computed.exceptional,
+        };
+        lock(&self.shared).insert(TypeId::of::<T>(), known);
+        value
     }
 
     /// [`shared`](Context::shared) data, if some claim has computed them already.
     pub fn known<T: Any + Send + Sync>(&self) -> Option<Arc<T>> {
-        let data = lock(&self.shared).get(&TypeId::of::<T>()).cloned();
-        data.and_then(|data| data.downcast::<T>().ok())
+        let known = lock(&self.shared).get(&TypeId::of::<T>()).cloned()?;
+        self.prover.exceptional.add(known.exceptional);
+        known.value.downcast::<T>().ok()
+    }
+
+    /// What is computed, with the parameters that are noticed on the way; whoever asked depends on them too.
+    fn noticing<T: ?Sized>(&self, compute: impl FnOnce() -> Arc<T>) -> Known<T> {
+        let before = self.prover.exceptional.take();
+        let value = compute();
+        let exceptional = self.prover.exceptional.take();
+        self.prover.exceptional.add(before);
+        self.prover.exceptional.add(exceptional.clone());
+        Known { value, exceptional }
     }
 
     /// Allows searches so many times the usual work, and no less than that.
@@ -430,17 +466,11 @@ impl<'a> Context<'a> {
     /// Says that the time for claims is spent: what takes long is not begun any more.
     pub fn spend_time(&self) {
         self.out_of_time.store(true, Ordering::Relaxed);
-        for instead in &self.instead {
-            instead.context.spend_time();
-        }
     }
 
     /// Forgets what was being decided when that was stopped.
     pub fn abandon(&self) {
         lock(&self.in_progress).clear();
-        for instead in &self.instead {
-            instead.context.abandon();
-        }
     }
 
     /// Whether the time for claims is spent.
@@ -455,8 +485,10 @@ impl<'a> Context<'a> {
 
     /// Decides the claim `id#subject`, or recalls it. Unknown ids are undecided, never assumed.
     pub fn finding(&self, full: &str) -> Arc<Finding> {
-        if let Some(found) = lock(&self.decided).get(full) {
-            return found.clone();
+        let recalled = lock(&self.decided).get(full).cloned();
+        if let Some(found) = recalled {
+            self.prover.exceptional.add(found.exceptional);
+            return found.value;
         }
         let (id, subject) = match full.split_once('#') {
             Some((id, subject)) => (id, Some(subject)),
@@ -471,23 +503,20 @@ impl<'a> Context<'a> {
             return Arc::new(verdict.into());
         }
         lock(&self.in_progress).push(full.to_string());
-        let finding = match (
-            self.of_other_system(claim, full),
-            self.obstacle(claim, subject),
-        ) {
-            (Some(finding), _) => finding,
-            (None, Some(verdict)) => verdict.into(),
-            (None, None) => self.on_components(claim, claim.decide(self, subject)),
-        };
+        let finding = self.noticing(|| {
+            Arc::new(match self.obstacle(claim, subject) {
+                Some(verdict) => verdict.into(),
+                None => self.on_components(claim, claim.decide(self, subject)),
+            })
+        });
         lock(&self.in_progress).retain(|name| name != full);
-        let finding = Arc::new(finding);
         lock(&self.decided).insert(full.to_string(), finding.clone());
-        finding
+        finding.value
     }
 
     /// What is proved of the motions in a chart of some components of the constraints is proved of these alone.
     fn on_components(&self, claim: &dyn Claim, mut finding: Finding) -> Finding {
-        if !claim.speaks_of_motions() {
+        if matches!(claim.scope(), Scope::Functions | Scope::Run) {
             return finding;
         }
         let covered =
@@ -508,30 +537,6 @@ impl<'a> Context<'a> {
             finding.verdict.prefix(&sentence);
         }
         finding
-    }
-
-    fn instead_for(&self, id: &str) -> Option<&Instead<'a>> {
-        let decides = |instead: &&Instead<'a>| instead.claims.iter().any(|c| c.id() == id);
-        self.instead.iter().find(decides)
-    }
-
-    /// The context in which a claim is decided: that of another system where such a one takes the place of this one.
-    pub fn deciding(&self, id: &str) -> &Context<'a> {
-        match self.instead_for(id) {
-            Some(instead) => instead.context.deciding(id),
-            None => self,
-        }
-    }
-
-    /// The finding for the system in the place of this one, where the claim is decided for it.
-    fn of_other_system(&self, claim: &dyn Claim, full: &str) -> Option<Finding> {
-        let instead = self.instead_for(claim.id())?;
-        let mut finding = Finding::clone(&instead.context.finding(full));
-        if let Some(component) = &instead.component {
-            finding.verdict = on_component(finding.verdict, component);
-        }
-        finding.verdict.prefix(&instead.sentence);
-        Some(finding)
     }
 
     fn constraint_beyond(&self, order: u32) -> Option<Verdict> {

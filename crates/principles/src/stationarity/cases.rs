@@ -9,7 +9,9 @@
 mod angles;
 mod cleared;
 mod confirm;
+mod conjugate;
 mod constants;
+mod excluded;
 mod factors;
 mod implicit;
 mod parameters;
@@ -78,6 +80,8 @@ pub(crate) struct Leaf {
     pub(crate) implicit: Vec<(Expr, Symbol)>,
     /// The equations as they are written: `x' = 0`, `sin(phi) = 0`, with `≠` last.
     pub(crate) equations: Vec<String>,
+    /// The equations that it shares with the set on another branch of the constraints, where all branches are there.
+    pub(crate) without_branch: Option<Vec<String>>,
     /// κ where the conditions determine it.
     pub(crate) kappa: Vec<Option<Expr>>,
     /// Whether all velocities vanish.
@@ -205,9 +209,15 @@ pub(crate) fn where_multipliers(cx: &Context<'_>, motion: &Motion, functions: &[
 }
 
 /// The motions along which functions of the state vanish that are written with the dependent velocities of the system.
-pub(crate) fn where_zero(cx: &Context<'_>, motion: &Motion, functions: &[Expr]) -> Found {
+/// `slopes` are those by which these velocities are divided.
+pub(crate) fn where_zero(
+    cx: &Context<'_>,
+    motion: &Motion,
+    functions: &[Expr],
+    slopes: &[Expr],
+) -> Found {
     let case = Case {
-        nonzero: [motion.dependent_poles.clone(), assumed(cx, motion)].concat(),
+        nonzero: [slopes.to_vec(), assumed(cx, motion)].concat(),
         ..Case::default()
     };
     Search::new(cx, motion, false).on_constraints(case, functions)
@@ -506,6 +516,7 @@ impl<'a, 'b> Search<'a, 'b> {
         });
         let mut leaf = Leaf {
             equations: Vec::new(),
+            without_branch: None,
             solved: case.solved.clone(),
             implicit: case.implicit.clone(),
             kappa,
@@ -601,12 +612,17 @@ impl<'a, 'b> Search<'a, 'b> {
 
     /// Sets contained in others are left out, and what must not vanish is added to the equations.
     fn arranged(&self, mut found: Found) -> Found {
-        let leaves = std::mem::take(&mut found.leaves);
+        let mut leaves = std::mem::take(&mut found.leaves);
+        leaves.retain(|leaf| !self.is_excluded(leaf));
+        self.join_branches(&mut leaves);
         for (place, leaf) in leaves.iter().enumerate() {
             let contained = leaves.iter().enumerate().any(|(earlier, other)| {
                 let equal = || self.contains(leaf, other) && leaf.nonzero == other.nonzero;
                 earlier != place
-                    && other.nonzero.iter().all(|e| leaf.nonzero.contains(e))
+                    && other
+                        .nonzero
+                        .iter()
+                        .all(|&e| self.vanishes_nowhere_on(leaf, e))
                     && self.contains(other, leaf)
                     && (earlier < place || !equal())
             });
@@ -615,6 +631,10 @@ impl<'a, 'b> Search<'a, 'b> {
             let poles = poles.filter(|e| !leaf.nonzero.contains(e));
             let unequal = leaf.nonzero.iter().chain(poles);
             let unequal = unequal.map(|&e| format!("{} ≠ 0", self.g.text(e)));
+            let unequal: Vec<String> = unequal.collect();
+            if let Some(shared) = &mut written.without_branch {
+                shared.extend(unequal.iter().cloned());
+            }
             written.equations.extend(unequal);
             let repeated = found
                 .leaves
@@ -651,7 +671,10 @@ impl<'a, 'b> Search<'a, 'b> {
     /// Whether the equations of a set hold on a case.
     fn holds_on(&self, large: &Leaf, case: &Case) -> bool {
         let mut all = large.vanishing(self.g).into_iter();
-        all.all(|residual| self.g.is_zero(self.on(case, residual)))
+        all.all(|residual| {
+            let rest = self.on(case, residual);
+            self.g.is_zero(rest) || self.is_zero_constant(rest)
+        })
     }
 }
 

@@ -7,7 +7,6 @@ use chetaev_mechanics::characteristics::derive_along;
 use chetaev_mechanics::characteristics::Selection;
 use chetaev_mechanics::claims::formulation::basis;
 use chetaev_mechanics::claims::Context;
-use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::{Characteristics, Manifold};
 use chetaev_symbolic::factors::{factored, factors};
@@ -347,11 +346,13 @@ impl Builder<'_, '_> {
             if factor.is_none() && g.is_zero(shift) {
                 return None;
             }
-            let name = unused_name(system, &format!("u_{}", system.coordinates[i].name));
+            let (coordinate, factor) = (&system.coordinates[i], factor.unwrap_or(g.one()));
+            let definition = g.div(g.sub(coordinate.v, shift), factor);
+            let symbol = system.named(&format!("u_{}", coordinate.name), definition);
             Some(Scaled {
-                speed: g.symbol(&name, 0),
-                symbol: g.intern_symbol(&name, 0),
-                factor: factor.unwrap_or(g.one()),
+                speed: g.symbol_expr(symbol),
+                symbol,
+                factor,
                 shift,
             })
         });

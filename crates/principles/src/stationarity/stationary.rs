@@ -374,8 +374,15 @@ fn of_leaf(cx: &Context<'_>, motion: &Motion, leaf: &Leaf) -> (Vec<Formula>, Str
 
 /// "x' = 0, or y' = 0 and z = 1".
 pub(super) fn alternatives(leaves: &[&Leaf]) -> String {
-    let texts: Vec<String> = leaves.iter().map(|leaf| listed(&leaf.equations)).collect();
-    match leaves.iter().any(|leaf| leaf.equations.len() > 1) {
+    let mut all: Vec<&Vec<String>> = Vec::new();
+    for leaf in leaves {
+        let own = leaf.without_branch.as_ref().unwrap_or(&leaf.equations);
+        if !all.contains(&own) {
+            all.push(own);
+        }
+    }
+    let texts: Vec<String> = all.iter().map(|equations| listed(equations)).collect();
+    match all.iter().any(|equations| equations.len() > 1) {
         true => texts.join(", or "),
         false => texts.join(" or "),
     }

@@ -16,7 +16,7 @@ use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::zero::known_sign;
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Graph, Verdict};
 
 /// `hamilton.stationary-suslov`.
 #[derive(Clone, Copy, Debug)]
@@ -129,7 +129,8 @@ fn on_subsets(
         }
     };
     let terms: Vec<Expr> = terms.iter().map(|&e| motion.on_states(g, e)).collect();
-    let mut found = where_zero(cx, motion, &terms);
+    let slopes = slopes(cx, motion);
+    let mut found = where_zero(cx, motion, &terms, &slopes);
     set_aside_unconfirmed(cx, motion, &mut found);
     let open = format!("{}{}", for_general_controls(cx), not_followed(&found));
     let all = moving_first(&found);
@@ -150,7 +151,7 @@ fn on_subsets(
         "{}{}{}",
         alternatives(&all),
         legend(cx, motion),
-        with_dependent(cx, motion)
+        with_dependent(g, &slopes)
     );
     let condition = format!("{stated}{open}");
     let how = "the terms were differentiated along the motion in every case, exactly";
@@ -164,22 +165,25 @@ fn on_subsets(
 }
 
 /// Where the terms have no value, as the dependent velocities are divided by zero.
-fn with_dependent(cx: &Context<'_>, motion: &Motion) -> String {
-    let g = &cx.system.graph;
-    let poles = match motion.implicit.is_empty() {
-        true => motion.dependent_poles.clone(),
-        false => slopes_that_vanish(cx),
-    };
-    let poles: Vec<String> = poles
+fn with_dependent(g: &Graph, slopes: &[Expr]) -> String {
+    let slopes: Vec<String> = slopes
         .iter()
         .map(|&e| format!("{} ≠ 0", g.text(e)))
         .collect();
-    match poles.is_empty() {
+    match slopes.is_empty() {
         true => String::new(),
         false => format!(
             " (with {}, as the constraints are solved for the dependent velocities)",
-            listed(&poles)
+            listed(&slopes)
         ),
+    }
+}
+
+/// By what the dependent velocities are divided.
+fn slopes(cx: &Context<'_>, motion: &Motion) -> Vec<Expr> {
+    match motion.implicit.is_empty() {
+        true => motion.dependent_poles.clone(),
+        false => slopes_that_vanish(cx),
     }
 }
 

@@ -4,7 +4,8 @@
 #![allow(clippy::unwrap_used)] // a panic is how a test fails
 
 use crate::common::expr;
-use chetaev_mechanics::claims::{Context, Finding};
+use chetaev_mechanics::claims::strata::{Grounds, Strata};
+use chetaev_mechanics::claims::Finding;
 use chetaev_mechanics::{Prepared, Prover, Registry, System, SystemParts};
 use chetaev_symbolic::{Graph, Verdict};
 use std::sync::Arc;
@@ -23,29 +24,15 @@ fn stated(third: &str, lagrangian: &str, f: &str, parameter: (&str, i64)) -> Sys
     System::new(graph, parts).unwrap()
 }
 
-fn finding(system: &System, id: &str) -> Arc<Finding> {
+fn finding(system: &System, id: &str) -> Finding {
     let registry = Registry::new(&[
         chetaev_mechanics::claims::CLAIMS,
         chetaev_principles::CLAIMS,
     ]);
     let prepared = Prepared::new(system).unwrap();
-    let zero = system.for_stated_values();
-    let zero = zero.map(|system| (Prepared::new(&system).unwrap(), system));
-    let zero = zero.as_ref().map(|(of, system)| {
-        Context::new(
-            system,
-            &of.terms,
-            &of.selection,
-            &registry,
-            Prover::default(),
-        )
-    });
-    let (terms, selection) = (&prepared.terms, &prepared.selection);
-    let mut cx = Context::new(system, terms, selection, &registry, Prover::default());
-    if let Some(zero) = &zero {
-        cx = cx.for_stated_values(chetaev_principles::CLAIMS, &system.stated_values(), zero);
-    }
-    cx.finding(id)
+    let grounds = Grounds::new(system, &prepared, &|_, _| None);
+    let strata = Strata::new(&grounds, &registry, Prover::default, |cx| cx);
+    strata.finding(registry.find(id).unwrap(), None)
 }
 
 /// z' = y x' + b: D H = b λ, and H is kept for b = 0 alone (T1 §5.1).

@@ -14,9 +14,7 @@ use crate::error::StudyError;
 use crate::options::{Hooks, StudyOptions};
 use crate::registry::registry;
 use crate::start::{initial_data, settings};
-use crate::study::{
-    component_of_motions, components_are_apart, keeps, kept, movable, prepare, prepared_system,
-};
+use crate::study::{components_are_apart, keeps, kept, movable, prepare};
 use chetaev_ensemble::columns::Names;
 use chetaev_ensemble::outcome::Shape;
 use chetaev_ensemble::{Columns, Routh, Work};
@@ -284,9 +282,11 @@ fn to_keep(
             constraints: system.constraints_apart(),
         });
     }
-    let other = component_of_motions(system, prepared, None).map(|on| on.system);
-    let other = prepared_system(other);
-    let (system, prepared) = other
+    // Of the same states by simpler equations.
+    let simpler = system.on_component(|_| None);
+    let simpler = simpler.filter(|on| on.condition.is_none());
+    let simpler = simpler.and_then(|on| Some((Prepared::new(&on.system).ok()?, on.system)));
+    let (system, prepared) = simpler
         .as_ref()
         .map_or((system, prepared), |(prepared, system)| (system, prepared));
     let known = registry();

@@ -4,7 +4,7 @@ use super::first::Form;
 use super::refined::Refined;
 use super::{evidence, first, kappa, linear, neighbours, refined};
 use crate::motion_claims::of_another_system;
-use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group, Scope};
 use chetaev_mechanics::words::counted;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, PointValue, Proof};
 use chetaev_symbolic::Verdict;
@@ -111,6 +111,10 @@ impl Claim for WitnessOfForms {
         Group::Principles
     }
 
+    fn scope(&self) -> Scope {
+        Scope::Run
+    }
+
     fn title(&self) -> &'static str {
         "The first variation of a form vanishes along the computed motion"
     }
@@ -212,6 +216,10 @@ impl Claim for WitnessOfAction {
         Group::Principles
     }
 
+    fn scope(&self) -> Scope {
+        Scope::Run
+    }
+
     fn title(&self) -> &'static str {
         "The action of admissible neighbours changes as hamilton.stationary says"
     }
@@ -311,6 +319,10 @@ impl Claim for WitnessOfEnds {
         Group::Principles
     }
 
+    fn scope(&self) -> Scope {
+        Scope::Run
+    }
+
     fn title(&self) -> &'static str {
         "Motions from the start reach a set of dimension n − r at later times too"
     }
@@ -372,6 +384,10 @@ impl Claim for WitnessOfIndex {
 
     fn group(&self) -> Group {
         Group::Principles
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::Run
     }
 
     fn title(&self) -> &'static str {

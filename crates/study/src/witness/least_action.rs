@@ -12,7 +12,7 @@ use super::refined::{longest, worst, Refined, Rule, Span, Term};
 use super::states::{Change, States};
 use super::wave::Wave;
 use super::{evidence, show, Figure};
-use chetaev_mechanics::claims::{full_id, Claim, Context, Finding, Group};
+use chetaev_mechanics::claims::{full_id, Claim, Context, Finding, Group, Scope};
 use chetaev_mechanics::linear::dot;
 use chetaev_mechanics::sample::Generator;
 use chetaev_symbolic::{Expr, Verdict};
@@ -79,6 +79,10 @@ impl Claim for WitnessOfLeastAction {
 
     fn group(&self) -> Group {
         Group::Principles
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::Run
     }
 
     fn title(&self) -> &'static str {

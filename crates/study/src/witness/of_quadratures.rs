@@ -3,7 +3,7 @@
 use super::claims::{elsewhere, numerical, refuted};
 use super::evidence;
 use super::quadratures::{self, Unmet};
-use chetaev_mechanics::claims::{full_id, Claim, Context, Finding, Group};
+use chetaev_mechanics::claims::{full_id, Claim, Context, Finding, Group, Scope};
 use chetaev_symbolic::Verdict;
 
 /// β that changes by less over the sizes of its terms is constant.
@@ -24,6 +24,10 @@ impl Claim for WitnessOfQuadratures {
 
     fn group(&self) -> Group {
         Group::Principles
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::Run
     }
 
     fn title(&self) -> &'static str {

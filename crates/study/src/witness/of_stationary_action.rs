@@ -4,7 +4,7 @@ use super::claims::{elsewhere, is_fixed, nothing_varies, of_action};
 use super::evidence;
 use super::least_action::{among_admissible, Action};
 use super::neighbours::COORDINATES;
-use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group, Scope};
 use chetaev_symbolic::Verdict;
 
 /// The principles that are stated so.
@@ -21,6 +21,10 @@ impl Claim for WitnessOfStationaryAction {
 
     fn group(&self) -> Group {
         Group::Principles
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::Run
     }
 
     fn title(&self) -> &'static str {

@@ -15,7 +15,7 @@ use super::states::{Change, States};
 use super::wave::Wave;
 use super::{evidence, show, Figure};
 use chetaev_mechanics::claims::formulation::basis;
-use chetaev_mechanics::claims::{full_id, Claim, Context, Finding, Group};
+use chetaev_mechanics::claims::{full_id, Claim, Context, Finding, Group, Scope};
 use chetaev_principles::universal_relation::{operator, Operator, UniversalRelation};
 use chetaev_principles::variations::{delta_name, Displacements};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
@@ -40,6 +40,10 @@ impl Claim for WitnessOfOperators {
 
     fn group(&self) -> Group {
         Group::Principles
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::Run
     }
 
     fn title(&self) -> &'static str {

@@ -12,7 +12,7 @@ use super::{evidence, show, Figure};
 use crate::motion_evidence::MotionEvidence;
 use chetaev_mechanics::characteristics::derive_along;
 use chetaev_mechanics::claims::formulation::{basis, derive};
-use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group, Scope};
 use chetaev_mechanics::equations::{unused_name, EquationGroup};
 use chetaev_mechanics::Equations;
 use chetaev_motion::observe::Observer;
@@ -86,6 +86,10 @@ impl Claim for WitnessOfOtherTime {
 
     fn group(&self) -> Group {
         Group::Principles
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::Run
     }
 
     fn title(&self) -> &'static str {

@@ -9,7 +9,7 @@ use super::neighbours::COORDINATES;
 use super::refined::{worst, Refined, Rule, Span, Term};
 use super::wave::Wave;
 use super::{algebra, evidence, show, Figure};
-use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group, Scope};
 use chetaev_mechanics::sample::Generator;
 use chetaev_principles::second_kind::Ends;
 use chetaev_symbolic::Verdict;
@@ -29,6 +29,10 @@ impl Claim for WitnessOfSecondKind {
 
     fn group(&self) -> Group {
         Group::Principles
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::Run
     }
 
     fn title(&self) -> &'static str {

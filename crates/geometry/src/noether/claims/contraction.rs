@@ -1,7 +1,8 @@
 //! `noether.contraction#j`: Ȳ ⌟ Ω̄ = dG in every component, for a first integral that was found.
 
-use super::{of_generator, requirements, subjects};
+use super::{of_generator, of_subject, of_subject_there, requirements, subjects};
 use crate::noether::generator::Generator;
+use crate::noether::search::Integral;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 
 /// `noether.contraction#j`.
@@ -34,7 +35,20 @@ impl Claim for Contraction {
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        let statement = "the symmetry, contracted with the dynamical 2-form, gives the differential in every component";
-        of_generator(cx, subject, statement, Generator::contraction)
+        of_subject(cx, subject, decide)
     }
+
+    fn decide_there(
+        &self,
+        cx: &Context<'_>,
+        subject: Option<&str>,
+        there: &Context<'_>,
+    ) -> Finding {
+        of_subject_there((cx, there), (self, subject), decide)
+    }
+}
+
+fn decide(cx: &Context<'_>, integral: &Integral) -> Finding {
+    let statement = "the symmetry, contracted with the dynamical 2-form, gives the differential in every component";
+    of_generator(cx, integral, statement, Generator::contraction)
 }

@@ -17,7 +17,7 @@ use chetaev_symbolic::{Expr, Verdict};
 pub struct FamilySearched;
 
 /// The claim that searches.
-pub(crate) const ID: &str = "noether.family";
+pub const ID: &str = "noether.family";
 
 /// How the parts of a detail begin that name a family that was searched to its end.
 pub(crate) const EXHAUSTED: &str = "exhausted: ";

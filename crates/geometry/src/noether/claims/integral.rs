@@ -1,12 +1,14 @@
 //! `noether.integral#j`: a first integral that was found, with its generator.
 
 use super::domain::{lasting, while_it_lasts};
-use super::{generator, generator_formulas, integral, on_manifold, requirements, subjects};
+use super::{generator, generator_formulas, on_manifold};
+use super::{of_subject, of_subject_there, requirements, subjects};
 use crate::noether::cyclic::cyclic;
 use crate::noether::embedded::Embedded;
 use crate::noether::generator::Generator;
 use crate::noether::letters::ENERGY;
 use crate::noether::motion::Motion;
+use crate::noether::search::Integral;
 use crate::noether::shown::{is_constant, readable};
 use crate::noether::written::in_quasi_velocities;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
@@ -64,35 +66,44 @@ impl Claim for FirstIntegral {
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        let integral = match integral(cx, subject) {
-            Ok(integral) => integral,
-            Err(why) => return Verdict::undecided(why).into(),
-        };
-        let g = &cx.system.graph;
-        let name = integral.name.as_deref();
-        let named = name.map_or(String::new(), |name| format!(", {name}"));
-        let mut formulas = vec![Formula {
-            caption: format!("the first integral{named}"),
-            left: None,
-            right: integral.shown,
-        }];
-        let lasting = lasting(cx, integral.value);
-        let always = match &lasting {
-            Some(lasting) => format!("while {lasting}"),
-            None => "on every motion".to_owned(),
-        };
-        let mut sentence = format!("{} keeps its value {always}", g.text(integral.shown));
-        if let Ok((_, n, generator)) = generator(cx, subject) {
-            formulas.extend(generator_formulas(cx, &n, &generator));
-            sentence = format!("{sentence}; {}", symmetry(cx, &n, &generator, name));
-            if let Some(speed) = momentum_of_cyclic(cx, &n, &generator) {
-                sentence = format!("{sentence}; up to a factor it is the momentum of the cyclic independent velocity {speed}, which nothing drives");
-            }
-        }
-        let mut verdict = integral.verdict.prefixed(&sentence);
-        while_it_lasts(&mut verdict, lasting.as_ref());
-        Finding { verdict, formulas }
+        of_subject(cx, subject, decide)
     }
+
+    fn decide_there(
+        &self,
+        cx: &Context<'_>,
+        subject: Option<&str>,
+        there: &Context<'_>,
+    ) -> Finding {
+        of_subject_there((cx, there), (self, subject), decide)
+    }
+}
+
+fn decide(cx: &Context<'_>, integral: &Integral) -> Finding {
+    let g = &cx.system.graph;
+    let name = integral.name.as_deref();
+    let named = name.map_or(String::new(), |name| format!(", {name}"));
+    let mut formulas = vec![Formula {
+        caption: format!("the first integral{named}"),
+        left: None,
+        right: integral.shown,
+    }];
+    let lasting = lasting(cx, integral.value);
+    let always = match &lasting {
+        Some(lasting) => format!("while {lasting}"),
+        None => "on every motion".to_owned(),
+    };
+    let mut sentence = format!("{} keeps its value {always}", g.text(integral.shown));
+    if let Ok((n, generator)) = generator(cx, integral) {
+        formulas.extend(generator_formulas(cx, &n, &generator));
+        sentence = format!("{sentence}; {}", symmetry(cx, &n, &generator, name));
+        if let Some(speed) = momentum_of_cyclic(cx, &n, &generator) {
+            sentence = format!("{sentence}; up to a factor it is the momentum of the cyclic independent velocity {speed}, which nothing drives");
+        }
+    }
+    let mut verdict = integral.verdict.clone().prefixed(&sentence);
+    while_it_lasts(&mut verdict, lasting.as_ref());
+    Finding { verdict, formulas }
 }
 
 /// The cyclic velocity whose momentum the integral is, up to a factor.

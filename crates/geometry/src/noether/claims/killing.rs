@@ -1,6 +1,7 @@
 //! `noether.killing#j`: the Killing-type equations, for a first integral that was found.
 
-use super::{of_generator, requirements, subjects};
+use super::{of_generator, of_subject, of_subject_there, requirements, subjects};
+use crate::noether::search::Integral;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 
 /// `noether.killing#j`.
@@ -33,10 +34,28 @@ impl Claim for Killing {
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        of_generator(cx, subject, "the Killing-type equations", |generator, n| {
+        of_subject(cx, subject, decide)
+    }
+
+    fn decide_there(
+        &self,
+        cx: &Context<'_>,
+        subject: Option<&str>,
+        there: &Context<'_>,
+    ) -> Finding {
+        of_subject_there((cx, there), (self, subject), decide)
+    }
+}
+
+fn decide(cx: &Context<'_>, integral: &Integral) -> Finding {
+    of_generator(
+        cx,
+        integral,
+        "the Killing-type equations",
+        |generator, n| {
             let mut residuals = generator.killing_speeds(n);
             residuals.push(generator.killing_drift(n));
             residuals
-        })
-    }
+        },
+    )
 }

@@ -21,7 +21,7 @@ mod values;
 pub use contraction::Contraction;
 pub use domain::corners_of_motions;
 pub use embedded::EmbeddedField;
-pub use family::FamilySearched;
+pub use family::{FamilySearched, ID as FAMILY};
 pub use integral::{symmetry_named, FirstIntegral};
 pub use inverse::Inverse;
 pub use killing::Killing;
@@ -34,9 +34,10 @@ use super::found::found;
 use super::generator::Generator;
 use super::search::Integral;
 use crate::noether::letters::ENERGY;
+use crate::noether::motion::Motion;
 use crate::noether::shown::readable;
 use crate::noether::written::in_quasi_velocities;
-use chetaev_mechanics::claims::{Finding, Formula};
+use chetaev_mechanics::claims::{full_id, Claim, Finding, Formula};
 use chetaev_mechanics::Context;
 use chetaev_symbolic::simplify::length;
 use chetaev_symbolic::{Expr, Verdict};
@@ -87,15 +88,72 @@ fn integral(cx: &Context<'_>, subject: Option<&str>) -> Result<Integral, String>
         .ok_or_else(|| format!("{} first integrals were found", found.integrals.len()))
 }
 
-/// The integral of a subject with its generator: δ = 1 for the energy, δ = 0 for the others.
+/// What a claim says of the integral of a subject.
+fn of_subject(
+    cx: &Context<'_>,
+    subject: Option<&str>,
+    decide: impl Fn(&Context<'_>, &Integral) -> Finding,
+) -> Finding {
+    match integral(cx, subject) {
+        Ok(integral) => decide(cx, &integral),
+        Err(why) => Verdict::undecided(why).into(),
+    }
+}
+
+/// The same on another part of the states, of which the integral may be none.
+fn of_subject_there(
+    (cx, there): (&Context<'_>, &Context<'_>),
+    (claim, subject): (&dyn Claim, Option<&str>),
+    decide: impl Fn(&Context<'_>, &Integral) -> Finding,
+) -> Finding {
+    if let Some(obstacle) = there.obstacle(claim, subject) {
+        return obstacle.into();
+    }
+    let own = match (integral(cx, subject), Motion::of(there)) {
+        (Ok(own), Ok(motion)) => Integral {
+            verdict: motion.is_integral(there, own.value),
+            ..own
+        },
+        (Err(why), _) | (_, Err(why)) => return Verdict::undecided(why).into(),
+    };
+    match &own.verdict {
+        Verdict::Proved(_) => decide(there, &own),
+        other => Verdict::clone(other).into(),
+    }
+}
+
+/// The finding of a claim whose subjects are numbers on another part of the states: of the one with the same formulas there.
+fn the_same_there(
+    (cx, there): (&Context<'_>, &Context<'_>),
+    (claim, subject): (&dyn Claim, Option<&str>),
+) -> Finding {
+    let find = |cx: &Context<'_>, subject: Option<&str>| {
+        Finding::clone(&cx.finding(&full_id(claim.id(), subject)))
+    };
+    let formulas = |finding: &Finding| -> Vec<Expr> {
+        finding
+            .formulas
+            .iter()
+            .map(|formula| formula.right)
+            .collect()
+    };
+    let own = formulas(&find(cx, subject));
+    let mut others = claim.subjects(there).into_iter();
+    let others = others.find_map(|other| {
+        let other = find(there, other.as_deref());
+        (formulas(&other) == own).then_some(other)
+    });
+    others.unwrap_or_else(|| Verdict::undecided("it is not among what was found there").into())
+}
+
+/// An integral with its generator: δ = 1 for the energy, δ = 0 for the others.
 ///
 /// # Errors
 /// A sentence that says why there is none.
 fn generator<'a>(
     cx: &Context<'a>,
-    subject: Option<&str>,
-) -> Result<(Integral, Embedded<'a>, Generator), String> {
-    let integral = integral(cx, subject)?;
+    integral: &Integral,
+) -> Result<(Embedded<'a>, Generator), String> {
     let n = Embedded::of(cx)?;
     let g = &cx.system.graph;
     let delta = match integral.name.as_deref() {
@@ -104,17 +162,17 @@ fn generator<'a>(
     };
     let generator = Generator::of(&n, integral.value, delta)
         .map_err(|problem| format!("the generator was not found: {problem}"))?;
-    Ok((integral, n, generator))
+    Ok((n, generator))
 }
 
 /// The claim that what is stated holds for the generator of an integral found: its residuals vanish on N.
 fn of_generator(
     cx: &Context<'_>,
-    subject: Option<&str>,
+    integral: &Integral,
     statement: &str,
     residuals: impl Fn(&Generator, &Embedded<'_>) -> Vec<Expr>,
 ) -> Finding {
-    let (integral, n, generator) = match generator(cx, subject) {
+    let (n, generator) = match generator(cx, integral) {
         Ok(found) => found,
         Err(why) => return Verdict::undecided(why).into(),
     };

@@ -1,8 +1,8 @@
 //! `noether.moving-direction#j` and `noether.moving-axis#j`: momenta and moments of momentum that particles keep.
 
 use super::parts::{parts, Part};
-use super::requirements;
 use super::values::by_values;
+use super::{requirements, the_same_there};
 use crate::noether::motion::Motion;
 use crate::noether::moving::{axes, directions, masses_are_constant, Kept, Searched};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Formula, Group};
@@ -226,6 +226,15 @@ impl Claim for MovingDirection {
         })
     }
 
+    fn decide_there(
+        &self,
+        cx: &Context<'_>,
+        subject: Option<&str>,
+        there: &Context<'_>,
+    ) -> Finding {
+        the_same_there((cx, there), (self, subject))
+    }
+
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
         decide(cx, &of_directions(cx).0, subject, &DIRECTIONS)
     }
@@ -256,6 +265,15 @@ impl Claim for MovingAxis {
         subjects(cx, self.id(), || {
             of_axes(cx).0.as_ref().map_or(0, |s| s.kept.len())
         })
+    }
+
+    fn decide_there(
+        &self,
+        cx: &Context<'_>,
+        subject: Option<&str>,
+        there: &Context<'_>,
+    ) -> Finding {
+        the_same_there((cx, there), (self, subject))
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {

@@ -1,7 +1,7 @@
 //! `noether.reduced-symmetry#j`: Z f is a first integral for a symmetry Z of the reduced 2-form.
 
-use super::requirements;
 use super::states::rates_on_positions;
+use super::{requirements, the_same_there};
 use crate::noether::motion::Motion;
 use crate::noether::reduced::{candidates, symmetries, Symmetry};
 use crate::noether::shown::readable;
@@ -50,6 +50,15 @@ impl Claim for ReducedSymmetry {
         }
         let count = candidates(cx).len();
         (1..=count).map(|j| Some(j.to_string())).collect()
+    }
+
+    fn decide_there(
+        &self,
+        cx: &Context<'_>,
+        subject: Option<&str>,
+        there: &Context<'_>,
+    ) -> Finding {
+        the_same_there((cx, there), (self, subject))
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {

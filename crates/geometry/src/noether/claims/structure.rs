@@ -1,6 +1,7 @@
 //! `noether.structure#j`: the structure equations, for a first integral that was found.
 
-use super::{of_generator, requirements, subjects};
+use super::{of_generator, of_subject, of_subject_there, requirements, subjects};
+use crate::noether::search::Integral;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 
 /// `noether.structure#j`.
@@ -33,11 +34,24 @@ impl Claim for Structure {
     }
 
     fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        of_generator(cx, subject, "the structure equations", |generator, n| {
-            let mut residuals = generator.killing_speeds(n);
-            residuals.extend(generator.along_fields(n));
-            residuals.push(generator.along_time(n));
-            residuals
-        })
+        of_subject(cx, subject, decide)
     }
+
+    fn decide_there(
+        &self,
+        cx: &Context<'_>,
+        subject: Option<&str>,
+        there: &Context<'_>,
+    ) -> Finding {
+        of_subject_there((cx, there), (self, subject), decide)
+    }
+}
+
+fn decide(cx: &Context<'_>, integral: &Integral) -> Finding {
+    of_generator(cx, integral, "the structure equations", |generator, n| {
+        let mut residuals = generator.killing_speeds(n);
+        residuals.extend(generator.along_fields(n));
+        residuals.push(generator.along_time(n));
+        residuals
+    })
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)] // a panic is how a test fails
 
 use chetaev_geometry::noether::motion::Motion;
+use chetaev_mechanics::claims::strata::{Grounds, Strata};
 use chetaev_mechanics::claims::{Context, Finding};
 use chetaev_mechanics::sample::{self, Point};
 use chetaev_mechanics::{Prepared, Prover, Registry, System, SystemParts};
@@ -105,6 +106,18 @@ pub(crate) fn with_motion<T>(
 /// The finding of `id#subject`.
 pub(crate) fn finding(system: &System, full: &str) -> Arc<Finding> {
     with_context(system, |cx| cx.finding(full))
+}
+
+/// The same on all parts on which the claim is asked.
+pub(crate) fn asked(system: &System, full: &str) -> Finding {
+    let registry = Registry::new(&[chetaev_mechanics::claims::CLAIMS, chetaev_geometry::CLAIMS]);
+    let prepared = Prepared::new(system).unwrap();
+    let grounds = Grounds::new(system, &prepared, &|_, _| None);
+    let strata = Strata::new(&grounds, &registry, Prover::default, |cx| cx);
+    let (id, subject) = full
+        .split_once('#')
+        .map_or((full, None), |(id, s)| (id, Some(s)));
+    strata.finding(registry.find(id).unwrap(), subject)
 }
 
 /// A state on the constraint manifold.

@@ -11,10 +11,10 @@ use crate::quadratic_forms::{is_convex_in_one_form, nonnegative, positive_in_lin
 use crate::sample;
 use crate::system::System;
 use crate::words::counted;
-use chetaev_symbolic::matrix::ldlt;
+use chetaev_symbolic::matrix::{ldlt, Ldlt};
 use chetaev_symbolic::rational::ratio;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, Proof};
-use chetaev_symbolic::{Expr, Node, Verdict};
+use chetaev_symbolic::{Expr, Graph, Node, Verdict};
 
 /// What the motion is among the accelerations that the constraints allow.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,13 +77,31 @@ pub fn kind(basis: &Basis<'_>, prover: &Prover) -> Kind {
         }
     }
     let proof = form.prove(basis, prover, &[]);
-    match proof.or_else(|tried| form.prove_with_values(basis, prover).ok_or(tried)) {
+    match proof.or_else(|why| form.prove_with_values(basis, prover).ok_or(why)) {
         Ok(proof) => Kind::Least(proof),
-        Err(tried) => match form.sampled(basis, &tried) {
+        Err(Unproved::Negative {
+            combination,
+            counterexample,
+        }) => Kind::Stationary {
+            direction: form.direction(system, &combination),
+            counterexample: *counterexample,
+        },
+        Err(Unproved::Open(tried)) => match form.sampled(basis, &tried) {
             Some(evidence) => Kind::Sampled(evidence),
             None => unknown(tried),
         },
     }
+}
+
+/// Why a form was not proved to be nowhere negative.
+enum Unproved {
+    /// A pivot is negative at a state: the form is, along this combination of its directions.
+    Negative {
+        combination: Vec<Expr>,
+        counterexample: Box<Counterexample>,
+    },
+    /// What was tried.
+    Open(String),
 }
 
 fn unknown(tried: impl Into<String>) -> Kind {
@@ -229,17 +247,22 @@ impl Form {
                 counterexample: Some(counterexample),
                 ..
             } => Some(Kind::Stationary {
-                direction: (0..system.n())
-                    .map(|i| {
-                        let columns = self.displacements.columns.iter();
-                        let entries: Vec<Expr> = columns.map(|column| column[i]).collect();
-                        dot(g, &coefficients, &entries)
-                    })
-                    .collect(),
+                direction: self.direction(system, &coefficients),
                 counterexample,
             }),
             _ => None,
         }
+    }
+
+    /// The virtual displacement with these coefficients.
+    fn direction(&self, system: &System, coefficients: &[Expr]) -> Vec<Expr> {
+        let g = &system.graph;
+        let along = |i: usize| {
+            let columns = self.displacements.columns.iter();
+            let entries: Vec<Expr> = columns.map(|column| column[i]).collect();
+            dot(g, coefficients, &entries)
+        };
+        (0..system.n()).map(along).collect()
     }
 
     /// By the pivots of W, in both orders of the coordinates, and of `Bᵀ W B`; else what was tried.
@@ -248,7 +271,7 @@ impl Form {
         basis: &Basis<'_>,
         prover: &Prover,
         values: &[(Expr, Expr)],
-    ) -> Result<Proof, String> {
+    ) -> Result<Proof, Unproved> {
         let (system, mass) = (basis.system, &basis.terms.mass_matrix);
         let whole = "the mass matrix";
         let restricted = "the mass matrix restricted to the virtual displacements";
@@ -287,10 +310,11 @@ fn pivots_are_positive(
     prover: &Prover,
     (matrix, manifold, name): (&Vec<Vec<Expr>>, &Manifold, &str),
     values: &[(Expr, Expr)],
-) -> Result<Proof, String> {
+) -> Result<Proof, Unproved> {
+    let open = |tried: String| Err(Unproved::Open(tried));
     let size = matrix.len();
     if size > LARGEST {
-        return Err(format!(
+        return open(format!(
             "the pivots of {name} are not computed: it has {size} rows, more than {LARGEST}"
         ));
     }
@@ -303,25 +327,36 @@ fn pivots_are_positive(
     let heavy = |e: &Expr| matches!(g.node(*e), Node::Apply { .. } | Node::Solve { .. });
     let is_heavy = size > 1 && reachable.iter().any(heavy);
     if is_heavy || nodes * size * size > MOST_WORK {
-        return Err(format!(
+        return open(format!(
             "the pivots of {name} are not computed: it has {size} rows and its entries {nodes} distinct nodes"
         ));
     }
-    let factors =
-        ldlt(g, &rows).map_err(|problem| format!("{name} was not factored: {problem}"))?;
+    let factors = match ldlt(g, &rows) {
+        Ok(factors) => factors,
+        Err(problem) => return open(format!("{name} was not factored: {problem}")),
+    };
     let mut all: Option<Verdict> = None;
-    for &pivot in &factors.diagonal {
+    for (place, &pivot) in factors.diagonal.iter().enumerate() {
         if g.reachable(&[pivot]).len() > LONGEST_PIVOT {
-            return Err(format!(
+            return open(format!(
                 "a pivot of {name} is too long for its sign to be seen"
             ));
         }
         let verdict = nonnegative(system, prover, manifold, pivot, ON);
-        if !matches!(verdict, Verdict::Proved(_)) {
-            let why = verdict.detail();
-            return Err(format!(
-                "the sign of a pivot of {name} was not proved: {why}"
-            ));
+        match &verdict {
+            Verdict::Proved(_) => {}
+            Verdict::Refuted(found) => {
+                return Err(Unproved::Negative {
+                    combination: direction_of_pivot(g, &factors, place),
+                    counterexample: Box::new(found.clone()),
+                })
+            }
+            other => {
+                let why = other.detail();
+                return open(format!(
+                    "the sign of a pivot of {name} was not proved: {why}"
+                ));
+            }
         }
         all = Some(match all {
             Some(earlier) => earlier.and(verdict),
@@ -333,8 +368,20 @@ fn pivots_are_positive(
             proof.detail = format!("all pivots of {name} are positive: {}", proof.detail);
             Ok(proof)
         }
-        _ => Err(format!("{name} has no pivots")),
+        _ => open(format!("{name} has no pivots")),
     }
+}
+
+/// `L⁻ᵀ e_j`: along it the form `L D Lᵀ` has the value of its pivot j.
+fn direction_of_pivot(g: &Graph, factors: &Ldlt, j: usize) -> Vec<Expr> {
+    let size = factors.diagonal.len();
+    let mut x = vec![g.zero(); size];
+    x[j] = g.one();
+    for i in (0..j).rev() {
+        let column: Vec<Expr> = factors.lower.iter().map(|row| row[i]).collect();
+        x[i] = g.neg(dot(g, &column[i + 1..], &x[i + 1..]));
+    }
+    x
 }
 
 /// A vector with small rational components along which a symmetric matrix is negative beyond rounding: a unit vector, a sum

@@ -4,7 +4,7 @@ use super::{Case, Found, Search, LONGEST};
 use crate::stationarity::closed_form::short;
 use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::prover::assumptions;
-use chetaev_symbolic::factors::factors;
+use chetaev_symbolic::factors::{coefficients, factors, irreducible_factors};
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{simplify, Expr, Node, Symbol};
 
@@ -37,8 +37,26 @@ impl Search<'_, '_> {
 
     /// The factors in which symbols of the state occur.
     pub(super) fn split_factors(&self, e: Expr) -> Option<Vec<Expr>> {
-        let list = factors(self.g, e, &self.state)?;
-        Some(list.into_iter().map(|(factor, _)| factor).collect())
+        let list = factors(self.g, e, &self.state)?.into_iter();
+        let list = list.flat_map(|(factor, _)| self.irreducible(factor));
+        Some(list.collect())
+    }
+
+    /// The irreducible factors of a polynomial in two symbols of the state and more that is of degree two and more in each: of
+    /// `3 y'⁴ − 4 y'² z'² + z'⁴` the four linear ones would be missed else, and with them that the case is four.
+    fn irreducible(&self, factor: Expr) -> Vec<Expr> {
+        let g = self.g;
+        let occurring = g.symbols_in(&[factor]);
+        let state = self.state.iter().filter(|s| occurring.contains(s));
+        let degrees: Option<Vec<usize>> = state
+            .map(|&s| Some(coefficients(g, factor, s)?.len().saturating_sub(1)))
+            .collect();
+        let may_split = degrees.is_some_and(|list| list.len() > 1 && list.iter().all(|&n| n > 1));
+        let list = may_split.then(|| irreducible_factors(g, factor, &self.state));
+        match list.flatten() {
+            Some(list) if list.len() > 1 => list.into_iter().map(|(f, _)| f).collect(),
+            _ => vec![factor],
+        }
     }
 
     /// The factors of an expression written with powers of the sine, or of the cosine, of each angle that occurs.
