@@ -19,6 +19,7 @@ mod run;
 pub(crate) mod scope;
 mod sections;
 mod system;
+mod unknowns;
 mod variation;
 
 use std::cell::RefCell;
@@ -175,7 +176,7 @@ impl Resolver {
         let initial = self.initial(root, &constraints);
         let simulation = self.simulation(root);
         let events = self.events(root, &constraints);
-        let (integrals, integral_conditions) = self.integrals(root);
+        let stated = self.integrals(root);
         let (search, search_degree) = self.search(root);
         let variations = self.variations(root);
         let complete_integral = self.complete_integral(root);
@@ -220,10 +221,11 @@ impl Resolver {
             initial,
             simulation,
             events,
-            integrals,
+            integrals: stated.integrals,
+            integral_forms: stated.forms,
             variations,
             complete_integral,
-            integral_conditions,
+            integral_conditions: stated.conditions,
             search,
             search_degree,
             drawing,
