@@ -154,7 +154,8 @@ impl Measure {
         if self.density.is_some() || !flow.autonomous {
             return self;
         }
-        self.local = products::density_with_velocities(cx, flow);
+        let local = products::density_with_velocities(cx, flow);
+        self.local = local.map(|(density, proof)| (formula::positive_beyond(cx, density), proof));
         if let Some((density, _)) = &self.local {
             let more = format!(
                 "; {} dq dη with {0} = {} is kept near every state where {0} is neither zero nor infinite",

@@ -126,66 +126,59 @@ impl<'a> Continuation<'a> {
         let mut polynomial = start(&self.pair.polynomial);
         let mut cofactor = start(&self.pair.cofactor);
         let last = polynomial.len() - 1;
+        let mut values: Vec<[Series; 2]> = equations
+            .iter()
+            .map(|equation| {
+                [
+                    vec![total(field, &polynomial, &equation.members, 0)],
+                    vec![total(field, &cofactor, &equation.cofactor, 0)],
+                ]
+            })
+            .collect();
         for order in 1..ORDER {
-            polynomial
-                .iter_mut()
-                .chain(&mut cofactor)
+            let all = polynomial.iter_mut().chain(&mut cofactor);
+            all.chain(values.iter_mut().flatten())
                 .for_each(|s| s.push(Residue::ZERO));
-            let residuals: Vec<Residue> = equations
-                .iter()
-                .map(|equation| field.neg(equation.residual(field, &polynomial, &cofactor, order)))
+            let pairs = equations.iter().zip(&values);
+            let residuals: Vec<Residue> = pairs
+                .map(|(equation, [p, k])| {
+                    let rates = polynomial.iter().zip(&equation.rates);
+                    let product = coefficient(field, k, p, order);
+                    rates.fold(product, |sum, (own, rate)| {
+                        field.sub(sum, coefficient(field, own, rate, order))
+                    })
+                })
                 .collect();
             let step = self.jacobian.solve(field, &residuals);
             let (by_polynomial, by_cofactor) = step.split_at(last);
-            polynomial[..last]
-                .iter_mut()
-                .zip(by_polynomial)
-                .for_each(|(s, &x)| s[order] = x);
-            cofactor
-                .iter_mut()
-                .zip(by_cofactor)
-                .for_each(|(s, &x)| s[order] = x);
+            let own = polynomial[..last].iter_mut().zip(by_polynomial);
+            own.for_each(|(s, &x)| s[order] = x);
+            let own = cofactor.iter_mut().zip(by_cofactor);
+            own.for_each(|(s, &x)| s[order] = x);
+            for (equation, [p, k]) in equations.iter().zip(&mut values) {
+                p[order] = total(field, &polynomial, &equation.members, order);
+                k[order] = total(field, &cofactor, &equation.cofactor, order);
+            }
         }
         polynomial
     }
 }
 
-impl Equation {
-    /// The coefficient of one order in `X P - K P`.
-    fn residual(
-        &self,
-        field: &PrimeField,
-        polynomial: &[Series],
-        cofactor: &[Series],
-        order: usize,
-    ) -> Residue {
-        let mut sum = Residue::ZERO;
-        for (own, rate) in polynomial.iter().zip(&self.rates) {
-            sum = field.add(sum, coefficient(field, own, rate, order));
-        }
-        let total = |terms: &[Series], weights: &[Residue]| -> Series {
-            (0..=order)
-                .map(|k| {
-                    terms
-                        .iter()
-                        .zip(weights)
-                        .fold(Residue::ZERO, |sum, (s, &w)| {
-                            field.add(sum, field.mul(s[k], w))
-                        })
-                })
-                .collect()
-        };
-        let p = total(polynomial, &self.members);
-        let k = total(cofactor, &self.cofactor);
-        field.sub(sum, coefficient(field, &p, &k, order))
-    }
+/// The coefficient of one order in a combination of series.
+fn total(field: &PrimeField, terms: &[Series], weights: &[Residue], order: usize) -> Residue {
+    terms
+        .iter()
+        .zip(weights)
+        .fold(Residue::ZERO, |sum, (s, &w)| {
+            field.add(sum, field.mul(s[order], w))
+        })
 }
 
 /// The coefficient of one order in a product of series.
 fn coefficient(field: &PrimeField, a: &[Residue], b: &[Residue], order: usize) -> Residue {
-    let own = a.iter().take(order + 1).enumerate();
-    own.fold(Residue::ZERO, |sum, (i, &x)| match b.get(order - i) {
-        Some(&y) => field.add(sum, field.mul(x, y)),
+    let own = b.iter().take(order + 1).enumerate();
+    own.fold(Residue::ZERO, |sum, (i, &y)| match a.get(order - i) {
+        Some(&x) => field.add(sum, field.mul(x, y)),
         None => sum,
     })
 }

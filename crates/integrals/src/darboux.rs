@@ -19,7 +19,7 @@ use rustc_hash::FxHashMap;
 /// How large the search is.
 #[derive(Clone, Copy, Debug)]
 pub struct Work {
-    /// Counted products of each closed part of the variables.
+    /// Counted products of residues, for all parts of the variables together: some 10⁸ take a second.
     pub products: u64,
     /// The highest degree in the letters.
     pub degree: u32,
@@ -28,7 +28,7 @@ pub struct Work {
 impl Default for Work {
     fn default() -> Work {
         Work {
-            products: 40_000_000,
+            products: 60_000_000,
             degree: 6,
         }
     }
@@ -87,16 +87,28 @@ pub fn pairs(flow: &Flow<'_>, work: Work, seed: u64) -> Pairs {
         constants: FxHashMap::default(),
         polynomials: Vec::new(),
     };
+    let mut left = work.products;
+    let mut without: Vec<Vec<usize>> = Vec::new();
     for part in flow.closed_parts() {
-        let own = flow.on(&part);
-        if let Ok(field) = PolynomialField::of(&own) {
-            let search = Search {
-                flow: &own,
-                field: &field,
-                work,
-            };
-            search.run(&mut all, &mut known, &mut random);
+        // What contains a part whose rates are too large has such rates itself.
+        if without
+            .iter()
+            .any(|own| own.iter().all(|i| part.contains(i)))
+        {
+            continue;
         }
+        let own = flow.on(&part);
+        let Ok(field) = PolynomialField::of(&own) else {
+            without.push(part);
+            continue;
+        };
+        let search = Search {
+            flow: &own,
+            field: &field,
+            degree: work.degree,
+        };
+        // Larger parts get a half of what smaller ones leave.
+        left -= search.run(&mut all, &mut known, left / 2, &mut random);
     }
     all
 }
@@ -105,24 +117,30 @@ pub fn pairs(flow: &Flow<'_>, work: Work, seed: u64) -> Pairs {
 struct Known {
     field: PrimeField,
     constants: FxHashMap<Expr, Residue>,
-    /// By letters and their exponents.
-    polynomials: Vec<Vec<(Vec<(Expr, u8)>, Residue)>>,
+    polynomials: Vec<ByLetters>,
 }
+
+/// Powers of letters, each by what it stands for.
+type Powers = Vec<(Expr, u8)>;
+
+/// A polynomial whose letters are named, so that it may be read in the letters of another part.
+type ByLetters = Vec<(Powers, Residue)>;
 
 struct Search<'a> {
     flow: &'a Flow<'a>,
     field: &'a PolynomialField,
-    work: Work,
+    degree: u32,
 }
 
 impl Search<'_> {
-    fn run(&self, all: &mut Pairs, before: &mut Known, random: &mut Random) {
+    /// Searches degree by degree with so much work, and returns how much was done.
+    fn run(&self, all: &mut Pairs, before: &mut Known, work: u64, random: &mut Random) -> u64 {
         let g = self.flow.graph;
         let letters = self.field.moving();
         self.poles(g, all);
         let (field, constants) = (before.field, &mut before.constants);
         let Some(at) = Specialization::extended(self.field, field, constants, random) else {
-            return;
+            return 0;
         };
         let mut known: Vec<Polynomial> = before
             .polynomials
@@ -130,8 +148,8 @@ impl Search<'_> {
             .filter_map(|own| self.in_letters(own))
             .collect();
         let orbits = Orbits::new(self.field, at);
-        let mut left = self.work.products;
-        for degree in 1..=self.work.degree {
+        let mut done = 0;
+        for degree in 1..=self.degree {
             let Some(members) = self.members(degree) else {
                 break;
             };
@@ -144,13 +162,13 @@ impl Search<'_> {
             let Some(extactic) = Extactic::new(&mut own, members, cofactor, random) else {
                 break;
             };
-            if extactic.work() > left {
+            if done + extactic.work() > work {
                 break;
             }
-            left -= extactic.work();
-            let Some(found) = extactic.search(&known, random) else {
+            let Some(found) = extactic.search(&known, work - done, random) else {
                 break;
             };
+            done += found.work;
             all.families.push(Family {
                 letters: letters
                     .iter()
@@ -167,10 +185,11 @@ impl Search<'_> {
             }
             self.lift(g, &orbits, &new, all, random);
         }
+        done.min(work)
     }
 
     /// A polynomial of another part in the letters of this one; `None` where it contains others.
-    fn in_letters(&self, own: &[(Vec<(Expr, u8)>, Residue)]) -> Option<Polynomial> {
+    fn in_letters(&self, own: &[(Powers, Residue)]) -> Option<Polynomial> {
         let letters = self.field.moving();
         let place = |e: Expr| {
             letters
@@ -187,7 +206,7 @@ impl Search<'_> {
         terms.collect()
     }
 
-    fn by_letters(&self, own: &Polynomial) -> Vec<(Vec<(Expr, u8)>, Residue)> {
+    fn by_letters(&self, own: &Polynomial) -> ByLetters {
         let letters = self.field.moving();
         let powers = |exponents: &Exponents| {
             let own = letters.iter().zip(exponents).filter(|(_, &e)| e > 0);

@@ -22,6 +22,9 @@ const SURPLUS: usize = 4;
 /// At most so many lines: each has a root of a given factor with a probability of one half at least.
 const LINES: usize = 8;
 
+/// Products for a root of a polynomial in one variable, over its squared degree: x^p takes 62 squarings and as many remainders.
+const ROOT: u64 = 124;
+
 /// How many other zeros a space of polynomials is compared at.
 const OTHERS: usize = 12;
 
@@ -41,8 +44,10 @@ pub(crate) struct Pair {
 #[derive(Clone, Debug)]
 pub(crate) struct Found {
     pub(crate) pairs: Vec<Pair>,
-    /// Whether nothing of the divisors on the lines was left over.
+    /// Whether nothing of the divisor on the last line was left over.
     pub(crate) exhausted: bool,
+    /// Counted products.
+    pub(crate) work: u64,
 }
 
 /// The search at one specialization among the polynomials of one degree.
@@ -150,10 +155,19 @@ impl<'a, 'f> Extactic<'a, 'f> {
 
     /// The polynomials that vanish on orbits through points of lines where the rank drops, Darboux polynomials modulo the prime. Zeros
     /// of those that are `known` are left out.
-    pub(crate) fn search(&self, known: &[Polynomial], random: &mut Random) -> Option<Found> {
+    pub(crate) fn search(
+        &self,
+        known: &[Polynomial],
+        allowed: u64,
+        random: &mut Random,
+    ) -> Option<Found> {
+        let mut work = 0;
         let mut pairs: Vec<Pair> = self.integrals(random)?;
         let mut points: Vec<(usize, Vec<Residue>)> = Vec::new();
         for number in 0..LINES {
+            if number > 0 && work + self.work() > allowed {
+                break;
+            }
             let line = self.line(random)?;
             let mut divisor = self.divisor(&line);
             for own in known
@@ -163,6 +177,8 @@ impl<'a, 'f> Extactic<'a, 'f> {
                 divisor = self.without(&line, divisor, own)?;
             }
             let zeros = roots(self.field(), &divisor, random);
+            work += self.work();
+            work += ROOT * (divisor.len() as u64).pow(2) * (1 + zeros.len() as u64);
             points.extend(
                 zeros
                     .iter()
@@ -192,12 +208,14 @@ impl<'a, 'f> Extactic<'a, 'f> {
                 return Some(Found {
                     pairs,
                     exhausted: true,
+                    work,
                 });
             }
         }
         Some(Found {
             pairs,
             exhausted: false,
+            work,
         })
     }
 

@@ -63,6 +63,42 @@ fn search(cx: &Context<'_>, motion: &Motion<'_>) -> Option<Factors> {
 }
 
 impl Factors {
+    /// Where Darboux polynomials were searched, in words, the largest degree of each set of letters; `None` where nowhere.
+    #[must_use]
+    pub fn exhausted(&self, g: &Graph) -> Option<String> {
+        let mut sets: Vec<(&[Expr], u32, bool)> = Vec::new();
+        // With one letter alone nothing is said.
+        for family in self
+            .families
+            .iter()
+            .filter(|family| family.letters.len() > 1)
+        {
+            match sets.last_mut() {
+                Some((letters, degree, all)) if *letters == family.letters => {
+                    *degree = family.degree;
+                    *all &= family.exhausted;
+                }
+                _ => sets.push((&family.letters, family.degree, family.exhausted)),
+            }
+        }
+        let each = sets.iter().map(|(letters, degree, all)| {
+            let names: Vec<String> = letters.iter().map(|&e| g.text(e)).collect();
+            let open = if *all {
+                ""
+            } else {
+                " (zeros were left unexplained)"
+            };
+            format!("of degree up to {degree} in {}{open}", names.join(", "))
+        });
+        let each: Vec<String> = each.collect();
+        (!each.is_empty()).then(|| {
+            format!(
+                "Darboux polynomials, for which X P = K P, by the zeros of the extactic polynomial at random constants of a prime field: {}",
+                each.join(", ")
+            )
+        })
+    }
+
     fn fill(&mut self, cx: &Context<'_>, found: &Pairs) {
         let g = &cx.system.graph;
         self.integrals.extend(&found.integrals);

@@ -50,7 +50,7 @@ impl Kept {
                 known,
             });
         }
-        let local = measure.local.as_ref();
+        let local = measure.local.as_ref().filter(|_| reduced.near_states);
         let local = local.filter(|(density, _)| is_of_reduced(cx, reduced, *density, counts));
         if let Some((_, proof)) = local {
             return Ok(Kept {
