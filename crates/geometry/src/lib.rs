@@ -28,6 +28,7 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &cartan_claim::Cartan,
     &noether::claims::FamilySearched,
     &noether::claims::FirstIntegral,
+    &noether::claims::IntegralOfForm,
     &noether::claims::Killing,
     &noether::claims::Structure,
     &noether::claims::Contraction,

@@ -45,6 +45,8 @@ pub struct Reduced {
     pub variables: usize,
     /// Whether the time is one of them.
     pub timed: bool,
+    /// Whether a measure counts whose density is zero or infinite at some states: one near each of the others.
+    pub near_states: bool,
     /// Turns that are left out besides, of which this many are independent on the rest.
     turns: Vec<Turn>,
     chart: Characteristics,
@@ -110,6 +112,7 @@ impl Reduced {
             constant,
             cyclic,
             timed,
+            near_states: false,
             turns: Vec::new(),
             chart,
             rates,
@@ -272,14 +275,17 @@ fn says_more_as_stated(cx: &Context<'_>) -> bool {
 /// The count with whatever is left out; what is said is of the fewest variables.
 fn counted_for_all(cx: &Context<'_>) -> Result<Verdict, String> {
     let reduced = Reduced::of(cx)?;
-    let verdict = counted_with_time(cx, &reduced)?;
-    if matches!(verdict, Verdict::Proved(_)) {
-        return Ok(verdict);
+    let mut verdict = counted_with_turns(cx, &reduced)?;
+    if matches!(verdict, Verdict::Undecided { .. }) {
+        let near_states = Reduced {
+            near_states: true,
+            ..reduced
+        };
+        let other = counted_with_turns(cx, &near_states)?;
+        if !matches!(other, Verdict::Undecided { .. }) {
+            verdict = other;
+        }
     }
-    let verdict = match reduced.without_turns(cx) {
-        Some(turned) => counted_with_time(cx, &turned)?,
-        None => verdict,
-    };
     Ok(match verdict {
         Verdict::Undecided { tried } => match in_involution(cx) {
             Some(Involution::Suffice(verdict)) => *verdict,
@@ -288,6 +294,18 @@ fn counted_for_all(cx: &Context<'_>) -> Result<Verdict, String> {
         },
         other => other,
     })
+}
+
+/// The count as it is, or, where that does not suffice, without turns.
+fn counted_with_turns(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {
+    let verdict = counted_with_time(cx, reduced)?;
+    if matches!(verdict, Verdict::Proved(_)) {
+        return Ok(verdict);
+    }
+    match reduced.without_turns(cx) {
+        Some(turned) => counted_with_time(cx, &turned),
+        None => Ok(verdict),
+    }
 }
 
 fn counted_with_time(cx: &Context<'_>, reduced: &Reduced) -> Result<Verdict, String> {

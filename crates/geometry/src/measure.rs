@@ -54,6 +54,9 @@ pub struct Measure {
     /// A density N(t, q) of `N dt dq dη`, for a motion free of the time that keeps one with the time although none without was found,
     /// with its proof.
     pub with_time: Option<(Expr, Verdict)>,
+    /// A density that contains velocities and is kept near every state where it is neither zero nor infinite, where none was found that
+    /// is smooth and positive everywhere, with its proof.
+    pub local: Option<(Expr, Verdict)>,
     /// Whether there is one, with evidence.
     pub verdict: Verdict,
     /// The divergence of X̄.
@@ -96,7 +99,7 @@ fn decided(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
         if let Some(verdict) = excluded::at_states(cx, flow).filter(|_| is_local) {
             measure.verdict = verdict;
         }
-        return measure.or_exponential(cx, flow);
+        return measure.or_exponential(cx, flow).or_local(cx, flow);
     };
     if let Some(mut verdict) = excluded::at_states(cx, flow) {
         if let Verdict::Refuted(found) = &mut verdict {
@@ -146,6 +149,28 @@ impl Measure {
         }
     }
 
+    /// With a product of powers of Darboux polynomials that contains velocities, where no density was found.
+    fn or_local(mut self, cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
+        if self.density.is_some() || !flow.autonomous {
+            return self;
+        }
+        let local = products::density_with_velocities(cx, flow);
+        self.local = local.map(|(density, proof)| (formula::positive_beyond(cx, density), proof));
+        if let Some((density, _)) = &self.local {
+            let more = format!(
+                "; {} dq dη with {0} = {} is kept near every state where {0} is neither zero nor infinite",
+                density_letter(cx),
+                cx.system.graph.text(readable(&cx.system.graph, *density))
+            );
+            match &mut self.verdict {
+                Verdict::Refuted(found) => found.detail.push_str(&more),
+                Verdict::Undecided { tried } => tried.push_str(&more),
+                _ => {}
+            }
+        }
+        self
+    }
+
     /// With a density that contains velocities in an exponential, where one is found and nothing is decided, or where the density
     /// found ends.
     fn or_exponential(mut self, cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
@@ -176,6 +201,7 @@ fn searched(cx: &Context<'_>, flow: &Flow<'_>) -> Measure {
         edges: edges::Edges::default(),
         unrolled: Vec::new(),
         with_time: None,
+        local: None,
         verdict,
         divergence: Some(flow.divergence),
         velocities: flow

@@ -2,8 +2,9 @@
 
 use crate::mass::NamedMasses;
 use crate::system::{
-    Assumption, CharacteristicFormulas, CompleteIntegral, FrameFields, Particle, Relation,
-    StatedEquations, SteadyMotion, System, SystemError, SystemParts, Thrust, Twin, VariationOperator,
+    Assumption, CharacteristicFormulas, CompleteIntegral, FrameFields, IntegralForm, Particle,
+    Relation, StatedEquations, SteadyMotion, System, SystemError, SystemParts, Thrust, Twin,
+    Unknown, VariationOperator,
 };
 use chetaev_model::model::{MassLaw, Model, SteadyStated, Thrust as StatedThrust};
 use chetaev_symbolic::syntax::Relation as Stated;
@@ -115,6 +116,22 @@ impl System {
                 .integrals
                 .iter()
                 .map(|i| (i.name.clone(), i.value))
+                .collect(),
+            integral_forms: model
+                .integral_forms
+                .iter()
+                .map(|own| IntegralForm {
+                    name: own.form.name.clone(),
+                    value: own.form.value,
+                    unknowns: own
+                        .unknowns
+                        .iter()
+                        .map(|unknown| Unknown {
+                            symbol: unknown.symbol,
+                            arguments: unknown.arguments.clone(),
+                        })
+                        .collect(),
+                })
                 .collect(),
             variations: model
                 .variations

@@ -210,6 +210,7 @@ impl System {
         all.extend(conditions.flat_map(|(_, left, right, _)| [left, right]));
         all.extend(&mut self.search_functions);
         all.extend(self.integrals.iter_mut().map(|(_, e)| e));
+        all.extend(self.integral_forms.iter_mut().map(|form| &mut form.value));
         let variations = self.variations.iter_mut().flat_map(|v| &mut v.relations);
         all.extend(variations.map(|(_, e)| e));
         if let Some(complete) = &mut self.complete_integral {

@@ -97,6 +97,26 @@ pub struct CharacteristicFormulas {
     pub formulas: Vec<Expr>,
 }
 
+/// A form of a first integral, `a x'^2 + h(x)`, whose unknowns are to be solved for.
+#[derive(Clone, Debug)]
+pub struct IntegralForm {
+    /// Its name.
+    pub name: String,
+    /// The form, with a symbol for each unknown.
+    pub value: Expr,
+    /// The unknown constants and functions.
+    pub unknowns: Vec<Unknown>,
+}
+
+/// An unknown constant, or an unknown function.
+#[derive(Clone, Debug)]
+pub struct Unknown {
+    /// Its symbol in the form.
+    pub symbol: Expr,
+    /// The coordinates and the time that a function depends on; none for a constant.
+    pub arguments: Vec<Expr>,
+}
+
 /// A linear differential operator on virtual displacements for the variations of some velocities, δv = A(δq) (T1 (42)).
 #[derive(Clone, Debug)]
 pub struct VariationOperator {
@@ -275,6 +295,8 @@ pub struct SystemParts {
     pub search_degree: Option<u32>,
     /// Functions that the user expects to be first integrals, as (name, G).
     pub integrals: Vec<(String, Expr)>,
+    /// Forms of first integrals with unknown constants and functions.
+    pub integral_forms: Vec<IntegralForm>,
     /// Operators for the variations of velocities.
     pub variations: Vec<VariationOperator>,
     /// A complete integral of the equation of Hamilton and Jacobi that the model states.
@@ -402,6 +424,8 @@ pub struct System {
     pub search_degree: Option<u32>,
     /// Functions that the model states as first integrals, with their names.
     pub integrals: Vec<(String, Expr)>,
+    /// Forms of first integrals with unknown constants and functions.
+    pub integral_forms: Vec<IntegralForm>,
     /// Operators for the variations of velocities that the model states.
     pub variations: Vec<VariationOperator>,
     /// A complete integral of the equation of Hamilton and Jacobi that the model states.
@@ -519,6 +543,7 @@ impl System {
             search_functions: parts.search_functions,
             search_degree: parts.search_degree,
             integrals: parts.integrals,
+            integral_forms: parts.integral_forms,
             variations: parts.variations,
             complete_integral: parts.complete_integral,
             steady: parts.steady,

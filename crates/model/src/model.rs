@@ -81,6 +81,8 @@ pub struct Model {
     pub events: Vec<EventStated>,
     /// Candidate first integrals.
     pub integrals: Vec<Definition>,
+    /// Forms of first integrals with unknown constants and functions.
+    pub integral_forms: Vec<IntegralForm>,
     /// Operators for the variations of velocities.
     pub variations: Vec<Variation>,
     /// A complete integral of the equation of Hamilton and Jacobi.
@@ -206,6 +208,26 @@ pub struct Definition {
     pub description: String,
     /// Where it is stated.
     pub place: Place,
+}
+
+/// A form of a first integral, `a x'^2 + h(x)`, whose unknowns are to be solved for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IntegralForm {
+    /// The form, with a symbol for each unknown.
+    pub form: Definition,
+    /// What is unknown in it.
+    pub unknowns: Vec<Unknown>,
+}
+
+/// An unknown constant, or an unknown function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unknown {
+    /// Its name, `h`.
+    pub name: String,
+    /// Its symbol in the form.
+    pub symbol: Expr,
+    /// What a function depends on: coordinates and the time; nothing for a constant.
+    pub arguments: Vec<Expr>,
 }
 
 /// A linear differential operator for the variations of velocities, δv = A(δq).

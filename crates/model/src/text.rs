@@ -16,6 +16,14 @@ pub struct Text {
 }
 
 impl Text {
+    /// The same text with other content of the same length in bytes.
+    pub(crate) fn with_content(&self, content: String) -> Text {
+        Text {
+            content,
+            ..self.clone()
+        }
+    }
+
     /// A text that stands in its source exactly as it is meant, from byte `start` on.
     pub(crate) fn verbatim(content: impl Into<String>, source: SourceId, start: usize) -> Text {
         let content = content.into();

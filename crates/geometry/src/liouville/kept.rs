@@ -50,6 +50,15 @@ impl Kept {
                 known,
             });
         }
+        let local = measure.local.as_ref().filter(|_| reduced.near_states);
+        let local = local.filter(|(density, _)| is_of_reduced(cx, reduced, *density, counts));
+        if let Some((_, proof)) = local {
+            return Ok(Kept {
+                evidence: proof.clone(),
+                suffices: "a measure near almost every state is kept, whose density is zero or infinite elsewhere (`measure.invariant`)",
+                known: "an invariant measure near almost every state is known".into(),
+            });
+        }
         // A density that changes with the time is one where the time is a variable.
         if let (None, Some((density, proof)), true) =
             (measure.density, &measure.with_time, reduced.timed)
@@ -142,14 +151,24 @@ fn with_formula(
     measure: &Measure,
     counts: &dyn Fn(Expr) -> bool,
 ) -> Option<Verdict> {
-    let g = &cx.system.graph;
     // One for the values that the model states is none for arbitrary ones.
     let (density, proof) = measure.density.zip(measure.kept.clone())?;
+    let is_one = !measure.as_stated && is_of_reduced(cx, reduced, density, counts);
+    is_one.then_some(proof)
+}
+
+/// Whether a density is free of what is left out, and carried along by turns.
+fn is_of_reduced(
+    cx: &Context<'_>,
+    reduced: &Reduced,
+    density: Expr,
+    counts: &dyn Fn(Expr) -> bool,
+) -> bool {
+    let g = &cx.system.graph;
     let is_carried = |turn: &Turn| {
         let rate = reduced.turned(cx, &[density], turn)[0];
         let defect = g.add(&[rate, g.mul(&[density, turn.divergence])]);
         vanishes(cx, &reduced.chart, defect)
     };
-    let is_one = !measure.as_stated && counts(density) && reduced.turns.iter().all(is_carried);
-    is_one.then_some(proof)
+    counts(density) && reduced.turns.iter().all(is_carried)
 }

@@ -9,6 +9,7 @@ use super::{angles, formula};
 use crate::noether::ansatz::Ansatz;
 use crate::noether::family::coefficients;
 use crate::noether::shown::readable;
+use chetaev_integrals::factors::factors as darboux;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::factors::{factored, factors};
 use chetaev_symbolic::simplify::length;
@@ -27,13 +28,38 @@ pub(super) fn density(
     flow: &Flow<'_>,
     angles: &[usize],
 ) -> Option<(Expr, Verdict)> {
+    of_bases(cx, flow, angles, bases(cx, flow))
+}
+
+/// A density that contains velocities: a product of powers of Darboux polynomials too, `X̄ F = K F`. It may be zero or infinite where
+/// one of these vanishes.
+pub(super) fn density_with_velocities(
+    cx: &Context<'_>,
+    flow: &Flow<'_>,
+) -> Option<(Expr, Verdict)> {
+    let darboux = darboux(cx, &flow.motion);
+    let own = flow.chart.restrict(cx.system, &darboux.bases);
+    let own = own.into_iter().filter(|&e| flow.is_wanted(e));
+    let mut all = bases(cx, flow);
+    let plain = all.len();
+    all.extend(own.map(|e| formula::positive(cx, e)));
+    (all.len() > plain).then(|| of_bases(cx, flow, &[], all))?
+}
+
+/// A density that is a product of powers of these functions.
+fn of_bases(
+    cx: &Context<'_>,
+    flow: &Flow<'_>,
+    angles: &[usize],
+    mut bases: Vec<Expr>,
+) -> Option<(Expr, Verdict)> {
     let (system, g) = (cx.system, &cx.system.graph);
-    let (mut bases, mut exponents) = (bases(cx, flow), exponents(cx, flow));
+    let mut exponents = exponents(cx, flow);
     let returns = |e: &Expr| angles.iter().all(|&j| angles::returns(cx, *e, j));
     bases.retain(returns);
     exponents.retain(returns);
     let all = [&bases[..], &exponents[..]].concat();
-    let rates = flow.chart.frozen_derivative(system, &all);
+    let rates = flow.rates_of(system, &all);
     let mut columns: Vec<Vec<Expr>> = Vec::new();
     for (i, &rate) in rates.iter().enumerate() {
         columns.push(vec![match bases.get(i) {
@@ -122,13 +148,13 @@ fn logarithmic_rate(flow: &Flow<'_>, density: Expr) -> Expr {
             arguments,
         } = g.node(base)
         {
-            let rate = flow.chart.frozen_derivative(system, &arguments[..1])[0];
+            let rate = flow.rates_of(system, &arguments[..1])[0];
             return g.mul(&[exponent, rate]);
         }
         // What is inside a root counts as a product again.
         let inner = match g.node(base) {
             Node::Product { .. } => logarithmic_rate(flow, base),
-            _ => g.div(flow.chart.frozen_derivative(system, &[base])[0], base),
+            _ => g.div(flow.rates_of(system, &[base])[0], base),
         };
         g.mul(&[exponent, inner])
     });

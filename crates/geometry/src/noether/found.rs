@@ -14,6 +14,7 @@ use super::shorter::shorter;
 use super::shown::{on_constraints, readable, shortest, with_power, without_constant_factor};
 use super::special::{special, Specials};
 use super::written::in_quasi_velocities;
+use chetaev_integrals::factors::factors;
 use chetaev_mechanics::Context;
 use chetaev_symbolic::number::prime_field::Residue;
 use chetaev_symbolic::simplify::length;
@@ -45,6 +46,8 @@ pub struct Found {
     pub momenta: Vec<Momenta>,
     /// The functions of whose powers products were searched; none where these were too many.
     pub powers: Vec<Expr>,
+    /// Where Darboux polynomials were searched for these products, in words; nothing where they were not.
+    pub darboux: Option<String>,
     /// The functions of whose combinations exponentials are factors of these products.
     pub exponents: Vec<Expr>,
     /// The degree in coordinates and velocities up to which functions times exponentials of the time were searched; 0 for none.
@@ -132,6 +135,7 @@ fn in_letters(cx: &Context<'_>, motion: &Motion<'_>, letters: &Letters) -> Resul
         families: searched,
         momenta: all_momenta,
         powers,
+        darboux: factors(cx, motion).exhausted(&cx.system.graph),
         exponents,
         exponentials,
         integrals,
@@ -324,7 +328,11 @@ fn add_products(
                 value: product.logarithm,
                 ..product.integral.clone()
             });
-            integrals.push(product.integral);
+            let shown = shortest(cx, &product.integral);
+            integrals.push(Integral {
+                shown,
+                ..product.integral
+            });
         }
     }
     (factors.bases(), factors.exponents)

@@ -14,12 +14,9 @@
 //!    symmetries, `cyclic` velocities, `fixed` and [`moving`] directions and axes.
 //! 7. *What is stated of them?* [`claims`], one file each.
 
-mod algebraic;
-pub mod ansatz;
 mod automatic;
 pub mod claims;
 mod conjugate;
-mod constants;
 mod critical;
 pub(crate) mod cyclic;
 mod dependence;
@@ -31,9 +28,7 @@ pub mod found;
 pub mod generator;
 pub mod killing;
 pub mod letters;
-mod lift;
 mod lifting;
-pub mod motion;
 pub mod moving;
 pub(crate) mod occurring;
 mod parallel;
@@ -46,3 +41,6 @@ pub(crate) mod shown;
 pub mod special;
 mod vectors;
 mod written;
+
+pub use chetaev_integrals::{ansatz, motion};
+use chetaev_integrals::{constants, lift};

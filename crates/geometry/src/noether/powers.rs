@@ -1,7 +1,8 @@
 //! First integrals that are products of powers, `Π F_i^{e_i} exp(Σ c_j h_j)`, as `x' y^k`: for given F_i and h_j the exponents enter
 //! `X̄ ln G = Σ e_i X̄F_i/F_i + Σ c_j X̄h_j = 0` linearly, so they are solved for, whatever numbers or functions of the parameters they
 //! are. Where F may be negative and e is not whole it stands by its absolute value, whose logarithm has the same derivative.
-//! The F are velocities and functions that occur: with one velocity and the density N of an invariant measure this is `N η_i`.
+//! The F are velocities, functions that occur and Darboux polynomials of the motion: with one velocity and the density N of an
+//! invariant measure this is `N η_i`. The h are coordinates, the time and the arguments of complex Darboux polynomials.
 
 use super::ansatz::Ansatz;
 use super::letters::Letters;
@@ -9,6 +10,7 @@ use super::motion::Motion;
 use super::search::Integral;
 use super::shown::readable;
 use crate::measure::on_both_sides;
+use chetaev_integrals::factors::{factors as darboux, Factors as Darboux};
 use chetaev_mechanics::Context;
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::{Expr, Function, Node, Verdict};
@@ -40,6 +42,7 @@ pub(super) fn products(
         return None;
     }
     factors.extend(cx, motion, FACTORS - plain);
+    factors.join(cx, &darboux(cx, motion));
     let all = factors.all();
     let rates: Vec<Expr> = motion
         .derivatives(&all)
@@ -74,6 +77,8 @@ pub(super) struct Factors {
     places: Vec<Expr>,
     pub(super) exponents: Vec<Expr>,
     velocities: Vec<Expr>,
+    /// Arguments of complex functions; they stand in the exponent too.
+    arguments: Vec<Expr>,
 }
 
 impl Factors {
@@ -87,7 +92,25 @@ impl Factors {
             places: places(cx, letters),
             exponents: plain.chain([g.symbol("t", 0)]).collect(),
             velocities: letters.velocities.iter().map(|l| l.value).collect(),
+            arguments: Vec::new(),
         }
+    }
+
+    /// Adds the Darboux functions of the motion, as far as there is room.
+    fn join(&mut self, cx: &Context<'_>, darboux: &Darboux) {
+        let g = &cx.system.graph;
+        let known = |own: &Factors, e: Expr| {
+            let mut all = own.velocities.iter().chain(&own.places);
+            all.any(|&other| other == e || other == g.neg(e))
+        };
+        let mut room = (2 * FACTORS).saturating_sub(self.all().len());
+        for &e in &darboux.bases {
+            if room > 0 && !known(self, e) {
+                self.velocities.push(e);
+                room -= 1;
+            }
+        }
+        self.arguments = darboux.arguments.iter().copied().take(room).collect();
     }
 
     /// Adds products of two coordinates to the exponents, and to the velocities what their rates vanish with, as k x'² - g of
@@ -133,11 +156,14 @@ impl Factors {
     }
 
     fn all(&self) -> Vec<Expr> {
-        [&self.places[..], &self.exponents, &self.velocities].concat()
+        let exponents = [&self.exponents[..], &self.velocities].concat();
+        [&self.places[..], &exponents, &self.arguments].concat()
     }
 
     fn is_exponent(&self, i: usize) -> bool {
-        (self.places.len()..self.places.len() + self.exponents.len()).contains(&i)
+        let first = self.places.len();
+        let velocities = first + self.exponents.len();
+        (first..velocities).contains(&i) || i >= velocities + self.velocities.len()
     }
 
     /// The product with these exponents, where its logarithm is proved to keep its value.
@@ -163,7 +189,13 @@ impl Factors {
         let residual = g.add(&terms.collect::<Vec<Expr>>());
         let (manifold, on) = (&motion.manifold, "on the constraint manifold");
         let verdict = cx.prover.identity(cx.system, &[residual], manifold, on);
-        let value = on_both_sides(cx, g.mul(&parts));
+        let logarithm = g.add(&logarithms);
+        let is_exponent = |i: usize| self.is_exponent(i) || g.is_zero(own[i]);
+        // An exponential alone keeps its value as its exponent does.
+        let value = match (0..own.len()).all(is_exponent) {
+            true => logarithm,
+            false => on_both_sides(cx, g.mul(&parts)),
+        };
         matches!(verdict, Verdict::Proved(_)).then_some(Product {
             integral: Integral {
                 value,
@@ -172,7 +204,7 @@ impl Factors {
                 independent: true,
                 name: None,
             },
-            logarithm: g.add(&logarithms),
+            logarithm,
         })
     }
 }

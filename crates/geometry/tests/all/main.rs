@@ -3,6 +3,7 @@
 
 mod common;
 mod components;
+mod darboux;
 mod densities;
 mod examples;
 mod families;

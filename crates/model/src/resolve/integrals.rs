@@ -9,26 +9,39 @@ use super::formula::Expected;
 use super::scope::Context;
 use super::Resolver;
 use crate::diagnostic::Diagnostic;
-use crate::model::{Definition, IntegralCondition};
+use crate::model::{Definition, IntegralCondition, IntegralForm};
 use crate::raw::{Kind, Raw, Table};
 
 /// The degrees in the velocities up to which a model may ask for integrals.
 const SEARCH_DEGREES: std::ops::RangeInclusive<u32> = 2..=6;
 
+/// What `[integrals]` states.
+#[derive(Default)]
+pub(crate) struct StatedIntegrals {
+    pub(crate) integrals: Vec<Definition>,
+    /// Where they hold on a part of the states only.
+    pub(crate) conditions: Vec<IntegralCondition>,
+    /// Forms with unknowns.
+    pub(crate) forms: Vec<IntegralForm>,
+}
+
 impl Resolver {
-    pub(crate) fn integrals(&mut self, root: &Table) -> (Vec<Definition>, Vec<IntegralCondition>) {
-        let mut integrals: Vec<Definition> = Vec::new();
-        let mut conditions = Vec::new();
+    pub(crate) fn integrals(&mut self, root: &Table) -> StatedIntegrals {
+        let mut stated = StatedIntegrals::default();
         let Some(table) = self.section(root, "integrals") else {
-            return (integrals, conditions);
+            return stated;
         };
         for (key, raw) in &table.entries {
             let mut description = String::new();
             let mut value = Some(raw);
-            let mut on = None;
+            let (mut on, mut unknown) = (None, None);
             if let Kind::Table(table) = &raw.kind {
-                self.known_keys(table, &["value", "on", "description"], "of an integral");
-                on = table.get("on");
+                self.known_keys(
+                    table,
+                    &["value", "on", "unknown", "description"],
+                    "of an integral",
+                );
+                (on, unknown) = (table.get("on"), table.get("unknown"));
                 description = self
                     .optional_text(table, "description")
                     .map_or_else(String::new, |text| text.content.trim().to_owned());
@@ -45,17 +58,23 @@ impl Resolver {
             let Some(text) = self.expression_text(value, "an integral") else {
                 continue;
             };
+            if let Some(unknown) = unknown {
+                stated
+                    .forms
+                    .extend(self.integral_form(key, &text, unknown, description));
+                continue;
+            }
             self.parse(&text, parse_expression);
             for Instance { name, bindings, .. } in self.own_names(key, "an integral") {
                 if let Some(on) = on {
-                    self.integral_on(on, &name, &bindings, &mut conditions);
+                    self.integral_on(on, &name, &bindings, &mut stated.conditions);
                 }
                 let expected = Expected::Anything;
                 if let Some(value) =
                     self.expression(&text, &bindings, Context::jet("an integral"), expected)
                 {
                     let (text, description) = (text.content.clone(), description.clone());
-                    integrals.push(Definition {
+                    stated.integrals.push(Definition {
                         name,
                         value,
                         text,
@@ -65,7 +84,7 @@ impl Resolver {
                 }
             }
         }
-        (integrals, conditions)
+        stated
     }
 
     /// `on = ["theta = th", "theta' = 0"]`.

@@ -22,6 +22,7 @@ mod sections;
 mod steady;
 mod system;
 mod twin;
+mod unknowns;
 mod variation;
 
 use std::cell::RefCell;
@@ -194,7 +195,7 @@ impl Resolver {
         let steady = self.steady(root);
         let simulation = self.simulation(root);
         let events = self.events(root, &constraints);
-        let (integrals, integral_conditions) = self.integrals(root);
+        let stated = self.integrals(root);
         let (search, search_degree) = self.search(root);
         let variations = self.variations(root);
         let complete_integral = self.complete_integral(root);
@@ -243,10 +244,11 @@ impl Resolver {
             steady,
             simulation,
             events,
-            integrals,
+            integrals: stated.integrals,
+            integral_forms: stated.forms,
             variations,
             complete_integral,
-            integral_conditions,
+            integral_conditions: stated.conditions,
             equations,
             twins,
             search,

@@ -289,8 +289,11 @@ pub fn fraction(
     (degrees + SPARE <= values.len() + 1).then_some((above, below))
 }
 
-/// ∏ (x - x_i), and the polynomial of degree below their number with these values.
-fn interpolated(field: &PrimeField, values: &[(Residue, Residue)]) -> (Vec<Residue>, Vec<Residue>) {
+/// ∏ (x - x_i), and the polynomial of degree below their number that has these values at x_i.
+pub fn interpolated(
+    field: &PrimeField,
+    values: &[(Residue, Residue)],
+) -> (Vec<Residue>, Vec<Residue>) {
     let (mut all, mut f) = (vec![field.one()], Vec::new());
     for &(x, y) in values {
         let slope = field.inv(value(field, &all, x)).unwrap_or(Residue::ZERO);

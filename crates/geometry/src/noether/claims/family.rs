@@ -44,7 +44,7 @@ impl Claim for FamilySearched {
          angles, its roots and exponentials, powers of coordinates, time and masses with a law of their own, logarithms of masses that vary, roots of the factors of the determinant of \
          the mass matrix; in a family of its own sines and cosines of multiples of polar angles that occur nowhere; for curvilinear coordinates polynomials in the \
          momenta and the energy, in which moments of momentum and the integrals of separable systems are short; products of any powers of \
-         velocities and functions, whose exponents are solved for; functions of first and second degree times exponentials, sines and cosines of the time, whose exponents are \
+         velocities, functions and Darboux polynomials P, for which X̄P = K P, whose exponents are solved for, and the arguments of complex ones; functions of first and second degree times exponentials, sines and cosines of the time, whose exponents are \
          eigenvalues of the motion on them). The \
          family is as large as the budget allows and is stated; terms of a higher degree in the velocities than two are in it where the \
          model asks for them by [search] degree. X̄G = 0 on the constraint manifold is a linear system for the \
@@ -245,6 +245,7 @@ fn families(cx: &Context<'_>, found: &Found) -> String {
             exponents.join(", ")
         ));
     }
+    families.extend(found.darboux.clone());
     let functions = match found.exponentials {
         0 => None,
         1 => Some("linear functions"),

@@ -1,13 +1,13 @@
 //! What does not move in expressions on a manifold: parameters, and functions of these.
 
-use super::motion::Motion;
+use crate::motion::Motion;
 use chetaev_mechanics::Manifold;
 use chetaev_symbolic::factors::factored;
 use chetaev_symbolic::{Expr, Node};
 
 /// The parameters that occur in functions on a manifold or in what ties these, and the functions of parameters alone that are no
 /// rational functions of them.
-pub(super) fn constants(motion: &Motion<'_>, manifold: &Manifold, outputs: &[Expr]) -> Vec<Expr> {
+pub fn constants(motion: &Motion<'_>, manifold: &Manifold, outputs: &[Expr]) -> Vec<Expr> {
     let g = &motion.system.graph;
     let is_constant = |e: Expr| g.is_free_of(e, &|s| motion.moves(s));
     let mut roots = outputs.to_vec();

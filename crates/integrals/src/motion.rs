@@ -13,11 +13,11 @@ use chetaev_symbolic::zero::points::{Draw, Points, PointsOf};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 
 /// Why functions could not be compared.
-pub(super) const NO_POINTS: &str =
+pub const NO_POINTS: &str =
     "no velocities that satisfy the constraints were found modulo a prime, where functions are compared";
 
 /// How many draws are tried until one has points.
-pub(crate) const DRAWS: usize = 12;
+pub const DRAWS: usize = 12;
 
 /// A draw that has points: where a root of parameters alone must be rational, as √(1 + a²) on Appell's cone, half of all draws
 /// have none.
@@ -30,11 +30,7 @@ pub fn draw_with_points(points: &Points, random: &mut Random) -> Option<Draw> {
 }
 
 /// Other values of what does not move, for which there are points too.
-pub(crate) fn redraw_with_points(
-    points: &Points,
-    draw: &Draw,
-    random: &mut Random,
-) -> Option<Draw> {
+pub fn redraw_with_points(points: &Points, draw: &Draw, random: &mut Random) -> Option<Draw> {
     (0..DRAWS).find_map(|_| {
         let next = points.redraw(draw, random)?;
         let mut probe = random.clone();

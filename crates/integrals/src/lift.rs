@@ -6,7 +6,7 @@
 //! solution gives the reduced fraction. Its coefficients are rational numbers, found from their classes. Nothing found here is
 //! believed: the integral built of it is proved or dropped.
 
-use super::algebraic::combination;
+use crate::algebraic::combination;
 use chetaev_symbolic::number::modular_matrix::null_space;
 use chetaev_symbolic::number::prime_field::{PrimeField, Residue};
 use chetaev_symbolic::number::reconstruct::rational;
@@ -29,15 +29,15 @@ const BUDGET: Budget = Budget {
 
 /// A null vector at one choice of parameters.
 #[derive(Clone, Debug)]
-pub(super) struct Sample {
+pub struct Sample {
     /// The values of the parameters.
-    pub(super) parameters: Vec<Residue>,
+    pub parameters: Vec<Residue>,
     /// The entries.
-    pub(super) entries: Vec<Residue>,
+    pub entries: Vec<Residue>,
 }
 
 /// Where samples come from.
-pub(super) trait Source {
+pub trait Source {
     /// The prime field of all samples.
     fn field(&self) -> PrimeField;
     /// One more sample at random parameters.
@@ -52,7 +52,7 @@ pub(super) trait Source {
 }
 
 /// The roots of rational numbers among the parameters, with the number of different powers of each.
-pub(super) fn roots_of_numbers(g: &Graph, parameters: &[Expr]) -> Vec<(usize, u32)> {
+pub fn roots_of_numbers(g: &Graph, parameters: &[Expr]) -> Vec<(usize, u32)> {
     let powers = |e: Expr| match g.node(e) {
         Node::Power { base, exponent } if g.as_number(*base).is_some() => {
             u32::try_from(g.as_number(*exponent)?.denominator().clone()).ok()
@@ -90,7 +90,7 @@ fn products_of_roots(roots: &[(usize, u32)], parameters: usize) -> Vec<Vec<u32>>
 }
 
 /// The entries as functions of the parameters; `None` when some entry is none of moderate degree.
-pub(super) fn entries(source: &mut dyn Source, count: usize) -> Option<Vec<RationalFunction>> {
+pub fn entries(source: &mut dyn Source, count: usize) -> Option<Vec<RationalFunction>> {
     let meter = Meter::new(BUDGET);
     let field = source.field();
     let first = source.sample()?;
@@ -422,7 +422,7 @@ fn exponents(most: &[u32], degree: u32) -> Vec<Vec<u32>> {
 }
 
 /// The entries, a one in front, as polynomials without common factor.
-pub(super) fn cleared(entries: &[RationalFunction]) -> Option<Vec<Polynomial>> {
+pub fn cleared(entries: &[RationalFunction]) -> Option<Vec<Polynomial>> {
     let meter = Meter::new(BUDGET);
     let mut common = Polynomial::one();
     for entry in entries {
@@ -442,7 +442,7 @@ pub(super) fn cleared(entries: &[RationalFunction]) -> Option<Vec<Polynomial>> {
 }
 
 /// A polynomial in these letters as an expression.
-pub(super) fn expression(g: &Graph, polynomial: &Polynomial, letters: &[Expr]) -> Expr {
+pub fn expression(g: &Graph, polynomial: &Polynomial, letters: &[Expr]) -> Expr {
     let terms: Vec<Expr> = polynomial
         .terms()
         .iter()

@@ -3,9 +3,9 @@
 //! Solved as the search for first integrals is: modulo a prime at random points with random parameters, then lifted to functions
 //! of the parameters. Nothing found here is believed: whoever asks proves what it is for.
 
-use super::constants::constants;
-use super::lift::{self, Sample};
-use super::motion::{draw_with_points, redraw_with_points, Motion};
+use crate::constants::constants;
+use crate::lift::{self, Sample};
+use crate::motion::{draw_with_points, redraw_with_points, Motion};
 use chetaev_mechanics::prover;
 use chetaev_mechanics::Manifold;
 use chetaev_symbolic::number::modular_matrix::null_space;

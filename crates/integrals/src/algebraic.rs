@@ -18,7 +18,7 @@ const MARGIN: f64 = 3.0;
 const STEPS: usize = 20_000;
 
 /// The rational coefficients of a class as a combination of numbers with these classes, the first of which is 1.
-pub(super) fn combination(
+pub(crate) fn combination(
     field: &PrimeField,
     class: Residue,
     numbers: &[Residue],
