@@ -113,9 +113,31 @@ pub fn verify(record: &Record, hooks: &mut Hooks<'_>) -> Result<Vec<Verified>, V
         .map(|v| compare(v, record, &same, &other))
         .collect();
     lines.extend(missing(record, &same));
+    lines.extend(lowered(record, &same));
     lines.extend(trajectory::compare(record, &same));
     lines.extend(notices::compare(record, &same));
     Ok(lines)
+}
+
+/// What the record says of the lowered model and of the equations, and not the replay. A record of another version may have neither.
+fn lowered(record: &Record, same: &Record) -> Vec<Verified> {
+    if record.chetaev != same.chetaev {
+        return Vec::new();
+    }
+    let parts = [
+        ("model.flat", record.model.flat != same.model.flat),
+        ("equations", record.equations != same.equations),
+    ];
+    let changed = parts.into_iter().filter(|(_, changed)| *changed);
+    changed
+        .map(|(name, _)| Verified {
+            claim: name.into(),
+            recorded: "as stated".into(),
+            replay: Replay::Numbers {
+                what: format!("`{name}` is not what the replay finds"),
+            },
+        })
+        .collect()
 }
 
 fn model(record: &Record) -> Result<Model, VerifyError> {
