@@ -2,7 +2,7 @@
 from fractions import Fraction
 from math import lcm
 
-from expressions import NODES, PI, BadPoint, NotCheckable, children, reach
+from expressions import NODES, PI, BadPoint, NotCheckable, reach
 
 
 def is_prime(n):

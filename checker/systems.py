@@ -4,9 +4,9 @@ import tomllib
 
 from expressions import (NODES, ONE, PI, ZERO, BadPoint, NotCheckable, Parser, add, derive, fn, gradient, mul, neg, num, sub, substitute,
                          sym, symbols, total)
-from fields import KNOWN_POSITIVE, POSITIVE, Point, draw_prime, null_space, solve
+from fields import KNOWN_POSITIVE, POSITIVE, Point, draw_prime, null_space, rank, solve
 
-LENGTH = 6  # Taylor coefficients of a coordinate along a motion
+LENGTH, LONGEST = 6, 20  # Taylor coefficients of a coordinate along a motion, and of the time and of controls
 
 
 class System:
@@ -132,6 +132,21 @@ class System:
         else:
             self.rest = None
 
+    def leave_out_redundant(self, rng):
+        """Constraints whose gradients depend on those of earlier ones are left to the conditions on points; says whether there are any."""
+        self.all_gradients, self.all_tops, self.all_names = self.jacobian, self.top, self.constraint_names
+        p = self.point(rng)
+        kept = []
+        for l, row in enumerate(self.jacobian):
+            rows = [[p.value(e) for e in self.jacobian[k]] for k in [*kept, l]]
+            if rank(rows, p.p) == len(rows):
+                kept.append(l)
+        self.is_reduced = len(kept) < len(self.jacobian)
+        if self.is_reduced:
+            pick = lambda items: [items[l] for l in kept] if items is not None else None
+            self.top, self.jacobian, self.rest = pick(self.top), pick(self.jacobian), pick(self.rest)
+            self.constraint_names = pick(self.constraint_names)
+
     def bordered(self):
         """The rows of W a - J^T lambda = b, J a = g, and the right side."""
         if self.rest is None:
@@ -145,8 +160,9 @@ class System:
     def point(self, rng, stated=False, on=(), free=False, strict=False):
         """A random admissible state; `stated` takes the parameters of the model, `on` adds conditions on the state, `free` forgets
         the constraints."""
-        prime = draw_prime(rng)
-        for _ in range(60):
+        for k in range(600 if strict else 60):
+            # Numbers of the model have roots in some fields and in others not.
+            prime = draw_prime(rng) if k % (5 if stated else 60) == 0 else prime
             p = Point(rng, prime, strict)
             try:
                 self.place(p, stated, list(on), free)
@@ -159,9 +175,10 @@ class System:
         if stated:
             p.constants |= {name: p.value(value) for name, value in self.stated_values.items()}
         p.constants |= {name: p.value(value) for name, value in self.definitions.items()}
-        p.curves["t"] = [p.any(), 1] + [0] * (LENGTH + 2)
+        p.crooked = p.rooted = False
+        p.curves["t"] = [p.any(), 1] + [0] * LONGEST
         for name in self.controls:
-            p.curves[name] = [p.any() for _ in range(LENGTH + 2)]
+            p.curves[name] = [p.any() for _ in range(LONGEST)]
         for name in list(self.masses):
             p.curves[name] = [p.positive()]
         for x in self.q:

@@ -4,7 +4,7 @@ Constraints are integrable exactly where sum_i E_i[f] dq^i = 0 for all virtual d
 accelerations with D f = 0 (A of theory 1 (7) vanishes; theory 3 (11a)).
 """
 from expressions import NotCheckable, gradient, sub, symbols, says
-from fields import rank, solve
+from fields import solve
 
 
 def euler(system, f):
@@ -78,41 +78,6 @@ def strong(cx, verdict):
     return weak(cx, verdict)
 
 
-@says("refuted", "conditional")
-def hoelder(cx, verdict):
-    """delta f by Hoelder's rule: zero for all admissible curves, on motions, or for some displacements only."""
-    first_order(cx)
-    at, kinds = curvatures(cx)
-    everywhere, why = cx.vanishes(at, kinds)
-    if verdict["verdict"] == "proved":
-        return ("confirmed" if everywhere else "rejected"), why
-    if everywhere:
-        return "rejected", "it vanishes for all admissible curves"
-    along, kinds = curvatures(cx, on_motions=True)
-    motions = cx.vanishes(along, kinds)[0]
-    if verdict["verdict"] == "conditional" and verdict["condition"] == "on the motions":
-        return ("confirmed" if motions else "rejected"), f"on motions: {motions}"
-    if verdict["verdict"] == "refuted":
-        return ("rejected", "it vanishes on motions") if motions else nonzero_form(cx, verdict, why)
-    return displacements(cx, verdict)
-
-
-def displacements(cx, verdict):
-    """The condition on virtual displacements: exactly those for which all sums vanish."""
-    system = cx.system
-    parts = [system.equation(c.split(" (")[0]) if " (with" in c else system.equation(c) for c in verdict["condition"].split(" and ")]
-    deltas = [("delta_" + x, 0) for x in system.q]
-    rows = [gradient(e, deltas) for e in parts]
-    forms = [euler(system, f) for f in system.top]
-    def at(p):
-        wander(cx, p)
-        jacobian = [[p.value(e) for e in row] for row in system.jacobian]
-        own = jacobian + [[p.value(e) for e in form] for form in forms]
-        said = jacobian + [[p.value(e) for e in row] for row in rows]
-        return [rank(own, p.p) - rank(said, p.p), rank(own, p.p) - rank(own + said, p.p)]
-    return cx.identity(at)
-
-
 def kerner(cx, verdict):
     """The extremals are the motions exactly where affine constraints are integrable."""
     first_order(cx)
@@ -123,5 +88,4 @@ def kerner(cx, verdict):
     return ("confirmed" if holds == claimed else "rejected"), f"integrable: {holds} ({why})"
 
 
-CLAIMS = {"model.constraints-integrable#weak": weak, "model.constraints-integrable#strong": strong, "variation.hoelder": hoelder,
-          "hamilton.kerner": kerner}
+CLAIMS = {"model.constraints-integrable#weak": weak, "model.constraints-integrable#strong": strong, "hamilton.kerner": kerner}

@@ -1,20 +1,22 @@
 """Cartan forms, frames, what distributions generate, and the embedding (theory 3 §§1, 2, 5)."""
 import re
 
-from expressions import NotCheckable, add, gradient, mul, neg, sub, substitute, sym, total
-from fields import null_space, rank
+from expressions import NotCheckable, gradient, mul, neg, sub, sym, symbols, total
+from fields import eliminate, rank
 
 
 def cartan(cx, verdict):
     """Theta(F) = F dt + F_v (dq - v dt): what is not zero of its coefficients of dt and dq stands in the record."""
     system, name = cx.system, verdict["subject"]
-    f = system.lagrangian if name == "L" else system.top[system.constraint_names.index(name)]
+    f = system.lagrangian if name == "L" else system.all_tops[system.all_names.index(name)]
     slopes = gradient(f, system.jet(1))
     own = [sub(f, total(mul(sym(x, 1), s) for x, s in zip(system.q, slopes)))] + slopes
     given = [e for _, e in cx.formulas(verdict)]
     def at(p):
         values = [x for x in (p.value(e) for e in own) if x]
         said = [x for x in (p.value(e) for e in given) if x]
+        # The coefficient of dt may be left out of the record as too long.
+        values = values[1:] if len(said) == len(values) - 1 and p.value(own[0]) else values
         return [1] if len(values) != len(said) else [(y - x) % p.p for y, x in zip(said, values)]
     return cx.identity(at, given, free=True)
 
@@ -34,25 +36,16 @@ def embedded(cx, verdict):
     return cx.identity(at)
 
 
-def fields(cx):
-    """X_s and X_0 of the frame whose speeds are the quasi-velocities: v = X_0 + sum eta X_s, by Cramer at a point is not needed: brackets
-    are those of the coframe, d omega."""
-    quasi = [e for _, e in cx.system.quasi]
-    if len(quasi) != len(cx.system.q):
-        raise NotCheckable("the lowered model has no frame of as many fields as coordinates")
-    return quasi
-
-
 def growth(cx, verdict):
     """Ranks of the admissible directions with their brackets, step by step, for constraints linear in the velocities."""
     system = cx.system
     said = re.search(r"growth vector is \(([\d, ]+)\)", verdict["detail"])
     es = [e for row in system.jacobian for e in row]
-    if not said or any(system.order_of(e) for e in es) or system.controls or ("t", 0) in {s for e in es for s in __import__("expressions").symbols([e])}:
+    if not said or any(system.order_of(e) for e in es) or system.controls or ("t", 0) in symbols(es):
         raise NotCheckable("constraints that are not linear and scleronomic, or no growth vector is stated")
     wanted = [int(x) for x in said[1].split(",")]
     p0 = system.point(cx.rng)
-    pivots = __import__("fields").eliminate([[p0.value(e) for e in row] + [0] for row in system.jacobian], p0.p)[1]
+    pivots = eliminate([[p0.value(e) for e in row] + [0] for row in system.jacobian], p0.p)[1]
     n = len(system.q)
     if len(pivots) != len(system.top) or len(pivots) > 3:
         raise NotCheckable("constraints that follow from each other, or more than three")

@@ -4,40 +4,10 @@ of (25): N S + P_1 N_2 - P_2 N_1 = 0, where S v_2 = sum theta A_1 and P_s are th
 import itertools
 import re
 
-from claims.frobenius import euler
-from expressions import NotCheckable, gradient, mul, sub, says
-from fields import eliminate, null_space, rank, solve
-
-
-class Reduced:
-    """theta A_s, P_s and v_s at a state, for independent coordinates whose complement the constraints determine."""
-
-    def __init__(self, cx, independent):
-        self.system, self.s = cx.system, [cx.system.q.index(x) for x in independent]
-        self.d = [i for i in range(len(cx.system.q)) if i not in self.s]
-        self.forms = [euler(cx.system, f) for f in cx.system.top]
-
-    def at(self, p):
-        """Needs accelerations with D f = 0, which linear A does not contain: any do."""
-        system, q = self.system, p.p
-        v = [[p.value(e) for e in row] for row in system.jacobian]
-        e = [[p.value(x) for x in form] for form in self.forms]
-        momenta = [p.value(x) for x in system.momenta]
-        basis = []
-        for s in self.s:
-            column = solve([[row[d] for d in self.d] for row in v], [-row[s] for row in v], q)
-            if column is None:
-                raise NotCheckable("velocities that the constraints do not determine")
-            b = [0] * len(system.q)
-            b[s] = 1
-            for d, x in zip(self.d, column):
-                b[d] = x
-            basis.append(b)
-        # theta^T f_d^{-1}: the row t with t f_d = theta.
-        t = solve([[row[d] for row in v] for d in self.d], [momenta[d] for d in self.d], q)
-        bent = [sum(c * sum(x * y for x, y in zip(form, b)) for c, form in zip(t, e)) % q for b in basis]
-        push = [sum(x * y for x, y in zip(momenta, b)) % q for b in basis]
-        return bent, push, [p.curves[system.q[s]][1] for s in self.s]
+from claims.frobenius import wander
+from reduced import Reduced
+from expressions import NotCheckable, gradient, sub, says
+from fields import rank, solve
 
 
 def independent_of(cx, verdict):
@@ -71,7 +41,6 @@ def multiplier(cx, verdict):
     n = cx.formulas({"formulas": verdict["formulas"][2:3]})[0][1]
     slopes = gradient(n, [(x, 0) for x in names])
     def at(p):
-        from claims.frobenius import wander
         wander(cx, p)
         (a, b), (p1, p2), (v1, v2) = reduced.at(p)
         n_, n1, n2 = p.value(n, *slopes)
@@ -85,7 +54,6 @@ def none(cx, verdict, reduced, names):
     if len(names) == 2:
         first, second = (e for _, e in cx.formulas({"formulas": verdict["formulas"][:2]}))
         def serve(p):
-            from claims.frobenius import wander
             wander(cx, p)
             (a, b), (p1, p2), (v1, v2) = reduced.at(p)
             n1, n2 = p.value(first, second)
@@ -101,7 +69,6 @@ def none(cx, verdict, reduced, names):
             for x in cx.system.q:
                 p.curves[x][1] = p.any()
             cx.system.meet(p, cx.system.top, 1)
-            from claims.frobenius import wander
             wander(cx, p)
             bent, push, v = reduced.at(p)
             for s in range(k):

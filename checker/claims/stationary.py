@@ -3,75 +3,11 @@
 For every motion: the kappa of the record satisfy (12) and (13). On a subset: the same at states on the set that the condition states, and no
 kappa exists off it, by the closure of §4.3 (the rows are differentiated along the motion until their rank stays).
 """
-import itertools
 import re
 
-from claims.frobenius import euler
-from claims.multiplier import Reduced
-from claims.multiplier import Reduced
-from expressions import NotCheckable, symbols, says
-from fields import rank, solve
+from closure import conditions, exists, kappas, move_far
+from expressions import NotCheckable, says
 
-STEPS = 4
-
-
-def kappas(cx, verdict):
-    """One expression for each constraint; constants `const_NAME` stay free."""
-    given = {left: e for left, e in cx.formulas(verdict) if left and left.startswith("kappa_")}
-    names = ["kappa_" + c for c in cx.system.constraint_names]
-    if len([l for l, _ in cx.formulas(verdict) if l and l.startswith("kappa_")]) != len(given):
-        return [None] * len(names)
-    return [given.get(n) for n in names]
-
-
-def conditions(cx, given):
-    """(11) along the motion: the coefficients of kappa and kappa' less those of the reaction."""
-    system = cx.system
-    forms = [euler(system, f) for f in system.top]
-    def at(p):
-        system.move(p)
-        reaction = ["lambda_" + c for c in system.constraint_names]
-        series = p.series([e for e in given if e is not None], 2)
-        values = iter(series)
-        k = [next(values) if e is not None else [0, 0] for e in given]
-        e = [[p.value(x) for x in form] for form in forms]
-        v = [[p.value(x) for x in row] for row in system.jacobian]
-        lam = [p.curves[name][0] if name in p.curves else 0 for name in reaction]
-        return [sum(a[0] * x[i] - (a[1] + l) * y[i] for a, x, y, l in zip(k, e, v, lam)) % p.p for i in range(len(system.q))]
-    return at, [x for form in forms for x in form]
-
-
-def exists(cx, p):
-    """Whether some kappa satisfies the conditions on the motion through a point: the rows are linear in kappa and kappa', and so are
-    their derivatives in the Taylor coefficients of kappa."""
-    system = cx.system
-    r, n = len(system.top), len(system.q)
-    forms = [p.series(euler(system, f), STEPS) for f in system.top]
-    slopes = [p.series(row, STEPS) for row in system.jacobian]
-    lam = [p.curves["lambda_" + c][:STEPS] for c in system.constraint_names]
-    rows, right = [], []
-    for i in range(n):
-        for k in range(STEPS):
-            row = [0] * (r * (STEPS + 1))
-            for l in range(r):
-                for j in range(k + 1):
-                    row[l * (STEPS + 1) + k - j] += forms[l][i][j]
-                    row[l * (STEPS + 1) + k - j + 1] -= slopes[l][i][j] * (k - j + 1)
-            rows.append([x % p.p for x in row])
-            right.append(sum(slopes[l][i][j] * lam[l][k - j] for l in range(r) for j in range(k + 1)) % p.p)
-    return solve(rows, right, p.p) is not None
-
-
-def move_far(cx, p):
-    cx.system.move(p, 8)
-    rows, right = cx.system.bordered()
-    from systems import solve_series
-    size = len(rows)
-    values = p.series([e for row in rows for e in row] + right, STEPS + 1)
-    x = solve_series([values[i * size:(i + 1) * size] for i in range(size)], values[size * size:], STEPS + 1, p.p)
-    for l, name in enumerate(cx.system.constraint_names):
-        p.curves["lambda_" + name] = x[len(cx.system.q) + l]
-    return p
 
 
 @says("refuted", "conditional")
@@ -116,11 +52,7 @@ def on_a_set(cx, verdict, without):
     return "confirmed", f"on and off the set: {why}"
 
 
-@says("refuted", "conditional")
-def inclusion(cx, verdict):
-    if verdict["subject"] == "inclusion":
-        return stationary(cx, verdict)
-    raise NotCheckable("all extremals are not followed")
+inclusion = stationary
 
 
 @says("refuted", "conditional")
@@ -131,25 +63,4 @@ def hamilton_jacobi(cx, verdict):
     return stationary(cx, verdict)
 
 
-@says("refuted")
-def by_suslov(cx, verdict):
-    """(15): sum theta A = 0 on motions, for some choice of dependent velocities where proved, for none where refuted."""
-    import itertools
-    system = cx.system
-    if system.order != 1 or not system.top:
-        raise NotCheckable("no constraints of first order")
-    p = system.point(cx.rng)
-    v = [[p.value(e) for e in row] for row in system.jacobian]
-    r, outcomes = len(system.top), []
-    for d in itertools.combinations(range(len(system.q)), r):
-        if rank([[row[i] for i in d] for row in v], p.p) == r:
-            reduced = Reduced(cx, [x for i, x in enumerate(system.q) if i not in d])
-            outcomes.append(cx.vanishes(lambda p: reduced.at(system.move(p))[0])[0])
-    wanted = verdict["verdict"] == "proved"
-    if any(outcomes) and not all(outcomes):
-        return ("confirmed", "for a choice of dependent velocities") if wanted else ("not checkable here", "it depends on the choice")
-    return ("confirmed" if any(outcomes) == wanted else "rejected"), f"for {len(outcomes)} choices of dependent velocities: {any(outcomes)}"
-
-
-CLAIMS = {"hamilton.stationary": stationary, "formulation.vakonomic-coincides": inclusion,
-          "hamilton-jacobi.applicable": hamilton_jacobi, "hamilton.stationary-suslov": by_suslov}
+CLAIMS = {"hamilton.stationary": stationary, "hamilton-jacobi.applicable": hamilton_jacobi}

@@ -317,10 +317,14 @@ pub(crate) struct Explain {
 
 #[derive(Args, Debug)]
 #[command(after_help = "Example:
-  chetaev verify out/chaplygin-sleigh/study.json")]
+  chetaev verify out/chaplygin-sleigh/study.json
+  chetaev verify out/chaplygin-sleigh/study.json --independent")]
 pub(crate) struct Verify {
     /// A study.json
     pub(crate) record: PathBuf,
+    /// Let a checker that shares nothing with this program examine the record, instead of a replay; it needs Python 3.11
+    #[arg(long)]
+    pub(crate) independent: bool,
     /// Print the result as JSON
     #[arg(long)]
     pub(crate) json: bool,

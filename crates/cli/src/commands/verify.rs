@@ -1,11 +1,16 @@
 //! `chetaev verify`.
 
+mod independent;
+
 use super::{error, with_hooks};
 use crate::arguments::Verify as Arguments;
 use crate::{terminal, DONE, INPUT, UNMET};
 use chetaev::study::verify::{agrees, read, verify, Replay, Verified};
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
+    if arguments.independent {
+        return independent::run(&arguments.record, arguments.json);
+    }
     let text = match std::fs::read_to_string(&arguments.record) {
         Ok(text) => text,
         Err(problem) => {
