@@ -8,7 +8,8 @@
 //! - the run: [`motion_evidence`] (what a run tells), [`motion_claims`], [`method_order`], [`jumps`], [`witness`] (integrals of the
 //!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
 //! - [`sweep`]: a model as an ensemble;
-//! - for people: [`derivation`], [`story`], [`summary`], [`page`], [`typeset`]; for programs: [`record`], [`table`]; [`verify`].
+//! - for people: [`derivation`], [`story`], [`summary`], [`page`], [`typeset`]; for programs: [`record`] with the model lowered ([`flat`]) and
+//!   the equations of every formulation ([`stated_equations`]), [`table`]; [`verify`].
 
 pub mod beside;
 pub mod derivation;

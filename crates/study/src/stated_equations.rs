@@ -41,14 +41,21 @@ pub struct StateRecord {
     pub definition: Option<String>,
 }
 
+/// The claim that decides which equations a record has.
+pub(crate) const EQUIVALENCE: &str = "formulation.equivalent";
+
+/// Whether a verdict says something of the equations.
+pub(crate) fn is_decided(word: &str) -> bool {
+    matches!(word, "proved" | "refuted" | "conditional" | "numerical")
+}
+
 /// The equations of all formulations whose equivalence the study decided.
 pub fn stated_equations(study: &Study) -> Vec<EquationsRecord> {
     let known = registry();
     let (terms, selection) = (&study.prepared.terms, &study.prepared.selection);
     let cx = Context::new(&study.system, terms, selection, &known, Prover::default());
-    let decided = study.verdicts.iter().filter(|d| {
-        d.claim == "formulation.equivalent" && d.finding.verdict.word() != "not-applicable"
-    });
+    let decided = (study.verdicts.iter())
+        .filter(|d| d.claim == EQUIVALENCE && is_decided(d.finding.verdict.word()));
     let names = decided.filter_map(|d| d.subject.as_deref());
     names
         .filter_map(|name| Some(one(&study.system, name, &derive(&cx, name).ok()?)))

@@ -39,6 +39,7 @@ const FILES: &[(&str, &str)] = files![
     "claims/integrals.py",
     "claims/measure.py",
     "claims/multiplier.py",
+    "claims/positive.py",
     "claims/principles.py",
     "claims/ranks.py",
     "claims/rates.py",
