@@ -39,7 +39,7 @@ import intervals  # noqa: E402
 from expressions import NODES, BadPoint, NotCheckable, reach  # noqa: E402
 from systems import System  # noqa: E402
 
-POINTS, SIGNS = 3, 20
+POINTS, SIGNS = 3, 12
 # For identities of degree up to 2^20 in all generators, whose coefficients have up to 2^20 digits: a point errs with probability at
 # most 2^20/2^60 (Schwartz, Zippel) and 2^20/2^50 (a prime that divides all coefficients), three with at most their cube.
 BOUND = f"{POINTS} points, each modulo a random prime of 61 bits; wrong with probability below 2^-87 for degrees up to 2^20"

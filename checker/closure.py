@@ -23,8 +23,8 @@ def conditions(cx, given):
         series = p.series([e for e in given if e is not None], 2)
         values = iter(series)
         k = [next(values) if e is not None else [0, 0] for e in given]
-        e = [[p.value(x) for x in form] for form in forms]
-        v = [[p.value(x) for x in row] for row in system.jacobian]
+        e = p.table(forms)
+        v = p.table(system.jacobian)
         lam = [p.curves[name][0] if name in p.curves else 0 for name in reaction]
         return [sum(a[0] * x[i] - (a[1] + l) * y[i] for a, x, y, l in zip(k, e, v, lam)) % p.p for i in range(len(system.q))]
     return at, [x for form in forms for x in form]

@@ -126,15 +126,24 @@ def children(e):
     return key[1:2] if key[0] == "^" else key[1:]
 
 
+REACHED = {}
+
+
 def reach(roots):
     """All nodes below some, arguments first."""
+    key = tuple(roots)
+    if key in REACHED:
+        return REACHED[key]
     seen, stack = set(), list(roots)
     while stack:
         e = stack.pop()
         if e not in seen:
             seen.add(e)
             stack.extend(children(e))
-    return sorted(seen)
+    if len(REACHED) > 5_000:
+        REACHED.clear()
+    REACHED[key] = sorted(seen)
+    return REACHED[key]
 
 
 def symbols(roots):

@@ -288,6 +288,14 @@ class Point:
                     raise BadPoint("a positive sum that is no square")
         return [memo[e] for e in roots]
 
+    def values(self, es):
+        return [s[0] for s in self.series(es, 1)]
+
+    def table(self, rows):
+        """The values of a matrix, all in one pass."""
+        flat = iter(self.values([e for row in rows for e in row]))
+        return [[next(flat) for _ in row] for row in rows]
+
     def value(self, *roots):
         values = [s[0] for s in self.series(roots, 1)]
         return values[0] if len(roots) == 1 else values

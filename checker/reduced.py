@@ -15,9 +15,9 @@ class Reduced:
     def at(self, p):
         """Needs accelerations with D f = 0, which linear A does not contain: any do."""
         system, q = self.system, p.p
-        v = [[p.value(e) for e in row] for row in system.jacobian]
-        e = [[p.value(x) for x in form] for form in self.forms]
-        momenta = [p.value(x) for x in system.momenta]
+        v = p.table(system.jacobian)
+        e = p.table(self.forms)
+        momenta = p.values(system.momenta)
         basis = []
         for s in self.s:
             column = solve([[row[d] for d in self.d] for row in v], [-row[s] for row in v], q)

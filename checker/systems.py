@@ -31,6 +31,9 @@ class System:
         self.force = [add(self.read(forces.get(x, "0")), self.read(reactive.get(x, "0"))) for x in self.q]
         self.constraint_names = list(data.get("constraints", {}))
         self.stated = [self.equation(f) for f in data.get("constraints", {}).values()]
+        self.equations = data.get("equations", {})
+        shared = set(data.get("define", {}))
+        self.constraint_texts = [f for f in data.get("constraints", {}).values() if not any(w in f for w in shared)]
         # Definitions of the text stand for parts of it alone; quasi-velocities stand in formulas of the record too.
         for name in data.get("define", {}):
             del self.names[name]
@@ -195,8 +198,8 @@ class System:
         names = self.jet(order)
         slopes = [gradient(f, names) for f in functions]
         if order == 1 and not any(s in symbols([e]) for row in slopes for e in row for s in names):
-            values = [p.value(f) for f in functions]
-            rows = [[p.value(e) for e in row] for row in slopes]
+            values = p.values(functions)
+            rows = p.table(slopes)
             step = solve(rows, [-x for x in values], p.p)
             if step is None:
                 raise BadPoint("no such velocity")
@@ -267,7 +270,7 @@ class System:
 
     def admissible_basis(self, p):
         """A basis of the virtual displacements at the point."""
-        return null_space([[p.value(e) for e in row] for row in self.jacobian], len(self.q), p.p)
+        return null_space(p.table(self.jacobian), len(self.q), p.p)
 
 
 def solve_series(matrix, right, length, p):

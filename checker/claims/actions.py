@@ -21,7 +21,7 @@ def action_jacobi(cx, verdict):
     """Hypotheses J1, J2, and that the equations of Jacobi's principle, changed back to the time, give the motion."""
     system = cx.system
     es = [*system.force, gradient(system.lagrangian, [("t", 0)])[0]]
-    holds, why = cx.vanishes(lambda p: [p.value(e) for e in es], free=True)
+    holds, why = cx.vanishes(lambda p: p.values(es), free=True)
     if not holds:
         return "rejected", "there are forces, or L contains the time"
     return all_of(cx, verdict, [("jacobi", equivalent)])

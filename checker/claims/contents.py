@@ -38,7 +38,7 @@ def chaplygin(cx, verdict):
     slopes = {x: [gradient(f, [(x, 0)])[0] for f in system.top + [system.lagrangian]] for x in system.q}
     def at(p):
         absent = [i for i, x in enumerate(system.q) if all(p.value(e) == 0 for e in slopes[x])]
-        rows = [[p.value(e) for e in row] for row in system.jacobian]
+        rows = p.table(system.jacobian)
         r = rank(rows, p.p)
         return [] if rank([[row[i] for i in absent] for row in rows], p.p) == r else [1]
     return cx.identity(at)

@@ -24,7 +24,7 @@ def linear_check(cx, verdict):
         es = [e for row in cx.system.jacobian for e in row]
         bad = [s for e in es for s in symbols([e]) if s in names]
         slopes = [g for e in es for g in gradient(e, names)] if bad else []
-        return cx.identity(lambda p: [p.value(e) for e in slopes], slopes, free=True)
+        return cx.identity(lambda p: p.values(slopes), slopes, free=True)
     return cx.counterexample(verdict, linear(cx.system, verdict), admissible=False)
 
 
@@ -45,7 +45,7 @@ def homogeneous(system, verdict):
 def homogeneous_check(cx, verdict):
     es = homogeneous(cx.system, verdict)
     if verdict["verdict"] == "proved":
-        return cx.identity(lambda p: [p.value(e) for e in es], es, free=True)
+        return cx.identity(lambda p: p.values(es), es, free=True)
     return cx.counterexample(verdict, es, admissible=False)
 
 
@@ -57,7 +57,7 @@ def third(system, _):
 def quadratic_check(cx, verdict):
     es = third(cx.system, verdict)
     if verdict["verdict"] == "proved":
-        return cx.identity(lambda p: [p.value(e) for e in es], es, free=True)
+        return cx.identity(lambda p: p.values(es), es, free=True)
     system = cx.system
     other = {s: sym("w_" + s[0], 1) for s in system.jet(1)}
     step = [sub(sym(*s), other[s]) for s in system.jet(1)]

@@ -8,7 +8,7 @@ def count(*said):
     """Dimensions that a sentence names: n - r of the set reached, 2 n - r constants of motion, 2 n of the extremum."""
     def check(cx, verdict):
         p, n = cx.system.point(cx.rng), len(cx.system.q)
-        r = rank([[p.value(e) for e in row] for row in cx.system.jacobian], p.p)
+        r = rank(p.table(cx.system.jacobian), p.p)
         for pattern, number in said:
             found = re.search(pattern, verdict["detail"])
             # Masses with a law of their own are states too.

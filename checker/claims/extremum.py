@@ -25,7 +25,7 @@ def coincides(cx, verdict):
     n, jacobian = len(system.q), system.jacobian
 
     def at(p):
-        w, f_v = [p.value(e) for e in turned], [[p.value(e) for e in row] for row in jacobian]
+        w, f_v = p.values(turned), p.table(jacobian)
         rows = [w[i * n:(i + 1) * n] + [row[i] for row in f_v] for i in range(n)] + [row + [0] * len(f_v) for row in f_v]
         a = solve(rows, [p.value(e) for e in push + system.rest], p.p)
         system.move(p)

@@ -10,6 +10,26 @@ from expressions import NotCheckable
 from fields import rank, solve
 
 
+def determines(system, form):
+    """What vanishes at a point where the motion satisfies the equations and they leave no other rates."""
+    places = [len(form.rates) + form.others.index(s) for s in form.free]
+
+    def at(p):
+        same = form.put(system, p)
+        # Only the energy of Jacobi's principle is a variable without an equation: it is constant, for want of a rate.
+        steady = [p.curves[s[0]][1] if s == ("h", 0) else 1 for s in form.constant]
+        for s in form.free:
+            p.jets[s] = [0, 0]
+        values = p.values(form.residuals)
+        matrix = p.table(form.rows)
+        others = [[0] * len(form.others) if c else row[len(form.rates):] for row, c in zip(matrix, form.is_condition)]
+        exists = solve([[0 if c else row[k] for k in places] for row, c in zip(matrix, form.is_condition)], [-y for y in values], p.p)
+        determined = rank(matrix, p.p) - rank(others, p.p) == len(form.rates)
+        return same + steady + ([] if exists is not None and determined else [1])
+
+    return at
+
+
 def equivalent(cx, verdict):
     entry, system = cx.equations.get(verdict["subject"]), cx.system
     if verdict["verdict"] != "proved":
@@ -17,21 +37,7 @@ def equivalent(cx, verdict):
     if entry is None or entry["omitted"]:
         raise NotCheckable("the equations are not in the record")
     form = Form(system, entry)
-    places = [len(form.rates) + form.others.index(s) for s in form.free]
-
-    def at(p):
-        same = form.put(system, p)
-        steady = [p.curves[s[0]][s[1] + 1] for s in form.constant]
-        for s in form.free:
-            p.jets[s] = [0, 0]
-        values = [p.value(e) for e in form.residuals]
-        matrix = [[p.value(e) for e in row] for row in form.rows]
-        others = [[0] * len(form.others) if c else row[len(form.rates):] for row, c in zip(matrix, form.is_condition)]
-        exists = solve([[0 if c else row[k] for k in places] for row, c in zip(matrix, form.is_condition)], [-y for y in values], p.p)
-        determined = rank(matrix, p.p) - rank(others, p.p) == len(form.rates)
-        return same + steady + ([] if exists is not None and determined else [1])
-
-    return cx.identity(at, form.residuals)
+    return cx.identity(determines(system, form), form.residuals)
 
 
 CLAIMS = {"formulation.equivalent": equivalent}

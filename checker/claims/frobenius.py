@@ -21,7 +21,7 @@ def wander(cx, p, length=3):
         for x in system.q:
             p.curves[x][k + 2] = p.any()
         values = p.series(system.top, k + 2)
-        rows = [[p.value(e) for e in row] for row in system.jacobian]
+        rows = p.table(system.jacobian)
         scale = pow((k + 1) * (k + 2), 1, p.p)
         step = solve(rows, [-(k + 1) * v[k + 1] for v in values], p.p) if rows else [0] * len(system.q)
         if step is None:

@@ -29,7 +29,7 @@ def embedded(cx, verdict):
         raise NotCheckable("no rank is stated")
     def at(p):
         basis = system.admissible_basis(p)
-        w = [[p.value(e) for e in row] for row in system.mass_matrix]
+        w = p.table(system.mass_matrix)
         form = [[sum(x * y * z for x, row in zip(a, w) for y, z in zip(row, b)) % p.p for b in basis] for a in basis]
         k = len(basis)
         return [k - rank(form, p.p), 2 * k - int(said[1]), 2 * k + 1 - int(said[2])]
@@ -45,7 +45,7 @@ def growth(cx, verdict):
         raise NotCheckable("constraints that are not linear and scleronomic, or no growth vector is stated")
     wanted = [int(x) for x in said[1].split(",")]
     p0 = system.point(cx.rng)
-    pivots = eliminate([[p0.value(e) for e in row] + [0] for row in system.jacobian], p0.p)[1]
+    pivots = eliminate([p0.values(row) + [0] for row in system.jacobian], p0.p)[1]
     n = len(system.q)
     if len(pivots) != len(system.top) or len(pivots) > 3:
         raise NotCheckable("constraints that follow from each other, or more than three")
@@ -56,7 +56,7 @@ def growth(cx, verdict):
     while len(ranks) < len(wanted):
         es = [e for step in steps for x in step for e in x]
         def at(p, flat=es):
-            values = [p.value(e) for e in flat]
+            values = p.values(flat)
             return rank([values[i:i + n] for i in range(0, len(values), n)], p.p)
         ranks.append(at(system.point(cx.rng)))
         if len(ranks) < len(wanted):

@@ -32,9 +32,9 @@ def displacements(cx, verdict):
     forms = [euler(system, f) for f in system.top]
     def at(p):
         wander(cx, p)
-        jacobian = [[p.value(e) for e in row] for row in system.jacobian]
-        own = jacobian + [[p.value(e) for e in form] for form in forms]
-        said = jacobian + [[p.value(e) for e in row] for row in rows]
+        jacobian = p.table(system.jacobian)
+        own = jacobian + p.table(forms)
+        said = jacobian + p.table(rows)
         return [rank(own, p.p) - rank(said, p.p), rank(own, p.p) - rank(own + said, p.p)]
     return cx.identity(at)
 

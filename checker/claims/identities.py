@@ -12,7 +12,7 @@ def wild(p, es):
     for s in symbols(es):
         if s[1] > 0 or s[0] not in p.curves and s[0] not in p.constants:
             p.jets[s] = [p.any()]
-    return [p.value(e) for e in es]
+    return p.values(es)
 
 
 def form_of(cx, name):
@@ -70,7 +70,7 @@ def parametric_canonical(cx, verdict):
         start = {s: p.any() for s in below}
         p.jets |= {s: [x] for s, x in start.items()}
         form.solve_parts(p, 1)
-        rates = [p.value(e) for e in flows]
+        rates = p.values(flows)
         p.jets |= {s: [x, rates[below[s]]] for s, x in start.items()}
         form.solve_parts(p, 2)
         return [p.series([k], 2)[0][1]]

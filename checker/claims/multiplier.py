@@ -18,7 +18,7 @@ def independent_of(cx, verdict):
     p = system.point(cx.rng)
     slopes = [[p.value(e) for e in gradient(f, system.jet(0))] for f in system.top + [system.lagrangian]]
     absent = [i for i in range(len(system.q)) if not any(row[i] for row in slopes)]
-    v = [[p.value(e) for e in row] for row in system.jacobian]
+    v = p.table(system.jacobian)
     regular = [d for d in itertools.combinations(absent, len(system.top)) if rank([[row[i] for i in d] for row in v], p.p) == len(d)]
     if not regular:
         raise NotCheckable("no dependent coordinates are absent from L and the constraints")

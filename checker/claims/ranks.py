@@ -14,7 +14,7 @@ def regular(matrix, size=None):
         rows = matrix(cx.system)
         if not rows:
             return cx.identity(lambda p: [])
-        full = lambda p: [] if rank([[p.value(e) for e in row] for row in rows], p.p) == len(rows) else [1]
+        full = lambda p: [] if rank(p.table(rows), p.p) == len(rows) else [1]
         if verdict["verdict"] == "proved":
             return cx.identity(full)
         return cx.identity(lambda p: [0 if full(p) else 1])
@@ -37,7 +37,7 @@ def restricted_regular(cx, verdict):
     system = restricted(cx.system)
     def singular(p):
         basis = system.admissible_basis(p)
-        w = [[p.value(e) for e in row] for row in system.mass_matrix]
+        w = p.table(system.mass_matrix)
         n = len(w)
         form = [[sum(a[i] * w[i][j] * b[j] for i in range(n) for j in range(n)) % p.p for b in basis] for a in basis]
         return [0] if rank(form, p.p) == len(basis) else [1]
@@ -58,7 +58,7 @@ def extremum(system):
 @says("refuted")
 def independent(cx, verdict):
     system = cx.system
-    deficit = lambda p: len(system.all_gradients) - rank([[p.value(e) for e in row] for row in system.all_gradients], p.p)
+    deficit = lambda p: len(system.all_gradients) - rank(p.table(system.all_gradients), p.p)
     if verdict["verdict"] == "proved":
         return cx.identity(lambda p: [deficit(p)])
     stated = verdict["counterexample"]["residual"][0]
@@ -70,7 +70,7 @@ def frame(cx, verdict):
     system = cx.system
     quasi = [e for _, e in system.quasi]
     rows = [gradient(e, system.jet(1)) for e in quasi]
-    both = lambda p: [[p.value(e) for e in row] for row in rows]
+    both = lambda p: p.table(rows)
     if len(rows) > len(system.q):
         raise NotCheckable("more quasi-velocities than coordinates")
     return cx.identity(lambda p: [len(rows) - rank(both(p), p.p)] if rows else [])

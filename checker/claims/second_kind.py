@@ -30,7 +30,7 @@ def second_kind(cx, verdict):
         left = add_(dot([add_(x, y, minus(p.rate(z))) for x, y, z in zip(a, q, b)], dq), dot(gap, d_lv))
         d_z = add_(dot(a, dq), dot(b, dv), dot([add_(p.rate(x), minus(y)) for x, y in zip(dq, dv)], b), dot(gap, d_lv))
         right = add_(d_z, dot(q, dq), minus(p.rate(dot(b, dq))))
-        regular = rank([[p.value(e) for e in row] for row in w_matrix], p.p) == size
+        regular = rank(p.table(w_matrix), p.p) == size
         return add_(left, minus(right))[:n - 1] + [0 if regular else 1]
     return cx.identity(at, [system.lagrangian], free=True)
 

@@ -16,7 +16,7 @@ def by_suslov(cx, verdict):
     if system.order != 1 or not system.top:
         raise NotCheckable("no constraints of first order")
     p = system.point(cx.rng)
-    v = [[p.value(e) for e in row] for row in system.jacobian]
+    v = p.table(system.jacobian)
     r, outcomes = len(system.top), []
     for d in itertools.combinations(range(len(system.q)), r):
         if rank([[row[i] for i in d] for row in v], p.p) == r:
