@@ -17,7 +17,7 @@ def determines(system, form):
     def at(p):
         same = form.put(system, p)
         # Only the energy of Jacobi's principle is a variable without an equation: it is constant, for want of a rate.
-        steady = [p.curves[s[0]][1] if s == ("h", 0) else 1 for s in form.constant]
+        steady = [p.curves[s[0]][1] if s[0].rstrip("_") == "h" else 1 for s in form.constant]
         for s in form.free:
             p.jets[s] = [0, 0]
         values = p.values(form.residuals)
