@@ -138,9 +138,12 @@ class System:
     def leave_out_redundant(self, rng):
         """Constraints whose gradients depend on those of earlier ones are left to the conditions on points; says whether there are any."""
         self.all_gradients, self.all_tops, self.all_names = self.jacobian, self.top, self.constraint_names
+        self.is_reduced = False
+        if self.rest is None:
+            return
         p = self.point(rng)
         kept = []
-        for l, row in enumerate(self.jacobian):
+        for l in range(len(self.jacobian)):
             rows = [[p.value(e) for e in self.jacobian[k]] for k in [*kept, l]]
             if rank(rows, p.p) == len(rows):
                 kept.append(l)
