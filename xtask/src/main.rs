@@ -1,7 +1,9 @@
-//! House tasks: `cargo xtask test`, `cargo xtask laws`, `cargo xtask measure`, `cargo xtask bench`.
+//! House tasks: `cargo xtask test`, `cargo xtask laws`, `cargo xtask measure`,
+//! `cargo xtask checked`, `cargo xtask bench`.
 
 mod bench;
 mod browser;
+mod checked;
 // A test and a figure of the house, by the same rules.
 #[path = "../../tests/src/citations.rs"]
 #[allow(dead_code, unreachable_pub, reason = "public where the tests are")]
@@ -30,6 +32,7 @@ Usage: cargo xtask <TASK> [ARGUMENTS]
   test      all tests of the workspace; installs what they need
   laws      random systems and the laws they must obey
   measure   figures of the house: lines, circles of imports, errors that are texts, citations
+  checked   what the independent checker confirms of the gallery, as a page
   bench     the benchmark, and the page of the book made of it
   help      this text
 
@@ -50,6 +53,7 @@ fn main() -> ExitCode {
         "laws" => laws::run(rest),
         "measure" => measure::run(rest),
         "bench" => bench::run(rest),
+        "checked" => checked::run(rest),
         "help" | "--help" | "-h" => {
             out(HELP);
             0

@@ -358,13 +358,17 @@ pub(crate) struct Explain {
 
 #[derive(Args, Debug)]
 #[command(after_help = "Example:
-  chetaev verify out/chaplygin-sleigh/study.json")]
+  chetaev verify out/chaplygin-sleigh/study.json
+  chetaev verify out/chaplygin-sleigh/study.json --independent")]
 pub(crate) struct Verify {
     /// A study.json
     pub(crate) record: PathBuf,
     /// Work allowed for each of the two replays, in seconds of the budget of a study, whatever the record asks for
     #[arg(long, default_value_t = 120.0, allow_hyphen_values = true, value_parser = seconds)]
     pub(crate) budget: f64,
+    /// Let a checker that shares nothing with this program examine the record, instead of a replay; it needs Python 3.11
+    #[arg(long)]
+    pub(crate) independent: bool,
     /// Print the result as JSON
     #[arg(long)]
     pub(crate) json: bool,

@@ -8,12 +8,14 @@
 //! - the run: [`motion_evidence`] (what a run tells), [`motion_claims`], [`method_order`], [`jumps`], [`witness`] (integrals of the
 //!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
 //! - [`sweep`]: a model as an ensemble; [`stability`](mod@stability): linear equations about a steady motion;
-//! - for people: [`derivation`], [`story`], [`summary`], [`page`], [`typeset`]; for programs: [`record`], [`table`]; [`verify`].
+//! - for people: [`derivation`], [`story`], [`summary`], [`page`], [`typeset`]; for programs: [`record`] with the model lowered ([`flat`]) and
+//!   the equations of every formulation ([`stated_equations`]), [`table`]; [`verify`].
 
 pub mod beside;
 pub mod derivation;
 pub mod error;
 mod expectations;
+pub mod flat;
 pub mod jumps;
 mod kept;
 pub mod method_order;
@@ -29,6 +31,7 @@ pub mod record;
 pub mod registry;
 pub mod stability;
 mod start;
+pub mod stated_equations;
 pub mod story;
 pub mod study;
 pub mod summary;

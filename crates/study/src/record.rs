@@ -1,6 +1,8 @@
 //! `study.json`: the record of a study, which `verify` replays.
 
+use crate::flat::flat;
 use crate::kept::Kept;
+use crate::stated_equations::{stated_equations, EquationsRecord};
 use crate::study::{Decided, Motion, Study};
 use chetaev_integrate::EventKind;
 use chetaev_model::model::Precision;
@@ -23,6 +25,9 @@ pub struct Record {
     pub model: ModelRecord,
     /// Verdicts.
     pub verdicts: Vec<VerdictRecord>,
+    /// The equations of the formulations decided about.
+    #[serde(default)]
+    pub equations: Vec<EquationsRecord>,
     /// The motion; `null` when none was computed.
     pub trajectory: Option<TrajectoryRecord>,
     /// Things a reader must know.
@@ -66,6 +71,9 @@ pub struct ModelRecord {
     pub includes: Vec<FileRecord>,
     /// Overrides as given.
     pub overrides: Vec<OverrideRecord>,
+    /// The model lowered to coordinates, L, Q and constraints, as a model file; null where a mass contains velocities.
+    #[serde(default)]
+    pub flat: Option<String>,
 }
 
 /// An included file.
@@ -337,12 +345,14 @@ pub fn record(study: &Study, files: &[String]) -> Record {
                     value: value.clone(),
                 })
                 .collect(),
+            flat: flat(&study.model, &study.system),
         },
         verdicts: study
             .verdicts
             .iter()
             .map(|d| verdict_record(study, d))
             .collect(),
+        equations: stated_equations(study),
         trajectory: study
             .motion
             .as_ref()

@@ -7,6 +7,7 @@ mod trajectory;
 use crate::error::StudyError;
 use crate::options::{ClaimSelection, Hooks, StudyOptions};
 use crate::record::{self, Record, VerdictRecord};
+use crate::stated_equations::{is_decided, EQUIVALENCE};
 use crate::study::study;
 use chetaev_model::model::{Model, ModelText};
 
@@ -123,6 +124,7 @@ pub fn verify(
         .map(|line| within_budget(line, record, budget))
         .collect();
     lines.extend(missing(record, &same));
+    lines.extend(lowered(record, &same));
     lines.extend(trajectory::compare(record, &same));
     lines.extend(notices::compare(record, &same));
     Ok(lines)
@@ -140,6 +142,36 @@ fn within_budget(line: Verified, record: &Record, budget: f64) -> Verified {
         },
         _ => line,
     }
+}
+
+/// What the record says of the lowered model and of the equations, and not the replay. A record of another version may have neither.
+fn lowered(record: &Record, same: &Record) -> Vec<Verified> {
+    if record.chetaev != same.chetaev {
+        return Vec::new();
+    }
+    // A replay has more time, and may decide what the record leaves open.
+    let open = |name: &str| {
+        let mut decided = record
+            .verdicts
+            .iter()
+            .filter(|v| v.claim == EQUIVALENCE && is_decided(&v.verdict));
+        !decided.any(|v| v.subject.as_deref() == Some(name))
+    };
+    let asked = same.equations.iter().filter(|e| !open(&e.formulation));
+    let parts = [
+        ("model.flat", record.model.flat != same.model.flat),
+        ("equations", !record.equations.iter().eq(asked)),
+    ];
+    let changed = parts.into_iter().filter(|(_, changed)| *changed);
+    changed
+        .map(|(name, _)| Verified {
+            claim: name.into(),
+            recorded: "as stated".into(),
+            replay: Replay::Numbers {
+                what: format!("`{name}` is not what the replay finds"),
+            },
+        })
+        .collect()
 }
 
 fn model(record: &Record) -> Result<Model, VerifyError> {

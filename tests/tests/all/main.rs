@@ -2,6 +2,7 @@
 //! `cargo test -p chetaev-tests --test all MODULE::`.
 
 mod book;
+mod checker;
 mod citations;
 mod command_line;
 mod constraints;
@@ -18,6 +19,7 @@ mod gallery_formulations;
 mod higher_order;
 mod laws;
 mod layers;
+mod lowered;
 mod measures;
 mod messages;
 mod motion;

@@ -1,5 +1,7 @@
 //! `chetaev verify`.
 
+mod independent;
+
 use super::{error, interrupted, with_hooks};
 use crate::arguments::Verify as Arguments;
 use crate::files::checksum_of;
@@ -11,6 +13,9 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
+    if arguments.independent {
+        return independent::run(&arguments.record, arguments.json);
+    }
     let text = match std::fs::read_to_string(&arguments.record) {
         Ok(text) => text,
         Err(problem) => {

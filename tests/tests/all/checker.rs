@@ -1,0 +1,132 @@
+//! The checker of the folder `checker`, which shares nothing with the program: it confirms what records say and rejects every record
+//! that was made false. Where there is no Python 3.11 the tests say so and ask nothing.
+#![allow(clippy::expect_used, reason = "test code fails where it stands")]
+
+use chetaev_tests::places::{root, scratch};
+use chetaev_tests::program::{ok, run, text};
+use std::path::PathBuf;
+use std::process::Command;
+use std::sync::OnceLock;
+
+const GROUPS: &str = "model,formulations,principles,integrals";
+
+fn has_python() -> bool {
+    let asked = Command::new("python3")
+        .args(["-c", "import sys; sys.exit(sys.version_info < (3, 11))"])
+        .status();
+    let found = asked.is_ok_and(|status| status.success());
+    if !found {
+        println!("no Python 3.11: the checker was not run");
+    }
+    found
+}
+
+/// The records of a few fast models.
+fn records() -> &'static [PathBuf] {
+    static RECORDS: OnceLock<Vec<PathBuf>> = OnceLock::new();
+    RECORDS.get_or_init(|| {
+        let models = [
+            "skate-level",
+            "appell-hamel",
+            "vertical-rolling-disc",
+            "moving-knife-edge",
+        ];
+        let study = |name: &str| {
+            let folder = scratch(&format!("checker-{name}"));
+            let model = format!("gallery/{name}/model.toml");
+            ok(&["study", &model, "--claims", GROUPS, "--out", text(&folder)]);
+            folder.join("study.json")
+        };
+        models.into_iter().map(study).collect()
+    })
+}
+
+#[test]
+fn what_the_program_proves_and_refutes_is_confirmed() {
+    if !has_python() {
+        return;
+    }
+    for record in records() {
+        let finished = run(&["verify", text(record), "--independent", "--json"]);
+        assert_eq!(finished.status, Some(0), "{}", finished.both());
+        let lines = finished.json();
+        let lines = lines.as_array().expect("an array");
+        let known =
+            |v: &&serde_json::Value| matches!(v["verdict"].as_str(), Some("proved" | "refuted"));
+        let decided = lines.iter().filter(known).count();
+        let confirmed = |v: &&serde_json::Value| v["outcome"] == "confirmed";
+        let confirmed = lines.iter().filter(known).filter(confirmed).count();
+        assert!(
+            10 * confirmed >= 8 * decided,
+            "{confirmed} of {decided}: {}",
+            record.display()
+        );
+    }
+}
+
+#[test]
+fn tampered_records_are_rejected() {
+    if !has_python() {
+        return;
+    }
+    let finished = Command::new("python3")
+        .args(["-B", "checker/tamper.py"])
+        .arg(&records()[0])
+        .current_dir(root())
+        .output()
+        .expect("Python runs");
+    let said = String::from_utf8_lossy(&finished.stdout);
+    assert!(
+        finished.status.success(),
+        "{said}{}",
+        String::from_utf8_lossy(&finished.stderr)
+    );
+    let counts: Vec<u32> = said
+        .split_whitespace()
+        .filter_map(|w| w.parse().ok())
+        .collect();
+    assert!(counts[0] >= 300 && counts[0] == counts[1], "{said}");
+}
+
+#[test]
+fn the_program_carries_every_file_of_the_checker() {
+    let carried =
+        std::fs::read_to_string(root().join("crates/cli/src/commands/verify/independent.rs"))
+            .expect("the source");
+    let mut names: Vec<String> = Vec::new();
+    for (folder, prefix) in [("checker", ""), ("checker/claims", "claims/")] {
+        for entry in std::fs::read_dir(root().join(folder)).expect("the folder") {
+            let name = entry
+                .expect("an entry")
+                .file_name()
+                .into_string()
+                .expect("a name");
+            if name.ends_with(".py") && !["tamper.py", "ledger.py"].contains(&name.as_str()) {
+                names.push(format!("{prefix}{name}"));
+            }
+        }
+    }
+    assert!(names.len() > 15);
+    let missing: Vec<_> = names
+        .iter()
+        .filter(|name| !carried.contains(&format!("\"{name}\"")))
+        .collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}
+
+#[test]
+fn a_record_without_a_lowered_model_or_of_another_kind_is_no_confirmation() {
+    if !has_python() {
+        return;
+    }
+    let folder = scratch("checker-broken");
+    let broken = folder.join("study.json");
+    std::fs::write(&broken, "{\"model\": 3}").expect("a scratch file");
+    let finished = run(&["verify", text(&broken), "--independent"]);
+    assert_eq!(finished.status, Some(2), "{}", finished.both());
+    assert!(
+        finished.err.contains("cannot be read"),
+        "{}",
+        finished.both()
+    );
+}
