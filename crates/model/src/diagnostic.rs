@@ -100,7 +100,7 @@ impl Diagnostic {
     }
 
     /// The diagnostic of an expression, placed in the file that the expression stands in.
-    pub(crate) fn of_expression(diagnostic: &syntax::Diagnostic, text: &Text) -> Self {
+    pub fn of_expression(diagnostic: &syntax::Diagnostic, text: &Text) -> Self {
         Diagnostic {
             severity: diagnostic.severity,
             code: diagnostic.code,
@@ -139,14 +139,14 @@ impl Diagnostics {
     }
 
     /// Adds a problem unless the same one is there.
-    pub(crate) fn push(&mut self, diagnostic: Diagnostic) {
+    pub fn push(&mut self, diagnostic: Diagnostic) {
         if !self.list.contains(&diagnostic) {
             self.list.push(diagnostic);
         }
     }
 
     /// Sorts by place, errors before warnings at one place.
-    pub(crate) fn sort(&mut self) {
+    pub fn sort(&mut self) {
         self.list.sort_by(|a, b| {
             a.place
                 .cmp(&b.place)

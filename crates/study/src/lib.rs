@@ -7,13 +7,14 @@
 //! - [`study`](mod@study): the loop over the claims of [`registry`], with its budget; [`options`], [`error`];
 //! - the run: [`motion_evidence`] (what a run tells), [`motion_claims`], [`method_order`], [`jumps`], [`witness`] (integrals of the
 //!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
-//! - [`sweep`]: a model as an ensemble;
+//! - [`sweep`]: a model as an ensemble; [`functional`]: summary, record and page of a functional of fields over space;
 //! - for people: [`derivation`], [`story`], [`summary`], [`page`], [`typeset`]; for programs: [`record`], [`table`]; [`verify`].
 
 pub mod beside;
 pub mod derivation;
 pub mod error;
 mod expectations;
+pub mod functional;
 pub mod jumps;
 mod kept;
 pub mod method_order;
