@@ -2,6 +2,7 @@
 
 use crate::arguments::ModelArguments;
 use crate::terminal;
+use chetaev::functionals;
 use chetaev::model::{self, Diagnostic, Diagnostics, Files, Model, Sources, Style};
 use chetaev::study::placed;
 use std::fmt::Display;
@@ -113,6 +114,18 @@ pub(crate) fn report(diagnostics: &Diagnostics) {
     if !diagnostics.list.is_empty() {
         terminal::err(&diagnostics.render(style));
     }
+}
+
+/// A functional of fields over space, where the file states one; what cannot be read is left to [`load`], which says so.
+pub(crate) fn functional(arguments: &ModelArguments) -> Option<functionals::Loaded> {
+    let text = std::fs::read_to_string(&arguments.model).ok()?;
+    let path = arguments.model.to_string_lossy().into_owned();
+    let tables = model::tables(&path, &text, &Disk, &[], Sources::default());
+    if !tables.is_functional() {
+        return None;
+    }
+    let overrides = overrides(&arguments.set)?;
+    Some(functionals::load(&path, &text, &Disk, &overrides))
 }
 
 /// Reads a model with its diagnostics; `None` when the file or an override cannot be read at all.

@@ -101,7 +101,7 @@ impl Diagnostic {
     }
 
     /// The diagnostic of an expression, placed in the file that the expression stands in.
-    pub(crate) fn of_expression(diagnostic: &syntax::Diagnostic, text: &Text) -> Self {
+    pub fn of_expression(diagnostic: &syntax::Diagnostic, text: &Text) -> Self {
         Diagnostic {
             severity: diagnostic.severity,
             code: diagnostic.code,
@@ -150,6 +150,13 @@ impl Diagnostics {
             .any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
+    /// Adds a problem unless the same one is there.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        if !self.list.contains(&diagnostic) {
+            self.list.push(diagnostic);
+        }
+    }
+
     /// The problems without those that are there twice.
     pub(crate) fn once(sources: Sources, all: Vec<Diagnostic>) -> Diagnostics {
         let mut known = Known::default();
@@ -163,7 +170,7 @@ impl Diagnostics {
     }
 
     /// Sorts by place, errors before warnings at one place.
-    pub(crate) fn sort(&mut self) {
+    pub fn sort(&mut self) {
         self.list.sort_by(|a, b| {
             a.place
                 .cmp(&b.place)

@@ -43,24 +43,14 @@ impl Loaded {
 /// `path` names the text in diagnostics, and included files are sought relative to it. `overrides` are pairs of the
 /// name of a parameter or size and its new value, an exact expression such as `0.3` or `1/3`.
 pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, String)]) -> Loaded {
-    let mut loader = Loader {
-        files,
-        sources: Sources::default(),
-        diagnostics: Vec::new(),
-        kept: ModelText {
-            path: path.to_owned(),
-            text: text.to_owned(),
-            includes: Vec::new(),
-            overrides: overrides.to_vec(),
-        },
-        open: Vec::new(),
-        failed: false,
-        files_read: 0,
-        bytes_read: text.len(),
-        is_too_large: false,
-    };
+    let mut loader = Loader::new(path, text, files, overrides);
     let source = loader.sources.add(path, text);
-    let table = loader.file(path, text, source);
+    let mut table = loader.file(path, text, source);
+    if let Some(kind) = table.as_mut().and_then(|table| table.remove("kind")) {
+        if let Some(problem) = other_kind(&kind) {
+            loader.fail(problem);
+        }
+    }
     let others = match &table {
         Some(table) => loader.others(path, table),
         None => BTreeMap::new(),
@@ -95,6 +85,78 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
     }
 }
 
+/// What is wrong with a file of another kind than a motion.
+fn other_kind(kind: &Raw) -> Option<Diagnostic> {
+    let word = kind.expression().map(|text| text.content.as_str());
+    match word {
+        Some("motion") => None,
+        Some(FUNCTIONAL) => Some(
+            Diagnostic::error(
+                "wrong-kind-of-model",
+                kind.place,
+                "this file states a functional, not a motion",
+            )
+            .hint("`chetaev study` and `chetaev check` read functionals"),
+        ),
+        _ => Some(
+            Diagnostic::error("unknown-value", kind.place, "this is no kind of model")
+                .hint("`kind` is \"motion\", which may be left out, or \"functional\""),
+        ),
+    }
+}
+
+/// The word for functionals of fields over space under the key `kind`.
+pub const FUNCTIONAL: &str = "functional";
+
+/// A model file with its includes laid below it, before anything is given a meaning.
+#[derive(Clone, Debug)]
+pub struct Tables {
+    /// The keys; none where a file could not be read.
+    pub table: Option<Table>,
+    /// The main text.
+    pub source: SourceId,
+    /// All texts.
+    pub sources: Sources,
+    /// What is wrong with the syntax of the TOML or with includes.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The texts as a record keeps them.
+    pub text: ModelText,
+    /// Overrides: name and value.
+    pub overrides: Vec<(Text, Text)>,
+}
+
+impl Tables {
+    /// Whether the file states a functional of fields over space.
+    pub fn is_functional(&self) -> bool {
+        let kind = self.table.as_ref().and_then(|table| table.get("kind"));
+        let word = kind.and_then(Raw::expression);
+        word.is_some_and(|text| text.content == FUNCTIONAL)
+    }
+}
+
+/// Reads a model file of any kind as a tree of values with their places; `sources` are texts read before.
+pub fn tables(
+    path: &str,
+    text: &str,
+    files: &dyn Files,
+    overrides: &[(String, String)],
+    sources: Sources,
+) -> Tables {
+    let mut loader = Loader::new(path, text, files, overrides);
+    loader.sources = sources;
+    let source = loader.sources.add(path, text);
+    let table = loader.file(path, text, source);
+    let read = loader.overrides(overrides);
+    Tables {
+        table: table.filter(|_| !loader.failed),
+        source,
+        overrides: read.into_iter().map(|o| (o.name, o.value)).collect(),
+        sources: loader.sources,
+        diagnostics: loader.diagnostics,
+        text: loader.kept,
+    }
+}
+
 /// Reads a model again from the texts that were kept with it.
 pub fn reload(text: &ModelText) -> Loaded {
     let files: std::collections::BTreeMap<String, String> = text.includes.iter().cloned().collect();
@@ -115,7 +177,31 @@ struct Loader<'f> {
     is_too_large: bool,
 }
 
-impl Loader<'_> {
+impl<'f> Loader<'f> {
+    fn new(
+        path: &str,
+        text: &str,
+        files: &'f dyn Files,
+        overrides: &[(String, String)],
+    ) -> Loader<'f> {
+        Loader {
+            files,
+            sources: Sources::default(),
+            diagnostics: Vec::new(),
+            kept: ModelText {
+                path: path.to_owned(),
+                text: text.to_owned(),
+                includes: Vec::new(),
+                overrides: overrides.to_vec(),
+            },
+            open: Vec::new(),
+            failed: false,
+            files_read: 0,
+            bytes_read: text.len(),
+            is_too_large: false,
+        }
+    }
+
     /// The table of a file with its includes below it. The depth of includes is bounded by the number of files.
     fn file(&mut self, path: &str, text: &str, source: SourceId) -> Option<Table> {
         let mut found = Vec::new();

@@ -14,18 +14,25 @@ const MOST_SYNTAX_ERRORS: usize = 20;
 
 /// A value.
 #[derive(Clone, Debug)]
-pub(crate) struct Raw {
-    pub(crate) place: Place,
-    pub(crate) kind: Kind,
+pub struct Raw {
+    /// Where it is written.
+    pub place: Place,
+    /// What it is.
+    pub kind: Kind,
 }
 
+/// What a value is.
 #[derive(Clone, Debug)]
-pub(crate) enum Kind {
+pub enum Kind {
+    /// A text.
     Text(Text),
     /// A number exactly as it is written.
     Number(Text),
+    /// `true` or `false`.
     Truth(bool),
+    /// Several values.
     Array(Vec<Raw>),
+    /// Keys with values.
     Table(Table),
     /// A date.
     Other,
@@ -33,7 +40,7 @@ pub(crate) enum Kind {
 
 impl Kind {
     /// The word for a kind of value.
-    pub(crate) fn word(&self) -> &'static str {
+    pub fn word(&self) -> &'static str {
         match self {
             Kind::Text(_) => "a text",
             Kind::Number(_) => "a number",
@@ -47,14 +54,15 @@ impl Kind {
 
 impl Raw {
     /// The expression that the value is: a text, or a number as it is written.
-    pub(crate) fn expression(&self) -> Option<&Text> {
+    pub fn expression(&self) -> Option<&Text> {
         match &self.kind {
             Kind::Text(text) | Kind::Number(text) => Some(text),
             _ => None,
         }
     }
 
-    pub(crate) fn table(&self) -> Option<&Table> {
+    /// The table that the value is.
+    pub fn table(&self) -> Option<&Table> {
         match &self.kind {
             Kind::Table(table) => Some(table),
             _ => None,
@@ -64,12 +72,14 @@ impl Raw {
 
 /// Keys with values, in the order in which they are written.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Table {
-    pub(crate) entries: Vec<(Text, Raw)>,
+pub struct Table {
+    /// Each key with its value.
+    pub entries: Vec<(Text, Raw)>,
 }
 
 impl Table {
-    pub(crate) fn get(&self, key: &str) -> Option<&Raw> {
+    /// The value of a key.
+    pub fn get(&self, key: &str) -> Option<&Raw> {
         self.entries
             .iter()
             .find(|(own, _)| own.content == key)

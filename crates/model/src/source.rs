@@ -138,7 +138,7 @@ impl Files for BTreeMap<String, String> {
 }
 
 /// The path of a file named in another: relative to the folder of that file, with `.` and `..` worked out.
-pub(crate) fn joined(including: &str, named: &str) -> String {
+pub fn joined(including: &str, named: &str) -> String {
     let named = named.replace('\\', "/");
     if named.starts_with('/') || named.get(1..3) == Some(":/") {
         return named;

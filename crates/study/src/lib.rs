@@ -7,7 +7,8 @@
 //! - [`study`](mod@study): the loop over the claims of [`registry`], with its budget; [`options`], [`error`];
 //! - the run: [`motion_evidence`] (what a run tells), [`motion_claims`], [`method_order`], [`jumps`], [`witness`] (integrals of the
 //!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
-//! - [`sweep`]: a model as an ensemble; [`stability`](mod@stability): linear equations about a steady motion;
+//! - [`sweep`]: a model as an ensemble; [`stability`](mod@stability): linear equations about a steady motion; [`functional`]: summary, record
+//!   and page of a functional of fields over space;
 //! - for people: [`derivation`], [`story`], [`summary`], [`page`], [`typeset`]; for programs: [`record`] with the model lowered ([`flat`]) and
 //!   the equations of every formulation ([`stated_equations`]), [`table`]; [`verify`].
 
@@ -16,6 +17,7 @@ pub mod derivation;
 pub mod error;
 mod expectations;
 pub mod flat;
+pub mod functional;
 pub mod jumps;
 mod kept;
 pub mod method_order;

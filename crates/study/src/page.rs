@@ -6,6 +6,8 @@ mod drawing;
 mod equations;
 mod motion;
 
+pub(crate) use claims::{evidence, word};
+
 use crate::study::Study;
 use crate::typeset::Typesetter;
 use chetaev_mechanics::words::counted;

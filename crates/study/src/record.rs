@@ -5,7 +5,7 @@ use crate::kept::Kept;
 use crate::stated_equations::{stated_equations, EquationsRecord};
 use crate::study::{Decided, Motion, Study};
 use chetaev_integrate::EventKind;
-use chetaev_model::model::Precision;
+use chetaev_model::model::{ModelText, Precision};
 use chetaev_symbolic::meter::UNITS_PER_SECOND;
 use chetaev_symbolic::verdict::{Counterexample, Evidence, Proof};
 use chetaev_symbolic::{Expr, Graph, Verdict};
@@ -42,6 +42,9 @@ pub struct Record {
     /// How work is counted, which budgets are.
     #[serde(default)]
     pub work: WorkRecord,
+    /// A functional of fields over space, where the model states one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub functional: Option<FunctionalRecord>,
 }
 
 /// A file written beside the record.
@@ -60,6 +63,38 @@ pub struct WorkRecord {
     pub units_per_second: f64,
 }
 
+/// What a functional is stationary for.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FunctionalRecord {
+    /// Its name.
+    pub name: String,
+    /// Its level in a hierarchy, if stated.
+    pub level: Option<String>,
+    /// Dimensions of space.
+    pub dimensions: u64,
+    /// Fields that are varied.
+    pub fields: Vec<String>,
+    /// Labels of equations imposed before the variation.
+    pub imposed: Vec<String>,
+    /// Labels of equations stated to follow.
+    pub yields: Vec<String>,
+    /// Euler equations.
+    pub euler: Vec<ConditionRecord>,
+    /// Conditions on pieces of the boundary, and where they meet.
+    pub boundary: Vec<ConditionRecord>,
+}
+
+/// A coefficient of the first variation, which vanishes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ConditionRecord {
+    /// The piece of the boundary; `null` in the interior.
+    pub on: Option<String>,
+    /// The variation that it is the coefficient of.
+    pub of: String,
+    /// The expression.
+    pub zero: String,
+}
+
 /// The texts of the model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelRecord {
@@ -74,6 +109,33 @@ pub struct ModelRecord {
     /// The model lowered to coordinates, L, Q and constraints, as a model file; null where a mass contains velocities.
     #[serde(default)]
     pub flat: Option<String>,
+}
+
+impl ModelRecord {
+    /// The texts that were kept with a model.
+    pub fn of(text: &ModelText) -> ModelRecord {
+        ModelRecord {
+            path: text.path.clone(),
+            text: text.text.clone(),
+            includes: text
+                .includes
+                .iter()
+                .map(|(path, text)| FileRecord {
+                    path: path.clone(),
+                    text: text.clone(),
+                })
+                .collect(),
+            overrides: text
+                .overrides
+                .iter()
+                .map(|(name, value)| OverrideRecord {
+                    name: name.clone(),
+                    value: value.clone(),
+                })
+                .collect(),
+            flat: None,
+        }
+    }
 }
 
 /// An included file.
@@ -327,25 +389,8 @@ pub fn record(study: &Study, files: &[String]) -> Record {
         schema: SCHEMA.into(),
         chetaev: env!("CARGO_PKG_VERSION").into(),
         model: ModelRecord {
-            path: text.path.clone(),
-            text: text.text.clone(),
-            includes: text
-                .includes
-                .iter()
-                .map(|(path, text)| FileRecord {
-                    path: path.clone(),
-                    text: text.clone(),
-                })
-                .collect(),
-            overrides: text
-                .overrides
-                .iter()
-                .map(|(name, value)| OverrideRecord {
-                    name: name.clone(),
-                    value: value.clone(),
-                })
-                .collect(),
             flat: flat(&study.model, &study.system),
+            ..ModelRecord::of(text)
         },
         verdicts: study
             .verdicts
@@ -375,6 +420,7 @@ pub fn record(study: &Study, files: &[String]) -> Record {
         work: WorkRecord {
             units_per_second: UNITS_PER_SECOND,
         },
+        functional: None,
     }
 }
 
@@ -406,9 +452,15 @@ fn verdict_record(study: &Study, decided: &Decided) -> VerdictRecord {
             .collect(),
         ..VerdictRecord::default()
     };
-    match &decided.finding.verdict {
-        Verdict::Proved(proof) => with_proof(&mut record, proof),
-        Verdict::Numerical(evidence) => with_evidence(&mut record, evidence),
+    of_verdict(&mut record, &decided.finding.verdict);
+    record
+}
+
+/// The evidence of a verdict.
+pub(crate) fn of_verdict(record: &mut VerdictRecord, verdict: &Verdict) {
+    match verdict {
+        Verdict::Proved(proof) => with_proof(record, proof),
+        Verdict::Numerical(evidence) => with_evidence(record, evidence),
         Verdict::Refuted(counterexample) => {
             record.counterexample = Some(counterexample_record(counterexample))
         }
@@ -417,14 +469,13 @@ fn verdict_record(study: &Study, decided: &Decided) -> VerdictRecord {
             proof,
             counterexample,
         } => {
-            with_proof(&mut record, proof);
+            with_proof(record, proof);
             record.condition = Some(condition.clone());
             record.counterexample = counterexample.as_ref().map(counterexample_record);
         }
         Verdict::NotApplicable { hypothesis, .. } => record.condition = Some(hypothesis.clone()),
         Verdict::Undecided { .. } => {}
     }
-    record
 }
 
 /// A formula, unless it is too long to be read.

@@ -8,6 +8,9 @@ use chetaev::model::Model;
 use chetaev::study::{check, diagnostics};
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
+    if let Some(loaded) = files::functional(&arguments.model) {
+        return super::functional::check(&loaded, arguments.json);
+    }
     let Some((model, mut found)) = files::load(&arguments.model) else {
         return INPUT;
     };

@@ -3,6 +3,7 @@
 use super::error;
 use crate::arguments::Explain as Arguments;
 use crate::{terminal, DONE, INPUT};
+use chetaev::functionals::{self, claims::CLAIMS};
 use chetaev::mechanics::card::{Card, Relation};
 use chetaev::mechanics::{formulation, Claim, Group, FORMULATIONS};
 use chetaev::study::registry;
@@ -12,10 +13,13 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let known = registry();
     let Some(wanted) = &arguments.claim else {
         terminal::out(&if arguments.json {
-            let all: Vec<_> = known.claims().iter().map(|c| as_json(*c, c.id())).collect();
+            let own = known.claims().iter().map(|c| as_json(*c, c.id()));
+            let all: Vec<_> = own
+                .chain(CLAIMS.iter().map(|c| functional_as_json(*c)))
+                .collect();
             text_of(&serde_json::json!(all))
         } else {
-            list(known.claims())
+            format!("{}{}", list(known.claims()), functional_list())
         });
         return DONE;
     };
@@ -35,6 +39,18 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             DONE
         }
         None => {
+            if let Some(own) = CLAIMS.iter().find(|c| c.id() == id) {
+                terminal::out(&match arguments.json {
+                    true => text_of(&functional_as_json(*own)),
+                    false => format!(
+                        "{}\n{}\n\n{}\n",
+                        own.id(),
+                        own.title(),
+                        wrapped(own.explanation())
+                    ),
+                });
+                return DONE;
+            }
             if let Some(named) = formulation(id) {
                 terminal::out(&format!("{}\n\n{}\n", id, described(named.card())));
                 return DONE;
@@ -82,6 +98,26 @@ fn as_json(claim: &'static dyn Claim, wanted: &str) -> serde_json::Value {
         "explanation": claim.explanation(),
         "requires": requirements(claim, wanted),
     })
+}
+
+fn functional_as_json(claim: &dyn functionals::claims::Claim) -> serde_json::Value {
+    serde_json::json!({
+        "id": claim.id(),
+        "title": claim.title(),
+        "group": "functional",
+        "explanation": claim.explanation(),
+        "requires": [],
+    })
+}
+
+/// The claims about functionals of fields over space.
+fn functional_list() -> String {
+    let width = CLAIMS.iter().map(|c| c.id().len()).max().unwrap_or(0);
+    let lines: Vec<String> = CLAIMS
+        .iter()
+        .map(|c| format!("  {:<width$} {}\n", c.id(), c.title()))
+        .collect();
+    format!("functional\n{}", lines.concat())
 }
 
 fn list(claims: &[&'static dyn Claim]) -> String {
@@ -193,7 +229,18 @@ fn wrapped(text: &str) -> String {
 
 /// "; did you mean …?" for a claim that does not exist: the nearest by spelling, else those with the same last word.
 pub(crate) fn did_you_mean(id: &str, claims: &[&'static dyn Claim]) -> String {
-    let ids = || claims.iter().map(|c| c.id());
+    nearest(
+        id,
+        claims
+            .iter()
+            .map(|c| c.id())
+            .chain(CLAIMS.iter().map(|c| c.id())),
+    )
+}
+
+/// The same among given ids.
+pub(crate) fn nearest(id: &str, ids: impl Iterator<Item = &'static str> + Clone) -> String {
+    let ids = || ids.clone();
     let last = |id: &'static str| id.rsplit('.').next().unwrap_or(id);
     let tail = id.rsplit('.').next().unwrap_or(id);
     let close: Vec<&str> = match names::closest(id, ids()) {

@@ -27,6 +27,16 @@ impl Entry {
         first.trim_start_matches('#').trim()
     }
 
+    /// Whether it has a model, and not only what others include.
+    fn is_model(&self) -> bool {
+        self.files.iter().any(|(file, _)| *file == "model.toml")
+    }
+
+    /// The group that it belongs to, and its name in it.
+    fn group(&self) -> Option<(&'static str, &'static str)> {
+        self.name.split_once('/')
+    }
+
     fn as_json(&self) -> serde_json::Value {
         let files: Vec<&str> = self.files.iter().map(|(file, _)| *file).collect();
         serde_json::json!({"name": self.name, "title": self.title(), "files": files})
@@ -44,7 +54,9 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         Some(GalleryAction::Copy { name, folder }) => match find(name) {
             Some(entry) => copy(
                 entry,
-                &folder.clone().unwrap_or_else(|| PathBuf::from(name)),
+                &folder
+                    .clone()
+                    .unwrap_or_else(|| PathBuf::from(name.rsplit('/').next().unwrap_or(name))),
                 json,
             ),
             None => unknown(name),
@@ -58,16 +70,28 @@ fn print(data: &serde_json::Value) {
 }
 
 fn find(name: &str) -> Option<&'static Entry> {
-    ENTRIES.iter().find(|e| e.name == name)
+    ENTRIES.iter().find(|e| e.name == name && e.is_model())
 }
 
 fn list(json: bool) -> u8 {
+    let models = || ENTRIES.iter().filter(|entry| entry.is_model());
     if json {
-        let all: Vec<_> = ENTRIES.iter().map(Entry::as_json).collect();
+        let all: Vec<_> = models().map(Entry::as_json).collect();
         print(&serde_json::json!(all));
         return DONE;
     }
-    for entry in ENTRIES {
+    for entry in models().filter(|entry| entry.group().is_none()) {
+        terminal::out(&format!("{:<24} {}\n", entry.name, entry.title()));
+    }
+    let mut last = "";
+    for entry in models() {
+        let Some((group, _)) = entry.group() else {
+            continue;
+        };
+        if group != last {
+            terminal::out(&format!("\n{group}: functionals of fields over space\n"));
+            last = group;
+        }
         terminal::out(&format!("{:<24} {}\n", entry.name, entry.title()));
     }
     DONE
@@ -85,7 +109,8 @@ fn describe(entry: &Entry, json: bool) -> u8 {
 }
 
 fn unknown(name: &str) -> u8 {
-    let all: Vec<&str> = ENTRIES.iter().map(|e| e.name).collect();
+    let models = ENTRIES.iter().filter(|e| e.is_model());
+    let all: Vec<&str> = models.map(|e| e.name).collect();
     let near = names::closest(name, all.iter().copied());
     error(format!(
         "there is no model `{name}` in the gallery; {}there are {}",
@@ -103,8 +128,8 @@ fn copy(entry: &Entry, folder: &Path, json: bool) -> u8 {
         ));
         return INPUT;
     }
-    for (name, text) in entry.files {
-        if let Err(problem) = files::write(&folder.join(name), text.as_bytes()) {
+    for (path, text) in copied(entry) {
+        if let Err(problem) = files::write(&folder.join(path), text.as_bytes()) {
             error(problem);
             return INPUT;
         }
@@ -115,6 +140,29 @@ fn copy(entry: &Entry, folder: &Path, json: bool) -> u8 {
         print(&data);
     } else {
         terminal::out(&format!("wrote {}\n", folder.display()));
+        if let Some((_, member)) = entry.group() {
+            let model = folder.join(member).join("model.toml");
+            terminal::out(&format!("the model is {}\n", model.display()));
+        }
     }
     DONE
+}
+
+/// What is written for an entry: models of a group name each other's files, and so all of the group is.
+fn copied(entry: &Entry) -> Vec<(String, &'static str)> {
+    let Some((group, _)) = entry.group() else {
+        let own = entry.files.iter();
+        return own
+            .map(|(name, text)| ((*name).to_owned(), *text))
+            .collect();
+    };
+    let members = ENTRIES.iter().filter_map(|e| Some((e, e.group()?)));
+    members
+        .filter(|(_, (own, _))| *own == group)
+        .flat_map(|(e, (_, member))| {
+            e.files
+                .iter()
+                .map(move |(name, text)| (format!("{member}/{name}"), *text))
+        })
+        .collect()
 }

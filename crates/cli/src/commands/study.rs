@@ -15,6 +15,9 @@ use chetaev::study::{
 use std::path::Path;
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
+    if let Some(loaded) = files::functional(&arguments.model) {
+        return super::functional::study(arguments, loaded);
+    }
     let Some(read) = files::model(&arguments.model) else {
         return INPUT;
     };

@@ -9,7 +9,7 @@ use chetaev_report::data::{Claim, Equation, Verdict as Word};
 use chetaev_symbolic::verdict::Counterexample;
 use chetaev_symbolic::Verdict;
 
-pub(super) fn word(verdict: &str) -> Word {
+pub(crate) fn word(verdict: &str) -> Word {
     Word::ALL
         .into_iter()
         .find(|w| w.key() == verdict)
@@ -64,7 +64,7 @@ pub(super) fn claim(decided: &Decided, set: &Typesetter<'_>) -> Claim {
     claim
 }
 
-fn evidence(claim: &mut Claim, verdict: &Verdict) {
+pub(crate) fn evidence(claim: &mut Claim, verdict: &Verdict) {
     match verdict {
         Verdict::Proved(proof) | Verdict::Conditional { proof, .. } => {
             claim.method = Some(proof.method.word().into());

@@ -1,0 +1,87 @@
+//! `functional.descent`: a level follows from the one above by imposing one more group of equations.
+
+use super::degeneration::compared;
+use super::modulo::labels;
+use super::{Claim, Context, Finding};
+use crate::elimination::{Group, Solved};
+use crate::functional::{Functional, Relation};
+use chetaev_symbolic::{Expr, Verdict};
+
+/// `functional.descent#NAME`.
+pub(super) struct Descent;
+
+impl Claim for Descent {
+    fn id(&self) -> &'static str {
+        "functional.descent"
+    }
+
+    fn title(&self) -> &'static str {
+        "The functional follows from the one a level above by imposing one more group of equations"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The equations that [descent] names are imposed on the functional of the level above: they are solved for one of its fields, \
+         whose place the solution takes in all densities. What comes out must be the functional of this model. Where a \
+         boundary density agrees only because of further field equations, the verdict names the fewest that are needed."
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        let is = |r: &Relation| matches!(r, Relation::Descent { .. });
+        match cx.problem.relations.iter().any(is) {
+            true => vec![cx.own()],
+            false => Vec::new(),
+        }
+    }
+
+    fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
+        let found = cx.problem.relations.iter().find_map(|r| match r {
+            Relation::Descent { other, imposed } => Some((other, imposed)),
+            _ => None,
+        });
+        match found {
+            Some((above, imposed)) => descended(cx.functional(), above, imposed).into(),
+            None => Verdict::undecided("no level above is stated").into(),
+        }
+    }
+}
+
+fn descended(functional: &Functional, above: &Functional, imposed: &[String]) -> Verdict {
+    let space = &*functional.space;
+    let group = |label: &String| {
+        let own = above.equations.iter().find(|e| e.label == *label)?;
+        Some((
+            own.on.clone(),
+            Group {
+                label: label.clone(),
+                equations: own.residuals.clone(),
+            },
+        ))
+    };
+    let groups: Vec<(Option<String>, Group)> = imposed.iter().filter_map(group).collect();
+    let inside: Vec<Group> = groups
+        .iter()
+        .filter(|(on, _)| on.is_none())
+        .map(|(_, g)| g.clone())
+        .collect();
+    // What is eliminated is the field that the lower functional does not have.
+    let fields: Vec<String> = above
+        .fields
+        .iter()
+        .map(|field| field.name.clone())
+        .filter(|name| functional.fields.iter().all(|own| own.name != *name))
+        .collect();
+    let solved = Solved::new(space).preferring(&fields).with(&inside);
+    if !solved.left.is_empty() {
+        return Verdict::undecided(
+            "the equations that are imposed could not be solved for a field",
+        );
+    }
+    let everywhere: Vec<Group> = groups.into_iter().map(|(_, g)| g).collect();
+    let on_boundary = Solved::new(space).preferring(&fields).with(&everywhere);
+    let how = format!("imposing {} on {},", labels(imposed), above.name);
+    let density = above.density;
+    compared(above, functional, &how, &|e: Expr| match e == density {
+        true => solved.normal(e),
+        false => on_boundary.normal(e),
+    })
+}

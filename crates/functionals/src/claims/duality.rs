@@ -1,0 +1,168 @@
+//! `functional.duality`: two functionals add up to a divergence, and to nothing with their boundary terms.
+
+use super::modulo::{equations, labels, vanishing};
+use super::{Claim, Context, Finding, Formula};
+use crate::functional::{Functional, Relation, Side};
+use crate::read::normals;
+use crate::variation::euler_expression;
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::{Expr, Verdict};
+
+/// `functional.duality#NAME`.
+pub(super) struct Duality;
+
+impl Claim for Duality {
+    fn id(&self) -> &'static str {
+        "functional.duality"
+    }
+
+    fn title(&self) -> &'static str {
+        "The densities of a functional and of its dual add up to a divergence, and both functionals to zero"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The sum of the two densities of the interior is a divergence if its Euler expressions vanish identically. With a stated flux W \
+         the sum is proved to be D_i W_i, and on every piece n_i W_i and the two boundary densities must add up to zero, which makes the \
+         sum of the functionals zero for all fields. Where one of these holds only because of field equations, the verdict \
+         names the fewest that are needed."
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        let is = |r: &Relation| matches!(r, Relation::Duality { .. });
+        match cx.problem.relations.iter().any(is) {
+            true => vec![cx.own()],
+            false => Vec::new(),
+        }
+    }
+
+    fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
+        let found = cx.problem.relations.iter().find_map(|r| match r {
+            Relation::Duality { other, flux } => Some((other, flux.as_ref())),
+            _ => None,
+        });
+        match found {
+            Some((other, Some((written, flux)))) => {
+                with_flux(cx.functional(), other, written, flux)
+            }
+            Some((other, None)) => without_flux(cx.functional(), other).into(),
+            None => Verdict::undecided("no dual functional is stated").into(),
+        }
+    }
+}
+
+fn without_flux(functional: &Functional, other: &Functional) -> Verdict {
+    let space = &*functional.space;
+    let sum = space.graph.add(&[functional.density, other.density]);
+    let jets = space.jets_in(&[sum]);
+    let mut components: Vec<usize> = jets.into_iter().map(|jet| jet.component).collect();
+    components.dedup();
+    let own: Vec<Expr> = components
+        .iter()
+        .map(|&c| euler_expression(space, sum, c))
+        .collect();
+    match space.vanishing(&own, true) {
+        Verdict::Proved(proof) => Verdict::Proved(Proof {
+            on: "all fields".into(),
+            detail: format!(
+                "the sum of the densities of {} and {} has no Euler expression, so that it is a divergence; the boundary was not compared, as no flux is stated",
+                functional.name, other.name
+            ),
+            ..proof
+        }),
+        verdict => verdict.prefixed("the sum of the densities is not a divergence"),
+    }
+}
+
+fn with_flux(functional: &Functional, other: &Functional, written: &str, flux: &[Expr]) -> Finding {
+    let space = &*functional.space;
+    let g = &space.graph;
+    let mut terms = vec![functional.density, other.density];
+    for (axis, &w) in flux.iter().enumerate() {
+        terms.push(g.neg(space.total(w, axis)));
+    }
+    let mut notes = Vec::new();
+    let mut all = match vanishing(functional, &[g.add(&terms)], &equations(functional, None)) {
+        Ok((proof, needed)) => {
+            if !needed.is_empty() {
+                notes.push(format!("in the interior modulo {}", labels(&needed)));
+            }
+            Verdict::Proved(proof)
+        }
+        Err(verdict) => {
+            let what = format!("the sum of the densities is not the divergence of {written}");
+            return (*verdict).prefixed(&what).into();
+        }
+    };
+    let mut formulas = Vec::new();
+    for piece in &functional.pieces {
+        let Some(dual) = other.piece(&piece.name) else {
+            return Verdict::undecided(format!("`{}` has no piece {}", other.name, piece.name))
+                .into();
+        };
+        let through = match piece.side {
+            Side::Curved => {
+                let own = normals(&functional.scope).into_iter().zip(flux);
+                own.map(|(n, &w)| g.mul(&[n, w])).collect()
+            }
+            Side::Flat { axis, is_upper, .. } => match flux.get(axis) {
+                Some(&w) if is_upper => vec![w],
+                Some(&w) => vec![g.neg(w)],
+                None => Vec::new(),
+            },
+        };
+        let mut terms: Vec<Expr> = through;
+        terms.extend([piece.density, dual.density]);
+        let sum = g.add(&terms);
+        match vanishing(
+            functional,
+            &[sum],
+            &equations(functional, Some(&piece.name)),
+        ) {
+            Ok((proof, needed)) => {
+                if !needed.is_empty() {
+                    notes.push(format!("on {} modulo {}", piece.name, labels(&needed)));
+                    let caption = format!(
+                        "the sum on {}, which vanishes with {}",
+                        piece.name,
+                        labels(&needed)
+                    );
+                    formulas.push(Formula {
+                        caption,
+                        value: sum,
+                    });
+                }
+                all = all.and(Verdict::Proved(proof));
+            }
+            Err(verdict) => {
+                let what = format!(
+                    "on {} the flux and the boundary densities do not cancel",
+                    piece.name
+                );
+                return (*verdict).prefixed(&what).into();
+            }
+        }
+    }
+    let verdict = match all {
+        Verdict::Proved(proof) => Verdict::Proved(Proof {
+            on: match notes.is_empty() {
+                true => "all fields".into(),
+                false => format!("all fields; {}", notes.join(", ")),
+            },
+            detail: match notes.is_empty() {
+                true => format!(
+                    "the densities of {} and {} add up to the divergence of {written}, and the functionals to zero identically",
+                    functional.name, other.name
+                ),
+                false => format!(
+                    "the densities of {} and {} add up to the divergence of {written}, and the functionals to zero {}",
+                    functional.name,
+                    other.name,
+                    notes.join(", ")
+                ),
+            },
+            ..proof
+        }),
+        other => other,
+    };
+    Finding { verdict, formulas }
+}

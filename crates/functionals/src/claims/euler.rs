@@ -1,0 +1,493 @@
+//! `functional.euler`: stationarity is equivalent to the stated equations.
+
+use super::modulo::labels;
+use super::{Claim, Context, Finding};
+use crate::elimination::{Group, Solved};
+use crate::functional::{Equation, Functional, Role, Side};
+use crate::read::normals;
+use crate::variation::{Condition, OnPiece, Variation};
+use chetaev_symbolic::verdict::{Counterexample, Proof};
+use chetaev_symbolic::{Expr, Verdict};
+use std::collections::BTreeSet;
+
+/// `functional.euler#NAME`.
+pub(super) struct Euler;
+
+impl Claim for Euler {
+    fn id(&self) -> &'static str {
+        "functional.euler"
+    }
+
+    fn title(&self) -> &'static str {
+        "The functional is stationary exactly where the stated field equations and boundary conditions hold"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "The Euler equations and the natural conditions on each piece of the boundary are derived from the densities, and compared \
+         with the equations that `yields` names, together with those that `imposed` names. Both systems are solved, one group of \
+         equations after the other, for data, fields or their derivatives (a gradient B'(s) = e of a function with a Legendre \
+         conjugate as s = A'(e)), and rules are differentiated as needed; then every equation of one system must vanish where the \
+         other holds, both ways. Constitutive functions stay symbols with their derivatives, so that a proof holds for every \
+         energy. What is solved for with a matrix that depends on the fields is named under \"on\": there the matrix must be \
+         regular. Equations with a stated multiplier are added to the density with it before the variation. A refutation shows a \
+         jet at which one system holds and the other does not."
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        vec![cx.own()]
+    }
+
+    fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
+        let functional = cx.functional();
+        if functional.with_role(Role::Yielded).next().is_none() {
+            return Verdict::not_applicable(
+                "functional.euler",
+                "the model states no field equations under `yields`, so the Euler equations are only printed",
+            )
+            .into();
+        }
+        match &cx.variation {
+            Ok(variation) => Comparison::new(functional, variation).verdict().into(),
+            Err(problem) => Verdict::undecided(problem.to_string()).into(),
+        }
+    }
+}
+
+struct Comparison<'f> {
+    functional: &'f Functional,
+    variation: &'f Variation,
+    /// What holds because it is imposed or derived.
+    derived: Solved<'f>,
+    /// What holds because it is imposed or stated.
+    stated: Solved<'f>,
+}
+
+/// An equation that was compared.
+struct Judged {
+    what: String,
+    verdict: Verdict,
+    /// What could not be solved for.
+    open: Vec<String>,
+}
+
+impl<'f> Comparison<'f> {
+    fn new(functional: &'f Functional, variation: &'f Variation) -> Comparison<'f> {
+        let space = &*functional.space;
+        let inside = |role: Role| groups(functional, role, None);
+        let imposed = Solved::new(space).with(&inside(Role::Imposed));
+        Comparison {
+            functional,
+            variation,
+            derived: imposed.with(&euler_groups(functional, variation)),
+            stated: imposed.with(&inside(Role::Yielded)),
+        }
+    }
+
+    fn verdict(&self) -> Verdict {
+        let mut judged = Vec::new();
+        let mut pivots: BTreeSet<String> = BTreeSet::new();
+        let mut inverted: BTreeSet<String> = BTreeSet::new();
+        for equation in self
+            .functional
+            .with_role(Role::Yielded)
+            .filter(|e| e.on.is_none())
+        {
+            judged.push(self.equation(equation, &self.derived));
+        }
+        for &(component, value) in &self.variation.euler {
+            let name = self.functional.space.component_at(component).name;
+            judged.push(self.judge(
+                format!("the Euler equation of {name}"),
+                &[value],
+                &self.stated,
+            ));
+        }
+        let mut notes = |solved: &Solved<'_>| {
+            pivots.extend(solved.pivots.iter().cloned());
+            inverted.extend(solved.inverted.iter().cloned());
+        };
+        notes(&self.derived);
+        notes(&self.stated);
+        for on in &self.variation.pieces {
+            let (derived, stated) = self.piece(on, &mut judged);
+            notes(&derived);
+            notes(&stated);
+        }
+        self.edges(&mut judged);
+        self.corners(&mut judged);
+        self.joined(judged, &pivots, &inverted)
+    }
+
+    /// Where two faces meet: the conditions there, both ways.
+    fn corners(&self, judged: &mut Vec<Judged>) {
+        let functional = self.functional;
+        let stated = functional
+            .with_role(Role::Yielded)
+            .filter_map(|e| e.on.as_deref());
+        let derived = self
+            .variation
+            .corners
+            .iter()
+            .map(|c| format!("{}, {}", c.pieces.0, c.pieces.1));
+        let mut places: Vec<(String, String)> = Vec::new();
+        for place in stated.map(str::to_owned).chain(derived) {
+            let Some((one, other)) = functional.meeting(&place) else {
+                continue;
+            };
+            let pair = (one.name.clone(), other.name.clone());
+            let swapped = (pair.1.clone(), pair.0.clone());
+            if !places.contains(&pair) && !places.contains(&swapped) {
+                places.push(pair);
+            }
+        }
+        for pair in places {
+            self.corner(&pair, judged);
+        }
+    }
+
+    fn corner(&self, pair: &(String, String), judged: &mut Vec<Judged>) {
+        let functional = self.functional;
+        let is_here = |on: &str| {
+            functional.meeting(on).is_some_and(|(a, b)| {
+                (a.name == pair.0 && b.name == pair.1) || (a.name == pair.1 && b.name == pair.0)
+            })
+        };
+        let here: Vec<&crate::variation::Corner> = self
+            .variation
+            .corners
+            .iter()
+            .filter(|c| is_here(&format!("{}, {}", c.pieces.0, c.pieces.1)))
+            .collect();
+        let equations: Vec<&Equation> = functional
+            .with_role(Role::Yielded)
+            .filter(|e| e.on.as_deref().is_some_and(is_here))
+            .collect();
+        let (mut derived, mut stated) = (self.derived.clone(), self.stated.clone());
+        for name in [&pair.0, &pair.1] {
+            let (Some(piece), Some(on)) = (
+                functional.piece(name),
+                self.variation.pieces.iter().find(|p| p.piece == *name),
+            ) else {
+                continue;
+            };
+            let name = Some(name.as_str());
+            let imposed = groups(functional, Role::Imposed, name);
+            derived = derived
+                .with_on(&piece.side, &imposed)
+                .with(&condition_groups(functional, on, &on.conditions));
+            stated = stated.with_on(&piece.side, &imposed).with(&groups(
+                functional,
+                Role::Yielded,
+                name,
+            ));
+        }
+        // At a corner nothing may be differentiated.
+        let conditions: Vec<Group> = here
+            .iter()
+            .map(|c| Group {
+                label: "corner".into(),
+                equations: vec![c.value],
+            })
+            .collect();
+        let own: Vec<Group> = equations
+            .iter()
+            .map(|e| Group {
+                label: e.label.clone(),
+                equations: e.residuals.clone(),
+            })
+            .collect();
+        derived = derived.with_on(&Side::Curved, &conditions);
+        stated = stated.with_on(&Side::Curved, &own);
+        for equation in equations {
+            judged.push(self.equation(equation, &derived));
+        }
+        for corner in here {
+            let name = functional.space.component_at(corner.component).name;
+            let what = format!(
+                "the condition of {name} where {} and {} meet",
+                pair.0, pair.1
+            );
+            judged.push(self.judge(what, &[corner.value], &stated));
+        }
+    }
+
+    /// Where two curved pieces meet, what acts along them at the edge has to cancel.
+    fn edges(&self, judged: &mut Vec<Judged>) {
+        let functional = self.functional;
+        let pieces = &self.variation.pieces;
+        for (at, one) in pieces.iter().enumerate() {
+            for other in &pieces[at + 1..] {
+                let components: BTreeSet<usize> = one
+                    .slopes
+                    .iter()
+                    .chain(&other.slopes)
+                    .map(|(c, _)| *c)
+                    .collect();
+                if components.is_empty() || functional.space.dimensions() == 1 {
+                    continue;
+                }
+                let mut stated = self.stated.clone();
+                for piece in [one, other] {
+                    let name = Some(piece.piece.as_str());
+                    if let Some(own) = functional.piece(&piece.piece) {
+                        stated = stated
+                            .with_on(&own.side, &groups(functional, Role::Imposed, name))
+                            .with(&groups(functional, Role::Yielded, name));
+                    }
+                }
+                for component in components {
+                    let name = functional.space.component_at(component).name;
+                    let what = format!(
+                        "the condition of {name} where {} and {} meet",
+                        one.piece, other.piece
+                    );
+                    let difference = edge(functional, one, other, component);
+                    judged.push(self.judge(what, &along(functional, &difference), &stated));
+                }
+            }
+        }
+    }
+
+    fn equation(&self, equation: &Equation, where_holds: &Solved<'f>) -> Judged {
+        let what = format!("the stated equation ({})", equation.label);
+        self.judge(what, &equation.residuals, where_holds)
+    }
+
+    fn judge(&self, what: String, es: &[Expr], solved: &Solved<'f>) -> Judged {
+        let mut verdict = Verdict::Proved(Proof::exact("", ""));
+        for &e in es {
+            let own = solved.verdict(e);
+            let is_proved = matches!(own, Verdict::Proved(_));
+            verdict = verdict.and(own);
+            if !is_proved {
+                break;
+            }
+        }
+        Judged {
+            what,
+            verdict,
+            open: solved
+                .left
+                .iter()
+                .map(|group| format!("`{}`", group.label))
+                .collect(),
+        }
+    }
+
+    /// Both directions on a piece of the boundary.
+    fn piece(&self, on: &OnPiece, judged: &mut Vec<Judged>) -> (Solved<'f>, Solved<'f>) {
+        let functional = self.functional;
+        let name = Some(on.piece.as_str());
+        let imposed = groups(functional, Role::Imposed, name);
+        let Some(piece) = functional.piece(&on.piece) else {
+            return (self.derived.clone(), self.stated.clone());
+        };
+        let derived = self
+            .derived
+            .with_on(&piece.side, &imposed)
+            .with(&condition_groups(functional, on, &on.conditions));
+        let stated = self.stated.with_on(&piece.side, &imposed).with(&groups(
+            functional,
+            Role::Yielded,
+            name,
+        ));
+        for equation in functional
+            .with_role(Role::Yielded)
+            .filter(|e| e.on.as_deref() == name)
+        {
+            judged.push(self.equation(equation, &derived));
+        }
+        for condition in &on.conditions {
+            let component = functional.space.component_at(condition.component).name;
+            let what = format!("the natural condition of {component} on {}", on.piece);
+            judged.push(self.judge(what, &[condition.value], &stated));
+        }
+        (derived, stated)
+    }
+
+    fn joined(
+        &self,
+        judged: Vec<Judged>,
+        pivots: &BTreeSet<String>,
+        inverted: &BTreeSet<String>,
+    ) -> Verdict {
+        let mut all = Verdict::Proved(Proof::exact("", ""));
+        for own in judged {
+            match own.verdict {
+                Verdict::Proved(proof) => all = all.and(Verdict::Proved(proof)),
+                Verdict::Refuted(found) if own.open.is_empty() => {
+                    return refuted(&own.what, found);
+                }
+                other => {
+                    let why = match !own.open.is_empty() {
+                        true => format!(
+                            "{} could not be solved for any field",
+                            own.open.join(" and ")
+                        ),
+                        false => other.detail().to_owned(),
+                    };
+                    return Verdict::undecided(format!("{} was not compared: {why}", own.what));
+                }
+            }
+        }
+        let Verdict::Proved(mut proof) = all else {
+            return all;
+        };
+        proof.on = on(pivots, inverted);
+        if self
+            .variation
+            .pieces
+            .iter()
+            .filter(|p| !p.slopes.is_empty())
+            .count()
+            > 1
+        {
+            proof
+                .on
+                .push_str("; curved pieces meet with a common tangent plane");
+        }
+        proof.detail = self.detail();
+        Verdict::Proved(proof)
+    }
+
+    fn detail(&self) -> String {
+        let functional = self.functional;
+        let label = |role: Role| -> Vec<String> {
+            functional
+                .with_role(role)
+                .map(|e| e.label.clone())
+                .collect()
+        };
+        let (imposed, yielded) = (label(Role::Imposed), label(Role::Yielded));
+        let mut detail = format!(
+            "the Euler equations and natural conditions are equivalent to {}",
+            labels(&yielded)
+        );
+        if !imposed.is_empty() {
+            detail.push_str(&format!(", where {} hold beforehand", labels(&imposed)));
+        }
+        let multipliers: Vec<String> = functional
+            .equations
+            .iter()
+            .filter(|e| e.role == Role::Imposed)
+            .filter_map(|e| Some(format!("{} of ({})", e.multiplier.as_ref()?.0, e.label)))
+            .collect();
+        if !multipliers.is_empty() {
+            detail.push_str(&format!(
+                ", with the multipliers {}",
+                multipliers.join(", ")
+            ));
+        }
+        detail
+    }
+}
+
+fn refuted(what: &str, found: Counterexample) -> Verdict {
+    let (lower, upper) = &found.residual;
+    let size = match lower == upper {
+        true => format!("is {lower}"),
+        false => format!("lies between {lower} and {upper}"),
+    };
+    Verdict::Refuted(Counterexample {
+        detail: format!(
+            "{what} does not hold where the other system does: its residual {size} at the jet stated"
+        ),
+        quantity: what.to_owned(),
+        ..found
+    })
+}
+
+/// Where a proof holds.
+fn on(pivots: &BTreeSet<String>, inverted: &BTreeSet<String>) -> String {
+    let mut place = String::from("all jets");
+    if !pivots.is_empty() {
+        let names: Vec<&str> = pivots.iter().map(String::as_str).collect();
+        place.push_str(&format!(
+            " at which the equations can be solved for {}, whose coefficients depend on the fields or the normal",
+            names.join(", ")
+        ));
+    }
+    if !inverted.is_empty() {
+        let names: Vec<&str> = inverted.iter().map(String::as_str).collect();
+        place.push_str(&format!(
+            ", assuming that the gradient of {} is undone by that of its Legendre conjugate",
+            names.join(" and of ")
+        ));
+    }
+    place
+}
+
+/// The difference of the coefficients of the gradient of a component on two pieces.
+fn edge(functional: &Functional, one: &OnPiece, other: &OnPiece, component: usize) -> Vec<Expr> {
+    let g = &functional.space.graph;
+    let of = |on: &OnPiece| {
+        on.slopes
+            .iter()
+            .find(|(c, _)| *c == component)
+            .map(|(_, q)| q.clone())
+    };
+    let zeros = vec![g.zero(); functional.space.dimensions()];
+    let (a, b) = (
+        of(one).unwrap_or_else(|| zeros.clone()),
+        of(other).unwrap_or(zeros),
+    );
+    a.iter().zip(&b).map(|(&a, &b)| g.sub(a, b)).collect()
+}
+
+/// The part of the coefficient of a gradient along a curved piece: at its edges it has to vanish.
+fn along(functional: &Functional, q: &[Expr]) -> Vec<Expr> {
+    let g = &functional.space.graph;
+    let normal = normals(&functional.scope);
+    if normal.len() == 1 {
+        return Vec::new();
+    }
+    let through: Vec<Expr> = normal
+        .iter()
+        .zip(q)
+        .map(|(&n, &q)| g.mul(&[n, q]))
+        .collect();
+    let through = g.add(&through);
+    let own = normal.iter().zip(q);
+    own.map(|(&n, &q)| g.sub(q, g.mul(&[n, through]))).collect()
+}
+
+fn groups(functional: &Functional, role: Role, on: Option<&str>) -> Vec<Group> {
+    functional
+        .with_role(role)
+        .filter(|e| e.on.as_deref() == on)
+        .map(|e| Group {
+            label: format!("({})", e.label),
+            equations: e.residuals.clone(),
+        })
+        .collect()
+}
+
+/// The Euler equations, those of one field together.
+fn euler_groups(functional: &Functional, variation: &Variation) -> Vec<Group> {
+    let own = functional.interior().map(|field| Group {
+        label: field.name.clone(),
+        equations: variation
+            .euler
+            .iter()
+            .filter(|(component, _)| field.components.contains(component))
+            .map(|(_, value)| *value)
+            .collect(),
+    });
+    own.collect()
+}
+
+fn condition_groups(functional: &Functional, on: &OnPiece, conditions: &[Condition]) -> Vec<Group> {
+    let mut found: Vec<Group> = Vec::new();
+    for condition in conditions {
+        let tensor = functional.space.component_at(condition.component).tensor;
+        let label = format!("{tensor} on {} {:?}", on.piece, condition.trace);
+        match found.iter_mut().find(|group| group.label == label) {
+            Some(group) => group.equations.push(condition.value),
+            None => found.push(Group {
+                label,
+                equations: vec![condition.value],
+            }),
+        }
+    }
+    found
+}

@@ -1,0 +1,87 @@
+//! The claims about functionals, one file each, in a registry.
+
+mod degeneration;
+mod descent;
+mod duality;
+mod euler;
+mod legendre;
+mod modulo;
+
+use crate::functional::{Functional, Problem};
+use crate::variation::{variation, Variation, VariationError};
+use chetaev_symbolic::{Expr, Verdict};
+
+/// A formula shown with a verdict.
+#[derive(Clone, Debug)]
+pub struct Formula {
+    /// What it is.
+    pub caption: String,
+    /// The expression; where it is an equation, it vanishes.
+    pub value: Expr,
+}
+
+/// A verdict with the formulas that support it.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    /// What is known.
+    pub verdict: Verdict,
+    /// Formulas to show.
+    pub formulas: Vec<Formula>,
+}
+
+impl From<Verdict> for Finding {
+    fn from(verdict: Verdict) -> Finding {
+        let formulas = Vec::new();
+        Finding { verdict, formulas }
+    }
+}
+
+/// What claims are decided about.
+#[derive(Debug)]
+pub struct Context<'p> {
+    /// The problem.
+    pub problem: &'p Problem,
+    /// The first variation of its functional.
+    pub variation: Result<Variation, VariationError>,
+}
+
+impl<'p> Context<'p> {
+    /// The first variation is taken once.
+    pub fn new(problem: &'p Problem) -> Context<'p> {
+        let variation = variation(&problem.functional);
+        Context { problem, variation }
+    }
+
+    /// The functional.
+    pub fn functional(&self) -> &'p Functional {
+        &self.problem.functional
+    }
+
+    /// The subject of claims about the functional itself.
+    fn own(&self) -> Option<String> {
+        Some(self.functional().name.clone())
+    }
+}
+
+/// A statement about functionals.
+pub trait Claim: Sync {
+    /// The stable id, without subject.
+    fn id(&self) -> &'static str;
+    /// A short title for people.
+    fn title(&self) -> &'static str;
+    /// What is claimed, how it is decided, and what the verdicts mean.
+    fn explanation(&self) -> &'static str;
+    /// The subjects for this problem; empty where there is nothing to claim.
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>>;
+    /// Decides it.
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding;
+}
+
+/// All claims about functionals, in the order of the catalogue.
+pub const CLAIMS: &[&dyn Claim] = &[
+    &legendre::Legendre,
+    &euler::Euler,
+    &degeneration::Degeneration,
+    &duality::Duality,
+    &descent::Descent,
+];

@@ -1,0 +1,70 @@
+//! Modulo which stated equations something vanishes: the fewest are named.
+
+use crate::elimination::{Group, Solved};
+use crate::functional::Functional;
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::{Expr, Verdict};
+
+/// The stated equations that may be used in the interior, or on a piece, by label.
+pub(super) fn equations(functional: &Functional, on: Option<&str>) -> Vec<Group> {
+    functional
+        .equations
+        .iter()
+        .filter(|e| e.on.is_none() || e.on.as_deref() == on)
+        .map(|e| Group {
+            label: e.label.clone(),
+            equations: e.residuals.clone(),
+        })
+        .collect()
+}
+
+/// A proof that expressions vanish modulo the fewest of the equations, with their labels; else the verdict without any.
+pub(super) fn vanishing(
+    functional: &Functional,
+    es: &[Expr],
+    available: &[Group],
+) -> Result<(Proof, Vec<String>), Box<Verdict>> {
+    let space = &*functional.space;
+    let nothing = Solved::new(space);
+    let mut verdict = Verdict::Proved(Proof::exact("", ""));
+    for &e in es {
+        verdict = verdict.and(nothing.verdict(e));
+    }
+    if let Verdict::Proved(proof) = verdict {
+        return Ok((proof, Vec::new()));
+    }
+    for count in 1..=available.len() {
+        for chosen in subsets(available.len(), count) {
+            let groups: Vec<Group> = chosen.iter().map(|&i| available[i].clone()).collect();
+            let solved = nothing.with(&groups);
+            if !solved.follows(es) {
+                continue;
+            }
+            let mut verdict = Verdict::Proved(Proof::exact("", ""));
+            for &e in es {
+                verdict = verdict.and(solved.verdict(e));
+            }
+            if let Verdict::Proved(proof) = verdict {
+                return Ok((proof, groups.into_iter().map(|g| g.label).collect()));
+            }
+        }
+    }
+    Err(Box::new(verdict))
+}
+
+/// The subsets of 0, …, n − 1 with `count` members.
+fn subsets(n: usize, count: usize) -> Vec<Vec<usize>> {
+    let all = (0..1usize << n.min(12)).filter(|bits| bits.count_ones() as usize == count);
+    all.map(|bits| (0..n).filter(|i| bits >> i & 1 == 1).collect())
+        .collect()
+}
+
+/// `(3)`, `(3) and (4)`.
+pub(super) fn labels(all: &[String]) -> String {
+    let each: Vec<String> = all.iter().map(|label| format!("({label})")).collect();
+    match each.split_last() {
+        None => String::new(),
+        Some((one, [])) => one.clone(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+    }
+}

@@ -1,0 +1,588 @@
+//! Equations between jets solved one group after the other, and what follows from them.
+//!
+//! A group of equations that is linear in the components of one tensor, or of one derivative of it, gives rules
+//! for these; the gradient of a function with a conjugate is undone by the conjugate. Rules are differentiated as needed. What is
+//! solved is triangular, so that an expression in which no rule applies any more is a function of free jets, and vanishes
+//! where the equations hold exactly when it vanishes identically.
+
+use crate::functional::Side;
+use crate::space::{Jet, Space};
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::zero::assumptions::Assumptions;
+use chetaev_symbolic::zero::{generic_rank, known_sign, Options, Pivots, RankTest};
+use chetaev_symbolic::{Expr, Node, Verdict};
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Equations that belong together: the components of one.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// What they are called.
+    pub label: String,
+    /// Expressions that vanish.
+    pub equations: Vec<Expr>,
+}
+
+/// Equations solved as far as possible.
+#[derive(Clone, Debug)]
+pub struct Solved<'s> {
+    space: &'s Space,
+    rules: Vec<Rule>,
+    side: Option<Side>,
+    preferred: BTreeSet<String>,
+    known: RefCell<BTreeMap<Jet, Expr>>,
+    judged: RefCell<BTreeMap<Expr, bool>>,
+    /// Equations that are left, with their labels.
+    pub left: Vec<Group>,
+    /// Matrices that were inverted and depend on the fields: the tensors solved for.
+    pub pivots: Vec<String>,
+    /// Functions undone by their conjugates.
+    pub inverted: BTreeSet<String>,
+}
+
+/// A jet with its value, and the independent variables by which the rule may be differentiated.
+#[derive(Clone, Debug)]
+struct Rule {
+    jet: Jet,
+    value: Expr,
+    along: Option<Vec<usize>>,
+}
+
+/// A way to solve a group.
+struct Choice {
+    cost: Cost,
+    group: usize,
+    jets: Vec<Jet>,
+    rows: Vec<usize>,
+    matrix: Vec<Vec<Expr>>,
+    rest: Vec<Expr>,
+    is_constant: bool,
+}
+
+/// How dear a way is: its class, whether another tensor is preferred, whether components stay open, how hard the solution is,
+/// and the place of the group.
+type Cost = (u8, bool, bool, u8, usize);
+
+/// Classes: data and fields without derivatives go first, those with constant coefficients before others, then conjugates.
+const CONSTANT_DATA: u8 = 0;
+const CONSTANT_FIELD: u8 = 1;
+const PLAIN: u8 = 2;
+const CONJUGATE: u8 = 3;
+const CONSTANT_DERIVATIVE: u8 = 4;
+const DERIVATIVE: u8 = 5;
+const PLAIN_DATA: u8 = 6;
+
+/// Most rounds; each solves one group or changes its form.
+const MOST_ROUNDS: usize = 200;
+
+impl<'s> Solved<'s> {
+    /// Nothing solved yet.
+    pub fn new(space: &'s Space) -> Solved<'s> {
+        Solved {
+            space,
+            rules: Vec::new(),
+            side: None,
+            preferred: BTreeSet::new(),
+            known: RefCell::default(),
+            judged: RefCell::default(),
+            left: Vec::new(),
+            pivots: Vec::new(),
+            inverted: BTreeSet::new(),
+        }
+    }
+
+    /// Solves for these tensors before others.
+    #[must_use]
+    pub fn preferring(mut self, tensors: &[String]) -> Solved<'s> {
+        self.preferred = tensors.iter().cloned().collect();
+        self
+    }
+
+    /// The same with more equations, which hold on a piece of the boundary and may be differentiated along it only.
+    #[must_use]
+    pub fn with_on(&self, side: &Side, groups: &[Group]) -> Solved<'s> {
+        let mut own = self.clone();
+        own.side = Some(side.clone());
+        own.with(groups)
+    }
+
+    /// By what a rule for a jet may be differentiated. Data and fields of the boundary live on a piece only, so that they may be continued off it as the
+    /// rule says; of a field the derivative across the piece is not known.
+    fn along(&self, jet: &Jet) -> Option<Vec<usize>> {
+        let side = self.side.as_ref()?;
+        if self.space.component_at(jet.component).is_of_boundary {
+            return None;
+        }
+        Some(match side {
+            Side::Curved => Vec::new(),
+            Side::Flat { axis, .. } => (0..self.space.coordinates.len())
+                .filter(|i| i != axis)
+                .collect(),
+        })
+    }
+
+    /// The same with more equations.
+    #[must_use]
+    pub fn with(&self, groups: &[Group]) -> Solved<'s> {
+        let mut own = self.clone();
+        own.left.extend(groups.iter().cloned());
+        own.solve();
+        own
+    }
+
+    /// An expression where the equations hold: rules and their derivatives put in.
+    pub fn normal(&self, e: Expr) -> Expr {
+        let mut e = e;
+        // A function undone by its conjugate may bring back a jet that has a rule.
+        for _ in 0..MOST_ROUNDS {
+            let ruled = |jet: &Jet| self.rule(jet).is_some();
+            if !self.space.jets_in(&[e]).iter().any(ruled) {
+                return e;
+            }
+            e = self.space.replace(e, &|symbol| {
+                let jet = self.space.as_jet(symbol)?;
+                self.rule(&jet)?;
+                Some(self.value(&jet))
+            });
+        }
+        e
+    }
+
+    fn rule(&self, jet: &Jet) -> Option<(Expr, Vec<usize>)> {
+        self.rules.iter().find_map(|rule| {
+            if rule.jet.component != jet.component {
+                return None;
+            }
+            let rest = rest(&jet.by, &rule.jet.by)?;
+            let along = rule.along.as_ref();
+            let holds = along.is_none_or(|along| rest.iter().all(|axis| along.contains(axis)));
+            holds.then_some((rule.value, rest))
+        })
+    }
+
+    fn value(&self, jet: &Jet) -> Expr {
+        if let Some(&known) = self.known.borrow().get(jet) {
+            return known;
+        }
+        let value = match self.rule(jet) {
+            Some((value, rest)) => self.normal(self.space.totals(value, &rest)),
+            None => self.space.jet(jet.component, &jet.by),
+        };
+        self.known.borrow_mut().insert(jet.clone(), value);
+        value
+    }
+
+    /// Whether an expression is proved to vanish identically.
+    fn vanishes(&self, e: Expr) -> bool {
+        if self.space.graph.is_zero(e) {
+            return true;
+        }
+        if let Some(&known) = self.judged.borrow().get(&e) {
+            return known;
+        }
+        let found = self.space.vanish(&[e]);
+        self.judged.borrow_mut().insert(e, found);
+        found
+    }
+
+    /// Whether expressions vanish where the equations hold.
+    pub fn follows(&self, es: &[Expr]) -> bool {
+        es.iter().all(|&e| self.vanishes(self.normal(e)))
+    }
+
+    /// The same as a verdict, with a counterexample where one is found.
+    pub fn verdict(&self, e: Expr) -> Verdict {
+        let own = self.normal(e);
+        match self.space.vanishing(&[own], false) {
+            Verdict::Proved(proof) => Verdict::Proved(proof),
+            _ if self.is_multiple(own) => Verdict::Proved(Proof::exact(
+                "",
+                "it is a multiple of an equation that holds, by a factor without fields",
+            )),
+            _ => self.space.vanishing(&[self.space.explicit(own)], true),
+        }
+    }
+
+    /// Whether an expression is an equation that is left times a factor without fields: then both have the same logarithmic
+    /// derivative by every jet.
+    fn is_multiple(&self, e: Expr) -> bool {
+        let g = &self.space.graph;
+        let all = self
+            .left
+            .iter()
+            .flat_map(|group| group.equations.iter().copied());
+        all.into_iter().any(|other| {
+            let jets = self.space.jets_in(&[e, other]);
+            jets.iter().all(|jet| {
+                let (a, b) = (self.space.partial(e, jet), self.space.partial(other, jet));
+                self.vanishes(g.sub(g.mul(&[a, other]), g.mul(&[e, b])))
+            })
+        })
+    }
+
+    fn solve(&mut self) {
+        let mut undone: BTreeSet<(String, String)> = BTreeSet::new();
+        for _ in 0..MOST_ROUNDS {
+            let mut groups = std::mem::take(&mut self.left);
+            for group in &mut groups {
+                for e in &mut group.equations {
+                    *e = self.stripped(self.normal(*e));
+                }
+                group.equations.retain(|&e| !self.vanishes(e));
+            }
+            groups.retain(|group| !group.equations.is_empty());
+            self.left = groups;
+            let best = self.best();
+            let conjugate = match &best {
+                Some(choice) if choice.cost.0 < CONJUGATE => None,
+                _ => self.conjugated(&undone),
+            };
+            match (conjugate, best) {
+                (Some((group, equations, name)), _) => {
+                    undone.insert((self.left[group].label.clone(), name.clone()));
+                    self.inverted.insert(name);
+                    self.left[group].equations = equations;
+                }
+                (None, Some(choice)) => {
+                    if !self.adopt(choice) {
+                        return;
+                    }
+                }
+                (None, None) if self.cleaned() => {}
+                (None, None) => return,
+            }
+        }
+    }
+
+    /// An equation without factors that never vanish.
+    fn stripped(&self, e: Expr) -> Expr {
+        let g = &self.space.graph;
+        let Node::Product { factors, .. } = g.node(e) else {
+            return e;
+        };
+        let assumptions = Assumptions::new();
+        let vanishes = |&&factor: &&Expr| !known_sign(g, factor, &assumptions).is_nonzero();
+        let kept: Vec<Expr> = factors.iter().filter(vanishes).copied().collect();
+        g.mul(&kept)
+    }
+
+    /// Leaves out jets that occur in what is left although nothing depends on them; whether there were any.
+    fn cleaned(&mut self) -> bool {
+        let mut has_changed = false;
+        for at in 0..self.left.len() {
+            for k in 0..self.left[at].equations.len() {
+                let mut e = self.left[at].equations[k];
+                for jet in self.space.jets_in(&[e]) {
+                    if !self.vanishes(self.space.partial(e, &jet)) {
+                        continue;
+                    }
+                    let zero = self.space.graph.zero();
+                    e = self.space.replace(e, &|symbol| {
+                        (self.space.as_jet(symbol).as_ref() == Some(&jet)).then_some(zero)
+                    });
+                    has_changed = true;
+                }
+                self.left[at].equations[k] = e;
+            }
+        }
+        has_changed
+    }
+
+    fn best(&self) -> Option<Choice> {
+        let mut best: Option<Choice> = None;
+        for (at, group) in self.left.iter().enumerate() {
+            for jets in self.blocks(&group.equations) {
+                let cost = match &best {
+                    Some(best) => best.cost,
+                    None => (u8::MAX, true, true, u8::MAX, 0),
+                };
+                if let Some(choice) = self.choice(at, &group.equations, jets, cost) {
+                    best = Some(choice);
+                }
+            }
+        }
+        best
+    }
+
+    /// Jets that are components of one tensor, or of one derivative of it.
+    fn blocks(&self, equations: &[Expr]) -> Vec<Vec<Jet>> {
+        let mut blocks: BTreeMap<(String, Vec<usize>), Vec<Jet>> = BTreeMap::new();
+        for jet in self.space.jets_in(equations) {
+            let tensor = self.space.component_at(jet.component).tensor;
+            blocks
+                .entry((tensor, jet.by.clone()))
+                .or_default()
+                .push(jet);
+        }
+        blocks.into_values().collect()
+    }
+
+    fn choice(
+        &self,
+        group: usize,
+        equations: &[Expr],
+        jets: Vec<Jet>,
+        least: Cost,
+    ) -> Option<Choice> {
+        let space = self.space;
+        let g = &space.graph;
+        let first = jets.first()?;
+        let component = space.component_at(first.component);
+        // The best that can come of it, before anything is computed.
+        let is_given = !component.is_varied && !component.is_of_boundary;
+        let hoped = match (first.by.is_empty(), component.is_varied) {
+            (true, false) => CONSTANT_DATA,
+            (true, true) => CONSTANT_FIELD,
+            (false, _) => CONSTANT_DERIVATIVE,
+        };
+        let is_other = !self.preferred.is_empty() && !self.preferred.contains(&component.tensor);
+        if (hoped, is_other, false, 0, group) >= least || self.has_derivatives(equations, &jets) {
+            return None;
+        }
+        let occurs = |es: &[Expr]| space.jets_in(es).iter().any(|jet| jets.contains(jet));
+        let mut matrix = Vec::new();
+        for &e in equations {
+            let row: Vec<Expr> = jets.iter().map(|jet| space.partial(e, jet)).collect();
+            if occurs(&row) {
+                return None;
+            }
+            matrix.push(row);
+        }
+        let is_constant = matrix
+            .iter()
+            .all(|row| space.jets_in(row).is_empty() && self.is_free(row));
+        let Pivots { rows, columns } = self.pivots_of(&matrix)?;
+        let class = match (hoped, is_constant) {
+            (class, true) => class,
+            (CONSTANT_DERIVATIVE, false) => DERIVATIVE,
+            // Given data are solved for by numbers only: else where a coefficient vanishes something false would follow.
+            (_, false) if is_given => PLAIN_DATA,
+            (_, false) => PLAIN,
+        };
+        let is_open = columns.len() < jets.len();
+        if columns.is_empty() || (class, is_other, is_open, 0, group) >= least {
+            return None;
+        }
+        let chosen: Vec<Jet> = columns.iter().map(|&c| jets[c].clone()).collect();
+        let zero = |symbol| {
+            let jet = space.as_jet(symbol)?;
+            chosen.contains(&jet).then(|| g.zero())
+        };
+        let rest: Vec<Expr> = rows
+            .iter()
+            .map(|&r| space.replace(equations[r], &zero))
+            .collect();
+        let matrix: Vec<Vec<Expr>> = rows
+            .iter()
+            .map(|&r| columns.iter().map(|&c| matrix[r][c]).collect())
+            .collect();
+        let are_numbers = matrix.iter().flatten().all(|&e| g.as_number(e).is_some());
+        let effort = match are_numbers {
+            true => 0,
+            false if self.recognized(&matrix, &rest).is_some() => 1,
+            false => 2,
+        };
+        let cost = (class, is_other, is_open, effort, group);
+        if cost >= least {
+            return None;
+        }
+        Some(Choice {
+            cost,
+            group,
+            jets: chosen,
+            rows,
+            matrix,
+            rest,
+            is_constant,
+        })
+    }
+
+    /// Whether coefficients are free of the normal too, whose components may vanish.
+    fn is_free(&self, row: &[Expr]) -> bool {
+        let g = &self.space.graph;
+        let symbols = self.space.symbols_in(row);
+        symbols.iter().all(|&s| !g.symbol_name(s).starts_with("n_"))
+            && g.symbols_in(row)
+                .iter()
+                .all(|&s| !self.space.is_application(s))
+    }
+
+    /// Whether a derivative of one of the jets occurs beside them.
+    fn has_derivatives(&self, equations: &[Expr], jets: &[Jet]) -> bool {
+        self.space.jets_in(equations).iter().any(|other| {
+            jets.iter().any(|jet| {
+                other.component == jet.component
+                    && other.by.len() > jet.by.len()
+                    && rest(&other.by, &jet.by).is_some()
+            })
+        })
+    }
+
+    fn pivots_of(&self, matrix: &[Vec<Expr>]) -> Option<Pivots> {
+        let assumptions = Assumptions::new();
+        let columns = matrix.first()?.len();
+        let entries: Vec<Expr> = matrix
+            .iter()
+            .flatten()
+            .map(|&e| self.space.on_sphere(e))
+            .collect();
+        let test = RankTest {
+            rows: matrix.len(),
+            columns,
+            entries: &entries,
+            solved: &[],
+            implicit: &[],
+            assumptions: &assumptions,
+            options: Options::default(),
+        };
+        let rank = generic_rank(&self.space.graph, &test).ok()?;
+        (rank.minimum == rank.maximum).then_some(rank.pivots)
+    }
+
+    /// The solution of `matrix x + rest = 0`: one that is recognized, else by elimination.
+    fn solution(&self, matrix: &[Vec<Expr>], rest: &[Expr]) -> Option<Vec<Expr>> {
+        let g = &self.space.graph;
+        if let Some(found) = self.recognized(matrix, rest) {
+            return Some(found);
+        }
+        let right: Vec<Expr> = rest.iter().map(|&e| g.neg(e)).collect();
+        g.solve(&matrix.concat(), &right).ok()
+    }
+
+    fn recognized(&self, matrix: &[Vec<Expr>], rest: &[Expr]) -> Option<Vec<Expr>> {
+        let candidates = self.candidates(rest).into_iter();
+        let mut fitting = candidates.filter(|candidate| candidate.len() == matrix.len());
+        fitting.find(|candidate| self.solves(matrix, rest, candidate))
+    }
+
+    /// Tensors that a solution may be: gradients that occur, tensors that have a name.
+    fn candidates(&self, rest: &[Expr]) -> Vec<Vec<Expr>> {
+        let mut found = Vec::new();
+        for (function, arguments) in self.space.gradients_in(rest) {
+            found.push(self.space.gradient(function, &arguments));
+            found.push(arguments);
+        }
+        for named in self.space.named_arguments() {
+            found.push(named.iter().map(|&e| self.normal(e)).collect());
+        }
+        found
+    }
+
+    fn solves(&self, matrix: &[Vec<Expr>], rest: &[Expr], x: &[Expr]) -> bool {
+        let g = &self.space.graph;
+        matrix.iter().zip(rest).all(|(row, &rest)| {
+            let mut terms: Vec<Expr> = row.iter().zip(x).map(|(&a, &x)| g.mul(&[a, x])).collect();
+            terms.push(rest);
+            self.vanishes(g.add(&terms))
+        })
+    }
+
+    fn adopt(&mut self, choice: Choice) -> bool {
+        let Some(values) = self.solution(&choice.matrix, &choice.rest) else {
+            return false;
+        };
+        if !choice.is_constant {
+            if let Some(jet) = choice.jets.first() {
+                let tensor = self.space.component_at(jet.component).tensor;
+                if !self.pivots.contains(&tensor) {
+                    self.pivots.push(tensor);
+                }
+            }
+        }
+        for (jet, value) in choice.jets.into_iter().zip(values) {
+            let along = self.along(&jet);
+            self.rules.push(Rule { jet, value, along });
+        }
+        self.known.borrow_mut().clear();
+        let group = &mut self.left[choice.group];
+        let mut row = 0;
+        group.equations.retain(|_| {
+            row += 1;
+            !choice.rows.contains(&(row - 1))
+        });
+        true
+    }
+
+    /// `B'(Y) = X` as `Y = A'(X)` in a group that was not changed yet.
+    fn conjugated(
+        &self,
+        undone: &BTreeSet<(String, String)>,
+    ) -> Option<(usize, Vec<Expr>, String)> {
+        let space = self.space;
+        let g = &space.graph;
+        for (at, group) in self.left.iter().enumerate() {
+            for (function, arguments) in space.gradients_in(&group.equations) {
+                let own = space.function_at(function);
+                if undone.contains(&(group.label.clone(), own.name.clone())) {
+                    continue;
+                }
+                let Some(conjugate) = own.conjugate else {
+                    continue;
+                };
+                let gradient = space.gradient(function, &arguments);
+                let symbols: Vec<_> = gradient.iter().filter_map(|&e| g.as_symbol(e)).collect();
+                if symbols.len() != gradient.len() || group.equations.len() != gradient.len() {
+                    continue;
+                }
+                let one = g.one();
+                let matrix: Vec<Vec<Expr>> = group
+                    .equations
+                    .iter()
+                    .map(|&e| {
+                        let slope = |&own| {
+                            g.derive(&[e], &|s| (s == own).then_some(one))
+                                .swap_remove(0)
+                        };
+                        symbols.iter().map(slope).collect()
+                    })
+                    .collect();
+                if g.any_contains_any(&matrix.concat(), &symbols) {
+                    continue;
+                }
+                let full = self
+                    .pivots_of(&matrix)
+                    .is_some_and(|p| p.rows.len() == gradient.len());
+                if !full {
+                    continue;
+                }
+                let zeros: Vec<(Expr, Expr)> = gradient.iter().map(|&e| (e, g.zero())).collect();
+                let rest = g.substitute_all(&group.equations, &zeros);
+                let Some(x) = self.solution(&matrix, &rest) else {
+                    continue;
+                };
+                let image = space.gradient(conjugate, &x);
+                let equations = arguments
+                    .iter()
+                    .zip(image)
+                    .map(|(&y, a)| g.sub(y, a))
+                    .collect();
+                return Some((at, equations, own.name));
+            }
+        }
+        None
+    }
+
+    /// How many components of a tensor have values or not: those that no rule gives although they occur in `es`.
+    pub fn free_components(&self, components: &[usize]) -> Vec<usize> {
+        let has_rule = |c: &usize| {
+            self.rules
+                .iter()
+                .any(|rule| rule.jet.component == *c && rule.jet.by.is_empty())
+        };
+        components
+            .iter()
+            .copied()
+            .filter(|c| !has_rule(c))
+            .collect()
+    }
+}
+
+/// By what one derivative is differentiated to give another.
+fn rest(more: &[usize], less: &[usize]) -> Option<Vec<usize>> {
+    let mut rest = more.to_vec();
+    for axis in less {
+        let at = rest.iter().position(|own| own == axis)?;
+        rest.remove(at);
+    }
+    Some(rest)
+}

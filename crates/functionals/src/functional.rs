@@ -1,0 +1,271 @@
+//! A functional of fields over space as plain data: densities, boundary pieces, what is imposed and what is stated.
+
+use crate::space::Space;
+use crate::tensors::{Scope, Shape};
+use chetaev_model::model::ModelText;
+use chetaev_model::Place;
+use chetaev_symbolic::Expr;
+use std::rc::Rc;
+
+/// A field, or data that depend on place.
+#[derive(Clone, Debug)]
+pub struct Field {
+    /// Its name.
+    pub name: String,
+    /// Its kind.
+    pub shape: Shape,
+    /// Its independent components.
+    pub components: Vec<usize>,
+    /// What it is.
+    pub description: String,
+    /// The boundary piece on which alone it lives.
+    pub on: Option<String>,
+}
+
+/// Where a piece of the boundary lies.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Side {
+    /// Any smooth piece, with the normal n.
+    Curved,
+    /// A face of a box: the independent variable that is constant, whether its larger value, and the value.
+    Flat {
+        /// The place of the variable.
+        axis: usize,
+        /// Whether the outward normal points forward.
+        is_upper: bool,
+        /// The value.
+        at: Expr,
+    },
+}
+
+/// A piece of the boundary.
+#[derive(Clone, Debug)]
+pub struct Piece {
+    /// Its name.
+    pub name: String,
+    /// Where it lies.
+    pub side: Side,
+    /// The density over it.
+    pub density: Expr,
+    /// The density as written.
+    pub written: String,
+    /// What is given on it: components, and whether their normal derivatives.
+    pub fixed: Vec<(usize, bool)>,
+}
+
+/// What a stated equation is for the functional.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Imposed before the variation.
+    Imposed,
+    /// Claimed to follow from it.
+    Yielded,
+    /// Neither.
+    Other,
+}
+
+/// A stated equation.
+#[derive(Clone, Debug)]
+pub struct Equation {
+    /// Its number or name.
+    pub label: String,
+    /// As written.
+    pub written: String,
+    /// What it says.
+    pub title: String,
+    /// The piece on which it holds, or two pieces with a comma where they meet; the interior where `None`.
+    pub on: Option<String>,
+    /// Left minus right, all components.
+    pub residuals: Vec<Expr>,
+    /// What it is for the functional.
+    pub role: Role,
+    /// The multiplier stated for it, all components, as written and as an expression.
+    pub multiplier: Option<(String, Vec<Expr>)>,
+    /// Where it is written.
+    pub place: Place,
+}
+
+/// A parameter.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its kind.
+    pub shape: Shape,
+    /// Its value, if stated.
+    pub value: Option<Expr>,
+    /// What it is.
+    pub description: String,
+}
+
+/// A definition.
+#[derive(Clone, Debug)]
+pub struct Definition {
+    /// The left side as written.
+    pub name: String,
+    /// The right side as written.
+    pub written: String,
+    /// What it is.
+    pub description: String,
+}
+
+/// A constitutive function as it is stated.
+#[derive(Clone, Debug)]
+pub struct Constitutive {
+    /// Its name.
+    pub name: String,
+    /// Its place among the functions of the space.
+    pub function: usize,
+    /// Its value as written, if stated.
+    pub value: Option<String>,
+    /// Its gradient as written, if stated.
+    pub gradient: Option<String>,
+    /// Its conjugate, if stated.
+    pub conjugate: Option<String>,
+    /// What it is.
+    pub description: String,
+}
+
+/// The closed interval of an independent variable.
+#[derive(Clone, Debug)]
+pub struct Interval {
+    /// The place of the variable.
+    pub axis: usize,
+    /// The smaller end.
+    pub lower: Expr,
+    /// The larger end.
+    pub upper: Expr,
+}
+
+/// A functional with everything stated about it.
+#[derive(Debug)]
+pub struct Functional {
+    /// Its name.
+    pub name: String,
+    /// Its level in a hierarchy, as written.
+    pub level: Option<String>,
+    /// What it is.
+    pub description: String,
+    /// Where it comes from.
+    pub sources: Vec<String>,
+    /// Its symbols.
+    pub space: Rc<Space>,
+    /// Its names.
+    pub scope: Scope,
+    /// Intervals of a box, empty for any domain.
+    pub intervals: Vec<Interval>,
+    /// Fields.
+    pub fields: Vec<Field>,
+    /// Data.
+    pub data: Vec<Field>,
+    /// Parameters.
+    pub parameters: Vec<Parameter>,
+    /// Constitutive functions.
+    pub functions: Vec<Constitutive>,
+    /// Definitions.
+    pub definitions: Vec<Definition>,
+    /// The density.
+    pub density: Expr,
+    /// The density as written.
+    pub written: String,
+    /// The pieces of the boundary.
+    pub pieces: Vec<Piece>,
+    /// Stated equations.
+    pub equations: Vec<Equation>,
+}
+
+impl Functional {
+    /// The fields of the interior that are varied.
+    pub fn interior(&self) -> impl Iterator<Item = &Field> {
+        self.fields.iter().filter(|field| field.on.is_none())
+    }
+
+    /// The piece of a name.
+    pub fn piece(&self, name: &str) -> Option<&Piece> {
+        self.pieces.iter().find(|piece| piece.name == name)
+    }
+
+    /// The two pieces that `a, b` names, where they meet.
+    pub fn meeting(&self, on: &str) -> Option<(&Piece, &Piece)> {
+        let (one, other) = on.split_once(',')?;
+        Some((self.piece(one.trim())?, self.piece(other.trim())?))
+    }
+
+    /// Equations with a role.
+    pub fn with_role(&self, role: Role) -> impl Iterator<Item = &Equation> {
+        self.equations.iter().filter(move |e| e.role == role)
+    }
+
+    /// Known values of parameters: symbols with expressions.
+    pub fn values(&self) -> Vec<(Expr, Expr)> {
+        let g = &self.space.graph;
+        let known = self.parameters.iter();
+        known
+            .filter_map(|p| Some((g.symbol(&p.name, 0), p.value?)))
+            .collect()
+    }
+}
+
+/// A relation to another functional.
+#[derive(Debug)]
+pub enum Relation {
+    /// The sum with the other is a divergence.
+    Duality {
+        /// The other.
+        other: Functional,
+        /// The vector whose divergence the sum of the densities is.
+        flux: Option<(String, Vec<Expr>)>,
+    },
+    /// The functional follows from the other by imposing some of its equations.
+    Descent {
+        /// The other, one level above.
+        other: Functional,
+        /// Labels of the equations that are imposed on it.
+        imposed: Vec<String>,
+    },
+    /// The functional becomes the other for special values.
+    Degeneration {
+        /// What is special.
+        name: String,
+        /// The other.
+        other: Functional,
+        /// Values put in.
+        values: Vec<Special>,
+    },
+}
+
+/// A special value.
+#[derive(Clone, Debug)]
+pub struct Special {
+    /// As written.
+    pub written: String,
+    /// What is replaced.
+    pub what: SpecialKind,
+}
+
+/// What a special value replaces.
+#[derive(Clone, Debug)]
+pub enum SpecialKind {
+    /// Symbols by expressions.
+    Symbols(Vec<(Expr, Expr)>),
+    /// A constitutive function by an expression in its place-holders.
+    Function {
+        /// Which.
+        function: usize,
+        /// Its value in the place-holders.
+        value: Expr,
+    },
+}
+
+/// What a model file of a functional states.
+#[derive(Debug)]
+pub struct Problem {
+    /// The functional.
+    pub functional: Functional,
+    /// Its relations to others.
+    pub relations: Vec<Relation>,
+    /// The texts.
+    pub text: ModelText,
+    /// Verdicts that the file expects: claim with subject, and the words that are accepted.
+    pub expected: Vec<(String, Vec<String>)>,
+}

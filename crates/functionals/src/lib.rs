@@ -1,0 +1,27 @@
+//! Functionals of fields over space: what they are stationary for, proved against stated equations.
+//!
+//! A model file with `kind = "functional"` states fields, a density and densities on pieces of the boundary ([`read`]). Out come
+//! the Euler equations and the natural conditions ([`variation`]), and verdicts of the claims in [`claims`]: whether these are the
+//! stated equations, whether a functional becomes another one for special values or under one more equation, whether two are dual.
+//! Theory: T4.
+//!
+//! * [`notation`]: index notation, its tree and the summation convention.
+//! * [`space`]: jets of fields, total derivatives, constitutive functions with Legendre conjugates.
+//! * [`tensors`]: what names mean; index notation in components.
+//! * [`functional`]: a functional as plain data.
+//! * [`elimination`]: equations solved for jets, one group after the other, and what follows from them.
+//! * [`study`]: all claims about one model file.
+
+pub mod claims;
+pub mod elimination;
+pub mod functional;
+pub mod notation;
+pub mod read;
+pub mod space;
+pub mod study;
+pub mod tensors;
+pub mod variation;
+
+pub use functional::{Functional, Problem};
+pub use read::{load, Loaded};
+pub use study::{study, Decided, Study};

@@ -1,0 +1,308 @@
+//! The summation convention: which indices are free, which are summed over, and what breaks the rule.
+
+use super::{Atom, Index, Kind, Names, Node};
+use chetaev_symbolic::syntax::{Diagnostic, Span};
+use std::collections::BTreeMap;
+
+/// What the letters of a piece do.
+#[derive(Clone, Debug, Default)]
+struct Letters {
+    /// How often each occurs where the summation convention sees it; the place of the last occurrence.
+    seen: BTreeMap<char, (usize, Span)>,
+}
+
+impl Letters {
+    fn free(&self) -> Vec<char> {
+        let once = self.seen.iter().filter(|(_, (count, _))| *count == 1);
+        once.map(|(letter, _)| *letter).collect()
+    }
+
+    fn add(&mut self, letter: char, count: usize, span: Span) {
+        let entry = self.seen.entry(letter).or_insert((0, span));
+        entry.0 += count;
+        entry.1 = span;
+    }
+}
+
+/// Checks an expression whose free indices must be `wanted`, in any order; problems are added.
+pub fn check(node: &Node, wanted: &[char], names: &dyn Names, problems: &mut Vec<Diagnostic>) {
+    let before = problems.len();
+    let letters = letters_of(node, names, problems);
+    if problems.len() > before {
+        return;
+    }
+    let mut own = letters.free();
+    let mut wanted = wanted.to_vec();
+    own.sort_unstable();
+    wanted.sort_unstable();
+    if own != wanted {
+        problems.push(mismatch(node.span, &own, &wanted));
+    }
+}
+
+/// The free letters of an expression in the order of their first occurrence.
+pub fn free_letters(node: &Node) -> Vec<char> {
+    let mut order = Vec::new();
+    collect(node, &mut order);
+    let mut distinct: Vec<char> = Vec::new();
+    for &letter in &order {
+        if !distinct.contains(&letter) {
+            distinct.push(letter);
+        }
+    }
+    struct Anything;
+    impl Names for Anything {
+        fn rank(&self, _: &str) -> Option<usize> {
+            None
+        }
+        fn function(&self, _: &str) -> Option<usize> {
+            None
+        }
+        fn coordinate(&self, _: &str) -> Option<usize> {
+            None
+        }
+        fn dimensions(&self) -> usize {
+            0
+        }
+        fn all(&self) -> Vec<String> {
+            Vec::new()
+        }
+    }
+    let free = letters_of(node, &Anything, &mut Vec::new()).free();
+    distinct.retain(|letter| free.contains(letter));
+    distinct
+}
+
+fn collect(node: &Node, order: &mut Vec<char>) {
+    let mut push = |indices: &[Index]| {
+        order.extend(indices.iter().filter_map(|index| match index {
+            Index::Letter(letter) => Some(*letter),
+            Index::Place(_) => None,
+        }));
+    };
+    match &node.kind {
+        Kind::Number(_) => {}
+        Kind::Atom(atom) => {
+            push(&atom.indices);
+            push(&atom.derivatives);
+        }
+        Kind::Sum(parts) | Kind::Product(parts) => {
+            parts.iter().for_each(|(_, part)| collect(part, order));
+        }
+        Kind::Power(base, exponent) => {
+            collect(base, order);
+            collect(exponent, order);
+        }
+        Kind::Apply(_, arguments) => arguments.iter().for_each(|a| collect(a, order)),
+        Kind::Root(inner) => collect(inner, order),
+        Kind::Derivative(inner, derivatives) => {
+            collect(inner, order);
+            push2(derivatives, order);
+        }
+    }
+}
+
+fn push2(indices: &[Index], order: &mut Vec<char>) {
+    for index in indices {
+        if let Index::Letter(letter) = index {
+            order.push(*letter);
+        }
+    }
+}
+
+fn letters_of(node: &Node, names: &dyn Names, problems: &mut Vec<Diagnostic>) -> Letters {
+    match &node.kind {
+        Kind::Number(_) => Letters::default(),
+        Kind::Atom(atom) => of_atom(atom, node.span, names, problems),
+        Kind::Sum(terms) => of_sum(terms, names, problems),
+        Kind::Product(factors) => of_product(factors, node.span, names, problems),
+        Kind::Power(base, exponent) => {
+            for part in [base, exponent] {
+                scalar(part, "a power", names, problems);
+            }
+            Letters::default()
+        }
+        Kind::Apply(_, arguments) => {
+            for argument in arguments {
+                scalar(argument, "the argument of a function", names, problems);
+            }
+            Letters::default()
+        }
+        Kind::Root(inner) => {
+            scalar(inner, "a square root", names, problems);
+            Letters::default()
+        }
+        Kind::Derivative(inner, derivatives) => {
+            let mut letters = Letters::default();
+            for letter in letters_of(inner, names, problems).free() {
+                letters.add(letter, 1, inner.span);
+            }
+            add_all(&mut letters, derivatives, node.span);
+            thrice(&letters, problems);
+            letters
+        }
+    }
+}
+
+fn add_all(letters: &mut Letters, indices: &[Index], span: Span) {
+    for index in indices {
+        if let Index::Letter(letter) = index {
+            letters.add(*letter, 1, span);
+        }
+    }
+}
+
+fn of_atom(atom: &Atom, span: Span, names: &dyn Names, problems: &mut Vec<Diagnostic>) -> Letters {
+    let mut letters = Letters::default();
+    add_all(&mut letters, &atom.indices, span);
+    add_all(&mut letters, &atom.derivatives, span);
+    thrice(&letters, problems);
+    if let Some(argument) = &atom.argument {
+        let before = problems.len();
+        let own = letters_of(argument, names, problems).free();
+        let rank = names.function(&atom.name).unwrap_or(0);
+        // A tensor may be named without its indices: A(e) is A(e_ij).
+        let bare = matches!(&argument.kind, Kind::Atom(a) if a.indices.is_empty());
+        if problems.len() == before && !bare && own.len() != rank {
+            problems.push(
+                Diagnostic::error(
+                    "index-mismatch",
+                    argument.span,
+                    format!(
+                        "the argument of `{}` needs {rank} free indices, and this has {}",
+                        atom.name,
+                        own.len()
+                    ),
+                )
+                .hint("the free indices of an argument are its own: A(e_ij) is A(e)"),
+            );
+        }
+        let wanted = rank * atom.primes as usize;
+        if atom.indices.len() != wanted && names.function(&atom.name).is_some() {
+            problems.push(Diagnostic::error(
+                "wrong-rank",
+                span,
+                format!(
+                    "this derivative of `{}` has {wanted} indices, not {}",
+                    atom.name,
+                    atom.indices.len()
+                ),
+            ));
+        }
+    }
+    letters
+}
+
+fn scalar(node: &Node, what: &str, names: &dyn Names, problems: &mut Vec<Diagnostic>) {
+    let before = problems.len();
+    let free = letters_of(node, names, problems).free();
+    if problems.len() == before && !free.is_empty() {
+        problems.push(
+            Diagnostic::error(
+                "index-mismatch",
+                node.span,
+                format!("{what} must be a scalar, and this has {}", told(&free)),
+            )
+            .hint("write a square as a product: u_i u_i"),
+        );
+    }
+}
+
+fn of_sum(terms: &[(bool, Node)], names: &dyn Names, problems: &mut Vec<Diagnostic>) -> Letters {
+    let mut first: Option<(Vec<char>, Span)> = None;
+    for (_, term) in terms {
+        let before = problems.len();
+        let free = letters_of(term, names, problems).free();
+        if problems.len() > before {
+            continue;
+        }
+        match &first {
+            None => first = Some((free, term.span)),
+            Some((wanted, span)) if *wanted != free => {
+                let other = mismatch(term.span, &free, wanted);
+                problems.push(other.related(*span, format!("this term has {}", told(wanted))));
+            }
+            Some(_) => {}
+        }
+    }
+    let mut letters = Letters::default();
+    if let Some((free, span)) = first {
+        free.into_iter()
+            .for_each(|letter| letters.add(letter, 1, span));
+    }
+    letters
+}
+
+fn of_product(
+    factors: &[(bool, Node)],
+    _span: Span,
+    names: &dyn Names,
+    problems: &mut Vec<Diagnostic>,
+) -> Letters {
+    let mut letters = Letters::default();
+    for (divides, factor) in factors {
+        if *divides {
+            scalar(factor, "a divisor", names, problems);
+            continue;
+        }
+        let own = letters_of(factor, names, problems);
+        // Letters summed over inside parentheses are their own; at a name they count.
+        let counts_all = matches!(factor.kind, Kind::Atom(_));
+        for (letter, (count, span)) in own.seen {
+            if count == 1 || counts_all {
+                letters.add(letter, count, span);
+            }
+        }
+    }
+    thrice(&letters, problems);
+    letters
+}
+
+fn thrice(letters: &Letters, problems: &mut Vec<Diagnostic>) {
+    for (letter, (count, span)) in &letters.seen {
+        if *count > 2 {
+            let unused = ('i'..='n').find(|own| !letters.seen.contains_key(own));
+            let mut diagnostic = Diagnostic::error(
+                "index-thrice",
+                *span,
+                format!("the index `{letter}` is used {count} times in one product"),
+            )
+            .label("here once more")
+            .hint("an index occurs once where it is free and twice where it is summed over");
+            if let Some(other) = unused {
+                diagnostic = diagnostic.hint(format!("rename one pair, for example to `{other}`"));
+            }
+            problems.push(diagnostic);
+        }
+    }
+}
+
+fn told(letters: &[char]) -> String {
+    match letters {
+        [] => "no free index".into(),
+        [one] => format!("the free index {one}"),
+        many => {
+            let all: Vec<String> = many.iter().map(char::to_string).collect();
+            format!("the free indices {}", all.join(", "))
+        }
+    }
+}
+
+fn mismatch(span: Span, own: &[char], wanted: &[char]) -> Diagnostic {
+    let message = format!("this has {}, and {} is needed", told(own), told(wanted));
+    let diagnostic = Diagnostic::error("index-mismatch", span, message);
+    let extra: Vec<char> = own
+        .iter()
+        .filter(|l| !wanted.contains(l))
+        .copied()
+        .collect();
+    let missing: Vec<char> = wanted
+        .iter()
+        .filter(|l| !own.contains(l))
+        .copied()
+        .collect();
+    match (&extra[..], &missing[..]) {
+        ([one], [other]) => diagnostic.hint(format!("did you mean `{other}` in place of `{one}`?")),
+        _ => diagnostic.hint("free indices are the same in all terms and on both sides"),
+    }
+}

@@ -1,0 +1,432 @@
+//! Sizes, independent variables, fields, data, parameters and constitutive functions.
+
+use super::Reader;
+use crate::functional::{Constitutive, Field, Interval, Parameter};
+use crate::notation::{free_letters, Names};
+use crate::space::{Component, Function, Space};
+use crate::tensors::{tuples, Scope, Shape, Tensor};
+use chetaev_model::raw::{Kind, Raw, Table};
+use chetaev_model::{Diagnostic, Place, Text};
+use chetaev_symbolic::syntax::names::closest;
+use chetaev_symbolic::Expr;
+use std::collections::BTreeMap;
+
+/// Most dimensions of space.
+const MOST_DIMENSIONS: i64 = 3;
+
+impl Reader<'_> {
+    pub(super) fn sizes(&mut self, table: &Table) -> BTreeMap<String, i64> {
+        let mut sizes = BTreeMap::new();
+        let Some(section) = self.section(table, "sizes") else {
+            return sizes;
+        };
+        for (key, raw) in &section.entries {
+            let stated = self.text_of(raw, &key.content);
+            let text = self.override_of(&key.content).or(stated);
+            let Some(text) = text else { continue };
+            match text.content.trim().parse::<i64>() {
+                Ok(value) if (0..=1000).contains(&value) => {
+                    sizes.insert(key.content.clone(), value);
+                }
+                _ => {
+                    let message =
+                        format!("the size `{}` must be a whole number from 0", key.content);
+                    self.push(Diagnostic::error("bad-size", text.place, message));
+                }
+            }
+        }
+        sizes
+    }
+
+    /// The independent variables: name, suffix, whether it is the time.
+    fn variables(
+        &mut self,
+        table: &Table,
+        place: Place,
+        sizes: &BTreeMap<String, i64>,
+    ) -> Option<Vec<(String, String, bool)>> {
+        let Some(domain) = self.section(table, "domain") else {
+            let message = "a functional needs its independent variables";
+            self.push(
+                Diagnostic::error("missing-section", place, message).hint(
+                    "add [domain] with coordinates = [\"x\", \"y\"] or coordinates = \"x_i\"",
+                ),
+            );
+            return None;
+        };
+        self.known_keys(
+            domain,
+            &["coordinates", "time", "intervals", "boundary"],
+            "[domain]",
+        );
+        let raw = domain.get("coordinates")?;
+        let texts = self.texts(raw, "coordinates");
+        let mut found = Vec::new();
+        for text in &texts {
+            match text.content.split_once('_') {
+                Some((letter, "i")) => {
+                    let d = sizes.get("d").copied().unwrap_or(0);
+                    if !(1..=MOST_DIMENSIONS).contains(&d) {
+                        let message = format!("the size `d` must be 1, 2 or 3, and is {d}");
+                        self.push(
+                            Diagnostic::error("bad-size", self.place_of_size(table, raw), message)
+                                .hint("state [sizes] d = 2, or give --set d=2"),
+                        );
+                        return None;
+                    }
+                    found.extend((1..=d).map(|i| (format!("{letter}_{i}"), i.to_string(), false)));
+                }
+                _ => found.push((text.content.clone(), text.content.clone(), false)),
+            }
+        }
+        if found.is_empty() || found.len() as i64 > MOST_DIMENSIONS {
+            let message = format!(
+                "space has one to {MOST_DIMENSIONS} dimensions, not {}",
+                found.len()
+            );
+            self.push(Diagnostic::error("bad-size", raw.place, message));
+            return None;
+        }
+        if let Some(time) = self.optional(domain, "time") {
+            found.push((time.content.clone(), time.content, true));
+        }
+        Some(found)
+    }
+
+    fn place_of_size(&self, table: &Table, otherwise: &Raw) -> Place {
+        let over = self.overrides.iter().find(|(name, _)| name.content == "d");
+        let stated = table
+            .get("sizes")
+            .and_then(Raw::table)
+            .and_then(|s| s.get("d"));
+        match (over, stated) {
+            (Some((_, value)), _) => value.place,
+            (None, Some(raw)) => raw.place,
+            (None, None) => otherwise.place,
+        }
+    }
+
+    pub(super) fn space(
+        &mut self,
+        table: &Table,
+        place: Place,
+        sizes: &BTreeMap<String, i64>,
+    ) -> Option<Space> {
+        Some(Space::new(&self.variables(table, place, sizes)?))
+    }
+
+    pub(super) fn same_domain(
+        &mut self,
+        table: &Table,
+        sizes: &BTreeMap<String, i64>,
+        space: &Space,
+    ) -> Option<()> {
+        let own = self.variables(table, Place::default(), sizes)?;
+        let same = own.len() == space.coordinates.len()
+            && own
+                .iter()
+                .zip(&space.coordinates)
+                .all(|((name, _, _), known)| *name == known.name);
+        if !same {
+            let place = table
+                .get("domain")
+                .map_or(Place::default(), |raw| raw.place);
+            let message =
+                "this functional has other independent variables than the one that names it";
+            self.push(Diagnostic::error("other-domain", place, message));
+        }
+        same.then_some(())
+    }
+
+    pub(super) fn intervals(&mut self, table: &Table, scope: &Scope) -> Vec<Interval> {
+        let mut found = Vec::new();
+        let Some(domain) = table.get("domain").and_then(Raw::table) else {
+            return found;
+        };
+        let Some(section) = self.section(domain, "intervals") else {
+            return found;
+        };
+        for (key, raw) in &section.entries {
+            let Some(axis) = scope.coordinate(&key.content) else {
+                let message = format!("`{}` is not an independent variable", key.content);
+                self.push(Diagnostic::error("unknown-name", key.place, message));
+                continue;
+            };
+            let ends = self.texts(raw, &key.content);
+            let values: Vec<Expr> = ends
+                .iter()
+                .filter_map(|end| self.scalar(scope, end))
+                .collect();
+            match values[..] {
+                [lower, upper] => found.push(Interval { axis, lower, upper }),
+                _ => {
+                    let message = "an interval has two ends";
+                    self.push(Diagnostic::error("wrong-length", raw.place, message));
+                }
+            }
+        }
+        found
+    }
+
+    fn shape(&mut self, text: &Text) -> Option<Shape> {
+        let known = Shape::WORDS
+            .into_iter()
+            .find(|(word, _)| *word == text.content);
+        if known.is_none() {
+            let words = Shape::WORDS.map(|(word, _)| word);
+            let message = format!("`{}` is no kind of tensor", text.content);
+            let diagnostic = Diagnostic::error("unknown-value", text.place, message);
+            self.push(match closest(&text.content, words) {
+                Some(near) => diagnostic.hint(format!("did you mean \"{near}\"?")),
+                None => diagnostic.hint(format!("one of {}", words.join(", "))),
+            });
+        }
+        known.map(|(_, shape)| shape)
+    }
+
+    pub(super) fn fields(
+        &mut self,
+        table: &Table,
+        section: &str,
+        is_varied: bool,
+        scope: &mut Scope,
+    ) -> Vec<Field> {
+        let mut found = Vec::new();
+        let Some(entries) = self.section(table, section) else {
+            return found;
+        };
+        for (key, raw) in &entries.entries {
+            let (kind, description) = self.described(raw, "kind");
+            let on = raw.table().and_then(|table| self.optional(table, "on"));
+            let shape = kind.and_then(|text| self.shape(&text));
+            let Some(shape) = shape else { continue };
+            if !self.is_new(scope, key) {
+                continue;
+            }
+            let kind = (is_varied && on.is_none(), on.is_some());
+            let components = declare(scope, &key.content, shape, kind);
+            found.push(Field {
+                name: key.content.clone(),
+                shape,
+                components,
+                description,
+                on: on.map(|text| text.content),
+            });
+        }
+        found
+    }
+
+    fn is_new(&mut self, scope: &Scope, key: &Text) -> bool {
+        let taken = scope.rank(&key.content).is_some();
+        if taken {
+            let message = format!("`{}` is declared twice", key.content);
+            self.push(Diagnostic::error("declared-twice", key.place, message));
+        }
+        !taken
+    }
+
+    pub(super) fn parameters(&mut self, table: &Table, scope: &mut Scope) -> Vec<Parameter> {
+        let mut found = Vec::new();
+        let Some(section) = self.section(table, "parameters") else {
+            return found;
+        };
+        for (key, raw) in &section.entries {
+            if !self.is_new(scope, key) {
+                continue;
+            }
+            let (value, description) = match &raw.kind {
+                Kind::Table(own) => {
+                    let description = self.optional(own, "description");
+                    (
+                        self.optional(own, "value"),
+                        description.map_or(String::new(), |d| d.content),
+                    )
+                }
+                _ => (self.text_of(raw, &key.content), String::new()),
+            };
+            let kind = raw.table().and_then(|own| self.optional(own, "kind"));
+            let shape = kind
+                .and_then(|text| self.shape(&text))
+                .unwrap_or(Shape::Scalar);
+            constants(scope, &key.content, shape);
+            let value = self.override_of(&key.content).or(value);
+            let value = value.and_then(|text| self.scalar(scope, &text));
+            found.push(Parameter {
+                name: key.content.clone(),
+                shape,
+                value,
+                description,
+            });
+        }
+        found
+    }
+
+    pub(super) fn functions(&mut self, table: &Table, scope: &Scope) -> Vec<Constitutive> {
+        let mut found = Vec::new();
+        let Some(section) = self.section(table, "functions") else {
+            return found;
+        };
+        let d = scope.space.dimensions();
+        for (key, raw) in &section.entries {
+            let (kind, description) = self.described(raw, "of");
+            let Some(shape) = kind.and_then(|text| self.shape(&text)) else {
+                continue;
+            };
+            let multiplicities = shape.components(d).into_iter().map(|(_, m)| m).collect();
+            let function = scope.space.function(Function {
+                name: key.content.clone(),
+                rank: shape.rank(),
+                multiplicities,
+                conjugate: None,
+            });
+            let own = raw.table();
+            let mut text = |key: &str| {
+                own.and_then(|own| self.optional(own, key))
+                    .map(|t| t.content)
+            };
+            found.push(Constitutive {
+                name: key.content.clone(),
+                function,
+                value: text("value"),
+                gradient: text("gradient"),
+                conjugate: text("conjugate"),
+                description,
+            });
+        }
+        for own in &found {
+            let Some(name) = &own.conjugate else { continue };
+            match scope.space.function_named(name) {
+                Some(other) => scope.space.conjugate(own.function, other),
+                None => {
+                    let raw = section.get(&own.name);
+                    let place = raw.map_or(Place::default(), |raw| raw.place);
+                    let message =
+                        format!("the conjugate `{name}` of `{}` is not declared", own.name);
+                    self.push(Diagnostic::error("unknown-name", place, message));
+                }
+            }
+        }
+        found
+    }
+
+    /// Values and gradients of functions, which may use everything else.
+    pub(super) fn function_rules(
+        &mut self,
+        table: &Table,
+        scope: &mut Scope,
+        all: &[Constitutive],
+    ) {
+        let Some(section) = table.get("functions").and_then(Raw::table) else {
+            return;
+        };
+        for own in all {
+            let Some(entry) = section.get(&own.name).and_then(Raw::table) else {
+                continue;
+            };
+            let argument = self.optional(entry, "argument");
+            let name = argument.map_or_else(|| "X".to_owned(), |text| text.content);
+            let slots = scope.space.slots(own.function);
+            let shape = shape_of(scope, own.function);
+            let before = scope.tensors.get(&name).cloned();
+            place_holders(scope, &name, shape, &slots);
+            if let Some(value) = self
+                .optional(entry, "value")
+                .and_then(|t| self.scalar(scope, &t))
+            {
+                scope.space.state_body(own.function, value);
+            }
+            if let Some(text) = self.optional(entry, "gradient") {
+                if let Some(node) = self.node(scope, &text, None) {
+                    let letters = free_letters(&node);
+                    let d = scope.space.dimensions();
+                    let values = shape.components(d).into_iter().map(|(indices, _)| {
+                        let places = letters.iter().copied().zip(indices).collect();
+                        scope.value(&node, &places)
+                    });
+                    scope.space.state_gradient(own.function, values.collect());
+                }
+            }
+            match before {
+                Some(tensor) => scope.tensors.insert(name, tensor),
+                None => scope.tensors.remove(&name),
+            };
+        }
+    }
+}
+
+/// The kind of tensor that a function is applied to.
+pub(super) fn shape_of(scope: &Scope, function: usize) -> Shape {
+    match scope.space.function_at(function).rank {
+        0 => Shape::Scalar,
+        1 => Shape::Vector,
+        _ => Shape::Symmetric,
+    }
+}
+
+/// A tensor whose components are place-holders.
+pub(super) fn place_holders(scope: &mut Scope, name: &str, shape: Shape, slots: &[Expr]) {
+    let d = scope.space.dimensions();
+    let own = shape.components(d);
+    let components = tuples(shape.rank(), d)
+        .into_iter()
+        .filter_map(|tuple| {
+            let wanted = shape.canonical(&tuple);
+            let at = own.iter().position(|(indices, _)| *indices == wanted)?;
+            slots.get(at).copied()
+        })
+        .collect();
+    let rank = shape.rank();
+    scope
+        .tensors
+        .insert(name.to_owned(), Tensor { rank, components });
+}
+
+/// `s_12`; the name alone for a scalar.
+pub(super) fn component_name(name: &str, indices: &[usize]) -> String {
+    match indices.is_empty() {
+        true => name.to_owned(),
+        false => {
+            let digits: String = indices.iter().map(|i| (i + 1).to_string()).collect();
+            format!("{name}_{digits}")
+        }
+    }
+}
+
+/// Declares the components of a field, and the tensor made of them.
+fn declare(
+    scope: &mut Scope,
+    name: &str,
+    shape: Shape,
+    (is_varied, is_of_boundary): (bool, bool),
+) -> Vec<usize> {
+    let d = scope.space.dimensions();
+    let own: Vec<(Vec<usize>, usize)> = shape
+        .components(d)
+        .into_iter()
+        .map(|(indices, multiplicity)| {
+            let component = scope.space.component(Component {
+                name: component_name(name, &indices),
+                tensor: name.to_owned(),
+                multiplicity,
+                is_varied,
+                is_of_boundary,
+            });
+            (indices, component)
+        })
+        .collect();
+    let slots: Vec<Expr> = own.iter().map(|(_, c)| scope.space.jet(*c, &[])).collect();
+    place_holders(scope, name, shape, &slots);
+    scope.space.name_arguments(&slots, name);
+    own.into_iter().map(|(_, component)| component).collect()
+}
+
+/// Declares constants.
+fn constants(scope: &mut Scope, name: &str, shape: Shape) {
+    let d = scope.space.dimensions();
+    let slots: Vec<Expr> = shape
+        .components(d)
+        .into_iter()
+        .map(|(indices, _)| scope.space.graph.symbol(&component_name(name, &indices), 0))
+        .collect();
+    place_holders(scope, name, shape, &slots);
+}

@@ -1,0 +1,197 @@
+//! Relations to other functionals, each read from its own file onto the same symbols.
+
+use super::declare::{place_holders, shape_of};
+use super::Reader;
+use crate::functional::{Functional, Relation, Special, SpecialKind};
+use crate::notation::{free_letters, parse, Names};
+use crate::tensors::Scope;
+use chetaev_model::raw::{Raw, Table};
+use chetaev_model::{joined, tables, Diagnostic, Place, Text};
+use chetaev_symbolic::syntax::Span;
+use std::collections::BTreeMap;
+
+impl Reader<'_> {
+    pub(super) fn relations(&mut self, table: &Table, functional: &Functional) -> Vec<Relation> {
+        let mut found = Vec::new();
+        found.extend(self.duality(table, functional));
+        found.extend(self.descent(table, functional));
+        let Some(section) = self.section(table, "degenerations") else {
+            return found;
+        };
+        for (key, raw) in &section.entries {
+            match raw.table() {
+                Some(own) => found.extend(self.degeneration(key, own, functional)),
+                None => self.wrong_kind(raw, &key.content, "a table"),
+            }
+        }
+        found
+    }
+
+    fn other(&mut self, named: &Text, functional: &Functional) -> Option<Functional> {
+        let path = joined(&self.text.path, &named.content);
+        let text = match self.files.read(&path) {
+            Ok(text) => text,
+            Err(reason) => {
+                let message = format!("`{path}` cannot be read: {reason}");
+                self.push(Diagnostic::error(
+                    "unreadable-include",
+                    named.place,
+                    message,
+                ));
+                return None;
+            }
+        };
+        let overrides = self.text.overrides.clone();
+        let sources = std::mem::take(&mut self.sources);
+        let read = tables(&path, &text, self.files, &overrides, sources);
+        self.sources = read.sources;
+        self.problems.extend(read.diagnostics);
+        let mut kept = read.text.includes;
+        kept.push((path, text));
+        for (path, text) in kept {
+            if self.text.includes.iter().all(|(own, _)| *own != path) {
+                self.text.includes.push((path, text));
+            }
+        }
+        let place = Place {
+            source: read.source,
+            span: Span::new(0, 1),
+        };
+        self.functional(&read.table?, place, Some(&functional.space))
+    }
+
+    fn required(&mut self, table: &Table, key: &str, what: &str) -> Option<Text> {
+        let found = self.optional(table, key);
+        if found.is_none() {
+            let place = table
+                .entries
+                .first()
+                .map_or(Place::default(), |(key, _)| key.place);
+            let message = format!("{what} needs `{key}`");
+            self.push(Diagnostic::error("missing-key", place, message));
+        }
+        found
+    }
+
+    fn duality(&mut self, table: &Table, functional: &Functional) -> Option<Relation> {
+        let section = self.section(table, "duality")?;
+        self.known_keys(section, &["with", "flux"], "[duality]");
+        let with = self.required(section, "with", "[duality]")?;
+        let other = self.other(&with, functional)?;
+        let flux = self.optional(section, "flux").and_then(|text| {
+            let node = self.node(&functional.scope, &text, None)?;
+            let letters = free_letters(&node);
+            let components = functional.scope.components(&node, &letters);
+            if letters.len() != 1 {
+                let message = "the flux is a vector: one index is free";
+                self.push(Diagnostic::error("index-mismatch", text.place, message));
+            }
+            Some((text.content, components))
+        });
+        Some(Relation::Duality { other, flux })
+    }
+
+    fn descent(&mut self, table: &Table, functional: &Functional) -> Option<Relation> {
+        let section = self.section(table, "descent")?;
+        self.known_keys(section, &["from", "imposing"], "[descent]");
+        let from = self.required(section, "from", "[descent]")?;
+        let other = self.other(&from, functional)?;
+        let imposed = match section.get("imposing") {
+            Some(raw) => self.texts(raw, "imposing"),
+            None => Vec::new(),
+        };
+        for text in &imposed {
+            if other.equations.iter().all(|e| e.label != text.content) {
+                let message = format!("`{}` has no equation `{}`", from.content, text.content);
+                self.push(Diagnostic::error("unknown-equation", text.place, message));
+            }
+        }
+        let imposed = imposed.into_iter().map(|text| text.content).collect();
+        Some(Relation::Descent { other, imposed })
+    }
+
+    fn degeneration(
+        &mut self,
+        key: &Text,
+        table: &Table,
+        functional: &Functional,
+    ) -> Option<Relation> {
+        self.known_keys(table, &["becomes", "at"], "a degeneration");
+        let becomes = self.required(table, "becomes", "a degeneration")?;
+        let other = self.other(&becomes, functional)?;
+        let mut values = Vec::new();
+        for (name, raw) in table
+            .get("at")
+            .and_then(Raw::table)
+            .iter()
+            .flat_map(|t| &t.entries)
+        {
+            values.extend(self.special(name, raw, functional, &other));
+        }
+        Some(Relation::Degeneration {
+            name: key.content.clone(),
+            other,
+            values,
+        })
+    }
+
+    /// `beta = "0"`, `beta_ijkl = "…"`, `"A(X)" = "…"`; the right side may use the names of the other functional.
+    fn special(
+        &mut self,
+        key: &Text,
+        raw: &Raw,
+        functional: &Functional,
+        other: &Functional,
+    ) -> Option<Special> {
+        let text = self.text_of(raw, &key.content)?;
+        let written = format!("{} = {}", key.content, text.content);
+        // On the right the names mean what they mean for the other functional.
+        let mut scope = Scope {
+            space: functional.space.clone(),
+            tensors: functional.scope.tensors.clone(),
+            sizes: functional.scope.sizes.clone(),
+        };
+        scope.tensors.extend(other.scope.tensors.clone());
+        if let Some((name, argument)) = key.content.split_once('(') {
+            let function = scope.space.function_named(name.trim());
+            let Some(function) = function else {
+                let message = format!("`{name}` is not a constitutive function");
+                self.push(Diagnostic::error("unknown-name", key.place, message));
+                return None;
+            };
+            let slots = scope.space.slots(function);
+            let shape = shape_of(&scope, function);
+            place_holders(
+                &mut scope,
+                argument.trim_end_matches(')').trim(),
+                shape,
+                &slots,
+            );
+            let value = self.scalar(&scope, &text)?;
+            let what = SpecialKind::Function { function, value };
+            return Some(Special { written, what });
+        }
+        let mut problems = Vec::new();
+        let left = parse(&key.content, &functional.scope, &mut problems);
+        if !self.add(key, &problems) {
+            return None;
+        }
+        let left = left?;
+        let letters = free_letters(&left);
+        let right = self.node(&scope, &text, Some(&letters))?;
+        let g = &scope.space.graph;
+        let left = functional.scope.components(&left, &letters);
+        let right = scope.components(&right, &letters);
+        let mut pairs: BTreeMap<_, _> = BTreeMap::new();
+        for (l, r) in left.into_iter().zip(right) {
+            if g.as_symbol(l).is_none() || scope.coordinate(&key.content).is_some() {
+                let message = "only parameters and fields have special values";
+                self.push(Diagnostic::error("bad-special", key.place, message));
+                return None;
+            }
+            pairs.insert(l, r);
+        }
+        let what = SpecialKind::Symbols(pairs.into_iter().collect());
+        Some(Special { written, what })
+    }
+}

@@ -1,0 +1,544 @@
+//! Definitions, densities, boundary pieces and equations.
+
+use super::Reader;
+use crate::functional::{Definition, Equation, Functional, Interval, Piece, Role, Side};
+use crate::notation::{free_letters, parse, parse_sides, Names};
+use crate::space::pairs;
+use crate::tensors::{tuples, Scope, Tensor};
+use chetaev_model::raw::{Kind, Raw, Table};
+use chetaev_model::{Diagnostic, Place, Text};
+use chetaev_symbolic::syntax::names::closest;
+use chetaev_symbolic::Expr;
+use std::collections::BTreeMap;
+
+impl Reader<'_> {
+    pub(super) fn stated(
+        &mut self,
+        table: &Table,
+        place: Place,
+        mut scope: Scope,
+    ) -> Option<Functional> {
+        builtin(&mut scope);
+        let parameters = self.parameters(table, &mut scope);
+        let data = self.fields(table, "data", false, &mut scope);
+        let fields = self.fields(table, "fields", true, &mut scope);
+        if fields.is_empty() {
+            let message = "a functional needs fields that are varied";
+            self.push(
+                Diagnostic::error("missing-section", place, message)
+                    .hint("add [fields] with, for example, u = \"vector\""),
+            );
+        }
+        let functions = self.functions(table, &scope);
+        let definitions = self.definitions(table, &mut scope);
+        self.function_rules(table, &mut scope, &functions);
+        let intervals = self.intervals(table, &scope);
+        let Some(text) = self.optional(table, "density") else {
+            let message = "a functional needs its density";
+            self.push(
+                Diagnostic::error("missing-key", place, message)
+                    .hint("add density = \"…\" above the first section"),
+            );
+            return None;
+        };
+        let density = self.scalar(&scope, &text);
+        if let Some(density) = density {
+            self.without_normal(&scope, density, &text);
+        }
+        let pieces = self.pieces(table, &scope, &intervals);
+        let equations = self.equations(table, &scope, &pieces);
+        let name = self.optional(table, "name");
+        let level = self.optional(table, "level");
+        let description = self.optional(table, "description");
+        let sources = match table.get("source") {
+            Some(raw) => self.texts(raw, "source"),
+            None => Vec::new(),
+        };
+        let of = |text: Option<Text>| text.map_or(String::new(), |text| text.content);
+        Some(Functional {
+            name: of(name),
+            level: level.map(|text| text.content),
+            description: of(description),
+            sources: sources.into_iter().map(|text| text.content).collect(),
+            space: scope.space.clone(),
+            scope,
+            intervals,
+            fields,
+            data,
+            parameters,
+            functions,
+            definitions,
+            density: density?,
+            written: text.content,
+            pieces,
+            equations,
+        })
+    }
+
+    /// Definitions in any order: each is read as soon as all names in it are known.
+    fn definitions(&mut self, table: &Table, scope: &mut Scope) -> Vec<Definition> {
+        let mut found = Vec::new();
+        let Some(section) = self.section(table, "define") else {
+            return found;
+        };
+        let mut pending: Vec<(Text, Text, String)> = Vec::new();
+        for (key, raw) in &section.entries {
+            let (value, description) = self.described(raw, "value");
+            if let Some(value) = value {
+                pending.push((key.clone(), value, description));
+            }
+        }
+        loop {
+            let before = pending.len();
+            let mut waiting = Vec::new();
+            for (key, value, description) in pending {
+                let mut problems = Vec::new();
+                parse(&value.content, scope, &mut problems);
+                if problems.iter().any(|d| d.code == "unknown-name") {
+                    waiting.push((key, value, description));
+                    continue;
+                }
+                self.definition(scope, &key, &value);
+                found.push(Definition {
+                    name: key.content,
+                    written: value.content,
+                    description,
+                });
+            }
+            pending = waiting;
+            if pending.is_empty() || pending.len() == before {
+                break;
+            }
+        }
+        for (_, value, _) in pending {
+            let mut problems = Vec::new();
+            parse(&value.content, scope, &mut problems);
+            self.add(&value, &problems);
+        }
+        found
+    }
+
+    fn definition(&mut self, scope: &mut Scope, key: &Text, value: &Text) {
+        let (name, letters) = match key.content.rsplit_once('_') {
+            Some((name, letters)) if letters.chars().all(|c| c.is_ascii_lowercase()) => {
+                (name.to_owned(), letters.chars().collect())
+            }
+            _ => (key.content.clone(), Vec::new()),
+        };
+        if scope.rank(&name).is_some() {
+            let message = format!("`{name}` is declared already");
+            self.push(Diagnostic::error("declared-twice", key.place, message));
+            return;
+        }
+        let Some(node) = self.node(scope, value, Some(&letters)) else {
+            return;
+        };
+        let components = scope.components(&node, &letters);
+        let d = scope.space.dimensions();
+        if letters.len() == 2 {
+            let tensor = Tensor {
+                rank: 2,
+                components: components.clone(),
+            };
+            let own: Vec<Expr> = pairs(d)
+                .into_iter()
+                .filter_map(|(i, j)| tensor.at(&[i, j], d))
+                .collect();
+            scope.space.name_arguments(&own, &name);
+        }
+        let rank = letters.len();
+        scope.tensors.insert(name, Tensor { rank, components });
+    }
+
+    fn without_normal(&mut self, scope: &Scope, e: Expr, text: &Text) {
+        let g = &scope.space.graph;
+        let normals = normals(scope);
+        let occurring = scope.space.symbols_in(&[e]);
+        if normals
+            .iter()
+            .any(|&n| g.as_symbol(n).is_some_and(|s| occurring.contains(&s)))
+        {
+            let message = "the normal n has a meaning on the boundary only";
+            self.push(Diagnostic::error("normal-inside", text.place, message));
+        }
+    }
+
+    fn pieces(&mut self, table: &Table, scope: &Scope, intervals: &[Interval]) -> Vec<Piece> {
+        let domain = table.get("domain").and_then(Raw::table);
+        let declared = match domain.and_then(|own| own.get("boundary")) {
+            Some(raw) => self.texts(raw, "boundary"),
+            None => Vec::new(),
+        };
+        let mut found: Vec<Piece> = Vec::new();
+        let section = self.section(table, "boundary");
+        for (key, raw) in section.iter().flat_map(|own| &own.entries) {
+            if let Some(piece) = self.piece(scope, key, raw, intervals, &declared) {
+                found.push(piece);
+            }
+        }
+        self.missing_pieces(table, scope, intervals, &declared, &found);
+        found
+    }
+
+    fn piece(
+        &mut self,
+        scope: &Scope,
+        key: &Text,
+        raw: &Raw,
+        intervals: &[Interval],
+        declared: &[Text],
+    ) -> Option<Piece> {
+        let own = raw.table();
+        if let Some(own) = own {
+            self.known_keys(
+                own,
+                &["density", "at", "fixed", "description"],
+                "a piece of the boundary",
+            );
+        }
+        let text = match own {
+            Some(own) => self.optional(own, "density"),
+            None => self.text_of(raw, "density"),
+        };
+        let at = own.and_then(|own| self.optional(own, "at"));
+        let is_declared = declared.iter().any(|name| name.content == key.content);
+        let side = match (at, is_declared) {
+            (Some(at), _) => self.side(scope, &at, intervals)?,
+            (None, true) => Side::Curved,
+            (None, false) if !intervals.is_empty() => self.side(scope, key, intervals)?,
+            (None, false) => {
+                let message = format!("`{}` is not a piece of the boundary", key.content);
+                let diagnostic = Diagnostic::error("unknown-piece", key.place, message);
+                let names = declared.iter().map(|name| name.content.as_str());
+                let near = closest(&key.content, names);
+                self.push(match near {
+                    Some(near) => diagnostic
+                        .hint(format!("did you mean `{near}`?"))
+                        .suggest(key.place, near),
+                    None => diagnostic
+                        .hint("[domain] boundary = [\"S_u\", \"S_s\"] declares the pieces"),
+                });
+                return None;
+            }
+        };
+        let density = match &text {
+            Some(text) => self.scalar(scope, text)?,
+            None => scope.space.graph.zero(),
+        };
+        let density = on_side(scope, &side, density);
+        let fixed = match own.and_then(|own| own.get("fixed")) {
+            Some(raw) => self.fixed(scope, raw),
+            None => Vec::new(),
+        };
+        Some(Piece {
+            name: key.content.clone(),
+            side,
+            density,
+            written: text.map_or_else(|| "0".to_owned(), |text| text.content),
+            fixed,
+        })
+    }
+
+    /// `x = a` as a face of the box.
+    fn side(&mut self, scope: &Scope, text: &Text, intervals: &[Interval]) -> Option<Side> {
+        let mut found = Vec::new();
+        let sides = parse_sides(&text.content, scope, &mut found);
+        if !self.add(text, &found) {
+            return None;
+        }
+        let g = &scope.space.graph;
+        let values = sides.and_then(|(left, right)| {
+            let places = BTreeMap::new();
+            Some((scope.value(&left, &places), scope.value(&right?, &places)))
+        });
+        for interval in intervals {
+            let own = scope.space.coordinates[interval.axis].expr;
+            if let Some((left, right)) = values {
+                for (at, is_upper) in [(interval.lower, false), (interval.upper, true)] {
+                    if left == own && g.is_zero(g.sub(right, at)) {
+                        let axis = interval.axis;
+                        return Some(Side::Flat { axis, is_upper, at });
+                    }
+                }
+            }
+        }
+        let message = format!(
+            "`{}` is not a face of the box in [domain] intervals",
+            text.content
+        );
+        self.push(Diagnostic::error("unknown-piece", text.place, message));
+        None
+    }
+
+    /// Components that are given on a piece; `w,n` gives the normal derivative.
+    fn fixed(&mut self, scope: &Scope, raw: &Raw) -> Vec<(usize, bool)> {
+        let mut found = Vec::new();
+        for text in self.texts(raw, "fixed") {
+            let (name, is_normal) = match text.content.strip_suffix(",n") {
+                Some(name) => (name, true),
+                None => (text.content.as_str(), false),
+            };
+            let Some(tensor) = scope.tensors.get(name) else {
+                let message = format!("`{name}` is not a field");
+                self.push(Diagnostic::error("unknown-name", text.place, message));
+                continue;
+            };
+            let jets = scope.space.jets_in(&tensor.components);
+            found.extend(jets.into_iter().map(|jet| (jet.component, is_normal)));
+        }
+        found
+    }
+
+    /// Every declared piece and every face of the box must be spoken of: what is forgotten would be free.
+    fn missing_pieces(
+        &mut self,
+        table: &Table,
+        scope: &Scope,
+        intervals: &[Interval],
+        declared: &[Text],
+        found: &[Piece],
+    ) {
+        let place = table.get("boundary").map(|raw| raw.place);
+        let place = place
+            .or(table.get("domain").map(|raw| raw.place))
+            .unwrap_or_default();
+        for name in declared {
+            if found.iter().all(|piece| piece.name != name.content) {
+                let message = format!(
+                    "nothing is said of the piece `{}` of the boundary",
+                    name.content
+                );
+                self.push(
+                    Diagnostic::error("missing-piece", name.place, message).hint(format!(
+                        "add [boundary] {} = \"0\" where it is free, or {{ fixed = [\"u\"] }}",
+                        name.content
+                    )),
+                );
+            }
+        }
+        let g = &scope.space.graph;
+        for interval in intervals {
+            let coordinate = &scope.space.coordinates[interval.axis];
+            if coordinate.is_time {
+                continue;
+            }
+            for (own, end) in [(false, interval.lower), (true, interval.upper)] {
+                let is_there = found.iter().any(|piece| {
+                    matches!(piece.side, Side::Flat { axis, is_upper, .. } if axis == interval.axis && is_upper == own)
+                });
+                if !is_there {
+                    let face = format!("{} = {}", coordinate.name, g.text(end));
+                    let message = format!("nothing is said of the face {face} of the box");
+                    self.push(
+                        Diagnostic::error("missing-piece", place, message).hint(format!(
+                            "add [boundary] \"{face}\" = \"0\" where it is free"
+                        )),
+                    );
+                }
+            }
+        }
+    }
+
+    fn equations(&mut self, table: &Table, scope: &Scope, pieces: &[Piece]) -> Vec<Equation> {
+        let mut found = Vec::new();
+        let imposed = table.get("imposed").map(|raw| self.texts(raw, "imposed"));
+        let yields = table.get("yields").map(|raw| self.texts(raw, "yields"));
+        let (imposed, yields) = (imposed.unwrap_or_default(), yields.unwrap_or_default());
+        let section = self.section(table, "equations");
+        let entries = section.map_or(&[][..], |own| &own.entries);
+        for (key, raw) in entries {
+            let role = match &key.content {
+                label if imposed.iter().any(|text| text.content == *label) => Role::Imposed,
+                label if yields.iter().any(|text| text.content == *label) => Role::Yielded,
+                _ => Role::Other,
+            };
+            found.extend(self.equation(table, scope, pieces, (key, raw), role));
+        }
+        for text in imposed.iter().chain(&yields) {
+            if entries.iter().all(|(key, _)| key.content != text.content) {
+                let message = format!("there is no equation `{}`", text.content);
+                self.push(
+                    Diagnostic::error("unknown-equation", text.place, message)
+                        .hint("[equations] states them"),
+                );
+            }
+        }
+        found
+    }
+
+    fn equation(
+        &mut self,
+        table: &Table,
+        scope: &Scope,
+        pieces: &[Piece],
+        (key, raw): (&Text, &Raw),
+        role: Role,
+    ) -> Option<Equation> {
+        let own = raw.table();
+        if let Some(own) = own {
+            self.known_keys(own, &["equation", "on", "title"], "an equation");
+        }
+        let text = match own {
+            Some(own) => self.optional(own, "equation"),
+            None => self.text_of(raw, "equation"),
+        }?;
+        let on = own.and_then(|own| self.optional(own, "on"));
+        let title = own.and_then(|own| self.optional(own, "title"));
+        // A statement about fields that this functional does not have is none of its.
+        if role == Role::Other {
+            let mut problems = Vec::new();
+            parse_sides(&text.content, scope, &mut problems);
+            if problems.iter().any(|d| d.code == "unknown-name") {
+                return None;
+            }
+        }
+        let (residuals, letters) = self.residuals(scope, &text)?;
+        let mut residuals = residuals;
+        for name in on.iter().flat_map(|on| on.content.split(',')) {
+            let Some(piece) = pieces.iter().find(|p| p.name == name.trim()) else {
+                let place = on.as_ref().map_or(text.place, |on| on.place);
+                let message = format!("`{}` is not a piece of the boundary", name.trim());
+                self.push(Diagnostic::error("unknown-piece", place, message));
+                return None;
+            };
+            residuals = residuals
+                .iter()
+                .map(|&e| on_side(scope, &piece.side, e))
+                .collect();
+        }
+        let multiplier = self.multiplier(table, scope, &key.content, &letters);
+        Some(Equation {
+            label: key.content.clone(),
+            written: text.content.clone(),
+            title: title.map_or(String::new(), |text| text.content),
+            on: on.map(|text| text.content),
+            residuals,
+            role,
+            multiplier,
+            place: text.place,
+        })
+    }
+
+    fn multiplier(
+        &mut self,
+        table: &Table,
+        scope: &Scope,
+        label: &str,
+        letters: &[char],
+    ) -> Option<(String, Vec<Expr>)> {
+        let section = table.get("multipliers").and_then(Raw::table)?;
+        let raw = section.get(label)?;
+        let text = self.text_of(raw, label)?;
+        let node = self.node(scope, &text, None)?;
+        let own = free_letters(&node);
+        if own.len() != letters.len() {
+            let message = format!(
+                "the multiplier of `{label}` has {} free indices, and the equation {}",
+                own.len(),
+                letters.len()
+            );
+            self.push(Diagnostic::error("index-mismatch", text.place, message));
+            return None;
+        }
+        Some((text.content, scope.components(&node, &own)))
+    }
+
+    pub(super) fn expected(&mut self, table: &Table) -> Vec<(String, Vec<String>)> {
+        let mut found = Vec::new();
+        let Some(section) = self.section(table, "expect") else {
+            return found;
+        };
+        for (key, raw) in &section.entries {
+            let words = match &raw.kind {
+                Kind::Table(_) => {
+                    self.wrong_kind(raw, &key.content, "a verdict");
+                    continue;
+                }
+                _ => self.texts(raw, &key.content),
+            };
+            found.push((
+                key.content.clone(),
+                words.into_iter().map(|w| w.content).collect(),
+            ));
+        }
+        found
+    }
+}
+
+/// The symbols of the normal.
+pub(crate) fn normals(scope: &Scope) -> Vec<Expr> {
+    let g = &scope.space.graph;
+    (1..=scope.space.dimensions())
+        .map(|i| g.symbol(&format!("n_{i}"), 0))
+        .collect()
+}
+
+/// What holds on a piece: on a face of a box the normal is known.
+pub(crate) fn on_side(scope: &Scope, side: &Side, e: Expr) -> Expr {
+    let Side::Flat { axis, is_upper, .. } = side else {
+        return e;
+    };
+    let g = &scope.space.graph;
+    let symbols = normals(scope);
+    scope.space.replace(e, &|symbol| {
+        let at = symbols
+            .iter()
+            .position(|&n| g.as_symbol(n) == Some(symbol))?;
+        Some(match (at == *axis, is_upper) {
+            (true, true) => g.one(),
+            (true, false) => g.integer(-1),
+            (false, _) => g.zero(),
+        })
+    })
+}
+
+/// The unit tensor, the permutation symbol, the normal and the place.
+fn builtin(scope: &mut Scope) {
+    let g = &scope.space.graph;
+    let d = scope.space.dimensions();
+    let truth = |holds: bool| if holds { g.one() } else { g.zero() };
+    let unit = tuples(2, d).iter().map(|t| truth(t[0] == t[1])).collect();
+    let permutation = tuples(d, d).iter().map(|t| g.integer(sign(t))).collect();
+    let own = [
+        ("delta", 2, unit),
+        ("epsilon", d, permutation),
+        ("n", 1, normals(scope)),
+    ];
+    for (name, rank, components) in own {
+        scope
+            .tensors
+            .insert(name.into(), Tensor { rank, components });
+    }
+    let family = scope
+        .space
+        .coordinates
+        .first()
+        .and_then(|c| c.name.strip_suffix("_1"));
+    if let Some(letter) = family.map(str::to_owned) {
+        let components = scope
+            .space
+            .coordinates
+            .iter()
+            .take(d)
+            .map(|c| c.expr)
+            .collect();
+        scope.tensors.insert(
+            letter,
+            Tensor {
+                rank: 1,
+                components,
+            },
+        );
+    }
+}
+
+/// The sign of a permutation; 0 where two are equal.
+fn sign(tuple: &[usize]) -> i64 {
+    let mut sign = 1;
+    for i in 0..tuple.len() {
+        for j in i + 1..tuple.len() {
+            sign *= (tuple[j] as i64 - tuple[i] as i64).signum();
+        }
+    }
+    sign
+}

@@ -1,0 +1,185 @@
+//! Functionals with one mistake are refuted, and mistakes in the text are shown at their place with what to do.
+
+use crate::table::{read_text, row_text, studied_text};
+use chetaev_model::Style;
+
+/// The verdict on a row after a replacement in its text.
+fn mutated(row: &str, claim: &str, from: &str, to: &str) -> (String, String) {
+    let text = row_text(row);
+    assert!(text.contains(from), "{row} has no `{from}`");
+    let study = studied_text(row, &text.replace(from, to), &[("d", "2")]);
+    let found = study.verdicts.iter().find(|d| d.claim == claim).unwrap();
+    let verdict = &found.finding.verdict;
+    (verdict.word().to_owned(), verdict.detail().to_owned())
+}
+
+#[test]
+fn a_mistake_in_a_functional_is_refuted() {
+    let mutants = [
+        // A wrong sign.
+        ("p3p1", "functional.euler", "A(e) - (e_ij", "A(e) + (e_ij"),
+        (
+            "p1p",
+            "functional.euler",
+            "A(D) - F_k u_k",
+            "A(D) + F_k u_k",
+        ),
+        // The factor 1 - beta is missing.
+        ("p3pb", "functional.euler", "(1 - beta) B(s)", "B(s)"),
+        ("p2pb", "functional.euler", "- (1 - beta) B(s)", "- B(s)"),
+        ("p3pb", "functional.duality", "(1 - beta) B(s)", "B(s)"),
+        // P-bar in the place of P on S_u.
+        (
+            "p3pb",
+            "functional.euler",
+            "-P_k (u_k - ubar_k)",
+            "-Pbar_k (u_k - ubar_k)",
+        ),
+        (
+            "p3p1",
+            "functional.euler",
+            "-P_k (u_k - ubar_k)",
+            "-Pbar_k (u_k - ubar_k)",
+        ),
+        // u-bar is missing.
+        (
+            "pc",
+            "functional.euler",
+            "S_u = \"-ubar_k P_k\"",
+            "S_u = \"0\"",
+        ),
+        // The traction given is missing.
+        (
+            "p3p1",
+            "functional.euler",
+            "S_s = \"-Pbar_k u_k\"",
+            "S_s = \"0\"",
+        ),
+        (
+            "p3cb",
+            "functional.duality",
+            "S_s = \"-(P_k - Pbar_k) u_k\"",
+            "S_s = \"-P_k u_k\"",
+        ),
+    ];
+    for (row, claim, from, to) in mutants {
+        let (word, detail) = mutated(row, claim, from, to);
+        assert_eq!(word, "refuted", "{row} with `{to}`: {detail}");
+    }
+}
+
+#[test]
+fn on_level_two_the_traction_of_the_stress_alone_needs_the_law_of_the_material() {
+    let (word, detail) = mutated(
+        "p2pb",
+        "functional.euler",
+        "-Pm_k (u_k - ubar_k)",
+        "-P_k (u_k - ubar_k)",
+    );
+    assert_eq!(word, "proved", "{detail}");
+    // The functionals then cancel identically; with the mixed stress they do so modulo (3) only.
+    let (word, detail) = mutated(
+        "p2pb",
+        "functional.duality",
+        "-Pm_k (u_k - ubar_k)",
+        "-P_k (u_k - ubar_k)",
+    );
+    assert_eq!(word, "proved");
+    assert!(detail.contains("identically"), "{detail}");
+    let (word, detail) = mutated("p2pb", "functional.duality", "density", "density");
+    assert_eq!(word, "proved");
+    assert!(detail.contains("on S_u modulo (3)"), "{detail}");
+}
+
+/// What is said of a text with a mistake.
+fn said(row: &str, from: &str, to: &str) -> String {
+    let text = row_text(row);
+    assert!(text.contains(from), "{row} has no `{from}`");
+    let loaded = read_text(row, &text.replacen(from, to, 1), &[]);
+    assert!(loaded.problem.is_none(), "`{to}` is accepted");
+    loaded.diagnostics.render(Style::Plain)
+}
+
+#[test]
+fn mistakes_in_a_text_are_shown_with_what_to_do() {
+    let mistakes = [
+        (
+            "D_ij s_ij - F_k",
+            "D_ij s_ij s_ij - F_k",
+            "index-thrice",
+            "the index `i` is used 3 times in one product",
+        ),
+        (
+            "(sstar_ij - s_ij) e_ij",
+            "(sstar_ij - s_ik) e_ij",
+            "index-mismatch",
+            "did you mean `j` in place of `k`?",
+        ),
+        (
+            "F_k u_k\"",
+            "F_k u_kk\"",
+            "wrong-rank",
+            "`u` has one index, not 2",
+        ),
+        (
+            "D_ij s_ij - F_k",
+            "D_ij sigma_ij - F_k",
+            "unknown-name",
+            "`sigma` is not declared",
+        ),
+        (
+            "S_s = \"-Pbar_k u_k\"",
+            "",
+            "missing-piece",
+            "nothing is said of the piece `S_s` of the boundary",
+        ),
+        ("S_s = ", "S_t = ", "unknown-piece", "did you mean `S_s`?"),
+        (
+            "D_ij s_ij - F_k",
+            "D_ij s_ij + n_k u_k - F_k",
+            "normal-inside",
+            "a meaning on the boundary only",
+        ),
+        (
+            "D_ij s_ij - F_k",
+            "D_i4 s_i4 - F_k",
+            "index-out-of-range",
+            "the space has 2 dimensions",
+        ),
+        (
+            "imposed",
+            "imposd",
+            "unknown-key",
+            "did you mean `imposed`?",
+        ),
+        (
+            "Bstar(sstar)",
+            "Bstar(t)",
+            "not-symmetric",
+            "is not symmetric",
+        ),
+    ];
+    for (from, to, code, words) in mistakes {
+        let row = if from == "imposed" { "p3p" } else { "p4p" };
+        let said = said(row, from, to);
+        assert!(
+            said.contains(code) && said.contains(words),
+            "`{to}`:\n{said}"
+        );
+        assert!(said.contains(".toml:"), "no place:\n{said}");
+    }
+}
+
+#[test]
+fn overrides_that_mean_nothing_are_refused() {
+    for (name, value, words) in [
+        ("d", "4", "must be 1, 2 or 3"),
+        ("d", "x", "must be a whole number"),
+        ("dimension", "2", "neither a parameter nor a size"),
+    ] {
+        let loaded = read_text("p4p", &row_text("p4p"), &[(name, value)]);
+        assert!(loaded.problem.is_none());
+        let said = loaded.diagnostics.render(Style::Plain);
+        assert!(said.contains(words), "{said}");
+    }
+}
