@@ -2,8 +2,6 @@
 
 use crate::characteristics::CharacteristicsError;
 use crate::components;
-use crate::formulations::Basis;
-use crate::order::determined::with_multipliers;
 use crate::sample;
 use crate::system::System;
 use crate::terms::MotionTerms;

@@ -172,7 +172,7 @@ pub trait Claim: Sync {
     /// What it is about, and with that on which parts of the states it is asked.
     fn scope(&self) -> Scope {
         match self.group() {
-            Group::Model => Scope::Functions,
+            Group::Model | Group::Stability => Scope::Functions,
             Group::Formulations => Scope::Equations,
             Group::Integrals => Scope::Motions,
             Group::Principles => Scope::Components,
@@ -182,12 +182,15 @@ pub trait Claim: Sync {
 
     /// Whether it speaks of all functions of the time that controls may be; else of the laws that the model states.
     fn is_for_any_controls(&self) -> bool {
-        !matches!(self.group(), Group::Principles | Group::Motion)
+        !matches!(
+            self.group(),
+            Group::Principles | Group::Motion | Group::Stability
+        )
     }
 
     /// Whether it is asked once more for stated values of parameters that are seen to be exceptional.
     fn is_asked_of_values(&self) -> bool {
-        self.group() != Group::Integrals
+        !matches!(self.group(), Group::Integrals | Group::Stability)
     }
 
     /// Decides for another part of the states what it states of `subject` on this one, as of the integral with this number: by itself
