@@ -286,9 +286,9 @@ impl Track {
         let system = &self.system;
         let chart = chart::choose(
             system.jacobian(),
-            system.r,
-            system.n,
+            (system.r, system.n),
             &system.mass_diagonal(),
+            chart::Floor::Along(1.0),
         );
         let mut accelerations = Accelerations::default();
         match accelerations.solve(system, &chart) {

@@ -427,7 +427,12 @@ impl MultiplierFlow {
             }
         }
         let row = gone?;
-        let rest = chart::choose(&left, r, n, &self.system.mass_diagonal());
+        let rest = chart::choose(
+            &left,
+            (r, n),
+            &self.system.mass_diagonal(),
+            Floor::Along(self.chart.pivot),
+        );
         (rest.rank() < self.chart.rank()).then_some(row)
     }
 

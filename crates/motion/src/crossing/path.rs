@@ -8,7 +8,7 @@
 
 use super::nodes::{lagrange, lagrange_slopes, Nodes};
 use crate::accelerations::Accelerations;
-use crate::chart::{self, Chart};
+use crate::chart::{self, Chart, Floor};
 use crate::dense::Lu;
 use crate::numeric::{Completion, NumericSystem};
 
@@ -159,10 +159,15 @@ impl Charts {
     fn at(system: &mut NumericSystem, at: &State) -> Option<Charts> {
         system.evaluate(at.t, &at.q, &at.v).ok()?;
         let (r, n, diagonal) = (system.r, system.n, system.mass_diagonal());
-        let velocities = chart::choose(system.jacobian(), r, n, &diagonal);
+        let velocities = chart::choose(system.jacobian(), (r, n), &diagonal, Floor::Along(1.0));
         system.evaluate_positions(at.t, &at.q, &at.v).ok()?;
         let own = system.holonomic.len();
-        let positions = chart::choose(system.position_gradient(), own, n, &diagonal);
+        let positions = chart::choose(
+            system.position_gradient(),
+            (own, n),
+            &diagonal,
+            Floor::Along(1.0),
+        );
         let is_free = |i: &usize| !positions.dependent.contains(i);
         Some(Charts {
             free: (0..system.positions()).filter(is_free).collect(),
