@@ -3,7 +3,7 @@
 use super::{boundary, euler, Shown};
 use crate::record::{
     of_verdict, ConditionRecord, FunctionalRecord, ModelRecord, OptionsRecord, Record,
-    VerdictRecord, SCHEMA,
+    VerdictRecord, WorkRecord, SCHEMA,
 };
 use chetaev_functionals::functional::Role;
 use chetaev_functionals::study::Decided;
@@ -17,12 +17,15 @@ pub fn record(study: &Study, claims: &[String]) -> Record {
         chetaev: env!("CARGO_PKG_VERSION").into(),
         model: ModelRecord::of(&study.problem.text),
         verdicts: study.verdicts.iter().map(|d| verdict(study, d)).collect(),
+        equations: Vec::new(),
         trajectory: None,
         notices: study.notices.clone(),
         options: OptionsRecord {
             claims: claims.to_vec(),
             ..OptionsRecord::default()
         },
+        files: Vec::new(),
+        work: WorkRecord::default(),
         functional: Some(functional(study)),
     }
 }
