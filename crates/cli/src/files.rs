@@ -118,14 +118,16 @@ pub(crate) fn report(diagnostics: &Diagnostics) {
 
 /// A functional of fields over space, where the file states one; what cannot be read is left to [`load`], which says so.
 pub(crate) fn functional(arguments: &ModelArguments) -> Option<functionals::Loaded> {
-    let text = std::fs::read_to_string(&arguments.model).ok()?;
+    // A pipe can be read once only, and is a motion then.
+    let text = text_of(&arguments.model, true).ok()?;
     let path = arguments.model.to_string_lossy().into_owned();
-    let tables = model::tables(&path, &text, &Disk, &[], Sources::default());
+    let disk = Disk::beside(&arguments.model);
+    let tables = model::tables(&path, &text, &disk, &[], Sources::default());
     if !tables.is_functional() {
         return None;
     }
     let overrides = overrides(&arguments.set)?;
-    Some(functionals::load(&path, &text, &Disk, &overrides))
+    Some(functionals::load(&path, &text, &disk, &overrides))
 }
 
 /// Reads a model with its diagnostics; `None` when the file or an override cannot be read at all.
