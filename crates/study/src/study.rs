@@ -811,7 +811,10 @@ fn decide_all(
             }
             (hooks.progress)(&full, None);
             let start = (hooks.clock)();
-            let finding = within(work, || Arc::new(strata.finding(*claim, subject.as_deref()))).unwrap_or_else(|stopped| {
+            let finding = within(work, || {
+                Arc::new(strata.finding(*claim, subject.as_deref()))
+            })
+            .unwrap_or_else(|stopped| {
                 strata.abandon();
                 strata.spend_time();
                 Arc::new(Finding::from(stopped_verdict(stopped, options.budget)))

@@ -45,7 +45,13 @@ impl Resolver {
                     .position(|c| c.name == instance.name);
                 match own.filter(|_| instance.order <= 1) {
                     Some(coordinate) => {
-                        self.initial_coordinate(key, (&text, false), &instance, coordinate, &mut state);
+                        self.initial_coordinate(
+                            key,
+                            (&text, false),
+                            &instance,
+                            coordinate,
+                            &mut state,
+                        );
                     }
                     None => {
                         let message =
