@@ -229,6 +229,8 @@ def examine(cx, verdict, table):
 def check(record, seed=0, only=""):
     """Of every claim of a record: its id, verdict, outcome and reason."""
     table = kinds()
+    if not (isinstance(record, dict) and isinstance(record.get("model"), dict) and isinstance(record.get("verdicts"), list)):
+        raise ValueError("it is no record of a study")
     try:
         cx = Context(record, seed)
     except NotCheckable as why:

@@ -68,7 +68,7 @@ impl LeftOut {
         };
         let set = positions::of(system, terms);
         let on = |manifold: &Manifold| {
-            prover.identity(system, &stated, manifold, "on the constraint manifold")
+            prover.consequence(system, &stated, manifold, "on the constraint manifold")
         };
         let mut follows = on(&set.joined(&manifold));
         if !matches!(follows, Verdict::Proved(_)) && !set.is_whole {

@@ -3,8 +3,8 @@
 
 use crate::crossing::{self, Crossing, Passage, Path, State};
 use crate::happening::{self, Passed, WithEvents};
-use crate::multiplier_flow::STUCK;
 use crate::run::{End, Looking, RunError, RunSettings, Subject, WatchedFlow, Watcher};
+use crate::sticking::STUCK;
 use crate::stop;
 use crate::watch::Watched;
 use chetaev_integrate::{

@@ -75,7 +75,7 @@ pub(crate) struct Track {
 }
 
 /// The reason of a halt where the rank seems to fall.
-pub(crate) const MET: u32 = u32::MAX;
+pub(crate) const MET: u32 = u32::MAX - 1;
 
 /// So many states are kept, thinned out where steps are short.
 const KEPT: usize = 256;

@@ -19,6 +19,7 @@ use crate::projection::Projection;
 use crate::row::RowLayout;
 use crate::run::WatchedFlow;
 use crate::series::RateSeries;
+use crate::sticking::STUCK;
 use crate::watch::Watch;
 use chetaev_integrate::{
     ChartChange, Control, EvaluationFailure, Expansion, HaltReason, Piece, System,
@@ -37,7 +38,7 @@ pub enum StateKind {
 /// Routh's equations as a first-order system.
 #[derive(Clone, Debug)]
 pub struct MultiplierFlow {
-    system: NumericSystem,
+    pub(crate) system: NumericSystem,
     kind: StateKind,
     chart: Chart,
     chart_number: u32,
@@ -90,8 +91,6 @@ const UNUSABLE: f64 = 1e-3;
 type Way = fn(&mut Keep, f64, &mut [f64], &mut [f64], &[f64]) -> bool;
 /// The rate of a watched quantity that is not near zero: negative as on the way there, so that its minimum is a zero of the rate.
 pub(crate) const AWAY: f64 = -1e-12;
-/// The motion sticks on a zero of what is under a sign ([`Watch::sticks`]).
-pub(crate) const STUCK: u32 = u32::MAX;
 /// A gradient counts as vanished below this fraction of its largest length so far.
 const VANISHED: f64 = 1e-8;
 

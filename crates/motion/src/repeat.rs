@@ -8,6 +8,7 @@ use crate::multiplier_flow::{MultiplierFlow, StateKind};
 use crate::numeric::{NumericSystem, States};
 use crate::projection::Projection;
 use crate::run::{End, Looking, Run, RunError, RunSettings, Subject, Watcher};
+use crate::scales::Scales;
 use crate::series::{self, RateSeries};
 use crate::stop;
 use crate::watch::Watch;
@@ -161,7 +162,8 @@ impl Subject<'_> {
         );
         let y0 = flow.pack(&self.start.q, &self.start.v);
         compiled.looking.scales = match settings.is_natural && flow.kind() == StateKind::Full {
-            true => self.scales(settings).of_state(),
+            // Members of an ensemble differ in their parameters, which the flow has, and the subject has not.
+            true => Scales::new(self.start, &flow.system, settings.t_end).of_state(),
             false => Vec::new(),
         };
         let flow = &mut compiled.flow;

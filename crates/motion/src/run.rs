@@ -577,7 +577,7 @@ impl Subject<'_> {
 
     /// Natural sizes at the start.
     pub(crate) fn scales(&self, settings: &RunSettings) -> Scales {
-        Scales::new(self, settings.t_end)
+        Scales::new(self.start, self.numeric, settings.t_end)
     }
 
     fn follow(&self, settings: &RunSettings) -> Result<Option<Follow>, RunError> {

@@ -6,7 +6,8 @@
 //! dimension, and its size is one.
 
 use crate::accelerations::Accelerations;
-use crate::run::Subject;
+use crate::initial::ConsistentState;
+use crate::numeric::NumericSystem;
 use chetaev_mechanics::{MotionTerms, System};
 use chetaev_symbolic::{Expr, Function, Graph, Node, Symbol};
 use std::collections::BTreeSet;
@@ -24,9 +25,9 @@ pub struct Scales {
 const LEAST: f64 = 0.25;
 
 impl Scales {
-    /// The sizes at the start of a run that ends at `t_end`; all one where the equations have no value there.
-    pub fn new(subject: &Subject<'_>, t_end: f64) -> Scales {
-        let (mut numeric, start) = (subject.numeric.clone(), subject.start);
+    /// The sizes at the start of a run that ends at `t_end`, with the parameters of `numeric`; all one where the equations have no value there.
+    pub fn new(start: &ConsistentState, numeric: &NumericSystem, t_end: f64) -> Scales {
+        let mut numeric = numeric.clone();
         let n = numeric.n;
         let ones = Scales {
             positions: vec![1.0; start.q.len()],

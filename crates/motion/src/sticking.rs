@@ -7,6 +7,9 @@ use chetaev_mechanics::terms::freeze_accelerations;
 use chetaev_mechanics::{MotionTerms, System};
 use chetaev_symbolic::{Expr, Function, Node};
 
+/// The reason of a halt where the motion sticks on a zero of what is under a sign.
+pub(crate) const STUCK: u32 = u32::MAX;
+
 /// Functions under a sign in the forces, with their rates.
 #[derive(Clone, Debug)]
 pub(crate) struct Sticking {

@@ -3,14 +3,15 @@
 //! Where one parameter occurs in the motion and not in the equations of the system, as the speed of a bicycle, the verdict speaks of
 //! all its values: it is proved, refuted, or conditional on the ranges. Else it speaks of the values that the model states.
 
-use crate::hurwitz::{Ranges, Region};
+use crate::hurwitz::{determinants, Ranges, Region};
 use crate::linearization::LinearizationError;
 use crate::question::{Place, Question};
+use crate::real_roots::sign_at;
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::{SteadyMotion, System};
 use chetaev_symbolic::number::ball::Precision;
-use chetaev_symbolic::verdict::{Counterexample, Proof};
-use chetaev_symbolic::{Graph, Symbol, Verdict};
+use chetaev_symbolic::verdict::{Counterexample, PointValue, Proof};
+use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
 
@@ -276,12 +277,13 @@ fn verdict(system: &System, question: &Question, asked: Asked) -> Verdict {
     }
     match question.over {
         Some(symbol) => over(g, question, asked, symbol),
-        None => at_values(g, question, asked),
+        None => at_values(system, question, asked),
     }
 }
 
 /// The verdict for the values that the model states.
-fn at_values(g: &Graph, question: &Question, asked: Asked) -> Verdict {
+fn at_values(system: &System, question: &Question, asked: Asked) -> Verdict {
+    let g = &system.graph;
     let Some(signs) = question.signs(g) else {
         return Verdict::undecided("the signs of Hurwitz's determinants were not decided");
     };
@@ -299,7 +301,7 @@ fn at_values(g: &Graph, question: &Question, asked: Asked) -> Verdict {
     }
     let is_strict = signs.iter().all(|s| *s != Ordering::Equal);
     match is_strict || asked == Asked::Left {
-        true => Verdict::Refuted(counterexample(question, &signs, None)),
+        true => Verdict::Refuted(counterexample(question, &signs, stated_values(system))),
         false => Verdict::undecided("a Hurwitz determinant vanishes: eigenvalues lie on the axis, or are mirror images of each other"),
     }
 }
@@ -308,7 +310,7 @@ fn at_values(g: &Graph, question: &Question, asked: Asked) -> Verdict {
 fn counterexample(
     question: &Question,
     signs: &[Ordering],
-    at: Option<(String, String)>,
+    point: Vec<PointValue>,
 ) -> Counterexample {
     let is_even = signs.iter().all(|s| *s == Ordering::Greater);
     let negative = signs.iter().filter(|s| **s == Ordering::Less).count();
@@ -330,17 +332,36 @@ fn counterexample(
             format!("{motion} have an eigenvalue that does not lie left of the axis"),
         ),
     };
-    let point = at.map(|(name, value)| chetaev_symbolic::verdict::PointValue {
-        name,
-        exact: None,
-        enclosure: Some((value.clone(), value)),
-    });
     Counterexample {
-        point: point.into_iter().collect(),
+        point,
         quantity: quantity.into(),
         residual: (count.to_string(), count.to_string()),
         detail,
     }
+}
+
+/// The parameters with the values that the model states, exact where they are rational.
+fn stated_values(system: &System) -> Vec<PointValue> {
+    let g = &system.graph;
+    let value = |(symbol, value): &(Expr, Expr)| {
+        let exact = g.as_number(*value).cloned();
+        let enclosure = match exact {
+            Some(_) => None,
+            None => {
+                let ball = g
+                    .enclose(&[*value], &Precision::new(128), &|_| None)
+                    .ok()?
+                    .pop()?;
+                Some(ball.to_decimal_interval(20))
+            }
+        };
+        Some(PointValue {
+            name: g.text(*symbol),
+            exact,
+            enclosure,
+        })
+    };
+    system.parameter_values().iter().filter_map(value).collect()
 }
 
 /// The verdict over all values of a parameter.
@@ -360,8 +381,18 @@ fn over(g: &Graph, question: &Question, asked: Asked, symbol: Symbol) -> Verdict
     let kept: Vec<&Region> = ranges.regions.iter().filter(holds).collect();
     let detail = "between zeros of Hurwitz's determinants, which are enclosed, the signs of all of them are decided at one value";
     if kept.is_empty() {
-        let at = ranges.regions.first().map(|r| (name, r.sample.to_string()));
-        return Verdict::Refuted(counterexample(question, &[Ordering::Less], at));
+        let Some(region) = ranges.regions.first() else {
+            return Verdict::undecided("no interval is left between the boundaries");
+        };
+        let Some(signs) = signs_at(g, question, symbol, &region.sample) else {
+            return Verdict::undecided("the signs of Hurwitz's determinants were not decided");
+        };
+        let point = vec![PointValue {
+            name,
+            exact: Some(region.sample.clone()),
+            enclosure: None,
+        }];
+        return Verdict::Refuted(counterexample(question, &signs, point));
     }
     let proof = Proof::exact("at the steady motion", detail);
     if kept.len() == ranges.regions.len() && ranges.boundaries.is_empty() {
@@ -375,6 +406,14 @@ fn over(g: &Graph, question: &Question, asked: Asked, symbol: Symbol) -> Verdict
         },
         counterexample: None,
     }
+}
+
+/// The signs of Hurwitz's determinants of the deciding polynomial at a value of the parameter.
+fn signs_at(g: &Graph, question: &Question, symbol: Symbol, at: &RBig) -> Option<Vec<Ordering>> {
+    let deciding = question.deciding(g)?;
+    let leading = sign_at(g, *deciding.last()?, symbol, at)?;
+    let list = determinants(g, &deciding, leading).into_iter();
+    list.map(|e| sign_at(g, e, symbol, at)).collect()
 }
 
 /// The regions in words: `4.29 < v < 6.02 or v > 8`. Where eigenvalues on the axis are allowed the boundaries belong to them, by continuity.

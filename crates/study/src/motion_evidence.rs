@@ -182,9 +182,15 @@ impl MotionEvidence {
     }
 }
 
+/// Ends as near as this, relative to the time, are one place.
+const SAME_END: f64 = 1e-6;
+
 /// Why the second run is another motion, or ended elsewhere, so that the difference of both is no error.
 fn not_comparable(run: &Run, other: &Run) -> Option<String> {
-    if other.asked() < run.asked() {
+    // Runs that end at the same place, each to its tolerance, are the same motion up to there.
+    let is_same_end = run.ending.finished == other.ending.finished
+        && (run.t - other.t).abs() <= SAME_END * run.t.abs().max(1.0);
+    if other.asked() < run.asked() && !is_same_end {
         return Some(format!(
             "the second, sharper run ended earlier: {}",
             other.ending.reason

@@ -335,11 +335,6 @@ pub(crate) fn settings(
         true => LEAST_TOLERANCE,
         false => sharpest(&settings.method),
     };
-    // An absolute tolerance has the unit of what it is for: no number is too small for it.
-    let absolute = settings.absolute_tolerance;
-    if !(absolute > 0.0 && absolute.is_finite()) {
-        return Err(StudyError::AbsoluteTolerance);
-    }
     let tolerance = settings.tolerance;
     if !(sharpest..=LOOSEST).contains(&tolerance) {
         return Err(match is_precise {
@@ -352,6 +347,11 @@ pub(crate) fn settings(
                 sharpest,
             },
         });
+    }
+    // An absolute tolerance has the unit of what it is for: no number is too small for it.
+    let absolute = settings.absolute_tolerance;
+    if !(absolute > 0.0 && absolute.is_finite()) {
+        return Err(StudyError::AbsoluteTolerance);
     }
     let step = simulation.step.and_then(|h| number(g, h, &values));
     settings.step = options.step.or(step);
