@@ -10,7 +10,7 @@
 //! * [`tensors`]: what names mean; index notation in components.
 //! * [`functional`]: a functional as plain data.
 //! * [`elimination`]: equations solved for jets, one group after the other, and what follows from them.
-//! * [`study`]: all claims about one model file.
+//! * [`study`](mod@study): all claims about one model file.
 
 pub mod claims;
 pub mod elimination;

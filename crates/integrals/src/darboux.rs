@@ -1,7 +1,7 @@
 //! Darboux pairs of a flow: polynomials P in the functions that occur with `X P = K P`, from small families to larger ones.
 //!
-//! They are found modulo a prime at random constants ([`crate::extactic`]). Coefficients that are rational functions of the
-//! constants are found from their values elsewhere ([`crate::continuation`]); two polynomials whose coefficients are conjugate,
+//! They are found modulo a prime at random constants (`extactic`). Coefficients that are rational functions of the
+//! constants are found from their values elsewhere (`continuation`); two polynomials whose coefficients are conjugate,
 //! `A ± √Δ B`, are found as a pair. Nothing found here is believed: whoever uses a pair proves what it is for.
 
 use crate::continuation::{reciprocal, times, value_at_one, Continuation, Series};

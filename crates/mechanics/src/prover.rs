@@ -233,9 +233,9 @@ impl Prover {
         }
         match at(values) {
             Verdict::Refuted(mut own) => {
-                // An assumption on a parameter draws a value for it too; the stated one is the one that was put in.
-                let is_stated = |name: &str| values.iter().any(|(s, _)| g.text(*s) == name);
-                own.point.retain(|value| !is_stated(&value.name));
+                // An assumption draws values for its parameters too, beside others than those put in here: they have those stated.
+                let is_parameter = |name: &str| system.parameters.iter().any(|p| p.name == name);
+                own.point.retain(|value| !is_parameter(&value.name));
                 own.point.extend(values.iter().map(|pair| stated(g, pair)));
                 return Verdict::Refuted(own);
             }

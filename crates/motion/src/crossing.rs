@@ -1,7 +1,7 @@
 //! Where the rank of the constraints falls along a motion: sheets of the constraint set cross there, or touch.
 //!
 //! One policy for all methods, charts, formulations and tolerances. The motion up to the place is followed on its sheet in the
-//! smallest number of variables ([`path`]), in which it is as smooth there as anywhere. At the place the tangent cone of the
+//! smallest number of variables (`path`), in which it is as smooth there as anywhere. At the place the tangent cone of the
 //! constraint set is looked at: with J the gradients of the constraints by the velocities, K the null space of J, W that of Jᵀ, and J'
 //! the rate of J along the motion, a displacement u in K belongs to the cone only if `Wᵀ J' u = 0` to first order beside the
 //! velocity. Where `Wᵀ J' K` has full rank the velocity lies on exactly one branch of the cone, and simply: the implicit

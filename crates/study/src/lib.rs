@@ -4,7 +4,7 @@
 //! [`page`] the report, [`table`] the trajectory, [`summary`] the text for a terminal; [`verify`] replays a record.
 //! Clocks, files and interruption come from outside.
 //!
-//! - [`study`](mod@study): the loop over the claims of [`registry`], with its budget; [`options`], [`error`];
+//! - [`study`](mod@study): the loop over the claims of [`registry`](mod@registry), with its budget; [`options`], [`error`];
 //! - the run: [`motion_evidence`] (what a run tells), [`motion_claims`], [`method_order`], [`jumps`], [`witness`] (integrals of the
 //!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
 //! - [`sweep`]: a model as an ensemble; [`stability`](mod@stability): linear equations about a steady motion; [`functional`]: summary, record

@@ -1,4 +1,8 @@
 //! Linear equations about a steady motion and their stability, for a terminal and as JSON: `chetaev linearize`, `chetaev stability`.
+#![allow(
+    clippy::result_large_err,
+    reason = "an error is made once, and told at once"
+)]
 
 use chetaev_mechanics::characteristics::CharacteristicsError;
 use chetaev_mechanics::{Prepared, SteadyMotion, System, SystemError};

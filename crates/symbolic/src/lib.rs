@@ -7,7 +7,7 @@
 //! - [`calculus`], [`substitute`], [`evaluate`]: derivatives, replacement, values in double precision;
 //! - [`number`], [`polynomial`], [`matrix`], [`factors`], [`quadratic_factors`]: exact arithmetic, normal forms, factorization;
 //! - [`zero`]: whether expressions vanish, on their own or on constraints: exact forms, modular proofs, refutation by balls;
-//! - [`mod@simplify`], [`print`]: formulas for reading; no proof rests on a simplification;
+//! - [`mod@simplify`], [`mod@print`]: formulas for reading; no proof rests on a simplification;
 //! - [`verdict`]: what is known about a statement.
 
 pub mod calculus;

@@ -10,6 +10,7 @@ use std::sync::OnceLock;
 
 const GROUPS: &str = "model,formulations,principles,integrals";
 
+#[allow(clippy::print_stdout, reason = "a check that was not made is said")]
 fn has_python() -> bool {
     let asked = Command::new("python3")
         .args(["-c", "import sys; sys.exit(sys.version_info < (3, 11))"])

@@ -3,6 +3,10 @@
 //! With Q = F(q, t), the other's coordinates by ours, its velocities are D F and its accelerations along our motion D D F. Admissible
 //! states correspond if the image of ours satisfies its constraints, if the sets have the same dimension, and if the map does not
 //! lose any direction of ours.
+#![allow(
+    clippy::result_large_err,
+    reason = "a verdict is made once, and told at once"
+)]
 
 use super::formulation::{derive, REFERENCE};
 use super::on_set::{constraint_set, hold, written, State};

@@ -226,6 +226,10 @@ impl Resolver {
     }
 
     /// A parameter that `parameters` does not name; `None` where the other model's own value or definition stands for it.
+    #[allow(
+        clippy::result_large_err,
+        reason = "a diagnostic is made once, and shown at once"
+    )]
     fn parameter_of(
         &self,
         parameter: &Parameter,

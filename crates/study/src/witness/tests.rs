@@ -56,7 +56,8 @@ fn along<T>(model: Model, ask: impl FnOnce(&Context<'_>) -> T) -> T {
 #[track_caller]
 fn vanishes(found: &Result<Refined, String>, what: &str) {
     let found = found.as_ref().expect(what);
-    assert!(found.residuals[0] < 1e-7, "{what}: {found:?}");
+    // How small depends on the distance of the rows, which follows from the steps of the motion; the order below does not.
+    assert!(found.residuals[0] < 1e-6, "{what}: {found:?}");
     let clear = found
         .residuals
         .windows(2)
