@@ -495,10 +495,25 @@ fn parameters_of(system: &System, manifold: &Manifold, symbols: &[Symbol]) -> Ve
 const DRAWS: u32 = 8;
 
 /// A refutation whose point is one, by substitution into the system as it is written.
-fn checked(system: &System, residuals: &[Expr], manifold: &Manifold, verdict: Verdict) -> Verdict {
-    let Verdict::Refuted(found) = &verdict else {
+fn checked(
+    system: &System,
+    residuals: &[Expr],
+    manifold: &Manifold,
+    mut verdict: Verdict,
+) -> Verdict {
+    let Verdict::Refuted(found) = &mut verdict else {
         return verdict;
     };
+    // Parameters that occur in assumptions alone were drawn beside the question: nothing is said of them.
+    let g = &system.graph;
+    let asked = [residuals, &manifold.expressions()[..]].concat();
+    let occurring = g.symbols_in(&asked);
+    let is_beside = |name: &str| {
+        let own = system.parameters.iter().find(|p| p.name == name);
+        own.is_some_and(|p| g.as_symbol(p.expr).is_some_and(|s| !occurring.contains(&s)))
+    };
+    found.point.retain(|value| !is_beside(&value.name));
+    let found = &*found;
     let is_admissible = !manifold.solved.is_empty() || !manifold.implicit.is_empty();
     match counterexample::check(system, residuals, found, is_admissible) {
         Ok(()) => verdict,
