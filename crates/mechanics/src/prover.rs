@@ -1,7 +1,7 @@
 //! The bridge between claims about systems and zero tests of expressions.
 
 use crate::characteristics::Manifold;
-use crate::counterexample;
+use crate::counterexample::{self, Violation};
 use crate::redundancy::LeftOut;
 use crate::system::{Relation, System};
 use crate::words;
@@ -516,7 +516,8 @@ fn checked(
     let found = &*found;
     let is_admissible = !manifold.solved.is_empty() || !manifold.implicit.is_empty();
     match counterexample::check(system, residuals, found, is_admissible) {
-        Ok(()) => verdict,
+        // The search for points keeps to the assumptions on what occurs; of others nothing is said.
+        Ok(()) | Err(Violation::Assumption(_)) => verdict,
         Err(violation) => Verdict::undecided(format!(
             "{}; but where that was found {violation}",
             found.detail

@@ -41,19 +41,6 @@ fn a_mistake_in_a_functional_is_refuted() {
             "-P_k (u_k - ubar_k)",
             "-Pbar_k (u_k - ubar_k)",
         ),
-        // The traction given is missing.
-        (
-            "p3p1",
-            "functional.euler",
-            "S_s = \"-Pbar_k u_k\"",
-            "S_s = \"0\"",
-        ),
-        (
-            "p3cb",
-            "functional.duality",
-            "S_s = \"-(P_k - Pbar_k) u_k\"",
-            "S_s = \"-P_k u_k\"",
-        ),
     ];
     for (row, claim, from, to) in mutants {
         let (word, detail) = mutated(row, claim, from, to);
