@@ -512,7 +512,10 @@ fn checked(
         let own = system.parameters.iter().find(|p| p.name == name);
         own.is_some_and(|p| g.as_symbol(p.expr).is_some_and(|s| !occurring.contains(&s)))
     };
-    found.point.retain(|value| !is_beside(&value.name));
+    // A residual that is a number is refuted everywhere; then these are all there is to a point.
+    if found.point.iter().any(|value| !is_beside(&value.name)) {
+        found.point.retain(|value| !is_beside(&value.name));
+    }
     let found = &*found;
     let is_admissible = !manifold.solved.is_empty() || !manifold.implicit.is_empty();
     match counterexample::check(system, residuals, found, is_admissible) {
