@@ -437,7 +437,7 @@ fn decide(cx: &Context<'_>, pfaff: &PfaffSystem<'_>, strength: Strength) -> Find
     if let Some(plainest) = plainest_nonzero(pfaff, &residuals) {
         let verdict = cx
             .prover
-            .identity(cx.system, &[plainest.value], &manifold, on);
+            .identity(pfaff.system, &[plainest.value], &manifold, on);
         if matches!(verdict, Verdict::Refuted(_)) {
             return Finding {
                 verdict,
@@ -446,7 +446,8 @@ fn decide(cx: &Context<'_>, pfaff: &PfaffSystem<'_>, strength: Strength) -> Find
         }
     }
     let values: Vec<Expr> = residuals.iter().map(|residual| residual.value).collect();
-    cx.prover.identity(cx.system, &values, &manifold, on).into()
+    let verdict = cx.prover.identity(pfaff.system, &values, &manifold, on);
+    verdict.into()
 }
 
 /// The smallest residual that is clearly not zero at a sampled admissible state. A heuristic: what it finds is proved.

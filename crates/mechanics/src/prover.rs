@@ -1,7 +1,7 @@
 //! The bridge between claims about systems and zero tests of expressions.
 
 use crate::characteristics::Manifold;
-use crate::counterexample::{self, Violation};
+use crate::counterexample;
 use crate::redundancy::LeftOut;
 use crate::system::{Relation, System};
 use crate::words;
@@ -95,6 +95,17 @@ pub fn assumptions(system: &System) -> Assumptions {
     list
 }
 
+/// The assumptions with values for parameters: a point is then drawn for the others as these values allow.
+fn assumptions_at(system: &System, values: &[(Expr, Expr)]) -> Assumptions {
+    let g = &system.graph;
+    let mut list = Assumptions::new();
+    for own in assumptions(system).list() {
+        let at = |e: Expr| g.substitute(e, values);
+        list.assume(at(own.left), own.relation, at(own.right));
+    }
+    list
+}
+
 impl Prover {
     fn options(&self) -> Options {
         let options = Options {
@@ -129,38 +140,7 @@ impl Prover {
     ) -> Verdict {
         let manifold = &*system.with_names(residuals, manifold);
         let verdict = self.consequence(system, residuals, manifold, on);
-        match verdict {
-            Verdict::Refuted(_) => {
-                self.refuted_where_admissible(system, residuals, manifold, on, verdict)
-            }
-            other => other,
-        }
-    }
-
-    /// A refutation whose point is admissible in the system as it is written. A point is drawn for the symbols of the residuals only, and an
-    /// assumption on others, as on a mass that shrinks with the time, may fail there: then others are drawn.
-    fn refuted_where_admissible(
-        &self,
-        system: &System,
-        residuals: &[Expr],
-        manifold: &Manifold,
-        on: &str,
-        found: Verdict,
-    ) -> Verdict {
-        let first = checked(system, residuals, manifold, found);
-        if matches!(first, Verdict::Refuted(_)) {
-            return first;
-        }
-        let again = (1..=DRAWS).map(|draw| {
-            let other = Prover {
-                seed: self.seed.rotate_left(7 * draw),
-                ..self.clone()
-            };
-            let verdict = other.consequence(system, residuals, manifold, on);
-            checked(system, residuals, manifold, verdict)
-        });
-        let mut again = again.filter(|verdict| matches!(verdict, Verdict::Refuted(_)));
-        again.next().unwrap_or(first)
+        checked(system, residuals, manifold, verdict)
     }
 
     /// As [`identity`](Prover::identity), of constraints that may contradict the others: a counterexample satisfies the others only, so
@@ -172,7 +152,7 @@ impl Prover {
         manifold: &Manifold,
         on: &str,
     ) -> Verdict {
-        match self.vanish(system, residuals, manifold) {
+        match self.vanish(system, residuals, manifold, &assumptions(system)) {
             Verdict::Refuted(found) => {
                 let occurring = [residuals, &manifold.expressions()[..]].concat();
                 let values = stated_among(system, &occurring);
@@ -202,13 +182,19 @@ impl Prover {
         }
     }
 
-    /// Whether residuals vanish, for all values of the symbols that occur.
-    fn vanish(&self, system: &System, residuals: &[Expr], manifold: &Manifold) -> Verdict {
+    /// Whether residuals vanish, for all values of the symbols that occur that these assumptions allow.
+    fn vanish(
+        &self,
+        system: &System,
+        residuals: &[Expr],
+        manifold: &Manifold,
+        assumptions: &Assumptions,
+    ) -> Verdict {
         let test = ZeroTest {
             residuals,
             solved: &manifold.solved,
             implicit: &manifold.implicit,
-            assumptions: &assumptions(system),
+            assumptions,
             options: self.options(),
         };
         decide_zero(&system.graph, &test)
@@ -224,18 +210,20 @@ impl Prover {
         found: Counterexample,
     ) -> Verdict {
         let g = &system.graph;
+        // Of parameters that only assumptions mention a point says nothing: they have the values stated.
+        let mut beside = system.parameter_values();
+        beside.retain(|pair| !values.contains(pair));
         let at = |values: &[(Expr, Expr)]| {
             let own = g.substitute_all(residuals, values);
-            self.vanish(system, &own, &manifold.substituted(g, values))
+            let manifold = manifold.substituted(g, values);
+            let values = [values, &beside[..]].concat();
+            self.vanish(system, &own, &manifold, &assumptions_at(system, &values))
         };
         if values.is_empty() {
             return Verdict::Refuted(found);
         }
         match at(values) {
             Verdict::Refuted(mut own) => {
-                // An assumption draws values for its parameters too, beside others than those put in here: they have those stated.
-                let is_parameter = |name: &str| system.parameters.iter().any(|p| p.name == name);
-                own.point.retain(|value| !is_parameter(&value.name));
                 own.point.extend(values.iter().map(|pair| stated(g, pair)));
                 return Verdict::Refuted(own);
             }
@@ -490,37 +478,14 @@ fn parameters_of(system: &System, manifold: &Manifold, symbols: &[Symbol]) -> Ve
     parameters.collect()
 }
 
-/// Draws of another counterexample where one is not admissible: of half of the states more than one in two hundred is missed by chance
-/// only.
-const DRAWS: u32 = 8;
-
 /// A refutation whose point is one, by substitution into the system as it is written.
-fn checked(
-    system: &System,
-    residuals: &[Expr],
-    manifold: &Manifold,
-    mut verdict: Verdict,
-) -> Verdict {
-    let Verdict::Refuted(found) = &mut verdict else {
+fn checked(system: &System, residuals: &[Expr], manifold: &Manifold, verdict: Verdict) -> Verdict {
+    let Verdict::Refuted(found) = &verdict else {
         return verdict;
     };
-    // Parameters that occur in assumptions alone were drawn beside the question: nothing is said of them.
-    let g = &system.graph;
-    let asked = [residuals, &manifold.expressions()[..]].concat();
-    let occurring = g.symbols_in(&asked);
-    let is_beside = |name: &str| {
-        let own = system.parameters.iter().find(|p| p.name == name);
-        own.is_some_and(|p| g.as_symbol(p.expr).is_some_and(|s| !occurring.contains(&s)))
-    };
-    // A residual that is a number is refuted everywhere; then these are all there is to a point.
-    if found.point.iter().any(|value| !is_beside(&value.name)) {
-        found.point.retain(|value| !is_beside(&value.name));
-    }
-    let found = &*found;
     let is_admissible = !manifold.solved.is_empty() || !manifold.implicit.is_empty();
     match counterexample::check(system, residuals, found, is_admissible) {
-        // The search for points keeps to the assumptions on what occurs; of others nothing is said.
-        Ok(()) | Err(Violation::Assumption(_)) => verdict,
+        Ok(()) => verdict,
         Err(violation) => Verdict::undecided(format!(
             "{}; but where that was found {violation}",
             found.detail

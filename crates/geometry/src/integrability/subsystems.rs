@@ -138,10 +138,19 @@ fn names(system: &System, terms: &MotionTerms, rows: &[usize]) -> String {
 }
 
 fn verdict(cx: &Context<'_>, rows: &[usize], strength: Strength) -> Verdict {
-    let terms = restricted_terms(cx.terms, rows);
-    match characteristics::select(cx.system, &terms) {
+    // The others are not imposed: a state that refutes need not satisfy them.
+    let mut system = cx.system.clone();
+    let places = rows.iter().map(|&row| cx.terms.constraint_index[row]);
+    system.constraints = places
+        .map(|place| cx.system.constraints[place].clone())
+        .collect();
+    let terms = MotionTerms {
+        constraint_index: (0..rows.len()).collect(),
+        ..restricted_terms(cx.terms, rows)
+    };
+    match characteristics::select(&system, &terms) {
         Ok(selection) => {
-            let pfaff = PfaffSystem::new(cx.system, &terms, selection);
+            let pfaff = PfaffSystem::new(&system, &terms, selection);
             on_each_side(cx, rows, decide(cx, &pfaff, strength).verdict)
         }
         Err(problem) => Verdict::undecided(problem.to_string()),

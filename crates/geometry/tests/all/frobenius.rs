@@ -537,6 +537,33 @@ fn equal_sides_are_said_once() {
     assert!(detail.contains("where y > 0, and where y < 0"), "{detail}");
 }
 
+/// A blade of the snakeboard by itself is refuted at states that need not satisfy the other.
+#[test]
+fn a_sub_system_is_refuted_where_the_others_do_not_hold() {
+    let blade = |name, turn: &str, side: &str| {
+        let angle = format!("theta {turn} phi");
+        let text =
+            format!("cos({angle})*y' {side} l*cos(phi)*theta' - sin({angle})*x'");
+        (name, text)
+    };
+    let blades = [blade("front", "+", "+"), blade("back", "-", "-")];
+    let constraints: Vec<(&str, &str)> = blades.iter().map(|(n, t)| (*n, t.as_str())).collect();
+    let own = system(
+        "x y theta phi",
+        "1/2 (x'^2 + y'^2 + theta'^2 + phi'^2)",
+        &constraints,
+    );
+    for claim in [WEAK, "model.constraints-integrable#strong"] {
+        let found = finding(&own, claim);
+        let detail = found.verdict.detail();
+        assert_eq!(found.verdict.word(), "refuted", "{detail}");
+        assert!(
+            detail.contains("not integrable by themselves: `front`, `back`"),
+            "{detail}"
+        );
+    }
+}
+
 /// Of y' = z' - y x' and z' = y x' neither is integrable: together they are y' = 0 and z' = y x'.
 #[test]
 fn pairs_of_four_constraints_are_looked_at() {
