@@ -215,12 +215,13 @@ fn sums(folder: &Path) -> Result<String, String> {
 /// What lies in the folder is what a sweep wrote.
 fn check_sums(folder: &Path) -> Result<(), String> {
     let stated = std::fs::read_to_string(folder.join(SUMS)).unwrap_or_default();
-    match sums(folder)? == stated {
-        true => Ok(()),
-        false => Err(format!(
+    if sums(folder)? == stated {
+        Ok(())
+    } else {
+        Err(format!(
             "{0} holds {ARCHIVE} and {FAILURES} that are not what a sweep wrote there: their checksums are not those of {SUMS}; choose another folder with --out, or delete {0}",
             folder.display()
-        )),
+        ))
     }
 }
 

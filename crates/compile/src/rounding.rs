@@ -155,9 +155,10 @@ fn of_constant(constant: &Constant) -> Rounded {
         }
         Exact::Pi => false,
     };
-    match is_exact {
-        true => Rounded::exact(constant.value),
-        false => Rounded::nearest(constant.value),
+    if is_exact {
+        Rounded::exact(constant.value)
+    } else {
+        Rounded::nearest(constant.value)
     }
 }
 

@@ -170,9 +170,10 @@ impl Space {
             .iter()
             .map(|&i| self.coordinates[i].suffix.as_str())
             .collect();
-        let full = match by.is_empty() {
-            true => name.clone(),
-            false => format!("{name},{suffix}"),
+        let full = if by.is_empty() {
+            name.clone()
+        } else {
+            format!("{name},{suffix}")
         };
         let symbol = self.graph.intern_symbol(&full, 0);
         self.jets
@@ -340,9 +341,10 @@ impl Space {
             .map(|&slot| self.slot_name(&function, slot))
             .collect();
         let of = self.argument_name(&application.arguments);
-        let indices = match slots.is_empty() || function.rank == 0 {
-            true => String::new(),
-            false => format!("_{}", slots.concat()),
+        let indices = if slots.is_empty() || function.rank == 0 {
+            String::new()
+        } else {
+            format!("_{}", slots.concat())
         };
         let name = format!("{}{primes}{indices}({of})", function.name);
         let symbol = self.graph.intern_symbol(&name, 0);
@@ -574,9 +576,10 @@ impl Space {
                 pairs.push((g.symbol_expr(symbol), new));
             }
         }
-        match pairs.is_empty() {
-            true => e,
-            false => g.substitute(e, &pairs),
+        if pairs.is_empty() {
+            e
+        } else {
+            g.substitute(e, &pairs)
         }
     }
 
@@ -597,9 +600,10 @@ impl Space {
                 .iter()
                 .map(|&a| self.replace_function(a, function, rule))
                 .collect();
-            let new = match own.function == function {
-                true => self.derived_rule(function, &own.by, &arguments, rule),
-                false => self.apply(own.function, &own.by, &arguments),
+            let new = if own.function == function {
+                self.derived_rule(function, &own.by, &arguments, rule)
+            } else {
+                self.apply(own.function, &own.by, &arguments)
             };
             pairs.push((g.symbol_expr(symbol), new));
         }

@@ -72,10 +72,11 @@ impl Study {
                 .any(|d| d.full_id() == *name || d.claim == *name);
             if !is_there {
                 let id = name.split('#').next().unwrap_or(name);
-                let near = match ids.contains(&id) {
-                    true => String::new(),
-                    false => closest(id, ids.iter().copied())
-                        .map_or(String::new(), |near| format!("; did you mean `{near}`?")),
+                let near = if ids.contains(&id) {
+                    String::new()
+                } else {
+                    closest(id, ids.iter().copied())
+                        .map_or(String::new(), |near| format!("; did you mean `{near}`?"))
                 };
                 found.push(format!(
                     "[expect] names `{name}`, which is not claimed of this functional{near}"

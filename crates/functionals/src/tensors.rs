@@ -211,9 +211,10 @@ impl Scope {
                         .iter()
                         .map(|(divides, factor)| {
                             let value = self.value(factor, own);
-                            match divides {
-                                true => g.powi(value, -1),
-                                false => value,
+                            if *divides {
+                                g.powi(value, -1)
+                            } else {
+                                value
                             }
                         })
                         .collect();
@@ -328,9 +329,10 @@ impl Scope {
             rank => indices.chunks(rank).map(|one| slot(rank, one, d)).collect(),
         };
         let is_opaque = own.conjugate.is_some();
-        let stated = match is_opaque {
-            true => None,
-            false => self.space.body(function, &slots, &arguments),
+        let stated = if is_opaque {
+            None
+        } else {
+            self.space.body(function, &slots, &arguments)
         };
         stated.unwrap_or_else(|| self.space.apply(function, &slots, &arguments))
     }

@@ -266,9 +266,10 @@ fn flux(space: &Space, density: Expr, varied: &[usize]) -> Result<Vec<Form>, Var
             [i] => add(space, &mut flux[i], at(Vec::new()), slope()),
             [i, j] => {
                 let momentum = slope();
-                let half = match i == j {
-                    true => momentum,
-                    false => g.div(momentum, g.integer(2)),
+                let half = if i == j {
+                    momentum
+                } else {
+                    g.div(momentum, g.integer(2))
                 };
                 let ways: &[(usize, usize)] = if i == j { &[(i, i)] } else { &[(i, j), (j, i)] };
                 for &(first, second) in ways {

@@ -339,9 +339,10 @@ impl Search<'_> {
             self.combined(g, &new[one], a),
             self.combined(g, &new[one], b),
         );
-        let (first, second) = match b_begins < a_begins {
-            true => (b, g.div(a, g.neg(square))),
-            false => (a, b),
+        let (first, second) = if b_begins < a_begins {
+            (b, g.div(a, g.neg(square)))
+        } else {
+            (a, b)
         };
         Some(Darboux::Conjugate {
             first,

@@ -68,9 +68,10 @@ impl<'g> Flow<'g> {
         };
         let rates: Vec<Expr> = flow.variables.iter().map(|v| v.rate).collect();
         let mut occurring = g.symbols_in(&rates).into_iter();
-        match occurring.any(|s| !flow.moves(s) && system.prescribed_rate(s).is_some()) {
-            true => Err(NoFlow::Prescribed),
-            false => Ok(flow),
+        if occurring.any(|s| !flow.moves(s) && system.prescribed_rate(s).is_some()) {
+            Err(NoFlow::Prescribed)
+        } else {
+            Ok(flow)
         }
     }
 

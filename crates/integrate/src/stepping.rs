@@ -254,9 +254,10 @@ impl<'o> Stepping<'o> {
         let attempt = self.attempt_until_accepted(system)?;
         let ended_by = self.locate_events(system, events)?;
         let step = (self.now.t.high, self.now.t.until(self.next.t.high));
-        let crowd = match self.has_events {
-            true => self.crowd.after(step, &self.solution.events),
-            false => None,
+        let crowd = if self.has_events {
+            self.crowd.after(step, &self.solution.events)
+        } else {
+            None
         };
         self.record_inside(system)?;
         self.commit(&attempt, ended_by.is_some());

@@ -43,9 +43,10 @@ impl System {
         let known = self.names.lock();
         let pairs = known.iter().map(|&(s, own)| (g.symbol_expr(s), own));
         let pairs: Vec<(Expr, Expr)> = pairs.collect();
-        match pairs.is_empty() {
-            true => e,
-            false => g.substitute(e, &pairs),
+        if pairs.is_empty() {
+            e
+        } else {
+            g.substitute(e, &pairs)
         }
     }
 

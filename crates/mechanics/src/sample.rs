@@ -114,62 +114,6 @@ pub fn rank_near(system: &System, terms: &MotionTerms, state: &Point) -> Option<
     ranks.max()
 }
 
-/// A solution of as many equations as unknowns over the other values of a point, by Newton's steps halved until they help, begun at several
-/// places; symbols that the point does not contain are drawn.
-pub fn solution(
-    system: &System,
-    equations: &[Expr],
-    unknowns: &[Symbol],
-    mut point: Point,
-) -> Option<Point> {
-    let g = &system.graph;
-    let mut roots = equations.to_vec();
-    roots.extend(g.jacobian(equations, unknowns).concat());
-    let mut generator = Generator::new(0x736f_6c76);
-    for symbol in g.symbols_in(&roots) {
-        let drawn = generator.between(-1.3, 1.3);
-        point.entry(symbol).or_insert(drawn);
-    }
-    (0..STARTS).find_map(|start| {
-        let mut point = point.clone();
-        if start > 0 {
-            for symbol in unknowns {
-                let drawn = generator.between(-2.0, 2.0);
-                point.insert(*symbol, drawn);
-            }
-        }
-        newton(system, &roots, unknowns, point)
-    })
-}
-
-/// Places at which a search begins.
-const STARTS: usize = 12;
-
-fn newton(system: &System, roots: &[Expr], unknowns: &[Symbol], mut point: Point) -> Option<Point> {
-    let n = unknowns.len();
-    let count = roots.len() / (n + 1);
-    let size = |values: &[f64]| values[..count].iter().map(|x| x * x).sum::<f64>().sqrt();
-    let mut now = values(system, roots, &point)?;
-    for _ in 0..STEPS {
-        if size(&now) <= 1e-12 {
-            return Some(point);
-        }
-        let (f, gradient) = now.split_at(count);
-        let step = least_norm_step(gradient, f, n);
-        let next = (0..12).find_map(|halving| {
-            let mut next = point.clone();
-            for (symbol, dx) in unknowns.iter().zip(&step) {
-                let part = dx * 0.5_f64.powi(halving);
-                next.entry(*symbol).and_modify(|x| *x -= part);
-            }
-            let found = values(system, roots, &next)?;
-            (size(&found) < size(&now)).then_some((next, found))
-        });
-        (point, now) = next?;
-    }
-    (size(&now) <= 1e-10).then_some(point)
-}
-
 /// Neighbours that are looked at.
 const NEIGHBOURS: usize = 5;
 

@@ -73,9 +73,10 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
         .collect();
     let constraints = terms.constraint_index.iter();
     let mut all = constraints.map(|&l| &system.constraints[l]);
-    let least = match all.all(|constraint| constraint.is_affine_in_velocities()) {
-        true => AT_EXACT_STATES,
-        false => AT_SOLVED_STATES,
+    let least = if all.all(|constraint| constraint.is_affine_in_velocities()) {
+        AT_EXACT_STATES
+    } else {
+        AT_SOLVED_STATES
     };
     Ok(eliminate_beyond(least, values_at(&point), cost, n))
 }

@@ -245,9 +245,10 @@ impl<'f> Loader<'f> {
 
     fn other(&mut self, from: &str, named: &Text) -> Option<Model> {
         let path = joined(from, &named.content);
-        let text = match path == self.kept.path {
-            true => self.kept.text.clone(),
-            false => self.read(&path, named)?,
+        let text = if path == self.kept.path {
+            self.kept.text.clone()
+        } else {
+            self.read(&path, named)?
         };
         let source = self.sources.add(path.clone(), text.clone());
         let open = std::mem::take(&mut self.open);

@@ -226,9 +226,10 @@ fn least_pivot(
 fn least_of_two([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
     let largest = a.abs().max(b.abs()).max(c.abs()).max(d.abs());
     let other = (a * d - b * c).abs() / largest;
-    match other > 8.0 * f64::EPSILON * largest {
-        true => other.min(largest),
-        false => 0.0,
+    if other > 8.0 * f64::EPSILON * largest {
+        other.min(largest)
+    } else {
+        0.0
     }
 }
 

@@ -102,9 +102,10 @@ impl<'o> Course<'o> {
             Some(stepping) => stepping,
             none => {
                 let (t, y) = (self.at.0, &self.at.1[..]);
-                let scales = match looking.scales.len() == y.len() {
-                    true => &looking.scales[..],
-                    false => &[],
+                let scales = if looking.scales.len() == y.len() {
+                    &looking.scales[..]
+                } else {
+                    &[]
                 };
                 let measure = (absolute, scales);
                 let options = subject.options(settings, t, measure, self.interrupt)?;
@@ -351,9 +352,10 @@ impl<'o> Course<'o> {
                     let (mut low, mut high) = (time(i - 1), time(i));
                     for _ in 0..60 {
                         let middle = 0.5 * (low + high);
-                        match (value(middle, along) > 0.0) == (before > 0.0) {
-                            true => low = middle,
-                            false => high = middle,
+                        if (value(middle, along) > 0.0) == (before > 0.0) {
+                            low = middle
+                        } else {
+                            high = middle
                         }
                     }
                     solution.events.push(EventRecord {
@@ -419,9 +421,10 @@ impl<F: WatchedFlow> Along<'_, F> {
 
     fn state(&self, t: f64) -> Option<State> {
         let (path, theta) = self.path(t)?;
-        let state = match theta >= 1.0 {
-            true => path.end(),
-            false => path.at(theta),
+        let state = if theta >= 1.0 {
+            path.end()
+        } else {
+            path.at(theta)
         };
         Some(State { t, ..state })
     }

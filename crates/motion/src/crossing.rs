@@ -486,8 +486,9 @@ fn golden(
             fb = f(b);
         }
     }
-    match fa < fb {
-        true => (a, fa),
-        false => (b, fb),
+    if fa < fb {
+        (a, fa)
+    } else {
+        (b, fb)
     }
 }

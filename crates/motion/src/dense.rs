@@ -93,9 +93,10 @@ impl Lu {
                 }
             }
         }
-        match smallest > UNSUSPICIOUS * largest {
-            true => Ok(()),
-            false => self.check(a),
+        if smallest > UNSUSPICIOUS * largest {
+            Ok(())
+        } else {
+            self.check(a)
         }
     }
 

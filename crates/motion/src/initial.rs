@@ -197,9 +197,10 @@ impl Search<'_> {
         let movable = self.movable(&self.data.q_fixed);
         let all: Vec<usize> = (0..self.system.n).collect();
         let t = self.data.t;
-        let is_found = match self.moves_data(&self.data.q_fixed) {
-            true => self.nearest_positions(t, &movable)?,
-            false => self.search_positions(t, &movable)?,
+        let is_found = if self.moves_data(&self.data.q_fixed) {
+            self.nearest_positions(t, &movable)?
+        } else {
+            self.search_positions(t, &movable)?
         };
         if is_found {
             return Ok(());
@@ -247,9 +248,10 @@ impl Search<'_> {
     /// Newton from the start, and where that fails from several starting points, of whose solutions the nearest is taken;
     /// leaves q as it was when none converges.
     fn search_positions(&mut self, t: f64, movable: &[usize]) -> Result<bool, InitialError> {
-        match self.solve_positions(t, movable)? {
-            true => Ok(true),
-            false => self.nearest_positions(t, movable),
+        if self.solve_positions(t, movable)? {
+            Ok(true)
+        } else {
+            self.nearest_positions(t, movable)
         }
     }
 

@@ -4,10 +4,13 @@
 //! asked; or (q, v_i) with the dependent velocities from the constraints, which are then satisfied identically (affine
 //! constraints only). The former measures the error of every velocity, the latter that of the v_i alone.
 
+mod series;
+mod watched;
+
 use crate::accelerations::Accelerations;
 use crate::along::FunctionAlong;
 use crate::chart::{self, Chart, Floor, DEGRADED, HYSTERESIS};
-use crate::crossing::{self, State, Track};
+use crate::crossing::{self, Track};
 use crate::drift::Drift;
 use crate::follow::{Deviation, Follow};
 use crate::functions::{Functions, FunctionsError};
@@ -17,14 +20,10 @@ use crate::leaving::Anchor;
 use crate::numeric::{Completion, NumericSystem, States};
 use crate::projection::Projection;
 use crate::row::RowLayout;
-use crate::run::WatchedFlow;
 use crate::series::RateSeries;
 use crate::sticking::STUCK;
 use crate::watch::Watch;
-use chetaev_integrate::{
-    ChartChange, Control, EvaluationFailure, Expansion, HaltReason, Piece, System,
-};
-use chetaev_symbolic::Expr;
+use chetaev_integrate::{ChartChange, Control, EvaluationFailure, HaltReason, System};
 
 /// Which variables are integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,7 +37,7 @@ pub enum StateKind {
 /// Routh's equations as a first-order system.
 #[derive(Clone, Debug)]
 pub struct MultiplierFlow {
-    pub(crate) system: NumericSystem,
+    system: NumericSystem,
     kind: StateKind,
     chart: Chart,
     chart_number: u32,
@@ -544,103 +543,6 @@ impl MultiplierFlow {
     }
 }
 
-impl MultiplierFlow {
-    /// The states at which rates are asked for: where nothing brings them back to the constraints they stray.
-    fn states(&self) -> States {
-        match self.kind == StateKind::Full && self.system.r > 0 {
-            true => self.projection.states(),
-            false => States::Admissible,
-        }
-    }
-
-    /// The recurrences of (q, v) with the constraint rows of the present chart.
-    fn series(&mut self) -> Result<&mut RateSeries, EvaluationFailure> {
-        let (rows, states) = (&self.chart.rows, self.states());
-        // What is there stays where it is: it is large, and asked for several times in a step.
-        let is_known = |(known, of): &(Vec<usize>, States)| known == rows && *of == states;
-        if self.series.as_ref().is_none_or(|(key, _)| !is_known(key)) {
-            let series = self.system.series(rows, states);
-            let series = series.map_err(|_| EvaluationFailure::NoSeries)?;
-            self.series = Some(((rows.clone(), states), series));
-        }
-        let made = self.series.as_mut().map(|(_, series)| series);
-        made.ok_or(EvaluationFailure::NoSeries)
-    }
-
-    /// Makes the accelerations without multipliers, so that copies of this flow share them.
-    pub(crate) fn share_accelerations(&mut self) {
-        if self.direct.is_none() {
-            let rows: Vec<usize> = (0..self.system.r).collect();
-            let found = self.system.accelerations(&rows);
-            self.direct = Some((rows, found));
-        }
-    }
-
-    /// The rates of (q, v) by accelerations without multipliers; false where there are none, or have no value here: the
-    /// multiplier form then says why.
-    fn direct_rates(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> bool {
-        if self.kind != StateKind::Full || self.system.jumps || self.states() == States::All {
-            return false;
-        }
-        let rows = &self.chart.rows;
-        if self.direct.as_ref().is_none_or(|(known, _)| known != rows) {
-            self.direct = Some((rows.clone(), self.system.accelerations(rows)));
-        }
-        let Some((_, Some(direct))) = &mut self.direct else {
-            return false;
-        };
-        let (q, v) = y.split_at(self.system.positions());
-        if direct.evaluate(t, &[q, v]).is_err() {
-            return false;
-        }
-        let (positions, rest) = dy.split_at_mut(q.len());
-        positions.copy_from_slice(v);
-        rest.copy_from_slice(direct.group(0));
-        true
-    }
-
-    /// Makes the series of the chart that most motions have, so that copies of this flow share them.
-    pub(crate) fn share_series(&mut self, states: States) {
-        if self.series.is_none() {
-            let rows: Vec<usize> = (0..self.system.r).collect();
-            let made = self.system.series(&rows, states).ok();
-            self.series = made.map(|series| ((rows, states), series));
-        }
-    }
-
-    /// Says which series will be asked for next; these are given, as far as they are known.
-    pub(crate) fn announce(&mut self, asked: Option<Expansion<'_>>) -> Option<&mut RateSeries> {
-        if self.kind == StateKind::Full && !self.system.jumps {
-            if let Some(asked) = asked {
-                let mut reduced = std::mem::take(&mut self.reduced);
-                let turns = &self.system.turns;
-                turns.reduce(asked.y, asked.carry, &mut reduced);
-                let series = self.series().ok()?;
-                series.announce(asked.t, &reduced, (asked.order, asked.is_whole));
-                self.reduced = reduced;
-            }
-        }
-        self.announced()
-    }
-
-    /// The series that were announced.
-    pub(crate) fn announced(&mut self) -> Option<&mut RateSeries> {
-        self.series.as_mut().map(|(_, series)| series)
-    }
-
-    /// The coefficients of (q, v) at the state last evaluated, whatever the chart.
-    fn expand_full(&mut self, t: f64, order: usize) -> Result<(), EvaluationFailure> {
-        let state = [&self.q[..], &self.v].concat();
-        let mut full = std::mem::take(&mut self.full);
-        full.resize((order + 1) * state.len(), 0.0);
-        let outcome = self
-            .series()
-            .map(|series| series.expand(t, &state, order, &mut full));
-        self.full = full;
-        outcome?
-    }
-}
-
 impl System for MultiplierFlow {
     fn dimension(&self) -> usize {
         match self.kind {
@@ -829,105 +731,5 @@ impl System for MultiplierFlow {
 
     fn factorizations(&self) -> u64 {
         self.accelerations.factorizations
-    }
-}
-
-impl WatchedFlow for MultiplierFlow {
-    // The state that is interpolated at the minimum counts too: a step to the singularity itself evaluates the equations
-    // where they have no value.
-    fn vanishes(&mut self, index: usize, t: f64, y: &[f64]) -> bool {
-        if self.zero_between || self.unpack(t, y).is_err() {
-            return true;
-        }
-        self.watch.vanishes(index, t, &self.q, &self.v)
-    }
-
-    fn lost_mass(&mut self, at: (f64, Option<f64>), y: &[f64]) -> Option<(usize, f64)> {
-        if self.evaluate(at.0, y).is_err() {
-            self.accelerations.fill_unknown(self.system.n);
-        }
-        let (q, v) = (&self.q, &self.v);
-        self.watch.lost_mass(at, q, v, &self.accelerations.a)
-    }
-
-    fn settled(&self) -> f64 {
-        self.anchor.t
-    }
-
-    fn track(&mut self) -> Option<&mut Track> {
-        self.track.as_deref_mut()
-    }
-
-    fn seems_to_fall(&mut self) -> Option<f64> {
-        self.falls.take()
-    }
-
-    fn forget_step(&mut self) {
-        let (deviations, drift) = std::mem::take(&mut self.before);
-        if let Some(follow) = self.follow.as_mut().filter(|_| !deviations.is_empty()) {
-            follow.deviations = deviations;
-        }
-        if let Some(drift) = drift {
-            self.drift = drift;
-        }
-    }
-
-    fn enter(&mut self, state: &State) -> Option<Vec<f64>> {
-        self.q.copy_from_slice(&state.q);
-        self.v.copy_from_slice(&state.v);
-        self.solved = None;
-        self.system.evaluate(state.t, &self.q, &self.v).ok()?;
-        let next = self.choose();
-        if next.rank() == self.chart.rank() {
-            self.accepted_pivot = next.pivot;
-            self.chart = next;
-        }
-        if let Some(follow) = &mut self.follow {
-            follow.record(state.t, &self.q, &self.v);
-        }
-        self.watch.record(state.t, &self.q, &self.v);
-        self.settle(state.t);
-        if let Some(track) = &mut self.track {
-            track.leave();
-        }
-        self.rank_falls(state.t);
-        Some(self.pack(&state.q, &state.v))
-    }
-
-    fn row_of(&mut self, state: &State, a: &[f64], lambda: &[f64]) -> Option<Vec<f64>> {
-        let layout = self.layout();
-        let mut row = vec![0.0; layout.len()];
-        layout.write(&mut row, &state.q, &state.v, a, lambda);
-        Some(row)
-    }
-
-    fn stuck(&self) -> Option<&str> {
-        self.watch.stuck()
-    }
-
-    fn event_series(
-        &mut self,
-        (event, value): (usize, Expr),
-        piece: Piece<'_>,
-        series: &mut [f64],
-    ) -> bool {
-        // Integrals that are kept move the rows between steps, and what jumps has no series across the jump.
-        if self.kind != StateKind::Full || self.system.jumps || self.keep.is_some() {
-            return false;
-        }
-        if self.events.len() <= event {
-            self.events.resize(event + 1, None);
-        }
-        let rows = &self.chart.rows;
-        let known = &mut self.events[event];
-        if known.as_ref().is_none_or(|(own, _)| own != rows) {
-            let order = series.len() - 1;
-            let made = FunctionAlong::new(&self.system, rows, value, order);
-            *known = Some((rows.clone(), made.ok()));
-        }
-        match known {
-            Some((_, Some(function))) => function.expand(piece, series),
-            _ => false,
-        }
     }
 }

@@ -83,8 +83,9 @@ pub(crate) fn reach(x: &[f64], step: &[f64], metric: &[f64]) -> Vec<f64> {
     };
     let sizes = (0..n).map(|i| root(i) * x[i].abs().max(step[i].abs()));
     let largest = sizes.fold(0.0, f64::max);
-    match largest > 0.0 && largest.is_finite() {
-        true => (0..n).map(|i| largest / root(i)).collect(),
-        false => vec![1.0; n],
+    if largest > 0.0 && largest.is_finite() {
+        (0..n).map(|i| largest / root(i)).collect()
+    } else {
+        vec![1.0; n]
     }
 }

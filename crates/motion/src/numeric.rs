@@ -574,9 +574,10 @@ pub(crate) struct RoundedConstraints {
 impl RoundedConstraints {
     fn of(functions: &Functions, (gradient, residual): (usize, usize)) -> RoundedConstraints {
         // Without constraints nothing is asked.
-        let bounded = match functions.range(residual).is_empty() {
-            true => None,
-            false => functions.rounded(),
+        let bounded = if functions.range(residual).is_empty() {
+            None
+        } else {
+            functions.rounded()
         };
         let group = |index: usize| match &bounded {
             Some(all) => all[functions.range(index)].to_vec(),

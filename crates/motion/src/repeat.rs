@@ -163,7 +163,7 @@ impl Subject<'_> {
         let y0 = flow.pack(&self.start.q, &self.start.v);
         compiled.looking.scales = match settings.is_natural && flow.kind() == StateKind::Full {
             // Members of an ensemble differ in their parameters, which the flow has, and the subject has not.
-            true => Scales::new(self.start, &flow.system, settings.t_end).of_state(),
+            true => Scales::new(self.start, flow.system(), settings.t_end).of_state(),
             false => Vec::new(),
         };
         let flow = &mut compiled.flow;

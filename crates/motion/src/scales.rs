@@ -55,9 +55,10 @@ impl Scales {
         let speed = energy.sqrt();
         let times = (0..n).map(|i| root(i) * length(i) / speed);
         let longest = times.filter(|t| t.is_finite()).fold(0.0, f64::max);
-        let time = match longest > 0.0 {
-            true => longest.min(span),
-            false => span,
+        let time = if longest > 0.0 {
+            longest.min(span)
+        } else {
+            span
         };
         let mut scales = ones;
         for i in 0..n {
@@ -68,13 +69,15 @@ impl Scales {
                 0.0
             };
             let own = start.v[i].abs().max(LEAST * known);
-            scales.positions[i] = match is_angle[i] {
-                true => 1.0,
-                false => power(q[i].abs().max(own * time)),
+            scales.positions[i] = if is_angle[i] {
+                1.0
+            } else {
+                power(q[i].abs().max(own * time))
             };
-            scales.velocities[i] = match own > 0.0 {
-                true => power(own),
-                false => power(scales.positions[i] / span),
+            scales.velocities[i] = if own > 0.0 {
+                power(own)
+            } else {
+                power(scales.positions[i] / span)
             };
         }
         for (scale, mass) in scales.positions[n..].iter_mut().zip(&start.q[n..]) {
@@ -96,9 +99,10 @@ pub(crate) fn power(x: f64) -> f64 {
     }
     // The exponent alone, and one more from the square root of two on.
     let exponent = f64::from_bits(x.to_bits() & 0x7FF0_0000_0000_0000);
-    match x / exponent >= std::f64::consts::SQRT_2 {
-        true => 2.0 * exponent,
-        false => exponent,
+    if x / exponent >= std::f64::consts::SQRT_2 {
+        2.0 * exponent
+    } else {
+        exponent
     }
 }
 

@@ -300,9 +300,10 @@ fn at_values(system: &System, question: &Question, asked: Asked) -> Verdict {
         ));
     }
     let is_strict = signs.iter().all(|s| *s != Ordering::Equal);
-    match is_strict || asked == Asked::Left {
-        true => Verdict::Refuted(counterexample(question, &signs, stated_values(system))),
-        false => Verdict::undecided("a Hurwitz determinant vanishes: eigenvalues lie on the axis, or are mirror images of each other"),
+    if is_strict || asked == Asked::Left {
+        Verdict::Refuted(counterexample(question, &signs, stated_values(system)))
+    } else {
+        Verdict::undecided("a Hurwitz determinant vanishes: eigenvalues lie on the axis, or are mirror images of each other")
     }
 }
 
@@ -441,9 +442,10 @@ fn condition(name: &str, kept: &[&Region], bound: &RBig, asked: Asked) -> String
 
 /// Every boundary with its enclosure.
 fn enclosures(name: &str, ranges: &Ranges) -> String {
-    let text = |root: &crate::real_roots::Root| match root.low == root.high {
-        true => format!("{name} = {}", root.low),
-        false => {
+    let text = |root: &crate::real_roots::Root| {
+        if root.low == root.high {
+            format!("{name} = {}", root.low)
+        } else {
             let precision = Precision::new(256);
             let (low, _) = precision.rational(&root.low).to_decimal_interval(20);
             let (_, high) = precision.rational(&root.high).to_decimal_interval(20);
@@ -460,8 +462,9 @@ fn enclosures(name: &str, ranges: &Ranges) -> String {
 
 /// A rational number as a person reads it, rounded to double precision.
 pub fn decimal(value: &RBig) -> String {
-    match value.is_int() {
-        true => value.to_string(),
-        false => format!("{}", value.to_f64().value()),
+    if value.is_int() {
+        value.to_string()
+    } else {
+        format!("{}", value.to_f64().value())
     }
 }

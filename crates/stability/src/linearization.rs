@@ -187,9 +187,10 @@ impl About<'_> {
         let g = self.graph();
         let entries = [self.own.equations.entries(), self.own.rates.clone()].concat();
         let entries = g.substitute_all(&entries, &self.controls(&entries));
-        match g.any_contains_any(&entries, &[g.intern_symbol("t", 0)]) {
-            true => Err(LinearizationError::NotAutonomous),
-            false => Ok(()),
+        if g.any_contains_any(&entries, &[g.intern_symbol("t", 0)]) {
+            Err(LinearizationError::NotAutonomous)
+        } else {
+            Ok(())
         }
     }
 
@@ -454,9 +455,10 @@ impl About<'_> {
             .map(|row| equations[row].0)
             .collect();
         let dimension = variables.len() - pivots.len();
-        match dimension == 0 || vanish_on(self.system, &others, &chosen) {
-            true => dimension,
-            false => 0,
+        if dimension == 0 || vanish_on(self.system, &others, &chosen) {
+            dimension
+        } else {
+            0
         }
     }
 

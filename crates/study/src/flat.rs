@@ -89,10 +89,7 @@ impl Lowered {
         let apart = !system.masses.is_empty();
         for (i, c) in system.coordinates.iter().enumerate() {
             let (force, reactive) = (system.forces[i], system.reactive_forces[i]);
-            let force = match apart {
-                true => g.sub(force, reactive),
-                false => force,
-            };
+            let force = if apart { g.sub(force, reactive) } else { force };
             if !g.is_zero(force) {
                 add("forces", &c.name, force);
             }

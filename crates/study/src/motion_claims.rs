@@ -706,9 +706,10 @@ fn of_equal_forms(
     }
     let whose = match evidence.losses {
         Some((own, others)) => {
-            let (name, lost, less) = match own > others {
-                true => (forms[0], own, others),
-                false => (forms[1], others, own),
+            let (name, lost, less) = if own > others {
+                (forms[0], own, others)
+            } else {
+                (forms[1], others, own)
             };
             format!("; beside a run at a sharper tolerance `{name}` is off by {lost:.1e}, the other by {less:.1e}")
         }

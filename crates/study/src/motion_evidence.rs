@@ -353,9 +353,12 @@ impl MotionEvidence {
             all.push(g.evaluate_f64(&e, &|s| values.get(&s).copied()).ok()?[0]);
         }
         let largest = all.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-        let sign = |value: &f64| match value.abs() <= MET * largest {
-            true => 0.0,
-            false => value.signum(),
+        let sign = |value: &f64| {
+            if value.abs() <= MET * largest {
+                0.0
+            } else {
+                value.signum()
+            }
         };
         let signs: Vec<f64> = all.iter().map(sign).collect();
         Some(signs.iter().any(|&sign| sign == 0.0 || sign != signs[0]))

@@ -247,13 +247,14 @@ fn redundant(system: &System, prepared: &Prepared, start: &Start) -> Option<Stri
         .collect();
     let texts = reactions.texts(system).into_iter().map(|(text, _)| text);
     let texts: Vec<String> = texts.collect();
-    let what = match texts.is_empty() {
-        true => "combinations of them are".to_owned(),
-        false => format!(
+    let what = if texts.is_empty() {
+        "combinations of them are".to_owned()
+    } else {
+        format!(
             "{} {}",
             texts.join(", "),
             if texts.len() == 1 { "is" } else { "are" }
-        ),
+        )
     };
     Some(format!(
         "redundant constraints: {} depend{} on the others at the initial state (rank {} of {}); motion and reactions are unique, the single multipliers {} are not determined, and are not given; {what} determined",
@@ -434,9 +435,10 @@ pub(crate) fn rank_falls(system: &System, prepared: &Prepared, motion: &Motion) 
 fn crossings(crossings: &[Crossing]) -> Option<String> {
     let shown = crossings.iter().take(MOST_TIMES);
     let shown: Vec<String> = shown.map(|crossing| format!("{:.6}", crossing.t)).collect();
-    let more = match crossings.len() > MOST_TIMES {
-        true => format!(", … ({} times)", crossings.len()),
-        false => String::new(),
+    let more = if crossings.len() > MOST_TIMES {
+        format!(", … ({} times)", crossings.len())
+    } else {
+        String::new()
     };
     let (from, to) = crossings.first()?.rank;
     Some(format!(

@@ -12,7 +12,7 @@ use crate::study::Study;
 use crate::typeset::Typesetter;
 use chetaev_mechanics::words::counted;
 use chetaev_mechanics::Prover;
-use chetaev_model::model::Assumption as Stated;
+use chetaev_model::model::{Assumption as Stated, ModelText};
 use chetaev_model::Relation;
 use chetaev_report::data::{
     Assumption, Fact, Formula, InitialValue, ModelSource, Origin, Parameter, Report,
@@ -68,7 +68,7 @@ pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Repor
             .motion
             .as_ref()
             .and_then(|m| drawing::animation(study, m)),
-        model: Some(source(study)),
+        model: Some(source(&study.model.text)),
         notices: study.notices.clone(),
         reproducibility: Reproducibility {
             version: env!("CARGO_PKG_VERSION").into(),
@@ -362,8 +362,8 @@ pub(crate) fn unit(study: &Study, coordinate: usize, order: usize) -> Option<Str
     })
 }
 
-fn source(study: &Study) -> ModelSource {
-    let text = &study.model.text;
+/// The texts of a model with what was overridden.
+pub(crate) fn source(text: &ModelText) -> ModelSource {
     let mut files = vec![SourceFile {
         name: text.path.clone(),
         text: text.text.clone(),

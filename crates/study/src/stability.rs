@@ -200,14 +200,15 @@ fn range(model: &Model, system: &System, text: &str) -> Result<Range, StabilityE
         number(low).ok_or_else(wrong)?,
         number(high).ok_or_else(wrong)?,
     );
-    match low < high {
-        true => Ok(Range {
+    if low < high {
+        Ok(Range {
             symbol: system.graph.intern_symbol(name, 0),
             name: name.into(),
             low,
             high,
-        }),
-        false => Err(wrong()),
+        })
+    } else {
+        Err(wrong())
     }
 }
 
@@ -520,20 +521,20 @@ fn ends(root: &Root) -> (String, String) {
 }
 
 fn interval(root: &Root) -> String {
-    match root.low == root.high {
-        true => format!("{{{}}}", root.low),
-        false => {
-            let (low, high) = ends(root);
-            format!("[{low}, {high}]")
-        }
+    if root.low == root.high {
+        format!("{{{}}}", root.low)
+    } else {
+        let (low, high) = ends(root);
+        format!("[{low}, {high}]")
     }
 }
 
 fn complex((re, im): (f64, f64)) -> String {
     let re = if re == 0.0 { 0.0 } else { re };
-    match im == 0.0 {
-        true => format!("{re:.6}"),
-        false => format!("{re:.6}{im:+.6}i"),
+    if im == 0.0 {
+        format!("{re:.6}")
+    } else {
+        format!("{re:.6}{im:+.6}i")
     }
 }
 

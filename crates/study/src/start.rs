@@ -337,15 +337,16 @@ pub(crate) fn settings(
     };
     let tolerance = settings.tolerance;
     if !(sharpest..=LOOSEST).contains(&tolerance) {
-        return Err(match is_precise {
-            true => StudyError::PreciseTolerance {
+        return Err(if is_precise {
+            StudyError::PreciseTolerance {
                 tolerance,
                 sharpest,
-            },
-            false => StudyError::Tolerance {
+            }
+        } else {
+            StudyError::Tolerance {
                 tolerance,
                 sharpest,
-            },
+            }
         });
     }
     // An absolute tolerance has the unit of what it is for: no number is too small for it.

@@ -177,11 +177,12 @@ pub fn check(model: &Model, hooks: &mut Hooks<'_>) -> Result<(), StudyError> {
 /// A method without an estimate of its error needs a step.
 fn check_step(settings: &RunSettings) -> Result<(), StudyError> {
     let method = chetaev_integrate::method(&settings.method).map_err(RunError::from)?;
-    match method.card().adaptive || settings.step.is_some() {
-        true => Ok(()),
-        false => Err(StudyError::StepMissing {
+    if method.card().adaptive || settings.step.is_some() {
+        Ok(())
+    } else {
+        Err(StudyError::StepMissing {
             method: settings.method.clone(),
-        }),
+        })
     }
 }
 

@@ -44,32 +44,12 @@ impl Graph {
         let mut solutions: FxHashMap<Expr, Vec<Expr>> = FxHashMap::default();
         for e in other.reachable(roots) {
             let of = |e: &Expr| image.get(e).copied().unwrap_or_else(|| self.zero());
+            if let Some(value) = self.made(other.node(e), &mut |c| of(&c)) {
+                image.insert(e, value);
+                continue;
+            }
             let value = match other.node(e) {
-                Node::Number(value) => self.number(value.clone()),
-                Node::Pi => self.pi(),
                 Node::Symbol(own) => symbol(*own),
-                Node::Sum { constant, terms } => {
-                    let mut parts: Vec<Expr> =
-                        terms.iter().map(|(t, c)| self.scale(c, of(t))).collect();
-                    parts.push(self.number(constant.clone()));
-                    self.add(&parts)
-                }
-                Node::Product {
-                    coefficient,
-                    factors,
-                } => {
-                    let mut parts: Vec<Expr> = factors.iter().map(of).collect();
-                    parts.push(self.number(coefficient.clone()));
-                    self.mul(&parts)
-                }
-                Node::Power { base, exponent } => self.pow(of(base), of(exponent)),
-                Node::Apply {
-                    function,
-                    arguments,
-                } => {
-                    let arguments: Vec<Expr> = arguments.iter().map(of).collect();
-                    self.apply(*function, &arguments)
-                }
                 // Its entries make the solution anew.
                 Node::Matrix { .. } => continue,
                 Node::Solve { matrix, rhs } => {
@@ -93,6 +73,7 @@ impl Graph {
                     let found = found.and_then(|all| all.get(*index as usize));
                     found.copied().unwrap_or_else(|| self.zero())
                 }
+                _ => continue,
             };
             image.insert(e, value);
         }
@@ -117,8 +98,29 @@ impl Graph {
         if !changed {
             return e;
         }
+        if let Some(made) = self.made(self.node(e), child) {
+            return made;
+        }
         match self.node(e) {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => e,
+            Node::Matrix {
+                rows,
+                columns,
+                entries,
+            } => {
+                let entries: Vec<Expr> = entries.iter().map(|&a| child(a)).collect();
+                self.matrix(*rows as usize, *columns as usize, &entries)
+                    .unwrap_or(e)
+            }
+            // A solve is rebuilt by its entries, which may come out simpler than a solve node.
+            _ => e,
+        }
+    }
+
+    /// A node with its children through `child`, in canonical form; `None` for symbols and for linear systems.
+    fn made(&self, node: &Node, child: &mut dyn FnMut(Expr) -> Expr) -> Option<Expr> {
+        Some(match node {
+            Node::Number(value) => self.number(value.clone()),
+            Node::Pi => self.pi(),
             Node::Sum { constant, terms } => {
                 let mut parts: Vec<Expr> = terms
                     .iter()
@@ -143,18 +145,10 @@ impl Graph {
                 let arguments: Vec<Expr> = arguments.iter().map(|&a| child(a)).collect();
                 self.apply(*function, &arguments)
             }
-            Node::Matrix {
-                rows,
-                columns,
-                entries,
-            } => {
-                let entries: Vec<Expr> = entries.iter().map(|&a| child(a)).collect();
-                self.matrix(*rows as usize, *columns as usize, &entries)
-                    .unwrap_or(e)
+            Node::Symbol(_) | Node::Matrix { .. } | Node::Solve { .. } | Node::Entry { .. } => {
+                return None
             }
-            // A solve is rebuilt by its entries, which may come out simpler than a solve node.
-            Node::Solve { .. } | Node::Entry { .. } => e,
-        }
+        })
     }
 
     fn rebuild_entry(

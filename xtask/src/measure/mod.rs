@@ -98,9 +98,10 @@ fn shown(as_json: bool, lower: bool) -> std::io::Result<String> {
     if lower {
         ceilings::lower(&root, &measured)?;
     }
-    match as_json {
-        true => Ok(format!("{:#}\n", data(&measured))),
-        false => table(&root, &measured),
+    if as_json {
+        Ok(format!("{:#}\n", data(&measured)))
+    } else {
+        table(&root, &measured)
     }
 }
 
@@ -127,9 +128,10 @@ fn measures(folder: &Path) -> std::io::Result<Measures> {
     let name = folder.file_name().unwrap_or_default();
     let name = name.to_string_lossy().into_owned();
     let modules = source::modules(&folder.join("src"))?;
-    let text_errors = match PROGRAMS.contains(&name.as_str()) {
-        true => 0,
-        false => modules.values().map(errors::text_errors).sum(),
+    let text_errors = if PROGRAMS.contains(&name.as_str()) {
+        0
+    } else {
+        modules.values().map(errors::text_errors).sum()
     };
     let (sentences, characters) = sentences::outside(&modules);
     Ok(Measures {

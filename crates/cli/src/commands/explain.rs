@@ -40,14 +40,15 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         }
         None => {
             if let Some(own) = CLAIMS.iter().find(|c| c.id() == id) {
-                terminal::out(&match arguments.json {
-                    true => text_of(&functional_as_json(*own)),
-                    false => format!(
+                terminal::out(&if arguments.json {
+                    text_of(&functional_as_json(*own))
+                } else {
+                    format!(
                         "{}\n{}\n\n{}\n",
                         own.id(),
                         own.title(),
                         wrapped(own.explanation())
-                    ),
+                    )
                 });
                 return DONE;
             }

@@ -51,9 +51,10 @@ pub(super) fn study(arguments: &Arguments, loaded: Loaded) -> u8 {
             folder.join("report.html").display()
         ));
     }
-    match study.is_as_expected() {
-        true => DONE,
-        false => UNMET,
+    if study.is_as_expected() {
+        DONE
+    } else {
+        UNMET
     }
 }
 

@@ -12,9 +12,10 @@ use chetaev::study::stability::{stability, Stability, StabilityError};
 pub(crate) fn linearize(arguments: &Linearize) -> u8 {
     let about = arguments.about.as_deref();
     answer(&arguments.model, about, None, |found| {
-        match arguments.json {
-            true => json(found),
-            false => found.linear_text(),
+        if arguments.json {
+            json(found)
+        } else {
+            found.linear_text()
         }
     })
 }
@@ -22,9 +23,10 @@ pub(crate) fn linearize(arguments: &Linearize) -> u8 {
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let (about, over) = (arguments.about.as_deref(), arguments.over.as_deref());
     answer(&arguments.model, about, over, |found| {
-        match arguments.json {
-            true => json(found),
-            false => found.ranges_text(),
+        if arguments.json {
+            json(found)
+        } else {
+            found.ranges_text()
         }
     })
 }

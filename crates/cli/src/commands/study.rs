@@ -54,9 +54,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         };
         terminal::out(&summary::summary(&study, style));
         let has_report = written.files.iter().any(|file| file.name == REPORT);
-        let report = match has_report {
-            true => folder.join(REPORT).display().to_string(),
-            false => "not written, as the study was interrupted".to_owned(),
+        let report = if has_report {
+            folder.join(REPORT).display().to_string()
+        } else {
+            "not written, as the study was interrupted".to_owned()
         };
         terminal::out(&format!("\nreport: {report}\n"));
     }

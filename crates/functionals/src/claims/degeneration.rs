@@ -118,17 +118,19 @@ pub(super) fn compared(
     }
     match all {
         Verdict::Proved(proof) => Verdict::Proved(Proof {
-            on: match notes.is_empty() {
-                true => "all fields".into(),
-                false => format!("all fields; {}", notes.join(", ")),
+            on: if notes.is_empty() {
+                "all fields".into()
+            } else {
+                format!("all fields; {}", notes.join(", "))
             },
-            detail: match notes.is_empty() {
-                true => format!("{how} the densities are those of {}", other.name),
-                false => format!(
+            detail: if notes.is_empty() {
+                format!("{how} the densities are those of {}", other.name)
+            } else {
+                format!(
                     "{how} the densities are those of {}, {}",
                     other.name,
                     notes.join(", ")
-                ),
+                )
             },
             ..proof
         }),

@@ -27,9 +27,10 @@ impl Claim for Descent {
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
         let is = |r: &Relation| matches!(r, Relation::Descent { .. });
-        match cx.problem.relations.iter().any(is) {
-            true => vec![cx.own()],
-            false => Vec::new(),
+        if cx.problem.relations.iter().any(is) {
+            vec![cx.own()]
+        } else {
+            Vec::new()
         }
     }
 
@@ -80,8 +81,11 @@ fn descended(functional: &Functional, above: &Functional, imposed: &[String]) ->
     let on_boundary = Solved::new(space).preferring(&fields).with(&everywhere);
     let how = format!("imposing {} on {},", labels(imposed), above.name);
     let density = above.density;
-    compared(above, functional, &how, &|e: Expr| match e == density {
-        true => solved.normal(e),
-        false => on_boundary.normal(e),
+    compared(above, functional, &how, &|e: Expr| {
+        if e == density {
+            solved.normal(e)
+        } else {
+            on_boundary.normal(e)
+        }
     })
 }

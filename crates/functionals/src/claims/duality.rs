@@ -29,9 +29,10 @@ impl Claim for Duality {
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
         let is = |r: &Relation| matches!(r, Relation::Duality { .. });
-        match cx.problem.relations.iter().any(is) {
-            true => vec![cx.own()],
-            false => Vec::new(),
+        if cx.problem.relations.iter().any(is) {
+            vec![cx.own()]
+        } else {
+            Vec::new()
         }
     }
 
@@ -144,21 +145,23 @@ fn with_flux(functional: &Functional, other: &Functional, written: &str, flux: &
     }
     let verdict = match all {
         Verdict::Proved(proof) => Verdict::Proved(Proof {
-            on: match notes.is_empty() {
-                true => "all fields".into(),
-                false => format!("all fields; {}", notes.join(", ")),
+            on: if notes.is_empty() {
+                "all fields".into()
+            } else {
+                format!("all fields; {}", notes.join(", "))
             },
-            detail: match notes.is_empty() {
-                true => format!(
+            detail: if notes.is_empty() {
+                format!(
                     "the densities of {} and {} add up to the divergence of {written}, and the functionals to zero identically",
                     functional.name, other.name
-                ),
-                false => format!(
+                )
+            } else {
+                format!(
                     "the densities of {} and {} add up to the divergence of {written}, and the functionals to zero {}",
                     functional.name,
                     other.name,
                     notes.join(", ")
-                ),
+                )
             },
             ..proof
         }),

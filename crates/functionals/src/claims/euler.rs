@@ -319,12 +319,13 @@ impl<'f> Comparison<'f> {
                     return refuted(&own.what, found);
                 }
                 other => {
-                    let why = match !own.open.is_empty() {
-                        true => format!(
+                    let why = if !own.open.is_empty() {
+                        format!(
                             "{} could not be solved for any field",
                             own.open.join(" and ")
-                        ),
-                        false => other.detail().to_owned(),
+                        )
+                    } else {
+                        other.detail().to_owned()
                     };
                     return Verdict::undecided(format!("{} was not compared: {why}", own.what));
                 }
@@ -384,9 +385,10 @@ impl<'f> Comparison<'f> {
 
 fn refuted(what: &str, found: Counterexample) -> Verdict {
     let (lower, upper) = &found.residual;
-    let size = match lower == upper {
-        true => format!("is {lower}"),
-        false => format!("lies between {lower} and {upper}"),
+    let size = if lower == upper {
+        format!("is {lower}")
+    } else {
+        format!("lies between {lower} and {upper}")
     };
     Verdict::Refuted(Counterexample {
         detail: format!(

@@ -166,12 +166,13 @@ impl<'a> Reader<'a> {
                 span,
             },
         };
-        Some(match minus {
-            false => product,
-            true => Node {
+        Some(if minus {
+            Node {
                 kind: Kind::Sum(vec![(true, product)]),
                 span,
-            },
+            }
+        } else {
+            product
         })
     }
 
@@ -215,12 +216,13 @@ impl<'a> Reader<'a> {
                 self.close(span)?;
                 let derivatives = self.derivatives()?;
                 let span = Span::new(span.start, self.last_end());
-                Some(match derivatives.is_empty() {
-                    true => Node { span, ..inner },
-                    false => Node {
+                Some(if derivatives.is_empty() {
+                    Node { span, ..inner }
+                } else {
+                    Node {
                         kind: Kind::Derivative(Box::new(inner), derivatives),
                         span,
-                    },
+                    }
                 })
             }
             Some(TokenKind::Name(name)) => {
@@ -229,9 +231,10 @@ impl<'a> Reader<'a> {
             }
             _ => {
                 let written = span.text(self.text).to_owned();
-                let message = match written.is_empty() {
-                    true => "the expression ends too early".to_owned(),
-                    false => format!("`{written}` does not belong here"),
+                let message = if written.is_empty() {
+                    "the expression ends too early".to_owned()
+                } else {
+                    format!("`{written}` does not belong here")
                 };
                 self.fail(Diagnostic::error("unexpected-token", span, message))
             }
@@ -508,9 +511,10 @@ impl<'a> Reader<'a> {
                 let mut diagnostic =
                     Diagnostic::error("unknown-name", span, format!("`{name}` is not declared"));
                 if let Some(near) = near {
-                    let replacement = match letters.is_empty() {
-                        true => near.to_owned(),
-                        false => format!("{near}_{letters}"),
+                    let replacement = if letters.is_empty() {
+                        near.to_owned()
+                    } else {
+                        format!("{near}_{letters}")
                     };
                     diagnostic = diagnostic
                         .hint(format!("did you mean `{near}`?"))

@@ -383,12 +383,11 @@ pub(super) fn place_holders(scope: &mut Scope, name: &str, shape: Shape, slots: 
 
 /// `s_12`; the name alone for a scalar.
 pub(super) fn component_name(name: &str, indices: &[usize]) -> String {
-    match indices.is_empty() {
-        true => name.to_owned(),
-        false => {
-            let digits: String = indices.iter().map(|i| (i + 1).to_string()).collect();
-            format!("{name}_{digits}")
-        }
+    if indices.is_empty() {
+        name.to_owned()
+    } else {
+        let digits: String = indices.iter().map(|i| (i + 1).to_string()).collect();
+        format!("{name}_{digits}")
     }
 }
 

@@ -192,9 +192,10 @@ impl Factors {
         let logarithm = g.add(&logarithms);
         let is_exponent = |i: usize| self.is_exponent(i) || g.is_zero(own[i]);
         // An exponential alone keeps its value as its exponent does.
-        let value = match (0..own.len()).all(is_exponent) {
-            true => logarithm,
-            false => on_both_sides(cx, g.mul(&parts)),
+        let value = if (0..own.len()).all(is_exponent) {
+            logarithm
+        } else {
+            on_both_sides(cx, g.mul(&parts))
         };
         matches!(verdict, Verdict::Proved(_)).then_some(Product {
             integral: Integral {

@@ -542,8 +542,7 @@ fn equal_sides_are_said_once() {
 fn a_sub_system_is_refuted_where_the_others_do_not_hold() {
     let blade = |name, turn: &str, side: &str| {
         let angle = format!("theta {turn} phi");
-        let text =
-            format!("cos({angle})*y' {side} l*cos(phi)*theta' - sin({angle})*x'");
+        let text = format!("cos({angle})*y' {side} l*cos(phi)*theta' - sin({angle})*x'");
         (name, text)
     };
     let blades = [blade("front", "+", "+"), blade("back", "-", "-")];

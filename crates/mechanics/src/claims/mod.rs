@@ -14,7 +14,7 @@ pub mod on_set;
 pub mod order;
 pub mod particles;
 mod roots;
-pub mod stated;
+pub mod stated_equations;
 pub mod strata;
 pub mod twin;
 
@@ -271,7 +271,7 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &formulation::Identities,
     &mass::Balance,
     &gauss::Least,
-    &stated::Stated,
+    &stated_equations::Stated,
     &twin::SameMotion,
 ];
 

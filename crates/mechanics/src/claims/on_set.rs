@@ -26,13 +26,12 @@ pub fn constraint_set(cx: &Context<'_>) -> Manifold {
         let coordinate = &system.coordinates[dependent];
         let (stated, symbol) = (constraint.stated, coordinate.q_symbol);
         let slope = g.diff(stated, symbol);
-        match g.as_number(slope).is_some() {
-            true => {
-                let rest = g.substitute(stated, &[(coordinate.q, g.zero())]);
-                let value = g.neg(g.div(rest, slope));
-                set.solved.push((symbol, value));
-            }
-            false => set.implicit.push((stated, symbol)),
+        if g.as_number(slope).is_some() {
+            let rest = g.substitute(stated, &[(coordinate.q, g.zero())]);
+            let value = g.neg(g.div(rest, slope));
+            set.solved.push((symbol, value));
+        } else {
+            set.implicit.push((stated, symbol))
         }
     }
     set
@@ -46,9 +45,10 @@ pub fn vanish(cx: &Context<'_>, residuals: &[(String, Expr)], values: &[(Expr, E
         .iter()
         .map(|(name, e)| (name.clone(), g.substitute(*e, values)))
         .collect();
-    let on = match cx.terms.constraints.is_empty() {
-        true => "everywhere outside the singular set of the mass matrix",
-        false => "on the constraint set outside the singular set of the linear systems",
+    let on = if cx.terms.constraints.is_empty() {
+        "everywhere outside the singular set of the mass matrix"
+    } else {
+        "on the constraint set outside the singular set of the linear systems"
     };
     let decide = |manifold: &Manifold, residuals: &[(String, Expr)]| {
         let manifold = manifold.substituted(g, values);
@@ -273,8 +273,9 @@ pub fn written(x: f64) -> String {
         return "0".into();
     }
     let rounded = format!("{x:.5e}").parse::<f64>().unwrap_or(x);
-    match (1e-4..1e6).contains(&rounded.abs()) {
-        true => format!("{rounded}"),
-        false => format!("{rounded:e}"),
+    if (1e-4..1e6).contains(&rounded.abs()) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
     }
 }

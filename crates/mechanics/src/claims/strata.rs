@@ -228,9 +228,10 @@ impl<'a> Strata<'a> {
     }
 
     fn family(&self, claim: &dyn Claim) -> usize {
-        match claim.is_for_any_controls() {
-            true => 0,
-            false => self.grounds.families.len() - 1,
+        if claim.is_for_any_controls() {
+            0
+        } else {
+            self.grounds.families.len() - 1
         }
     }
 
@@ -310,9 +311,12 @@ impl<'a> Strata<'a> {
         place: Place,
         (first, there): (&Context<'a>, &Context<'a>),
     ) -> Finding {
-        let decide = |there: &Context<'a>| match std::ptr::eq(first, there) {
-            true => Finding::clone(&there.finding(&full_id(claim.id(), subject))),
-            false => claim.decide_there(first, subject, there),
+        let decide = |there: &Context<'a>| {
+            if std::ptr::eq(first, there) {
+                Finding::clone(&there.finding(&full_id(claim.id(), subject)))
+            } else {
+                claim.decide_there(first, subject, there)
+            }
         };
         let before = there.prover.exceptional.take();
         let general = decide(there);
@@ -403,9 +407,10 @@ fn union(parts: Vec<Asked>) -> Finding {
             if is_shared && formulas.iter().any(|f| same(f, formula)) {
                 continue;
             }
-            let caption = match is_shared {
-                true => formula.caption.clone(),
-                false => format!("{place}: {}", formula.caption),
+            let caption = if is_shared {
+                formula.caption.clone()
+            } else {
+                format!("{place}: {}", formula.caption)
             };
             formulas.push(Formula {
                 caption,

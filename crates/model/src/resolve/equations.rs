@@ -175,9 +175,10 @@ impl Resolver {
                 .iter()
                 .map(|(index, value)| format!("{index} = {value}"));
             let values: Vec<String> = values.collect();
-            let name = match values.is_empty() {
-                true => name.to_owned(),
-                false => format!("{name} ({})", values.join(", ")),
+            let name = if values.is_empty() {
+                name.to_owned()
+            } else {
+                format!("{name} ({})", values.join(", "))
             };
             self.formulas.push(Formula {
                 text: text.clone(),

@@ -352,9 +352,10 @@ impl Resolver {
                 format!("`{}` is no key {of}", key.content),
             )
             .label("not known");
-            let near = match self.diagnostics.len() < GUESSED {
-                true => near_key(&key.content, known),
-                false => None,
+            let near = if self.diagnostics.len() < GUESSED {
+                near_key(&key.content, known)
+            } else {
+                None
             };
             diagnostic = match near {
                 Some(near) => diagnostic

@@ -144,9 +144,10 @@ impl Track {
     fn undetermined(&mut self, at: &State, null: &Null, path: &Path) -> Undetermined {
         let speed = |state: &State| state.v.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let usual = speed(&path.at(0.0));
-        let why = match speed(at) <= REST * usual {
-            true => "the motion comes to rest there, and every branch contains the velocity zero",
-            false => "they touch, so that the velocity lies on more than one of them",
+        let why = if speed(at) <= REST * usual {
+            "the motion comes to rest there, and every branch contains the velocity zero"
+        } else {
+            "they touch, so that the velocity lies on more than one of them"
         };
         let branches = self.branches(at, null);
         let mut reason = self.in_words(at, why);
@@ -214,9 +215,10 @@ impl Track {
         }
         let root = root.sqrt();
         // a s² + 2 b s c' + c c'² = 0.
-        let lines = match b >= 0.0 {
-            true => [(-(b + root), a), (c, -(b + root))],
-            false => [(root - b, a), (c, root - b)],
+        let lines = if b >= 0.0 {
+            [(-(b + root), a), (c, -(b + root))]
+        } else {
+            [(root - b, a), (c, root - b)]
         };
         let name = |(s, c): (f64, f64)| {
             let x: Vec<f64> = (0..n)

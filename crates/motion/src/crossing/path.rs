@@ -200,12 +200,12 @@ impl Solver<'_> {
     fn completed(&mut self, mut at: State) -> Option<Vec<f64>> {
         self.complete_positions(&mut at)?;
         let chart = &self.charts.velocities;
-        match self.system.is_affine() {
-            true => self
-                .system
+        if self.system.is_affine() {
+            self.system
                 .complete_velocities(at.t, &at.q, &mut at.v, chart, &mut self.completion)
-                .ok()?,
-            false => self.newton_velocities(&mut at)?,
+                .ok()?
+        } else {
+            self.newton_velocities(&mut at)?
         }
         self.full(&at)
     }

@@ -23,9 +23,10 @@ impl Search<'_> {
             return Ok(());
         }
         let given = self.v.clone();
-        let is_found = match self.moves_data(&self.data.v_fixed) && !self.system.is_affine() {
-            true => self.nearest_velocities(&movable),
-            false => self.search_velocities(&movable),
+        let is_found = if self.moves_data(&self.data.v_fixed) && !self.system.is_affine() {
+            self.nearest_velocities(&movable)
+        } else {
+            self.search_velocities(&movable)
         };
         if is_found {
             return Ok(());
@@ -36,9 +37,10 @@ impl Search<'_> {
         let worst = self.violations(&rows, &self.system.rounded());
         let cannot_hold = self.wrong_velocities(&movable);
         let all: Vec<usize> = (0..self.system.n).collect();
-        let is_found = match self.system.is_affine() {
-            true => self.search_velocities(&all),
-            false => self.nearest_velocities(&all),
+        let is_found = if self.system.is_affine() {
+            self.search_velocities(&all)
+        } else {
+            self.nearest_velocities(&all)
         };
         if !is_found {
             return Err(self.no_real_velocity(&given));

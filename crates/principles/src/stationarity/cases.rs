@@ -11,7 +11,7 @@ mod cleared;
 mod confirm;
 mod conjugate;
 mod constants;
-mod excluded;
+mod exclusion;
 mod factors;
 mod implicit;
 mod parameters;

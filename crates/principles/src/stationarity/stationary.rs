@@ -382,9 +382,10 @@ pub(super) fn alternatives(leaves: &[&Leaf]) -> String {
         }
     }
     let texts: Vec<String> = all.iter().map(|equations| listed(equations)).collect();
-    match all.iter().any(|equations| equations.len() > 1) {
-        true => texts.join(", or "),
-        false => texts.join(" or "),
+    if all.iter().any(|equations| equations.len() > 1) {
+        texts.join(", or ")
+    } else {
+        texts.join(" or ")
     }
 }
 

@@ -170,20 +170,22 @@ fn with_dependent(g: &Graph, slopes: &[Expr]) -> String {
         .iter()
         .map(|&e| format!("{} ≠ 0", g.text(e)))
         .collect();
-    match slopes.is_empty() {
-        true => String::new(),
-        false => format!(
+    if slopes.is_empty() {
+        String::new()
+    } else {
+        format!(
             " (with {}, as the constraints are solved for the dependent velocities)",
             listed(&slopes)
-        ),
+        )
     }
 }
 
 /// By what the dependent velocities are divided.
 fn slopes(cx: &Context<'_>, motion: &Motion) -> Vec<Expr> {
-    match motion.implicit.is_empty() {
-        true => motion.dependent_poles.clone(),
-        false => slopes_that_vanish(cx),
+    if motion.implicit.is_empty() {
+        motion.dependent_poles.clone()
+    } else {
+        slopes_that_vanish(cx)
     }
 }
 

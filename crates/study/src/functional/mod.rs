@@ -80,9 +80,10 @@ const LONGEST: u64 = 3_000;
 
 fn readable(functional: &Functional, e: Expr) -> Expr {
     let g = &functional.space.graph;
-    match simplify::length(g, e) > LONGEST {
-        true => e,
-        false => simplify::simplify(g, e, &simplify::Options::default()),
+    if simplify::length(g, e) > LONGEST {
+        e
+    } else {
+        simplify::simplify(g, e, &simplify::Options::default())
     }
 }
 

@@ -1,13 +1,12 @@
 //! The report of a functional.
 
 use super::{boundary, document, euler, labels, options, Shown};
-use crate::page::evidence;
+use crate::page::{evidence, source};
 use chetaev_functionals::functional::{Functional, Role};
 use chetaev_functionals::study::Decided;
 use chetaev_functionals::Study;
 use chetaev_report::data::{
-    Claim, Equation, EquationSection, Fact, Formula, ModelSource, Parameter, Report,
-    Reproducibility, Source, SourceFile,
+    Claim, Equation, EquationSection, Fact, Formula, Parameter, Report, Reproducibility, Source,
 };
 use chetaev_symbolic::print::{Document, Format};
 use chetaev_symbolic::simplify;
@@ -39,7 +38,7 @@ fn report(study: &Study, command: Option<String>) -> Report {
         parameters: f.parameters.iter().map(|p| parameter(f, p)).collect(),
         sections: sections(study),
         claims: study.verdicts.iter().map(|d| claim(f, d)).collect(),
-        model: Some(source(study)),
+        model: Some(source(&study.problem.text)),
         notices: study.notices.clone(),
         reproducibility: Reproducibility {
             version: env!("CARGO_PKG_VERSION").into(),
@@ -175,9 +174,10 @@ fn sections(study: &Study) -> Vec<EquationSection> {
         )
     });
     for (piece, conditions) in boundary(study) {
-        let explanation = match conditions.is_empty() {
-            true => "Nothing is free here, or every coefficient vanishes.",
-            false => "The coefficient of each variation that is free here vanishes.",
+        let explanation = if conditions.is_empty() {
+            "Nothing is free here, or every coefficient vanishes."
+        } else {
+            "The coefficient of each variation that is free here vanishes."
         };
         let title = format!("Conditions on {piece}");
         found.push(section(
@@ -252,24 +252,4 @@ fn claim(f: &Functional, decided: &Decided) -> Claim {
     };
     evidence(&mut claim, verdict);
     claim
-}
-
-fn source(study: &Study) -> ModelSource {
-    let text = &study.problem.text;
-    let mut files = vec![SourceFile {
-        name: text.path.clone(),
-        text: text.text.clone(),
-    }];
-    files.extend(text.includes.iter().map(|(name, text)| SourceFile {
-        name: name.clone(),
-        text: text.clone(),
-    }));
-    ModelSource {
-        files,
-        overrides: text
-            .overrides
-            .iter()
-            .map(|(n, v)| format!("{n}={v}"))
-            .collect(),
-    }
 }

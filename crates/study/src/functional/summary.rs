@@ -109,9 +109,10 @@ fn equations(text: &mut String, study: &Study, all: &[Shown]) {
     let g = &study.problem.functional.space.graph;
     for shown in all {
         let signs = simplify::length(g, shown.value);
-        let written = match signs > WRITTEN {
-            true => format!("an expression of {signs} signs, in the report"),
-            false => format!("{} = 0", g.text(shown.value)),
+        let written = if signs > WRITTEN {
+            format!("an expression of {signs} signs, in the report")
+        } else {
+            format!("{} = 0", g.text(shown.value))
         };
         let _ = writeln!(text, "    {:<12} {written}", shown.of);
     }

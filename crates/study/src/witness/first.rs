@@ -229,9 +229,10 @@ pub(super) fn projection(
 fn sum_of(terms: &[f64]) -> f64 {
     let size: f64 = terms.iter().map(|x| x.abs()).sum();
     let sum: f64 = terms.iter().sum();
-    match sum.abs() <= CANCELLED * size {
-        true => 0.0,
-        false => sum,
+    if sum.abs() <= CANCELLED * size {
+        0.0
+    } else {
+        sum
     }
 }
 

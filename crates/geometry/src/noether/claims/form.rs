@@ -66,9 +66,10 @@ fn finding(g: &Graph, form: &IntegralForm, solved: Solved) -> Finding {
         verdict = verdict.and(other.verdict.clone());
     }
     let texts: Vec<String> = solved.integrals.iter().map(|own| values(g, own)).collect();
-    let which = match solved.complete {
-        true => "exactly the combinations of these are integrals of this form",
-        false => "other functions may give further ones",
+    let which = if solved.complete {
+        "exactly the combinations of these are integrals of this form"
+    } else {
+        "other functions may give further ones"
     };
     verdict.prefix(&format!("{}; {which}", texts.join("; or ")));
     let formulas = solved.integrals.iter().map(|own| Formula {

@@ -148,9 +148,10 @@ fn zero_of(value: &dyn Fn(f64) -> Option<f64>) -> Option<f64> {
         }
         for _ in 0..80 {
             let middle = 0.5 * (low + high);
-            match value(middle)? * at_low > 0.0 {
-                true => low = middle,
-                false => high = middle,
+            if value(middle)? * at_low > 0.0 {
+                low = middle
+            } else {
+                high = middle
             }
         }
         // A change of sign at a pole is none at a zero.

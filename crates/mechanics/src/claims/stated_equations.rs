@@ -101,14 +101,15 @@ impl<'a, 'c> Question<'a, 'c> {
         let all = system.constraints.iter().map(|c| multiplier(&c.name));
         let all: Vec<Symbol> = all.filter(|s| occurring.contains(s)).collect();
         let is_determined = cx.selection.rows.len() == cx.terms.constraints.len();
-        let known: Vec<(Symbol, Expr)> = match is_determined {
-            true => motion
+        let known: Vec<(Symbol, Expr)> = if is_determined {
+            motion
                 .multipliers
                 .iter()
                 .map(|&(l, value)| (multiplier(&system.constraints[l].name), value))
                 .filter(|(s, _)| all.contains(s))
-                .collect(),
-            false => Vec::new(),
+                .collect()
+        } else {
+            Vec::new()
         };
         let mut free: Vec<Symbol> = set.unknowns.clone();
         free.extend(
@@ -259,9 +260,10 @@ impl<'a, 'c> Question<'a, 'c> {
                 1 => "equation".to_owned(),
                 many => format!("{many} equations"),
             };
-            let with = match self.cx.terms.constraints.is_empty() {
-                true => "",
-                false => " and the constraints",
+            let with = if self.cx.terms.constraints.is_empty() {
+                ""
+            } else {
+                " and the constraints"
             };
             let sentence = format!("the motion satisfies the {counted} stated, and the equations{with} determine all accelerations");
             let holds = match (is_linear, all.at_least.clone()) {
@@ -318,14 +320,16 @@ impl<'a, 'c> Question<'a, 'c> {
             })
             .map(|(_, c)| format!("{}''", c.name))
             .collect();
-        let open = match open.is_empty() {
-            true => String::new(),
-            false => format!(": {} may have any of many values", open.join(", ")),
+        let open = if open.is_empty() {
+            String::new()
+        } else {
+            format!(": {} may have any of many values", open.join(", "))
         };
         let more = counted(missing, "equation is missing", "equations are missing");
-        let with = match self.cx.terms.constraints.is_empty() {
-            true => "",
-            false => ", with the constraints,",
+        let with = if self.cx.terms.constraints.is_empty() {
+            ""
+        } else {
+            ", with the constraints,"
         };
         Verdict::Refuted(Counterexample {
             point: Vec::new(),
@@ -506,9 +510,10 @@ impl<'a, 'c> Question<'a, 'c> {
         let Verdict::Refuted(mut found) = vanish(self.cx, &differences, &[]) else {
             return None;
         };
-        let what = match opposite {
-            true => "the motion satisfies the equations only with multipliers of the opposite sign: the accelerations are right, and `lambda_…` is the negative of the multiplier of this model",
-            false => "the accelerations of the motion satisfy the equations, but with other multipliers than those of this model, which `lambda_…` is",
+        let what = if opposite {
+            "the motion satisfies the equations only with multipliers of the opposite sign: the accelerations are right, and `lambda_…` is the negative of the multiplier of this model"
+        } else {
+            "the accelerations of the motion satisfy the equations, but with other multipliers than those of this model, which `lambda_…` is"
         };
         found.detail = format!(
             "{what}; state an unknown of its own under `unknowns` in its place; {}",
