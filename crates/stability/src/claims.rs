@@ -3,10 +3,10 @@
 //! Where one parameter occurs in the motion and not in the equations of the system, as the speed of a bicycle, the verdict speaks of
 //! all its values: it is proved, refuted, or conditional on the ranges. Else it speaks of the values that the model states.
 
-use crate::hurwitz::{determinants, Ranges, Region};
+use crate::hurwitz::{Ranges, Region};
 use crate::linearization::LinearizationError;
 use crate::question::{Place, Question};
-use crate::real_roots::sign_at;
+use crate::real_roots::{decimal, Root};
 use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_mechanics::{SteadyMotion, System};
 use chetaev_symbolic::number::ball::Precision;
@@ -284,7 +284,7 @@ fn verdict(system: &System, question: &Question, asked: Asked) -> Verdict {
 /// The verdict for the values that the model states.
 fn at_values(system: &System, question: &Question, asked: Asked) -> Verdict {
     let g = &system.graph;
-    let Some(signs) = question.signs(g) else {
+    let Some(signs) = question.signs(g, None) else {
         return Verdict::undecided("the signs of Hurwitz's determinants were not decided");
     };
     let all = signs.iter().all(|s| *s == Ordering::Greater);
@@ -313,6 +313,7 @@ fn counterexample(
     signs: &[Ordering],
     point: Vec<PointValue>,
 ) -> Counterexample {
+    // All positive, and yet refuted: what was decided is that the eigenvalues are on the axis.
     let is_even = signs.iter().all(|s| *s == Ordering::Greater);
     let negative = signs.iter().filter(|s| **s == Ordering::Less).count();
     let motion = "the linear equations about the steady motion";
@@ -385,7 +386,7 @@ fn over(g: &Graph, question: &Question, asked: Asked, symbol: Symbol) -> Verdict
         let Some(region) = ranges.regions.first() else {
             return Verdict::undecided("no interval is left between the boundaries");
         };
-        let Some(signs) = signs_at(g, question, symbol, &region.sample) else {
+        let Some(signs) = question.signs(g, Some(&region.sample)) else {
             return Verdict::undecided("the signs of Hurwitz's determinants were not decided");
         };
         let point = vec![PointValue {
@@ -407,14 +408,6 @@ fn over(g: &Graph, question: &Question, asked: Asked, symbol: Symbol) -> Verdict
         },
         counterexample: None,
     }
-}
-
-/// The signs of Hurwitz's determinants of the deciding polynomial at a value of the parameter.
-fn signs_at(g: &Graph, question: &Question, symbol: Symbol, at: &RBig) -> Option<Vec<Ordering>> {
-    let deciding = question.deciding(g)?;
-    let leading = sign_at(g, *deciding.last()?, symbol, at)?;
-    let list = determinants(g, &deciding, leading).into_iter();
-    list.map(|e| sign_at(g, e, symbol, at)).collect()
 }
 
 /// The regions in words: `4.29 < v < 6.02 or v > 8`. Where eigenvalues on the axis are allowed the boundaries belong to them, by continuity.
@@ -442,29 +435,13 @@ fn condition(name: &str, kept: &[&Region], bound: &RBig, asked: Asked) -> String
 
 /// Every boundary with its enclosure.
 fn enclosures(name: &str, ranges: &Ranges) -> String {
-    let text = |root: &crate::real_roots::Root| {
+    let text = |root: &Root| {
         if root.low == root.high {
             format!("{name} = {}", root.low)
         } else {
-            let precision = Precision::new(256);
-            let (low, _) = precision.rational(&root.low).to_decimal_interval(20);
-            let (_, high) = precision.rational(&root.high).to_decimal_interval(20);
-            format!("{name} in [{low}, {high}]")
+            format!("{name} in {}", root.text())
         }
     };
-    ranges
-        .boundaries
-        .iter()
-        .map(|b| text(&b.root))
-        .collect::<Vec<_>>()
-        .join(", ")
-}
-
-/// A rational number as a person reads it, rounded to double precision.
-pub fn decimal(value: &RBig) -> String {
-    if value.is_int() {
-        value.to_string()
-    } else {
-        format!("{}", value.to_f64().value())
-    }
+    let roots = ranges.boundaries.iter().map(|b| text(&b.root));
+    roots.collect::<Vec<_>>().join(", ")
 }

@@ -8,7 +8,7 @@
 use crate::characteristic::Characteristic;
 use crate::hurwitz::{determinants, ranges, Ranges};
 use crate::linearization::{linearize, Linearization, LinearizationError};
-use crate::real_roots::sign_at;
+use crate::real_roots::{sign_at, sign_of};
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::factors::coefficients;
 use chetaev_symbolic::number::ball::Precision;
@@ -114,16 +114,17 @@ impl Question {
         bounds.collect::<Option<Vec<RBig>>>()?.into_iter().max()
     }
 
-    /// The signs of Hurwitz's determinants of the deciding polynomial where no parameter was left in.
-    pub fn signs(&self, g: &Graph) -> Option<Vec<Ordering>> {
+    /// The signs of Hurwitz's determinants of the deciding polynomial, at a value of the parameter that was left in, if one was.
+    pub fn signs(&self, g: &Graph, at: Option<&RBig>) -> Option<Vec<Ordering>> {
+        let value = self.over.zip(at);
+        let sign = |e: Expr| match value {
+            Some((symbol, at)) => sign_at(g, e, symbol, at),
+            None => sign_of(g, e),
+        };
         let deciding = self.deciding(g)?;
-        let none = g.intern_symbol("no parameter", 0);
-        let sign = |e: Expr| sign_at(g, e, none, &RBig::ZERO);
         let leading = sign(*deciding.last()?)?;
-        determinants(g, &deciding, leading)
-            .into_iter()
-            .map(sign)
-            .collect()
+        let list = determinants(g, &deciding, leading).into_iter();
+        list.map(sign).collect()
     }
 }
 

@@ -4,6 +4,7 @@
 //! signs differ, exactly one (interval bisection with the mean value form, Moore 1966). Polynomials are split into square-free
 //! factors first, so that zeros are simple.
 
+use crate::steady::closed;
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::{Expr, Graph, Symbol};
@@ -25,6 +26,33 @@ pub struct Root {
     pub low: RBig,
     /// The upper end.
     pub high: RBig,
+}
+
+impl Root {
+    /// Decimal bounds with 20 digits, rounded outwards.
+    pub fn decimal_bounds(&self) -> (String, String) {
+        let (low, _) = point(&self.low).to_decimal_interval(20);
+        let (_, high) = point(&self.high).to_decimal_interval(20);
+        (low, high)
+    }
+
+    /// The zero itself where it is known, else the interval.
+    pub fn text(&self) -> String {
+        if self.low == self.high {
+            return format!("{{{}}}", self.low);
+        }
+        let (low, high) = self.decimal_bounds();
+        format!("[{low}, {high}]")
+    }
+}
+
+/// A rational number as a person reads it, rounded to double precision.
+pub fn decimal(value: &RBig) -> String {
+    if value.is_int() {
+        value.to_string()
+    } else {
+        format!("{}", value.to_f64().value())
+    }
 }
 
 /// The zeros of `e` as a function of `symbol` in the closed interval from `low` to `high`, ascending. `None` where that was not decided:
@@ -51,11 +79,21 @@ pub fn real_roots(
 
 /// The sign of `e` at a value of `symbol`; `None` where it is not decided.
 pub fn sign_at(g: &Graph, e: Expr, symbol: Symbol, at: &RBig) -> Option<Ordering> {
-    let value = g.substitute(e, &[(g.symbol_expr(symbol), g.number(at.clone()))]);
-    if g.is_zero(crate::steady::closed(g, value)) {
+    let value = (g.symbol_expr(symbol), g.number(at.clone()));
+    sign_of(g, g.substitute(e, &[value]))
+}
+
+/// The sign of a number; `None` where it is not decided, or where a symbol occurs.
+pub fn sign_of(g: &Graph, e: Expr) -> Option<Ordering> {
+    let e = closed(g, e);
+    if g.is_zero(e) {
         return Some(Ordering::Equal);
     }
-    Function::new(g, e, symbol).over(e, &point(at))?.sign()
+    let ball = g
+        .enclose(&[e], &Precision::new(BITS), &|_| None)
+        .ok()?
+        .pop()?;
+    ball.sign()
 }
 
 /// A function with its derivative.

@@ -7,13 +7,12 @@
 use chetaev_mechanics::characteristics::CharacteristicsError;
 use chetaev_mechanics::{Prepared, SteadyMotion, System, SystemError};
 use chetaev_model::Model;
-use chetaev_stability::claims::{decimal, parameter_of_motion};
+use chetaev_stability::claims::parameter_of_motion;
 use chetaev_stability::eigenvalues::eigenvalues;
 use chetaev_stability::hurwitz::{Boundary, Crossing, Ranges};
 use chetaev_stability::linearization::LinearizationError;
 use chetaev_stability::question::{Place, Question};
-use chetaev_stability::real_roots::Root;
-use chetaev_symbolic::number::ball::Precision;
+use chetaev_stability::real_roots::decimal;
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 use serde_json::{json, Value};
 use std::fmt::Write as _;
@@ -402,7 +401,7 @@ impl Stability {
                     let _ = writeln!(
                         text,
                         "{name} in {}: {}",
-                        interval(&boundary.root),
+                        boundary.root.text(),
                         self.crossing(boundary)
                     );
                 }
@@ -499,7 +498,7 @@ impl Stability {
     }
 
     fn critical(&self, name: &str, boundary: &Boundary) -> Value {
-        let (low, high) = ends(&boundary.root);
+        let (low, high) = boundary.root.decimal_bounds();
         let kind = match (boundary.crossing, self.question.is_even(self.graph())) {
             (Crossing::Zero, _) => "zero",
             (Crossing::Pair, false) => "pair",
@@ -509,23 +508,6 @@ impl Stability {
         };
         let middle = (&boundary.root.low + &boundary.root.high) / Rational::from(2);
         json!({"parameter": name, "value": middle.to_f64().value(), "enclosure": [low, high], "kind": kind})
-    }
-}
-
-/// Decimal bounds of a zero, with 20 digits.
-fn ends(root: &Root) -> (String, String) {
-    let precision = Precision::new(256);
-    let (low, _) = precision.rational(&root.low).to_decimal_interval(20);
-    let (_, high) = precision.rational(&root.high).to_decimal_interval(20);
-    (low, high)
-}
-
-fn interval(root: &Root) -> String {
-    if root.low == root.high {
-        format!("{{{}}}", root.low)
-    } else {
-        let (low, high) = ends(root);
-        format!("[{low}, {high}]")
     }
 }
 
