@@ -46,7 +46,7 @@ pub enum Crossing {
     Pair,
     /// The leading coefficient vanishes: an eigenvalue goes to infinity.
     Infinity,
-    /// A determinant vanishes and the stability is the same on both sides.
+    /// A determinant vanishes, and the stability does not change by that: two eigenvalues are opposite.
     Touching,
 }
 
@@ -131,6 +131,7 @@ pub fn ranges(
             sample,
         });
     }
+    name_pairs(&mut boundaries, &regions);
     joined(&mut boundaries, &mut regions);
     Some(Ranges {
         boundaries,
@@ -158,6 +159,24 @@ fn distinct(mut all: Vec<Boundary>) -> Option<Vec<Boundary>> {
         }
     }
     Some(kept)
+}
+
+/// Where Δ_{m−1} vanishes two eigenvalues are opposite (Orlando 1911): a pair on the axis where the stability changes, and otherwise perhaps λ and
+/// −λ, as those of a bicycle at rest.
+fn name_pairs(boundaries: &mut [Boundary], regions: &[Region]) {
+    for boundary in boundaries
+        .iter_mut()
+        .filter(|b| b.crossing == Crossing::Pair)
+    {
+        let before = regions.iter().rfind(|r| r.high <= boundary.root.low);
+        let after = regions.iter().find(|r| r.low >= boundary.root.high);
+        let changes = before
+            .zip(after)
+            .is_some_and(|(a, b)| a.is_asymptotic != b.is_asymptotic);
+        if !changes {
+            boundary.crossing = Crossing::Touching;
+        }
+    }
 }
 
 /// Takes out boundaries where no determinant that matters vanishes and unstable regions meet.

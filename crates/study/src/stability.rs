@@ -332,6 +332,7 @@ impl Stability {
         let mut text = String::from("\nCharacteristic polynomial");
         match polynomial.zeros {
             0 => {}
+            1 => text.push_str(", without the zero of the family of steady motions"),
             n => {
                 let _ = write!(
                     text,
@@ -421,7 +422,9 @@ impl Stability {
             (Crossing::Pair, false) => "a pair of eigenvalues passes the imaginary axis",
             (Crossing::Pair | Crossing::Touching, true) => "two pairs of eigenvalues meet",
             (Crossing::Infinity, _) => "an eigenvalue goes to infinity",
-            (Crossing::Touching, false) => "a determinant of Hurwitz vanishes",
+            (Crossing::Touching, false) => {
+                "a determinant of Hurwitz vanishes, and the stability does not change by it"
+            }
         }
     }
 

@@ -181,6 +181,14 @@ fn the_bicycle_is_stable_between_the_weave_speed_and_the_capsize_speed() {
     let found = case.ranges(&linear, "v", 0, 10);
     let stable: Vec<_> = found.regions.iter().filter(|r| r.is_asymptotic).collect();
     assert_eq!(stable.len(), 1);
+    // At rest the eigenvalues are real and opposite: no pair passes the axis there, where the range begins.
+    let at_rest = found
+        .boundaries
+        .iter()
+        .filter(|b| b.root.low <= Rational::from(0));
+    for boundary in at_rest {
+        assert_eq!(boundary.crossing, Crossing::Touching);
+    }
     let inside = [
         ("4.292382536341103959", Crossing::Pair),
         ("6.024262015388358890", Crossing::Zero),
