@@ -3,10 +3,15 @@
 //! A group of equations that is linear in the components of one tensor, or of one derivative of it, gives rules
 //! for these; the gradient of a function with a conjugate is undone by the conjugate. Rules are differentiated as needed. What is
 //! solved is triangular, so that an expression in which no rule applies any more is a function of free jets, and vanishes
-//! where the equations hold exactly when it vanishes identically.
+//! where the equations hold exactly when it vanishes identically. For that, two rules that give the same derivative of a component have to
+//! agree: their difference is one more equation (the integrability conditions of Riquier and Janet).
+//!
+//! A field that is known on a curved piece of the boundary is what is known plus the distance from the piece times a new free field
+//! (see [`boundary`](crate::boundary)): so the derivatives along the piece are known, and the one across it is not.
 
+use crate::boundary::CURVATURE;
 use crate::functional::Side;
-use crate::space::{Jet, Space};
+use crate::space::{Component, Jet, Space};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::{generic_rank, known_sign, Options, Pivots, RankTest};
@@ -28,8 +33,11 @@ pub struct Group {
 pub struct Solved<'s> {
     space: &'s Space,
     rules: Vec<Rule>,
-    side: Option<Side>,
+    place: Option<Side>,
+    is_corner: bool,
     preferred: BTreeSet<String>,
+    /// Pairs of rules that were compared.
+    crossed: BTreeSet<(usize, usize)>,
     known: RefCell<BTreeMap<Jet, Expr>>,
     judged: RefCell<BTreeMap<Expr, bool>>,
     /// Equations that are left, with their labels.
@@ -40,12 +48,36 @@ pub struct Solved<'s> {
     pub inverted: BTreeSet<String>,
 }
 
-/// A jet with its value, and the independent variables by which the rule may be differentiated.
+/// A jet with its value.
 #[derive(Clone, Debug)]
 struct Rule {
     jet: Jet,
     value: Expr,
-    along: Option<Vec<usize>>,
+    reach: Reach,
+}
+
+/// Where a rule holds, and so by what it may be differentiated.
+#[derive(Clone, Debug, PartialEq)]
+enum Reach {
+    /// In the interior, or wherever it is continued to: data and fields of a piece are continued off it as the rule says.
+    Everywhere,
+    /// On a face: by the other variables.
+    Face(usize),
+    /// On a curved piece: the value is continued by the distance times this component.
+    Piece(usize),
+    /// At a corner only.
+    Corner,
+}
+
+impl Reach {
+    /// Whether a rule may be differentiated so.
+    fn allows(&self, by: &[usize]) -> bool {
+        match self {
+            Reach::Everywhere | Reach::Piece(_) => true,
+            Reach::Face(axis) => !by.contains(axis),
+            Reach::Corner => by.is_empty(),
+        }
+    }
 }
 
 /// A way to solve a group.
@@ -69,8 +101,9 @@ const CONSTANT_FIELD: u8 = 1;
 const PLAIN: u8 = 2;
 const CONJUGATE: u8 = 3;
 const CONSTANT_DERIVATIVE: u8 = 4;
-const DERIVATIVE: u8 = 5;
-const PLAIN_DATA: u8 = 6;
+const HOMOGENEOUS: u8 = 5;
+const DERIVATIVE: u8 = 6;
+const PLAIN_DATA: u8 = 7;
 
 /// Most rounds; each solves one group or changes its form.
 const MOST_ROUNDS: usize = 200;
@@ -81,8 +114,10 @@ impl<'s> Solved<'s> {
         Solved {
             space,
             rules: Vec::new(),
-            side: None,
+            place: None,
+            is_corner: false,
             preferred: BTreeSet::new(),
+            crossed: BTreeSet::new(),
             known: RefCell::default(),
             judged: RefCell::default(),
             left: Vec::new(),
@@ -102,22 +137,40 @@ impl<'s> Solved<'s> {
     #[must_use]
     pub fn with_on(&self, side: &Side, groups: &[Group]) -> Solved<'s> {
         let mut own = self.clone();
-        own.side = Some(side.clone());
+        own.place = Some(side.clone());
         own.with(groups)
     }
 
-    /// By what a rule for a jet may be differentiated. Data and fields of the boundary live on a piece only, so that they may be continued off it as the
-    /// rule says; of a field the derivative across the piece is not known.
-    fn along(&self, jet: &Jet) -> Option<Vec<usize>> {
-        let side = self.side.as_ref()?;
-        if self.space.component_at(jet.component).is_of_boundary {
-            return None;
+    /// The same with more equations, which hold at a corner and may not be differentiated.
+    #[must_use]
+    pub fn with_at_corner(&self, groups: &[Group]) -> Solved<'s> {
+        let mut own = self.clone();
+        own.is_corner = true;
+        own.with(groups)
+    }
+
+    /// Where a new rule for a jet holds. Data and fields of the boundary live on a piece only, so that they may be continued off it as
+    /// the rule says; of a field the derivative across the piece is not known.
+    fn reach(&self, jet: &Jet) -> Reach {
+        let component = self.space.component_at(jet.component);
+        match &self.place {
+            _ if self.is_corner => Reach::Corner,
+            None => Reach::Everywhere,
+            Some(_) if component.is_of_boundary => Reach::Everywhere,
+            Some(Side::Flat { axis, .. }) => Reach::Face(*axis),
+            Some(Side::Curved) => Reach::Piece(self.across(jet, &component)),
         }
-        Some(match side {
-            Side::Curved => Vec::new(),
-            Side::Flat { axis, .. } => (0..self.space.coordinates.len())
-                .filter(|i| i != axis)
-                .collect(),
+    }
+
+    /// The component that the distance from the piece is multiplied with.
+    fn across(&self, jet: &Jet, of: &Component) -> usize {
+        let g = &self.space.graph;
+        let name = g.text(self.space.jet(jet.component, &jet.by));
+        let by: String = name.chars().skip_while(|c| *c != ',').collect();
+        self.space.component(Component {
+            name: format!("∂{name}/∂n"),
+            tensor: format!("∂{}{by}/∂n", of.tensor),
+            ..of.clone()
         })
     }
 
@@ -148,15 +201,13 @@ impl<'s> Solved<'s> {
         e
     }
 
-    fn rule(&self, jet: &Jet) -> Option<(Expr, Vec<usize>)> {
+    fn rule(&self, jet: &Jet) -> Option<(&Rule, Vec<usize>)> {
         self.rules.iter().find_map(|rule| {
             if rule.jet.component != jet.component {
                 return None;
             }
             let rest = rest(&jet.by, &rule.jet.by)?;
-            let along = rule.along.as_ref();
-            let holds = along.is_none_or(|along| rest.iter().all(|axis| along.contains(axis)));
-            holds.then_some((rule.value, rest))
+            rule.reach.allows(&rest).then_some((rule, rest))
         })
     }
 
@@ -165,11 +216,52 @@ impl<'s> Solved<'s> {
             return known;
         }
         let value = match self.rule(jet) {
-            Some((value, rest)) => self.normal(self.space.totals(value, &rest)),
+            Some((rule, rest)) => self.normal(self.derived(rule, &rest)),
             None => self.space.jet(jet.component, &jet.by),
         };
         self.known.borrow_mut().insert(jet.clone(), value);
         value
+    }
+
+    /// What a rule gives for a derivative of its jet.
+    fn derived(&self, rule: &Rule, by: &[usize]) -> Expr {
+        let space = self.space;
+        let own = space.totals(rule.value, by);
+        match rule.reach {
+            Reach::Piece(across) if !by.is_empty() => {
+                let moved = space.of_distance_times(space.jet(across, &[]), by);
+                space.graph.add(&[own, moved])
+            }
+            _ => own,
+        }
+    }
+
+    /// The next pair of rules that give the same derivative of a component: what each gives has to agree.
+    fn crossing(&mut self) -> Option<Group> {
+        for later in 0..self.rules.len() {
+            for earlier in 0..later {
+                if self.crossed.contains(&(earlier, later)) {
+                    continue;
+                }
+                self.crossed.insert((earlier, later));
+                let (a, b) = (&self.rules[earlier], &self.rules[later]);
+                if a.jet.component != b.jet.component {
+                    continue;
+                }
+                let (by_a, by_b) = (missing(&b.jet.by, &a.jet.by), missing(&a.jet.by, &b.jet.by));
+                if !a.reach.allows(&by_a) || !b.reach.allows(&by_b) {
+                    continue;
+                }
+                let g = &self.space.graph;
+                let difference = g.sub(self.derived(a, &by_a), self.derived(b, &by_b));
+                let name = self.space.component_at(a.jet.component).name;
+                return Some(Group {
+                    label: format!("integrability of {name}"),
+                    equations: vec![difference],
+                });
+            }
+        }
+        None
     }
 
     /// Whether an expression is proved to vanish identically.
@@ -199,7 +291,23 @@ impl<'s> Solved<'s> {
                 "",
                 "it is a multiple of an equation that holds, by a factor without fields",
             )),
-            _ => self.space.vanishing(&[self.space.explicit(own)], true),
+            _ => self.contradicted(self.space.explicit(own)),
+        }
+    }
+
+    /// A counterexample, where the boundary is plane if there is one: there the derivatives of the curvature are consistent.
+    fn contradicted(&self, e: Expr) -> Verdict {
+        let space = self.space;
+        let plane = space.on_plane(e);
+        if plane == e {
+            return space.vanishing(&[e], true);
+        }
+        match space.vanishing(&[plane], true) {
+            Verdict::Refuted(found) => Verdict::Refuted(found),
+            _ if space.has_curvature_derivatives(e) => Verdict::undecided(
+                "it vanishes where the boundary is plane, and contains derivatives of the curvature elsewhere",
+            ),
+            _ => space.vanishing(&[e], true),
         }
     }
 
@@ -249,7 +357,10 @@ impl<'s> Solved<'s> {
                     }
                 }
                 (None, None) if self.cleaned() => {}
-                (None, None) => return,
+                (None, None) => match self.crossing() {
+                    Some(group) => self.left.push(group),
+                    None => return,
+                },
             }
         }
     }
@@ -309,6 +420,9 @@ impl<'s> Solved<'s> {
         let mut blocks: BTreeMap<(String, Vec<usize>), Vec<Jet>> = BTreeMap::new();
         for jet in self.space.jets_in(equations) {
             let tensor = self.space.component_at(jet.component).tensor;
+            if tensor == CURVATURE {
+                continue;
+            }
             blocks
                 .entry((tensor, jet.by.clone()))
                 .or_default()
@@ -336,7 +450,12 @@ impl<'s> Solved<'s> {
             (false, _) => CONSTANT_DERIVATIVE,
         };
         let is_other = !self.preferred.is_empty() && !self.preferred.contains(&component.tensor);
-        if (hoped, is_other, false, 0, group) >= least || self.has_derivatives(equations, &jets) {
+        if (hoped, is_other, false, 0, group) >= least {
+            return None;
+        }
+        // Where derivatives stand beside them only the solution zero is one.
+        let has_derivatives = self.has_derivatives(equations, &jets);
+        if has_derivatives && !self.are_homogeneous(equations, &jets) {
             return None;
         }
         let occurs = |es: &[Expr]| space.jets_in(es).iter().any(|jet| jets.contains(jet));
@@ -353,6 +472,7 @@ impl<'s> Solved<'s> {
             .all(|row| space.jets_in(row).is_empty() && self.is_free(row));
         let Pivots { rows, columns } = self.pivots_of(&matrix)?;
         let class = match (hoped, is_constant) {
+            _ if has_derivatives => HOMOGENEOUS,
             (class, true) => class,
             (CONSTANT_DERIVATIVE, false) => DERIVATIVE,
             // Given data are solved for by numbers only: else where a coefficient vanishes something false would follow.
@@ -360,7 +480,10 @@ impl<'s> Solved<'s> {
             (_, false) => PLAIN,
         };
         let is_open = columns.len() < jets.len();
-        if columns.is_empty() || (class, is_other, is_open, 0, group) >= least {
+        if columns.is_empty()
+            || (has_derivatives && is_open)
+            || (class, is_other, is_open, 0, group) >= least
+        {
             return None;
         }
         let chosen: Vec<Jet> = columns.iter().map(|&c| jets[c].clone()).collect();
@@ -401,7 +524,7 @@ impl<'s> Solved<'s> {
     fn is_free(&self, row: &[Expr]) -> bool {
         let g = &self.space.graph;
         let symbols = self.space.symbols_in(row);
-        symbols.iter().all(|&s| !g.symbol_name(s).starts_with("n_"))
+        symbols.iter().all(|&s| !self.space.is_of_surface(s))
             && g.symbols_in(row)
                 .iter()
                 .all(|&s| !self.space.is_application(s))
@@ -416,6 +539,17 @@ impl<'s> Solved<'s> {
                     && rest(&other.by, &jet.by).is_some()
             })
         })
+    }
+
+    /// Whether equations hold where the jets vanish.
+    fn are_homogeneous(&self, equations: &[Expr], jets: &[Jet]) -> bool {
+        let space = self.space;
+        let zero = |symbol| {
+            let jet = space.as_jet(symbol)?;
+            jets.contains(&jet).then(|| space.graph.zero())
+        };
+        let mut rests = equations.iter().map(|&e| space.replace(e, &zero));
+        rests.all(|e| self.vanishes(e))
     }
 
     fn pivots_of(&self, matrix: &[Vec<Expr>]) -> Option<Pivots> {
@@ -490,8 +624,8 @@ impl<'s> Solved<'s> {
             }
         }
         for (jet, value) in choice.jets.into_iter().zip(values) {
-            let along = self.along(&jet);
-            self.rules.push(Rule { jet, value, along });
+            let reach = self.reach(&jet);
+            self.rules.push(Rule { jet, value, reach });
         }
         self.known.borrow_mut().clear();
         let group = &mut self.left[choice.group];
@@ -575,6 +709,21 @@ impl<'s> Solved<'s> {
             .filter(|c| !has_rule(c))
             .collect()
     }
+}
+
+/// By what the second derivative has to be differentiated so that it contains the first.
+fn missing(wanted: &[usize], own: &[usize]) -> Vec<usize> {
+    let mut left = own.to_vec();
+    let mut missing = Vec::new();
+    for axis in wanted {
+        match left.iter().position(|known| known == axis) {
+            Some(at) => {
+                left.remove(at);
+            }
+            None => missing.push(*axis),
+        }
+    }
+    missing
 }
 
 /// By what one derivative is differentiated to give another.

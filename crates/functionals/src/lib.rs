@@ -7,11 +7,13 @@
 //!
 //! * [`notation`]: index notation, its tree and the summation convention.
 //! * [`space`]: jets of fields, total derivatives, constitutive functions with Legendre conjugates.
+//! * [`boundary`]: the normal and the curvature of a piece, and the distance from it.
 //! * [`tensors`]: what names mean; index notation in components.
 //! * [`functional`]: a functional as plain data.
 //! * [`elimination`]: equations solved for jets, one group after the other, and what follows from them.
 //! * [`study`](mod@study): all claims about one model file.
 
+pub mod boundary;
 pub mod claims;
 pub mod elimination;
 pub mod functional;

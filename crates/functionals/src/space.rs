@@ -92,6 +92,9 @@ pub struct Space {
     jets: RefCell<BTreeMap<Symbol, Jet>>,
     applications: RefCell<BTreeMap<Symbol, Application>>,
     known: RefCell<BTreeMap<Application, Expr>>,
+    /// The normal, and the distance from the boundary, inwards negative.
+    normal: Vec<Symbol>,
+    distance: Symbol,
     /// Names of arguments, for reading.
     arguments: RefCell<BTreeMap<Vec<Expr>, String>>,
     display: RefCell<BTreeMap<String, String>>,
@@ -118,9 +121,16 @@ impl Space {
                 is_time: *is_time,
             })
             .collect();
+        let d = variables.iter().filter(|(_, _, is_time)| !is_time).count();
+        let normal = (1..=d)
+            .map(|i| graph.intern_symbol(&format!("n_{i}"), 0))
+            .collect();
+        let distance = graph.intern_symbol("distance from the boundary", 0);
         Space {
             graph,
             coordinates,
+            normal,
+            distance,
             components: RefCell::default(),
             functions: RefCell::default(),
             gradients: RefCell::default(),
@@ -136,6 +146,14 @@ impl Space {
     /// The number of dimensions of space.
     pub fn dimensions(&self) -> usize {
         self.coordinates.iter().filter(|c| !c.is_time).count()
+    }
+
+    pub(crate) fn normals(&self) -> &[Symbol] {
+        &self.normal
+    }
+
+    pub(crate) fn distance(&self) -> Symbol {
+        self.distance
     }
 
     /// Adds a component; the one of the same name where there is one.
@@ -479,9 +497,7 @@ impl Space {
     pub(crate) fn on_sphere(&self, e: Expr) -> Expr {
         let g = &self.graph;
         let d = self.dimensions();
-        let normals: Vec<Symbol> = (1..=d)
-            .map(|i| g.intern_symbol(&format!("n_{i}"), 0))
-            .collect();
+        let normals = &self.normal;
         let occurring = self.symbols_in(&[e]);
         if normals.iter().all(|n| !occurring.contains(n)) {
             return e;
@@ -534,13 +550,19 @@ impl Space {
         self.derive(e, &|s| (Some(s) == symbol).then_some(one))
     }
 
-    /// The total derivative by an independent variable.
+    /// The total derivative by an independent variable; the normal is that of a piece and of the surfaces parallel to it.
     pub fn total(&self, e: Expr, axis: usize) -> Expr {
         let coordinate = self.graph.as_symbol(self.coordinates[axis].expr);
         let one = self.graph.one();
         self.derive(e, &|symbol| {
             if Some(symbol) == coordinate {
                 return Some(one);
+            }
+            if symbol == self.distance {
+                return self.normal().get(axis).copied();
+            }
+            if let Some(at) = self.normal.iter().position(|&n| n == symbol) {
+                return self.curvature_at(at, axis);
             }
             let jet = self.as_jet(symbol)?;
             let mut by = jet.by;

@@ -6,7 +6,6 @@
 //! brings in the curvature and leaves terms at the edges of the piece. What comes out are the coefficients of independent variations.
 
 use crate::functional::{Functional, Piece, Side};
-use crate::read::normals;
 use crate::space::{Jet, Multi, Space};
 use chetaev_symbolic::Expr;
 use std::collections::BTreeMap;
@@ -294,7 +293,7 @@ fn boundary_form(functional: &Functional, piece: &Piece, density: Expr, flux: &[
     let space = &*functional.space;
     let g = &space.graph;
     let mut form = Form::new();
-    let normal = normals(&functional.scope);
+    let normal = space.normal();
     for (i, own) in flux.iter().enumerate() {
         if space.coordinates[i].is_time {
             continue;
@@ -388,40 +387,14 @@ fn curved(functional: &Functional, piece: &Piece, form: &Form) -> Result<OnPiece
 struct Surface<'f> {
     space: &'f Space,
     normal: Vec<Expr>,
-    curvature: Vec<Vec<Expr>>,
 }
 
 impl<'f> Surface<'f> {
     fn new(functional: &'f Functional) -> Surface<'f> {
         let space = &*functional.space;
-        let g = &space.graph;
-        let normal = normals(&functional.scope);
-        let d = normal.len();
-        let free = |a: usize, b: usize| {
-            let (a, b) = (a.min(b) + 1, a.max(b) + 1);
-            g.symbol(&format!("curvature_{a}{b}"), 0)
-        };
-        let projector = |i: usize, k: usize| projector(space, &normal, i, k);
-        let entry = |i: usize, k: usize| {
-            let mut terms = Vec::new();
-            for a in 0..d {
-                for b in 0..d {
-                    terms.push(g.mul(&[projector(i, a), free(a, b), projector(b, k)]));
-                }
-            }
-            g.add(&terms)
-        };
-        // On a line there is no tangent.
-        let curvature = match d {
-            1 => vec![vec![g.zero()]],
-            _ => (0..d)
-                .map(|i| (0..d).map(|k| entry(i, k)).collect())
-                .collect(),
-        };
         Surface {
             space,
-            normal,
-            curvature,
+            normal: space.normal(),
         }
     }
 
@@ -447,39 +420,14 @@ impl<'f> Surface<'f> {
         let mut terms = Vec::new();
         for (j, &own) in q.iter().enumerate() {
             for k in 0..d {
-                let slope = self.slope(own, k);
-                terms.push(g.mul(&[projector(self.space, &self.normal, j, k), slope]));
+                let slope = self.space.total(own, k);
+                terms.push(g.mul(&[self.space.projector(j, k), slope]));
             }
         }
-        let mean: Vec<Expr> = (0..d).map(|i| self.curvature[i][i]).collect();
+        let mean: Vec<Expr> = (0..d).map(|i| self.space.curvature(i, i)).collect();
         terms.push(g.neg(g.mul(&[self.through(q), g.add(&mean)])));
         g.add(&terms)
     }
-
-    /// The derivative by a coordinate, of the normal too.
-    fn slope(&self, e: Expr, k: usize) -> Expr {
-        let g = &self.space.graph;
-        let rates: Vec<_> = self
-            .normal
-            .iter()
-            .zip(&self.curvature)
-            .filter_map(|(&n, row)| Some((g.as_symbol(n)?, row[k])))
-            .collect();
-        let along = self.space.derive(e, &|symbol| {
-            rates
-                .iter()
-                .find(|(own, _)| *own == symbol)
-                .map(|(_, rate)| *rate)
-        });
-        g.add(&[self.space.total(e, k), along])
-    }
-}
-
-/// `δ_ik − n_i n_k`.
-fn projector(space: &Space, normal: &[Expr], i: usize, k: usize) -> Expr {
-    let g = &space.graph;
-    let unit = if i == k { g.one() } else { g.zero() };
-    g.sub(unit, g.mul(&[normal[i], normal[k]]))
 }
 
 /// Conditions on a face of a box: derivatives along it are moved off the variation, which leaves terms where faces meet.

@@ -3,7 +3,6 @@
 use super::modulo::{equations, labels, vanishing};
 use super::{Claim, Context, Finding, Formula};
 use crate::functional::{Functional, Relation, Side};
-use crate::read::normals;
 use crate::variation::euler_expression;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
@@ -102,7 +101,7 @@ fn with_flux(functional: &Functional, other: &Functional, written: &str, flux: &
         };
         let through = match piece.side {
             Side::Curved => {
-                let own = normals(&functional.scope).into_iter().zip(flux);
+                let own = space.normal().into_iter().zip(flux);
                 own.map(|(n, &w)| g.mul(&[n, w])).collect()
             }
             Side::Flat { axis, is_upper, .. } => match flux.get(axis) {

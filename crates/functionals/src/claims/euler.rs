@@ -3,8 +3,7 @@
 use super::modulo::labels;
 use super::{Claim, Context, Finding};
 use crate::elimination::{Group, Solved};
-use crate::functional::{Equation, Functional, Role, Side};
-use crate::read::normals;
+use crate::functional::{Equation, Functional, Role};
 use crate::variation::{Condition, OnPiece, Variation};
 use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::{Expr, Verdict};
@@ -196,8 +195,8 @@ impl<'f> Comparison<'f> {
                 equations: e.residuals.clone(),
             })
             .collect();
-        derived = derived.with_on(&Side::Curved, &conditions);
-        stated = stated.with_on(&Side::Curved, &own);
+        derived = derived.with_at_corner(&conditions);
+        stated = stated.with_at_corner(&own);
         for equation in equations {
             judged.push(self.equation(equation, &derived));
         }
@@ -312,12 +311,15 @@ impl<'f> Comparison<'f> {
         inverted: &BTreeSet<String>,
     ) -> Verdict {
         let mut all = Verdict::Proved(Proof::exact("", ""));
+        // One equation that fails is enough, whatever is open about others.
+        for own in &judged {
+            if let (Verdict::Refuted(found), true) = (&own.verdict, own.open.is_empty()) {
+                return refuted(&own.what, found.clone());
+            }
+        }
         for own in judged {
             match own.verdict {
                 Verdict::Proved(proof) => all = all.and(Verdict::Proved(proof)),
-                Verdict::Refuted(found) if own.open.is_empty() => {
-                    return refuted(&own.what, found);
-                }
                 other => {
                     let why = if !own.open.is_empty() {
                         format!(
@@ -439,7 +441,7 @@ fn edge(functional: &Functional, one: &OnPiece, other: &OnPiece, component: usiz
 /// The part of the coefficient of a gradient along a curved piece: at its edges it has to vanish.
 fn along(functional: &Functional, q: &[Expr]) -> Vec<Expr> {
     let g = &functional.space.graph;
-    let normal = normals(&functional.scope);
+    let normal = functional.space.normal();
     if normal.len() == 1 {
         return Vec::new();
     }

@@ -200,7 +200,7 @@ impl Reader<'_> {
             let on = raw.table().and_then(|table| self.optional(table, "on"));
             let shape = kind.and_then(|text| self.shape(&text));
             let Some(shape) = shape else { continue };
-            if !self.is_new(scope, key) {
+            if !self.is_new(scope, key, shape) {
                 continue;
             }
             let kind = (is_varied && on.is_none(), on.is_some());
@@ -216,13 +216,37 @@ impl Reader<'_> {
         found
     }
 
-    fn is_new(&mut self, scope: &Scope, key: &Text) -> bool {
-        let taken = scope.rank(&key.content).is_some();
-        if taken {
+    /// Whether neither the name nor that of a component stands for something already.
+    fn is_new(&mut self, scope: &Scope, key: &Text, shape: Shape) -> bool {
+        if scope.rank(&key.content).is_some() {
             let message = format!("`{}` is declared twice", key.content);
             self.push(Diagnostic::error("declared-twice", key.place, message));
+            return false;
         }
-        !taken
+        let g = &scope.space.graph;
+        let own = shape.components(scope.space.dimensions()).into_iter();
+        let own: Vec<String> = own
+            .map(|(indices, _)| component_name(&key.content, &indices))
+            .collect();
+        let of_space = own.iter().filter_map(|name| {
+            let known = scope.space.component_named(name)?;
+            let tensor = scope.space.component_at(known).tensor;
+            (tensor != key.content).then(|| (name.clone(), tensor))
+        });
+        let of_scope = scope.tensors.iter().filter_map(|(name, tensor)| {
+            let symbols = tensor.components.iter().filter_map(|&e| g.as_symbol(e));
+            let mut names = symbols.map(|symbol| g.symbol_name(symbol).to_string());
+            Some((names.find(|taken| own.contains(taken))?, name.clone()))
+        });
+        if let Some((taken, name)) = of_space.chain(of_scope).next() {
+            let message = format!("`{taken}` is a component of `{name}` already");
+            self.push(
+                Diagnostic::error("declared-twice", key.place, message)
+                    .hint("a name never means two things; choose another one"),
+            );
+            return false;
+        }
+        true
     }
 
     pub(super) fn parameters(&mut self, table: &Table, scope: &mut Scope) -> Vec<Parameter> {
@@ -231,9 +255,6 @@ impl Reader<'_> {
             return found;
         };
         for (key, raw) in &section.entries {
-            if !self.is_new(scope, key) {
-                continue;
-            }
             let (value, description) = match &raw.kind {
                 Kind::Table(own) => {
                     let description = self.optional(own, "description");
@@ -248,6 +269,9 @@ impl Reader<'_> {
             let shape = kind
                 .and_then(|text| self.shape(&text))
                 .unwrap_or(Shape::Scalar);
+            if !self.is_new(scope, key, shape) {
+                continue;
+            }
             constants(scope, &key.content, shape);
             let value = self.override_of(&key.content).or(value);
             let value = value.and_then(|text| self.scalar(scope, &text));

@@ -18,8 +18,6 @@ use chetaev_symbolic::Expr;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-pub(crate) use statements::normals;
-
 /// What reading gives: the problem where it has no error, and everything there is to say about it.
 #[derive(Debug)]
 pub struct Loaded {

@@ -151,14 +151,9 @@ impl Reader<'_> {
     }
 
     fn without_normal(&mut self, scope: &Scope, e: Expr, text: &Text) {
-        let g = &scope.space.graph;
-        let normals = normals(scope);
         let occurring = scope.space.symbols_in(&[e]);
-        if normals
-            .iter()
-            .any(|&n| g.as_symbol(n).is_some_and(|s| occurring.contains(&s)))
-        {
-            let message = "the normal n has a meaning on the boundary only";
+        if occurring.iter().any(|&s| scope.space.is_of_surface(s)) {
+            let message = "the normal n and the curvature have a meaning on the boundary only";
             self.push(Diagnostic::error("normal-inside", text.place, message));
         }
     }
@@ -465,25 +460,15 @@ impl Reader<'_> {
     }
 }
 
-/// The symbols of the normal.
-pub(crate) fn normals(scope: &Scope) -> Vec<Expr> {
-    let g = &scope.space.graph;
-    (1..=scope.space.dimensions())
-        .map(|i| g.symbol(&format!("n_{i}"), 0))
-        .collect()
-}
-
 /// What holds on a piece: on a face of a box the normal is known.
 pub(crate) fn on_side(scope: &Scope, side: &Side, e: Expr) -> Expr {
     let Side::Flat { axis, is_upper, .. } = side else {
         return e;
     };
     let g = &scope.space.graph;
-    let symbols = normals(scope);
-    scope.space.replace(e, &|symbol| {
-        let at = symbols
-            .iter()
-            .position(|&n| g.as_symbol(n) == Some(symbol))?;
+    let symbols = scope.space.normals();
+    scope.space.replace(scope.space.on_plane(e), &|symbol| {
+        let at = symbols.iter().position(|&n| n == symbol)?;
         Some(match (at == *axis, is_upper) {
             (true, true) => g.one(),
             (true, false) => g.integer(-1),
@@ -492,17 +477,22 @@ pub(crate) fn on_side(scope: &Scope, side: &Side, e: Expr) -> Expr {
     })
 }
 
-/// The unit tensor, the permutation symbol, the normal and the place.
+/// The unit tensor, the permutation symbol, the normal, the curvature and the place.
 fn builtin(scope: &mut Scope) {
     let g = &scope.space.graph;
     let d = scope.space.dimensions();
     let truth = |holds: bool| if holds { g.one() } else { g.zero() };
     let unit = tuples(2, d).iter().map(|t| truth(t[0] == t[1])).collect();
+    let curvature = tuples(2, d)
+        .iter()
+        .map(|t| scope.space.curvature(t[0], t[1]))
+        .collect();
     let permutation = tuples(d, d).iter().map(|t| g.integer(sign(t))).collect();
     let own = [
         ("delta", 2, unit),
         ("epsilon", d, permutation),
-        ("n", 1, normals(scope)),
+        ("n", 1, scope.space.normal()),
+        (crate::boundary::CURVATURE, 2, curvature),
     ];
     for (name, rank, components) in own {
         scope

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
 
 mod classical;
+mod curved;
 mod mutants;
 mod reference;
 mod table;

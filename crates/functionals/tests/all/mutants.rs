@@ -1,6 +1,6 @@
 //! Functionals with one mistake are refuted, and mistakes in the text are shown at their place with what to do.
 
-use crate::table::{read_text, row_text, studied_text};
+use crate::table::{read_text, row_text, studied_text, ROWS};
 use chetaev_model::Style;
 
 /// The verdict on a row after a replacement in its text.
@@ -45,6 +45,53 @@ fn a_mistake_in_a_functional_is_refuted() {
     for (row, claim, from, to) in mutants {
         let (word, detail) = mutated(row, claim, from, to);
         assert_eq!(word, "refuted", "{row} with `{to}`: {detail}");
+    }
+}
+
+/// All rows with what stands on their pieces of the boundary replaced, where it occurs.
+fn on_every_row(from: &str, to: &str) -> usize {
+    let rows = ROWS.iter().filter(|row| row_text(row).contains(from));
+    let mut count = 0;
+    for row in rows {
+        let (word, detail) = mutated(row, "functional.euler", from, to);
+        assert_eq!(word, "refuted", "{row} with `{to}`: {detail}");
+        count += 1;
+    }
+    count
+}
+
+#[test]
+fn a_displacement_or_a_traction_that_is_missing_on_the_boundary_is_refuted_in_every_row() {
+    // The displacement given on S_u is missing.
+    assert_eq!(on_every_row("(u_k - ubar_k)\"", "u_k\""), 12);
+    assert_eq!(on_every_row("S_u = \"-ubar_k", "S_u = \"-0 ubar_k"), 13);
+    // The traction given in the place of the traction.
+    let tractions = ["-P_k (u_k", "-Pm_k (u_k", "-Pb_k (u_k"];
+    let counts = tractions.map(|own| on_every_row(own, "-Pbar_k (u_k"));
+    assert_eq!(counts.iter().sum::<usize>(), 12);
+    // The traction given on S_s is missing.
+    assert_eq!(on_every_row("S_s = \"-Pbar_k u_k\"", "S_s = \"0\""), 13);
+    assert_eq!(on_every_row("(P_k - Pbar_k)", "P_k"), 12);
+}
+
+#[test]
+fn a_displacement_that_vanishes_on_a_curved_piece_is_proved() {
+    for (row, from, to) in [
+        ("p3p1", "(u_k - ubar_k)", "u_k"),
+        ("p1p", "(u_k - ubar_k)", "u_k"),
+    ] {
+        let text = row_text(row)
+            .replace(from, to)
+            .replace("\"5\"", "\"clamped\"")
+            + "\n[equations.clamped]\nequation = \"u_k = 0\"\non = \"S_u\"\n";
+        let study = studied_text(row, &text, &[("d", "2")]);
+        let found = study
+            .verdicts
+            .iter()
+            .find(|d| d.claim == "functional.euler")
+            .unwrap();
+        let verdict = &found.finding.verdict;
+        assert_eq!(verdict.word(), "proved", "{row}: {}", verdict.detail());
     }
 }
 

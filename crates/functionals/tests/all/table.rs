@@ -54,7 +54,7 @@ pub(crate) fn studied(row: &str, set: &[(&str, &str)]) -> Study {
 }
 
 /// The 26 rows.
-const ROWS: &[&str] = &[
+pub(crate) const ROWS: &[&str] = &[
     "p4p", "p4c", "p4pb", "p4cb", "p3p", "p3c", "p3pb", "p3cb", "p3p1", "p3c1", "p3p0", "p3c0",
     "p2p", "p2c", "p2pb", "p2cb", "p2p0", "p2c0", "p2p1", "p2c1", "p1p", "p1c", "p0p", "p0c", "pp",
     "pc",

@@ -1,0 +1,101 @@
+//! A field that is known on a curved piece of the boundary: what follows for its derivatives there, by formulas of differential geometry.
+
+use crate::table::{read_text, studied_text};
+use chetaev_model::Style;
+
+/// A membrane or a plate with the edge S, on which the field vanishes.
+fn model(density: &str, interior: &str, edge: &str) -> String {
+    format!(
+        r#"
+kind = "functional"
+name = "edge"
+density = "{density}"
+imposed = ["zero"]
+yields = ["interior", "edge"]
+[domain]
+coordinates = ["x", "y"]
+boundary = ["S"]
+[parameters]
+nu = "1/3"
+[fields]
+w = "scalar"
+[boundary]
+S = {{ fixed = ["w"] }}
+[equations]
+interior = "{interior}"
+zero = {{ equation = "w = 0", on = "S" }}
+edge = {{ equation = "{edge}", on = "S" }}
+"#
+    )
+}
+
+fn verdict(text: &str) -> (String, String) {
+    let study = studied_text("p4p", text, &[]);
+    let found = study
+        .verdicts
+        .iter()
+        .find(|d| d.claim == "functional.euler");
+    let verdict = &found.unwrap().finding.verdict;
+    (verdict.word().to_owned(), verdict.detail().to_owned())
+}
+
+#[test]
+fn laplaces_operator_on_an_edge_is_split_into_the_normal_and_the_curvature() {
+    // Δw = ∂²w/∂n² + H ∂w/∂n + Δ_S w; on the edge w = 0.
+    let membrane = |edge: &str| verdict(&model("1/2 w,i w,i", "w,ii = 0", edge));
+    let (word, detail) = membrane("n_i n_j w,ij + curvature_kk n_i w,i = 0");
+    assert_eq!(word, "proved", "{detail}");
+    for wrong in [
+        "n_i n_j w,ij + 2 curvature_kk n_i w,i = 0",
+        "n_i n_j w,ij = 0",
+        "n_i w,i = 0",
+    ] {
+        assert_eq!(membrane(wrong).0, "refuted", "{wrong}");
+    }
+    // The slope along the edge vanishes.
+    let (word, detail) = membrane("epsilon_ij n_i w,j = 0");
+    assert_eq!(word, "proved", "{detail}");
+}
+
+#[test]
+fn the_moment_at_a_curved_edge_of_a_plate_contains_the_curvature() {
+    // Timoshenko, Woinowsky-Krieger 1959, § 22, with the curvature of the normal.
+    let plate = |edge: &str| {
+        let density = "1/2 ((w,xx + w,yy)^2 - 2 (1 - nu) (w,xx w,yy - w,xy^2))";
+        verdict(&model(density, "w,iijj = 0", edge))
+    };
+    let (word, detail) = plate("w,ii - (1 - nu) curvature_kk n_i w,i = 0");
+    assert_eq!(word, "proved", "{detail}");
+    assert_eq!(
+        plate("w,ii + (1 - nu) curvature_kk n_i w,i = 0").0,
+        "refuted"
+    );
+    assert_eq!(plate("w,ii = 0").0, "refuted");
+}
+
+#[test]
+fn what_two_equations_say_together_is_no_counterexample() {
+    // w = 0 along the edge and Δw = 0 give w,yy = 0 there.
+    let text = model("1/2 w,i w,i", "w,ii = 0", "w,yy = 0")
+        .replace("boundary = [\"S\"]", "intervals = { x = [0, 1], y = [0, 1] }")
+        .replace("S = { fixed", "S = { at = \"y = 1\", fixed")
+        .replace("[equations]", "\"x = 0\" = \"0\"\n\"x = 1\" = \"0\"\n\"y = 0\" = \"0\"\n[equations]\na = { equation = \"w,x = 0\", on = \"x = 0\" }\nb = { equation = \"w,x = 0\", on = \"x = 1\" }\nc = { equation = \"w,y = 0\", on = \"y = 0\" }")
+        .replace("\"edge\"]", "\"edge\", \"a\", \"b\", \"c\"]");
+    let (word, detail) = verdict(&text);
+    assert_eq!(word, "proved", "{detail}");
+}
+
+#[test]
+fn a_name_never_means_a_component_of_another_field() {
+    for (own, taken) in [("n_1", "n"), ("w", "w"), ("curvature_11", "curvature")] {
+        let text =
+            model("1/2 w,i w,i", "w,ii = 0", "w,ii = 0").replace("nu = ", &format!("{own} = "));
+        let said = read_text("p4p", &text, &[])
+            .diagnostics
+            .render(Style::Plain);
+        assert!(
+            said.contains("declared-twice") && said.contains(&format!("`{taken}`")),
+            "{said}"
+        );
+    }
+}
