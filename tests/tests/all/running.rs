@@ -145,17 +145,15 @@ fn the_budget_is_work_and_holds_at_any_size() {
             .as_array()
             .expect("verdicts")
             .iter()
-            .filter(|v| {
-                !v["detail"]
-                    .as_str()
-                    .unwrap_or_default()
-                    .starts_with("time: ")
-            })
             .map(|v| {
-                (
-                    format!("{}#{}", v["claim"], v["subject"]),
-                    v["verdict"].to_string(),
-                )
+                let detail = v["detail"].as_str().unwrap_or_default();
+                // On a machine that does other work too the clock may come before the count.
+                let word = if detail.starts_with("time: ") {
+                    "undecided (time)".to_owned()
+                } else {
+                    v["verdict"].to_string()
+                };
+                (format!("{}#{}", v["claim"], v["subject"]), word)
             })
             .collect();
         (words, began.elapsed())
@@ -165,7 +163,8 @@ fn the_budget_is_work_and_holds_at_any_size() {
     // Twice the budget by the clock, the derivation and the page; other tests run beside.
     assert!(took < Duration::from_secs(40), "{took:?}");
     for (claim, word) in &first {
-        if let Some((_, other)) = second.iter().find(|(own, _)| own == claim) {
+        let (_, other) = second.iter().find(|(own, _)| own == claim).expect(claim);
+        if ![word, other].iter().any(|word| word.contains("(time)")) {
             assert_eq!(word, other, "{claim}");
         }
     }
