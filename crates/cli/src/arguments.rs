@@ -65,6 +65,7 @@ pub(crate) struct ModelArguments {
   chetaev study gallery/chaplygin-sleigh/model.toml
   chetaev study gallery/trailer/model.toml --set n=8 --out out/trailer-8
   chetaev study model.toml --claims model,formulations --budget 10
+  chetaev study model.toml --show integrals
   chetaev study model.toml --t-end 100 --tolerance 1e-12 --json")]
 pub(crate) struct Study {
     #[command(flatten)]
@@ -81,7 +82,13 @@ pub(crate) struct Study {
     pub(crate) budget: f64,
     #[command(flatten)]
     pub(crate) motion: MotionArguments,
-    /// Print study.json instead of the summary
+    /// Print every claim with its verdict and evidence
+    #[arg(long, conflicts_with = "json")]
+    pub(crate) all: bool,
+    /// Print the claims of a group (model, formulations, motion, principles, integrals, stability; again for several)
+    #[arg(long, value_name = "GROUP", value_parser = group_names(), conflicts_with_all = ["all", "json"])]
+    pub(crate) show: Vec<String>,
+    /// Print study.json instead of the overview
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -188,6 +195,11 @@ fn formulation_names() -> Vec<&'static str> {
         .collect()
 }
 
+/// The words of all groups of claims, for parsing and completion.
+fn group_names() -> Vec<&'static str> {
+    chetaev::mechanics::Group::ALL.map(|g| g.word()).to_vec()
+}
+
 /// Arithmetic of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Precision {
@@ -232,6 +244,9 @@ pub(crate) struct Principles {
     pub(crate) budget: f64,
     #[command(flatten)]
     pub(crate) motion: MotionArguments,
+    /// Tell each principle with its formulas and evidence
+    #[arg(long, conflicts_with = "json")]
+    pub(crate) all: bool,
     /// Print the record of study.json instead of the story
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,5 +1,6 @@
 //! Writing to the terminal without panicking on a closed pipe.
 
+use chetaev::study::summary::Style;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::sync::OnceLock;
 
@@ -68,6 +69,14 @@ pub(crate) fn err(text: &str) {
 /// Whether standard output is a terminal that wants colours.
 pub(crate) fn colours() -> bool {
     std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none()
+}
+
+/// Colours on standard output, or none.
+pub(crate) fn style() -> Style {
+    match colours() {
+        true => Style::Ansi,
+        false => Style::Plain,
+    }
 }
 
 /// Whether standard error is a terminal that wants colours.

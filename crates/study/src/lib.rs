@@ -9,7 +9,7 @@
 //!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
 //! - [`sweep`]: a model as an ensemble; [`stability`](mod@stability): linear equations about a steady motion; [`functional`]: summary, record
 //!   and page of a functional of fields over space;
-//! - for people: [`derivation`], [`story`], [`summary`], [`page`], [`typeset`]; for programs: [`record`] with the model lowered ([`flat`]) and
+//! - for people: [`derivation`], [`overview`], [`story`], [`summary`], [`page`], [`typeset`]; for programs: [`record`] with the model lowered ([`flat`]) and
 //!   the equations of every formulation ([`stated_equations`]), [`table`]; [`verify`].
 
 pub mod beside;
@@ -20,11 +20,13 @@ pub mod flat;
 pub mod functional;
 pub mod jumps;
 mod kept;
+mod layout;
 pub mod method_order;
 pub mod motion_claims;
 pub mod motion_evidence;
 mod notices;
 pub mod options;
+pub mod overview;
 pub mod page;
 mod placed;
 mod plain;

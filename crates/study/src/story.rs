@@ -1,11 +1,13 @@
 //! What the variational principles say of a system, as a story for a terminal: `chetaev principles MODEL`.
 
 use crate::beside::{number, told, Beside};
+use crate::layout::hanging;
 use crate::plain;
 use crate::study::{Decided, Study};
 use crate::summary::{bold, coloured, Style};
 use chetaev_mechanics::Formula;
 use chetaev_symbolic::{Expr, Function, Node, Verdict};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// A chapter: its title, what it is about, and the claims it tells of, by id or by what ids begin with.
@@ -72,20 +74,13 @@ const CHAPTERS: &[Chapter] = &[
     },
 ];
 
-/// Characters of a line.
-const WIDTH: usize = 100;
-
 /// The story: the system, chapter after chapter each principle with its formulas for this system and the verdict, and the
 /// constrained extremum beside the motion where it was computed.
 pub fn story(study: &Study, style: Style) -> String {
     let mut text = String::new();
     system(&mut text, study, style);
     for chapter in CHAPTERS {
-        let told: Vec<&Decided> = chapter
-            .claims
-            .iter()
-            .flat_map(|id| study.verdicts.iter().filter(move |d| is_of(d, id)))
-            .collect();
+        let told = of_chapter(study, chapter);
         if told.is_empty() {
             continue;
         }
@@ -100,6 +95,104 @@ pub fn story(study: &Study, style: Style) -> String {
             verdict(&mut text, study, decided, style);
         }
     }
+    comparison(&mut text, study, style);
+    text
+}
+
+/// The same in short: of each chapter what holds, and where what does not hold everywhere does.
+pub fn outline(study: &Study, style: Style) -> String {
+    let mut text = String::new();
+    system(&mut text, study, style);
+    for chapter in CHAPTERS {
+        let told = of_chapter(study, chapter);
+        if told.is_empty() {
+            continue;
+        }
+        let _ = writeln!(text, "\n{}", bold(style, chapter.title));
+        for (word, titles) in by_verdict(study, &told) {
+            let word = coloured(style, word);
+            // Colours take no room.
+            let shown = hanging(&" ".repeat(VERDICT), &titles);
+            let _ = write!(text, "  {word} {}", shown.trim_start());
+        }
+        for decided in told.iter().filter(|d| !d.is_as_expected()) {
+            let expected = decided.expected.join(" or ");
+            let words = format!("{}: the model expects {expected}", decided.full_id());
+            text.push_str(&hanging("! ", &words));
+        }
+    }
+    comparison(&mut text, study, style);
+    text
+}
+
+/// Characters before what was found in the outline.
+const VERDICT: usize = 17;
+
+/// The verdicts of a chapter.
+fn of_chapter<'a>(study: &'a Study, chapter: &Chapter) -> Vec<&'a Decided> {
+    let ids = chapter.claims.iter();
+    ids.flat_map(|id| study.verdicts.iter().filter(move |d| is_of(d, id)))
+        .collect()
+}
+
+/// What was proved by its titles in one line; everything else by itself, with where it holds or why it does not.
+fn by_verdict(study: &Study, told: &[&Decided]) -> Vec<(&'static str, String)> {
+    let mut lines: Vec<(&'static str, String)> = Vec::new();
+    let mut counts: BTreeMap<(&'static str, &'static str), usize> = BTreeMap::new();
+    for decided in told {
+        let word = decided.finding.verdict.word();
+        let is_alike = matches!(word, "proved" | "numerical" | "not-applicable");
+        if !is_alike {
+            lines.push((word, of_one(study, decided)));
+            continue;
+        }
+        let count = counts.entry((word, decided.title)).or_default();
+        *count += 1;
+    }
+    for word in ["not-applicable", "numerical", "proved"] {
+        let of_word = told.iter().filter(|d| d.finding.verdict.word() == word);
+        let mut titles: Vec<String> = Vec::new();
+        for decided in of_word {
+            if let Some(count) = counts.remove(&(word, decided.title)) {
+                titles.push(match count {
+                    1 => decided.title.to_owned(),
+                    count => format!("{} ({count} cases)", decided.title),
+                });
+            }
+        }
+        if !titles.is_empty() {
+            lines.insert(0, (word, titles.join("; ")));
+        }
+    }
+    lines
+}
+
+/// A claim that is not proved: where it holds, or why it does not.
+fn of_one(study: &Study, decided: &Decided) -> String {
+    let verdict = &decided.finding.verdict;
+    let told = match verdict {
+        Verdict::Conditional { condition, .. } => format!("where {condition}"),
+        _ => {
+            let told = plain::told(verdict.detail()).0;
+            told.split("; ").next().unwrap_or_default().to_owned()
+        }
+    };
+    let told = match told.char_indices().nth(SHORT) {
+        Some((end, _)) => format!("{} …", &told[..end]),
+        None => told,
+    };
+    format!(
+        "{}: {}",
+        decided.title,
+        plain::written(&study.system, &told)
+    )
+}
+
+/// Characters that are told of a claim in the outline.
+const SHORT: usize = 160;
+
+/// The motion and the constrained extremum, where they are compared, and what a reader must know.
+fn comparison(text: &mut String, study: &Study, style: Style) {
     if let Some(beside) = study.motion.as_ref().and_then(|m| m.beside.as_ref()) {
         let _ = writeln!(
             text,
@@ -107,18 +200,13 @@ pub fn story(study: &Study, style: Style) -> String {
             bold(style, "The motion and the constrained extremum")
         );
         match beside {
-            Ok(found) => extremum(&mut text, study, found),
-            Err(why) => paragraph(
-                &mut text,
-                &format!("There is no extremum to compare: {why}."),
-                0,
-            ),
+            Ok(found) => extremum(text, study, found),
+            Err(why) => paragraph(text, &format!("There is no extremum to compare: {why}."), 0),
         }
     }
     for notice in &study.notices {
-        let _ = writeln!(text, "note: {notice}");
+        text.push_str(&hanging("note: ", notice));
     }
-    text
 }
 
 /// Whether a verdict is of a claim, by its id or the beginning of it.
@@ -257,20 +345,9 @@ fn line(study: &Study, formula: &Formula) -> String {
     }
 }
 
-/// Words in lines of at most [`WIDTH`] characters.
+/// Words in lines of a terminal.
 fn paragraph(text: &mut String, words: &str, indent: usize) {
-    let margin = " ".repeat(indent + 2);
-    let mut line = margin.clone();
-    for word in words.split_whitespace() {
-        let is_full = line.chars().count() + word.chars().count() >= WIDTH;
-        if is_full && line != margin {
-            let _ = writeln!(text, "{}", line.trim_end());
-            line.clone_from(&margin);
-        }
-        line.push_str(word);
-        line.push(' ');
-    }
-    let _ = writeln!(text, "{}", line.trim_end());
+    text.push_str(&hanging(&" ".repeat(indent + 2), words));
 }
 
 /// Rows of the table of both curves.

@@ -21,7 +21,7 @@ pub enum Style {
 pub fn summary(study: &Study, style: Style) -> String {
     let mut text = String::new();
     heading(&mut text, study, style);
-    claims(&mut text, study, style);
+    text.push_str(&listing(study, &Group::ALL, style));
     trajectory(&mut text, study);
     for notice in &study.notices {
         let _ = writeln!(text, "note: {notice}");
@@ -92,8 +92,10 @@ fn shortened(text: &str, most: usize) -> String {
     format!("{kept}…")
 }
 
-fn claims(text: &mut String, study: &Study, style: Style) {
-    for group in Group::ALL {
+/// Each claim of some groups with its verdict and evidence.
+pub fn listing(study: &Study, groups: &[Group], style: Style) -> String {
+    let mut text = String::new();
+    for &group in groups {
         let of_group: Vec<&Decided> = study.verdicts.iter().filter(|d| d.group == group).collect();
         if of_group.is_empty() {
             continue;
@@ -124,6 +126,7 @@ fn claims(text: &mut String, study: &Study, style: Style) {
             }
         }
     }
+    text
 }
 
 /// Evidence in one line on a terminal; whole where a file or a program reads it.

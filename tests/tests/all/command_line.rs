@@ -802,11 +802,13 @@ fn progress_is_on_standard_error_and_a_summary_on_standard_output() {
     ]);
     for part in [
         "chaplygin-sleigh",
-        "energy.integral",
-        "proved",
-        "formulation.equivalent#maggi",
-        "drift",
+        "m u' - m a w^2 = 0",
+        "nonholonomic",
+        "conserved",
+        "forms of the equations of motion proved equal",
+        "largest change",
         "report.html",
+        "--all",
     ] {
         assert!(
             finished.out.contains(part),

@@ -378,6 +378,49 @@ fn every_model_is_studied_with_exit_status_0_and_writes_all_files() {
     none(failures);
 }
 
+/// Lines that a study may print, and their characters: a screen.
+const LINES: usize = 40;
+const WIDTH: usize = 100;
+
+/// What a person sees fits on a screen: the equations of motion, what was found, the motion, and where all is.
+#[test]
+fn what_a_study_prints_fits_on_a_screen() {
+    let mut failures = Vec::new();
+    let mut counts = Vec::new();
+    for study in studies() {
+        let printed = &study.finished.out;
+        let count = printed.lines().count();
+        counts.push(count);
+        if count > LINES {
+            failures.push(format!("{}: {count} lines", study.file));
+        }
+        let is_path = |line: &str| line.starts_with("report: ");
+        for line in printed.lines().filter(|line| !is_path(line)) {
+            if line.chars().count() > WIDTH {
+                failures.push(format!("{}: {line}", study.file));
+            }
+        }
+        for part in [
+            "\nEquations of motion\n",
+            "\nWhat was found\n",
+            "\nMotion\n",
+            "\nreport: ",
+            "--all",
+        ] {
+            if !printed.contains(part) {
+                failures.push(format!("{}: no {part:?} in\n{printed}", study.file));
+            }
+        }
+    }
+    none(failures);
+    counts.sort_unstable();
+    let usual = counts[counts.len() / 2];
+    assert!(
+        usual <= 30,
+        "half of the studies print more than {usual} lines"
+    );
+}
+
 #[test]
 fn every_record_follows_the_schema() {
     let schema = Schema::read();

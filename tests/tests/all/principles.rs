@@ -498,7 +498,7 @@ fn the_disc_is_an_extremal() {
 
 #[test]
 fn the_command_tells_a_story() {
-    let told = run(&["principles", "gallery/particle-y-dx/model.toml"]);
+    let told = run(&["principles", "gallery/particle-y-dx/model.toml", "--all"]);
     assert_eq!(told.status, Some(0), "{}", told.both());
     for words in [
         "Is the action stationary?",
@@ -517,6 +517,7 @@ fn the_command_tells_a_story() {
         "principles",
         "gallery/skate-incline/model.toml",
         "--compare",
+        "--all",
         "--out",
         text(&folder),
     ];
@@ -760,7 +761,7 @@ fn unwrapped(text: &str) -> String {
 /// about how zeros were tested.
 #[test]
 fn the_forms_are_written_out() {
-    let told = run(&["principles", "gallery/particle-y-dx/model.toml"]);
+    let told = run(&["principles", "gallery/particle-y-dx/model.toml", "--all"]);
     let read = unwrapped(&told.out);
     for words in [
         "the statement is ∫δL dt = 0 with δv = D(δq); here δL: m (x' D(δx) + y' D(δy) + z' D(δz))",

@@ -7,7 +7,6 @@ use crate::{files, terminal, DONE, INPUT, UNMET};
 use chetaev::functionals::claims::CLAIMS;
 use chetaev::functionals::{self, Loaded, Study};
 use chetaev::study::functional::{page, record, summary};
-use chetaev::study::summary::Style;
 use std::path::Path;
 use std::time::Instant;
 
@@ -40,12 +39,7 @@ pub(super) fn study(arguments: &Arguments, loaded: Loaded) -> u8 {
     if arguments.json {
         terminal::out(&json);
     } else {
-        let style = if terminal::colours() {
-            Style::Ansi
-        } else {
-            Style::Plain
-        };
-        terminal::out(&summary(&study, style));
+        terminal::out(&summary(&study, terminal::style()));
         terminal::out(&format!(
             "\nreport: {}\n",
             folder.join("report.html").display()

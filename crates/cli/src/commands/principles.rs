@@ -5,7 +5,6 @@ use super::{error, options, refuse, with_hooks};
 use crate::arguments::Principles as Arguments;
 use crate::{files, terminal, INPUT};
 use chetaev::model::Model;
-use chetaev::study::summary::Style;
 use chetaev::study::{record, story, study, ClaimSelection, StudyError, StudyOptions};
 
 /// What is told, beside the claims of the group.
@@ -50,14 +49,17 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         terminal::out("\n");
         return study.outcome.exit_status();
     }
-    let style = match terminal::colours() {
-        true => Style::Ansi,
-        false => Style::Plain,
-    };
-    terminal::out(&story::story(&study, style));
+    let style = terminal::style();
+    terminal::out(&match arguments.all {
+        true => story::story(&study, style),
+        false => story::outline(&study, style),
+    });
     if arguments.compare {
         let report = folder.join("report.html");
         terminal::out(&format!("\nreport: {}\n", report.display()));
+    }
+    if !arguments.all {
+        terminal::out("\neach principle with its formulas and evidence: --all\n");
     }
     study.outcome.exit_status()
 }

@@ -4,7 +4,7 @@ use super::{error, options, refuse, with_hooks};
 use crate::arguments::Simulate as Arguments;
 use crate::{files, terminal, INPUT};
 use chetaev::study::table::Table;
-use chetaev::study::{record, study, summary, ClaimSelection, StudyOptions};
+use chetaev::study::{overview, record, study, ClaimSelection, StudyOptions};
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let Some(read) = files::model(&arguments.model) else {
@@ -61,12 +61,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         terminal::out(&serde_json::to_string_pretty(&trajectory).unwrap_or_default());
         terminal::out("\n");
     } else {
-        let style = if terminal::colours() {
-            summary::Style::Ansi
-        } else {
-            summary::Style::Plain
-        };
-        terminal::out(&summary::summary(&study, style));
+        terminal::out(&overview::of_motion(&study, terminal::style()));
         terminal::out(&format!(
             "\ntrajectory: {}\n",
             folder.join("trajectory.csv").display()

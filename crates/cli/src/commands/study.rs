@@ -4,13 +4,13 @@ use super::explain::did_you_mean;
 use super::{error, options, refuse, with_hooks};
 use crate::arguments::Study as Arguments;
 use crate::{files, terminal, INPUT};
+use chetaev::mechanics::Group;
 use chetaev::model::Model;
 use chetaev::study::record::WrittenRecord;
-use chetaev::study::summary::Style;
 use chetaev::study::table::Table;
 use chetaev::study::{
-    in_time, page, record, registry, study, summary, ClaimSelection, Hooks, Study, StudyError,
-    StudyOptions,
+    in_time, overview, page, record, registry, study, summary, ClaimSelection, Hooks, Study,
+    StudyError, StudyOptions,
 };
 use std::path::Path;
 
@@ -47,12 +47,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     if arguments.json {
         terminal::out(&json(&study, &written));
     } else {
-        let style = if terminal::colours() {
-            Style::Ansi
-        } else {
-            Style::Plain
-        };
-        terminal::out(&summary::summary(&study, style));
+        terminal::out(&told(arguments, &study));
         let has_report = written.files.iter().any(|file| file.name == REPORT);
         let report = if has_report {
             folder.join(REPORT).display().to_string()
@@ -60,8 +55,34 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             "not written, as the study was interrupted".to_owned()
         };
         terminal::out(&format!("\nreport: {report}\n"));
+        if is_brief(arguments) {
+            terminal::out(&format!(
+                "all {} claims with their evidence: --all; some of them: --show formulations\n",
+                study.verdicts.len()
+            ));
+        }
     }
     study.outcome.exit_status()
+}
+
+/// Whether what was found is told, and not listed.
+fn is_brief(arguments: &Arguments) -> bool {
+    !arguments.all && arguments.show.is_empty() && arguments.claims.is_none()
+}
+
+/// What was found; every claim that was asked for by name, or is to be shown.
+fn told(arguments: &Arguments, study: &Study) -> String {
+    let style = terminal::style();
+    if is_brief(arguments) {
+        return overview::overview(study, style);
+    }
+    if arguments.show.is_empty() {
+        return summary::summary(study, style);
+    }
+    let is_shown = |group: &Group| arguments.show.iter().any(|word| word == group.word());
+    let groups: Vec<Group> = Group::ALL.into_iter().filter(is_shown).collect();
+    let listed = summary::listing(study, &groups, style);
+    listed.trim_start().to_owned()
 }
 
 /// The options on the command line; prints what is wrong with them.

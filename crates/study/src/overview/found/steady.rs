@@ -1,0 +1,88 @@
+//! Steady motions and their stability.
+
+use super::{condition, verdict, Found};
+use crate::study::{Decided, Study};
+use chetaev_symbolic::Verdict;
+
+/// What is asked of the eigenvalues about a steady motion, from the stronger to the weaker.
+const ASKED: [(&str, &str); 2] = [
+    ("stability.asymptotic", "asymptotically stable"),
+    ("stability.spectral", "spectrally stable"),
+];
+
+/// Each stated steady motion with what is known of its stability.
+pub(super) fn found(study: &Study) -> Option<Found> {
+    let stated: Vec<&Decided> = (study.verdicts.iter())
+        .filter(|d| d.claim == "steady.stated")
+        .collect();
+    if stated.is_empty() {
+        return None;
+    }
+    let mut claims = Vec::new();
+    let mut sentences = Vec::new();
+    for steady in stated {
+        let name = steady.subject.as_deref();
+        claims.push(steady.full_id());
+        let mut parts = Vec::new();
+        if !matches!(steady.finding.verdict, Verdict::Proved(_)) {
+            parts.push(match condition(steady) {
+                "" => format!("steady: {}", steady.finding.verdict.word()),
+                condition => format!("steady where {condition}"),
+            });
+        }
+        for (claim, words) in ASKED {
+            if let Some(decided) = verdict(study, claim, name) {
+                claims.push(decided.full_id());
+                parts.extend(stability(decided, words));
+            }
+        }
+        let name = name.unwrap_or_default();
+        sentences.push(match parts.is_empty() {
+            true => format!("{name}: steady"),
+            false => format!("{name}: {}", parts.join("; ")),
+        });
+    }
+    Some(Found {
+        subject: "stability",
+        sentences,
+        claims,
+    })
+}
+
+fn stability(decided: &Decided, words: &str) -> Option<String> {
+    match &decided.finding.verdict {
+        Verdict::Proved(_) => Some(words.to_owned()),
+        Verdict::Refuted(_) => Some(format!("not {words}")),
+        Verdict::Conditional { condition, .. } => {
+            Some(format!("{words} where {}", rounded(condition)))
+        }
+        _ => None,
+    }
+}
+
+/// Numbers of many digits with six of them: the claim encloses them.
+fn rounded(text: &str) -> String {
+    let is_number = |word: &str| word.len() > 9 && word.parse::<f64>().is_ok();
+    let words = text.split(' ').map(|word| match is_number(word) {
+        true => word.parse::<f64>().map_or(word.to_owned(), |x| {
+            let text = format!("{x:.5}");
+            text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        }),
+        false => word.to_owned(),
+    });
+    words.collect::<Vec<String>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded;
+
+    #[test]
+    fn enclosed_numbers_are_rounded() {
+        assert_eq!(
+            rounded("4.292382536341104 < v < 6.024262015388359"),
+            "4.29238 < v < 6.02426"
+        );
+        assert_eq!(rounded("ahead >= 0"), "ahead >= 0");
+    }
+}
