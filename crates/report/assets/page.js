@@ -109,13 +109,21 @@ function setUpTheme() {
 
 function setUpCopying() {
   document.addEventListener("click", async (event) => {
-    const button = event.target.closest("[data-copy]");
+    const button = event.target.closest("[data-copy], [data-copy-all]");
     if (!button) return;
+    const text = button.dataset.copy ?? asLatex(button.closest(".equations"));
     const before = button.dataset.label ?? button.textContent;
     button.dataset.label = before;
-    button.textContent = (await copy(button.dataset.copy)) ? words.copied : words.copyFailed;
+    button.textContent = (await copy(text)) ? words.copied : words.copyFailed;
     setTimeout(() => { button.textContent = before; }, 1500);
   });
+}
+
+/** The formulas of a section as one numbered, aligned display of LaTeX; its definitions follow. */
+function asLatex(section) {
+  const lines = findAll(".equation [data-copy]", section).map((button) => button.dataset.copy);
+  const aligned = lines.map((line) => "  " + line.replace(/ = /, " &= "));
+  return `\\begin{align}\n${aligned.join(" \\\\\n")}\n\\end{align}\n`;
 }
 
 /** Copies; where the clipboard is closed to the page (some browsers, for files), the old way. */
@@ -133,48 +141,105 @@ async function copy(text) {
   }
 }
 
-function setUpClaims() {
-  const claims = findAll("details.claim");
-  const filters = findAll("[data-filter]");
-  const choose = (verdict) => {
-    for (const button of filters) button.setAttribute("aria-pressed", button.dataset.filter === verdict);
-    for (const claim of claims) claim.hidden = verdict !== "" && claim.dataset.verdict !== verdict;
-    for (const group of findAll(".claim-group")) group.hidden = !find(".claim:not([hidden])", group);
-  };
-  for (const button of filters) button.addEventListener("click", () => choose(button.dataset.filter));
-  const all = find("#expand-claims");
-  all?.addEventListener("click", () => {
-    const open = all.getAttribute("aria-pressed") !== "true";
-    for (const claim of claims) claim.open = open;
-    all.setAttribute("aria-pressed", open);
-    all.textContent = open ? words.collapse : words.expand;
-  });
+/** What is folded becomes part of the page when it is opened for the first time: formulas are most of a page. */
+function unfold(details) {
+  const template = find(":scope > template", details);
+  if (!template) return;
+  template.replaceWith(template.content);
+  lookAtFormulas(details);
+}
+
+/** Opens what is folded, with everything that it stands in. */
+function openUp(details) {
+  for (let outer = details; outer; outer = outer.parentElement?.closest("details")) {
+    unfold(outer);
+    outer.open = true;
+  }
+}
+
+/** The element of an id, also where it is folded. */
+function byId(id) {
+  const found = document.getElementById(id);
+  if (found) return found;
+  for (const template of findAll("template")) {
+    if (!template.content.getElementById(id)) continue;
+    openUp(template.parentElement);
+    return document.getElementById(id);
+  }
+  return null;
+}
+
+function setUpFolding() {
+  document.addEventListener("toggle", (event) => {
+    if (event.target.open) unfold(event.target);
+  }, true);
   const reveal = () => {
     let id = location.hash.slice(1);
     try { id = decodeURIComponent(id); } catch { /* shown as it is */ }
-    const target = document.getElementById(id);
-    if (target?.tagName !== "DETAILS") return;
-    if (target.hidden) choose("");
-    target.open = true;
+    const target = id && byId(id);
+    const details = target?.closest?.("details");
+    if (!details) return;
+    if (details.hidden) showClaims("", "");
+    openUp(details);
     target.scrollIntoView();
   };
   addEventListener("hashchange", reveal);
   reveal();
 }
 
-/** Formulas wider than the page scroll; those that do can be reached with the keyboard. */
-function setUpFormulas() {
-  const boxes = findAll(".formula, .where li, .scroll, .listing");
-  const look = () => {
-    for (const box of boxes) {
-      const isWide = box.scrollWidth > box.clientWidth + 1;
-      box.classList.toggle("wide", isWide);
-      if (isWide) box.tabIndex = 0;
-      else box.removeAttribute("tabindex");
+/** Everything that a claim says, for the search. */
+const said = (claim) =>
+  (claim.textContent + (find(":scope > template", claim)?.content.textContent ?? "")).toLowerCase();
+
+/** Shows the claims of a verdict that contain all words; none for all. */
+function showClaims(verdict, sought) {
+  const words = sought.toLowerCase().split(/\s+/).filter(Boolean);
+  for (const button of findAll("[data-filter]")) button.setAttribute("aria-pressed", button.dataset.filter === verdict);
+  for (const claim of findAll("details.claim")) {
+    const isOther = verdict !== "" && claim.dataset.verdict !== verdict;
+    claim.hidden = isOther || !words.every((word) => said(claim).includes(word));
+  }
+  for (const group of findAll(".claim-group")) {
+    group.hidden = !find(".claim:not([hidden])", group);
+    if (verdict !== "" || words.length > 0) group.open = !group.hidden;
+  }
+}
+
+function setUpClaims() {
+  const search = find("#search");
+  let verdict = "";
+  for (const button of findAll("[data-filter]")) {
+    button.addEventListener("click", () => {
+      verdict = button.dataset.filter;
+      showClaims(verdict, search?.value ?? "");
+    });
+  }
+  search?.addEventListener("input", () => showClaims(verdict, search.value));
+  const all = find("#expand-claims");
+  all?.addEventListener("click", () => {
+    const isOpen = all.getAttribute("aria-pressed") !== "true";
+    for (const details of findAll(".claim-group, details.claim")) {
+      if (isOpen) unfold(details);
+      details.open = isOpen;
     }
-  };
-  addEventListener("resize", look);
-  look();
+    all.setAttribute("aria-pressed", isOpen);
+    all.textContent = isOpen ? words.collapse : words.expand;
+  });
+}
+
+/** Formulas wider than the page scroll; those that do can be reached with the keyboard. */
+function lookAtFormulas(root = document) {
+  for (const box of findAll(".formula, .where li, .scroll, .listing", root)) {
+    const isWide = box.scrollWidth > box.clientWidth + 1;
+    box.classList.toggle("wide", isWide);
+    if (isWide) box.tabIndex = 0;
+    else box.removeAttribute("tabindex");
+  }
+}
+
+function setUpFormulas() {
+  addEventListener("resize", () => lookAtFormulas());
+  lookAtFormulas();
 }
 
 /** The entry of the contents for what is in view. */
@@ -185,8 +250,15 @@ function setUpContents() {
     let current = targets[0];
     for (const target of targets) if (target.getBoundingClientRect().top < innerHeight * 0.3) current = target;
     for (const [id, link] of links) {
-      if (id === current?.id) link.setAttribute("aria-current", "true");
-      else link.removeAttribute("aria-current");
+      if (id === current?.id) {
+        link.setAttribute("aria-current", "true");
+        // The list scrolls along; the page does not.
+        const list = link.closest("nav");
+        const [own, frame] = [link.getBoundingClientRect(), list.getBoundingClientRect()];
+        if (own.top < frame.top || own.bottom > frame.bottom) {
+          list.scrollTop += own.top - frame.top - frame.height / 2;
+        }
+      } else link.removeAttribute("aria-current");
     }
   };
   let waiting = false;
@@ -212,6 +284,7 @@ function setUpPrinting() {
   let opened = [];
   let theme;
   addEventListener("beforeprint", () => {
+    for (const details of findAll("details")) unfold(details);
     opened = findAll("details:not([open])");
     for (const details of opened) details.open = true;
     theme = document.documentElement.dataset.theme;
@@ -231,6 +304,7 @@ function setUpPrinting() {
 function start() {
   setUpTheme();
   setUpCopying();
+  setUpFolding();
   setUpClaims();
   setUpFormulas();
   setUpContents();

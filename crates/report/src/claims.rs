@@ -6,7 +6,7 @@ use crate::data::{Claim, Report, Verdict};
 use crate::equations::{definitions, equation_body};
 use crate::html::{fragment, Html};
 use crate::number::{printed_powers, raised, readable};
-use crate::prose::capitalized;
+use crate::prose::{capitalized, sentence};
 use crate::system::ROWS;
 use crate::words::{fill, look_up, Words};
 
@@ -20,25 +20,64 @@ pub(crate) fn section(html: &mut Html, report: &Report, words: &Words) {
         .wrap("<p class=\"lead\">", words.claims_lead, "</p>\n");
     tally(html, &report.claims, words);
     for (prefix, claims) in grouped(&report.claims) {
-        html.raw("<div class=\"claim-group\">\n<h3>");
-        match look_up(words.groups, &prefix) {
-            Some(title) => html.text(title),
-            None => html.text(prefix),
-        };
-        html.raw("</h3>\n");
-        if let Some(lead) = look_up(words.leads, &prefix) {
-            html.wrap("<p class=\"lead\">", lead, "</p>\n");
-        }
-        for claim in claims {
-            one(html, claim, report, words);
-        }
-        html.raw("</div>\n");
+        group(html, prefix, &claims, report, words);
     }
     html.raw("</section>\n");
 }
 
+/// The anchor of a group.
+pub(crate) fn anchor(prefix: &str) -> String {
+    format!("claims-{prefix}")
+}
+
+/// A group, closed: its title with the number of each verdict, what its claims share, then the claims.
+fn group(html: &mut Html, prefix: &str, claims: &[&Claim], report: &Report, words: &Words) {
+    html.raw("<details class=\"claim-group\"")
+        .attribute("id", anchor(prefix))
+        .raw(">\n<summary><h3>")
+        .text(look_up(words.groups, &prefix).unwrap_or(prefix))
+        .raw("</h3>");
+    for (verdict, count) in counts(claims.iter().copied()) {
+        html.wrap(" <span class=\"count\"><b>", count, "</b> ");
+        chip(html, verdict, words);
+        html.raw("</span>");
+    }
+    html.raw("</summary>\n");
+    if let Some(lead) = look_up(words.leads, &prefix) {
+        html.wrap("<p class=\"lead\">", lead, "</p>\n");
+    }
+    let shared = shared(claims);
+    for (detail, count) in &shared {
+        html.raw("<p class=\"lead\">");
+        let told = detail.trim_end_matches('.');
+        sentence(html, &fill(words.shared, &[&count.to_string(), told]));
+        html.raw("</p>\n");
+    }
+    for claim in claims {
+        let is_shared = shared.iter().any(|(detail, _)| *detail == claim.detail);
+        one(html, claim, is_shared, report, words);
+    }
+    html.raw("</details>\n");
+}
+
+/// Claims of one sentence from which on it is said once for all.
+const SHARED: usize = 3;
+
+/// The sentences that several claims share, with their numbers.
+fn shared<'a>(claims: &[&'a Claim]) -> Vec<(&'a str, usize)> {
+    let mut all: Vec<(&str, usize)> = Vec::new();
+    for claim in claims.iter().filter(|claim| !claim.detail.is_empty()) {
+        match all.iter_mut().find(|(detail, _)| *detail == claim.detail) {
+            Some((_, count)) => *count += 1,
+            None => all.push((&claim.detail, 1)),
+        }
+    }
+    all.retain(|(_, count)| *count >= SHARED);
+    all
+}
+
 /// Claims by the part of the id before the first dot, in the order of first appearance.
-fn grouped(claims: &[Claim]) -> Vec<(&str, Vec<&Claim>)> {
+pub(crate) fn grouped(claims: &[Claim]) -> Vec<(&str, Vec<&Claim>)> {
     let mut groups: Vec<(&str, Vec<&Claim>)> = Vec::new();
     for claim in claims {
         let prefix = claim.claim.split('.').next().unwrap_or_default();
@@ -69,6 +108,10 @@ fn tally(html: &mut Html, claims: &[Claim], words: &Words) {
             .text(name.name)
             .wrap(" <b>", count, "</b></button>\n");
     }
+    html.raw("<input type=\"search\" id=\"search\"")
+        .attribute("placeholder", words.search)
+        .attribute("aria-label", words.search)
+        .raw(">\n");
     html.wrap(
         "<button type=\"button\" class=\"plain\" id=\"expand-claims\" aria-pressed=\"false\">",
         words.expand,
@@ -77,11 +120,14 @@ fn tally(html: &mut Html, claims: &[Claim], words: &Words) {
 }
 
 /// The verdicts that occur with their numbers, in the order of the legend.
-pub(crate) fn counts(claims: &[Claim]) -> Vec<(Verdict, usize)> {
+pub(crate) fn counts<'a>(
+    claims: impl IntoIterator<Item = &'a Claim> + Clone,
+) -> Vec<(Verdict, usize)> {
     Verdict::ALL
         .into_iter()
         .map(|verdict| {
-            let count = claims.iter().filter(|c| c.verdict == verdict).count();
+            let all = claims.clone().into_iter();
+            let count = all.filter(|c| c.verdict == verdict).count();
             (verdict, count)
         })
         .filter(|(_, count)| *count > 0)
@@ -129,7 +175,8 @@ pub(crate) fn reference(html: &mut Html, id: &str, report: &Report, words: &Word
     }
 }
 
-fn one(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
+/// A claim: its statement in a line, its evidence below it when it is opened. What the script unfolds is no part of the page before.
+fn one(html: &mut Html, claim: &Claim, is_shared: bool, report: &Report, words: &Words) {
     let id = claim.id();
     html.raw("<details class=\"claim\"")
         .attribute("id", &id)
@@ -149,9 +196,12 @@ fn one(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
             .text("!")
             .raw("</span>");
     }
-    html.raw("<span class=\"detail\">");
-    capitalized(html, &shortened(&claim.detail));
-    html.raw("</span></span></summary>\n<div class=\"evidence\">\n");
+    if !is_shared {
+        html.raw("<span class=\"detail\">");
+        capitalized(html, &shortened(&claim.detail));
+        html.raw("</span>");
+    }
+    html.raw("</span></summary>\n<template><div class=\"evidence\">\n");
     for equation in claim.formulas.iter().take(ROWS) {
         html.raw("<div class=\"equation\">");
         equation_body(html, equation, None, words);
@@ -171,7 +221,11 @@ fn one(html: &mut Html, claim: &Claim, report: &Report, words: &Words) {
     evidence(html, claim, report, words);
     html.raw("</dl>\n<p class=\"permalink\"><a")
         .attribute("href", fragment(&id))
-        .wrap(">", words.link_to_claim, "</a></p>\n</div>\n</details>\n");
+        .wrap(
+            ">",
+            words.link_to_claim,
+            "</a></p>\n</div></template>\n</details>\n",
+        );
 }
 
 /// Signs of one sentence or counterexample; `study.json` has all of them.

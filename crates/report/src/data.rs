@@ -23,6 +23,8 @@ pub struct Report {
     pub history: Vec<String>,
     /// Where the problem and the expected results come from.
     pub sources: Vec<Source>,
+    /// What was found, in sentences.
+    pub found: Vec<Found>,
     /// n, r, k, the classification and the like.
     pub facts: Vec<Fact>,
     /// Parameters with their values.
@@ -69,6 +71,18 @@ pub struct Fact {
     pub note: Option<String>,
     /// Full id of the claim that establishes it ("model.chaplygin", "formulation.equivalent#maggi").
     pub claim: Option<String>,
+}
+
+/// What was found about a subject.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Found {
+    /// A word: "energy".
+    pub subject: String,
+    /// Sentences, each in a line of its own; subscripts as `λ_{blade}`.
+    pub sentences: Vec<String>,
+    /// Full ids of the claims that say more.
+    pub claims: Vec<String>,
 }
 
 /// A bibliographic reference.

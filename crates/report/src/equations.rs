@@ -111,8 +111,12 @@ pub(crate) fn sections(html: &mut Html, report: &Report, words: &Words) {
         let close = if section.collapsed {
             html.raw("<details class=\"equations\"")
                 .attribute("id", anchor)
-                .wrap("><summary><h3>", &section.title, "</h3></summary>\n");
-            "</details>\n"
+                .wrap(
+                    "><summary><h3>",
+                    &section.title,
+                    "</h3></summary>\n<template>",
+                );
+            "</template></details>\n"
         } else {
             html.raw("<div class=\"equations\"")
                 .attribute("id", anchor)
@@ -132,7 +136,9 @@ fn body(
     report: &Report,
     words: &Words,
 ) {
-    if section.formulation.is_some() || section.claim.is_some() {
+    let latex = section.equations.iter();
+    let latex = latex.filter(|e| e.formula.latex.is_some()).count();
+    if section.formulation.is_some() || section.claim.is_some() || latex > 1 {
         html.raw("<p class=\"byline\">");
         if let Some(formulation) = &section.formulation {
             html.wrap("<span>", words.formulation, ": ").wrap(
@@ -145,6 +151,13 @@ fn body(
             html.wrap("<span>", words.proved_by, ": ");
             claims::reference(html, claim, report, words);
             html.raw("</span>");
+        }
+        if latex > 1 {
+            html.wrap(
+                "<button type=\"button\" class=\"copy-all\" data-copy-all=\"\">",
+                words.copy_all_latex,
+                "</button>",
+            );
         }
         html.raw("</p>\n");
     }

@@ -5,8 +5,8 @@ use crate::data::Report;
 use crate::digest::source_expression;
 use crate::html::{fragment, Html};
 use crate::payload::{Payload, PlotKind};
-use crate::prose::paragraphs;
-use crate::words::{fill, Words};
+use crate::prose::{paragraphs, sentence};
+use crate::words::{fill, look_up, Words};
 use crate::{equations, motion, source, system};
 
 const STYLE: &str = include_str!("../assets/page.css");
@@ -33,13 +33,14 @@ pub(crate) fn page(report: &Report, words: &'static Words) -> String {
     html.raw("<main id=\"main\">\n");
     title(&mut html, report, words);
     animation(&mut html, report, words);
+    found(&mut html, report, words);
     motion::comparison(&mut html, report, &payload, words);
+    motion::section(&mut html, report, &payload, words);
+    equations::sections(&mut html, report, words);
     if system::is_present(report) {
         system::section(&mut html, report, words);
     }
-    equations::sections(&mut html, report, words);
     claims::section(&mut html, report, words);
-    motion::section(&mut html, report, &payload, words);
     motion::figures(&mut html, report, &payload, words);
     if let Some(model) = &report.model {
         source::section(&mut html, model, words);
@@ -91,10 +92,13 @@ fn navigation(html: &mut Html, report: &Report, payload: &Payload<'_>, words: &W
         }
     };
     let (top, below) = ("<li>", "<li class=\"below\">");
+    entry(!report.found.is_empty(), "found", words.found, top);
     if let Some(compared) = &report.comparison {
         entry(true, "comparison", &compared.title, top);
     }
-    entry(system::is_present(report), "system", words.system, top);
+    entry(report.trajectory.is_some(), "motion", words.motion, top);
+    let has_portraits = payload.plots(PlotKind::Portrait).next().is_some();
+    entry(has_portraits, "portraits", words.portraits, below);
     entry(
         !report.sections.is_empty(),
         "equations",
@@ -109,10 +113,12 @@ fn navigation(html: &mut Html, report: &Report, payload: &Payload<'_>, words: &W
             below,
         );
     }
+    entry(system::is_present(report), "system", words.system, top);
     entry(!report.claims.is_empty(), "claims", words.claims, top);
-    entry(report.trajectory.is_some(), "motion", words.motion, top);
-    let has_portraits = payload.plots(PlotKind::Portrait).next().is_some();
-    entry(has_portraits, "portraits", words.portraits, below);
+    for (prefix, _) in claims::grouped(&report.claims) {
+        let title = look_up(words.groups, &prefix).unwrap_or(prefix);
+        entry(true, &claims::anchor(prefix), title, below);
+    }
     entry(!report.figures.is_empty(), "figures", words.figures, top);
     entry(report.model.is_some(), "model", words.model, top);
     entry(true, "reproduce", words.reproduce, top);
@@ -125,6 +131,7 @@ fn title(html: &mut Html, report: &Report, words: &Words) {
     if let Some(subtitle) = &report.subtitle {
         html.wrap("<p class=\"subtitle\">", subtitle, "</p>\n");
     }
+    html.paragraphs(&report.description);
     if !report.claims.is_empty() {
         html.raw("<p class=\"summary\"><a href=\"#claims\">")
             .text(fill(words.claim_count, &[&report.claims.len().to_string()]))
@@ -144,6 +151,36 @@ fn title(html: &mut Html, report: &Report, words: &Words) {
         html.raw("</aside>\n");
     }
     html.raw("</header>\n");
+}
+
+/// What was found, subject by subject, each with links to the claims that say more.
+fn found(html: &mut Html, report: &Report, words: &Words) {
+    if report.found.is_empty() {
+        return;
+    }
+    html.raw("<section id=\"found\" aria-labelledby=\"found-title\">\n")
+        .wrap("<h2 id=\"found-title\">", words.found, "</h2>\n")
+        .raw("<dl class=\"found\">\n");
+    for one in &report.found {
+        html.raw("<div><dt>");
+        let known = |id: &&String| report.claims.iter().any(|claim| claim.id() == **id);
+        match one.claims.iter().find(known) {
+            Some(id) => {
+                html.raw("<a")
+                    .attribute("href", fragment(id))
+                    .wrap(">", &one.subject, "</a>")
+            }
+            None => html.text(&one.subject),
+        };
+        html.raw("</dt>");
+        for said in &one.sentences {
+            html.raw("<dd>");
+            sentence(html, said);
+            html.raw("</dd>");
+        }
+        html.raw("</div>\n");
+    }
+    html.raw("</dl>\n</section>\n");
 }
 
 fn animation(html: &mut Html, report: &Report, words: &Words) {

@@ -12,12 +12,25 @@ pub(crate) fn sentence(html: &mut Html, text: &str) {
     for (place, part) in parts.iter().enumerate() {
         match (place % 2, is_paired) {
             (1, true) => html.wrap("<code>", part, "</code>"),
-            (_, true) => html.text(raised(&printed_powers(part))),
+            (_, true) => lowered(html, &raised(&printed_powers(part))),
             // A single backtick is an apostrophe or a slip, not a quotation.
-            (0, false) => html.text(raised(&printed_powers(part))),
-            _ => html.text("`").text(raised(&printed_powers(part))),
+            (0, false) => lowered(html, &raised(&printed_powers(part))),
+            _ => lowered(html.text("`"), &raised(&printed_powers(part))),
         };
     }
+}
+
+/// Words with what `_{…}` holds as a subscript.
+fn lowered<'a>(html: &'a mut Html, text: &str) -> &'a mut Html {
+    let mut rest = text;
+    while let Some((head, (below, after))) = rest
+        .split_once("_{")
+        .and_then(|(head, tail)| Some((head, tail.split_once('}')?)))
+    {
+        html.text(head).wrap("<sub>", below, "</sub>");
+        rest = after;
+    }
+    html.text(rest)
 }
 
 /// A sentence that stands by itself begins with a capital, unless it begins with a symbol.

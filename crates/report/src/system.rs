@@ -11,8 +11,7 @@ use crate::words::{fill, look_up, Words};
 /// The section that introduces the system.
 pub(crate) fn section(html: &mut Html, report: &Report, words: &Words) {
     html.raw("<section id=\"system\" aria-labelledby=\"system-title\">\n")
-        .wrap("<h2 id=\"system-title\">", words.system, "</h2>\n")
-        .paragraphs(&report.description);
+        .wrap("<h2 id=\"system-title\">", words.system, "</h2>\n");
     facts(html, &report.facts, report, words);
     parameters(html, report, words);
     html.raw("<div class=\"columns\">\n");
@@ -29,8 +28,7 @@ pub(crate) fn section(html: &mut Html, report: &Report, words: &Words) {
 
 /// Whether the section has anything to say.
 pub(crate) fn is_present(report: &Report) -> bool {
-    !(report.description.is_empty()
-        && report.facts.is_empty()
+    !(report.facts.is_empty()
         && report.parameters.is_empty()
         && report.initial.is_empty()
         && report.assumptions.is_empty()

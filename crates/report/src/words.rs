@@ -33,6 +33,8 @@ pub(crate) struct Words {
     pub(crate) notices: &'static str,
     pub(crate) no_script: &'static str,
 
+    pub(crate) found: &'static str,
+
     pub(crate) system: &'static str,
     pub(crate) history: &'static str,
     pub(crate) sources: &'static str,
@@ -52,6 +54,7 @@ pub(crate) struct Words {
     pub(crate) where_: &'static str,
     pub(crate) proved_by: &'static str,
     pub(crate) copy_latex: &'static str,
+    pub(crate) copy_all_latex: &'static str,
     pub(crate) equation_number: &'static str,
 
     pub(crate) claims: &'static str,
@@ -59,6 +62,8 @@ pub(crate) struct Words {
     pub(crate) claim_count: &'static str,
     pub(crate) show_all: &'static str,
     pub(crate) filter: &'static str,
+    pub(crate) search: &'static str,
+    pub(crate) shared: &'static str,
     pub(crate) expand: &'static str,
     pub(crate) link_to_claim: &'static str,
     pub(crate) method: &'static str,
@@ -189,6 +194,8 @@ static ENGLISH: Words = Words {
     notices: "Please note",
     no_script: "Plots and the animation are drawn by a script, which is switched off here.",
 
+    found: "What was found",
+
     system: "The system",
     history: "History",
     sources: "Sources",
@@ -212,13 +219,16 @@ static ENGLISH: Words = Words {
     where_: "where",
     proved_by: "Evidence",
     copy_latex: "LaTeX",
+    copy_all_latex: "Copy all as LaTeX",
     equation_number: "Copy equation ({}) as LaTeX",
 
     claims: "Claims",
-    claims_lead: "What is stated about this system. Open a line to see how its verdict was obtained.",
+    claims_lead: "Everything that was decided about this system. Open a group, and in it a line to see the evidence.",
     claim_count: "{} claims",
     show_all: "all",
     filter: "Show claims by verdict",
+    search: "Search the claims",
+    shared: "Of {} claims below: {}.",
     expand: "Show all evidence",
     link_to_claim: "Link to this claim",
     method: "Method",
@@ -301,6 +311,10 @@ static ENGLISH: Words = Words {
         ("measure", "Invariant measure"),
         ("functional", "Functionals"),
         ("motion", "The computed motion"),
+        ("steady", "Steady motions"),
+        ("stability", "Stability"),
+        ("order", "Constraints of higher order"),
+        ("equations", "Equations that the model states"),
     ],
     leads: &[
         ("variation", "Virtual displacements satisfy Σ ∂f/∂v δq = 0. What δv is has to be agreed upon: δv = D(δq) for all velocities (Hölder), or for the independent ones with δf = 0 (Suslov)."),
@@ -358,7 +372,7 @@ static ENGLISH: Words = Words {
     reproduce: "How to get this report again",
     copy_command: "Copy",
     version: "Version",
-    made_by: "Made by Chetaev. This page is one file, and asks nothing of any network.",
+    made_by: "Made by Chetaev. This page is one file and works offline.",
 
     script: ScriptWords {
         play: "Play",

@@ -8,15 +8,16 @@ mod motion;
 
 pub(crate) use claims::{evidence, word};
 
+use crate::overview::found::{found, Found};
 use crate::study::Study;
-use crate::typeset::Typesetter;
+use crate::typeset::{in_line, Typesetter};
 use chetaev_mechanics::words::counted;
 use chetaev_mechanics::Prover;
 use chetaev_model::model::{Assumption as Stated, ModelText};
 use chetaev_model::Relation;
 use chetaev_report::data::{
-    Assumption, Fact, Formula, InitialValue, ModelSource, Origin, Parameter, Report,
-    Reproducibility, Source, SourceFile,
+    Assumption, Fact, Formula, Found as Sentences, InitialValue, ModelSource, Origin, Parameter,
+    Report, Reproducibility, Source, SourceFile,
 };
 
 /// The HTML page of a study.
@@ -41,6 +42,7 @@ pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Repor
                 link: None,
             })
             .collect(),
+        found: found(study).into_iter().map(set_found).collect(),
         facts: facts(study, &set),
         parameters: parameters(study, &set),
         assumptions: assumptions(study, &set),
@@ -76,6 +78,22 @@ pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Repor
             command,
             details: Vec::new(),
         },
+    }
+}
+
+/// What was found, its formulas as they are read.
+fn set_found(found: Found) -> Sentences {
+    let begun = |text: &String| {
+        let mut letters = text.chars();
+        letters.next().map_or_else(String::new, |first| {
+            first.to_uppercase().chain(letters).collect::<String>()
+        })
+    };
+    let subject = found.subject.to_owned();
+    Sentences {
+        subject: begun(&subject),
+        sentences: found.sentences.iter().map(|said| in_line(said)).collect(),
+        claims: found.claims,
     }
 }
 

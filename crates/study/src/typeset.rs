@@ -119,6 +119,12 @@ fn faithful(system: &System, original: Expr, readable: Expr) -> Expr {
 /// More signs than these in one formula are no longer read.
 const LEGIBLE: u64 = 4_000;
 
+/// Longer formulas of no more parts than this are set with the names of those that they share.
+const SHARED: usize = 1_500;
+
+/// Equations of more parts than this are left to a command, however many of them they share.
+const LARGEST: usize = 4_000;
+
 /// Formulas up to this length are set where there is no room left, too: announcing them would take as long.
 const ALWAYS_SET: u64 = 120;
 
@@ -260,22 +266,31 @@ impl<'a> Typesetter<'a> {
             let alone = equations.iter().map(|&(l, r)| self.equation(l, r));
             return (alone.collect(), Vec::new());
         }
-        let document = Document::equations(self.graph(), equations, &self.options);
+        self.shared(equations).unwrap_or_default()
+    }
+
+    /// Equations that are too long to be read one by one, with the definitions of the parts that they share; `None` where nobody
+    /// would read even these.
+    pub fn shared(&self, equations: &[(Expr, Expr)]) -> Option<(Vec<Printed>, Vec<Definition>)> {
+        let g = self.graph();
+        let sides: Vec<Expr> = equations.iter().flat_map(|&(l, r)| [l, r]).collect();
+        let room = self.room.get();
+        if room.bytes == 0 || g.reachable(&sides).len() > LARGEST {
+            return None;
+        }
+        let document = Document::equations(g, equations, &self.options);
         let (statements, definitions) = parts(&document);
-        let printed: Vec<Printed> = statements
-            .into_iter()
-            .map(|formula| Printed {
-                formula,
-                ..Printed::default()
-            })
-            .collect();
-        let bytes = printed.iter().map(size).sum::<usize>()
-            + definitions.iter().map(|d| bytes(&d.formula)).sum::<usize>();
+        let of_definitions = definitions.iter().map(|d| bytes(&d.formula));
+        let taken = statements.iter().map(bytes).chain(of_definitions).sum();
         self.room.set(Room {
-            bytes: room.bytes.saturating_sub(bytes),
+            bytes: room.bytes.saturating_sub(taken),
             ..room
         });
-        (printed, definitions)
+        let printed = statements.into_iter().map(|formula| Printed {
+            formula,
+            ..Printed::default()
+        });
+        Some((printed.collect(), definitions))
     }
 
     /// One expression, likewise.
@@ -308,7 +323,8 @@ impl<'a> Typesetter<'a> {
     fn set(&self, es: &[Expr], document: impl FnOnce() -> Document) -> Printed {
         let signs = self.signs(es);
         let room = self.room.get();
-        if signs > LEGIBLE || (room.bytes == 0 && signs > ALWAYS_SET) {
+        let is_short = signs <= LEGIBLE || self.graph().reachable(es).len() <= SHARED;
+        if !is_short || (room.bytes == 0 && signs > ALWAYS_SET) {
             return announced(signs);
         }
         let printed = printed(&document());
@@ -338,17 +354,17 @@ fn announced(signs: u64) -> Printed {
     let length = length_in_words(signs);
     Printed {
         omitted: Some(format!(
-            "An expression of {length}, not printed here; `chetaev derive` prints it."
+            "An expression of {length}, which `chetaev derive` prints."
         )),
         ..Printed::default()
     }
 }
 
-/// "about 5000 signs".
+/// "about 5000 characters".
 pub(crate) fn length_in_words(signs: u64) -> String {
     match signs > 1_000_000 {
-        true => "more than a million signs".into(),
-        false => format!("about {signs} signs"),
+        true => "more than a million characters".into(),
+        false => format!("about {signs} characters"),
     }
 }
 

@@ -26,6 +26,7 @@ mod motion;
 mod mutants;
 mod principles;
 mod published;
+mod readme;
 mod record;
 mod running;
 mod scales;

@@ -54,8 +54,8 @@ pub(crate) fn with_claims(readme: &str, results: &Results) -> Option<String> {
     let mut text = format!("{before}{}\n", MARKS[0]);
     let _ = writeln!(
         text,
-        "Generated from [bench/results.json](bench/results.json); conditions, all figures and where others are faster: [the benchmark](docs/book/benchmark.md).{}\n",
-        caution(results)
+        "Measured by `cargo xtask bench --peers`; [the benchmark](docs/book/benchmark.md) has the conditions, all figures, and where others are faster.{}\n",
+        provisional(results)
     );
     for claim in tables::claims(results) {
         let _ = writeln!(text, "- {claim}");
@@ -73,13 +73,22 @@ fn caution(results: &Results) -> String {
         if high > 1.5 {
             let _ = write!(
                 text,
-                " **The machine had other work: its load average was {} to {}, so that times are only for trying.**",
+                " **The machine had other work: its load average was {} to {}, so treat the timings as provisional.**",
                 figure(low),
                 figure(high)
             );
         }
     }
     text
+}
+
+/// The same in one sentence for the README.
+fn provisional(results: &Results) -> &'static str {
+    let is_shared = results.load().is_some_and(|(_, high)| high > 1.5);
+    match results.quick || is_shared {
+        true => " Treat these timings as provisional: they are of a quick run on a machine that had other work.",
+        false => "",
+    }
 }
 
 const INTRODUCTION: &str = "\

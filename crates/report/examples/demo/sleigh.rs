@@ -421,6 +421,11 @@ pub(crate) fn report() -> Report {
     let rows = states();
     Report {
         comparison: None,
+        found: vec![Found {
+            subject: "Energy".into(),
+            sentences: vec!["conserved; the reaction is λ_{blade}".into()],
+            claims: vec!["energy.integral".into()],
+        }],
         title: "Chaplygin sleigh".into(),
         subtitle: Some("A rigid body on a plane, carried by a blade and two smooth feet".into()),
         description: vec![

@@ -10,8 +10,9 @@ use chetaev_mechanics::{formulation, Context, Prover};
 use chetaev_symbolic::print::{Document, Format};
 use chetaev_symbolic::simplify;
 
-/// The forms that are compared: solved for the independent velocities, and with multipliers.
-const FORMS: [&str; 2] = ["maggi", "routh"];
+/// The forms that are compared: in the independent velocities, and with multipliers. The first is taken unless it is longer by more than
+/// half: a reader wants the motion and not the reactions.
+const FORMS: [(&str, f64); 2] = [("maggi", 1.0), ("routh", 1.5)];
 
 /// Equations of more signs than these are not worked on: they would fill the screen however they are written.
 const SIGNS: u64 = 6_000;
@@ -25,7 +26,7 @@ pub(super) fn lines(study: &Study) -> String {
     let (terms, selection) = (&study.prepared.terms, &study.prepared.selection);
     let cx = Context::new(&study.system, terms, selection, &known, Prover::default());
     let readings = Readings::default();
-    let written = FORMS.iter().filter_map(|name| {
+    let written = FORMS.iter().filter_map(|(name, factor)| {
         let form = formulation(name)?;
         let is_reference = *name == "routh";
         if !is_reference && check_applies(&cx, form.card()).is_err() {
@@ -35,10 +36,11 @@ pub(super) fn lines(study: &Study) -> String {
             return None;
         }
         let found = derivation(&cx, form, Some(&readings)).ok()?;
-        Some(statements(study, &found))
+        let all = statements(study, &found);
+        let weight = factor * length(&all) as f64;
+        Some((weight, all))
     });
-    let length = |all: &Vec<String>| -> usize { all.iter().map(|e| e.chars().count()).sum() };
-    let Some(shortest) = written.min_by_key(length) else {
+    let Some((_, shortest)) = written.min_by(|(a, _), (b, _)| a.total_cmp(b)) else {
         return hanging(
             "  ",
             "too long for a terminal: the report and `chetaev derive` have them",
@@ -54,6 +56,10 @@ pub(super) fn lines(study: &Study) -> String {
         length(&shortest)
     );
     hanging("  ", &words)
+}
+
+fn length(equations: &[String]) -> usize {
+    equations.iter().map(|e| e.chars().count()).sum()
 }
 
 /// The length of a formulation's equations.

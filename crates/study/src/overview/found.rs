@@ -34,6 +34,7 @@ impl Found {
 pub fn found(study: &Study) -> Vec<Found> {
     let mut all = Vec::new();
     all.extend(constraints(study));
+    all.extend(order(study));
     all.extend(energy(study));
     all.extend(integrals::found(study));
     all.extend(measure(study));
@@ -121,6 +122,19 @@ fn constraints(study: &Study) -> Option<Found> {
 
 fn is_holonomic(constraint: &Constraint) -> bool {
     constraint.kind == ConstraintKind::Holonomic
+}
+
+/// What constraints on accelerations and higher derivatives leave to the motion.
+fn order(study: &Study) -> Option<Found> {
+    let decided = verdict(study, "order.determined", None)?;
+    let Verdict::Proved(_) = &decided.finding.verdict else {
+        return None;
+    };
+    let order = study.prepared.terms.order;
+    let sentence = format!(
+        "of order {order}: with the equations of motion they determine the derivatives of this order"
+    );
+    Some(Found::new("constraints", sentence, &[decided]))
 }
 
 fn energy(study: &Study) -> Option<Found> {
@@ -249,6 +263,9 @@ fn formulations(study: &Study) -> Option<Found> {
 /// Claims that were not decided are named, the first of them with their reasons.
 const REASONS: usize = 3;
 
+/// Characters of a reason.
+const REASON: usize = 110;
+
 /// Claims of which it is told elsewhere that they were not decided.
 const TOLD: [&str; 2] = ["formulation.equivalent", "liouville.integrable"];
 
@@ -265,11 +282,8 @@ fn undecided(study: &Study) -> Option<Found> {
         .iter()
         .take(REASONS)
         .map(|d| {
-            format!(
-                "{}: {}",
-                d.full_id(),
-                first(study, d.finding.verdict.detail())
-            )
+            let reason = first(study, d.finding.verdict.detail());
+            format!("{}: {}", d.full_id(), shortened(&reason, REASON))
         })
         .collect();
     if open.len() > REASONS {

@@ -5,6 +5,7 @@ use crate::layout::hanging;
 use crate::record::zero_word;
 use crate::study::{Motion, Study};
 use crate::summary::{bold, Style};
+use chetaev_symbolic::Verdict;
 use std::fmt::Write as _;
 
 /// The motion: how it was computed, how accurate it is, what happened on the way.
@@ -18,10 +19,11 @@ pub(super) fn lines(study: &Study, style: Style) -> String {
         let words = format!("stopped early: {}", motion.evidence.run.ending.reason);
         text.push_str(&hanging("  ", &words));
     }
-    text.push_str(&hanging(
-        "  ",
-        &format!("largest change: {}", changes(motion)),
-    ));
+    let changes = changes(study, motion);
+    if !changes.is_empty() {
+        let words = format!("largest change: {}", changes.join(", "));
+        text.push_str(&hanging("  ", &words));
+    }
     for event in events(motion) {
         text.push_str(&hanging("  ", &event));
     }
@@ -60,19 +62,25 @@ fn computed(motion: &Motion) -> String {
 }
 
 /// By how much changed what should be constant.
-fn changes(motion: &Motion) -> String {
+fn changes(study: &Study, motion: &Motion) -> Vec<String> {
     let evidence = &motion.evidence;
     let residuals = evidence.residuals.iter().map(|r| r.drift.value);
     let mut drifts = Vec::new();
     if let Some(largest) = residuals.reduce(f64::max) {
         drifts.push(format!("constraints {largest:.1e}"));
     }
-    drifts.push(format!("energy {:.1e}", evidence.energy.drift.value));
+    let judged = study.verdicts.iter();
+    let mut judged = judged.filter(|d| d.claim == "motion.energy-drift");
+    // An energy that is not conserved changes, and does not drift.
+    let is_lost = judged.any(|d| matches!(d.finding.verdict, Verdict::NotApplicable { .. }));
+    if !is_lost {
+        drifts.push(format!("energy {:.1e}", evidence.energy.drift.value));
+    }
     // What has no value somewhere on the way has no change either; its claim says where.
     let stated = evidence.integrals.iter();
     let stated = stated.filter(|i| i.drift.value.is_finite() && i.name != "energy");
     drifts.extend(stated.map(|i| format!("{} {:.1e}", i.name, i.drift.value)));
-    drifts.join(", ")
+    drifts
 }
 
 /// Zeros that are shown of each event; all are in the record.

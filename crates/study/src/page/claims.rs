@@ -16,8 +16,8 @@ pub(crate) fn word(verdict: &str) -> Word {
         .unwrap_or(Word::Undecided)
 }
 
-/// In place of a long formula of a claim, which no command prints.
-const UNPRINTED: &str = "A formula that is too long to be read, not printed here.";
+/// In place of a long formula of a claim.
+const UNPRINTED: &str = "This formula is too long to be read.";
 
 /// One claim.
 pub(super) fn claim(decided: &Decided, set: &Typesetter<'_>) -> Claim {

@@ -14,7 +14,7 @@ use chetaev_symbolic::Expr;
 /// there, and to derive them all takes many times as long as what was asked for.
 const DERIVED: u64 = 400_000;
 
-/// Lagrangian, constraints and the equations of motion.
+/// Lagrangian, constraints and the equations of motion: the form that is shortest to read stands open, the others are folded.
 pub(super) fn sections(study: &Study, set: &Typesetter<'_>) -> Vec<EquationSection> {
     let mut sections = vec![lagrangian(study, set)];
     if !study.system.constraints.is_empty() {
@@ -29,22 +29,13 @@ pub(super) fn sections(study: &Study, set: &Typesetter<'_>) -> Vec<EquationSecti
         &known,
         Prover::default(),
     );
-    let is_free = study.system.constraints.is_empty();
+    let mut forms = Vec::new();
     let mut signs = 0;
     if let Ok(routh) = derive(&cx, "routh") {
         signs = signs_of(&routh, set);
-        let (title, explanation) = if is_free {
-            ("Lagrange's equations", "One equation for each coordinate.")
-        } else if prepared.terms.order > 1 {
-            ("Routh's equations with multipliers", "Lagrange's equations of all coordinates; the reaction of each constraint f = left − right is λ times its gradient by the derivatives of highest order.")
-        } else {
-            ("Routh's equations with multipliers", "Lagrange's equations of all coordinates; the reaction of each constraint f = left − right is λ ∂f/∂q′.")
-        };
-        sections.push(formulation(&routh, set, title, explanation));
-        if !routh.multipliers.is_empty() {
-            sections.push(multipliers(study, &routh, set));
-        }
+        forms.extend(with_multipliers(study, &routh, set));
     }
+    let is_free = study.system.constraints.is_empty();
     for form in FORMULATIONS {
         let card = form.card();
         if card.relation == Relation::Reference || check_applies(&cx, card).is_err() {
@@ -56,14 +47,68 @@ pub(super) fn sections(study: &Study, set: &Typesetter<'_>) -> Vec<EquationSecti
             continue;
         }
         if signs > DERIVED {
-            sections.push(not_derived(card, signs));
+            forms.push(not_derived(card, signs));
             continue;
         }
         if let Ok(derived) = derive(&cx, card.name) {
-            sections.push(other_formulation(card, &derived, set));
+            forms.push(other_formulation(card, &derived, set));
         }
     }
+    sections.extend(shortest_first(forms));
     sections
+}
+
+/// Routh's equations, and the reactions that they contain.
+fn with_multipliers(
+    study: &Study,
+    routh: &Equations,
+    set: &Typesetter<'_>,
+) -> Vec<EquationSection> {
+    let (title, explanation) = if study.system.constraints.is_empty() {
+        ("Lagrange's equations", "One equation for each coordinate.")
+    } else if study.prepared.terms.order > 1 {
+        ("Routh's equations with multipliers", "Lagrange's equations of all coordinates; the reaction of each constraint f = left − right is λ times its gradient by the derivatives of highest order.")
+    } else {
+        ("Routh's equations with multipliers", "Lagrange's equations of all coordinates; the reaction of each constraint f = left − right is λ ∂f/∂q′.")
+    };
+    let mut sections = vec![formulation(routh, set, title, explanation)];
+    if !routh.multipliers.is_empty() {
+        sections.push(multipliers(study, routh, set));
+    }
+    sections
+}
+
+/// The forms that are compared for what stands open: the first unless it is longer by more than half, as in the overview of a terminal.
+const CHOSEN: [(&str, usize); 2] = [("maggi", 2), ("routh", 3)];
+
+/// Characters of equations up to which they stand open.
+const OPEN: usize = 6_000;
+
+/// The shorter of the forms to choose from first and open, everything else folded.
+fn shortest_first(mut forms: Vec<EquationSection>) -> Vec<EquationSection> {
+    for form in &mut forms {
+        form.collapsed = true;
+    }
+    let length = |form: &EquationSection| -> usize {
+        let shown = form
+            .equations
+            .iter()
+            .map(|e| e.formula.text.chars().count());
+        let shared = form.definitions.iter();
+        let own = form.equations.iter().flat_map(|e| &e.definitions);
+        let defined = own.chain(shared).map(|d| d.formula.text.chars().count());
+        shown.chain(defined).sum()
+    };
+    let candidates = forms.iter().enumerate().filter_map(|(place, form)| {
+        let (_, weight) = CHOSEN.iter().find(|(id, _)| *id == form.id)?;
+        (!form.equations.is_empty()).then(|| (weight * length(form), place))
+    });
+    if let Some((_, place)) = candidates.min() {
+        let mut first = forms.remove(place);
+        first.collapsed = length(&first) > OPEN;
+        forms.insert(0, first);
+    }
+    forms
 }
 
 /// The length of all equations.
@@ -90,7 +135,7 @@ fn not_derived(card: &Card, signs: u64) -> EquationSection {
     }
 }
 
-/// A formulation beside Routh's: what it is, its general form, its equations and intermediate objects. Maggi's stand open.
+/// A formulation beside Routh's: what it is, its general form, its equations and intermediate objects.
 fn other_formulation(card: &Card, derived: &Equations, set: &Typesetter<'_>) -> EquationSection {
     let mut section = formulation(derived, set, card.title, card.statement);
     let schemas = derived.groups.iter().filter_map(|group| group.schema);
@@ -101,7 +146,6 @@ fn other_formulation(card: &Card, derived: &Equations, set: &Typesetter<'_>) -> 
     if card.name == "maggi" {
         return section;
     }
-    section.collapsed = true;
     let values: Vec<Expr> = derived.objects.iter().map(|o| o.value).collect();
     let stated: Vec<(&NamedExpr, Expr)> = derived
         .objects
@@ -149,9 +193,14 @@ fn lagrangian(study: &Study, set: &Typesetter<'_>) -> EquationSection {
         equation.caption = (!d.description.is_empty()).then(|| d.description.clone());
         equations.push(equation);
     }
+    // What is long is read when somebody asks for it.
+    let characters: usize = (equations.iter())
+        .map(|e| e.formula.text.chars().count())
+        .sum();
     EquationSection {
         id: "lagrangian".into(),
         title: "Lagrangian".into(),
+        collapsed: characters > OPEN,
         equations,
         ..EquationSection::default()
     }
@@ -183,28 +232,55 @@ fn formulation(
     title: &str,
     explanation: &str,
 ) -> EquationSection {
-    let mut equations = Vec::new();
-    for group in &derived.groups {
-        if derived.formulation == "routh" && group.title == "constraints" {
-            continue;
-        }
-        let readable = set.readable(derived, &group.equations);
-        for ((left, right), stated) in readable.into_iter().zip(&group.equations) {
-            equations.push(Equation {
-                label: Some(stated.label.clone()),
-                name: (stated.label != "constraint").then(|| set.name(&stated.label)),
-                ..set.equation(left, right)
-            });
-        }
+    let groups = derived.groups.iter();
+    let groups =
+        groups.filter(|group| derived.formulation != "routh" || group.title != "constraints");
+    let mut stated = Vec::new();
+    let mut pairs = Vec::new();
+    for group in groups {
+        pairs.extend(set.readable(derived, &group.equations));
+        stated.extend(&group.equations);
     }
-    EquationSection {
+    let mut section = EquationSection {
         id: derived.formulation.into(),
         title: title.into(),
         explanation: vec![explanation.into()],
-        collapsed: equations.len() > 16,
-        equations,
         ..EquationSection::default()
-    }
+    };
+    let printed = match pairs
+        .iter()
+        .all(|&(l, r)| set.is_legible(l) && set.is_legible(r))
+    {
+        true => pairs.iter().map(|&(l, r)| set.equation(l, r)).collect(),
+        // Long equations share most of their parts, which are named once.
+        false => match set.shared(&pairs) {
+            Some((printed, definitions)) => {
+                section.definitions = definitions;
+                printed
+            }
+            None => {
+                let command = format!(
+                    "`chetaev derive MODEL --formulation {}`",
+                    derived.formulation
+                );
+                section.explanation.push(format!(
+                    "These equations have {}; {command} prints them.",
+                    length_in_words(signs_of(derived, set))
+                ));
+                Vec::new()
+            }
+        },
+    };
+    section.equations = printed
+        .into_iter()
+        .zip(stated)
+        .map(|(printed, stated)| Equation {
+            label: Some(stated.label.clone()),
+            name: (stated.label != "constraint").then(|| set.name(&stated.label)),
+            ..printed
+        })
+        .collect();
+    section
 }
 
 fn multipliers(study: &Study, routh: &Equations, set: &Typesetter<'_>) -> EquationSection {

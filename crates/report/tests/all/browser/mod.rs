@@ -36,6 +36,7 @@ fn assert_quiet(page: &mut Page) {
 fn formulas_and_plots_are_drawn_and_nothing_is_asked_for() {
     let report = sleigh::report();
     let mut page = open(&report);
+    page.evaluate("document.querySelectorAll('details').forEach(openUp)");
     let formulas = page.number("document.querySelectorAll('.equation .formula:has(math)').length");
     let expected: usize = report.sections.iter().map(|s| s.equations.len()).sum();
     assert_eq!(formulas, expected as f64);
@@ -197,6 +198,64 @@ fn claims_open_filter_and_are_found_by_their_id() {
         "[...document.querySelectorAll('.claim .chip')].every((c) => c.innerText.trim().length > 5)"
     ));
     assert_quiet(&mut page);
+}
+
+#[test]
+fn what_was_found_stands_before_the_plots_and_leads_to_its_evidence() {
+    let mut page = open(&sleigh::report());
+    let order = "[...document.querySelectorAll('main > section')].map((s) => s.id).join()";
+    assert_eq!(
+        page.text(order),
+        "found,motion,equations,system,claims,figures,model"
+    );
+    assert_eq!(
+        page.text("document.querySelector('dl.found dd sub').textContent"),
+        "blade"
+    );
+    page.evaluate("document.querySelector('dl.found dt a').click()");
+    page.wait_until("document.getElementById('energy.integral').open");
+    assert!(page.holds("document.querySelector('#energy\\\\.integral .evidence dl') !== null"));
+    assert_quiet(&mut page);
+}
+
+#[test]
+fn groups_of_claims_are_folded_named_in_the_contents_and_searched() {
+    let mut page = open(&sleigh::report());
+    assert!(page.holds("[...document.querySelectorAll('.claim-group')].every((g) => !g.open)"));
+    let unnamed = "[...document.querySelectorAll('.claim-group')].filter((g) => !document.querySelector(`nav a[href='#${g.id}']`)).length";
+    assert_eq!(page.number(unnamed), 0.0);
+    // What is folded is no part of the page; the search looks into it.
+    assert!(page.holds("document.querySelectorAll('.claim .evidence').length === 0"));
+    page.evaluate(
+        "{ const search = document.querySelector('#search');
+           search.value = 'smooth MEASURE'; search.dispatchEvent(new Event('input')); }",
+    );
+    let shown = "[...document.querySelectorAll('.claim')].filter((c) => c.checkVisibility()).map((c) => c.id).join()";
+    assert_eq!(page.text(shown), "measure.invariant");
+    page.evaluate(
+        "{ const search = document.querySelector('#search');
+           search.value = ''; search.dispatchEvent(new Event('input')); }",
+    );
+    assert_eq!(
+        page.number("document.querySelectorAll('.claim[hidden]').length"),
+        0.0
+    );
+    assert_quiet(&mut page);
+}
+
+#[test]
+fn a_system_of_equations_is_copied_in_one_go() {
+    let mut page = open(&sleigh::report());
+    page.evaluate("document.querySelectorAll('details').forEach(openUp)");
+    let copied = "asLatex(document.querySelector('.copy-all').closest('.equations'))";
+    let latex = page.text(copied);
+    assert!(latex.starts_with("\\begin{align}\n  "), "{latex}");
+    assert!(latex.ends_with("\n\\end{align}\n"), "{latex}");
+    let lines = latex.matches(" &= ").count();
+    assert!(
+        lines > 1 && latex.matches("\\\\\n").count() + 1 >= lines,
+        "{latex}"
+    );
 }
 
 #[test]
