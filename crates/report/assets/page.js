@@ -177,7 +177,7 @@ function setUpFolding() {
     let id = location.hash.slice(1);
     try { id = decodeURIComponent(id); } catch { /* shown as it is */ }
     const target = id && byId(id);
-    const details = target?.closest?.("details");
+    const details = target?.closest?.("details") ?? target?.querySelector?.(":scope > details.folded");
     if (!details) return;
     if (details.hidden) showClaims("", "");
     openUp(details);

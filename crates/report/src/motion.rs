@@ -53,15 +53,15 @@ pub(crate) fn figures(html: &mut Html, report: &Report, payload: &Payload<'_>, w
     }
     html.raw("<section id=\"figures\" aria-labelledby=\"figures-title\">\n")
         .wrap(
-            "<h2 id=\"figures-title\">",
+            "<details class=\"folded\"><summary><h2 id=\"figures-title\">",
             words.figures,
-            "</h2>\n<div class=\"plots\">\n",
+            "</h2></summary>\n<div class=\"plots\">\n",
         );
     let places = payload.plots(PlotKind::Figure);
     for (figure, (index, _)) in report.figures.iter().zip(places) {
         drawn(html, figure, index, report, words);
     }
-    html.raw("</div>\n</section>\n");
+    html.raw("</div>\n</details>\n</section>\n");
 }
 
 /// A figure with its words; the script draws into it.

@@ -37,6 +37,7 @@ fn formulas_and_plots_are_drawn_and_nothing_is_asked_for() {
     let report = sleigh::report();
     let mut page = open(&report);
     page.evaluate("document.querySelectorAll('details').forEach(openUp)");
+    page.settle();
     let formulas = page.number("document.querySelectorAll('.equation .formula:has(math)').length");
     let expected: usize = report.sections.iter().map(|s| s.equations.len()).sum();
     assert_eq!(formulas, expected as f64);

@@ -13,7 +13,7 @@ const ASKED: [(&str, &str); 2] = [
 /// Each stated steady motion with what is known of its stability.
 pub(super) fn found(study: &Study) -> Option<Found> {
     let stated: Vec<&Decided> = (study.verdicts.iter())
-        .filter(|d| d.claim == "steady.stated")
+        .filter(|d| d.claim == "steady.stated" && d.subject.is_some())
         .collect();
     if stated.is_empty() {
         return None;
