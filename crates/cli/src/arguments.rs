@@ -349,10 +349,14 @@ fn at_least_one(text: &str) -> Result<usize, String> {
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   chetaev check model.toml
-  chetaev check model.toml --json")]
+  chetaev check model.toml --json
+  chetaev check model.toml --lowered > plain.toml")]
 pub(crate) struct Check {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
+    /// Print the model with its bodies, joints and contacts written out as coordinates, energies and constraints
+    #[arg(long, conflicts_with = "json")]
+    pub(crate) lowered: bool,
     /// Print the diagnostics as JSON
     #[arg(long)]
     pub(crate) json: bool,

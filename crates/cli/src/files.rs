@@ -149,6 +149,21 @@ pub(crate) fn load(arguments: &ModelArguments) -> Option<(Option<Model>, Diagnos
     Some((loaded.model, loaded.diagnostics))
 }
 
+/// The text of a model with its bodies written out; what is wrong is printed.
+pub(crate) fn lowered(arguments: &ModelArguments) -> Option<String> {
+    let overrides = overrides(&arguments.set)?;
+    let path = arguments.model.to_string_lossy().into_owned();
+    let text = text_of(&arguments.model, false).ok()?;
+    let disk = Disk::beside(&arguments.model);
+    match model::lowered(&path, &text, &disk, &overrides) {
+        Ok(text) => Some(text),
+        Err(problems) => {
+            report(&problems);
+            None
+        }
+    }
+}
+
 fn overrides(set: &[String]) -> Option<Vec<(String, String)>> {
     let mut pairs = Vec::new();
     for item in set {

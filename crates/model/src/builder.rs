@@ -259,14 +259,14 @@ impl ModelBuilder {
     #[must_use]
     pub fn frame_field(self, name: &str, components: &[(&str, &str)]) -> Self {
         let field: InlineTable = components.iter().copied().collect();
-        self.set_below("frame", "fields", name, field)
+        self.set_below("moving_frame", "fields", name, field)
     }
 
     /// The drift of the frame, from pairs of a coordinate and the component along it.
     #[must_use]
     pub fn frame_drift(self, components: &[(&str, &str)]) -> Self {
         let drift: InlineTable = components.iter().copied().collect();
-        self.set("frame", "drift", drift)
+        self.set("moving_frame", "drift", drift)
     }
 
     /// A control, a function of the time.

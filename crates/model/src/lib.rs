@@ -4,6 +4,7 @@
 //! expression graph, and reports every problem of the text at once, each at its place. The crate touches no files:
 //! included ones come through [`Files`]. Mechanics is elsewhere: here a constraint is an expression with a name.
 
+mod bodies;
 mod builder;
 mod diagnostic;
 mod dimension;
@@ -16,12 +17,13 @@ mod render;
 mod resolve;
 mod source;
 mod text;
+mod toml;
 pub mod units;
 
 pub use builder::ModelBuilder;
 pub use chetaev_symbolic::syntax::{Relation, Severity};
 pub use diagnostic::{Diagnostic, Diagnostics, Suggestion};
-pub use load::{load, reload, tables, Loaded, Tables, FUNCTIONAL};
+pub use load::{load, lowered, reload, tables, Loaded, Tables, FUNCTIONAL};
 pub use model::{Model, Precision};
 pub use render::{DiagnosticData, PlaceData, RelatedData, Style, SuggestionData};
 pub use source::{joined, Files, LineColumn, NoFiles, Place, Source, SourceId, Sources};

@@ -4,12 +4,14 @@ use std::collections::BTreeMap;
 
 use chetaev_symbolic::syntax::Span;
 
+use crate::bodies;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{Model, ModelText};
 use crate::raw::{self, Kind, Raw, Table};
 use crate::resolve::{self, Override};
 use crate::source::{joined, Files, Place, SourceId, Sources};
 use crate::text::Text;
+use crate::toml;
 
 /// Most files that one model reads; one that is included twice counts twice.
 const MOST_FILES: usize = 100;
@@ -68,9 +70,16 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
         span: Span::new(0, text.len()),
     };
     let mut model = None;
-    if let Some(table) = table.filter(|_| !failed) {
-        let (resolved, found) =
+    if let Some(mut table) = table.filter(|_| !failed) {
+        rename_frame(&mut table, &mut diagnostics);
+        let before = diagnostics.len();
+        let conditions = bodies::lower(&mut table, file, &overrides, &mut diagnostics);
+        let is_whole = diagnostics.len() == before;
+        let (resolved, mut found) =
             resolve::resolve(&table, file, sources.clone(), kept, overrides, others);
+        conditions.explain(&mut found);
+        // What bodies that could not be placed would have given is not missed.
+        found.retain(|problem| is_whole || problem.code != "missing-section");
         diagnostics.extend(found);
         model = resolved;
     }
@@ -82,6 +91,23 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
     Loaded {
         model,
         diagnostics: all,
+    }
+}
+
+/// `[frame]` is the old heading of `[moving_frame]`; it is still read.
+fn rename_frame(table: &mut Table, problems: &mut Vec<Diagnostic>) {
+    if table.get("moving_frame").is_some() {
+        return;
+    }
+    let mut entries = table.entries.iter_mut();
+    if let Some((key, _)) = entries.find(|(key, _)| key.content == "frame") {
+        let message = "`frame` is called `moving_frame` now";
+        problems.push(
+            Diagnostic::warning("renamed", key.place, message)
+                .hint("[frames] states frames of reference; quasi-velocities by their fields are stated under [moving_frame]"),
+        );
+        let place = key.place;
+        *key = Text::of_toml("moving_frame", "", place);
     }
 }
 
@@ -154,6 +180,64 @@ pub fn tables(
         sources: loader.sources,
         diagnostics: loader.diagnostics,
         text: loader.kept,
+    }
+}
+
+/// The text of a model whose bodies, joints and contacts are lowered to ordinary sections; a model without any keeps its sections.
+/// Overrides are written in.
+///
+/// # Errors
+/// What is wrong with the syntax, the includes, or the bodies.
+pub fn lowered(
+    path: &str,
+    text: &str,
+    files: &dyn Files,
+    overrides: &[(String, String)],
+) -> Result<String, Diagnostics> {
+    let mut loader = Loader::new(path, text, files, overrides);
+    let source = loader.sources.add(path, text);
+    let table = loader.file(path, text, source);
+    let outside = loader.overrides(overrides);
+    let mut problems = loader.diagnostics;
+    let file = Place {
+        source,
+        span: Span::new(0, text.len()),
+    };
+    let mut written = String::new();
+    if let Some(mut table) = table.filter(|_| !loader.failed) {
+        bodies::lower(&mut table, file, &outside, &mut problems);
+        for own in &outside {
+            set(&mut table, own);
+        }
+        written = toml::text(&table);
+    }
+    let mut all = Diagnostics::once(loader.sources, problems);
+    all.sort();
+    match all.has_errors() {
+        true => Err(all),
+        false => Ok(written),
+    }
+}
+
+/// Writes an override into the section that declares its name.
+fn set(table: &mut Table, own: &Override) {
+    use chetaev_symbolic::syntax::names::normalized;
+    let name = normalized(&own.name.content);
+    for section in ["parameters", "sizes"] {
+        let Some(Kind::Table(entries)) = table.get_mut(section).map(|raw| &mut raw.kind) else {
+            continue;
+        };
+        let mut more = Table::default();
+        let known = entries
+            .entries
+            .iter()
+            .find(|(key, _)| normalized(&key.content) == name);
+        if let Some((key, _)) = known {
+            let kind = Kind::Text(own.value.clone());
+            let place = own.value.place;
+            more.entries.push((key.clone(), Raw { place, kind }));
+        }
+        entries.overlay(more);
     }
 }
 
@@ -275,8 +359,11 @@ impl<'f> Loader<'f> {
             ..ModelText::default()
         };
         let sources = self.sources.clone();
-        let (model, found) =
+        rename_frame(&mut table, &mut Vec::new());
+        let conditions = bodies::lower(&mut table, file, &[], &mut self.diagnostics);
+        let (model, mut found) =
             resolve::resolve(&table, file, sources, kept, Vec::new(), BTreeMap::new());
+        conditions.explain(&mut found);
         let is_error = |d: &&Diagnostic| d.severity == chetaev_symbolic::syntax::Severity::Error;
         // Warnings are those of the other file.
         let errors = found.iter().filter(is_error).cloned();

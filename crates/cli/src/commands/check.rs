@@ -27,6 +27,15 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         files::report(&found);
     }
     match model {
+        Some(_) if arguments.lowered && !found.has_errors() => {
+            match files::lowered(&arguments.model) {
+                Some(text) => {
+                    terminal::out(&text);
+                    DONE
+                }
+                None => INPUT,
+            }
+        }
         Some(model) if !found.has_errors() => {
             if !arguments.json {
                 terminal::out(&summary(&model));

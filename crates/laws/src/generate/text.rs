@@ -83,11 +83,11 @@ fn fields(text: &mut String, g: &Graph, parts: &SystemParts, frame: &FrameFields
             .collect();
         format!("{{ {} }}", stated.join(", "))
     };
-    line(text, "\n[frame]");
+    line(text, "\n[moving_frame]");
     if frame.drift.iter().any(|component| !g.is_zero(*component)) {
         line(text, &format!("drift = {}", components(&frame.drift)));
     }
-    line(text, "\n[frame.fields]");
+    line(text, "\n[moving_frame.fields]");
     for ((name, _), field) in parts.quasi_velocities.iter().zip(&frame.fields) {
         line(text, &format!("{name} = {}", components(field)));
     }

@@ -31,7 +31,7 @@ pub(crate) enum DefineKind {
     Definition,
     /// `[quasi_velocities]`.
     QuasiVelocity,
-    /// `[frame.fields]`; the value follows from all fields together.
+    /// `[moving_frame.fields]`; the value follows from all fields together.
     FrameVelocity,
     /// A value in `[masses]`.
     Mass,

@@ -29,7 +29,7 @@ const MOST_EXAMINED_FIELDS: usize = 64;
 
 /// The keys of the section, and how it is called.
 const KEYS: &[&str] = &["drift", "fields"];
-const OF: &str = "of [frame]";
+const OF: &str = "of [moving_frame]";
 
 /// The component of a field or of the drift along one coordinate.
 #[derive(Clone, Debug)]
@@ -73,14 +73,16 @@ impl Resolver {
 
     /// Declares the quasi-velocities that the fields name; their values follow later.
     pub(crate) fn declare_frame(&mut self, root: &Table) {
-        let Some(raw) = root.get("frame") else { return };
-        let Some(table) = self.section(root, "frame") else {
+        let Some(raw) = root.get("moving_frame") else {
+            return;
+        };
+        let Some(table) = self.section(root, "moving_frame") else {
             return;
         };
         let before = self.errors();
         if let Some(quasi) = root.get("quasi_velocities") {
             let message =
-                "quasi-velocities are stated by [quasi_velocities] or by [frame], not by both";
+                "quasi-velocities are stated by [quasi_velocities] or by [moving_frame], not by both";
             let diagnostic = Diagnostic::error("stated-twice", raw.place, message);
             self.push(diagnostic.related(quasi.place, "the other statement"));
         }
@@ -108,7 +110,7 @@ impl Resolver {
                 self.known_keys(frame, KEYS, OF);
                 let message = "a frame needs its `fields`";
                 self.push(Diagnostic::error("missing-value", place, message).hint(
-                    "add [frame.fields] with one line for each coordinate, as in w = { phi = 1 }",
+                    "add [moving_frame.fields] with one line for each coordinate, as in w = { phi = 1 }",
                 ));
             }
             None => {
@@ -134,7 +136,7 @@ impl Resolver {
         all
     }
 
-    /// Fields that stand in `[frame]` itself, where there is no `[frame.fields]`: one problem, and their names are known.
+    /// Fields that stand in `[moving_frame]` itself, where there is no `[moving_frame.fields]`: one problem, and their names are known.
     fn misplaced_fields(&mut self, frame: &Table) -> Table {
         let is_field = |key: &Text, raw: &Raw| key.content != "drift" && raw.table().is_some();
         let mut misplaced = Table::default();
@@ -150,7 +152,7 @@ impl Resolver {
                     .label("not known")
                     .hint(match key.content.as_str() {
                         "forms" => "forms are written as quasi-velocities: put them under [quasi_velocities]",
-                        _ => "fields stand under [frame.fields]",
+                        _ => "fields stand under [moving_frame.fields]",
                     }),
             );
         }

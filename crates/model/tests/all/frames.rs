@@ -29,9 +29,9 @@ twice = "2 u"
 T = "(u^2 + s^2 + w^2)/2"
 [constraints]
 blade = "s = 0"
-[frame]
+[moving_frame]
 drift = { x = "Omega y", y = "-Omega x" }
-[frame.fields]
+[moving_frame.fields]
 u = { x = "c", y = "sin(phi)" }
 w = { phi = 1 }
 s = { x = "-sin(phi)", y = "c" }
@@ -77,7 +77,7 @@ fn an_orthonormal_frame_gives_projections_of_the_velocity() {
 fn a_general_frame_with_time_and_controls_gives_back_the_velocity() {
     let model = model(
         "coordinates = [\"x\", \"y\", \"z\"]\nparameters = [\"a\"]\ncontrols = { k = {} }\nlagrangian = \"u_1^2 + x'^2 + y'^2 + z'^2\"\n\
-         [frame]\ndrift = { z = \"k' + t x\" }\n[frame.fields]\n\
+         [moving_frame]\ndrift = { z = \"k' + t x\" }\n[moving_frame.fields]\n\
          u_1 = { x = \"1 + y^2\", y = \"x z\", z = \"a\" }\nu_2 = { x = \"t\", y = \"exp(x)\", z = \"k\" }\nu_3 = { x = \"sin(y)\", y = 2, z = \"x + z\" }\n",
     );
     give_the_velocity(&model);
@@ -93,7 +93,7 @@ fn a_general_frame_with_time_and_controls_gives_back_the_velocity() {
 fn families_of_fields_fix_the_index_of_their_name() {
     let model = model(
         "coordinates = [\"q_{i}\"]\nlagrangian = \"sum(i = 1..n, u_{i}^2)\"\n[sizes]\nn = 3\n[indices]\ni = \"1..n\"\nk = \"2..n\"\n\
-         [frame]\ndrift = { \"q_{k}\" = \"k\" }\n[frame.fields]\n\"u_{i}\" = { \"q_{i}\" = \"1/i\" }\n",
+         [moving_frame]\ndrift = { \"q_{k}\" = \"k\" }\n[moving_frame.fields]\n\"u_{i}\" = { \"q_{i}\" = \"1/i\" }\n",
     );
     for (s, written) in ["q_1'", "2 (q_2' - 2)", "3 (q_3' - 3)"]
         .into_iter()
@@ -131,9 +131,9 @@ fn a_frame_has_as_many_fields_as_coordinates() {
         &["for 3 coordinates there are 4 fields"],
     );
     refused(
-        "coordinates = [\"x\"]\nlagrangian = \"x'^2\"\n[frame]\n",
+        "coordinates = [\"x\"]\nlagrangian = \"x'^2\"\n[moving_frame]\n",
         1,
-        &["a frame needs its `fields`", "[frame.fields]"],
+        &["a frame needs its `fields`", "[moving_frame.fields]"],
     );
 }
 
@@ -189,17 +189,17 @@ fn fields_are_functions_of_coordinates_and_time() {
 fn statements_that_exclude_each_other_or_are_no_fields() {
     let both = format!("{SKATE}[quasi_velocities]\nv = \"x'\"\n");
     let words = [
-        "by [quasi_velocities] or by [frame], not by both",
+        "by [quasi_velocities] or by [moving_frame], not by both",
         "the other statement",
     ];
     refused(&both, 1, &words);
-    let direct = SKATE.replace("[frame.fields]\n", "");
+    let direct = SKATE.replace("[moving_frame.fields]\n", "");
     refused(
         &direct,
         1,
         &[
-            "`u` is no key of [frame]",
-            "fields stand under [frame.fields]",
+            "`u` is no key of [moving_frame]",
+            "fields stand under [moving_frame.fields]",
         ],
     );
     refused(
@@ -230,9 +230,9 @@ R = { value = 2, unit = "m" }
 Omega = { value = 3, unit = "1/s" }
 [lagrangian]
 T = "m/2 (u^2 + s^2) + m/2 R^2 w^2"
-[frame]
+[moving_frame]
 drift = { x = "Omega y", y = 0 }
-[frame.fields]
+[moving_frame.fields]
 u = { x = "cos(phi)", y = "sin(phi)" }
 w = { phi = 1, x = "R" }
 s = { x = "-sin(phi)", y = "cos(phi)" }

@@ -1,6 +1,7 @@
 //! All integration tests of this package in one program, so that the package is linked once. A test is run by its module and name:
 //! `cargo test -p chetaev-model --test all MODULE::`.
 
+mod bodies;
 mod common;
 mod complete_integral;
 mod documentation;

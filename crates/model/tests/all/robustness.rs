@@ -83,9 +83,9 @@ c = "cos(phi)"
 twice = "2 u"
 [lagrangian]
 T = "x'^2 + y'^2 + R^2 phi'^2 + u twice"
-[frame]
+[moving_frame]
 drift = { x = "Omega y", y = "-Omega x" }
-[frame.fields]
+[moving_frame.fields]
 u = { x = "c", y = "sin(phi)" }
 w = { phi = 1, x = "R t Omega" }
 s = { x = "-sin(phi)", y = "c" }

@@ -81,7 +81,37 @@ impl Search<'_> {
                 *x -= dx;
             }
         }
-        self.evaluate().is_ok() && self.has_gradients() && self.system.rounded().are_met(SATISFIED)
+        if self.evaluate().is_ok()
+            && self.has_gradients()
+            && self.system.rounded().are_met(SATISFIED)
+        {
+            return true;
+        }
+        self.is_met_without_remains(movable)
+    }
+
+    /// Whether the constraints are met once velocities that are nothing but rounding are zero: against the others they carry no
+    /// kinetic energy, but where all terms of a constraint are such remains, its residual is as large as these.
+    fn is_met_without_remains(&mut self, movable: &[usize]) -> bool {
+        let found = self.v.clone();
+        let mass = self.system.mass_diagonal();
+        let speeds: Vec<f64> = mass
+            .iter()
+            .zip(&found)
+            .map(|(m, v)| m.abs().sqrt() * v.abs())
+            .collect();
+        let remains = f64::EPSILON * largest(&speeds);
+        for &i in movable.iter().filter(|&&i| speeds[i] < remains) {
+            self.v[i] = 0.0;
+        }
+        let is_met = self.v != found
+            && self.evaluate().is_ok()
+            && self.has_gradients()
+            && self.system.rounded().are_met(SATISFIED);
+        if !is_met {
+            self.v = found;
+        }
+        is_met
     }
 
     /// Newton's steps halved until they help. Directions in which the gradients are seen to change count as heavier from then

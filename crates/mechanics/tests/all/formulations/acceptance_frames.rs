@@ -11,7 +11,7 @@ use chetaev_mechanics::Frame;
 use chetaev_symbolic::Expr;
 
 const BLADE: &str = r#"
-[frame.fields]
+[moving_frame.fields]
 u = { x = "cos(phi)", y = "sin(phi)" }
 w = { phi = 1 }
 s = { x = "-sin(phi)", y = "cos(phi)" }

@@ -12,7 +12,7 @@ const IN_FRAMES: [&str; 3] = [
 
 /// The frame of the sled: u along the blade, w turning, s across.
 const SLED: &str = r#"
-[frame.fields]
+[moving_frame.fields]
 u = { x = "cos(phi)", y = "sin(phi)" }
 w = { phi = 1 }
 s = { x = "-sin(phi)", y = "cos(phi)" }
@@ -169,7 +169,7 @@ fn embedding_of_the_machine_of_appell() {
 #[test]
 fn the_particle_in_its_adapted_frame() {
     let frame = r#"
-[frame.fields]
+[moving_frame.fields]
 h = { x = 1, z = "y" }
 k = { y = 1 }
 s = { z = 1 }
@@ -195,9 +195,9 @@ assumptions = ["m > 0", "J > 0"]
 lagrangian = { T = "1/2 m (x'^2 + y'^2) + 1/2 J phi'^2", V = "c (x^2 + y^2)" }
 forces = { x = "-3 x'", phi = "x y'" }
 constraints = { blade = "(x' + Omega y) sin(phi) = (y' - Omega x) cos(phi) + 2 t" }
-[frame]
+[moving_frame]
 drift = { x = "-Omega y", y = "Omega x" }
-[frame.fields]
+[moving_frame.fields]
 u = { x = "cos(phi + Omega t)", y = "sin(phi + Omega t)" }
 w = { phi = "1 + t^2" }
 s = { x = "-sin(phi + Omega t)", y = "cos(phi + Omega t)" }
@@ -225,7 +225,7 @@ parameters = { m = {}, g = {} }
 assumptions = ["m > 0"]
 lagrangian = { T = "1/2 m (x'^2 + y'^2 + z'^2)", V = "m g z" }
 constraints = { c = "z'^3 + z' = x' y'" }
-[frame.fields]
+[moving_frame.fields]
 u = { x = 1, y = "x" }
 w = { y = "1 + z^2" }
 s = { z = 1, x = "y" }

@@ -12,7 +12,7 @@ parameters = { c = {} }
 assumptions = ["c > 0"]
 lagrangian = { T = "1/2 (x'^2 + y'^2 + z'^2)", V = "c x" }
 constraints = { slope = "z' = y x'" }
-[frame.fields]
+[moving_frame.fields]
 h = { x = 1, z = "y" }
 k = { y = 1 }
 s = { z = 1 }

@@ -1,0 +1,13 @@
+//! No motion across: a skate, a sled, the wheel of a cart whose own turning does not matter.
+
+use super::kind::{no_slip_sideways, Contact, Statement};
+
+pub(super) const BLADE: Contact = Contact {
+    word: "blade",
+    statements: |touch| {
+        vec![Statement {
+            suffix: "",
+            ..no_slip_sideways(touch)
+        }]
+    },
+};

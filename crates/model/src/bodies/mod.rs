@@ -1,0 +1,226 @@
+//! Bodies, joints and contacts, lowered to the ordinary sections of a model.
+//!
+//! `[frames]`, `[bodies]`, `[joints]` and `[contacts]` of the tree of a file become coordinates, parameters, definitions, energies,
+//! constraints and a drawing, each at the place of the object that it comes from. What follows (names, dimensions, derivations, the
+//! record) reads these sections as if a person had written them.
+//!
+//! `tree` reads what hangs on what, `placing` puts it in its place, `kinematics` goes from frame to frame, `solids` has the
+//! energies, `touching` and `closing` the constraints, `look` the drawing; `shapes`, `joints` and `contacts` are registries.
+
+mod algebra;
+mod closing;
+mod contacts;
+mod families;
+mod joints;
+mod kinematics;
+mod look;
+mod lowering;
+mod placing;
+mod pruning;
+mod reading;
+mod shapes;
+mod solids;
+mod touching;
+mod tree;
+mod written;
+
+use chetaev_symbolic::Expr;
+
+use crate::diagnostic::Diagnostic;
+use crate::raw::{Kind, Raw, Table};
+use crate::resolve::Override;
+use crate::source::Place;
+use lowering::{Lowering, Up};
+use reading::{quantity, Slot};
+
+/// The sections that are lowered.
+const SECTIONS: &[&str] = &["frames", "bodies", "joints", "contacts"];
+
+/// Ends of what is said of a contact or a joint that depends on values, by place.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Conditions {
+    touching: Vec<(Place, String)>,
+    closing: Vec<(Place, String)>,
+}
+
+impl Conditions {
+    /// Says of a violated assumption of the lowering what it means for the object it comes from.
+    pub(crate) fn explain(&self, found: &mut [Diagnostic]) {
+        for diagnostic in found.iter_mut().filter(|d| d.code == "assumption-violated") {
+            let words = |all: &[(Place, String)]| {
+                let mut own = all.iter().filter(|(place, _)| *place == diagnostic.place);
+                own.next().map(|(_, words)| words.clone())
+            };
+            if let Some(words) = words(&self.touching) {
+                diagnostic.code = "not-touching";
+                diagnostic.message = format!(
+                    "{words} does not touch its plane for the values of the parameters: {}",
+                    diagnostic.message
+                );
+            } else if let Some(words) = words(&self.closing) {
+                diagnostic.code = "cannot-close";
+                diagnostic.message = format!(
+                    "{words} cannot close the chain for the values of the parameters: {}",
+                    diagnostic.message
+                );
+            }
+        }
+    }
+}
+
+/// Lowers the bodies of a tree; a tree without any stays as it is.
+pub(crate) fn lower(
+    root: &mut Table,
+    file: Place,
+    overrides: &[Override],
+    problems: &mut Vec<Diagnostic>,
+) -> Conditions {
+    if !SECTIONS.iter().any(|section| root.get(section).is_some()) {
+        return Conditions::default();
+    }
+    families::expand(root, SECTIONS, overrides, problems);
+    let own = std::mem::take(root);
+    let place = SECTIONS
+        .iter()
+        .find_map(|section| own.get(section).map(|raw| raw.place))
+        .unwrap_or(file);
+    let mut lowering = Lowering::new(&own, place);
+    lowering.run();
+    let Lowering {
+        mut written,
+        problems: found,
+        touching,
+        closing,
+        ..
+    } = lowering;
+    problems.extend(found);
+    pruning::prune(&mut written, &own);
+    *root = own;
+    for section in SECTIONS.iter().chain(&["gravity"]) {
+        root.remove(section);
+    }
+    written.merge(root, place);
+    Conditions { touching, closing }
+}
+
+impl Lowering<'_> {
+    fn run(&mut self) {
+        self.has_units = states_units(self.root);
+        let gravity = self.gravity();
+        for object in self.objects("bodies", "body") {
+            match object.name() {
+                "ground" => self.error(
+                    "reserved-name",
+                    object.place,
+                    "`ground` is the frame at rest",
+                ),
+                _ => self.read_body(&object),
+            }
+        }
+        let tree = self.read_tree();
+        let built = self.place_all(&tree);
+        let before = self.written.potential.len();
+        for number in 0..self.bodies.len() {
+            self.energies(number, gravity.acceleration);
+        }
+        let is_heavy = self.written.potential.len() > before;
+        if let (Some(usual), true) = (gravity.usual, is_heavy) {
+            self.number(&usual.0, &usual.1);
+        }
+        self.name_motions();
+        self.touch_all(&tree, &built);
+        self.close_all(&tree);
+        self.draw_all(&tree, &built);
+    }
+
+    /// Angular velocity, velocity, axes and position of every body get their names, so that the user may write them.
+    fn name_motions(&mut self) {
+        let placed: Vec<usize> = self.placed.values().copied().collect();
+        for frame in placed {
+            self.rates(lowering::GROUND, frame);
+            self.axes(lowering::GROUND, frame);
+            self.position(lowering::GROUND, frame);
+        }
+    }
+
+    /// `gravity`: an acceleration, a table with `value` and `up`, or nothing for 9.81 m/s².
+    fn gravity(&mut self) -> Gravity {
+        let place = self.frames[0].place;
+        let slot = Slot {
+            name: "g".to_owned(),
+            unit: "m/s^2",
+            about: "gravity".to_owned(),
+        };
+        let raw = self.root.get("gravity");
+        let mut value = raw;
+        if let Some(Kind::Table(table)) = raw.map(|raw| &raw.kind) {
+            if let Some(Kind::Text(text)) = table.get("up").map(|raw| &raw.kind) {
+                if let Some((axis, is_backward)) = self.axis_of(text) {
+                    self.up = Up { axis, is_backward };
+                }
+            }
+            value = table.get("value");
+        }
+        if let Some(value) = value {
+            let read = self.number(&slot, value);
+            let acceleration = read.filter(|g| !self.algebra.graph.is_zero(*g));
+            return Gravity {
+                acceleration,
+                usual: None,
+            };
+        }
+        let acceleration = Some(self.algebra.symbol("g"));
+        let usual = Raw {
+            place,
+            kind: Kind::Number(written::word("9.81", place)),
+        };
+        let usual = (!self.taken.contains("g")).then_some((slot, usual));
+        Gravity {
+            acceleration,
+            usual,
+        }
+    }
+}
+
+/// The acceleration of gravity, and its usual value where the user gives none.
+struct Gravity {
+    acceleration: Option<Expr>,
+    usual: Option<(Slot, Raw)>,
+}
+
+/// Whether a unit is stated anywhere.
+fn states_units(root: &Table) -> bool {
+    let mut open: Vec<(bool, &Raw)> = Vec::new();
+    for (key, raw) in &root.entries {
+        match key.content.as_str() {
+            "coordinates" => {
+                if let Some(table) = raw.table() {
+                    if table
+                        .entries
+                        .iter()
+                        .any(|(_, raw)| raw.expression().is_some())
+                    {
+                        return true;
+                    }
+                }
+                open.push((false, raw));
+            }
+            "parameters" | "controls" | "define" | "masses" => open.push((false, raw)),
+            "gravity" => open.push((true, raw)),
+            section if SECTIONS.contains(&section) => open.push((true, raw)),
+            _ => {}
+        }
+    }
+    while let Some((is_object, raw)) = open.pop() {
+        match &raw.kind {
+            Kind::Text(text) if is_object && quantity(&text.content).is_some() => return true,
+            Kind::Table(table) if table.get("unit").is_some() => return true,
+            Kind::Table(table) => {
+                open.extend(table.entries.iter().map(|(_, raw)| (is_object, raw)))
+            }
+            Kind::Array(items) => open.extend(items.iter().map(|raw| (is_object, raw))),
+            _ => {}
+        }
+    }
+    false
+}

@@ -1,0 +1,62 @@
+//! Definitions that nothing uses are left out.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::written::Written;
+use crate::raw::{Kind, Raw, Table};
+
+/// Leaves out the written definitions that neither the written sections nor the user's own text names.
+pub(crate) fn prune(written: &mut Written, own: &Table) {
+    let mut used: BTreeSet<String> = BTreeSet::new();
+    words_of_table(own, &mut used);
+    for table in [&written.parameters, &written.constraints, &written.forces] {
+        words_of_table(table, &mut used);
+    }
+    for raw in written.assumptions.iter().chain(&written.elements) {
+        words_of(raw, &mut used);
+    }
+    for terms in [&written.kinetic, &written.potential, &written.dissipation] {
+        terms.iter().for_each(|term| words(term, &mut used));
+    }
+    let defined: BTreeMap<&str, &Raw> = written
+        .define
+        .entries
+        .iter()
+        .map(|(key, raw)| (key.content.as_str(), raw))
+        .collect();
+    let mut open: Vec<String> = used.iter().cloned().collect();
+    while let Some(name) = open.pop() {
+        let Some(raw) = defined.get(name.as_str()) else {
+            continue;
+        };
+        let mut inner = BTreeSet::new();
+        words_of(raw, &mut inner);
+        open.extend(inner.into_iter().filter(|word| used.insert(word.clone())));
+    }
+    written
+        .define
+        .entries
+        .retain(|(key, _)| used.contains(&key.content));
+}
+
+fn words_of_table(table: &Table, used: &mut BTreeSet<String>) {
+    for (key, raw) in &table.entries {
+        words(&key.content, used);
+        words_of(raw, used);
+    }
+}
+
+/// The nesting of TOML is bounded by its parser.
+fn words_of(raw: &Raw, used: &mut BTreeSet<String>) {
+    match &raw.kind {
+        Kind::Text(text) => words(&text.content, used),
+        Kind::Array(items) => items.iter().for_each(|item| words_of(item, used)),
+        Kind::Table(table) => words_of_table(table, used),
+        _ => {}
+    }
+}
+
+fn words(text: &str, used: &mut BTreeSet<String>) {
+    let parts = text.split(|c: char| !c.is_alphanumeric() && c != '_');
+    used.extend(parts.filter(|part| !part.is_empty()).map(str::to_owned));
+}

@@ -1,0 +1,320 @@
+//! Contacts of rims, spheres and points with a plane, as constraints.
+//!
+//! With the normal n, the axle a and the radius r, the lowest point of a rim lies at ρ = −r (n − (n·a) a)/N from its middle,
+//! N = |n − (n·a) a|, and the middle is r N above the plane. Its velocity v + ω × ρ is v·(a × n)/N − r ω·a along the rim and
+//! v·(a − (a·n) n)/N + r ω·(a × n) across it. A sphere has ρ = −r n.
+
+use chetaev_symbolic::Expr;
+
+use super::algebra::Vector;
+use super::contacts::Touch;
+use super::lowering::{FrameId, Lowering};
+use super::placing::Built;
+use super::shapes::Outline;
+use super::tree::{ContactStated, Tree};
+use super::written::{table, text, word};
+use crate::diagnostic::Diagnostic;
+use crate::source::Place;
+
+/// What touches: its figure, and where its middle is in the axes of its body.
+struct Figure {
+    outline: Outline,
+    /// The axle of a rim, the direction of a blade.
+    axis: usize,
+    radius: Expr,
+    middle: Vector,
+}
+
+/// A contact with the height of its lowest point.
+struct Found {
+    touch: Touch,
+    height: Expr,
+}
+
+impl<'r> Lowering<'r> {
+    /// Writes the constraints of all contacts.
+    pub(crate) fn touch_all(&mut self, tree: &Tree<'r>, built: &[Built]) {
+        for (number, contact) in tree.contacts.iter().enumerate() {
+            let own = built.iter().find(|own| own.contact == number);
+            self.touch(contact, own);
+        }
+    }
+
+    fn touch(&mut self, contact: &ContactStated<'r>, built: Option<&Built>) {
+        let (Some(&body), Some(&plane)) =
+            (self.placed.get(&contact.body), self.placed.get(&contact.on))
+        else {
+            return;
+        };
+        let object = &contact.object;
+        if self.path(plane, body).is_none() {
+            let message = format!(
+                "the body `{}` does not hang on `{}`, whose plane it touches",
+                contact.body, contact.on
+            );
+            self.problems.push(
+                Diagnostic::error("not-carried", object.place, message)
+                    .hint("count its coordinates from that frame: let the first joint of the tree have it as its parent"),
+            );
+            return;
+        }
+        let Some(figure) = self.figure(contact) else {
+            return;
+        };
+        let place = object.place;
+        let name = object.name().to_owned();
+        let found = match (figure.outline, built) {
+            (Outline::Rim, Some(built)) => self.rim_built(&figure, built, plane, body),
+            (Outline::Rim, None) => self.rim(&figure, plane, body, &name, place),
+            (Outline::Sphere, _) => self.sphere(&figure, plane, body),
+            (Outline::None, _) => self.tip(&figure, plane, body),
+        };
+        let statements = (contact.kind.statements)(&found.touch);
+        for statement in statements {
+            let about = format!("{} {}", object.words(), statement.says);
+            self.constrain(
+                &format!("{name}{}", statement.suffix),
+                statement.vanishes,
+                about,
+                place,
+            );
+        }
+        self.stay(&name, found.height, &object.words(), place);
+    }
+
+    /// The lowest point stays on the plane: a constraint, or nothing where its height does not change.
+    fn stay(&mut self, name: &str, height: Expr, words: &str, place: Place) {
+        let graph = &self.algebra.graph;
+        if graph.is_zero(height) {
+            return;
+        }
+        if !self.algebra.is_constant(height) {
+            let about = format!("{words} stays on the plane");
+            return self.constrain(&format!("{name}_touch"), height, about, place);
+        }
+        if graph.as_number(height).is_some() {
+            let message = format!(
+                "{words} does not touch its plane: its lowest point is {} above it",
+                graph.text(height)
+            );
+            return self.error("not-touching", place, message);
+        }
+        let zero = graph.zero();
+        self.assume(height, "=", zero, place);
+        self.touching.push((place, words.to_owned()));
+    }
+
+    pub(crate) fn constrain(&mut self, name: &str, vanishes: Expr, about: String, place: Place) {
+        if self.algebra.graph.is_zero(vanishes) {
+            return;
+        }
+        let equation = format!("{} = 0", self.algebra.graph.text(vanishes));
+        let value = table(
+            vec![
+                ("equation", text(equation, place)),
+                ("description", text(about, place)),
+            ],
+            place,
+        );
+        self.written
+            .constraints
+            .entries
+            .push((word(name, place), value));
+    }
+
+    fn figure(&mut self, contact: &ContactStated<'r>) -> Option<Figure> {
+        let object = &contact.object;
+        let body = self.bodies.iter().find(|body| body.name == contact.body)?;
+        let usual = body
+            .shape
+            .as_ref()
+            .map(|(shape, sizes)| (shape.outline, sizes.axis, sizes.lengths[0]));
+        let mut middle = self.outline_center(body);
+        if object.get("at").is_some() {
+            middle = self.vector(object, "at", "m", false)?;
+        }
+        let radius = match object.get("radius") {
+            Some(raw) => Some(self.number(&object.slot("radius", "m"), raw)?),
+            None => None,
+        };
+        let axis = match self.word(object, "axis") {
+            Some(text) => Some(self.axis_of(text)?.0),
+            None => None,
+        };
+        let direction = match self.word(object, "direction") {
+            Some(text) => Some(self.axis_of(text)?.0),
+            None => None,
+        };
+        let is_tip = object.get("at").is_some() && radius.is_none();
+        let figure = |outline, axis, radius| Figure {
+            outline,
+            axis,
+            radius,
+            middle,
+        };
+        Some(match (radius, usual) {
+            (Some(radius), _) => figure(
+                if axis.is_some() {
+                    Outline::Rim
+                } else {
+                    Outline::Sphere
+                },
+                axis.unwrap_or(1),
+                radius,
+            ),
+            (None, Some((outline, own, radius))) if !is_tip && outline != Outline::None => {
+                figure(outline, axis.unwrap_or(own), radius)
+            }
+            _ if ["blade", "sliding"].contains(&contact.kind.word) => figure(
+                Outline::None,
+                direction.unwrap_or(0),
+                self.algebra.graph.zero(),
+            ),
+            _ => {
+                let message = format!(
+                    "{} rolls, and `{}` has no rim and no sphere that could",
+                    object.words(),
+                    contact.body
+                );
+                let hint = "give the body the shape \"disc\", \"ring\", \"ball\" or \"shell\", or the contact a `radius`, and an `axis` where it is a rim";
+                self.problems
+                    .push(Diagnostic::error("missing-value", object.place, message).hint(hint));
+                return None;
+            }
+        })
+    }
+
+    /// The normal of a plane in the axes of a frame that it carries.
+    fn normal(&mut self, plane: FrameId, frame: FrameId) -> Vector {
+        let row = self.axes(plane, frame)[self.up.axis];
+        match self.up.is_backward {
+            true => self.algebra.minus(self.algebra.zero(), row),
+            false => row,
+        }
+    }
+
+    /// How high the origin of a frame is above a plane.
+    fn rise(&mut self, plane: FrameId, frame: FrameId) -> Expr {
+        let height = self.position(plane, frame)[self.up.axis];
+        match self.up.is_backward {
+            true => self.algebra.graph.neg(height),
+            false => height,
+        }
+    }
+
+    /// The frame that does not spin along, with the middle of the figure in its axes.
+    fn still_axes(
+        &mut self,
+        body: FrameId,
+        figure: &Figure,
+        is_same: impl Fn(usize) -> bool,
+    ) -> (FrameId, Vector) {
+        let axes = self.unspun(body, is_same);
+        let middle = self.point(axes, body, figure.middle);
+        match middle.iter().all(|e| self.algebra.is_constant(*e)) {
+            true => (axes, middle),
+            false => (body, figure.middle),
+        }
+    }
+
+    fn rim(
+        &mut self,
+        figure: &Figure,
+        plane: FrameId,
+        body: FrameId,
+        name: &str,
+        place: Place,
+    ) -> Found {
+        let axle = figure.axis;
+        let (axes, middle) = self.still_axes(body, figure, |axis| axis == axle);
+        let normal = self.normal(plane, axes);
+        let rates = self.rates(plane, axes);
+        let turning = self.omega_in(plane, axes, body);
+        let turning = self.name_vector(&format!("{name}_omega"), turning, place);
+        let rise = self.rise(plane, axes);
+        let graph = &self.algebra.graph;
+        let mut flat = normal;
+        flat[axle] = graph.zero();
+        let length = graph.sqrt(self.algebra.dot(flat, flat));
+        let length = self.name(&format!("{name}_N"), length, place);
+        let a = &self.algebra;
+        let carried = a.plus(rates.velocity, a.cross(rates.omega, middle));
+        let along = a.cross(a.unit(axle), normal);
+        let across = a.minus(a.unit(axle), a.times(normal[axle], normal));
+        let over = |direction| a.graph.div(a.dot(carried, direction), length);
+        let swept = |e| a.graph.mul(&[figure.radius, e]);
+        let touch = Touch {
+            forward: a.graph.sub(over(along), swept(turning[axle])),
+            side: a.graph.add(&[over(across), swept(a.dot(turning, along))]),
+            spin: a.dot(turning, normal),
+        };
+        let lift = swept(length);
+        let height = a
+            .graph
+            .sub(a.graph.add(&[rise, a.dot(normal, middle)]), lift);
+        Found { touch, height }
+    }
+
+    /// A rim whose point of contact is the origin of the heading frame.
+    fn rim_built(
+        &mut self,
+        figure: &Figure,
+        built: &Built,
+        plane: FrameId,
+        body: FrameId,
+    ) -> Found {
+        let rates = self.rates(plane, built.heading);
+        let turning = self.omega_in(plane, built.heading, body);
+        let rolling = self.omega_in(built.leaning, built.leaning, body);
+        let normal = self.up_vector();
+        let a = &self.algebra;
+        let down = a.times(a.graph.neg(figure.radius), normal);
+        let axle = a.unit(figure.axis);
+        let slip = a.plus(rates.velocity, a.cross(rolling, down));
+        let touch = Touch {
+            forward: a.dot(slip, a.cross(axle, normal)),
+            side: a.dot(slip, axle),
+            spin: a.dot(turning, normal),
+        };
+        let height = a.graph.zero();
+        Found { touch, height }
+    }
+
+    fn sphere(&mut self, figure: &Figure, plane: FrameId, body: FrameId) -> Found {
+        let (axes, middle) = self.still_axes(body, figure, |_| true);
+        let normal = self.normal(plane, axes);
+        let rates = self.rates(plane, axes);
+        let turning = self.omega_in(plane, axes, body);
+        let rows = self.axes(plane, axes);
+        let rise = self.rise(plane, axes);
+        let a = &self.algebra;
+        let down = a.times(a.graph.neg(figure.radius), normal);
+        let carried = a.plus(rates.velocity, a.cross(rates.omega, middle));
+        let slip = a.plus(carried, a.cross(turning, down));
+        let touch = Touch {
+            forward: a.dot(slip, rows[if self.up.axis == 0 { 1 } else { 0 }]),
+            side: a.dot(slip, rows[if self.up.axis == 2 { 1 } else { 2 }]),
+            spin: a.dot(turning, normal),
+        };
+        let level = a.graph.add(&[rise, a.dot(normal, middle)]);
+        let height = a.graph.sub(level, figure.radius);
+        Found { touch, height }
+    }
+
+    /// A point of the body, with the direction of a blade.
+    fn tip(&mut self, figure: &Figure, plane: FrameId, body: FrameId) -> Found {
+        let normal = self.normal(plane, body);
+        let rates = self.rates(plane, body);
+        let rise = self.rise(plane, body);
+        let a = &self.algebra;
+        let forward = a.unit(figure.axis);
+        let slip = a.plus(rates.velocity, a.cross(rates.omega, figure.middle));
+        let touch = Touch {
+            forward: a.dot(slip, forward),
+            side: a.dot(slip, a.cross(normal, forward)),
+            spin: a.dot(rates.omega, normal),
+        };
+        let height = a.graph.add(&[rise, a.dot(normal, figure.middle)]);
+        Found { touch, height }
+    }
+}
