@@ -24,7 +24,7 @@ fn every_example_is_a_model() {
         let alone = example.contains("coordinates = [\"x\"")
             && (example.contains("lagrangian =") || example.contains("[lagrangian]"));
         let alone = alone
-            || ["include", "[lagrangian]", "[particles"]
+            || ["include", "[lagrangian]", "[particles", "[bodies]"]
                 .iter()
                 .any(|part| example.contains(part));
         let text = if alone {
