@@ -114,6 +114,10 @@ impl<'r> Lowering<'r> {
                 ];
                 self.element("circle", color, "", values, place);
             }
+            Look::Rings => {
+                let lengths = [lengths[0], lengths[1], lengths[2]];
+                self.draw_rings(frame, middle, lengths, (&name, color, place));
+            }
             Look::Bar => {
                 let half = self.algebra.ratio(1, 2);
                 let length = lengths[lengths.len() - 1];
@@ -147,6 +151,38 @@ impl<'r> Lowering<'r> {
             frame = self.frames[frame].parent;
         }
         frame
+    }
+
+    /// The ellipses in the planes of the axes, each of 24 chords.
+    fn draw_rings(
+        &mut self,
+        frame: usize,
+        middle: Vector,
+        size: Vector,
+        (name, color, place): (&str, &str, Place),
+    ) {
+        const CHORDS: i64 = 24;
+        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+            let mut points = Vec::new();
+            for k in 0..=CHORDS {
+                let graph = &self.algebra.graph;
+                let angle = graph.mul(&[self.algebra.ratio(2 * k, CHORDS), graph.pi()]);
+                let mut at = middle;
+                for (axis, part) in [(i, graph.cos(angle)), (j, graph.sin(angle))] {
+                    at[axis] = graph.add(&[at[axis], graph.mul(&[size[axis], part])]);
+                }
+                let at = self.point(GROUND, frame, at);
+                points.push(self.drawn(at, place));
+            }
+            let values = vec![("points", array(points, place))];
+            self.element(
+                "polyline",
+                color,
+                if i == 0 { name } else { "" },
+                values,
+                place,
+            );
+        }
     }
 
     /// Two opposite faces, and the edges between them.

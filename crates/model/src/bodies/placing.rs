@@ -393,7 +393,7 @@ impl<'r> Lowering<'r> {
             return false;
         };
         match shape.outline {
-            Outline::None => false,
+            Outline::None | Outline::Ellipsoid | Outline::Torus => false,
             Outline::Sphere => stated.body == name,
             Outline::Rim if sizes.axis == self.up.axis => false,
             Outline::Rim if stated.body == name => true,

@@ -17,8 +17,10 @@ const KEYS: &[&str] = &[
     "shape",
     "axis",
     "radius",
+    "tube",
     "length",
     "size",
+    "semiaxes",
     "description",
 ];
 
@@ -67,7 +69,7 @@ impl<'r> Lowering<'r> {
             };
             let slot = object.slot(key, "m");
             match key {
-                "size" => lengths.extend(self.vector_of(&slot, raw, false)?),
+                "size" | "semiaxes" => lengths.extend(self.vector_of(&slot, raw, false)?),
                 _ => lengths.push(self.number(&slot, raw)?),
             }
         }

@@ -2,7 +2,9 @@
 //!
 //! With the normal n, the axle a and the radius r, the lowest point of a rim lies at ρ = −r (n − (n·a) a)/N from its middle,
 //! N = |n − (n·a) a|, and the middle is r N above the plane. Its velocity v + ω × ρ is v·(a × n)/N − r ω·a along the rim and
-//! v·(a − (a·n) n)/N + r ω·(a × n) across it. A sphere has ρ = −r n.
+//! v·(a − (a·n) n)/N + r ω·(a × n) across it. A sphere has ρ = −r n; a torus whose
+//! tube has the radius t adds −t n to that of the rim; an ellipsoid with the semi-axes D has ρ = −D² n/√(n·D² n), and its middle is as
+//! high as that root.
 
 use chetaev_symbolic::Expr;
 
@@ -21,8 +23,15 @@ struct Figure {
     outline: Outline,
     /// The axle of a rim, the direction of a blade.
     axis: usize,
-    radius: Expr,
+    /// Radius, or semi-axes.
+    lengths: Vec<Expr>,
     middle: Vector,
+}
+
+impl Figure {
+    fn radius(&self) -> Expr {
+        self.lengths[0]
+    }
 }
 
 /// A contact with the height of its lowest point.
@@ -65,8 +74,9 @@ impl<'r> Lowering<'r> {
         let name = object.name().to_owned();
         let found = match (figure.outline, built) {
             (Outline::Rim, Some(built)) => self.rim_built(&figure, built, plane, body),
-            (Outline::Rim, None) => self.rim(&figure, plane, body, &name, place),
+            (Outline::Rim | Outline::Torus, _) => self.rim(&figure, plane, body, &name, place),
             (Outline::Sphere, _) => self.sphere(&figure, plane, body),
+            (Outline::Ellipsoid, _) => self.ellipsoid(&figure, plane, body, &name, place),
             (Outline::None, _) => self.tip(&figure, plane, body),
         };
         let statements = (contact.kind.statements)(&found.touch);
@@ -125,10 +135,8 @@ impl<'r> Lowering<'r> {
     fn figure(&mut self, contact: &ContactStated<'r>) -> Option<Figure> {
         let object = &contact.object;
         let body = self.bodies.iter().find(|body| body.name == contact.body)?;
-        let usual = body
-            .shape
-            .as_ref()
-            .map(|(shape, sizes)| (shape.outline, sizes.axis, sizes.lengths[0]));
+        let usual = body.shape.as_ref();
+        let usual = usual.map(|(shape, sizes)| (shape.outline, sizes.axis, sizes.lengths.clone()));
         let mut middle = self.outline_center(body);
         if object.get("at").is_some() {
             middle = self.vector(object, "at", "m", false)?;
@@ -146,30 +154,26 @@ impl<'r> Lowering<'r> {
             None => None,
         };
         let is_tip = object.get("at").is_some() && radius.is_none();
-        let figure = |outline, axis, radius| Figure {
+        let figure = |outline, axis, lengths| Figure {
             outline,
             axis,
-            radius,
+            lengths,
             middle,
         };
         Some(match (radius, usual) {
-            (Some(radius), _) => figure(
-                if axis.is_some() {
-                    Outline::Rim
-                } else {
-                    Outline::Sphere
-                },
-                axis.unwrap_or(1),
-                radius,
-            ),
-            (None, Some((outline, own, radius))) if !is_tip && outline != Outline::None => {
-                figure(outline, axis.unwrap_or(own), radius)
+            (Some(radius), _) => {
+                let outline = match axis {
+                    Some(_) => Outline::Rim,
+                    None => Outline::Sphere,
+                };
+                figure(outline, axis.unwrap_or(1), vec![radius])
             }
-            _ if ["blade", "sliding"].contains(&contact.kind.word) => figure(
-                Outline::None,
-                direction.unwrap_or(0),
-                self.algebra.graph.zero(),
-            ),
+            (None, Some((outline, own, lengths))) if !is_tip && outline != Outline::None => {
+                figure(outline, axis.unwrap_or(own), lengths)
+            }
+            _ if ["blade", "sliding"].contains(&contact.kind.word) => {
+                figure(Outline::None, direction.unwrap_or(0), Vec::new())
+            }
             _ => {
                 let message = format!(
                     "{} rolls, and `{}` has no rim and no sphere that could",
@@ -242,16 +246,65 @@ impl<'r> Lowering<'r> {
         let along = a.cross(a.unit(axle), normal);
         let across = a.minus(a.unit(axle), a.times(normal[axle], normal));
         let over = |direction| a.graph.div(a.dot(carried, direction), length);
-        let swept = |e| a.graph.mul(&[figure.radius, e]);
+        let swept = |e| a.graph.mul(&[figure.radius(), e]);
+        let spin = a.dot(turning, normal);
+        let mut forward = vec![over(along), a.graph.neg(swept(turning[axle]))];
+        let mut side = vec![over(across), swept(a.dot(turning, along))];
+        let mut level = vec![rise, a.dot(normal, middle), a.graph.neg(swept(length))];
+        if let Some(&tube) = figure
+            .lengths
+            .get(1)
+            .filter(|_| figure.outline == Outline::Torus)
+        {
+            let about = a
+                .graph
+                .sub(turning[axle], a.graph.mul(&[spin, normal[axle]]));
+            let share = a.graph.div(tube, length);
+            forward.push(a.graph.neg(a.graph.mul(&[share, about])));
+            side.push(a.graph.mul(&[share, a.dot(turning, along)]));
+            level.push(a.graph.neg(tube));
+        }
         let touch = Touch {
-            forward: a.graph.sub(over(along), swept(turning[axle])),
-            side: a.graph.add(&[over(across), swept(a.dot(turning, along))]),
-            spin: a.dot(turning, normal),
+            forward: a.graph.add(&forward),
+            side: a.graph.add(&side),
+            spin,
         };
-        let lift = swept(length);
-        let height = a
-            .graph
-            .sub(a.graph.add(&[rise, a.dot(normal, middle)]), lift);
+        let height = a.graph.add(&level);
+        Found { touch, height }
+    }
+
+    fn ellipsoid(
+        &mut self,
+        figure: &Figure,
+        plane: FrameId,
+        body: FrameId,
+        name: &str,
+        place: Place,
+    ) -> Found {
+        let normal = self.normal(plane, body);
+        let rates = self.rates(plane, body);
+        let rows = self.axes(plane, body);
+        let rise = self.rise(plane, body);
+        let graph = &self.algebra.graph;
+        let squared: Vector =
+            std::array::from_fn(|i| graph.mul(&[graph.powi(figure.lengths[i], 2), normal[i]]));
+        let root = graph.sqrt(self.algebra.dot(normal, squared));
+        let root = self.name(&format!("{name}_N"), root, place);
+        let a = &self.algebra;
+        let down = squared.map(|e| a.graph.neg(a.graph.div(e, root)));
+        let arm = a.plus(figure.middle, down);
+        let arm = self.name_vector(&format!("{name}_arm"), arm, place);
+        let a = &self.algebra;
+        let slip = a.plus(rates.velocity, a.cross(rates.omega, arm));
+        let slip = self.name_vector(&format!("{name}_slip"), slip, place);
+        let a = &self.algebra;
+        let touch = Touch {
+            forward: a.dot(slip, rows[if self.up.axis == 0 { 1 } else { 0 }]),
+            side: a.dot(slip, rows[if self.up.axis == 2 { 1 } else { 2 }]),
+            spin: a.dot(rates.omega, normal),
+        };
+        let level = a.graph.add(&[rise, a.dot(normal, figure.middle)]);
+        let height = a.graph.sub(level, root);
         Found { touch, height }
     }
 
@@ -268,7 +321,7 @@ impl<'r> Lowering<'r> {
         let rolling = self.omega_in(built.leaning, built.leaning, body);
         let normal = self.up_vector();
         let a = &self.algebra;
-        let down = a.times(a.graph.neg(figure.radius), normal);
+        let down = a.times(a.graph.neg(figure.radius()), normal);
         let axle = a.unit(figure.axis);
         let slip = a.plus(rates.velocity, a.cross(rolling, down));
         let touch = Touch {
@@ -288,7 +341,7 @@ impl<'r> Lowering<'r> {
         let rows = self.axes(plane, axes);
         let rise = self.rise(plane, axes);
         let a = &self.algebra;
-        let down = a.times(a.graph.neg(figure.radius), normal);
+        let down = a.times(a.graph.neg(figure.radius()), normal);
         let carried = a.plus(rates.velocity, a.cross(rates.omega, middle));
         let slip = a.plus(carried, a.cross(turning, down));
         let touch = Touch {
@@ -297,7 +350,7 @@ impl<'r> Lowering<'r> {
             spin: a.dot(turning, normal),
         };
         let level = a.graph.add(&[rise, a.dot(normal, middle)]);
-        let height = a.graph.sub(level, figure.radius);
+        let height = a.graph.sub(level, figure.radius());
         Found { touch, height }
     }
 

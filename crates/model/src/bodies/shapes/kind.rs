@@ -46,6 +46,10 @@ pub(crate) enum Outline {
     Rim,
     /// By the lowest point of a sphere; the first size is its radius.
     Sphere,
+    /// By the lowest point of a torus about the axis; the sizes are the radius of its circle and that of its tube.
+    Torus,
+    /// By the lowest point of an ellipsoid; the sizes are its semi-axes.
+    Ellipsoid,
     /// Not in closed form.
     None,
 }
@@ -57,6 +61,8 @@ pub(crate) enum Look {
     Wheel,
     /// A ball with a great circle; the first size is its radius.
     Ball,
+    /// Three ellipses; the sizes are the semi-axes.
+    Rings,
     /// A bar along the axis; the last size is its length.
     Bar,
     /// The edges of a box.

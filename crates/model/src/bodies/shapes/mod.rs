@@ -5,10 +5,12 @@ mod cone;
 mod cuboid;
 mod cylinder;
 mod disc;
+mod ellipsoid;
 mod kind;
 mod ring;
 mod rod;
 mod shell;
+mod torus;
 
 pub(crate) use kind::{Look, Outline, Shape, Sizes};
 
@@ -22,4 +24,6 @@ pub(crate) const SHAPES: &[&Shape] = &[
     &cuboid::BOX,
     &rod::ROD,
     &cone::CONE,
+    &torus::TORUS,
+    &ellipsoid::ELLIPSOID,
 ];
