@@ -129,6 +129,8 @@ pub(crate) struct MotionArguments {
 #[command(after_help = "Examples:
   chetaev linearize gallery/whipple-bicycle/model.toml
   chetaev linearize gallery/double-pendulum/model.toml --about hanging
+  chetaev linearize gallery/falling-rolling-disc/model.toml --about rolling --symbolic
+  chetaev linearize gallery/whipple-bicycle/model.toml --outputs phi,delta --save bicycle.mat
   chetaev linearize model.toml --about rest --json")]
 pub(crate) struct Linearize {
     #[command(flatten)]
@@ -136,6 +138,18 @@ pub(crate) struct Linearize {
     /// A motion of [steady.NAME], rest (at the initial positions), or start (the initial state)
     #[arg(long, value_name = "NAME")]
     pub(crate) about: Option<String>,
+    /// Independent speeds of choice: velocities, or functions linear in them
+    #[arg(long, value_name = "SPEED,...")]
+    pub(crate) speeds: Option<String>,
+    /// Outputs: functions of coordinates, velocities and controls; without it all variables
+    #[arg(long, value_name = "OUTPUT,...")]
+    pub(crate) outputs: Option<String>,
+    /// Leave all parameters as symbols
+    #[arg(long)]
+    pub(crate) symbolic: bool,
+    /// Write to a file in the format of its end: .npz (NumPy), .mat (MATLAB), .py (python-control), .tex, .json or .txt
+    #[arg(long, value_name = "FILE")]
+    pub(crate) save: Option<PathBuf>,
     /// Print JSON: matrices as exact text, eigenvalues as pairs
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,7 +1,7 @@
-//! Whether all zeros of a polynomial lie left of the imaginary axis: Hurwitz's determinants (Hurwitz 1895; Liénard and Chipart 1914).
+//! Whether all zeros of polynomials lie left of the imaginary axis: Hurwitz's determinants (Hurwitz 1895; Liénard and Chipart 1914).
 //!
 //! With a positive leading coefficient, all zeros lie left of the axis exactly where all determinants Δ₁ … Δ_m are positive. Over a range of
-//! one parameter their zeros cut the range into intervals on each of which stability is the same; a boundary where the constant
+//! one parameter the zeros of the determinants cut the range into intervals on each of which stability is the same; a boundary where the constant
 //! coefficient vanishes is passed by a real eigenvalue, one where Δ_{m−1} does by a pair (Orlando 1911).
 
 use crate::real_roots::{real_roots, sign_at, Root};
@@ -11,20 +11,12 @@ use chetaev_symbolic::{Expr, Graph, Symbol};
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
 
-/// Hurwitz's determinants Δ₁ … Δ_m of a polynomial, its coefficients given with the constant first, all of them multiplied by the sign that
-/// makes the leading coefficient positive where that sign is `leading`.
-pub fn determinants(g: &Graph, coefficients: &[Expr], leading: Ordering) -> Vec<Expr> {
+/// Hurwitz's determinants Δ₁ … Δ_m of a polynomial, its coefficients given with the constant first.
+pub fn determinants(g: &Graph, coefficients: &[Expr]) -> Vec<Expr> {
     let m = coefficients.len().saturating_sub(1);
-    let signed = |e: Expr| {
-        if leading == Ordering::Less {
-            g.neg(e)
-        } else {
-            e
-        }
-    };
     // a₀ is the leading coefficient in Hurwitz's matrix.
     let a = |i: i64| match usize::try_from(i) {
-        Ok(i) if i <= m => signed(coefficients[m - i]),
+        Ok(i) if i <= m => coefficients[m - i],
         _ => g.zero(),
     };
     let entry = |row: usize, column: usize| a(2 * (column as i64 + 1) - (row as i64 + 1));
@@ -46,8 +38,19 @@ pub enum Crossing {
     Pair,
     /// The leading coefficient vanishes: an eigenvalue goes to infinity.
     Infinity,
-    /// A determinant vanishes, and the stability does not change by that: two eigenvalues are opposite.
+    /// Two imaginary pairs of a spectrum that is its own mirror image meet.
+    Collision,
+    /// Two eigenvalues are opposite, and on both sides of that value the stability is the same.
     Touching,
+}
+
+/// A polynomial that has all its zeros left of the axis exactly where a part of the spectrum is as it should be.
+#[derive(Clone, Debug)]
+pub struct Deciding {
+    /// Its coefficients, the constant first.
+    pub coefficients: Vec<Expr>,
+    /// Whether it stands for an even polynomial, whose zeros are then imaginary and simple.
+    pub is_paired: bool,
 }
 
 /// A value of the parameter where stability may change.
@@ -66,8 +69,8 @@ pub struct Region {
     pub low: RBig,
     /// The upper end.
     pub high: RBig,
-    /// Whether all eigenvalues that were not split off lie left of the axis.
-    pub is_asymptotic: bool,
+    /// Whether all deciding polynomials have all their zeros left of the axis; if not, one of them has a zero right of it.
+    pub is_left: bool,
     /// A value inside, at which the signs were decided.
     pub sample: RBig,
 }
@@ -81,66 +84,116 @@ pub struct Ranges {
     pub regions: Vec<Region>,
 }
 
-/// Where in the interval from `low` to `high` of `symbol` all zeros of the polynomial lie left of the axis. `None` where that was not decided.
+/// Where in the interval from `low` to `high` of `symbol` all zeros of the polynomials lie left of the axis. `leading` vanishes where an
+/// eigenvalue is at infinity. `None` where that was not decided.
 pub fn ranges(
     g: &Graph,
-    coefficients: &[Expr],
+    polynomials: &[Deciding],
+    leading: Expr,
     symbol: Symbol,
     low: &RBig,
     high: &RBig,
 ) -> Option<Ranges> {
-    let leading = *coefficients.last()?;
-    let sample = (low + high) / RBig::from(2);
-    let sign = sign_at(g, leading, symbol, &sample)?;
-    let list = determinants(g, coefficients, sign);
-    let m = list.len();
-    let of = |e: Expr, crossing: Crossing| -> Option<Vec<Boundary>> {
-        if g.as_number(e).is_some_and(|_| !g.is_zero(e)) {
-            return Some(Vec::new());
-        }
-        let roots = real_roots(g, e, symbol, low, high)?;
-        Some(
-            roots
-                .into_iter()
-                .map(|root| Boundary { root, crossing })
-                .collect(),
-        )
+    let range = Over {
+        g,
+        symbol,
+        low,
+        high,
     };
-    let mut all = of(leading, Crossing::Infinity)?;
-    all.extend(of(*coefficients.first()?, Crossing::Zero)?);
-    if let Some(&last) = m.checked_sub(2).and_then(|at| list.get(at)) {
-        all.extend(of(last, Crossing::Pair)?);
+    let mut lists = Vec::new();
+    let mut all = range.boundaries(leading, Crossing::Infinity)?;
+    for own in polynomials {
+        let (list, boundaries) = range.of(own)?;
+        all.extend(boundaries);
+        lists.push(list);
     }
-    for &e in list.iter().rev().skip(2) {
-        all.extend(of(e, Crossing::Touching)?);
-    }
-    let mut boundaries = distinct(all)?;
-    let mut regions = Vec::new();
+    let mut boundaries = distinct(all);
+    let mut regions: Vec<Region> = Vec::new();
     let lows = std::iter::once(low).chain(boundaries.iter().map(|b| &b.root.high));
     let highs = boundaries.iter().map(|b| &b.root.low).chain([high]);
     for (a, b) in lows.zip(highs).filter(|(a, b)| a < b) {
         let sample = (a + b) / RBig::from(2);
-        let mut is_asymptotic = sign_at(g, leading, symbol, &sample)? == sign;
-        for &e in &list {
-            is_asymptotic &= sign_at(g, e, symbol, &sample)? == Ordering::Greater;
+        let mut is_left = true;
+        for list in &lists {
+            is_left &= range.is_left(list, &sample)?;
         }
         regions.push(Region {
             low: a.clone(),
             high: b.clone(),
-            is_asymptotic,
+            is_left,
             sample,
         });
     }
     name_pairs(&mut boundaries, &regions);
-    joined(&mut boundaries, &mut regions);
     Some(Ranges {
         boundaries,
         regions,
     })
 }
 
-/// Boundaries in order, those at the same place once; `None` where two that overlap may be different.
-fn distinct(mut all: Vec<Boundary>) -> Option<Vec<Boundary>> {
+/// A range of one parameter.
+struct Over<'a> {
+    g: &'a Graph,
+    symbol: Symbol,
+    low: &'a RBig,
+    high: &'a RBig,
+}
+
+impl Over<'_> {
+    /// The zeros of a function as boundaries.
+    fn boundaries(&self, e: Expr, crossing: Crossing) -> Option<Vec<Boundary>> {
+        if self.g.as_number(e).is_some_and(|_| !self.g.is_zero(e)) {
+            return Some(Vec::new());
+        }
+        let roots = real_roots(self.g, e, self.symbol, self.low, self.high)?;
+        let roots = roots.into_iter();
+        Some(roots.map(|root| Boundary { root, crossing }).collect())
+    }
+
+    /// Leading coefficient and determinants of a polynomial, and where the numbers of zeros on both sides of the axis may change: where a zero
+    /// is at infinity or at 0, or two are opposite, as Δ_{m−1} says (Orlando 1911).
+    fn of(&self, own: &Deciding) -> Option<(Vec<Expr>, Vec<Boundary>)> {
+        let leading = *own.coefficients.last()?;
+        let list = determinants(self.g, &own.coefficients);
+        let pair = match own.is_paired {
+            true => Crossing::Collision,
+            false => Crossing::Pair,
+        };
+        let mut all = self.boundaries(leading, Crossing::Infinity)?;
+        all.extend(self.boundaries(*own.coefficients.first()?, Crossing::Zero)?);
+        if let Some(&last) = list.len().checked_sub(2).and_then(|at| list.get(at)) {
+            all.extend(self.boundaries(last, pair)?);
+        }
+        Some(([vec![leading], list].concat(), all))
+    }
+
+    /// Whether a polynomial, given by its leading coefficient and its determinants, has all zeros left of the axis. Where the leading
+    /// coefficient is negative determinants of odd size change their signs.
+    fn is_left(&self, list: &[Expr], at: &RBig) -> Option<bool> {
+        let signs: Option<Vec<Ordering>> = list
+            .iter()
+            .map(|&e| sign_at(self.g, e, self.symbol, at))
+            .collect();
+        Some(are_positive(&signs?))
+    }
+}
+
+/// Whether Hurwitz's determinants are positive, given the sign of the leading coefficient and then those of the determinants of the polynomial
+/// as it stands: with a negative leading coefficient those of odd size change.
+pub fn are_positive(signs: &[Ordering]) -> bool {
+    let Some((leading, list)) = signs.split_first() else {
+        return true;
+    };
+    let mut list = list.iter().enumerate();
+    *leading != Ordering::Equal
+        && list.all(|(at, &sign)| match at % 2 {
+            0 => sign == *leading,
+            _ => sign == Ordering::Greater,
+        })
+}
+
+/// Boundaries in order, those at the same place once.
+fn distinct(mut all: Vec<Boundary>) -> Vec<Boundary> {
     // Where several determinants vanish together the first of the list names the crossing.
     all.sort_by(|a, b| a.root.low.cmp(&b.root.low));
     let mut kept: Vec<Boundary> = Vec::new();
@@ -158,7 +211,7 @@ fn distinct(mut all: Vec<Boundary>) -> Option<Vec<Boundary>> {
             _ => kept.push(own),
         }
     }
-    Some(kept)
+    kept
 }
 
 /// Where Δ_{m−1} vanishes two eigenvalues are opposite (Orlando 1911): a pair on the axis where the stability changes, and otherwise perhaps λ and
@@ -166,34 +219,42 @@ fn distinct(mut all: Vec<Boundary>) -> Option<Vec<Boundary>> {
 fn name_pairs(boundaries: &mut [Boundary], regions: &[Region]) {
     for boundary in boundaries
         .iter_mut()
-        .filter(|b| b.crossing == Crossing::Pair)
+        .filter(|b| matches!(b.crossing, Crossing::Pair | Crossing::Collision))
     {
         let before = regions.iter().rfind(|r| r.high <= boundary.root.low);
         let after = regions.iter().find(|r| r.low >= boundary.root.high);
         let changes = before
             .zip(after)
-            .is_some_and(|(a, b)| a.is_asymptotic != b.is_asymptotic);
+            .is_some_and(|(a, b)| a.is_left != b.is_left);
         if !changes {
             boundary.crossing = Crossing::Touching;
         }
     }
 }
 
-/// Takes out boundaries where no determinant that matters vanishes and unstable regions meet.
-fn joined(boundaries: &mut Vec<Boundary>, regions: &mut Vec<Region>) {
-    let mut at = 0;
-    while at + 1 < regions.len() {
-        let is_same = !regions[at].is_asymptotic && !regions[at + 1].is_asymptotic;
-        let between = boundaries
-            .iter()
-            .position(|b| b.root.low >= regions[at].high && b.root.high <= regions[at + 1].low);
-        match between {
-            Some(place) if is_same && boundaries[place].crossing == Crossing::Touching => {
-                boundaries.remove(place);
-                let next = regions.remove(at + 1);
-                regions[at].high = next.high;
+impl Ranges {
+    /// The same for a person: without the boundaries at which two eigenvalues are opposite while others stay right of the axis on both sides.
+    #[must_use]
+    pub fn joined(&self) -> Ranges {
+        let (mut boundaries, mut regions) = (self.boundaries.clone(), self.regions.clone());
+        let mut at = 0;
+        while at + 1 < regions.len() {
+            let is_same = !regions[at].is_left && !regions[at + 1].is_left;
+            let between = boundaries
+                .iter()
+                .position(|b| b.root.low >= regions[at].high && b.root.high <= regions[at + 1].low);
+            match between {
+                Some(place) if is_same && boundaries[place].crossing == Crossing::Touching => {
+                    boundaries.remove(place);
+                    let next = regions.remove(at + 1);
+                    regions[at].high = next.high;
+                }
+                _ => at += 1,
             }
-            _ => at += 1,
+        }
+        Ranges {
+            boundaries,
+            regions,
         }
     }
 }

@@ -3,22 +3,36 @@
 //! A steady motion is one along which everything that the equations of motion depend on is constant; ignorable coordinates run on
 //! uniformly. What is asked, in this order, and where it is decided:
 //!
-//! 1. *Which motion?* [`steady`]: positions and velocities, completed by the constraints and checked, exactly.
+//! 1. *Which motion?* [`steady`]: positions and velocities, completed by the constraints; [`expansion`] checks them, exactly, and expands
+//!    functions about them; [`problem`] says why that cannot be.
 //! 2. *On which variables do the equations depend?* [`reduction`]: the smallest closed system of coordinates and quasi-velocities.
 //! 3. *What are the linear equations?* [`linearization`]: `E δz' = F δz`, exact in the parameters, on the tangent space of the finite
-//!    constraints.
-//! 4. *Which eigenvalues?* [`characteristic`]: det(λE − F), with the zeros of the family of steady motions split off; [`eigenvalues`] in
-//!    double precision.
-//! 5. *Are they left of the axis?* [`hurwitz`]: Hurwitz's determinants, at a value or over a range of one parameter, with boundaries
-//!    enclosed by [`real_roots`]; [`question`] puts it together, and for even polynomials asks whether all are imaginary and simple.
-//! 6. *What is stated?* [`claims`].
+//!    constraints, with the family of steady motions; [`state_space`] and [`parts`] write them as others do.
+//! 4. *Which eigenvalues?* [`characteristic`]: det(λE − F), with the zeros of the family split off; [`spectrum`]: its factors, those that are
+//!    their own mirror images apart; [`multiplicity`]: their Jordan chains; [`eigenvalues`] in double precision, [`enclosure`] one that is proved.
+//! 5. *Are they left of the axis?* [`hurwitz`]: Hurwitz's determinants over a range of one parameter, with boundaries enclosed by
+//!    [`real_roots`]; [`question`] puts it together.
+//! 6. *Is the motion itself stable?* [`integrals`] up to the second order, and [`bundle`]: their combinations as Lyapunov functions.
+//! 7. *What is stated?* [`claims`], each for all values of the parameter of the motion.
 
+pub mod bundle;
 pub mod characteristic;
 pub mod claims;
+mod decision;
 pub mod eigenvalues;
+pub mod enclosure;
+mod evidence;
+pub mod expansion;
+mod family;
 pub mod hurwitz;
+pub mod integrals;
 pub mod linearization;
+pub mod multiplicity;
+pub mod parts;
+pub mod problem;
 pub mod question;
 pub mod real_roots;
 pub mod reduction;
+pub mod spectrum;
+pub mod state_space;
 pub mod steady;

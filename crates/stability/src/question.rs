@@ -1,14 +1,12 @@
 //! The question of stability as it is asked of a system: linear equations, their characteristic polynomial, and the ranges of one parameter in
 //! which the eigenvalues that were not split off lie left of the axis, or on it.
-//!
-//! Where the characteristic polynomial is even, q(λ²), as that of a conservative or reversible system, no eigenvalue can be left of the axis
-//! without its mirror image. All of them lie on the axis and are simple exactly where the zeros of q are real, negative and simple, hence
-//! exactly where q(λ²) + λ q'(λ²) has all zeros left of the axis (Hermite 1856, Biehler 1879).
 
 use crate::characteristic::Characteristic;
-use crate::hurwitz::{determinants, ranges, Ranges};
-use crate::linearization::{linearize, Linearization, LinearizationError};
+use crate::expansion::Expansion;
+use crate::hurwitz::{are_positive, determinants, ranges, Deciding, Ranges};
+use crate::linearization::{Linearization, LinearizationError};
 use crate::real_roots::{sign_at, sign_of};
+use crate::spectrum::Spectrum;
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::factors::coefficients;
 use chetaev_symbolic::number::ball::Precision;
@@ -23,6 +21,8 @@ pub struct Question {
     pub linear: Linearization,
     /// det(λE − F); `None` where it is too large.
     pub polynomial: Option<Characteristic>,
+    /// The factors of it.
+    pub spectrum: Spectrum,
     /// The parameter that was left in.
     pub over: Option<Symbol>,
 }
@@ -30,12 +30,14 @@ pub struct Question {
 /// What the eigenvalues do inside of an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// All lie left of the axis.
+    /// All lie left of the axis, but the zeros of the family.
     Left,
-    /// All lie on the axis, and are simple.
+    /// None lies right of the axis, and those on it, but zero, are simple zeros of the factors.
     OnAxis,
     /// At least one lies right of the axis.
     Right,
+    /// One lies on the axis or right of it: two are opposite, and where they lie was not decided.
+    NotLeft,
 }
 
 impl Question {
@@ -51,81 +53,130 @@ impl Question {
         over: Option<Symbol>,
     ) -> Result<Question, LinearizationError> {
         let values = values_but(system, over);
-        let linear = linearize(system, terms, selection, motion, &values)?;
-        let polynomial = Characteristic::of(&system.graph, &linear);
-        Ok(Question {
+        let about = Expansion::new(system, terms, selection, motion, &values)?;
+        Ok(Question::about(&about, over))
+    }
+
+    /// The question about a motion that was found to be steady.
+    pub fn about(about: &Expansion<'_>, over: Option<Symbol>) -> Question {
+        let g = &about.system.graph;
+        let linear = about.linear();
+        let polynomial = Characteristic::of(g, &linear);
+        let spectrum = polynomial.as_ref().map(|own| Spectrum::of(g, own));
+        Question {
             linear,
             polynomial,
+            spectrum: spectrum.unwrap_or_default(),
             over,
-        })
+        }
     }
 
-    /// Whether the polynomial is even.
-    pub fn is_even(&self, g: &Graph) -> bool {
+    /// The polynomials whose zeros decide.
+    pub fn deciding(&self, g: &Graph) -> Vec<Deciding> {
+        self.spectrum.deciding(g)
+    }
+
+    /// How many eigenvalues are zero whatever the parameters, those of the family included.
+    pub fn zeros(&self) -> usize {
         let polynomial = self.polynomial.as_ref();
-        polynomial.is_some_and(|p| {
-            p.degree() > 0
-                && p.coefficients
-                    .iter()
-                    .skip(1)
-                    .step_by(2)
-                    .all(|&e| g.is_zero(e))
-        })
+        polynomial.map_or(0, |own| own.zeros + own.further_zeros)
     }
 
-    /// The polynomial whose zeros decide: itself, or q(λ²) + λ q'(λ²) where it is even.
-    pub fn deciding(&self, g: &Graph) -> Option<Vec<Expr>> {
-        let own = &self.polynomial.as_ref()?.coefficients;
-        if !self.is_even(g) {
-            return Some(own.clone());
-        }
-        let even: Vec<Expr> = own.iter().step_by(2).copied().collect();
-        let slope = |i: usize| g.mul(&[g.integer(i as i64 + 1), even[i + 1]]);
-        let mut found = Vec::new();
-        for (i, &e) in even.iter().enumerate() {
-            found.push(e);
-            if i + 1 < even.len() {
-                found.push(slope(i));
-            }
-        }
-        Some(found)
-    }
-
-    /// What the eigenvalues do in an interval in which the deciding polynomial has, or has not, all zeros left of the axis.
-    pub fn place(&self, g: &Graph, is_left: bool) -> Place {
-        match (is_left, self.is_even(g)) {
-            (true, false) => Place::Left,
-            (true, true) => Place::OnAxis,
+    /// What the eigenvalues do where the deciding polynomials have, or have not, all zeros left of the axis.
+    pub fn place(&self, is_left: bool) -> Place {
+        let is_strict = self.spectrum.paired.is_none()
+            && self
+                .polynomial
+                .as_ref()
+                .is_none_or(|own| own.further_zeros == 0);
+        match (is_left, is_strict) {
+            (true, true) => Place::Left,
+            (true, false) => Place::OnAxis,
             (false, _) => Place::Right,
         }
     }
 
     /// Stability over a range of the parameter that was left in; `None` where that was not decided.
     pub fn ranges(&self, g: &Graph, low: &RBig, high: &RBig) -> Option<Ranges> {
-        ranges(g, &self.deciding(g)?, self.over?, low, high)
+        let leading = *self.polynomial.as_ref()?.coefficients.last()?;
+        ranges(g, &self.deciding(g), leading, self.over?, low, high)
     }
 
     /// A number beyond which, on both sides, nothing changes any more: Cauchy's bound of the zeros of all determinants.
     pub fn bound(&self, g: &Graph) -> Option<RBig> {
-        let (symbol, deciding) = (self.over?, self.deciding(g)?);
-        let all = determinants(g, &deciding, Ordering::Greater);
-        let ends = [*deciding.first()?, *deciding.last()?];
-        let bounds = all.iter().chain(&ends).map(|&e| cauchy_bound(g, e, symbol));
-        bounds.collect::<Option<Vec<RBig>>>()?.into_iter().max()
+        let mut all = vec![*self.polynomial.as_ref()?.coefficients.last()?];
+        for own in self.deciding(g) {
+            all.extend(determinants(g, &own.coefficients));
+            all.extend([*own.coefficients.first()?, *own.coefficients.last()?]);
+        }
+        bound_of(g, &all, self.over?)
     }
 
-    /// The signs of Hurwitz's determinants of the deciding polynomial, at a value of the parameter that was left in, if one was.
-    pub fn signs(&self, g: &Graph, at: Option<&RBig>) -> Option<Vec<Ordering>> {
-        let value = self.over.zip(at);
-        let sign = |e: Expr| match value {
+    /// What the eigenvalues do, at a value of the parameter that was left in, if one was; `None` where that was not decided.
+    pub fn place_at(&self, g: &Graph, at: Option<&RBig>) -> Option<Place> {
+        let sign = |e: Expr| self.sign(g, e, at);
+        if sign(*self.polynomial.as_ref()?.coefficients.last()?)? == Ordering::Equal {
+            return None;
+        }
+        let (mut is_left, mut is_apart_everywhere) = (true, true);
+        for own in self.deciding(g) {
+            let leading = sign(*own.coefficients.last()?)?;
+            let list: Option<Vec<Ordering>> = determinants(g, &own.coefficients)
+                .into_iter()
+                .map(sign)
+                .collect();
+            let list = list?;
+            let signs = [vec![leading], list.clone()].concat();
+            if are_positive(&signs) {
+                continue;
+            }
+            // Where two zeros are opposite, or one is zero, they may lie on the axis.
+            let is_apart = |at: usize| list.get(at).is_none_or(|s| *s != Ordering::Equal);
+            if !list.len().checked_sub(2).is_none_or(is_apart) || !is_apart(list.len() - 1) {
+                is_apart_everywhere = false;
+            }
+            is_left = false;
+        }
+        Some(match is_apart_everywhere {
+            true => self.place(is_left),
+            false => Place::NotLeft,
+        })
+    }
+
+    /// The sign of an expression of the parameter that was left in, at a value of it.
+    pub fn sign(&self, g: &Graph, e: Expr, at: Option<&RBig>) -> Option<Ordering> {
+        match self.over.zip(at) {
             Some((symbol, at)) => sign_at(g, e, symbol, at),
             None => sign_of(g, e),
-        };
-        let deciding = self.deciding(g)?;
-        let leading = sign(*deciding.last()?)?;
-        let list = determinants(g, &deciding, leading).into_iter();
-        list.map(sign).collect()
+        }
     }
+}
+
+/// A number beyond which, on both sides, none of these functions of a parameter vanishes; `None` where one is no polynomial.
+pub fn bound_of(g: &Graph, es: &[Expr], symbol: Symbol) -> Option<RBig> {
+    let bounds = es.iter().map(|&e| cauchy_bound(g, e, symbol));
+    bounds.collect::<Option<Vec<RBig>>>()?.into_iter().max()
+}
+
+/// The parameter that occurs in the motion and not in the equations of the system, where there is exactly one.
+pub fn parameter_of_motion(system: &System, motion: &SteadyMotion) -> Option<Symbol> {
+    let g = &system.graph;
+    let given: Vec<_> = motion
+        .positions
+        .iter()
+        .chain(&motion.velocities)
+        .flatten()
+        .copied()
+        .collect();
+    let mut equations = vec![system.lagrangian];
+    equations.extend(&system.forces);
+    equations.extend(system.constraints.iter().map(|c| c.stated));
+    equations.extend(system.definitions.iter().map(|(_, e)| *e));
+    equations.extend(system.controls.iter().filter_map(|c| c.law));
+    let used = g.symbols_in(&equations);
+    let of_motion = g.symbols_in(&given).into_iter();
+    let mut free = of_motion.filter(|s| !used.contains(s));
+    free.next().filter(|_| free.next().is_none())
 }
 
 /// The values of all parameters but one. Parameters whose definitions contain that one are put in by their definitions.
@@ -166,6 +217,15 @@ fn expanded(system: &System, e: Expr) -> Expr {
     e
 }
 
+/// The values of all parameters with a value for one of them, and with what follows for those that are defined by it.
+pub fn values_at(system: &System, over: Symbol, at: &RBig) -> Vec<(Expr, Expr)> {
+    let g = &system.graph;
+    let own = (g.symbol_expr(over), g.number(at.clone()));
+    let others = values_but(system, Some(over)).into_iter();
+    let others = others.map(|(symbol, value)| (symbol, g.substitute(value, &[own])));
+    others.chain([own]).collect()
+}
+
 /// An expression of parameters with the values of all but one.
 fn with_values(system: &System, e: Expr, over: Symbol) -> Expr {
     let g = &system.graph;
@@ -182,7 +242,7 @@ fn cauchy_bound(g: &Graph, e: Expr, symbol: Symbol) -> Option<RBig> {
     let precision = Precision::new(128);
     let list = coefficients(g, e, symbol)?;
     let balls = g.enclose(&list, &precision, &|_| None).ok()?;
-    let leading = balls.iter().rev().find(|b| b.excludes_zero())?;
+    let leading = balls.last().filter(|b| b.excludes_zero())?;
     let mut bound = RBig::from(2);
     for own in &balls {
         let ratio = precision.abs(&precision.div(own, leading).ok()?);

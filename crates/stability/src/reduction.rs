@@ -3,7 +3,7 @@
 //! `M P' = b` in independent quasi-velocities P; coordinates on which M and b do not depend are ignorable, and a coordinate that is
 //! not ignorable brings its own rate, which may depend on further ones. What is left out moves by quadratures.
 
-use crate::linearization::LinearizationError;
+use crate::problem::LinearizationError;
 use chetaev_mechanics::characteristics::Characteristics;
 use chetaev_mechanics::mass;
 use chetaev_mechanics::reduced_equations::ReducedEquations;
@@ -11,7 +11,19 @@ use chetaev_mechanics::regular::regular;
 use chetaev_mechanics::{MotionTerms, Selection, System};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::{decide_zero, ZeroTest};
-use chetaev_symbolic::{Expr, Graph, Verdict};
+use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
+use nalgebra::{DMatrix, RowDVector};
+
+/// Which speeds are variables.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Speeds {
+    /// The quasi-velocities of the model where the velocities by them are finite at the motion; else such as need no division by anything that
+    /// changes, where they are found; else independent velocities, if need be those for which the constraints are best conditioned at the motion.
+    #[default]
+    Suitable,
+    /// The velocities that the selection leaves independent.
+    Independent,
+}
 
 /// `M P' = b` with the rates of the coordinates that occur.
 #[derive(Clone, Debug)]
@@ -27,14 +39,16 @@ pub struct ClosedSystem {
 }
 
 impl ClosedSystem {
-    /// The closed system of a system of first order whose masses have no laws of their own.
+    /// The closed system of a system of first order whose masses have no laws of their own, in speeds of choice; `point` is the state about
+    /// which they must serve.
     ///
     /// # Errors
     /// [`LinearizationError`] where there is none.
-    pub fn new(
+    pub fn about(
         system: &System,
         terms: &MotionTerms,
         selection: &Selection,
+        (speeds, point): (Speeds, &[(Symbol, f64)]),
     ) -> Result<ClosedSystem, LinearizationError> {
         if terms.order > 1 {
             return Err(LinearizationError::OrderTooHigh { order: terms.order });
@@ -42,24 +56,53 @@ impl ClosedSystem {
         if !system.masses.is_empty() || mass::with_velocity(system).is_some() {
             return Err(LinearizationError::MassesMove);
         }
-        let characteristics = match regular(system, terms, &selection.rows) {
-            Some(found) => found,
-            None => Characteristics::independent_velocities(system, terms, selection)?,
+        let serves = |c: &Characteristics| is_finite(&system.graph, c, point);
+        let suitable = || {
+            let stated = Characteristics::quasi_velocities(system, terms, selection);
+            let stated = stated.and_then(Result::ok).filter(serves);
+            stated.or_else(|| regular(system, terms, &selection.rows))
+        };
+        let independent = |selection: &Selection| {
+            Characteristics::independent_velocities(system, terms, selection)
+        };
+        let characteristics = match speeds {
+            Speeds::Suitable => match suitable() {
+                Some(found) => found,
+                None => {
+                    let chosen = independent(selection);
+                    match chosen.as_ref().is_ok_and(serves) {
+                        true => chosen?,
+                        false => independent(
+                            &conditioned(system, terms, selection, point)
+                                .unwrap_or_else(|| selection.clone()),
+                        )?,
+                    }
+                }
+            },
+            Speeds::Independent => independent(selection)?,
         };
         let equations = ReducedEquations::new(system, &characteristics)
             .unwrap_or_else(|| ReducedEquations::of_terms(system, terms, &characteristics));
-        Ok(ClosedSystem::closed(system, characteristics, &equations))
+        let standing = standing(system, &characteristics, point);
+        Ok(ClosedSystem::closed(
+            system,
+            characteristics,
+            &equations,
+            &standing,
+        ))
     }
 
     fn closed(
         system: &System,
         characteristics: Characteristics,
         equations: &ReducedEquations,
+        standing: &[usize],
     ) -> ClosedSystem {
         let g = &system.graph;
         let k = characteristics.k();
         let mut entries = equations.entries();
-        let mut coordinates: Vec<usize> = Vec::new();
+        let mut coordinates: Vec<usize> = standing.to_vec();
+        entries.extend(standing.iter().map(|&j| characteristics.velocities[j]));
         while let Some(j) = (0..system.n()).find(|j| {
             !coordinates.contains(j)
                 && g.any_contains_any(&entries, &[system.coordinates[*j].q_symbol])
@@ -94,8 +137,102 @@ impl ClosedSystem {
     }
 }
 
+/// Coordinates at rest in the motion whose rates depend on themselves, as the angle at the hitch of a trailer without mass does: they move by
+/// no quadrature, whether forces depend on them or not.
+fn standing(system: &System, c: &Characteristics, point: &[(Symbol, f64)]) -> Vec<usize> {
+    let g = &system.graph;
+    let find = |s: Symbol| {
+        point
+            .iter()
+            .find(|(own, _)| *own == s)
+            .map(|(_, value)| *value)
+    };
+    let speeds: Vec<f64> = {
+        let definitions: Vec<Expr> = c.parameters.iter().map(|p| p.definition).collect();
+        g.evaluate_f64(&definitions, &|s| find(s).or(Some(SOMEWHERE)))
+            .unwrap_or_default()
+    };
+    let value = |s: Symbol| {
+        let own = c.parameters.iter().position(|p| p.symbol == s);
+        own.and_then(|at| speeds.get(at).copied())
+            .or_else(|| find(s))
+            .or(Some(SOMEWHERE))
+    };
+    let is_standing = |&j: &usize| {
+        let coordinate = &system.coordinates[j];
+        let rate = c.velocities[j];
+        let moved = || {
+            g.evaluate_f64(&[rate], &value)
+                .map_or(f64::NAN, |found| found[0])
+        };
+        find(coordinate.q_symbol).is_some()
+            && without(g, &[rate], coordinate.q).is_none()
+            && moved().abs() < AT_REST
+    };
+    (0..system.n()).filter(is_standing).collect()
+}
+
+/// A rate below this is none; whether it vanishes is decided exactly where the coordinate is a variable.
+const AT_REST: f64 = 1e-9;
+
+/// Whether the velocities by these quasi-velocities are finite at a state; coordinates that it does not know are ignorable there, and
+/// somewhere.
+fn is_finite(g: &Graph, c: &Characteristics, point: &[(Symbol, f64)]) -> bool {
+    let known = |s: Symbol| {
+        point
+            .iter()
+            .find(|(own, _)| *own == s)
+            .map(|(_, value)| *value)
+    };
+    let value = |s: Symbol| known(s).or(Some(SOMEWHERE));
+    let found = g.evaluate_f64(&c.basis.concat(), &value);
+    found.is_ok_and(|found| found.iter().all(|x| x.abs() < LARGEST_SLOPE))
+}
+
+/// The dependent velocities for which the constraints are best conditioned at a state: the columns that elimination with exchanges of rows
+/// and columns takes first.
+fn conditioned(
+    system: &System,
+    terms: &MotionTerms,
+    selection: &Selection,
+    point: &[(Symbol, f64)],
+) -> Option<Selection> {
+    let known = |s: Symbol| {
+        point
+            .iter()
+            .find(|(own, _)| *own == s)
+            .map(|(_, value)| *value)
+    };
+    let rows: Vec<Expr> = selection
+        .rows
+        .iter()
+        .flat_map(|&row| terms.jacobian[row].clone())
+        .collect();
+    let values = system
+        .graph
+        .evaluate_f64(&rows, &|s| known(s).or(Some(SOMEWHERE)))
+        .ok()?;
+    let (r, n) = (selection.rows.len(), system.n());
+    let mut order = RowDVector::from_iterator(n, (0..n).map(|j| j as f64));
+    DMatrix::from_row_slice(r, n, &values)
+        .full_piv_lu()
+        .q()
+        .permute_columns(&mut order);
+    let mut dependent: Vec<usize> = order.iter().take(r).map(|&j| j as usize).collect();
+    dependent.sort_unstable();
+    Some(Selection {
+        rows: selection.rows.clone(),
+        dependent,
+    })
+}
+
+/// A place of a coordinate on which nothing depends.
+const SOMEWHERE: f64 = 0.377;
+/// A slope beyond this is taken for a pole that rounding hides.
+const LARGEST_SLOPE: f64 = 1e12;
+
 /// The expressions with zero for a symbol on which they are proved not to depend.
-fn without(g: &Graph, es: &[Expr], symbol: Expr) -> Option<Vec<Expr>> {
+pub(crate) fn without(g: &Graph, es: &[Expr], symbol: Expr) -> Option<Vec<Expr>> {
     let at_zero = g.substitute_all(es, &[(symbol, g.zero())]);
     let pairs = es.iter().zip(&at_zero);
     let differences: Vec<Expr> = pairs.map(|(&a, &b)| g.sub(a, b)).collect();

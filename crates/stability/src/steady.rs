@@ -3,7 +3,7 @@
 //! Velocities that are not given follow from the constraints, which are affine in them at given positions; those that the
 //! constraints leave free are zero. Positions of ignorable coordinates need not be given.
 
-use crate::linearization::LinearizationError;
+use crate::problem::LinearizationError;
 use chetaev_mechanics::{MotionTerms, SteadyMotion, System};
 use chetaev_symbolic::polynomial::normal_form::normal_form;
 use chetaev_symbolic::polynomial::Budget;
@@ -107,7 +107,7 @@ fn affine_solution(g: &Graph, equations: &[Expr], unknowns: &[Symbol]) -> Option
             row.iter().map(|&e| closed(g, e)).collect()
         })
         .collect();
-    let pivots = echelon(g, &mut rows, unknowns.len());
+    let pivots = echelon(g, &mut rows, unknowns.len()).columns;
     let is_contradiction = |row: &Vec<Expr>| !g.is_zero(row[unknowns.len()]);
     if rows[pivots.len()..].iter().any(is_contradiction) {
         return None;
@@ -119,12 +119,21 @@ fn affine_solution(g: &Graph, equations: &[Expr], unknowns: &[Symbol]) -> Option
     Some(solution)
 }
 
-/// Brings rows of closed expressions to reduced echelon form in the first `columns`; the pivot columns, one for each of the first rows.
-/// A pivot is a number where there is one, since an expression may vanish for some values of parameters.
-pub(crate) fn echelon(g: &Graph, rows: &mut [Vec<Expr>], columns: usize) -> Vec<usize> {
-    let mut pivots = Vec::new();
-    while pivots.len() < rows.len() {
-        let done = pivots.len();
+/// What an elimination divided by.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Pivots {
+    /// The columns of the pivots, one for each of the first rows.
+    pub(crate) columns: Vec<usize>,
+    /// Their values: the result holds where none of them vanishes.
+    pub(crate) values: Vec<Expr>,
+}
+
+/// Brings rows of closed expressions to reduced echelon form in the first `columns`. A pivot is a number where there is one, since an
+/// expression may vanish for some values of parameters.
+pub(crate) fn echelon(g: &Graph, rows: &mut [Vec<Expr>], columns: usize) -> Pivots {
+    let mut pivots = Pivots::default();
+    while pivots.columns.len() < rows.len() {
+        let done = pivots.columns.len();
         let places = (done..rows.len()).flat_map(|r| (0..columns).map(move |c| (r, c)));
         let nonzero = places.filter(|&(r, c)| !g.is_zero(rows[r][c]));
         let cost = |&(r, c): &(usize, usize)| {
@@ -152,7 +161,24 @@ pub(crate) fn echelon(g: &Graph, rows: &mut [Vec<Expr>], columns: usize) -> Vec<
                 *entry = closed(g, g.sub(*entry, g.mul(&[factor, by])));
             }
         }
-        pivots.push(column);
+        pivots.columns.push(column);
+        pivots.values.push(pivot);
     }
     pivots
+}
+
+/// A basis of the vectors x with `A x = 0`, each with a one where all others have zero, and what was divided by.
+pub(crate) fn kernel(g: &Graph, a: &[Vec<Expr>], columns: usize) -> (Vec<Vec<Expr>>, Vec<Expr>) {
+    let mut rows = a.to_vec();
+    let pivots = echelon(g, &mut rows, columns);
+    let free = (0..columns).filter(|column| !pivots.columns.contains(column));
+    let vector = |column: usize| {
+        let mut vector = vec![g.zero(); columns];
+        vector[column] = g.one();
+        for (row, &pivot) in rows.iter().zip(&pivots.columns) {
+            vector[pivot] = g.neg(row[column]);
+        }
+        vector
+    };
+    (free.map(vector).collect(), pivots.values)
 }

@@ -35,6 +35,7 @@ pub mod record;
 pub mod registry;
 pub mod stability;
 mod start;
+pub mod state_space;
 pub mod stated_equations;
 pub mod story;
 pub mod study;

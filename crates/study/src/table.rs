@@ -189,21 +189,16 @@ impl Table {
     /// # Errors
     /// What the archive writer reports.
     pub fn to_npz(&self) -> std::io::Result<Vec<u8>> {
-        // No clock: the same run gives the same bytes.
-        let options = SimpleFileOptions::default()
-            .compression_method(CompressionMethod::Stored)
-            .last_modified_time(DateTime::default());
-        let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
         let low = self.precise.iter().map(|column| {
             let low: Vec<f64> = column.iter().map(|x| x.low()).collect();
-            npy(&low)
+            npy(&[low.len()], &low)
         });
-        let arrays = self.columns.iter().map(|column| npy(column)).chain(low);
-        for (name, array) in self.arrays().into_iter().zip(arrays) {
-            archive.start_file(format!("{name}.npy"), options)?;
-            archive.write_all(&array)?;
-        }
-        Ok(archive.finish()?.into_inner())
+        let arrays = self
+            .columns
+            .iter()
+            .map(|column| npy(&[column.len()], column))
+            .chain(low);
+        archive(self.arrays().into_iter().zip(arrays))
     }
 
     /// The names of the arrays, no two the same: of the columns, then of what their doubles leave out.
@@ -218,18 +213,58 @@ impl Table {
     }
 }
 
-/// One array of doubles in the NPY format, version 1.0 (NumPy, `numpy.lib.format`): the header is padded so that the
+/// A NumPy archive of arrays in the NPY format.
+///
+/// # Errors
+/// What the archive writer reports.
+pub(crate) fn archive(arrays: impl Iterator<Item = (String, Vec<u8>)>) -> std::io::Result<Vec<u8>> {
+    // No clock: the same run gives the same bytes.
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Stored)
+        .last_modified_time(DateTime::default());
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, array) in arrays {
+        archive.start_file(format!("{name}.npy"), options)?;
+        archive.write_all(&array)?;
+    }
+    Ok(archive.finish()?.into_inner())
+}
+
+/// One array of doubles, row by row, in the NPY format, version 1.0 (NumPy, `numpy.lib.format`): the header is padded so that the
 /// data begin at a multiple of 64 bytes.
-fn npy(column: &[f64]) -> Vec<u8> {
+pub(crate) fn npy(shape: &[usize], values: &[f64]) -> Vec<u8> {
+    let shape: Vec<String> = shape.iter().map(|n| format!("{n},")).collect();
+    let values: Vec<u8> = values.iter().flat_map(|x| x.to_le_bytes()).collect();
+    npy_of("<f8", &shape.concat(), &values)
+}
+
+/// An array of texts in the same format.
+pub(crate) fn npy_texts(texts: &[String]) -> Vec<u8> {
+    let width = texts
+        .iter()
+        .map(|t| t.chars().count())
+        .max()
+        .unwrap_or(0)
+        .max(1);
+    let padded = |t: &String| -> Vec<char> {
+        let rest = width - t.chars().count();
+        t.chars().chain(std::iter::repeat_n('\0', rest)).collect()
+    };
+    let values: Vec<u8> = texts
+        .iter()
+        .flat_map(padded)
+        .flat_map(|c| (c as u32).to_le_bytes())
+        .collect();
+    npy_of(&format!("<U{width}"), &format!("{},", texts.len()), &values)
+}
+
+fn npy_of(kind: &str, shape: &str, values: &[u8]) -> Vec<u8> {
     const BEFORE: usize = 10;
-    let header = format!(
-        "{{'descr': '<f8', 'fortran_order': False, 'shape': ({},), }}",
-        column.len()
-    );
+    let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({shape}), }}");
     let padded = (BEFORE + header.len() + 1).next_multiple_of(64) - BEFORE;
     let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
     bytes.extend((padded as u16).to_le_bytes());
     bytes.extend(format!("{header:<0$}\n", padded - 1).as_bytes());
-    bytes.extend(column.iter().flat_map(|x| x.to_le_bytes()));
+    bytes.extend(values);
     bytes
 }

@@ -159,6 +159,36 @@ fn the_disc_stands_above_its_critical_rates() {
     }
 }
 
+/// What is written for other programs: a file in the format of its end, or a word that there is none.
+#[test]
+fn linear_equations_for_other_programs() {
+    let path = model("whipple-bicycle");
+    let folder = std::env::temp_dir().join(format!("chetaev-linear-{}", std::process::id()));
+    let begins: [(&str, &[u8]); 4] = [
+        ("npz", b"PK"),
+        ("mat", &[0, 0, 0, 0, 5, 0, 0, 0, 5, 0, 0, 0]),
+        ("py", b"# whipple-bicycle"),
+        ("tex", b"\\[ E ="),
+    ];
+    for (end, begin) in begins {
+        let file = folder.join(format!("linear.{end}"));
+        let finished = run(&["linearize", text(&path), "--save", text(&file)]);
+        assert_eq!(finished.status, Some(0), "{}", finished.both());
+        let content = std::fs::read(&file).expect("a file");
+        assert!(content.starts_with(begin), "{end}");
+    }
+    let refused = run(&["linearize", text(&path), "--save", "linear.doc"]);
+    assert_eq!(refused.status, Some(2));
+    assert!(
+        refused.both().contains(".npz (NumPy)"),
+        "{}",
+        refused.both()
+    );
+    let _ = std::fs::remove_dir_all(&folder);
+    let few = run(&["linearize", text(&path), "--speeds", "phi'"]);
+    assert!(few.both().contains("name 3 speeds"), "{}", few.both());
+}
+
 #[test]
 fn slips_are_named() {
     let path = model("whipple-bicycle");

@@ -7,27 +7,54 @@
 use super::{error, with_progress};
 use crate::arguments::{Linearize, Stability as Arguments};
 use crate::{files, terminal, DONE, INPUT};
-use chetaev::study::stability::{stability, Stability, StabilityError};
+use chetaev::study::stability::{stability, Stability, StabilityError, Wanted};
+use std::path::Path;
 
 pub(crate) fn linearize(arguments: &Linearize) -> u8 {
-    let about = arguments.about.as_deref();
-    answer(&arguments.model, about, None, |found| {
-        if arguments.json {
-            json(found)
-        } else {
-            found.linear_text()
+    let wanted = Wanted {
+        about: arguments.about.as_deref(),
+        speeds: arguments.speeds.as_deref(),
+        outputs: arguments.outputs.as_deref(),
+        symbolic: arguments.symbolic,
+        over: None,
+    };
+    answer(&arguments.model, &wanted, |found| {
+        if let Some(path) = &arguments.save {
+            return saved(found, path);
         }
+        Ok(match arguments.json {
+            true => json(found),
+            false => found.linear_text(),
+        })
     })
 }
 
+/// Writes the linear equations in the format that the end of the name says.
+fn saved(found: &Stability, path: &Path) -> std::io::Result<String> {
+    let content = match path.extension().and_then(|end| end.to_str()) {
+        Some("npz") => found.matrices().to_npz()?,
+        Some("mat") => found.matrices().to_mat(),
+        Some("py") => found.matrices().to_python().into_bytes(),
+        Some("tex") => found.latex().into_bytes(),
+        Some("json") => json(found).into_bytes(),
+        Some("txt") => found.linear_text().into_bytes(),
+        _ => return Err(std::io::Error::other(format!("{}: the end of the name says the format: .npz (NumPy), .mat (MATLAB), .py (python-control), .tex, .json or .txt", path.display()))),
+    };
+    files::write(path, &content).map_err(std::io::Error::other)?;
+    Ok(String::new())
+}
+
 pub(crate) fn run(arguments: &Arguments) -> u8 {
-    let (about, over) = (arguments.about.as_deref(), arguments.over.as_deref());
-    answer(&arguments.model, about, over, |found| {
-        if arguments.json {
-            json(found)
-        } else {
-            found.ranges_text()
-        }
+    let wanted = Wanted {
+        about: arguments.about.as_deref(),
+        over: arguments.over.as_deref(),
+        ..Wanted::default()
+    };
+    answer(&arguments.model, &wanted, |found| {
+        Ok(match arguments.json {
+            true => json(found),
+            false => found.ranges_text(),
+        })
     })
 }
 
@@ -38,22 +65,29 @@ fn json(found: &Stability) -> String {
 
 fn answer(
     model: &crate::arguments::ModelArguments,
-    about: Option<&str>,
-    over: Option<&str>,
-    written: impl FnOnce(&Stability) -> String,
+    wanted: &Wanted<'_>,
+    written: impl FnOnce(&Stability) -> std::io::Result<String>,
 ) -> u8 {
     let Some(read) = files::model(model) else {
         return INPUT;
     };
     let found = with_progress(|line| {
         line.show("linear equations", None);
-        stability(&read.model, about, over)
+        stability(&read.model, wanted)
     });
-    match found {
-        Ok(found) => {
-            terminal::out(&written(&found));
-            DONE
+    match found.as_ref().map(written) {
+        Ok(Ok(text)) => {
+            terminal::out(&text);
+            return DONE;
         }
+        Ok(Err(problem)) => {
+            error(problem);
+            return INPUT;
+        }
+        Err(_) => {}
+    }
+    match found {
+        Ok(_) => DONE,
         Err(StabilityError::System(problem)) => {
             read.refuse(problem);
             INPUT

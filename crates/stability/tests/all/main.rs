@@ -1,4 +1,6 @@
 //! All integration tests of this package in one program, so that the package is linked once. A test is run by its module and name:
 //! `cargo test -p chetaev-stability --test all MODULE::`.
 
+mod common;
 mod reference;
+mod verdicts;

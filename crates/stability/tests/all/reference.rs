@@ -3,122 +3,15 @@
 #![allow(
     clippy::unwrap_used,
     clippy::excessive_precision,
-    clippy::result_large_err,
     reason = "test code fails where it stands; values have the digits of their source"
 )]
 
-use chetaev_mechanics::{Prepared, SteadyMotion, System};
-use chetaev_model::{load, Model};
+use crate::common::Case;
 use chetaev_stability::characteristic::Characteristic;
 use chetaev_stability::eigenvalues::eigenvalues;
-use chetaev_stability::hurwitz::{ranges, Crossing, Ranges};
-use chetaev_stability::linearization::{linearize, Linearization, LinearizationError, Variable};
-use chetaev_symbolic::{Expr, Rational};
-use std::collections::BTreeMap;
-
-/// A system with what is derived from it once.
-struct Case {
-    model: Model,
-    system: System,
-    prepared: Prepared,
-}
-
-impl Case {
-    fn new(text: &str) -> Case {
-        let loaded = load(
-            "case.toml",
-            &format!("name = \"case\"\n{text}"),
-            &BTreeMap::new(),
-            &[],
-        );
-        let model = loaded
-            .model
-            .unwrap_or_else(|| panic!("{}", loaded.diagnostics));
-        let system = System::from_model(&model).unwrap();
-        Case {
-            prepared: Prepared::new(&system).unwrap(),
-            model,
-            system,
-        }
-    }
-
-    fn gallery(name: &str) -> Case {
-        let path = format!(
-            "{}/../../gallery/{name}/model.toml",
-            env!("CARGO_MANIFEST_DIR")
-        );
-        let text = std::fs::read_to_string(path).unwrap();
-        let start = text.find("\nname = ").map_or(0, |at| at + 1);
-        let rest = text[start..].split_once('\n').unwrap().1;
-        Case::new(rest)
-    }
-
-    fn read(&self, text: &str) -> Expr {
-        self.model.expression(text).unwrap()
-    }
-
-    /// A motion from pairs of a coordinate or velocity and its value; other positions and velocities are not given.
-    fn motion(&self, given: &[(&str, &str)]) -> SteadyMotion {
-        let of = |name: String| {
-            given
-                .iter()
-                .find(|(own, _)| *own == name)
-                .map(|(_, value)| self.read(value))
-        };
-        let names = self.system.coordinates.iter().map(|c| &c.name);
-        SteadyMotion {
-            name: "asked".into(),
-            positions: names.clone().map(|name| of(name.clone())).collect(),
-            velocities: names.map(|name| of(format!("{name}'"))).collect(),
-        }
-    }
-
-    /// The values of all parameters but one, as the model states them.
-    fn values(&self, but: &str) -> Vec<(Expr, Expr)> {
-        let parameters = self.system.parameters.iter().filter(|p| p.name != but);
-        parameters
-            .filter_map(|p| Some((p.expr, p.value?)))
-            .collect()
-    }
-
-    fn linear(
-        &self,
-        motion: &SteadyMotion,
-        but: &str,
-    ) -> Result<Linearization, LinearizationError> {
-        let (terms, selection) = (&self.prepared.terms, &self.prepared.selection);
-        linearize(&self.system, terms, selection, motion, &self.values(but))
-    }
-
-    fn number(&self, e: Expr, free: &[(&str, f64)]) -> f64 {
-        let g = &self.system.graph;
-        let value = |s| {
-            free.iter()
-                .find(|(name, _)| *name == g.symbol_name(s))
-                .map(|(_, value)| *value)
-        };
-        g.evaluate_f64(&[e], &value).unwrap()[0]
-    }
-
-    fn numbers(&self, rows: &[Vec<Expr>], free: &[(&str, f64)]) -> Vec<Vec<f64>> {
-        let row = |row: &Vec<Expr>| row.iter().map(|&e| self.number(e, free)).collect();
-        rows.iter().map(row).collect()
-    }
-
-    fn ranges(&self, linear: &Linearization, symbol: &str, low: i64, high: i64) -> Ranges {
-        let g = &self.system.graph;
-        let polynomial = Characteristic::of(g, linear).unwrap();
-        let symbol = g.intern_symbol(symbol, 0);
-        ranges(
-            g,
-            &polynomial.coefficients,
-            symbol,
-            &Rational::from(low),
-            &Rational::from(high),
-        )
-        .unwrap()
-    }
-}
+use chetaev_stability::hurwitz::Crossing;
+use chetaev_stability::linearization::{LinearizationError, Variable};
+use chetaev_symbolic::Rational;
 
 fn decimal(text: &str) -> Rational {
     let (whole, part) = text.split_once('.').unwrap();
@@ -179,7 +72,7 @@ fn the_bicycle_is_stable_between_the_weave_speed_and_the_capsize_speed() {
         }
     }
     let found = case.ranges(&linear, "v", 0, 10);
-    let stable: Vec<_> = found.regions.iter().filter(|r| r.is_asymptotic).collect();
+    let stable: Vec<_> = found.regions.iter().filter(|r| r.is_left).collect();
     assert_eq!(stable.len(), 1);
     // At rest the eigenvalues are real and opposite: no pair passes the axis there, where the range begins.
     let at_rest = found
@@ -346,7 +239,7 @@ blade = "x' sin(phi) = y' cos(phi)"
         .collect();
     assert!((values[0] / values[1] - 1.411_764_705_882_352_94).abs() < 1e-15);
     let found = case.ranges(&linear, "u", -3, 3);
-    let stable: Vec<bool> = found.regions.iter().map(|r| r.is_asymptotic).collect();
+    let stable: Vec<bool> = found.regions.iter().map(|r| r.is_left).collect();
     assert_eq!(stable, [false, true]);
     assert_eq!(found.boundaries.len(), 1);
     assert_eq!(found.boundaries[0].root.low, Rational::from(0));
@@ -435,7 +328,7 @@ wheel = "-X' sin(theta) + y' cos(theta) - e theta' = 0"
     let expected = Rational::from_parts(400.into(), 99_u32.into());
     let root = &found.boundaries[0].root;
     assert!(root.low <= expected && expected <= root.high);
-    let stable: Vec<bool> = found.regions.iter().map(|r| r.is_asymptotic).collect();
+    let stable: Vec<bool> = found.regions.iter().map(|r| r.is_left).collect();
     assert_eq!(stable, [true, false]);
 }
 

@@ -1,0 +1,84 @@
+//! All transversal eigenvalues lie left of the axis.
+
+use crate::decision::{verdict, About, Said, Statement};
+use crate::evidence::{counted, motions, requires, unstable};
+use crate::question::Place;
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_symbolic::verdict::Counterexample;
+use dashu_ratio::RBig;
+
+/// `stability.asymptotic#j`: all transversal eigenvalues lie left of the axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Asymptotic;
+
+impl Claim for Asymptotic {
+    fn id(&self) -> &'static str {
+        "stability.asymptotic"
+    }
+
+    fn group(&self) -> Group {
+        Group::Stability
+    }
+
+    fn title(&self) -> &'static str {
+        "All eigenvalues of the linear equations about the steady motion, but the zeros of its family, lie left of the imaginary axis"
+    }
+
+    fn explanation(&self) -> &'static str {
+        include_str!("asymptotic.md")
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        motions(cx)
+    }
+
+    fn requires(&self, subject: Option<&str>) -> Vec<String> {
+        requires(subject)
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        verdict(cx, subject, self).into()
+    }
+}
+
+impl Statement for Asymptotic {
+    fn said(&self, about: &About<'_>, place: Place, _: Option<&RBig>) -> Said {
+        let question = &about.question;
+        let further = question
+            .polynomial
+            .as_ref()
+            .map_or(0, |own| own.further_zeros);
+        match place {
+            Place::Left if question.deciding(about.graph()).is_empty() => Said::Holds(
+                "all eigenvalues are zeros of the family of steady motions; there is no other".into(),
+            ),
+            Place::Left => Said::Holds("Hurwitz's determinants are all positive".into()),
+            Place::OnAxis if question.spectrum.paired.is_none() && further > 0 => Said::Open(
+                "an eigenvalue is zero and belongs to no family of steady motions that was found: the linear equations decide nothing".into(),
+            ),
+            _ => Said::Fails,
+        }
+    }
+
+    fn at_border(&self, _: bool) -> Option<bool> {
+        Some(false)
+    }
+
+    fn counterexample(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Counterexample {
+        let paired = about.question.spectrum.paired.as_ref();
+        let motion = "the linear equations about the steady motion";
+        match place {
+            Place::Right => unstable(about, at),
+            Place::NotLeft => counted(
+                "the number of pairs of opposite eigenvalues is at least",
+                1,
+                format!("{motion} have an eigenvalue on the axis, or two that are mirror images of each other"),
+            ),
+            _ => counted(
+                "the number of eigenvalues on the imaginary axis, but zero",
+                paired.map_or(0, |own| own.len() - 1),
+                format!("{motion} have eigenvalues on the axis, which are their own mirror images"),
+            ),
+        }
+    }
+}

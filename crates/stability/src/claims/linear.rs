@@ -1,0 +1,89 @@
+//! No eigenvalue lies right of the axis, and those on it are semisimple.
+
+use crate::decision::{verdict, About, Said, Statement};
+use crate::evidence::{counted, motions, requires, unstable};
+use crate::multiplicity::{defects, Defect};
+use crate::question::Place;
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_symbolic::verdict::Counterexample;
+use dashu_ratio::RBig;
+
+/// `stability.linear#j`: none lies right of the axis, and those on it are semisimple.
+#[derive(Clone, Copy, Debug)]
+pub struct Linear;
+
+impl Claim for Linear {
+    fn id(&self) -> &'static str {
+        "stability.linear"
+    }
+
+    fn group(&self) -> Group {
+        Group::Stability
+    }
+
+    fn title(&self) -> &'static str {
+        "All solutions of the linear equations about the steady motion stay bounded"
+    }
+
+    fn explanation(&self) -> &'static str {
+        include_str!("linear.md")
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        motions(cx)
+    }
+
+    fn requires(&self, subject: Option<&str>) -> Vec<String> {
+        requires(subject)
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        verdict(cx, subject, self).into()
+    }
+}
+
+/// What a bounded linear motion does not say.
+const NO_MORE: &str = "of the nonlinear motion that says nothing by itself";
+
+impl Statement for Linear {
+    fn said(&self, about: &About<'_>, place: Place, _: Option<&RBig>) -> Said {
+        match place {
+            Place::Left => Said::Holds("all eigenvalues but the zeros of the family lie left of the axis, and these have as many eigenvectors as the family has dimensions".into()),
+            Place::Right => Said::Fails,
+            Place::NotLeft => Said::Open("a Hurwitz determinant vanishes: eigenvalues lie on the axis, or are mirror images of each other".into()),
+            // Inside of an interval multiplicities do not change, so that what is semisimple for general values is so throughout.
+            Place::OnAxis => match defects(about.graph(), &about.question, None) {
+                Some(list) if list.is_empty() => Said::Holds(format!("no eigenvalue lies right of the axis, and those on it have as many eigenvectors as their multiplicity; {NO_MORE}")),
+                Some(_) => Said::Fails,
+                None => Said::Open("the rank of an exact matrix was not decided".into()),
+            },
+        }
+    }
+
+    fn counterexample(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Counterexample {
+        if place == Place::Right {
+            return unstable(about, at);
+        }
+        let list = defects(about.graph(), &about.question, at).unwrap_or_default();
+        let chain = |own: &Defect| match own.factor {
+            None => format!(
+                "the eigenvalue 0 has multiplicity {} and {} eigenvectors",
+                own.multiplicity, own.chains
+            ),
+            Some(_) => format!(
+                "an imaginary pair has multiplicity {} and {} eigenvectors",
+                own.multiplicity, own.chains
+            ),
+        };
+        let chains: Vec<String> = list.iter().map(chain).collect();
+        let missing = list.iter().map(|own| own.multiplicity - own.chains).sum();
+        counted(
+            "the number of eigenvectors on the axis that are missing",
+            missing,
+            format!(
+                "{}: solutions of the linear equations grow as a power of the time, and {NO_MORE}",
+                chains.join(", ")
+            ),
+        )
+    }
+}

@@ -1,0 +1,106 @@
+//! The motion that the model names is admissible and steady.
+
+use crate::decision::about;
+use crate::evidence::motions;
+use crate::problem::LinearizationError;
+use crate::question::Question;
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+use chetaev_symbolic::verdict::{Counterexample, Proof};
+use chetaev_symbolic::Verdict;
+
+/// `steady.stated#j`: the motion that the model names is admissible and steady.
+#[derive(Clone, Copy, Debug)]
+pub struct Stated;
+
+impl Claim for Stated {
+    fn id(&self) -> &'static str {
+        "steady.stated"
+    }
+
+    fn group(&self) -> Group {
+        Group::Stability
+    }
+
+    fn title(&self) -> &'static str {
+        "The motion is admissible, and everything that the equations of motion depend on is constant along it"
+    }
+
+    fn explanation(&self) -> &'static str {
+        include_str!("stated.md")
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        motions(cx)
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        match about(cx, subject) {
+            Some(Ok(own)) => {
+                let question = &own.question;
+                Verdict::Proved(Proof::exact(on(question), steadiness(question))).into()
+            }
+            Some(Err(problem)) => refused(problem).into(),
+            None => Verdict::undecided("the model names no such steady motion").into(),
+        }
+    }
+}
+
+/// For which values of the parameters.
+fn on(question: &Question) -> &'static str {
+    match question.over {
+        Some(_) => "for all values of the parameter of the motion, the others as stated",
+        None => "for the values of the parameters that are stated",
+    }
+}
+
+/// What was found of a steady motion.
+fn steadiness(question: &Question) -> String {
+    let linear = &question.linear;
+    let family = match linear.family {
+        0 => String::new(),
+        1 => "; it belongs to a family of dimension 1".into(),
+        n => format!("; it belongs to a family of dimension {n}"),
+    };
+    let ignorable = match linear.ignorable.as_slice() {
+        [] => String::new(),
+        names => format!("; nothing depends on {}", names.join(", ")),
+    };
+    format!(
+        "all constraints hold, and the rates of {} vanish{ignorable}{family}",
+        linear.names.join(", ")
+    )
+}
+
+/// What a motion that is not admissible or not steady comes to.
+fn refused(problem: LinearizationError) -> Verdict {
+    let sentence = problem.to_string();
+    match problem {
+        LinearizationError::NotAdmissible {
+            enclosure: Some(residual),
+            constraint,
+            ..
+        } => Verdict::Refuted(Counterexample {
+            point: Vec::new(),
+            quantity: format!("the constraint {constraint}, left side minus right side"),
+            residual,
+            detail: sentence,
+        }),
+        LinearizationError::NotSteady {
+            enclosure: Some(residual),
+            quantity,
+            ..
+        } => Verdict::Refuted(Counterexample {
+            point: Vec::new(),
+            quantity: format!("what changes {quantity}"),
+            residual,
+            detail: sentence,
+        }),
+        LinearizationError::OrderTooHigh { .. } => {
+            Verdict::not_applicable("model.constraints-first-order", sentence)
+        }
+        LinearizationError::NotAutonomous => {
+            Verdict::not_applicable("model.lagrangian-autonomous", sentence)
+        }
+        _ => Verdict::undecided(sentence),
+    }
+}

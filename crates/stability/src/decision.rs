@@ -1,0 +1,458 @@
+//! One statement on a motion, decided at the values of the parameters that the model states, or for all values of the one parameter that occurs
+//! in the motion only.
+
+use crate::bundle::{bundles, Bundle};
+use crate::expansion::Expansion;
+use crate::hurwitz::{Crossing, Ranges};
+use crate::problem::LinearizationError;
+use crate::question::{bound_of, parameter_of_motion, values_at, values_but, Place, Question};
+use crate::real_roots::{decimal, real_roots, Root};
+use chetaev_mechanics::claims::Context;
+use chetaev_mechanics::SteadyMotion;
+use chetaev_symbolic::number::ball::Precision;
+use chetaev_symbolic::verdict::{Counterexample, PointValue, Proof};
+use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
+use dashu_ratio::RBig;
+use std::cell::OnceCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Mutex, PoisonError};
+
+/// What is known of a statement at a value of the parameter, or throughout an interval.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Said {
+    /// It holds, and why.
+    Holds(String),
+    /// It fails.
+    Fails,
+    /// It was not decided, and why.
+    Open(String),
+}
+
+/// The questions that several claims ask, by the name of the motion and the values of parameters.
+#[derive(Default)]
+struct Questions(Mutex<BTreeMap<Asked, Question>>);
+
+type Asked = (String, Vec<(Expr, Expr)>);
+
+/// A motion with its linear equations.
+pub(crate) struct About<'a> {
+    pub(crate) expansion: Expansion<'a>,
+    pub(crate) question: Question,
+    bundles: OnceCell<Vec<Bundle>>,
+}
+
+impl<'a> About<'a> {
+    fn new(
+        cx: &Context<'a>,
+        motion: &'a SteadyMotion,
+        values: &[(Expr, Expr)],
+        over: Option<Symbol>,
+    ) -> Result<About<'a>, LinearizationError> {
+        let expansion = Expansion::new(cx.system, cx.terms, cx.selection, motion, values)?;
+        let known = cx.shared(|_| Questions::default());
+        let place = (motion.name.clone(), values.to_vec());
+        let mut known = known.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let question = known
+            .entry(place)
+            .or_insert_with(|| Question::about(&expansion, over));
+        Ok(About {
+            question: question.clone(),
+            expansion,
+            bundles: OnceCell::new(),
+        })
+    }
+
+    pub(crate) fn graph(&self) -> &Graph {
+        &self.expansion.system.graph
+    }
+
+    /// Combinations of integrals that may be Lyapunov functions.
+    pub(crate) fn bundles(&self) -> &[Bundle] {
+        self.bundles.get_or_init(|| {
+            let (g, n) = (self.graph(), self.expansion.variables().len());
+            let known = self.expansion.integrals();
+            let mut found = bundles(g, &known, n);
+            let mut transported = self.expansion.transported();
+            if !transported.is_empty() {
+                transported.extend(known);
+                found.extend(bundles(g, &transported, n));
+            }
+            found
+        })
+    }
+}
+
+/// The motion that is the subject of a claim: for all values of its parameter where it is steady for all of them, else for the stated values.
+pub(crate) fn about<'a>(
+    cx: &Context<'a>,
+    subject: Option<&str>,
+) -> Option<Result<About<'a>, LinearizationError>> {
+    let system = cx.system;
+    let mut stated = system.steady.iter();
+    let motion = stated.find(|s| Some(s.name.as_str()) == subject)?;
+    let of = |over| About::new(cx, motion, &values_but(system, over), over);
+    let general = parameter_of_motion(system, motion).map(|symbol| of(Some(symbol)));
+    Some(match general {
+        Some(Ok(found)) => Ok(found),
+        _ => of(None),
+    })
+}
+
+/// A statement on the stability of a motion.
+pub(crate) trait Statement {
+    /// What is known of it where the eigenvalues lie so, at a value of the parameter or throughout an interval about it in which no function of
+    /// [`further`](Statement::further) vanishes.
+    fn said(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Said;
+
+    /// Further functions of the parameter at whose zeros the answer may change.
+    fn further(&self, _: &About<'_>) -> Vec<Expr> {
+        Vec::new()
+    }
+
+    /// Whether it holds where a determinant vanishes, given whether it holds on one side of that value.
+    fn at_border(&self, _holds_beside: bool) -> Option<bool> {
+        None
+    }
+
+    /// What contradicts it, at a value of the parameter.
+    fn counterexample(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Counterexample;
+}
+
+/// The verdict on a statement.
+pub(crate) fn verdict(
+    cx: &Context<'_>,
+    subject: Option<&str>,
+    statement: &dyn Statement,
+) -> Verdict {
+    let about = match about(cx, subject) {
+        Some(Ok(about)) => about,
+        Some(Err(problem)) => return Verdict::undecided(problem.to_string()),
+        None => return Verdict::undecided("the model names no such steady motion"),
+    };
+    if about.question.polynomial.is_none() {
+        return Verdict::undecided(format!(
+            "the system has {} variables, more than an exact characteristic polynomial is made for",
+            about.question.linear.variables.len()
+        ));
+    }
+    match about.question.over {
+        Some(symbol) => Pieces::new(cx, &about, statement, symbol).map_or_else(
+            || {
+                Verdict::undecided(format!(
+                    "the boundaries of stability in {} were not enclosed",
+                    about.graph().symbol_text(symbol)
+                ))
+            },
+            |pieces| pieces.verdict(&about, statement),
+        ),
+        None => at_values(&about, statement),
+    }
+}
+
+/// What is said where the model states a value for every parameter.
+fn at_values(about: &About<'_>, statement: &dyn Statement) -> Verdict {
+    let Some(place) = about.question.place_at(about.graph(), None) else {
+        return Verdict::undecided("the signs of Hurwitz's determinants were not decided");
+    };
+    match statement.said(about, place, None) {
+        Said::Holds(why) => Verdict::Proved(Proof::exact(
+            "for the values of the parameters that are stated",
+            why,
+        )),
+        Said::Open(why) => Verdict::undecided(why),
+        Said::Fails => Verdict::Refuted(Counterexample {
+            point: stated_values(about),
+            ..statement.counterexample(about, place, None)
+        }),
+    }
+}
+
+/// The parameters with the values that the model states, exact where they are rational.
+fn stated_values(about: &About<'_>) -> Vec<PointValue> {
+    let (system, g) = (about.expansion.system, about.graph());
+    let value = |(symbol, value): &(Expr, Expr)| {
+        let exact = g.as_number(*value).cloned();
+        let enclosure = match exact {
+            Some(_) => None,
+            None => {
+                let ball = g
+                    .enclose(&[*value], &Precision::new(128), &|_| None)
+                    .ok()?
+                    .pop()?;
+                Some(ball.to_decimal_interval(20))
+            }
+        };
+        Some(PointValue {
+            name: g.text(*symbol),
+            exact,
+            enclosure,
+        })
+    };
+    system.parameter_values().iter().filter_map(value).collect()
+}
+
+/// An open interval of the parameter.
+struct Piece {
+    low: RBig,
+    high: RBig,
+    sample: RBig,
+    place: Place,
+    said: Said,
+}
+
+/// A value of the parameter between two intervals.
+struct Border {
+    root: Root,
+    /// Whether the statement holds there; `None` where that was not decided.
+    holds: Option<bool>,
+}
+
+/// All values of the parameter in parts.
+struct Pieces {
+    name: String,
+    bound: RBig,
+    pieces: Vec<Piece>,
+    borders: Vec<Border>,
+}
+
+impl Pieces {
+    fn new(
+        cx: &Context<'_>,
+        about: &About<'_>,
+        statement: &dyn Statement,
+        symbol: Symbol,
+    ) -> Option<Pieces> {
+        let (g, question) = (about.graph(), &about.question);
+        let further = statement.further(about);
+        let further: Vec<Expr> = further
+            .into_iter()
+            .filter(|&e| g.as_number(e).is_none() && !g.symbols_in(&[e]).is_empty())
+            .collect();
+        let mut bound = question.bound(g)?;
+        if !further.is_empty() {
+            bound = bound.max(bound_of(g, &further, symbol)?);
+        }
+        let low = -bound.clone();
+        let ranges = question.ranges(g, &low, &bound)?;
+        let mut cuts = Vec::new();
+        for e in further {
+            cuts.extend(real_roots(g, e, symbol, &low, &bound)?);
+        }
+        let mut own = Pieces {
+            name: g.symbol_text(symbol),
+            bound,
+            pieces: Vec::new(),
+            borders: Vec::new(),
+        };
+        own.cut(about, statement, &ranges, cuts);
+        own.decide_borders(cx, about, statement, (symbol, &ranges));
+        Some(own)
+    }
+
+    /// The intervals between all boundaries. A cut inside of an enclosure of a boundary belongs to it.
+    fn cut(
+        &mut self,
+        about: &About<'_>,
+        statement: &dyn Statement,
+        ranges: &Ranges,
+        mut cuts: Vec<Root>,
+    ) {
+        cuts.extend(ranges.boundaries.iter().map(|b| b.root.clone()));
+        cuts.sort_by(|a, b| a.low.cmp(&b.low));
+        let mut roots: Vec<Root> = Vec::new();
+        for root in cuts {
+            match roots.last_mut().filter(|last| root.low <= last.high) {
+                Some(last) if root.high > last.high => last.high = root.high,
+                Some(_) => {}
+                None => roots.push(root),
+            }
+        }
+        let low = -self.bound.clone();
+        let lows = std::iter::once(&low).chain(roots.iter().map(|r| &r.high));
+        let highs = roots.iter().map(|r| &r.low).chain([&self.bound]);
+        for (a, b) in lows.zip(highs).filter(|(a, b)| a < b) {
+            let sample = (a + b) / RBig::from(2);
+            let around = ranges.regions.iter();
+            let region = around.clone().find(|r| r.low <= *a && *b <= r.high);
+            let Some(place) = region.map(|r| about.question.place(r.is_left)) else {
+                continue;
+            };
+            self.pieces.push(Piece {
+                low: a.clone(),
+                high: b.clone(),
+                said: statement.said(about, place, Some(&sample)),
+                sample,
+                place,
+            });
+        }
+        let border = |root| Border { root, holds: None };
+        self.borders = roots.into_iter().map(border).collect();
+    }
+
+    /// What holds where a determinant vanishes follows from the statement, or is decided at the value where that is known exactly.
+    fn decide_borders(
+        &mut self,
+        cx: &Context<'_>,
+        about: &About<'_>,
+        statement: &dyn Statement,
+        (symbol, ranges): (Symbol, &Ranges),
+    ) {
+        let (motion, system) = (about.expansion.motion, about.expansion.system);
+        let exactly = |at: &RBig| -> Option<bool> {
+            let there = About::new(cx, motion, &values_at(system, symbol, at), None).ok()?;
+            let place = there.question.place_at(there.graph(), None)?;
+            match statement.said(&there, place, None) {
+                Said::Holds(_) => Some(true),
+                Said::Fails => Some(false),
+                Said::Open(_) => None,
+            }
+        };
+        for border in &mut self.borders {
+            let root = &border.root;
+            let holds = |piece: &Piece| {
+                (piece.high == root.low || piece.low == root.high)
+                    && matches!(piece.said, Said::Holds(_))
+            };
+            let meets = |own: &&crate::hurwitz::Boundary| {
+                own.root.low <= root.high && root.low <= own.root.high
+            };
+            let mut own = ranges.boundaries.iter().filter(meets);
+            let is_finite = own.all(|b| b.crossing != Crossing::Infinity);
+            let beside = is_finite && self.pieces.iter().any(holds);
+            border.holds = match statement.at_border(beside) {
+                None if root.low == root.high => exactly(&root.low),
+                known => known,
+            };
+        }
+    }
+
+    fn verdict(&self, about: &About<'_>, statement: &dyn Statement) -> Verdict {
+        let holds = |piece: &&Piece| matches!(piece.said, Said::Holds(_));
+        let reasons: BTreeSet<&str> = self
+            .pieces
+            .iter()
+            .filter_map(|piece| match &piece.said {
+                Said::Holds(why) => Some(why.as_str()),
+                _ => None,
+            })
+            .collect();
+        let reasons: Vec<&str> = reasons.into_iter().collect();
+        let open = self.pieces.iter().find_map(|piece| match &piece.said {
+            Said::Open(why) => Some(why),
+            _ => None,
+        });
+        let condition = self.condition();
+        if let Some(why) = open {
+            let known = match condition.is_empty() {
+                true => String::new(),
+                false => format!("true for {condition}; "),
+            };
+            return Verdict::undecided(format!("{known}not decided for {}: {why}", self.open()));
+        }
+        let failing = self.pieces.iter().find(|piece| !holds(piece));
+        let counterexample = failing.map(|piece| Counterexample {
+            point: vec![PointValue {
+                name: self.name.clone(),
+                exact: Some(piece.sample.clone()),
+                enclosure: None,
+            }],
+            ..statement.counterexample(about, piece.place, Some(&piece.sample))
+        });
+        let is_everywhere = self.borders.iter().all(|b| b.holds == Some(true));
+        match (condition.is_empty(), counterexample) {
+            (true, Some(own)) => Verdict::Refuted(own),
+            (true, None) => Verdict::undecided("no interval is left between the boundaries"),
+            (false, None) if is_everywhere => {
+                Verdict::Proved(Proof::exact("at the steady motion", reasons.join("; ")))
+            }
+            (false, counterexample) => Verdict::Conditional {
+                condition,
+                proof: Proof::exact(
+                    "at the steady motion",
+                    format!("{}{}", reasons.join("; "), self.enclosures()),
+                ),
+                counterexample,
+            },
+        }
+    }
+
+    /// Where the statement holds, in words: `4.29 < v < 6.02 or v > 8`.
+    fn condition(&self) -> String {
+        let mut parts: Vec<String> = Vec::new();
+        let mut from: Option<(&RBig, bool)> = None;
+        for (at, piece) in self.pieces.iter().enumerate() {
+            if !matches!(piece.said, Said::Holds(_)) {
+                continue;
+            }
+            let is_in = |end: &RBig| {
+                let mut own = self.borders.iter();
+                own.any(|b| (b.root.low == *end || b.root.high == *end) && b.holds == Some(true))
+            };
+            let start = *from.get_or_insert((&piece.low, is_in(&piece.low)));
+            let next = self.pieces.get(at + 1);
+            let goes_on =
+                next.is_some_and(|next| is_in(&piece.high) && matches!(next.said, Said::Holds(_)));
+            if !goes_on {
+                parts.push(self.interval(start, (&piece.high, is_in(&piece.high))));
+                from = None;
+            }
+        }
+        let alone = self.borders.iter().filter(|b| {
+            let touches = |piece: &Piece| piece.high == b.root.low || piece.low == b.root.high;
+            let mut beside = self.pieces.iter().filter(|piece| touches(piece));
+            b.holds == Some(true) && beside.all(|piece| !matches!(piece.said, Said::Holds(_)))
+        });
+        let alone = alone.map(|b| format!("{} = {}", self.name, decimal(&b.root.low)));
+        parts.extend(alone);
+        parts.join(" or ")
+    }
+
+    /// `4.29 < v <= 6.02`, each end with whether it belongs to the interval.
+    fn interval(&self, (low, is_low): (&RBig, bool), (high, is_high): (&RBig, bool)) -> String {
+        let name = &self.name;
+        let sign =
+            |strict: &'static str, weak: &'static str, is_in| if is_in { weak } else { strict };
+        let (from, to) = (*low != -self.bound.clone(), *high != self.bound);
+        let (less, upper) = (sign("<", "<=", is_low), sign("<", "<=", is_high));
+        match (from, to) {
+            (true, true) => format!("{} {less} {name} {upper} {}", decimal(low), decimal(high)),
+            (true, false) => format!("{name} {} {}", sign(">", ">=", is_low), decimal(low)),
+            (false, true) => format!("{name} {upper} {}", decimal(high)),
+            (false, false) => format!("{name} is any number"),
+        }
+    }
+
+    /// The intervals that were not decided.
+    fn open(&self) -> String {
+        let open = self
+            .pieces
+            .iter()
+            .filter(|p| matches!(p.said, Said::Open(_)));
+        let open = open.map(|p| self.interval((&p.low, false), (&p.high, false)));
+        open.collect::<Vec<_>>().join(" or ")
+    }
+
+    /// Every border with its enclosure, and those at which the statement was not decided.
+    fn enclosures(&self) -> String {
+        let name = &self.name;
+        let text = |border: &Border| match border.root.low == border.root.high {
+            true => format!("{name} = {}", border.root.low),
+            false => format!("{name} in {}", border.root.text()),
+        };
+        let all: Vec<String> = self.borders.iter().map(text).collect();
+        let open: Vec<String> = self
+            .borders
+            .iter()
+            .filter(|b| b.holds.is_none())
+            .map(text)
+            .collect();
+        let all = match all.as_slice() {
+            [] => String::new(),
+            all => format!("; the borders are {}", all.join(", ")),
+        };
+        match open.as_slice() {
+            [] => all,
+            open => format!("{all}; nothing is said at {}", open.join(", ")),
+        }
+    }
+}

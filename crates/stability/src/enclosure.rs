@@ -1,0 +1,177 @@
+//! An eigenvalue right of the imaginary axis, enclosed: a disc that holds a zero of the characteristic polynomial.
+//!
+//! Within the distance `m |p(z)/p'(z)|` of any z a polynomial of degree m has a zero (Laguerre 1880); Newton's method makes it small, and
+//! both values are computed with balls.
+
+use crate::eigenvalues::spectrum;
+use crate::spectrum::Polynomial;
+use chetaev_symbolic::number::ball::{Ball, Precision};
+use chetaev_symbolic::{Expr, Graph, Symbol};
+use dashu_ratio::RBig;
+use nalgebra::DMatrix;
+
+/// Bits of the enclosures.
+const BITS: usize = 256;
+/// Newton's steps from double precision on.
+const STEPS: usize = 6;
+
+/// Bounds of the real and of the imaginary part.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Enclosed {
+    /// Of the real part, decimal, rounded outwards.
+    pub real: (String, String),
+    /// Of the imaginary part; `None` where that may be zero.
+    pub imaginary: Option<(String, String)>,
+}
+
+/// An eigenvalue that is proved to lie right of the axis, of polynomials with numbers as coefficients once the parameter has its value.
+pub fn right_of_axis(
+    g: &Graph,
+    polynomials: &[Polynomial],
+    at: Option<(Symbol, &RBig)>,
+) -> Option<Enclosed> {
+    let found = polynomials.iter().filter_map(|own| {
+        let numbers = Numbers::new(g, own, at)?;
+        numbers.right()
+    });
+    found
+        .max_by(|(a, _), (b, _)| a.total_cmp(b))
+        .map(|(_, own)| own)
+}
+
+/// A polynomial with enclosed coefficients.
+struct Numbers {
+    precision: Precision,
+    /// The constant first.
+    coefficients: Vec<Ball>,
+}
+
+/// A complex number.
+#[derive(Clone)]
+struct Complex {
+    re: Ball,
+    im: Ball,
+}
+
+impl Numbers {
+    fn new(g: &Graph, own: &[Expr], at: Option<(Symbol, &RBig)>) -> Option<Numbers> {
+        let precision = Precision::new(BITS);
+        let values = at.map(|(symbol, at)| (symbol, precision.rational(at)));
+        let value = |s: Symbol| {
+            let own = values.as_ref().filter(|(symbol, _)| *symbol == s);
+            own.map(|(_, ball)| ball.clone())
+        };
+        let coefficients = g.enclose(own, &precision, &value).ok()?;
+        Some(Numbers {
+            precision,
+            coefficients,
+        })
+    }
+
+    /// The zero with the largest real part, with that part, where it is enclosed right of the axis.
+    fn right(&self) -> Option<(f64, Enclosed)> {
+        let start = self.approximate()?;
+        if start.0 <= 0.0 {
+            return None;
+        }
+        let ball = |x: f64| Ball::from_f64(x);
+        let mut z = Complex {
+            re: ball(start.0)?,
+            im: ball(start.1)?,
+        };
+        for _ in 0..STEPS {
+            let (value, slope) = self.at(&z)?;
+            let step = self.quotient(&value, &slope)?;
+            z = Complex {
+                re: self.precision.sub(&z.re, &step.re).ok()?.midpoint(),
+                im: self.precision.sub(&z.im, &step.im).ok()?.midpoint(),
+            };
+        }
+        let (value, slope) = self.at(&z)?;
+        let step = self.quotient(&value, &slope)?;
+        let degree = Ball::integer(self.coefficients.len() as i64 - 1);
+        let radius = self.precision.mul(&self.size(&step)?, &degree).ok()?;
+        let about = |x: &Ball| x.clone().widened(radius.magnitude());
+        let (re, im) = (about(&z.re), about(&z.im));
+        let is_right = re.sign() == Some(std::cmp::Ordering::Greater);
+        is_right.then(|| {
+            let enclosed = Enclosed {
+                real: re.to_decimal_interval(20),
+                imaginary: im.excludes_zero().then(|| im.to_decimal_interval(20)),
+            };
+            (start.0, enclosed)
+        })
+    }
+
+    /// The zero with the largest real part in double precision, from the companion matrix.
+    fn approximate(&self) -> Option<(f64, f64)> {
+        let list: Vec<f64> = self.coefficients.iter().map(Ball::to_f64).collect();
+        let (leading, rest) = list.split_last()?;
+        let n = rest.len();
+        if n == 0 || *leading == 0.0 {
+            return None;
+        }
+        let entry = |r: usize, c: usize| match (c + 1 == n, r == c + 1) {
+            (true, _) => -rest[r] / leading,
+            (false, true) => 1.0,
+            (false, false) => 0.0,
+        };
+        let matrix = DMatrix::from_fn(n, n, entry);
+        let found = spectrum(&matrix)?;
+        let largest = found.iter().max_by(|a, b| a.re.total_cmp(&b.re))?;
+        Some((largest.re, largest.im))
+    }
+
+    /// Value and derivative.
+    fn at(&self, z: &Complex) -> Option<(Complex, Complex)> {
+        let zero = || Complex {
+            re: Ball::zero(),
+            im: Ball::zero(),
+        };
+        let (mut value, mut slope) = (zero(), zero());
+        for coefficient in self.coefficients.iter().rev() {
+            slope = self.sum(&self.product(&slope, z)?, &value)?;
+            value = self.product(&value, z)?;
+            value.re = self.precision.add(&value.re, coefficient).ok()?;
+        }
+        Some((value, slope))
+    }
+
+    fn sum(&self, a: &Complex, b: &Complex) -> Option<Complex> {
+        Some(Complex {
+            re: self.precision.add(&a.re, &b.re).ok()?,
+            im: self.precision.add(&a.im, &b.im).ok()?,
+        })
+    }
+
+    fn product(&self, a: &Complex, b: &Complex) -> Option<Complex> {
+        let p = &self.precision;
+        let times = |x: &Ball, y: &Ball| p.mul(x, y).ok();
+        Some(Complex {
+            re: p.sub(&times(&a.re, &b.re)?, &times(&a.im, &b.im)?).ok()?,
+            im: p.add(&times(&a.re, &b.im)?, &times(&a.im, &b.re)?).ok()?,
+        })
+    }
+
+    fn quotient(&self, a: &Complex, b: &Complex) -> Option<Complex> {
+        let p = &self.precision;
+        let conjugate = Complex {
+            re: b.re.clone(),
+            im: b.im.neg(),
+        };
+        let above = self.product(a, &conjugate)?;
+        let below = self.product(b, &conjugate)?.re;
+        Some(Complex {
+            re: p.div(&above.re, &below).ok()?,
+            im: p.div(&above.im, &below).ok()?,
+        })
+    }
+
+    fn size(&self, a: &Complex) -> Option<Ball> {
+        let p = &self.precision;
+        let square = |x: &Ball| p.mul(x, x).ok();
+        let sum = p.add(&square(&a.re)?, &square(&a.im)?).ok()?;
+        // What rounds below zero is zero.
+        p.sqrt(&p.abs(&sum)).ok()
+    }
+}

@@ -1,0 +1,258 @@
+//! A motion in its system: the smallest closed system of variables, and the values of expressions and of their derivatives at the motion.
+
+use crate::problem::LinearizationError;
+use crate::reduction::{ClosedSystem, Speeds};
+use crate::steady::{at_point, completed, State};
+use chetaev_mechanics::characteristics::Direction;
+use chetaev_mechanics::constraint::ConstraintKind;
+use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
+use chetaev_symbolic::number::ball::Precision;
+use chetaev_symbolic::{Expr, Graph, Symbol};
+
+/// What is linearized about what.
+pub struct Expansion<'a> {
+    /// The system.
+    pub system: &'a System,
+    pub(crate) terms: &'a MotionTerms,
+    pub(crate) selection: &'a Selection,
+    /// The smallest closed system of variables.
+    pub own: ClosedSystem,
+    /// The motion.
+    pub motion: &'a SteadyMotion,
+    state: State,
+    /// Values of the parameters that are put in.
+    pub(crate) values: Vec<(Expr, Expr)>,
+}
+
+impl<'a> Expansion<'a> {
+    /// The expansion about `motion` in suitable speeds. `values` are the values of parameters that are put in, others stay as they are.
+    ///
+    /// # Errors
+    /// [`LinearizationError`].
+    pub fn new(
+        system: &'a System,
+        terms: &'a MotionTerms,
+        selection: &'a Selection,
+        motion: &'a SteadyMotion,
+        values: &[(Expr, Expr)],
+    ) -> Result<Expansion<'a>, LinearizationError> {
+        Expansion::in_speeds(system, terms, selection, motion, (values, Speeds::Suitable))
+    }
+
+    /// The same in speeds of choice.
+    ///
+    /// # Errors
+    /// [`LinearizationError`].
+    pub fn in_speeds(
+        system: &'a System,
+        terms: &'a MotionTerms,
+        selection: &'a Selection,
+        motion: &'a SteadyMotion,
+        (values, speeds): (&[(Expr, Expr)], Speeds),
+    ) -> Result<Expansion<'a>, LinearizationError> {
+        let state = completed(motion, system, terms, &selection.rows, values)?;
+        let point = point(system, &state, values);
+        let about = Expansion {
+            system,
+            terms,
+            selection,
+            own: ClosedSystem::about(system, terms, selection, (speeds, &point))?,
+            motion,
+            state,
+            values: values.to_vec(),
+        };
+        about.check_autonomous()?;
+        about.check_positions()?;
+        about.check_constraints()?;
+        about.check_steady()?;
+        Ok(about)
+    }
+
+    pub(crate) fn graph(&self) -> &Graph {
+        &self.system.graph
+    }
+
+    /// Expressions at the motion.
+    pub(crate) fn at(&self, es: &[Expr]) -> Vec<Expr> {
+        at_point(
+            self.graph(),
+            es,
+            &[
+                &self.speeds_at(),
+                &self.state.values,
+                &self.controls(es),
+                &self.values,
+            ],
+        )
+    }
+
+    /// The quasi-velocities by their definitions.
+    fn speeds_at(&self) -> Vec<(Expr, Expr)> {
+        let speeds = self.own.characteristics.parameters.iter();
+        let other = speeds.filter(|p| p.value != p.definition);
+        other.map(|p| (p.value, p.definition)).collect()
+    }
+
+    /// Controls by their laws, and zero where a model states none.
+    pub(crate) fn controls(&self, es: &[Expr]) -> Vec<(Expr, Expr)> {
+        let g = self.graph();
+        let occurring = g.symbols_in(es);
+        let of = |symbol: Symbol| {
+            let name = g.symbol_name(symbol);
+            let control = self.system.controls.iter().find(|c| c.name == name)?;
+            let law = control.law.unwrap_or_else(|| g.zero());
+            let rate = |e: Expr| g.total_derivative(e, &|_| false);
+            let value = (0..g.symbol_order(symbol)).fold(law, |e, _| rate(e));
+            Some((g.symbol_expr(symbol), value))
+        };
+        occurring.into_iter().filter_map(of).collect()
+    }
+
+    fn check_autonomous(&self) -> Result<(), LinearizationError> {
+        let g = self.graph();
+        let entries = [self.own.equations.entries(), self.own.rates.clone()].concat();
+        let entries = g.substitute_all(&entries, &self.controls(&entries));
+        if g.any_contains_any(&entries, &[g.intern_symbol("t", 0)]) {
+            Err(LinearizationError::NotAutonomous)
+        } else {
+            Ok(())
+        }
+    }
+
+    fn check_positions(&self) -> Result<(), LinearizationError> {
+        let missing = &self.state.without_position;
+        match self.own.coordinates.iter().find(|j| missing.contains(j)) {
+            None => Ok(()),
+            Some(&j) => Err(LinearizationError::PositionMissing {
+                motion: self.motion.name.clone(),
+                coordinate: self.system.coordinates[j].name.clone(),
+            }),
+        }
+    }
+
+    fn check_constraints(&self) -> Result<(), LinearizationError> {
+        let g = self.graph();
+        for &row in &self.selection.rows {
+            let constraint = &self.system.constraints[self.terms.constraint_index[row]];
+            let of_positions = match constraint.kind {
+                ConstraintKind::Holonomic => Some(constraint.stated),
+                _ => None,
+            };
+            let residuals = [Some(self.terms.constraints[row]), of_positions];
+            let residuals: Vec<Expr> = residuals.into_iter().flatten().collect();
+            // A position that is not given is that of an ignorable coordinate, and nothing is said of it.
+            let known = |e: &Expr| {
+                let free = &self.state.without_position;
+                let mut free = free.iter().map(|&j| self.system.coordinates[j].q_symbol);
+                free.all(|s| !g.contains_any(*e, &[s]))
+            };
+            let values = self.at(&residuals);
+            if let Some(&residual) = values.iter().filter(|e| known(e)).find(|&&e| !g.is_zero(e)) {
+                return Err(LinearizationError::NotAdmissible {
+                    motion: self.motion.name.clone(),
+                    constraint: constraint.name.clone(),
+                    residual: g.text(residual),
+                    enclosure: enclosure(g, residual),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_steady(&self) -> Result<(), LinearizationError> {
+        let g = self.graph();
+        let of_coordinates = self
+            .own
+            .coordinates
+            .iter()
+            .map(|&j| &self.system.coordinates[j].name);
+        let of_speeds = self.own.characteristics.parameters.iter().map(|p| &p.name);
+        let rates = [self.own.rates.clone(), self.own.equations.force.clone()].concat();
+        let moving = of_coordinates.chain(of_speeds).zip(self.at(&rates));
+        let mut moving = moving.filter(|(_, rate)| !g.is_zero(*rate));
+        match moving.next() {
+            None => Ok(()),
+            Some((name, rate)) => Err(LinearizationError::NotSteady {
+                motion: self.motion.name.clone(),
+                quantity: name.clone(),
+                rate: g.text(rate),
+                enclosure: enclosure(g, rate),
+            }),
+        }
+    }
+
+    /// The direction along a coordinate.
+    pub(crate) fn unit(&self, j: usize) -> Direction {
+        let g = self.graph();
+        let zero = g.zero();
+        let mut coordinates = vec![zero; self.system.n()];
+        coordinates[j] = g.one();
+        Direction {
+            time: zero,
+            coordinates,
+            parameters: vec![zero; self.own.characteristics.k()],
+        }
+    }
+
+    /// The derivatives of the rates and of b by the coordinates that are not ignorable and by P, at the motion.
+    pub(crate) fn slopes(&self) -> Vec<Vec<Expr>> {
+        let c = &self.own.characteristics;
+        let rates = [self.own.rates.clone(), self.own.equations.force.clone()].concat();
+        let by_coordinates = self
+            .own
+            .coordinates
+            .iter()
+            .map(|&j| c.along(self.system, &rates, &self.unit(j)));
+        let columns: Vec<Vec<Expr>> = by_coordinates.map(|column| self.at(&column)).collect();
+        let by_speeds: Vec<Vec<Expr>> = c.by_parameters(self.system, &rates);
+        let rows = by_speeds.iter().enumerate().map(|(row, own)| {
+            let of_coordinates = columns.iter().map(|column| column[row]);
+            of_coordinates.chain(self.at(own)).collect()
+        });
+        rows.collect()
+    }
+
+    /// The variables: the coordinates that are not ignorable, then the quasi-velocities.
+    pub(crate) fn variables(&self) -> Vec<Symbol> {
+        let coordinates = self.own.coordinates.iter();
+        let coordinates = coordinates.map(|&j| self.system.coordinates[j].q_symbol);
+        let speeds = self.own.characteristics.parameters.iter();
+        coordinates.chain(speeds.map(|p| p.symbol)).collect()
+    }
+
+    /// The finite constraints without ignorable coordinates. One that contains an ignorable coordinate only says where that is.
+    pub(crate) fn finite(&self) -> Vec<Expr> {
+        let g = self.graph();
+        let coordinates = &self.system.coordinates;
+        let ignorable = self.own.ignorable(self.system);
+        let ignorable: Vec<Symbol> = ignorable.iter().map(|&j| coordinates[j].q_symbol).collect();
+        let rows = self.selection.rows.iter();
+        let constraints =
+            rows.map(|&row| &self.system.constraints[self.terms.constraint_index[row]]);
+        let finite = constraints.filter(|c| c.kind == ConstraintKind::Holonomic);
+        let finite = finite.map(|c| c.stated);
+        finite.filter(|&e| !g.contains_any(e, &ignorable)).collect()
+    }
+}
+
+/// Values of the symbols of a state in numbers, for choices that only make results better or worse conditioned.
+fn point(system: &System, state: &State, values: &[(Expr, Expr)]) -> Vec<(Symbol, f64)> {
+    let g = &system.graph;
+    let stated = system.parameter_values();
+    let number = |e: Expr| {
+        let e = g.substitute_all(&[g.substitute(e, values)], &stated)[0];
+        g.evaluate_f64(&[e], &|_| None).ok().map(|found| found[0])
+    };
+    let known = state.values.iter().chain(values).chain(&stated);
+    let known = known.filter_map(|&(symbol, value)| Some((g.as_symbol(symbol)?, number(value)?)));
+    known.collect()
+}
+
+/// Bounds of a number, with 20 digits.
+fn enclosure(g: &Graph, e: Expr) -> Option<(String, String)> {
+    let ball = g
+        .enclose(&[e], &Precision::new(128), &|_| None)
+        .ok()?
+        .pop()?;
+    ball.excludes_zero().then(|| ball.to_decimal_interval(20))
+}

@@ -1,0 +1,61 @@
+//! Why there are no linear equations about a motion.
+
+use chetaev_mechanics::characteristics::CharacteristicsError;
+
+/// Why there is no linearization.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum LinearizationError {
+    /// Constraints of higher order.
+    #[error("steady motions are defined for constraints on velocities; this system has constraints of order {order}")]
+    OrderTooHigh {
+        /// m.
+        order: u32,
+    },
+    /// A mass changes.
+    #[error("a mass of this system changes along the motion, so that no motion is steady")]
+    MassesMove,
+    /// The time occurs.
+    #[error("the equations contain the time explicitly, so that no motion is steady")]
+    NotAutonomous,
+    /// No independent velocities.
+    #[error(transparent)]
+    Characteristics(#[from] CharacteristicsError),
+    /// The position of a coordinate on which the equations depend is missing.
+    #[error("the motion `{motion}` does not say where `{coordinate}` is, and the equations of motion depend on it")]
+    PositionMissing {
+        /// The motion.
+        motion: String,
+        /// The coordinate.
+        coordinate: String,
+    },
+    /// The velocities that are not given cannot be solved for.
+    #[error("the constraints do not allow the velocities of the motion `{motion}`")]
+    VelocitiesNotDetermined {
+        /// The motion.
+        motion: String,
+    },
+    /// A finite constraint does not hold.
+    #[error("the motion `{motion}` is not admissible: the constraint `{constraint}` is off by {residual}")]
+    NotAdmissible {
+        /// The motion.
+        motion: String,
+        /// The constraint.
+        constraint: String,
+        /// Left side minus right side.
+        residual: String,
+        /// Lower and upper bound of it, where it is a number.
+        enclosure: Option<(String, String)>,
+    },
+    /// Something changes that should be constant.
+    #[error("the motion `{motion}` is not steady: {quantity} has the rate {rate}")]
+    NotSteady {
+        /// The motion.
+        motion: String,
+        /// A coordinate or a quasi-velocity.
+        quantity: String,
+        /// Its rate (for quasi-velocities the force that changes it).
+        rate: String,
+        /// Lower and upper bound of it, where it is a number.
+        enclosure: Option<(String, String)>,
+    },
+}

@@ -1,0 +1,254 @@
+//! The linear equations as control theory writes them: `z' = A z + B u`, `y = C z + D u`, and their transfer functions.
+
+use crate::expansion::Expansion;
+use crate::linearization::Linearization;
+use crate::multiplicity::product;
+use crate::steady::closed;
+use chetaev_symbolic::linear::SolveError;
+use chetaev_symbolic::matrix::{determinant, inverse};
+use chetaev_symbolic::{Expr, Graph, Symbol};
+
+/// Larger systems have no transfer functions in closed form.
+const LARGEST: usize = 10;
+
+/// A, B, C, D, exact in the parameters that were left in.
+#[derive(Clone, Debug)]
+pub struct StateSpace {
+    /// The names of z.
+    pub states: Vec<String>,
+    /// The names of u: controls of the model and the derivatives of them that occur, deviations from their values along the motion.
+    pub inputs: Vec<String>,
+    /// The names of y.
+    pub outputs: Vec<String>,
+    /// A, row by row.
+    pub a: Vec<Vec<Expr>>,
+    /// B.
+    pub b: Vec<Vec<Expr>>,
+    /// C.
+    pub c: Vec<Vec<Expr>>,
+    /// D.
+    pub d: Vec<Vec<Expr>>,
+}
+
+/// Why there is no such form.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum StateSpaceError {
+    /// The mass matrix is singular at the motion.
+    #[error("the mass matrix is singular at the motion: {0}")]
+    SingularMass(#[from] SolveError),
+    /// An output that is no function of the variables.
+    #[error("the output `{name}` depends on `{coordinate}`, which runs on along the motion or is no variable; outputs are functions of {variables}")]
+    NoOutput {
+        /// The output.
+        name: String,
+        /// What it depends on.
+        coordinate: String,
+        /// The variables.
+        variables: String,
+    },
+}
+
+impl Expansion<'_> {
+    /// The form in state space with outputs as functions of coordinates, velocities and controls; without any the variables are the outputs.
+    ///
+    /// # Errors
+    /// [`StateSpaceError`].
+    pub fn state_space(
+        &self,
+        linear: &Linearization,
+        outputs: &[(String, Expr)],
+    ) -> Result<StateSpace, StateSpaceError> {
+        let g = self.graph();
+        let inputs = self.inputs(outputs);
+        let inverse = self.inverse(linear)?;
+        let direct = self.by_inputs(&inputs);
+        let size = linear.names.len();
+        let unit = |r: usize| {
+            (0..size)
+                .map(|c| if r == c { g.one() } else { g.zero() })
+                .collect()
+        };
+        let (mut names, mut c, mut d) = (Vec::new(), Vec::new(), Vec::new());
+        for (name, e) in outputs {
+            let (row, by) = self.output(linear, name, *e, &inputs)?;
+            names.push(name.clone());
+            c.push(row);
+            d.push(by);
+        }
+        if outputs.is_empty() {
+            names.clone_from(&linear.names);
+            c = (0..size).map(unit).collect();
+            d = vec![vec![g.zero(); inputs.len()]; size];
+        }
+        Ok(StateSpace {
+            states: linear.names.clone(),
+            inputs: inputs.iter().map(|&s| g.symbol_text(s)).collect(),
+            outputs: names,
+            a: product(g, &inverse, &linear.right),
+            b: product(g, &inverse, &direct),
+            c,
+            d,
+        })
+    }
+
+    /// E⁻¹; only the mass matrix in it is no unit matrix.
+    fn inverse(&self, linear: &Linearization) -> Result<Vec<Vec<Expr>>, SolveError> {
+        let g = self.graph();
+        let (size, k) = (linear.names.len(), self.own.characteristics.k());
+        let first = size - k;
+        let mass: Vec<Vec<Expr>> = linear.left[first..]
+            .iter()
+            .map(|row| row[first..].to_vec())
+            .collect();
+        let of_mass = inverse(g, &mass)?;
+        let entry = |r: usize, c: usize| match (r.checked_sub(first), c.checked_sub(first)) {
+            (Some(r), Some(c)) => closed(g, of_mass[r][c]),
+            (None, None) if r == c => g.one(),
+            _ => g.zero(),
+        };
+        Ok((0..size)
+            .map(|r| (0..size).map(|c| entry(r, c)).collect())
+            .collect())
+    }
+
+    /// The controls and derivatives of controls that occur in the equations of motion or in outputs.
+    fn inputs(&self, outputs: &[(String, Expr)]) -> Vec<Symbol> {
+        let g = self.graph();
+        let mut all = [self.own.rates.clone(), self.own.equations.force.clone()].concat();
+        let stated: Vec<Expr> = outputs.iter().map(|(_, e)| *e).collect();
+        all.extend(self.own.characteristics.restrict(self.system, &stated));
+        let occurring = g.symbols_in(&all);
+        let mut found = Vec::new();
+        for control in &self.system.controls {
+            let mut own: Vec<Symbol> = occurring
+                .iter()
+                .copied()
+                .filter(|&s| g.symbol_name(s) == control.name)
+                .collect();
+            own.sort_by_key(|&s| g.symbol_order(s));
+            found.extend(own);
+        }
+        found
+    }
+
+    /// The derivatives of the rates and of b by the inputs at the motion, for the independent variables.
+    fn by_inputs(&self, inputs: &[Symbol]) -> Vec<Vec<Expr>> {
+        let g = self.graph();
+        let kept = self.reduction().kept;
+        let rates = kept.iter().map(|&at| self.own.rates[at]);
+        let rows: Vec<Expr> = rates
+            .chain(self.own.equations.force.iter().copied())
+            .collect();
+        rows.iter()
+            .map(|&e| self.at(&g.gradient(e, inputs)))
+            .collect()
+    }
+
+    /// The rows of C and D of an output.
+    fn output(
+        &self,
+        linear: &Linearization,
+        name: &str,
+        e: Expr,
+        inputs: &[Symbol],
+    ) -> Result<(Vec<Expr>, Vec<Expr>), StateSpaceError> {
+        let g = self.graph();
+        let own = self.own.characteristics.restrict(self.system, &[e])[0];
+        let no_output = |coordinate: String| StateSpaceError::NoOutput {
+            name: name.into(),
+            coordinate,
+            variables: linear.names.join(", "),
+        };
+        let Some(own) = self.without_ignorable(own) else {
+            let ignorable = self.own.ignorable(self.system).into_iter();
+            let mut occurring =
+                ignorable.filter(|&j| g.contains_any(own, &[self.system.coordinates[j].q_symbol]));
+            let first = occurring
+                .next()
+                .map(|j| self.system.coordinates[j].name.clone());
+            return Err(no_output(first.unwrap_or_else(|| "t".into())));
+        };
+        let row = self.at(&self.derivatives(own));
+        let by = self.at(&g.gradient(own, inputs));
+        Ok((self.reduced(&self.reduction(), &row), by))
+    }
+}
+
+/// The symbol s of transfer functions.
+fn s(g: &Graph) -> Symbol {
+    g.intern_symbol("s", 0)
+}
+
+impl StateSpace {
+    /// The transfer functions from each input (column) to each output (row), rational functions of `s`; `None` where the system is large.
+    pub fn transfer(&self, g: &Graph) -> Option<Vec<Vec<Expr>>> {
+        let n = self.states.len();
+        if n > LARGEST {
+            return None;
+        }
+        let s = g.symbol_expr(s(g));
+        let resolvent = |r: usize, c: usize| match r == c {
+            true => g.sub(s, self.a[r][c]),
+            false => g.neg(self.a[r][c]),
+        };
+        let square: Vec<Vec<Expr>> = (0..n)
+            .map(|r| (0..n).map(|c| resolvent(r, c)).collect())
+            .collect();
+        let below = determinant(g, &square);
+        let entry = |output: usize, input: usize| {
+            let mut bordered = square.clone();
+            for (row, own) in bordered.iter_mut().zip(&self.b) {
+                row.push(g.neg(own[input]));
+            }
+            let last = self.c[output]
+                .iter()
+                .copied()
+                .chain([self.d[output][input]]);
+            bordered.push(last.collect());
+            closed(g, g.div(determinant(g, &bordered), below))
+        };
+        let rows = 0..self.outputs.len();
+        Some(
+            rows.map(|output| {
+                (0..self.inputs.len())
+                    .map(|input| entry(output, input))
+                    .collect()
+            })
+            .collect(),
+        )
+    }
+
+    /// The rank of Kalman's matrix `(B, A B, …)` is the dimension of what the inputs reach, that of its transpose with C of what the outputs
+    /// show: both exact for general values of the parameters that were left in.
+    pub fn ranks(&self, g: &Graph) -> (usize, usize) {
+        let transposed = |m: &[Vec<Expr>], columns: usize| -> Vec<Vec<Expr>> {
+            (0..columns)
+                .map(|c| m.iter().map(|row| row[c]).collect())
+                .collect()
+        };
+        let n = self.states.len();
+        let reached = krylov_rank(g, &self.a, &transposed(&self.b, self.inputs.len()));
+        let seen = krylov_rank(g, &transposed(&self.a, n), &self.c);
+        (reached, seen)
+    }
+}
+
+/// The dimension of the smallest subspace that holds some vectors and their images under a matrix.
+fn krylov_rank(g: &Graph, matrix: &[Vec<Expr>], vectors: &[Vec<Expr>]) -> usize {
+    let n = matrix.len();
+    let mut rows: Vec<Vec<Expr>> = Vec::new();
+    let mut last = vectors.to_vec();
+    for _ in 0..n {
+        rows.extend(last.iter().cloned());
+        let image = |v: &Vec<Expr>| -> Vec<Expr> {
+            let entry = |row: &Vec<Expr>| {
+                let terms: Vec<Expr> = row.iter().zip(v).map(|(&a, &x)| g.mul(&[a, x])).collect();
+                closed(g, g.add(&terms))
+            };
+            matrix.iter().map(entry).collect()
+        };
+        last = last.iter().map(image).collect();
+    }
+    let (kernel, _) = crate::steady::kernel(g, &rows, n);
+    n - kernel.len()
+}

@@ -1,0 +1,149 @@
+//! A model with what is derived from it once.
+#![allow(
+    clippy::unwrap_used,
+    clippy::result_large_err,
+    reason = "test code fails where it stands"
+)]
+
+use chetaev_mechanics::claims::{Context, Registry};
+use chetaev_mechanics::prover::Prover;
+use chetaev_mechanics::{Prepared, SteadyMotion, System};
+use chetaev_model::{load, Model};
+use chetaev_stability::characteristic::Characteristic;
+use chetaev_stability::claims::CLAIMS;
+use chetaev_stability::hurwitz::{ranges, Ranges};
+use chetaev_stability::linearization::{linearize, Linearization, LinearizationError};
+use chetaev_stability::spectrum::Spectrum;
+use chetaev_symbolic::{Expr, Rational, Verdict};
+use std::collections::BTreeMap;
+
+/// A system with what is derived from it once.
+pub(crate) struct Case {
+    pub(crate) model: Model,
+    pub(crate) system: System,
+    pub(crate) prepared: Prepared,
+}
+
+impl Case {
+    pub(crate) fn new(text: &str) -> Case {
+        let loaded = load(
+            "case.toml",
+            &format!("name = \"case\"\n{text}"),
+            &BTreeMap::new(),
+            &[],
+        );
+        let model = loaded
+            .model
+            .unwrap_or_else(|| panic!("{}", loaded.diagnostics));
+        let system = System::from_model(&model).unwrap();
+        Case {
+            prepared: Prepared::new(&system).unwrap(),
+            model,
+            system,
+        }
+    }
+
+    pub(crate) fn gallery(name: &str) -> Case {
+        let path = format!(
+            "{}/../../gallery/{name}/model.toml",
+            env!("CARGO_MANIFEST_DIR")
+        );
+        let text = std::fs::read_to_string(path).unwrap();
+        let start = text.find("\nname = ").map_or(0, |at| at + 1);
+        let rest = text[start..].split_once('\n').unwrap().1;
+        Case::new(rest)
+    }
+
+    pub(crate) fn read(&self, text: &str) -> Expr {
+        self.model.expression(text).unwrap()
+    }
+
+    /// A motion from pairs of a coordinate or velocity and its value; other positions and velocities are not given.
+    pub(crate) fn motion(&self, given: &[(&str, &str)]) -> SteadyMotion {
+        let of = |name: String| {
+            given
+                .iter()
+                .find(|(own, _)| *own == name)
+                .map(|(_, value)| self.read(value))
+        };
+        let names = self.system.coordinates.iter().map(|c| &c.name);
+        SteadyMotion {
+            name: "asked".into(),
+            positions: names.clone().map(|name| of(name.clone())).collect(),
+            velocities: names.map(|name| of(format!("{name}'"))).collect(),
+        }
+    }
+
+    /// The values of all parameters but one, as the model states them.
+    pub(crate) fn values(&self, but: &str) -> Vec<(Expr, Expr)> {
+        let parameters = self.system.parameters.iter().filter(|p| p.name != but);
+        parameters
+            .filter_map(|p| Some((p.expr, p.value?)))
+            .collect()
+    }
+
+    pub(crate) fn linear(
+        &self,
+        motion: &SteadyMotion,
+        but: &str,
+    ) -> Result<Linearization, LinearizationError> {
+        let (terms, selection) = (&self.prepared.terms, &self.prepared.selection);
+        linearize(&self.system, terms, selection, motion, &self.values(but))
+    }
+
+    pub(crate) fn number(&self, e: Expr, free: &[(&str, f64)]) -> f64 {
+        let g = &self.system.graph;
+        let value = |s| {
+            free.iter()
+                .find(|(name, _)| *name == g.symbol_name(s))
+                .map(|(_, value)| *value)
+        };
+        g.evaluate_f64(&[e], &value).unwrap()[0]
+    }
+
+    pub(crate) fn numbers(&self, rows: &[Vec<Expr>], free: &[(&str, f64)]) -> Vec<Vec<f64>> {
+        let row = |row: &Vec<Expr>| row.iter().map(|&e| self.number(e, free)).collect();
+        rows.iter().map(row).collect()
+    }
+
+    pub(crate) fn ranges(
+        &self,
+        linear: &Linearization,
+        symbol: &str,
+        low: i64,
+        high: i64,
+    ) -> Ranges {
+        let g = &self.system.graph;
+        let polynomial = Characteristic::of(g, linear).unwrap();
+        let symbol = g.intern_symbol(symbol, 0);
+        let deciding = Spectrum::of(g, &polynomial).deciding(g);
+        let leading = *polynomial.coefficients.last().unwrap();
+        ranges(
+            g,
+            &deciding,
+            leading,
+            symbol,
+            &Rational::from(low),
+            &Rational::from(high),
+        )
+        .unwrap()
+    }
+
+    /// The verdict on a claim of this crate, at the values that the model states.
+    pub(crate) fn verdict(&self, claim: &str, subject: &str) -> Verdict {
+        let registry = Registry::new(&[CLAIMS]);
+        let Prepared { terms, selection } = &self.prepared;
+        let cx = Context::new(&self.system, terms, selection, &registry, Prover::default());
+        let own = registry.find(claim).unwrap();
+        own.decide(&cx, Some(subject)).verdict
+    }
+
+    /// `proved`, `refuted`, the condition, or what was tried.
+    pub(crate) fn said(&self, claim: &str, subject: &str) -> String {
+        match self.verdict(claim, subject) {
+            Verdict::Conditional { condition, .. } => condition,
+            Verdict::Undecided { tried } => format!("undecided: {tried}"),
+            other => other.word().into(),
+        }
+    }
+}

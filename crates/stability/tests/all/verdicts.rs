@@ -1,0 +1,572 @@
+//! What is stated of the stability of steady motions, against the literature: the verdicts are those of the books, the critical values closed
+//! forms.
+#![allow(
+    clippy::unwrap_used,
+    clippy::excessive_precision,
+    reason = "test code fails where it stands; values have the digits of their source"
+)]
+
+use crate::common::Case;
+use chetaev_mechanics::Selection;
+use chetaev_stability::eigenvalues::eigenvalues;
+use chetaev_stability::expansion::Expansion;
+use chetaev_stability::reduction::Speeds;
+use chetaev_symbolic::Verdict;
+
+/// The numbers in a condition.
+fn numbers(condition: &str) -> Vec<f64> {
+    condition
+        .split_whitespace()
+        .filter_map(|word| word.parse().ok())
+        .collect()
+}
+
+const SLEIGH: &str = r#"
+coordinates = ["x", "y", "phi"]
+parameters = { m = 2, J = 0.3, a = 0.25, u = 1.2 }
+[define]
+cx = "x + a cos(phi)"
+cy = "y + a sin(phi)"
+[lagrangian]
+T = "1/2 m (cx'^2 + cy'^2) + 1/2 J phi'^2"
+[constraints]
+blade = "x' sin(phi) = y' cos(phi)"
+[steady.straight]
+phi = 0
+"x'" = "u"
+"phi'" = 0
+"#;
+
+/// Mass ahead: stable by Lyapunov and Malkin; behind: unstable; at rest by the energy (Neimark and Fufaev 1972).
+#[test]
+fn the_sleigh() {
+    let case = Case::new(SLEIGH);
+    assert_eq!(case.said("stability.asymptotic", "straight"), "u > 0");
+    assert_eq!(case.said("stability.nonlinear", "straight"), "u >= 0");
+    assert_eq!(case.said("stability.linear", "straight"), "u >= 0");
+    assert_eq!(case.said("stability.spectral", "straight"), "u >= 0");
+    let Verdict::Conditional {
+        proof,
+        counterexample,
+        ..
+    } = case.verdict("stability.nonlinear", "straight")
+    else {
+        panic!("conditional");
+    };
+    assert!(
+        proof.detail.contains("Lyapunov and Malkin"),
+        "{}",
+        proof.detail
+    );
+    // −m a u/(J + m a²) at the speed of the counterexample.
+    let own = counterexample.unwrap();
+    let at = own.point[0].exact.as_ref().unwrap().to_f64().value();
+    let expected = -2.0 * 0.25 * at / (0.3 + 2.0 * 0.0625);
+    let low: f64 = own.residual.0.parse().unwrap();
+    assert!(
+        (low - expected).abs() < 1e-14 * expected,
+        "{low} {expected}"
+    );
+}
+
+/// Stable, and never asymptotically, where ω² > A m g r/(C (C + m r²)), and Ω² > m g r/(A + m r²) (Routh 1905).
+#[test]
+fn the_disc() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "y", "phi", "theta", "psi"]
+parameters = { m = 1.5, r = 0.4, A = 0.06, Cc = 0.12, g = 9.81, w = 2, Om = 6 }
+[define]
+cx = "x + r sin(phi) sin(theta)"
+cy = "y - r cos(phi) sin(theta)"
+cz = "r cos(theta)"
+[lagrangian]
+T = "1/2 m (cx'^2 + cy'^2 + cz'^2) + 1/2 A (theta'^2 + phi'^2 cos(theta)^2) + 1/2 Cc (psi' + phi' sin(theta))^2"
+V = "m g cz"
+[constraints]
+roll_x = "x' = r psi' cos(phi)"
+roll_y = "y' = r psi' sin(phi)"
+[steady.rolling]
+theta = 0
+"theta'" = 0
+"psi'" = "w"
+"phi'" = 0
+[steady.spinning]
+theta = 0
+"theta'" = 0
+"phi'" = "Om"
+"psi'" = 0
+"#,
+    );
+    let weight: f64 = 1.5 * 9.81 * 0.4;
+    let cases = [
+        ("rolling", (0.06 * weight / (0.12 * (0.12 + 0.24))).sqrt()),
+        ("spinning", (weight / (0.06 + 0.24)).sqrt()),
+    ];
+    for (motion, critical) in cases {
+        assert_eq!(case.said("stability.asymptotic", motion), "refuted");
+        for claim in [
+            "stability.spectral",
+            "stability.linear",
+            "stability.nonlinear",
+        ] {
+            let found = numbers(&case.said(claim, motion));
+            assert_eq!(found.len(), 2, "{claim} {motion}");
+            assert!(
+                (found[1] - critical).abs() < 1e-14 * critical,
+                "{claim} {found:?} {critical}"
+            );
+            assert_eq!(found[0], -found[1]);
+        }
+    }
+}
+
+const TOP: &str = r#"
+coordinates = ["a", "b", "c"]
+parameters = { A = 0.0025, C = 0.0009, w = 0.2943, n = 80 }
+[lagrangian]
+T = "1/2 A (a'^2 cos(b)^2 + b'^2) + 1/2 C (c' - a' sin(b))^2"
+V = "w cos(a) cos(b)"
+[integrals]
+vertical = "-A b' sin(a) + A a' cos(b) cos(a) sin(b) + C (c' - a' sin(b)) cos(a) cos(b)"
+[steady.sleeping]
+a = 0
+b = 0
+"a'" = 0
+"b'" = 0
+"c'" = "n"
+"#;
+
+/// Lagrange's top sleeps where C² n² > 4 A m g l, in angles that do not spin; the integrals prove it (Chetaev 1954).
+#[test]
+fn the_sleeping_top() {
+    let case = Case::new(TOP);
+    for claim in ["stability.linear", "stability.nonlinear"] {
+        let found = case.said(claim, "sleeping");
+        let values = numbers(&found);
+        assert_eq!(values.len(), 2, "{claim}: {found}");
+        assert!(
+            (values[1] - 60.2771377334170815).abs() < 1e-12,
+            "{claim}: {found}"
+        );
+        assert!(
+            found.starts_with("n < ") && found.contains("n > "),
+            "{found}"
+        );
+    }
+    assert_eq!(case.said("stability.asymptotic", "sleeping"), "refuted");
+}
+
+/// At equality the linear part has chains, and grows like t; that says nothing of the top itself.
+#[test]
+fn the_top_at_its_critical_spin() {
+    let text = TOP.replace(
+        "A = 0.0025, C = 0.0009, w = 0.2943, n = 80",
+        "A = 1, C = 2, w = 1",
+    );
+    let case = Case::new(&text.replace("= \"n\"", "= 1"));
+    assert_eq!(case.said("stability.spectral", "sleeping"), "proved");
+    let Verdict::Refuted(own) = case.verdict("stability.linear", "sleeping") else {
+        panic!("a chain");
+    };
+    assert!(
+        own.detail.contains("multiplicity 2 and 1 eigenvectors"),
+        "{}",
+        own.detail
+    );
+    assert!(case
+        .said("stability.nonlinear", "sleeping")
+        .starts_with("undecided"));
+}
+
+/// Nutation about the two regular precessions: Ω² sin² θ + (C n/A − 2 Ω cos θ)² (Routh 1905); both are stable.
+#[test]
+fn the_precessing_top() {
+    let case = Case::new(
+        r#"
+coordinates = ["phi", "theta", "psi"]
+parameters = { A = 0.0025, C = 0.0009, w = 0.2943, W = 4 }
+[lagrangian]
+T = "1/2 A (theta'^2 + phi'^2 sin(theta)^2) + 1/2 C (psi' + phi' cos(theta))^2"
+V = "w cos(theta)"
+[steady.precession]
+theta = "acos(3/5)"
+"theta'" = 0
+"phi'" = "W"
+"psi'" = "(3/5 A W^2 + w)/(C W) - 3/5 W"
+"#,
+    );
+    assert_eq!(case.said("steady.stated", "precession"), "proved");
+    for claim in ["stability.linear", "stability.nonlinear"] {
+        let found = case.said(claim, "precession");
+        assert_eq!(found, "W < 0 or W > 0", "{claim}");
+    }
+}
+
+/// λ⁴ + λ² + (27/4) μ (1 − μ): bounded linear motions below Routh's ratio, unstable above; of the nonlinear motion nothing follows, and it is
+/// unstable at the resonances (Gascheau 1843; Markeev 1969).
+#[test]
+fn the_triangular_point() {
+    let model = |mu: &str| {
+        Case::new(&format!(
+            r#"
+coordinates = ["x", "y"]
+parameters = {{ mu = {mu} }}
+[lagrangian]
+L = "1/2 (x'^2 + y'^2) + x y' - y x' + (x^2 + y^2)/2 + (1 - mu)/sqrt((x + mu)^2 + y^2) + mu/sqrt((x - 1 + mu)^2 + y^2)"
+[steady.L4]
+x = "1/2 - mu"
+y = "sqrt(3)/2"
+"x'" = 0
+"y'" = 0
+"#
+        ))
+    };
+    for mu in ["0.01215", "0.02429389714", "0.01351601602"] {
+        let case = model(mu);
+        assert_eq!(case.said("stability.linear", "L4"), "proved");
+        assert!(case
+            .said("stability.nonlinear", "L4")
+            .starts_with("undecided"));
+    }
+    let case = model("0.05");
+    let Verdict::Refuted(own) = case.verdict("stability.nonlinear", "L4") else {
+        panic!("unstable");
+    };
+    let low: f64 = own.residual.0.parse().unwrap();
+    assert!((low - 0.18198568988426841).abs() < 1e-15);
+}
+
+/// Gyroscopic forces stabilize what dissipation makes unstable again (Thomson and Tait 1879, Chetaev 1946).
+#[test]
+fn gyroscopic_stabilization() {
+    let model = |d: &str, gyro: &str| {
+        Case::new(&format!(
+            r#"
+coordinates = ["x", "y"]
+parameters = {{ G = {gyro}, d = {d} }}
+[lagrangian]
+L = "1/2 (x'^2 + y'^2) + 1/2 (x^2 + 2 y^2) + G/2 (y x' - x y')"
+[forces]
+x = "-d x'"
+y = "-d y'"
+[steady.up]
+x = 0
+y = 0
+"x'" = 0
+"y'" = 0
+"#
+        ))
+    };
+    assert_eq!(model("0", "3").said("stability.linear", "up"), "proved");
+    assert!(model("0", "3")
+        .said("stability.nonlinear", "up")
+        .starts_with("undecided"));
+    assert_eq!(model("0", "2").said("stability.spectral", "up"), "refuted");
+    assert_eq!(
+        model("0.1", "3").said("stability.nonlinear", "up"),
+        "refuted"
+    );
+}
+
+/// A kinematic chain of two trailers: −v/Lᵢ, stable exactly forwards (Laumond 1993).
+#[test]
+fn trailers() {
+    let model = |v: &str| {
+        Case::new(&format!(
+            r#"
+coordinates = ["x", "y", "a", "b", "c"]
+parameters = {{ v = {v}, m = 1 }}
+[lagrangian]
+T = "1/2 m (x'^2 + y'^2 + a'^2 + b'^2 + c'^2)"
+[constraints]
+drive_x = "x' = v cos(a)"
+drive_y = "y' = v sin(a)"
+ahead = "a' = 0"
+first = "2 b' = v sin(a - b)"
+second = "3 c' = v cos(a - b) sin(b - c)"
+[steady.straight]
+a = 0
+b = 0
+c = 0
+"#
+        ))
+    };
+    for claim in ["stability.asymptotic", "stability.nonlinear"] {
+        assert_eq!(model("1.5").said(claim, "straight"), "proved", "{claim}");
+        let Verdict::Refuted(own) = model("-1.5").verdict(claim, "straight") else {
+            panic!("{claim}");
+        };
+        let low: f64 = own.residual.0.parse().unwrap();
+        assert!((low - 0.75).abs() < 1e-15, "{low}");
+    }
+}
+
+/// λ⁴ + αnλ³ + (b₀ + b₂n²)λ² + αn³λ + e₀ + e₂n² + e₄n⁴: stable in one direction of spin above a threshold where b₀ > e₂, in none otherwise (Bondi 1986).
+#[test]
+fn the_rattleback() {
+    let stone = |m: [&str; 9]| {
+        let [semi_a, semi_b, semi_c, h, ia, ib, ic, id, n] = m;
+        Case::new(&format!(
+            r#"
+coordinates = ["x", "y", "ga", "al", "be"]
+parameters = {{ m = 1, a = {semi_a}, b = {semi_b}, c = {semi_c}, h = {h}, A = {ia}, B = {ib}, Cz = {ic}, D = {id}, g = 9.81, n = {n} }}
+[quasi_velocities]
+w1 = "al' cos(be) - ga' cos(al) sin(be)"
+w2 = "be' + ga' sin(al)"
+w3 = "al' sin(be) + ga' cos(al) cos(be)"
+[define]
+n1 = "-cos(al) sin(be)"
+n2 = "sin(al)"
+n3 = "cos(al) cos(be)"
+H = "sqrt(a^2 n1^2 + b^2 n2^2 + c^2 n3^2)"
+r1 = "-a^2 n1/H"
+r2 = "-b^2 n2/H"
+r3 = "h - c^2 n3/H"
+z = "H - h n3"
+nd1 = "n2 w3 - n3 w2"
+nd2 = "n3 w1 - n1 w3"
+nd3 = "n1 w2 - n2 w1"
+vz = "(a^2 n1 nd1 + b^2 n2 nd2 + c^2 n3 nd3)/H - h nd3"
+c1 = "w2 r3 - w3 r2"
+c2 = "w3 r1 - w1 r3"
+c3 = "w1 r2 - w2 r1"
+a1_x = "cos(ga) cos(be) - sin(ga) sin(al) sin(be)"
+a1_y = "sin(ga) cos(be) + cos(ga) sin(al) sin(be)"
+a2_x = "-sin(ga) cos(al)"
+a2_y = "cos(ga) cos(al)"
+a3_x = "cos(ga) sin(be) + sin(ga) sin(al) cos(be)"
+a3_y = "sin(ga) sin(be) - cos(ga) sin(al) cos(be)"
+[lagrangian]
+T = "1/2 m (x'^2 + y'^2 + vz^2) + 1/2 (A w1^2 + B w2^2 + Cz w3^2) + D w1 w2"
+V = "m g z"
+[constraints]
+roll_x = "x' + a1_x c1 + a2_x c2 + a3_x c3 = 0"
+roll_y = "y' + a1_y c1 + a2_y c2 + a3_y c3 = 0"
+[steady.spinning]
+al = 0
+be = 0
+"al'" = 0
+"be'" = 0
+"ga'" = "n"
+"#
+        ))
+    };
+    let kane = stone([
+        "0.2", "0.03", "0.02", "0.01", "0.0002", "0.0016", "0.0017", "-0.00002", "5",
+    ]);
+    assert_eq!(kane.said("stability.asymptotic", "spinning"), "refuted");
+    // At rest it stands by its energy; spun it is stable in neither direction.
+    assert_eq!(kane.said("stability.nonlinear", "spinning"), "n = 0");
+    let other = stone([
+        "0.1",
+        "0.06",
+        "0.05",
+        "0.005",
+        "0.00061",
+        "0.00125",
+        "0.001292",
+        "-0.000064",
+        "10",
+    ]);
+    for claim in ["stability.asymptotic", "stability.nonlinear"] {
+        let found = other.said(claim, "spinning");
+        let values = numbers(&found);
+        assert!(
+            values
+                .first()
+                .is_some_and(|own| (own - 20.7582375224592356).abs() < 1e-13),
+            "{claim}: {found}"
+        );
+        assert!(found.starts_with("n > "), "{claim}: {found}");
+    }
+}
+
+/// Where the second variation is degenerate nothing is stated: x⁴ is stable and −x⁴ is not.
+#[test]
+fn what_higher_terms_decide_is_open() {
+    for sign in ["-", "+"] {
+        let case = Case::new(&format!(
+            r#"
+coordinates = ["x", "y", "z"]
+parameters = {{ k = 1 }}
+[lagrangian]
+L = "1/2 (x'^2 + y'^2 + z'^2) {sign} 1/4 x^4 - 1/2 k y^2"
+[steady.rest]
+x = 0
+y = 0
+"x'" = 0
+"y'" = 0
+"z'" = 0
+"#
+        ));
+        assert_eq!(case.said("stability.spectral", "rest"), "proved");
+        let Verdict::Refuted(own) = case.verdict("stability.linear", "rest") else {
+            panic!("a chain");
+        };
+        assert!(
+            own.detail.contains("multiplicity 3 and 2 eigenvectors"),
+            "{}",
+            own.detail
+        );
+        assert!(case
+            .said("stability.nonlinear", "rest")
+            .starts_with("undecided"));
+    }
+}
+
+/// Masses and lengths of very different sizes, and a constraint that is stated twice, change nothing.
+#[test]
+fn scales_and_redundant_constraints() {
+    let scaled = SLEIGH
+        .replace(
+            "m = 2, J = 0.3, a = 0.25",
+            "m = 2e-30, J = 3e-11, a = 2.5e9",
+        )
+        .replace(
+            "blade =",
+            "again = \"2 x' sin(phi) = 2 y' cos(phi)\"\nblade =",
+        );
+    let case = Case::new(&scaled);
+    assert_eq!(case.said("stability.nonlinear", "straight"), "u >= 0");
+    assert_eq!(case.said("stability.critical", "u"), "proved");
+}
+
+/// Hanging by the energy, inverted unstable by an enclosed eigenvalue.
+#[test]
+fn the_double_pendulum_hangs() {
+    let case = Case::gallery("double-pendulum");
+    assert_eq!(case.said("stability.nonlinear", "hanging"), "proved");
+    assert_eq!(case.said("stability.linear", "hanging"), "proved");
+    assert_eq!(case.said("stability.nonlinear", "inverted"), "refuted");
+}
+
+/// Watt's governor hunts below ε = 2 α β^(3/2) (Pontryagin 1962).
+#[test]
+fn watts_governor() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "s"]
+parameters = { alpha = 0.5, beta = 0.36, eps = 0.3 }
+[lagrangian]
+T = "1/2 x'^2 + 1/2 s'^2"
+[forces]
+x = "s'^2 sin(x) cos(x) - sin(x) - eps x'"
+s = "alpha (cos(x) - beta)"
+[steady.running]
+x = "acos(beta)"
+"x'" = 0
+"s'" = "beta^(-1/2)"
+"#,
+    );
+    assert_eq!(case.said("stability.nonlinear", "running"), "proved");
+    let linear = case.linear(&case.system.steady[0], "eps").unwrap();
+    let found = case.ranges(&linear, "eps", 0, 2);
+    assert_eq!(found.boundaries.len(), 1, "{found:?}");
+    assert_eq!(
+        found.boundaries[0].crossing,
+        chetaev_stability::hurwitz::Crossing::Pair
+    );
+    // 2 · 0.5 · 0.36^(3/2) = 0.216.
+    let expected = chetaev_symbolic::Rational::from_parts(216.into(), 1000_u32.into());
+    let root = &found.boundaries[0].root;
+    assert!(root.low <= expected && expected <= root.high);
+    let stable: Vec<bool> = found.regions.iter().map(|r| r.is_left).collect();
+    assert_eq!(stable, [false, true]);
+}
+
+/// The pole on a cart in state space: `(M + m) g/(M l)`, `1/M`, `−1/(M l)` (Åström and Murray 2008), and its transfer function.
+#[test]
+fn the_pole_on_a_cart() {
+    let case = Case::new(
+        r#"
+coordinates = ["x", "th"]
+parameters = { M = 1, m = 0.2, l = 0.5, g = 9.81 }
+[lagrangian]
+T = "1/2 M x'^2 + 1/2 m ((x' + l th' cos(th))^2 + l^2 th'^2 sin(th)^2)"
+V = "m g l cos(th)"
+[forces]
+x = "F"
+[controls]
+F = {}
+[steady.up]
+x = 0
+th = 0
+"x'" = 0
+"th'" = 0
+"#,
+    );
+    let (system, prepared) = (&case.system, &case.prepared);
+    let values = case.values("");
+    let about = Expansion::new(
+        system,
+        &prepared.terms,
+        &prepared.selection,
+        &system.steady[0],
+        &values,
+    )
+    .unwrap();
+    let linear = about.linear();
+    assert_eq!(linear.names, ["th", "x'", "th'"]);
+    let output = (
+        "tip".to_owned(),
+        case.model.expression("x' + l th' cos(th)").unwrap(),
+    );
+    let space = about.state_space(&linear, &[output]).unwrap();
+    let numbers = |rows: &[Vec<chetaev_symbolic::Expr>]| case.numbers(rows, &[]);
+    assert_eq!(
+        numbers(&space.a),
+        [[0.0, 0.0, 1.0], [-1.962, 0.0, 0.0], [23.544, 0.0, 0.0]]
+    );
+    assert_eq!(numbers(&space.b), [[0.0], [1.0], [-2.0]]);
+    assert_eq!(numbers(&space.c), [[0.0, 1.0, 0.5]]);
+    assert_eq!(space.ranks(&system.graph), (3, 3));
+    // The tip moves by −m g l sin θ alone: (s² x + l s² θ) m = …, so tip'/F = −g/(M l s³ − (M + m) g s) · 1.
+    let g = &system.graph;
+    let transfer = space.transfer(g).unwrap()[0][0];
+    let at = g.evaluate_f64(&[transfer], &|_| Some(2.0)).unwrap()[0];
+    let expected = -9.81 / (0.5 * 8.0 - 1.2 * 9.81 * 2.0);
+    assert!((at - expected).abs() < 1e-14, "{at} {expected}");
+}
+
+/// Independent speeds of choice do not change the eigenvalues.
+#[test]
+fn speeds_of_choice() {
+    let case = Case::gallery("whipple-bicycle");
+    let (system, prepared) = (&case.system, &case.prepared);
+    let values = case.values("");
+    let of = |dependent: Vec<usize>| {
+        let selection = Selection {
+            rows: prepared.selection.rows.clone(),
+            dependent,
+        };
+        let about = Expansion::in_speeds(
+            system,
+            &prepared.terms,
+            &selection,
+            &system.steady[0],
+            (&values, Speeds::Independent),
+        )
+        .unwrap();
+        let linear = about.linear();
+        eigenvalues(
+            &case.numbers(&linear.left, &[]),
+            &case.numbers(&linear.right, &[]),
+        )
+        .unwrap()
+    };
+    let place = |name: &str| {
+        system
+            .coordinates
+            .iter()
+            .position(|c| c.name == name)
+            .unwrap()
+    };
+    let own = of(prepared.selection.dependent.clone());
+    // The front wheel in the place of the rear one.
+    let chosen = ["phi", "delta", "thF"].map(place);
+    let other = of((0..system.n()).filter(|j| !chosen.contains(j)).collect());
+    for (a, b) in own.iter().zip(&other) {
+        assert!((a - b).norm() < 1e-9, "{own:?} {other:?}");
+    }
+}
