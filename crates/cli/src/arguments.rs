@@ -30,6 +30,10 @@ pub(crate) enum Command {
     Principles(Principles),
     /// Compute the motion only and write the trajectory
     Simulate(Simulate),
+    /// Draw the motion as a picture: SVG, PNG, or scene.json
+    Plot(Plot),
+    /// Draw the motion as a film: GIF
+    Film(Film),
     /// Linearize about a steady motion: exact matrices, characteristic polynomial, eigenvalues
     Linearize(Linearize),
     /// Decide the stability of a steady motion, also over a range of a parameter, with enclosed boundaries
@@ -281,6 +285,57 @@ pub(crate) struct Simulate {
     /// Print a record of the run as JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev plot gallery/chaplygin-sleigh/model.toml --ghosts 8
+  chetaev plot model.toml --at 2.5 --out sleigh.png
+  chetaev plot model.toml --out scene.json
+  chetaev plot scene.json --width 1600 --out large.svg")]
+pub(crate) struct Plot {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// The file to write, .svg, .png or .json [default: out/NAME/picture.svg]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// The time that is shown [default: the end]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub(crate) at: Option<f64>,
+    /// Show the bodies at so many earlier times too
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1000))]
+    pub(crate) ghosts: u32,
+    /// Width in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 960)]
+    pub(crate) width: u32,
+    /// Greatest height in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 540)]
+    pub(crate) height: u32,
+    #[command(flatten)]
+    pub(crate) motion: MotionArguments,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  chetaev film gallery/chaplygin-sleigh/model.toml
+  chetaev film model.toml --seconds 6 --width 480 --out motion.gif")]
+pub(crate) struct Film {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// The file to write, .gif [default: out/NAME/film.gif]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// How long the film is [default: as long as the motion, from 2 to 20 seconds]
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub(crate) seconds: Option<f64>,
+    /// Width in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 640)]
+    pub(crate) width: u32,
+    /// Greatest height in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 360)]
+    pub(crate) height: u32,
+    #[command(flatten)]
+    pub(crate) motion: MotionArguments,
 }
 
 #[derive(Args, Debug)]

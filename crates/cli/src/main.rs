@@ -32,6 +32,8 @@ fn main() -> ExitCode {
         Command::Derive(a) => commands::as_a_whole(|| commands::derive::run(&a)),
         Command::Principles(a) => commands::principles::run(&a),
         Command::Simulate(a) => commands::simulate::run(&a),
+        Command::Plot(a) => commands::plot::run(&a),
+        Command::Film(a) => commands::plot::film(&a),
         Command::Linearize(a) => commands::stability::linearize(&a),
         Command::Stability(a) => commands::stability::run(&a),
         Command::Sweep(a) => commands::sweep::run(&a),

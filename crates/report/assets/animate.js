@@ -41,9 +41,45 @@ class Player {
     this.buildSpeed(options);
     this.follow = this.option(options, words.follow, this.scene.bodySize > 0 && this.scene.bodySize < this.scene.size / 40);
     this.repeat = this.option(options, words.repeat, false);
+    this.ghosts = this.option(options, words.ghosts, false);
+    this.ghosts.addEventListener("change", () => this.paint());
+    this.fade = 1;
     this.resetButton = make("button", { type: "button", class: "plain" }, options, words.resetView);
+    this.buildExports(options);
     this.buildKey(options);
     this.setPlaying(false);
+  }
+
+  /** The picture as it stands as PNG; the motion as a film, where the browser can record one. */
+  buildExports(parent) {
+    const save = (blob, ending) => {
+      const link = make("a", { href: URL.createObjectURL(blob), download: `${document.title}.${ending}` });
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    };
+    make("button", { type: "button", class: "plain" }, parent, "PNG")
+      .addEventListener("click", () => this.canvas.toBlob((blob) => blob && save(blob, "png")));
+    if (!globalThis.MediaRecorder || !this.canvas.captureStream || !MediaRecorder.isTypeSupported("video/webm")) return;
+    const button = make("button", { type: "button", class: "plain" }, parent, words.film);
+    button.addEventListener("click", () => {
+      const parts = [];
+      const recorder = new MediaRecorder(this.canvas.captureStream(30), { mimeType: "video/webm" });
+      recorder.addEventListener("dataavailable", (event) => parts.push(event.data));
+      recorder.addEventListener("stop", () => {
+        button.disabled = false;
+        save(new Blob(parts, { type: "video/webm" }), "webm");
+      });
+      button.disabled = true;
+      this.repeat.checked = false;
+      clock.set(this.first);
+      recorder.start();
+      this.setPlaying(true);
+      const wait = setInterval(() => {
+        if (this.playing) return;
+        clearInterval(wait);
+        recorder.stop();
+      }, 100);
+    });
   }
 
   option(parent, text, value) {
@@ -194,7 +230,11 @@ class Player {
 
   resize() {
     const width = this.stage.clientWidth;
-    const height = Math.round(Math.max(240, Math.min(460, width * 0.56)));
+    // A flat picture takes no more height than it fills.
+    const most = Math.max(240, Math.min(460, width * 0.56));
+    const camera = new Camera(this.scene, this.spec.camera);
+    const across = camera.fit(width, 1e9, this.scene.bounds);
+    const height = Math.round(Math.max(180, Math.min(most, across * camera.extent("up") + 70)));
     const ratio = devicePixelRatio || 1;
     this.canvas.style.height = `${height}px`;
     this.canvas.width = Math.round(width * ratio);
@@ -234,8 +274,24 @@ class Player {
       return v.some(Number.isNaN) ? [] : [{ element, v, depth: this.depth(element, v) }];
     });
     if (scene.spatial) shapes.sort((a, b) => a.depth - b.depth);
+    if (this.ghosts.checked) this.paintGhosts(time);
     for (const { element, v } of shapes) this.paintElement(element, v, time);
     this.paintScale();
+  }
+
+  /** The bodies at earlier times, faintly: a stroboscopic picture. */
+  paintGhosts(time) {
+    const { scene } = this;
+    const still = (element) => ["trail", "label"].includes(element.kind) || element.tint === "muted";
+    this.fade = 0.22;
+    for (let i = 0; i < 8; i++) {
+      const then = this.first + (time - this.first) * i / 8;
+      for (const element of scene.elements) {
+        const v = still(element) ? [NaN] : scene.at(element, then);
+        if (!v.some(Number.isNaN)) this.paintElement(element, v, then);
+      }
+    }
+    this.fade = 1;
   }
 
   aim(time) {
@@ -312,8 +368,8 @@ class Player {
     const { g } = this;
     g.beginPath();
     this.trace(points, close);
-    if (fill > 0) { g.globalAlpha = fill; g.fill(); }
-    g.globalAlpha = alpha;
+    if (fill > 0) { g.globalAlpha = fill * this.fade; g.fill(); }
+    g.globalAlpha = alpha * this.fade;
     g.lineWidth = width;
     g.stroke();
     g.globalAlpha = 1;
@@ -343,9 +399,11 @@ class Player {
   }
 
   disc([x, y], radius) {
+    this.g.globalAlpha = this.fade;
     this.g.beginPath();
     this.g.arc(x, y, radius, 0, 2 * Math.PI);
     this.g.fill();
+    this.g.globalAlpha = 1;
   }
 
   arrow(tail, tip) {
@@ -392,7 +450,7 @@ class Player {
     light.addColorStop(1, "rgb(255 255 255 / 0)");
     g.beginPath();
     g.arc(x, y, radius, 0, 2 * Math.PI);
-    g.globalAlpha = 0.6;
+    g.globalAlpha = 0.6 * this.fade;
     g.fill();
     g.fillStyle = light;
     g.fill();

@@ -135,8 +135,8 @@ class Camera {
       for (const corner of corners.splice(0)) corners.push([...corner, low], [...corner, high]);
     }
     this.aim(width, height, bounds.map(([low, high]) => (low + high) / 2), 1);
-    const extent = (axis) => Math.max(...corners.map((c) => Math.abs(dot(plus(c, this.target, -1), axis)))) * 2;
-    const [w, h] = [extent(this.right), extent(this.up)];
+    this.extent = (axis) => Math.max(...corners.map((c) => Math.abs(dot(plus(c, this.target, -1), this[axis])))) * 2;
+    const [w, h] = [this.extent("right"), this.extent("up")];
     return Math.min((width - 70) / Math.max(w, 1e-12), (height - 70) / Math.max(h, 1e-12));
   }
 }

@@ -1,6 +1,6 @@
-//! Renders plain data as one self-contained HTML page; knows no mechanics.
+//! Renders plain data as one self-contained HTML page, and its moving picture as files; knows no mechanics.
 //!
-//! [`data`] says what a page can hold, [`render`] writes it. The page is one file without a
+//! [`data`] says what a page can hold, [`render`] writes it; [`picture`] draws the moving picture as SVG, PNG and GIF. The page is one file without a
 //! request to anything outside: style, script, formulas and numbers are in it, and its content
 //! security policy forbids the rest. Every word a reader sees is either in the data or in the
 //! table of its [`Language`].
@@ -23,6 +23,7 @@ mod motion;
 mod number;
 mod page;
 mod payload;
+pub mod picture;
 mod prose;
 mod scene;
 mod source;

@@ -9,7 +9,7 @@
 //!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
 //! - [`sweep`]: a model as an ensemble; [`stability`](mod@stability): linear equations about a steady motion; [`functional`]: summary, record
 //!   and page of a functional of fields over space;
-//! - for people: [`derivation`], [`overview`], [`story`], [`summary`], [`page`], [`typeset`]; for programs: [`record`] with the model lowered ([`flat`]) and
+//! - for people: [`derivation`], [`overview`], [`story`], [`summary`], [`page`], [`picture`], [`typeset`]; for programs: [`record`] with the model lowered ([`flat`]) and
 //!   the equations of every formulation ([`stated_equations`]), [`table`]; [`verify`].
 
 pub mod beside;
@@ -28,6 +28,7 @@ mod notices;
 pub mod options;
 pub mod overview;
 pub mod page;
+pub mod picture;
 mod placed;
 mod plain;
 mod precise;

@@ -2,11 +2,13 @@
 
 mod claims;
 mod comparison;
+mod default_drawing;
 mod drawing;
 mod equations;
 mod motion;
 
 pub(crate) use claims::{evidence, word};
+pub use drawing::scene;
 
 use crate::overview::found::{found, Found};
 use crate::study::Study;
@@ -66,10 +68,7 @@ pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Repor
             .motion
             .as_ref()
             .and_then(|m| comparison::comparison(study, m)),
-        animation: study
-            .motion
-            .as_ref()
-            .and_then(|m| drawing::animation(study, m)),
+        animation: scene(study),
         model: Some(source(&study.model.text)),
         notices: study.notices.clone(),
         reproducibility: Reproducibility {

@@ -412,7 +412,8 @@ pub fn letters(name: &str) -> String {
 pub fn in_line(text: &str) -> String {
     let is_sign = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
     let mut out = String::new();
-    let mut rest = text;
+    let text = text.replace(">=", "≥").replace("<=", "≤");
+    let mut rest = text.as_str();
     while let Some(first) = rest.chars().next() {
         let length = match first {
             c if is_sign(c) => rest.find(|c| !is_sign(c)).unwrap_or(rest.len()),

@@ -13,6 +13,8 @@ const COMMANDS: &[&str] = &[
     "derive",
     "principles",
     "simulate",
+    "plot",
+    "film",
     "sweep",
     "check",
     "explain",

@@ -25,6 +25,7 @@ mod measures;
 mod messages;
 mod motion;
 mod mutants;
+mod pictures;
 mod principles;
 mod published;
 mod readme;

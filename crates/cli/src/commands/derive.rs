@@ -2,6 +2,7 @@
 
 mod code;
 mod compare;
+mod latex;
 mod printed;
 
 use super::{error, with_progress};

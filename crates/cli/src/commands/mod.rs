@@ -7,6 +7,7 @@ pub(crate) mod explain;
 mod functional;
 pub(crate) mod gallery;
 pub(crate) mod new;
+pub(crate) mod plot;
 pub(crate) mod principles;
 pub(crate) mod simulate;
 pub(crate) mod stability;

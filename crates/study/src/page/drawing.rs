@@ -1,15 +1,25 @@
 //! The moving picture: the drawing of the model evaluated along the motion.
 
+use super::default_drawing::drawn_by_itself;
 use crate::study::{Motion, Study};
-use chetaev_model::drawing::{Element as Stated, Shape as Drawn};
+use chetaev_model::drawing::{Drawing, Element as Stated, Shape as Drawn};
 use chetaev_motion::observe::Observer;
 use chetaev_motion::Run;
 use chetaev_report::data::{Animation, Element, Shape, Tint};
 use chetaev_symbolic::{rational, Expr};
 
-/// The drawing of the model evaluated along the motion.
-pub(super) fn animation(study: &Study, motion: &Motion) -> Option<Animation> {
-    let drawing = study.model.drawing.as_ref()?;
+/// The moving picture of a study: the drawing of its model, or one that follows from its particles and coordinates; `None` where no motion
+/// was computed.
+pub fn scene(study: &Study) -> Option<Animation> {
+    let motion = study.motion.as_ref()?;
+    match &study.model.drawing {
+        Some(stated) => animation(study, motion, stated),
+        None => animation(study, motion, &drawn_by_itself(study)?),
+    }
+}
+
+/// A drawing evaluated along the motion.
+fn animation(study: &Study, motion: &Motion, drawing: &Drawing) -> Option<Animation> {
     let run = &motion.evidence.run;
     let expressions: Vec<Expr> = drawing
         .elements

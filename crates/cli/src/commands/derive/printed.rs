@@ -1,5 +1,6 @@
 //! Equations in the notations for reading, and as data.
 
+use super::latex;
 use crate::arguments::Notation;
 use chetaev::mechanics::equations::Schema;
 use chetaev::mechanics::{Context, System};
@@ -9,10 +10,10 @@ use chetaev::symbolic::print::{sympy_module, Document, Format, PythonSection};
 use chetaev::symbolic::Expr;
 
 /// Equations under a heading, with their general form.
-struct Section {
-    heading: String,
-    schema: Option<Schema>,
-    pairs: Vec<(Expr, Expr)>,
+pub(super) struct Section {
+    pub(super) heading: String,
+    pub(super) schema: Option<Schema>,
+    pub(super) pairs: Vec<(Expr, Expr)>,
 }
 
 /// What is printed of all formulations.
@@ -26,18 +27,20 @@ pub(super) fn text(
         Notation::Json => as_json(system, found),
         Notation::Sympy => as_module(system, found),
         _ => {
-            let parts = found.iter().map(|one| match one {
-                Ok(derivation) => printed(system, derivation, notation),
-                Err(problem) => marked(&problem.to_string(), notation) + "\n",
+            let parts = found.iter().map(|one| match (one, notation) {
+                (Ok(derivation), Notation::Latex) => latex::section(system, derivation),
+                (Ok(derivation), _) => printed(system, derivation, notation),
+                (Err(problem), _) => marked(&problem.to_string(), notation) + "\n",
             });
-            in_one_document(&parts.collect::<String>(), notation)
+            in_one_document(system, &parts.collect::<String>(), notation)
         }
     }
 }
 
-/// Markup has one root, however many formulas there are.
-fn in_one_document(text: &str, notation: Notation) -> String {
+/// Markup has one root, however many formulas there are, and a text of LaTeX a beginning and an end.
+fn in_one_document(system: &System, text: &str, notation: Notation) -> String {
     match notation {
+        Notation::Latex => latex::document(system, text),
         Notation::Mathml => {
             format!("<div xmlns=\"http://www.w3.org/1999/xhtml\">\n{text}</div>\n")
         }
@@ -55,7 +58,7 @@ fn marked(line: &str, notation: Notation) -> String {
 }
 
 /// Equations of each group, then the intermediate objects.
-fn sections(system: &System, derivation: &Derivation) -> Vec<Section> {
+pub(super) fn sections(system: &System, derivation: &Derivation) -> Vec<Section> {
     let g = &system.graph;
     let mut sections: Vec<Section> = derivation
         .groups
@@ -90,7 +93,6 @@ fn sections(system: &System, derivation: &Derivation) -> Vec<Section> {
 fn printed(system: &System, derivation: &Derivation, notation: Notation) -> String {
     let options = typeset::print_options_with(system, &derivation.objects);
     let format = match notation {
-        Notation::Latex => Format::Latex,
         Notation::Mathml => Format::Mathml,
         _ => Format::Text,
     };
@@ -101,12 +103,8 @@ fn printed(system: &System, derivation: &Derivation, notation: Notation) -> Stri
     let mut text = marked(derivation.card.title, notation);
     for section in sections(system, derivation) {
         text.push_str(&marked(&format!("{}{colon}", section.heading), notation));
-        match (section.schema, notation) {
-            (Some(schema), Notation::Latex) => {
-                text.push_str(&format!("% general form: {}\n", schema.latex))
-            }
-            (Some(schema), _) => text.push_str(&marked(&format!("[{}]", schema.text), notation)),
-            (None, _) => {}
+        if let Some(schema) = section.schema {
+            text.push_str(&marked(&format!("[{}]", schema.text), notation));
         }
         let document = Document::equations(&system.graph, &section.pairs, &options);
         text.push_str(document.render(format).trim_end());
