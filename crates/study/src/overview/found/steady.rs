@@ -4,8 +4,9 @@ use super::{condition, verdict, Found};
 use crate::study::{Decided, Study};
 use chetaev_symbolic::Verdict;
 
-/// What is asked of the eigenvalues about a steady motion, from the stronger to the weaker.
-const ASKED: [(&str, &str); 2] = [
+/// What is asked of a steady motion: of itself, then of the eigenvalues about it, from the stronger to the weaker.
+const ASKED: [(&str, &str); 3] = [
+    ("stability.nonlinear", "stable"),
     ("stability.asymptotic", "asymptotically stable"),
     ("stability.spectral", "spectrally stable"),
 ];
