@@ -2,10 +2,12 @@
 //!
 //! With integrals Fᵢ and numbers κᵢ such that `Σ κᵢ dFᵢ = 0` at the motion, `V = Σ κᵢ (Fᵢ − Fᵢ⁰) + N Σ (Fᵢ − Fᵢ⁰)²` is definite for large N, and the
 //! motion stable, where the second variation of `Σ κᵢ Fᵢ` is definite on the directions in which no integral changes. That is so
-//! where its leading minors there are all positive, or alternate (Sylvester).
+//! where its leading minors there are all positive, or alternate (Sylvester). A function that never grows, as the energy under dissipation, takes part with a
+//! positive weight and without its square; the form must then be positive (Thomson and Tait 1879, Chetaev 1946).
 
 use crate::integrals::Jet;
 use crate::multiplicity::product;
+use crate::real_roots::sign_of;
 use crate::steady::{closed, kernel};
 use chetaev_symbolic::factors::{coefficients, factors};
 use chetaev_symbolic::matrix::determinant;
@@ -24,6 +26,8 @@ pub struct Bundle {
     pub nonzero: Vec<Expr>,
     /// The leading minors.
     pub minors: Vec<Expr>,
+    /// Whether a function that falls is among them: then the form must be positive.
+    pub falls: bool,
 }
 
 impl Bundle {
@@ -40,7 +44,7 @@ impl Bundle {
                 0 => *s == Ordering::Less,
                 _ => *s == Ordering::Greater,
             };
-            is_positive || signs.iter().enumerate().all(alternates)
+            is_positive || !self.falls && signs.iter().enumerate().all(alternates)
         })
     }
 
@@ -53,7 +57,10 @@ impl Bundle {
 /// The bundles of these integrals of n variables.
 pub fn bundles(g: &Graph, jets: &[Jet], n: usize) -> Vec<Bundle> {
     let gradients: Vec<Vec<Expr>> = jets.iter().map(|jet| jet.gradient.clone()).collect();
-    let (directions, nonzero) = kernel(g, &gradients, n);
+    // Only what is constant restricts the motions.
+    let constant = jets.iter().filter(|jet| !jet.falls);
+    let constant: Vec<Vec<Expr>> = constant.map(|jet| jet.gradient.clone()).collect();
+    let (directions, nonzero) = kernel(g, &constant, n);
     let transposed: Vec<Vec<Expr>> = (0..n)
         .map(|c| gradients.iter().map(|row| row[c]).collect())
         .collect();
@@ -64,13 +71,16 @@ pub fn bundles(g: &Graph, jets: &[Jet], n: usize) -> Vec<Bundle> {
             text: "the integrals determine the variables near the motion".into(),
             nonzero,
             minors: Vec::new(),
+            falls: false,
         }];
     }
     let forms: Vec<Combination> = combinations
         .into_iter()
         .take(COMBINATIONS)
+        .filter_map(|weights| weighted(g, jets, weights))
         .map(|weights| Combination {
             form: restricted(g, jets, &weights, &directions),
+            falls: falling(g, jets, &weights),
             weights,
         })
         .collect();
@@ -79,17 +89,51 @@ pub fn bundles(g: &Graph, jets: &[Jet], n: usize) -> Vec<Bundle> {
         .map(|own| own.bundle(g, jets, &nonzero))
         .collect();
     for (at, one) in forms.iter().enumerate() {
-        for other in &forms[..at] {
+        for other in forms
+            .iter()
+            .enumerate()
+            .filter(|(place, other)| *place != at && !other.falls && (one.falls || *place < at))
+            .map(|(_, other)| other)
+        {
             found.extend(pencils(g, jets, [one, other], &nonzero));
         }
     }
     found
 }
 
+/// Whether a function that falls has a weight.
+fn falling(g: &Graph, jets: &[Jet], weights: &[Expr]) -> bool {
+    let mut own = jets.iter().zip(weights);
+    own.any(|(jet, &w)| jet.falls && !g.is_zero(w))
+}
+
+/// Weights of which those of the functions that fall are positive, being numbers; `None` where these have different signs.
+fn weighted(g: &Graph, jets: &[Jet], weights: Vec<Expr>) -> Option<Vec<Expr>> {
+    if !falling(g, jets, &weights) {
+        return Some(weights);
+    }
+    let own = jets.iter().zip(&weights).filter(|(jet, _)| jet.falls);
+    let signs: Option<Vec<Ordering>> = own
+        .map(|(_, &w)| sign_of(g, w))
+        .filter(|sign| *sign != Some(Ordering::Equal))
+        .collect();
+    let signs = signs?;
+    let first = *signs.first()?;
+    if signs.iter().any(|sign| *sign != first) {
+        return None;
+    }
+    Some(match first {
+        Ordering::Less => weights.iter().map(|&w| g.neg(w)).collect(),
+        _ => weights,
+    })
+}
+
 /// Numbers κ with `Σ κ dF = 0`, and the second variation on the directions in which no integral changes.
 struct Combination {
     weights: Vec<Expr>,
     form: Vec<Vec<Expr>>,
+    /// Whether a function that falls has a weight, which is positive.
+    falls: bool,
 }
 
 impl Combination {
@@ -106,6 +150,7 @@ impl Combination {
             text: terms.collect::<Vec<_>>().join(" + "),
             nonzero: nonzero.to_vec(),
             minors: minors(g, &self.form),
+            falls: self.falls,
         }
     }
 
@@ -114,6 +159,7 @@ impl Combination {
         let sum = |(&a, &b): (&Expr, &Expr)| closed(g, g.add(&[a, g.mul(&[t, b])]));
         let rows = self.form.iter().zip(&other.form);
         Combination {
+            falls: self.falls,
             weights: self.weights.iter().zip(&other.weights).map(sum).collect(),
             form: rows
                 .map(|(a, b)| a.iter().zip(b).map(sum).collect())

@@ -1,20 +1,23 @@
 //! First integrals about a steady motion: their values up to the second order, exact in the parameters.
 //!
 //! Three sources: functions that are known to be candidates (the energy, the momenta of ignorable coordinates, what the model states), each
-//! kept only after its rate was proved to vanish; finite constraints; and where all other quasi-velocities x change with
+//! kept only after its rate was proved to vanish, or never to be positive; finite constraints; and where all other quasi-velocities x change with
 //! the velocities of the coordinates only, `x' = Σ g_a(x, r) r_a'` with a flat connection, the integrals by which x is transported: the
 //! momentum equations of Zenkov, Bloch and Marsden (1998), §§ 3–4. The latter exist without being known in finite terms (for the disc they are
 //! hypergeometric, Appell and Korteweg 1900); their derivatives at the motion follow from the equation `I_r + I_x g = 0`.
 
 use crate::expansion::Expansion;
+use crate::real_roots::sign_of;
 use crate::reduction::without;
 use crate::steady::closed;
 use chetaev_mechanics::characteristics::Direction;
 use chetaev_mechanics::prover::assumptions;
+use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::zero::{decide_zero, Options, ZeroTest};
-use chetaev_symbolic::{Expr, Verdict};
+use chetaev_symbolic::{Expr, Graph, Verdict};
+use std::cmp::Ordering;
 
-/// An integral up to the second order in the deviations of the variables from the motion.
+/// An integral, or a function that never grows, up to the second order in the deviations of the variables from the motion.
 #[derive(Clone, Debug)]
 pub struct Jet {
     /// What it is.
@@ -23,6 +26,8 @@ pub struct Jet {
     pub gradient: Vec<Expr>,
     /// The second ones.
     pub hessian: Vec<Vec<Expr>>,
+    /// Whether it is no integral, and never grows along any motion.
+    pub falls: bool,
 }
 
 impl Expansion<'_> {
@@ -49,8 +54,13 @@ impl Expansion<'_> {
                 continue;
             };
             known.push(own);
-            if self.is_conserved(own) {
-                let jet = self.jet(name, own);
+            let rate = self.rate(own);
+            let is_conserved = rate.is_some_and(|rate| self.vanish(&[rate]));
+            if is_conserved || rate.is_some_and(|rate| self.is_dissipated(rate)) {
+                let jet = Jet {
+                    falls: !is_conserved,
+                    ..self.jet(name, own)
+                };
                 let is_known =
                     |own: &Jet| own.gradient == jet.gradient && own.hessian == jet.hessian;
                 if !found.iter().any(is_known) {
@@ -85,21 +95,41 @@ impl Expansion<'_> {
             .filter(|&e| !g.contains_any(e, &[g.intern_symbol("t", 0)]))
     }
 
-    /// Whether the rate of a function along all motions is proved to vanish.
-    fn is_conserved(&self, e: Expr) -> bool {
+    /// The rate of a function along all motions.
+    fn rate(&self, e: Expr) -> Option<Expr> {
         let g = self.graph();
         let c = &self.own.characteristics;
-        let Some(rates) = self.own.equations.rates(g) else {
-            return false;
-        };
         let direction = Direction {
             time: g.one(),
             coordinates: c.velocities.clone(),
-            parameters: rates,
+            parameters: self.own.equations.rates(g)?,
         };
         let rate = c.along(self.system, &[e], &direction);
         let rate = g.substitute_all(&rate, &self.controls(&rate));
-        self.vanish(&g.substitute_all(&rate, &self.values))
+        g.substitute_all(&rate, &self.values).pop()
+    }
+
+    /// Whether a rate is proved to be `−Pᵀ Q P` with constant Q none of whose principal minors is negative: dissipation by Rayleigh's
+    /// function (Thomson and Tait 1879).
+    fn is_dissipated(&self, rate: Expr) -> bool {
+        let g = self.graph();
+        let speeds = &self.own.characteristics.parameters;
+        let second = |e: Expr| -> Vec<Expr> {
+            let by = self.own.characteristics.by_parameters(self.system, &[e]);
+            by.concat()
+        };
+        let half = |e: &Expr| closed(g, g.div(g.neg(*e), g.integer(2)));
+        let rows = second(rate).into_iter().map(|e| self.at(&second(e)));
+        let form: Vec<Vec<Expr>> = rows.map(|row| row.iter().map(half).collect()).collect();
+        let mut terms = vec![rate];
+        for (row, one) in form.iter().zip(speeds) {
+            terms.extend(
+                row.iter()
+                    .zip(speeds)
+                    .map(|(&q, other)| g.mul(&[q, one.value, other.value])),
+            );
+        }
+        is_semidefinite(g, &form) && self.vanish(&[g.add(&terms)])
     }
 
     /// Whether functions of the variables are proved to vanish on the constraints.
@@ -131,6 +161,7 @@ impl Expansion<'_> {
         Jet {
             name,
             gradient: self.at(&first),
+            falls: false,
             hessian: first
                 .iter()
                 .map(|&e| self.at(&self.derivatives(e)))
@@ -178,6 +209,21 @@ impl Expansion<'_> {
         };
         (!own.rest.is_empty() && own.is_flat(self, &of_rest)).then_some(own)
     }
+}
+
+/// Forms in more variables are not looked at: 2ⁿ minors.
+const LARGEST: usize = 8;
+
+/// Whether no principal minor of a symmetric matrix of numbers is negative.
+fn is_semidefinite(g: &Graph, form: &[Vec<Expr>]) -> bool {
+    let n = form.len();
+    let is_right = |chosen: usize| {
+        let places: Vec<usize> = (0..n).filter(|place| chosen >> place & 1 == 1).collect();
+        let row = |&r: &usize| places.iter().map(|&c| form[r][c]).collect();
+        let minor: Vec<Vec<Expr>> = places.iter().map(row).collect();
+        sign_of(g, determinant(g, &minor)).is_some_and(|sign| sign != Ordering::Less)
+    };
+    n <= LARGEST && (1..1_usize << n).all(is_right)
 }
 
 /// `x' = Σ g_a(x, r) r_a'`.
@@ -264,6 +310,7 @@ impl Transport {
                 ),
                 gradient,
                 hessian,
+                falls: false,
             });
         }
         found

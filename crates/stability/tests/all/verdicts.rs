@@ -570,3 +570,47 @@ fn speeds_of_choice() {
         assert!((a - b).norm() < 1e-9, "{own:?} {other:?}");
     }
 }
+
+/// Dissipation that does not reach all motions leaves eigenvalues on the axis; the energy, which never grows, proves the equilibrium stable where it has
+/// a minimum, and nothing where it has none (Thomson and Tait 1879, Chetaev 1946).
+#[test]
+fn dissipation_that_reaches_one_motion_only() {
+    let model = |stiffness: &str, damping: &str| {
+        Case::new(&format!(
+            r#"
+coordinates = ["x", "y"]
+parameters = {{ k = {stiffness} }}
+[lagrangian]
+L = "1/2 (x'^2 + y'^2) - 1/2 k x^2 - y^2 - 1/4 y^4"
+[forces]
+x = "-({damping}) x'"
+[steady.rest]
+x = 0
+y = 0
+"x'" = 0
+"y'" = 0
+"#
+        ))
+    };
+    assert_eq!(
+        model("1", "1/5").said("stability.asymptotic", "rest"),
+        "refuted"
+    );
+    assert_eq!(
+        model("1", "1/5").said("stability.nonlinear", "rest"),
+        "proved"
+    );
+    assert_eq!(
+        model("-1", "1/5").said("stability.nonlinear", "rest"),
+        "refuted"
+    );
+    // Driven instead of damped.
+    assert_eq!(
+        model("1", "-1/5").said("stability.nonlinear", "rest"),
+        "refuted"
+    );
+    // A force that is no dissipation of second degree: open, as the linear equations and the energy say nothing.
+    assert!(model("1", "x")
+        .said("stability.nonlinear", "rest")
+        .starts_with("undecided"));
+}
