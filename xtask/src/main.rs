@@ -1,5 +1,5 @@
 //! House tasks: `cargo xtask test`, `cargo xtask laws`, `cargo xtask measure`,
-//! `cargo xtask checked`, `cargo xtask bench`.
+//! `cargo xtask lines`, `cargo xtask checked`, `cargo xtask bench`.
 
 mod bench;
 mod browser;
@@ -17,6 +17,11 @@ mod laws;
 #[path = "../../crates/laws/src/arguments.rs"]
 #[allow(unreachable_pub, reason = "public in its own crate")]
 mod laws_arguments;
+mod lines;
+// A test and a figure of the house, by the same rules.
+#[path = "../../tests/src/lines.rs"]
+#[allow(dead_code, unreachable_pub, reason = "public where the tests are")]
+mod lines_of_models;
 mod measure;
 mod summary;
 mod test;
@@ -32,6 +37,7 @@ Usage: cargo xtask <TASK> [ARGUMENTS]
   test      all tests of the workspace; installs what they need
   laws      random systems and the laws they must obey
   measure   figures of the house: lines, circles of imports, errors that are texts, citations
+  lines     how many lines the models of bodies have
   checked   what the independent checker confirms of the gallery, as a page
   bench     the benchmark, and the page of the book made of it
   help      this text
@@ -52,6 +58,7 @@ fn main() -> ExitCode {
         "test" => test::run(rest),
         "laws" => laws::run(rest),
         "measure" => measure::run(rest),
+        "lines" => lines::run(rest),
         "bench" => bench::run(rest),
         "checked" => checked::run(rest),
         "help" | "--help" | "-h" => {

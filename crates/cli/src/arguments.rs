@@ -463,11 +463,24 @@ pub(crate) struct Verify {
 }
 
 #[derive(Args, Debug)]
-#[command(after_help = "Example:
-  chetaev new my-robot && chetaev study my-robot/model.toml")]
+#[command(after_help = "Examples:
+  chetaev new my-robot && chetaev study my-robot/model.toml
+  chetaev new my-robot --from bodies")]
 pub(crate) struct New {
     /// Folder to create
     pub(crate) folder: PathBuf,
+    /// What the model is stated by
+    #[arg(long, value_enum, default_value = "lagrangian")]
+    pub(crate) from: Beginning,
+}
+
+/// What a new model is stated by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Beginning {
+    /// Bodies, joints and contacts
+    Bodies,
+    /// Coordinates, energies and constraints
+    Lagrangian,
 }
 
 #[derive(Args, Debug)]

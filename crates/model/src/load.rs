@@ -82,6 +82,9 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
         found.retain(|problem| is_whole || problem.code != "missing-section");
         diagnostics.extend(found);
         model = resolved;
+        if let Some(model) = &mut model {
+            conditions.excuse(&mut model.unused);
+        }
     }
     let mut all = Diagnostics::once(sources, diagnostics);
     all.sort();

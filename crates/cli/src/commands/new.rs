@@ -1,10 +1,11 @@
 //! `chetaev new`.
 
 use super::error;
-use crate::arguments::New as Arguments;
+use crate::arguments::{Beginning, New as Arguments};
 use crate::{files, terminal, DONE, INPUT};
 
 const TEMPLATE: &str = include_str!("template.toml");
+const BODIES: &str = include_str!("bodies.toml");
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let path = arguments.folder.join("model.toml");
@@ -21,7 +22,11 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         .and_then(|n| n.to_str())
         .unwrap_or("my-system");
     let name = in_quotation_marks(name);
-    match files::write(&path, TEMPLATE.replace("MY-SYSTEM", &name).as_bytes()) {
+    let template = match arguments.from {
+        Beginning::Bodies => BODIES,
+        Beginning::Lagrangian => TEMPLATE,
+    };
+    match files::write(&path, template.replace("MY-SYSTEM", &name).as_bytes()) {
         Ok(()) => {
             terminal::out(&format!(
                 "wrote {}\ntry:  chetaev study {}\n",

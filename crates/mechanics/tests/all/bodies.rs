@@ -157,6 +157,9 @@ const NUMBERS: &[Numbers] = &[
         model: r#"
 bodies.disc = { shape = "disc", mass = 1.5, radius = 0.4, inertia = [0.06, 0.12] }
 contacts.rim = { type = "rolling", body = "disc", coordinates = ["x", "y", "phi", "theta", "psi"] }
+[define]
+middle_x = "disc_p_x"
+middle_y = "disc_p_y"
 "#,
         state: &[
             ("phi", "0.7"),
@@ -172,8 +175,8 @@ contacts.rim = { type = "rolling", body = "disc", coordinates = ["x", "y", "phi"
             ("phi''", 4.258_160_733_533_980_23),
             ("theta''", 10.540_995_859_525_951_7),
             ("psi''", -0.833_865_504_090_112_287),
-            ("disc_p_x''", 1.610_039_963_301_596_7),
-            ("disc_p_y''", -1.989_275_349_859_689_9),
+            ("middle_x''", 1.610_039_963_301_596_7),
+            ("middle_y''", -1.989_275_349_859_689_9),
         ],
     },
     // The same disc held by a finite constraint, its axle along x and the vertical along y.

@@ -24,6 +24,8 @@ mod touching;
 mod tree;
 mod written;
 
+use std::collections::BTreeSet;
+
 use chetaev_symbolic::Expr;
 
 use crate::diagnostic::Diagnostic;
@@ -36,14 +38,21 @@ use reading::{quantity, Slot};
 /// The sections that are lowered.
 const SECTIONS: &[&str] = &["frames", "bodies", "joints", "contacts"];
 
-/// Ends of what is said of a contact or a joint that depends on values, by place.
+/// What is to be said differently of objects than of what they became, by place.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Conditions {
+    /// Numbers of objects: a body may have moments about which it never turns.
+    numbers: BTreeSet<Place>,
     touching: Vec<(Place, String)>,
     closing: Vec<(Place, String)>,
 }
 
 impl Conditions {
+    /// Leaves out that a number of an object occurs nowhere.
+    pub(crate) fn excuse(&self, unused: &mut Vec<Diagnostic>) {
+        unused.retain(|diagnostic| !self.numbers.contains(&diagnostic.place));
+    }
+
     /// Says of a violated assumption of the lowering what it means for the object it comes from.
     pub(crate) fn explain(&self, found: &mut [Diagnostic]) {
         for diagnostic in found.iter_mut().filter(|d| d.code == "assumption-violated") {
@@ -94,13 +103,19 @@ pub(crate) fn lower(
         ..
     } = lowering;
     problems.extend(found);
+    let numbers = written.parameters.entries.iter();
+    let numbers = numbers.map(|(key, _)| key.place).collect();
     pruning::prune(&mut written, &own);
     *root = own;
     for section in SECTIONS.iter().chain(&["gravity"]) {
         root.remove(section);
     }
     written.merge(root, place);
-    Conditions { touching, closing }
+    Conditions {
+        numbers,
+        touching,
+        closing,
+    }
 }
 
 impl Lowering<'_> {
@@ -133,13 +148,39 @@ impl Lowering<'_> {
         self.draw_all(&tree, &built);
     }
 
-    /// Angular velocity, velocity, axes and position of every body get their names, so that the user may write them.
+    /// Angular velocity, velocity, axes and position of every body and frame have names, which the user may write.
     fn name_motions(&mut self) {
-        let placed: Vec<usize> = self.placed.values().copied().collect();
-        for frame in placed {
-            self.rates(lowering::GROUND, frame);
-            self.axes(lowering::GROUND, frame);
-            self.position(lowering::GROUND, frame);
+        let placed: Vec<(String, usize, Place)> = self
+            .placed
+            .iter()
+            .filter(|(name, _)| *name != "ground")
+            .map(|(name, frame)| (name.clone(), *frame, self.frames[*frame].place))
+            .collect();
+        for (name, frame, place) in placed {
+            let rates = self.rates(lowering::GROUND, frame);
+            let [x, y, z] = self.axes(lowering::GROUND, frame);
+            let position = self.position(lowering::GROUND, frame);
+            let all = [
+                ("omega", rates.omega),
+                ("v", rates.velocity),
+                ("p", position),
+                ("X", x),
+                ("Y", y),
+                ("Z", z),
+            ];
+            for (what, vector) in all {
+                for (e, axis) in vector.into_iter().zip(["x", "y", "z"]) {
+                    self.alias(&format!("{name}_{what}_{axis}"), e, place);
+                }
+            }
+        }
+    }
+
+    /// A name for what is short or has another name; it stays only where somebody writes it.
+    fn alias(&mut self, name: &str, e: Expr, place: Place) {
+        if !self.taken.contains(name) {
+            let value = written::text(self.algebra.graph.text(e), place);
+            self.define(name, value, !self.algebra.is_constant(e));
         }
     }
 

@@ -145,7 +145,7 @@ impl<'r> Lowering<'r> {
 
     fn place_joint(&mut self, joint: &JointStated<'r>, parent: FrameId) -> FrameId {
         let object = &joint.object;
-        let (name, place) = (object.name().to_owned(), object.place);
+        let (name, place) = (self.step_name(object), object.place);
         let at = self
             .vector(object, "at", "m", false)
             .unwrap_or(self.algebra.zero());
@@ -155,13 +155,23 @@ impl<'r> Lowering<'r> {
         let tilt = self.turns(object, "tilt", false);
         let mut frame = self.step(parent, Step::Shift(at), &name, place);
         frame = self.turned(frame, &tilt, &name, place);
-        let coordinates = self.coordinates(object, &joint.motions, &name);
+        let coordinates = self.coordinates(object, &joint.motions, object.name());
         for (motion, q) in joint.motions.iter().zip(coordinates) {
             frame = self.moved(frame, *motion, q, &name, place);
         }
         frame = self.turned_back(frame, &tilt, &name, place);
         let minus = self.algebra.minus(self.algebra.zero(), back);
         self.step(frame, Step::Shift(minus), &name, place)
+    }
+
+    /// How the frames between two bodies are called: not as a body.
+    fn step_name(&self, object: &Object<'r>) -> String {
+        let name = object.name();
+        let is_body = self.bodies.iter().any(|body| body.name == name);
+        match is_body {
+            true => format!("{name}_{}", object.what),
+            false => name.to_owned(),
+        }
     }
 
     fn moved(
@@ -440,7 +450,7 @@ impl<'r> Lowering<'r> {
         let stated = &tree.contacts[contact];
         let object = joint.map_or(stated.object, |joint| joint.object);
         let owner = joint.map_or(name, |joint| joint.object.name()).to_owned();
-        let place = object.place;
+        let (place, between) = (object.place, self.step_name(&object));
         let Some(body) = self.bodies.iter().find(|body| body.name == stated.body) else {
             return parent;
         };
@@ -490,9 +500,9 @@ impl<'r> Lowering<'r> {
             }
             let is_risen = number == if outline == Outline::Sphere { 2 } else { 4 };
             if is_risen {
-                at = self.step(at, Step::Shift(rise), &owner, place);
+                at = self.step(at, Step::Shift(rise), &between, place);
             }
-            at = self.moved(at, *motion, q, &owner, place);
+            at = self.moved(at, *motion, q, &between, place);
             match number {
                 2 if outline == Outline::Rim => heading = at,
                 3 if outline == Outline::Rim => leaning = at,
@@ -505,6 +515,6 @@ impl<'r> Lowering<'r> {
             leaning,
         });
         let minus = self.algebra.minus(self.algebra.zero(), hub);
-        self.step(at, Step::Shift(minus), &owner, place)
+        self.step(at, Step::Shift(minus), &between, place)
     }
 }

@@ -79,7 +79,15 @@ impl<'r> Lowering<'r> {
             (Outline::Ellipsoid, _) => self.ellipsoid(&figure, plane, body, &name, place),
             (Outline::None, _) => self.tip(&figure, plane, body),
         };
-        let statements = (contact.kind.statements)(&found.touch);
+        let angle = match object.get("angle") {
+            Some(raw) => self.number(&object.slot("angle", "rad"), raw),
+            None => None,
+        };
+        let touch = Touch {
+            angle: angle.unwrap_or(found.touch.angle),
+            ..found.touch
+        };
+        let statements = (contact.kind.statements)(&self.algebra, &touch);
         for statement in statements {
             let about = format!("{} {}", object.words(), statement.says);
             self.constrain(
@@ -268,6 +276,7 @@ impl<'r> Lowering<'r> {
             forward: a.graph.add(&forward),
             side: a.graph.add(&side),
             spin,
+            angle: a.graph.zero(),
         };
         let height = a.graph.add(&level);
         Found { touch, height }
@@ -302,6 +311,7 @@ impl<'r> Lowering<'r> {
             forward: a.dot(slip, rows[if self.up.axis == 0 { 1 } else { 0 }]),
             side: a.dot(slip, rows[if self.up.axis == 2 { 1 } else { 2 }]),
             spin: a.dot(rates.omega, normal),
+            angle: a.graph.zero(),
         };
         let level = a.graph.add(&[rise, a.dot(normal, figure.middle)]);
         let height = a.graph.sub(level, root);
@@ -328,6 +338,7 @@ impl<'r> Lowering<'r> {
             forward: a.dot(slip, a.cross(axle, normal)),
             side: a.dot(slip, axle),
             spin: a.dot(turning, normal),
+            angle: a.graph.zero(),
         };
         let height = a.graph.zero();
         Found { touch, height }
@@ -348,6 +359,7 @@ impl<'r> Lowering<'r> {
             forward: a.dot(slip, rows[if self.up.axis == 0 { 1 } else { 0 }]),
             side: a.dot(slip, rows[if self.up.axis == 2 { 1 } else { 2 }]),
             spin: a.dot(turning, normal),
+            angle: a.graph.zero(),
         };
         let level = a.graph.add(&[rise, a.dot(normal, middle)]);
         let height = a.graph.sub(level, figure.radius());
@@ -366,6 +378,7 @@ impl<'r> Lowering<'r> {
             forward: a.dot(slip, forward),
             side: a.dot(slip, a.cross(normal, forward)),
             spin: a.dot(rates.omega, normal),
+            angle: a.graph.zero(),
         };
         let height = a.graph.add(&[rise, a.dot(normal, figure.middle)]);
         Found { touch, height }

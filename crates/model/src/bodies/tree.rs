@@ -68,6 +68,7 @@ const CONTACT_KEYS: &[&str] = &[
     "axis",
     "radius",
     "direction",
+    "angle",
     "coordinates",
     "description",
 ];

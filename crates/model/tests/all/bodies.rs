@@ -369,3 +369,125 @@ fn what_makes_no_sense_is_said_of_the_object() {
     }
     refused("bodies = 3\n", 1, &["`bodies` must be a table"]);
 }
+
+#[path = "../../../../tests/src/lines.rs"]
+#[allow(dead_code, unreachable_pub, reason = "public where it belongs to")]
+mod lines;
+
+#[test]
+fn models_of_bodies_are_as_short_as_promised_and_read_without_a_word() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gallery/bodies");
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|own| own.unwrap().path())
+        .collect();
+    files.sort();
+    assert!(files.len() >= lines::MOST.len());
+    for path in files {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let own = model(&text);
+        assert!(
+            own.unused.is_empty(),
+            "{}: {:?}",
+            path.display(),
+            own.unused
+        );
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        let Some((_, most)) = lines::MOST.iter().find(|(known, _)| *known == name) else {
+            continue;
+        };
+        let counted = lines::lines(&text);
+        assert!(
+            counted.len() <= *most,
+            "{name} has {} lines, and may have {most}",
+            counted.len()
+        );
+        for line in counted {
+            assert!(line.chars().count() <= lines::LONGEST, "{name}: {line}");
+        }
+    }
+}
+
+#[test]
+fn names_of_motions_are_those_of_the_body() {
+    let text = r#"
+bodies.disc = { shape = "disc", mass = 1, radius = 0.5 }
+contacts.rim = { type = "rolling", body = "disc", coordinates = ["x", "y", "phi", "theta", "psi"] }
+[define]
+hub = "disc_v_x cos(psi) + disc_v_z sin(psi)"
+up = "disc_Z_z"
+plain = "disc_omega_y"
+"#;
+    let text = format!("{text}[integrals]\na = \"hub\"\nb = \"up\"\nc = \"plain\"\n");
+    let model = model(&text);
+    // The hub moves along the heading as the contact does, and as the wheel leans while it turns.
+    let hub = "x' cos(phi) + y' sin(phi) + disc_radius phi' sin(theta)";
+    same(&model, model.integrals[0].value, hub);
+    same(&model, model.integrals[1].value, "cos(theta) cos(psi)");
+    same(&model, model.integrals[2].value, "psi' + phi' sin(theta)");
+}
+
+#[test]
+fn a_roller_slides_across_its_axis() {
+    let text = r#"
+bodies.cart = { mass = 1, inertia = 1 }
+bodies.wheel = { shape = "disc", mass = 1, radius = "r" }
+joints.plane = { child = "cart", type = "planar", coordinates = ["x", "y", "a"] }
+joints.q = { parent = "cart", child = "wheel", axis = "y", at = [0, 0, "r"] }
+contacts.wheel = { type = "roller", angle = "g" }
+parameters = { r = 0.1, g = 0.5 }
+"#;
+    let model = model(text);
+    let forward = "(x' cos(a) + y' sin(a) - r q')";
+    let side = "(y' cos(a) - x' sin(a))";
+    same(
+        &model,
+        model.constraints[0].f,
+        &format!("cos(g) {side} + sin(g) {forward}"),
+    );
+}
+
+#[test]
+fn a_height_that_depends_on_values_is_looked_at_with_them() {
+    let text = "bodies.cart = { mass = 1, inertia = 1 }\nbodies.w = { shape = \"disc\", mass = 1, radius = 0.1 }\njoints.plane = { child = \"cart\", type = \"planar\" }\n\
+         joints.q = { parent = \"cart\", child = \"w\", axis = \"y\", at = [0, 0, 0.1] }\ncontacts.w = { type = \"rolling\" }\n";
+    assert_eq!(model(text).constraints.len(), 2);
+    let set = [("w_radius".to_owned(), "0.2".to_owned())];
+    let message = load("model.toml", text, &NoFiles, &set)
+        .diagnostics
+        .to_string();
+    assert!(
+        message.contains("the contact `w` does not touch its plane for the values"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_torus_of_a_thin_tube_touches_as_its_rim() {
+    let of = |shape: &str| {
+        let text = format!(
+            "bodies.w = {{ {shape}, mass = 1, inertia = [1, 2], radius = \"r\" }}\nparameters = {{ r = 0.3 }}\n\
+             joints.f = {{ child = \"w\", type = \"free\", at = [0, 0, 0], coordinates = [\"x\", \"y\", \"z\", \"a\", \"b\", \"c\"] }}\ncontacts.t = {{ type = \"rolling\", body = \"w\" }}\n"
+        );
+        model(&text)
+    };
+    let (rim, tyre) = (of("shape = \"disc\""), of("shape = \"torus\", tube = 0.05"));
+    for (own, other) in rim.constraints.iter().zip(&tyre.constraints) {
+        let text = rim.graph.text(own.f);
+        let thin = tyre.expression("w_tube").unwrap();
+        let found = tyre.graph.substitute(other.f, &[(thin, tyre.graph.zero())]);
+        same(&tyre, found, &text);
+    }
+    // Upright the tube lifts the wheel, and rolling turns about the outer radius.
+    let upright = |e| {
+        let pairs = ["a", "b", "c", "b'", "a'"]
+            .map(|name| (tyre.expression(name).unwrap(), tyre.graph.zero()));
+        tyre.graph.substitute(e, &pairs)
+    };
+    same(
+        &tyre,
+        upright(tyre.constraints[0].f),
+        "x' - (r + w_tube) c'",
+    );
+    same(&tyre, upright(tyre.constraints[2].f), "z - r - w_tube");
+}

@@ -4,7 +4,7 @@ use super::kind::{no_slip_sideways, Contact, Statement};
 
 pub(super) const BLADE: Contact = Contact {
     word: "blade",
-    statements: |touch| {
+    statements: |_, touch| {
         vec![Statement {
             suffix: "",
             ..no_slip_sideways(touch)

@@ -2,6 +2,8 @@
 
 use chetaev_symbolic::Expr;
 
+use crate::bodies::algebra::Algebra;
+
 /// Velocities at the point where a body touches a plane, against the plane.
 #[derive(Clone, Copy)]
 pub(crate) struct Touch {
@@ -11,6 +13,8 @@ pub(crate) struct Touch {
     pub(crate) side: Expr,
     /// The angular velocity of the body about the normal.
     pub(crate) spin: Expr,
+    /// The angle that the user states, for rollers: from the axle towards the rim.
+    pub(crate) angle: Expr,
 }
 
 /// A statement of a contact: the end of the constraint's name, what vanishes, and a word about it.
@@ -25,7 +29,7 @@ pub(crate) struct Contact {
     /// Its word in the model file.
     pub(crate) word: &'static str,
     /// What it says.
-    pub(crate) statements: fn(&Touch) -> Vec<Statement>,
+    pub(crate) statements: fn(&Algebra, &Touch) -> Vec<Statement>,
 }
 
 /// No motion along the rim.

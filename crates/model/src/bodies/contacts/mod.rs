@@ -2,6 +2,7 @@
 
 mod blade;
 mod kind;
+mod roller;
 mod rolling;
 mod rolling_without_spinning;
 mod sliding;
@@ -13,5 +14,6 @@ pub(crate) const CONTACTS: &[&Contact] = &[
     &rolling::ROLLING,
     &rolling_without_spinning::ROLLING_WITHOUT_SPINNING,
     &blade::BLADE,
+    &roller::ROLLER,
     &sliding::SLIDING,
 ];

@@ -4,7 +4,7 @@ use super::kind::{no_slip_forward, no_slip_sideways, Contact, Statement};
 
 pub(super) const ROLLING_WITHOUT_SPINNING: Contact = Contact {
     word: "rolling-without-spinning",
-    statements: |touch| {
+    statements: |_, touch| {
         let spin = Statement {
             suffix: "_spin",
             vanishes: touch.spin,

@@ -4,5 +4,5 @@ use super::kind::Contact;
 
 pub(super) const SLIDING: Contact = Contact {
     word: "sliding",
-    statements: |_| Vec::new(),
+    statements: |_, _| Vec::new(),
 };
