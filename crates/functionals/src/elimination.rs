@@ -4,7 +4,8 @@
 //! for these; the gradient of a function with a conjugate is undone by the conjugate. Rules are differentiated as needed. What is
 //! solved is triangular, so that an expression in which no rule applies any more is a function of free jets, and vanishes
 //! where the equations hold exactly when it vanishes identically. For that, two rules that give the same derivative of a component have to
-//! agree: their difference is one more equation (the integrability conditions of Riquier and Janet).
+//! agree: their difference is one more equation. (Of the integrability conditions of Riquier and Janet these are the ones that do not raise the
+//! order; the others are not looked at.)
 //!
 //! A field that is known on a curved piece of the boundary is what is known plus the distance from the piece times a new free field
 //! (see [`boundary`](crate::boundary)): so the derivatives along the piece are known, and the one across it is not.
@@ -249,7 +250,9 @@ impl<'s> Solved<'s> {
                     continue;
                 }
                 let (by_a, by_b) = (missing(&b.jet.by, &a.jet.by), missing(&a.jet.by, &b.jet.by));
-                if !a.reach.allows(&by_a) || !b.reach.allows(&by_b) {
+                // Where neither is a derivative of the other, what follows is of higher order than both.
+                let is_above = !by_a.is_empty() && !by_b.is_empty();
+                if is_above || !a.reach.allows(&by_a) || !b.reach.allows(&by_b) {
                     continue;
                 }
                 let g = &self.space.graph;

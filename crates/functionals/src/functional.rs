@@ -1,5 +1,7 @@
 //! A functional of fields over space as plain data: densities, boundary pieces, what is imposed and what is stated.
 
+use crate::notation::Node;
+use crate::ritz::Asked;
 use crate::space::Space;
 use crate::tensors::{Scope, Shape};
 use chetaev_model::model::ModelText;
@@ -47,6 +49,8 @@ pub struct Piece {
     pub side: Side,
     /// The density over it.
     pub density: Expr,
+    /// The density in index notation, where one is stated.
+    pub tree: Option<Node>,
     /// The density as written.
     pub written: String,
     /// What is given on it: components, and whether their normal derivatives.
@@ -166,12 +170,16 @@ pub struct Functional {
     pub definitions: Vec<Definition>,
     /// The density.
     pub density: Expr,
+    /// The density in index notation.
+    pub tree: Node,
     /// The density as written.
     pub written: String,
     /// The pieces of the boundary.
     pub pieces: Vec<Piece>,
     /// Stated equations.
     pub equations: Vec<Equation>,
+    /// Kinds of symmetries that are asked for: `translations`, `rotations`, `scaling`.
+    pub symmetries: Vec<String>,
 }
 
 impl Functional {
@@ -222,6 +230,8 @@ pub enum Relation {
         other: Functional,
         /// Labels of the equations that are imposed on it.
         imposed: Vec<String>,
+        /// How the way back begins, if that is stated.
+        release: Option<Release>,
     },
     /// The functional becomes the other for special values.
     Degeneration {
@@ -232,6 +242,17 @@ pub enum Relation {
         /// Values put in.
         values: Vec<Special>,
     },
+}
+
+/// The density in which an imposed equation is released, with the multiplier.
+#[derive(Clone, Debug)]
+pub struct Release {
+    /// The density.
+    pub density: Expr,
+    /// The multiplier as written.
+    pub written: String,
+    /// All its components.
+    pub multiplier: Vec<Expr>,
 }
 
 /// A special value.
@@ -257,6 +278,40 @@ pub enum SpecialKind {
     },
 }
 
+/// What another functional of the same family is about, as its file states it.
+#[derive(Clone, Debug, Default)]
+pub struct Relative {
+    /// Its name.
+    pub name: String,
+    /// Its level.
+    pub level: Option<String>,
+    /// Its density.
+    pub density: String,
+    /// Its fields, those of the boundary too.
+    pub fields: Vec<String>,
+    /// Labels of what it imposes.
+    pub imposed: Vec<String>,
+    /// Labels of what it yields.
+    pub yields: Vec<String>,
+}
+
+/// Fields that are stated to make the functional stationary.
+#[derive(Debug)]
+pub struct Solution {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub description: String,
+    /// Fields, data, parameters and constitutive functions with their values.
+    pub values: Vec<Special>,
+    /// The box.
+    pub intervals: Vec<Interval>,
+    /// Where the pieces of the boundary lie on it.
+    pub pieces: Vec<(String, Side)>,
+    /// The value of the functional, as written and as an expression.
+    pub value: Option<(String, Expr)>,
+}
+
 /// What a model file of a functional states.
 #[derive(Debug)]
 pub struct Problem {
@@ -264,6 +319,12 @@ pub struct Problem {
     pub functional: Functional,
     /// Its relations to others.
     pub relations: Vec<Relation>,
+    /// Solutions that are stated.
+    pub solutions: Vec<Solution>,
+    /// What is asked of Ritz's method.
+    pub ritz: Option<Asked>,
+    /// The family that the functional belongs to.
+    pub family: Vec<Relative>,
     /// The texts.
     pub text: ModelText,
     /// Verdicts that the file expects: claim with subject, and the words that are accepted.

@@ -11,14 +11,19 @@
 //! * [`tensors`]: what names mean; index notation in components.
 //! * [`functional`]: a functional as plain data.
 //! * [`elimination`]: equations solved for jets, one group after the other, and what follows from them.
+//! * [`integral`]: exact integrals of polynomials.
+//! * [`polynomial`], [`ritz`]: polynomials with rational coefficients, and Ritz's method.
 //! * [`study`](mod@study): all claims about one model file.
 
 pub mod boundary;
 pub mod claims;
 pub mod elimination;
 pub mod functional;
+pub mod integral;
 pub mod notation;
+pub mod polynomial;
 pub mod read;
+pub mod ritz;
 pub mod space;
 pub mod study;
 pub mod tensors;

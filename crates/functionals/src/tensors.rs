@@ -123,7 +123,7 @@ impl Tensor {
 }
 
 /// The names of one functional.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Scope {
     /// The symbols.
     pub space: Rc<Space>,
@@ -131,6 +131,10 @@ pub struct Scope {
     pub tensors: BTreeMap<String, Tensor>,
     /// Integers by name.
     pub sizes: BTreeMap<String, i64>,
+    /// Definitions by name: the letters of the left side, and the right side.
+    pub definitions: BTreeMap<String, (Vec<char>, Node)>,
+    /// Kinds of fields, data and parameters by name.
+    pub shapes: BTreeMap<String, Shape>,
 }
 
 impl Names for Scope {

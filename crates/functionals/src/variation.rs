@@ -100,7 +100,7 @@ pub struct Variation {
 }
 
 /// Coefficients of variations with derivatives.
-type Form = BTreeMap<Jet, Expr>;
+pub(crate) type Form = BTreeMap<Jet, Expr>;
 
 fn add(space: &Space, form: &mut Form, jet: Jet, term: Expr) {
     let g = &space.graph;
@@ -250,7 +250,11 @@ fn by_multiplicity(space: &Space, component: usize, value: Expr) -> Expr {
 }
 
 /// The vector W with δL = Σ E δc + D_i W_i, for each independent variable.
-fn flux(space: &Space, density: Expr, varied: &[usize]) -> Result<Vec<Form>, VariationError> {
+pub(crate) fn flux(
+    space: &Space,
+    density: Expr,
+    varied: &[usize],
+) -> Result<Vec<Form>, VariationError> {
     let g = &space.graph;
     let mut flux = vec![Form::new(); space.coordinates.len()];
     for jet in space.jets_in(&[density]) {
@@ -286,6 +290,17 @@ fn flux(space: &Space, density: Expr, varied: &[usize]) -> Result<Vec<Form>, Var
         }
     }
     Ok(flux)
+}
+
+/// The coefficients of the variations and their derivatives on a piece, before anything is moved off them.
+pub(crate) fn piece_form(functional: &Functional, name: &str) -> Option<BTreeMap<Jet, Expr>> {
+    let piece = functional.piece(name)?;
+    let varied: Vec<usize> = functional
+        .interior()
+        .flat_map(|f| f.components.clone())
+        .collect();
+    let flux = flux(&functional.space, functional.density, &varied).ok()?;
+    Some(boundary_form(functional, piece, piece.density, &flux))
 }
 
 /// `n_i W_i + δb` on a piece.

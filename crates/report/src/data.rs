@@ -33,6 +33,8 @@ pub struct Report {
     pub assumptions: Vec<Assumption>,
     /// The state at the initial time.
     pub initial: Vec<InitialValue>,
+    /// Tables that introduce the system, one section for each.
+    pub tables: Vec<Table>,
     /// Lagrangian, constraints, equations of motion, one section for each.
     pub sections: Vec<EquationSection>,
     /// Statements with verdict and evidence, in any order; the page groups them by the part of
@@ -43,6 +45,8 @@ pub struct Report {
     /// Further figures, not functions of the time of the trajectory (orders of convergence,
     /// variations of an action, …).
     pub figures: Vec<Figure>,
+    /// Pictures of functions of two variables.
+    pub maps: Vec<Map>,
     /// The motion beside another curve.
     pub comparison: Option<Comparison>,
     /// The moving picture.
@@ -53,6 +57,51 @@ pub struct Report {
     pub notices: Vec<String>,
     /// How to get this page again.
     pub reproducibility: Reproducibility,
+}
+
+/// A table with a heading of its own.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Table {
+    /// Anchor on the page.
+    pub id: String,
+    /// Its heading.
+    pub title: String,
+    /// What it shows, one paragraph each.
+    pub explanation: Vec<String>,
+    /// The headings of its columns.
+    pub headings: Vec<String>,
+    /// Its rows.
+    pub rows: Vec<TableRow>,
+}
+
+/// A row of a table.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct TableRow {
+    /// One text for each column.
+    pub cells: Vec<String>,
+    /// The row that the page is about.
+    pub is_marked: bool,
+}
+
+/// A function of two variables on a rectangle, drawn in shades.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Map {
+    /// Heading.
+    pub title: String,
+    /// What it shows, one paragraph each.
+    pub explanation: Vec<String>,
+    /// Name and ends of the horizontal variable.
+    pub horizontal: (String, f64, f64),
+    /// Name and ends of the vertical variable.
+    pub vertical: (String, f64, f64),
+    /// Number of columns.
+    pub columns: usize,
+    /// Values at the middles of cells, the lowest row first.
+    #[serde(with = "crate::number::vector")]
+    pub values: Vec<f64>,
 }
 
 /// A labelled value.

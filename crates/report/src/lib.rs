@@ -28,6 +28,7 @@ mod prose;
 mod scene;
 mod source;
 mod system;
+mod tables;
 mod thinning;
 mod words;
 

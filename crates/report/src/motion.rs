@@ -48,7 +48,7 @@ pub(crate) fn section(html: &mut Html, report: &Report, payload: &Payload<'_>, w
 
 /// The section of the further figures.
 pub(crate) fn figures(html: &mut Html, report: &Report, payload: &Payload<'_>, words: &Words) {
-    if report.figures.is_empty() {
+    if report.figures.is_empty() && report.maps.is_empty() {
         return;
     }
     html.raw("<section id=\"figures\" aria-labelledby=\"figures-title\">\n")
@@ -61,7 +61,9 @@ pub(crate) fn figures(html: &mut Html, report: &Report, payload: &Payload<'_>, w
     for (figure, (index, _)) in report.figures.iter().zip(places) {
         drawn(html, figure, index, report, words);
     }
-    html.raw("</div>\n</details>\n</section>\n");
+    html.raw("</div>\n");
+    crate::tables::maps(html, report);
+    html.raw("</details>\n</section>\n");
 }
 
 /// A figure with its words; the script draws into it.

@@ -7,7 +7,7 @@ use crate::html::{fragment, Html};
 use crate::payload::{Payload, PlotKind};
 use crate::prose::{paragraphs, sentence};
 use crate::words::{fill, look_up, Words};
-use crate::{equations, motion, source, system};
+use crate::{equations, motion, source, system, tables};
 
 const STYLE: &str = include_str!("../assets/page.css");
 const SCRIPT: &str = concat!(
@@ -40,6 +40,7 @@ pub(crate) fn page(report: &Report, words: &'static Words) -> String {
     if system::is_present(report) {
         system::section(&mut html, report, words);
     }
+    tables::sections(&mut html, report);
     claims::section(&mut html, report, words);
     motion::figures(&mut html, report, &payload, words);
     if let Some(model) = &report.model {
@@ -114,12 +115,16 @@ fn navigation(html: &mut Html, report: &Report, payload: &Payload<'_>, words: &W
         );
     }
     entry(system::is_present(report), "system", words.system, top);
+    for table in &report.tables {
+        entry(true, &table.id, &table.title, top);
+    }
     entry(!report.claims.is_empty(), "claims", words.claims, top);
     for (prefix, _) in claims::grouped(&report.claims) {
         let title = look_up(words.groups, &prefix).unwrap_or(prefix);
         entry(true, &claims::anchor(prefix), title, below);
     }
-    entry(!report.figures.is_empty(), "figures", words.figures, top);
+    let has_figures = !(report.figures.is_empty() && report.maps.is_empty());
+    entry(has_figures, "figures", words.figures, top);
     entry(report.model.is_some(), "model", words.model, top);
     entry(true, "reproduce", words.reproduce, top);
     html.raw("</ol>\n</nav>\n");

@@ -49,6 +49,8 @@ pub fn report(study: &Study, command: Option<String>, files: &[String]) -> Repor
         parameters: parameters(study, &set),
         assumptions: assumptions(study, &set),
         initial: initial(study, &set),
+        tables: Vec::new(),
+        maps: Vec::new(),
         sections: equations::sections(study, &set),
         claims: study
             .verdicts

@@ -82,6 +82,9 @@ pub struct FunctionalRecord {
     pub euler: Vec<ConditionRecord>,
     /// Conditions on pieces of the boundary, and where they meet.
     pub boundary: Vec<ConditionRecord>,
+    /// The same in index notation, where it has a short form.
+    #[serde(default)]
+    pub indexed: Vec<ConditionRecord>,
 }
 
 /// A coefficient of the first variation, which vanishes.

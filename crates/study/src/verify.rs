@@ -99,6 +99,9 @@ pub fn verify(
     budget: f64,
     hooks: &mut Hooks<'_>,
 ) -> Result<Vec<Verified>, VerifyError> {
+    if record.functional.is_some() {
+        return crate::functional::verify(record, &texts(record));
+    }
     // Variations along the motion have a seed of their own.
     let of_proofs = |v: &&VerdictRecord| !v.claim.starts_with("witness.");
     let recorded_seed = record
@@ -174,8 +177,9 @@ fn lowered(record: &Record, same: &Record) -> Vec<Verified> {
         .collect()
 }
 
-fn model(record: &Record) -> Result<Model, VerifyError> {
-    let text = ModelText {
+/// The texts in a record.
+fn texts(record: &Record) -> ModelText {
+    ModelText {
         path: record.model.path.clone(),
         text: record.model.text.clone(),
         includes: record
@@ -190,7 +194,11 @@ fn model(record: &Record) -> Result<Model, VerifyError> {
             .iter()
             .map(|o| (o.name.clone(), o.value.clone()))
             .collect(),
-    };
+    }
+}
+
+fn model(record: &Record) -> Result<Model, VerifyError> {
+    let text = texts(record);
     let (model, _) = chetaev_model::reload(&text)
         .into_result()
         .map_err(|d| VerifyError::Model(d.render(chetaev_model::Style::Plain)))?;

@@ -22,6 +22,9 @@ use std::time::Instant;
 const DEFAULT: [&str; 2] = ["routh", "maggi"];
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
+    if let Some(loaded) = files::functional(&arguments.model) {
+        return super::functional::derive(arguments.notation, loaded);
+    }
     let Some(read) = files::model(&arguments.model) else {
         return INPUT;
     };

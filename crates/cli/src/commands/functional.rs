@@ -2,13 +2,18 @@
 
 use super::error;
 use super::explain::nearest;
-use crate::arguments::Study as Arguments;
+use crate::arguments::{Notation, Study as Arguments};
 use crate::{files, terminal, DONE, INPUT, UNMET};
 use chetaev::functionals::claims::CLAIMS;
 use chetaev::functionals::{self, Loaded, Study};
-use chetaev::study::functional::{page, record, summary};
+use chetaev::study::functional::{derivation, page, record, summary};
+use chetaev::study::record::WrittenRecord;
+use chetaev::symbolic::print::Format;
 use std::path::Path;
 use std::time::Instant;
+
+/// The file name of the report.
+const REPORT: &str = "report.html";
 
 /// Studies a functional that was read.
 pub(super) fn study(arguments: &Arguments, loaded: Loaded) -> u8 {
@@ -31,19 +36,18 @@ pub(super) fn study(arguments: &Arguments, loaded: Loaded) -> u8 {
                 .any(|w| w == id || id.starts_with(&format!("{w}.")))
     };
     let study = functionals::study(problem, &wants, &|| start.elapsed().as_secs_f64());
-    let json = json(&study, &words);
-    if let Err(problem) = write_all(&study, &json, &folder) {
-        error(problem);
-        return INPUT;
-    }
+    let json = match write_all(&study, &words, &folder) {
+        Ok(json) => json,
+        Err(problem) => {
+            error(problem);
+            return INPUT;
+        }
+    };
     if arguments.json {
         terminal::out(&json);
     } else {
         terminal::out(&summary(&study, terminal::style()));
-        terminal::out(&format!(
-            "\nreport: {}\n",
-            folder.join("report.html").display()
-        ));
+        terminal::out(&format!("\nreport: {}\n", folder.join(REPORT).display()));
     }
     if study.is_as_expected() {
         DONE
@@ -103,15 +107,51 @@ fn asked(arguments: &Arguments) -> Option<Vec<String>> {
     }
 }
 
-fn json(study: &Study, words: &[String]) -> String {
+fn json(study: &Study, words: &[String], files: &[WrittenRecord]) -> String {
     // Serialising plain data to a string does not fail; an empty text would be visible.
-    let mut text = serde_json::to_string_pretty(&record(study, words)).unwrap_or_default();
+    let mut text = serde_json::to_string_pretty(&record(study, words, files)).unwrap_or_default();
     text.push('\n');
     text
 }
 
-fn write_all(study: &Study, json: &str, folder: &Path) -> Result<(), String> {
-    files::write(&folder.join("study.json"), json.as_bytes())?;
+/// Writes the report, then the record with its checksum; gives the record.
+fn write_all(study: &Study, words: &[String], folder: &Path) -> Result<String, String> {
     let html = page(study, Some(terminal::command()));
-    files::write(&folder.join("report.html"), html.as_bytes())
+    files::write(&folder.join(REPORT), html.as_bytes())?;
+    let report = WrittenRecord {
+        name: REPORT.into(),
+        sha256: files::checksum(html.as_bytes()),
+    };
+    let json = json(study, words, &[report]);
+    files::write(&folder.join("study.json"), json.as_bytes())?;
+    Ok(json)
+}
+
+/// Prints the equations of a functional that was read, in one notation.
+pub(super) fn derive(notation: Notation, loaded: Loaded) -> u8 {
+    files::report(&loaded.diagnostics);
+    let Some(problem) = loaded.problem else {
+        return INPUT;
+    };
+    let format = match notation {
+        Notation::Text => Format::Text,
+        Notation::Latex => Format::Latex,
+        Notation::Mathml => Format::Mathml,
+        Notation::Sympy => Format::Sympy,
+        Notation::Json => Format::Json,
+        Notation::Rust | Notation::C => {
+            error("code is made of equations of motion; a functional has field equations: text, latex, mathml, sympy or json");
+            return INPUT;
+        }
+    };
+    match derivation(&problem.functional, format) {
+        Ok(text) => {
+            terminal::out(&text);
+            DONE
+        }
+        Err(problem) => {
+            error(problem);
+            INPUT
+        }
+    }
 }

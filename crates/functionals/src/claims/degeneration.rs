@@ -56,7 +56,7 @@ impl Claim for Degeneration {
 }
 
 /// An expression with special values.
-fn put_in(functional: &Functional, values: &[Special], e: Expr) -> Expr {
+pub(super) fn put_in(functional: &Functional, values: &[Special], e: Expr) -> Expr {
     let space = &*functional.space;
     values.iter().fold(e, |e, special| match &special.what {
         SpecialKind::Symbols(pairs) => space.replace(e, &|symbol| {

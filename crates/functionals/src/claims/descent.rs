@@ -36,7 +36,7 @@ impl Claim for Descent {
 
     fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
         let found = cx.problem.relations.iter().find_map(|r| match r {
-            Relation::Descent { other, imposed } => Some((other, imposed)),
+            Relation::Descent { other, imposed, .. } => Some((other, imposed)),
             _ => None,
         });
         match found {

@@ -1,6 +1,6 @@
 //! `functional.euler`: stationarity is equivalent to the stated equations.
 
-use super::modulo::labels;
+use super::modulo::{all_subsets as subsets, labels};
 use super::{Claim, Context, Finding};
 use crate::elimination::{Group, Solved};
 use crate::functional::{Equation, Functional, Role};
@@ -350,7 +350,92 @@ impl<'f> Comparison<'f> {
                 .push_str("; curved pieces meet with a common tangent plane");
         }
         proof.detail = self.detail();
+        for more in self.traces().into_iter().chain(self.undetermined()) {
+            proof.detail.push_str(&format!(", {more}"));
+        }
         Verdict::Proved(proof)
+    }
+
+    /// Fields without derivatives of which the Euler equations leave components free.
+    fn undetermined(&self) -> Vec<String> {
+        let functional = self.functional;
+        let jets = functional.space.jets_in(&[functional.density]);
+        let is_algebraic = |components: &[usize]| {
+            let mut own = jets
+                .iter()
+                .filter(|jet| components.contains(&jet.component));
+            own.all(|jet| jet.by.is_empty())
+        };
+        let algebraic = functional
+            .interior()
+            .filter(|f| is_algebraic(&f.components));
+        let found = algebraic.filter_map(|field| {
+            let free = self.derived.free_components(&field.components).len();
+            (free > 0).then(|| {
+                let all = field.components.len();
+                format!(
+                    "while {} is not determined: {free} of its {all} components are left free",
+                    field.name
+                )
+            })
+        });
+        found.collect()
+    }
+
+    /// On which pieces the conditions are the stated ones only with traces of equations that hold inside: the fewest are named.
+    fn traces(&self) -> Vec<String> {
+        let mut found: Vec<(String, Vec<String>)> = Vec::new();
+        for on in &self.variation.pieces {
+            if let Some(needed) = self.trace_on(on).filter(|needed| !needed.is_empty()) {
+                let needed = labels(&needed);
+                match found.iter_mut().find(|(own, _)| *own == needed) {
+                    Some((_, pieces)) => pieces.push(on.piece.clone()),
+                    None => found.push((needed, vec![on.piece.clone()])),
+                }
+            }
+        }
+        let told = |(needed, pieces): (String, Vec<String>)| {
+            format!("on {} with the trace of {needed}", pieces.join(" and "))
+        };
+        found.into_iter().map(told).collect()
+    }
+
+    fn trace_on(&self, on: &OnPiece) -> Option<Vec<String>> {
+        let functional = self.functional;
+        let inside: Vec<Group> = functional
+            .with_role(Role::Yielded)
+            .filter(|e| e.on.is_none())
+            .map(|e| Group {
+                label: e.label.clone(),
+                equations: e.residuals.clone(),
+            })
+            .collect();
+        let imposed = Solved::new(&functional.space).with(&groups(functional, Role::Imposed, None));
+        let found = subsets(inside.len()).into_iter().find(|chosen| {
+            let own: Vec<Group> = chosen.iter().map(|&i| inside[i].clone()).collect();
+            self.holds_on(on, &imposed.with(&own))
+        })?;
+        Some(found.iter().map(|&i| inside[i].label.clone()).collect())
+    }
+
+    /// Whether the conditions on a piece are the stated ones where `inside` holds.
+    fn holds_on(&self, on: &OnPiece, inside: &Solved<'f>) -> bool {
+        let functional = self.functional;
+        let name = Some(on.piece.as_str());
+        let Some(piece) = functional.piece(&on.piece) else {
+            return false;
+        };
+        let here = inside.with_on(&piece.side, &groups(functional, Role::Imposed, name));
+        let stated = here.with(&groups(functional, Role::Yielded, name));
+        let mut conditions = on.conditions.iter();
+        if !conditions.all(|condition| stated.follows(&[condition.value])) {
+            return false;
+        }
+        let derived = here.with(&condition_groups(functional, on, &on.conditions));
+        let mut equations = functional
+            .with_role(Role::Yielded)
+            .filter(|e| e.on.as_deref() == name);
+        equations.all(|equation| derived.follows(&equation.residuals))
     }
 
     fn detail(&self) -> String {

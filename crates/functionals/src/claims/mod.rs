@@ -6,6 +6,11 @@ mod duality;
 mod euler;
 mod legendre;
 mod modulo;
+mod multipliers;
+pub mod noether;
+pub(crate) mod ritz;
+mod second_variation;
+mod solution;
 
 use crate::functional::{Functional, Problem};
 use crate::variation::{variation, Variation, VariationError};
@@ -84,4 +89,9 @@ pub const CLAIMS: &[&dyn Claim] = &[
     &degeneration::Degeneration,
     &duality::Duality,
     &descent::Descent,
+    &multipliers::Multipliers,
+    &noether::Noether,
+    &solution::Stated,
+    &second_variation::SecondVariation,
+    &ritz::Ritz,
 ];

@@ -59,6 +59,11 @@ fn subsets(n: usize, count: usize) -> Vec<Vec<usize>> {
         .collect()
 }
 
+/// All subsets, those with fewer members first.
+pub(super) fn all_subsets(n: usize) -> Vec<Vec<usize>> {
+    (0..=n).flat_map(|count| subsets(n, count)).collect()
+}
+
 /// `(3)`, `(3) and (4)`.
 pub(super) fn labels(all: &[String]) -> String {
     let each: Vec<String> = all.iter().map(|label| format!("({label})")).collect();

@@ -4,11 +4,16 @@
 //! 1, or, behind a comma, the name of a coordinate. Names of tensors of rank 0 have no indices. The tokens are those of
 //! [`chetaev_symbolic::syntax`]; what tokens mean together is decided here, since a comma means something else there.
 
+mod canonical;
+pub mod indexed;
 mod indices;
 mod parse;
+mod terms;
+mod written;
 
 pub use indices::{check, free_letters};
 pub use parse::{parse, parse_sides};
+pub use written::{written, written_equation};
 
 use chetaev_symbolic::syntax::Span;
 use chetaev_symbolic::{Function, Rational};

@@ -146,6 +146,13 @@ impl Reader<'_> {
         let Some(section) = self.section(domain, "intervals") else {
             return found;
         };
+        found.extend(self.intervals_of(section, scope));
+        found
+    }
+
+    /// The intervals of a table: variable = [smaller end, larger end].
+    pub(super) fn intervals_of(&mut self, section: &Table, scope: &Scope) -> Vec<Interval> {
+        let mut found = Vec::new();
         for (key, raw) in &section.entries {
             let Some(axis) = scope.coordinate(&key.content) else {
                 let message = format!("`{}` is not an independent variable", key.content);
@@ -438,14 +445,16 @@ fn declare(
         })
         .collect();
     let slots: Vec<Expr> = own.iter().map(|(_, c)| scope.space.jet(*c, &[])).collect();
+    scope.shapes.insert(name.to_owned(), shape);
     place_holders(scope, name, shape, &slots);
     scope.space.name_arguments(&slots, name);
     own.into_iter().map(|(_, component)| component).collect()
 }
 
 /// Declares constants.
-fn constants(scope: &mut Scope, name: &str, shape: Shape) {
+pub(super) fn constants(scope: &mut Scope, name: &str, shape: Shape) {
     let d = scope.space.dimensions();
+    scope.shapes.insert(name.to_owned(), shape);
     let slots: Vec<Expr> = shape
         .components(d)
         .into_iter()

@@ -1,7 +1,10 @@
 //! From a model file to functionals, with every problem at its place.
 
 mod declare;
+mod family;
 mod relations;
+mod ritz;
+mod solutions;
 mod statements;
 mod symmetry;
 
@@ -17,6 +20,8 @@ use chetaev_symbolic::syntax::Span;
 use chetaev_symbolic::Expr;
 use std::collections::BTreeMap;
 use std::rc::Rc;
+
+pub(crate) use statements::on_side;
 
 /// What reading gives: the problem where it has no error, and everything there is to say about it.
 #[derive(Debug)]
@@ -52,6 +57,9 @@ const KEYS: &[&str] = &[
     "descent",
     "degenerations",
     "solutions",
+    "family",
+    "symmetries",
+    "ritz",
     "expect",
 ];
 
@@ -105,10 +113,16 @@ impl Reader<'_> {
     fn problem(&mut self, table: &Table, place: Place) -> Option<Problem> {
         let functional = self.functional(table, place, None)?;
         let relations = self.relations(table, &functional);
+        let solutions = self.solutions(table, &functional);
+        let family = self.family(table);
+        let ritz = self.ritz(table, &functional);
         let expected = self.expected(table);
         Some(Problem {
             functional,
             relations,
+            solutions,
+            ritz,
+            family,
             text: self.text.clone(),
             expected,
         })
@@ -135,6 +149,8 @@ impl Reader<'_> {
             space,
             tensors: BTreeMap::new(),
             sizes,
+            definitions: BTreeMap::new(),
+            shapes: BTreeMap::new(),
         };
         let read = self.stated(table, place, scope);
         let errors = self.problems[before..].iter();
@@ -238,13 +254,19 @@ impl Reader<'_> {
     }
 
     fn scalar(&mut self, scope: &Scope, text: &Text) -> Option<Expr> {
+        Some(self.scalar_tree(scope, text)?.1)
+    }
+
+    /// The same with the expression as it is written.
+    fn scalar_tree(&mut self, scope: &Scope, text: &Text) -> Option<(Node, Expr)> {
         let node = self.node(scope, text, Some(&[]))?;
         let mut found = Vec::new();
         symmetry::check(scope, &node, &mut found);
         if !self.add(text, &found) {
             return None;
         }
-        Some(scope.value(&node, &BTreeMap::new()))
+        let value = scope.value(&node, &BTreeMap::new());
+        Some((node, value))
     }
 
     /// The components of left minus right with their free letters.

@@ -2,7 +2,7 @@
 
 use super::declare::{place_holders, shape_of};
 use super::Reader;
-use crate::functional::{Functional, Relation, Special, SpecialKind};
+use crate::functional::{Functional, Relation, Release, Special, SpecialKind};
 use crate::notation::{free_letters, parse, Names};
 use crate::tensors::Scope;
 use chetaev_model::raw::{Raw, Table};
@@ -46,13 +46,7 @@ impl Reader<'_> {
         let read = tables(&path, &text, self.files, &overrides, sources);
         self.sources = read.sources;
         self.problems.extend(read.diagnostics);
-        let mut kept = read.text.includes;
-        kept.push((path, text));
-        for (path, text) in kept {
-            if self.text.includes.iter().all(|(own, _)| *own != path) {
-                self.text.includes.push((path, text));
-            }
-        }
+        self.keep(read.text.includes, path, text);
         let place = Place {
             source: read.source,
             span: Span::new(0, 1),
@@ -60,7 +54,7 @@ impl Reader<'_> {
         self.functional(&read.table?, place, Some(&functional.space))
     }
 
-    fn required(&mut self, table: &Table, key: &str, what: &str) -> Option<Text> {
+    pub(super) fn required(&mut self, table: &Table, key: &str, what: &str) -> Option<Text> {
         let found = self.optional(table, key);
         if found.is_none() {
             let place = table
@@ -93,7 +87,11 @@ impl Reader<'_> {
 
     fn descent(&mut self, table: &Table, functional: &Functional) -> Option<Relation> {
         let section = self.section(table, "descent")?;
-        self.known_keys(section, &["from", "imposing"], "[descent]");
+        self.known_keys(
+            section,
+            &["from", "imposing", "released", "multiplier"],
+            "[descent]",
+        );
         let from = self.required(section, "from", "[descent]")?;
         let other = self.other(&from, functional)?;
         let imposed = match section.get("imposing") {
@@ -107,7 +105,27 @@ impl Reader<'_> {
             }
         }
         let imposed = imposed.into_iter().map(|text| text.content).collect();
-        Some(Relation::Descent { other, imposed })
+        let release = self.release(section, &other);
+        Some(Relation::Descent {
+            other,
+            imposed,
+            release,
+        })
+    }
+
+    /// `released` and `multiplier`, in the names of the level above.
+    fn release(&mut self, section: &Table, above: &Functional) -> Option<Release> {
+        let released = self.optional(section, "released")?;
+        let multiplier = self.required(section, "multiplier", "what is released")?;
+        let density = self.scalar(&above.scope, &released)?;
+        let node = self.node(&above.scope, &multiplier, None)?;
+        let mut letters = free_letters(&node);
+        letters.sort_unstable();
+        Some(Release {
+            density,
+            multiplier: above.scope.components(&node, &letters),
+            written: multiplier.content,
+        })
     }
 
     fn degeneration(
@@ -126,7 +144,10 @@ impl Reader<'_> {
             .iter()
             .flat_map(|t| &t.entries)
         {
-            values.extend(self.special(name, raw, functional, &other));
+            // On the right the names mean what they mean for the other functional.
+            let mut scope = functional.scope.clone();
+            scope.tensors.extend(other.scope.tensors.clone());
+            values.extend(self.special(name, raw, functional, scope));
         }
         Some(Relation::Degeneration {
             name: key.content.clone(),
@@ -135,23 +156,16 @@ impl Reader<'_> {
         })
     }
 
-    /// `beta = "0"`, `beta_ijkl = "…"`, `"A(X)" = "…"`; the right side may use the names of the other functional.
-    fn special(
+    /// `beta = "0"`, `beta_ijkl = "…"`, `"A(X)" = "…"`; the right side may use the names of `scope`.
+    pub(super) fn special(
         &mut self,
         key: &Text,
         raw: &Raw,
         functional: &Functional,
-        other: &Functional,
+        mut scope: Scope,
     ) -> Option<Special> {
         let text = self.text_of(raw, &key.content)?;
         let written = format!("{} = {}", key.content, text.content);
-        // On the right the names mean what they mean for the other functional.
-        let mut scope = Scope {
-            space: functional.space.clone(),
-            tensors: functional.scope.tensors.clone(),
-            sizes: functional.scope.sizes.clone(),
-        };
-        scope.tensors.extend(other.scope.tensors.clone());
         if let Some((name, argument)) = key.content.split_once('(') {
             let function = scope.space.function_named(name.trim());
             let Some(function) = function else {

@@ -41,12 +41,13 @@ impl Reader<'_> {
             );
             return None;
         };
-        let density = self.scalar(&scope, &text);
-        if let Some(density) = density {
+        let density = self.scalar_tree(&scope, &text);
+        if let Some((_, density)) = density {
             self.without_normal(&scope, density, &text);
         }
         let pieces = self.pieces(table, &scope, &intervals);
         let equations = self.equations(table, &scope, &pieces);
+        let symmetries = self.symmetries(table);
         let name = self.optional(table, "name");
         let level = self.optional(table, "level");
         let description = self.optional(table, "description");
@@ -55,6 +56,7 @@ impl Reader<'_> {
             None => Vec::new(),
         };
         let of = |text: Option<Text>| text.map_or(String::new(), |text| text.content);
+        let (tree, density) = density?;
         Some(Functional {
             name: of(name),
             level: level.map(|text| text.content),
@@ -68,10 +70,12 @@ impl Reader<'_> {
             parameters,
             functions,
             definitions,
-            density: density?,
+            density,
+            tree,
             written: text.content,
             pieces,
             equations,
+            symmetries,
         })
     }
 
@@ -147,6 +151,7 @@ impl Reader<'_> {
             scope.space.name_arguments(&own, &name);
         }
         let rank = letters.len();
+        scope.definitions.insert(name.clone(), (letters, node));
         scope.tensors.insert(name, Tensor { rank, components });
     }
 
@@ -216,9 +221,12 @@ impl Reader<'_> {
                 return None;
             }
         };
-        let density = match &text {
-            Some(text) => self.scalar(scope, text)?,
-            None => scope.space.graph.zero(),
+        let (tree, density) = match &text {
+            Some(text) => {
+                let (tree, density) = self.scalar_tree(scope, text)?;
+                (Some(tree), density)
+            }
+            None => (None, scope.space.graph.zero()),
         };
         let density = on_side(scope, &side, density);
         let fixed = match own.and_then(|own| own.get("fixed")) {
@@ -229,13 +237,19 @@ impl Reader<'_> {
             name: key.content.clone(),
             side,
             density,
+            tree,
             written: text.map_or_else(|| "0".to_owned(), |text| text.content),
             fixed,
         })
     }
 
     /// `x = a` as a face of the box.
-    fn side(&mut self, scope: &Scope, text: &Text, intervals: &[Interval]) -> Option<Side> {
+    pub(super) fn side(
+        &mut self,
+        scope: &Scope,
+        text: &Text,
+        intervals: &[Interval],
+    ) -> Option<Side> {
         let mut found = Vec::new();
         let sides = parse_sides(&text.content, scope, &mut found);
         if !self.add(text, &found) {

@@ -26,3 +26,26 @@ fn classical_functionals_yield_their_equations() {
         );
     }
 }
+
+#[test]
+fn every_functional_of_the_gallery_is_as_its_file_expects() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../gallery/fields");
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        let study = studied(&format!("../fields/{name}"), &[]);
+        let wrong: Vec<String> = study
+            .verdicts
+            .iter()
+            .filter(|d| !d.is_as_expected())
+            .map(|d| format!("{}: {}", d.full_id(), d.finding.verdict.detail()))
+            .collect();
+        assert!(
+            wrong.is_empty() && study.is_as_expected(),
+            "{name}: {wrong:?} {:?}",
+            study.notices
+        );
+        count += 1;
+    }
+    assert!(count >= 13);
+}

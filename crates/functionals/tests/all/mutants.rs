@@ -104,6 +104,14 @@ fn on_level_two_the_traction_of_the_stress_alone_needs_the_law_of_the_material()
         "-P_k (u_k - ubar_k)",
     );
     assert_eq!(word, "proved", "{detail}");
+    assert!(
+        detail.contains("on S_u and S_s with the trace of (3)"),
+        "{detail}"
+    );
+    // With the mixed stress nothing is needed on S_u.
+    let (word, detail) = mutated("p2pb", "functional.euler", "density", "density");
+    assert_eq!(word, "proved", "{detail}");
+    assert!(detail.contains("on S_s with the trace of (3)"), "{detail}");
     // The functionals then cancel identically; with the mixed stress they do so modulo (3) only.
     let (word, detail) = mutated(
         "p2pb",

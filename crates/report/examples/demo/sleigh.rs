@@ -420,6 +420,8 @@ const MODEL: &str = include_str!("model.toml");
 pub(crate) fn report() -> Report {
     let rows = states();
     Report {
+        tables: Vec::new(),
+        maps: Vec::new(),
         comparison: None,
         found: vec![Found {
             subject: "Energy".into(),

@@ -1,15 +1,22 @@
 //! Studies of functionals for people and programs: the summary, the record and the report.
 
+mod derivation;
 mod page;
+mod pictures;
 mod record;
 mod summary;
+mod table;
+mod verification;
 
+pub use derivation::derivation;
 pub use page::page;
 pub use record::record;
 pub use summary::summary;
+pub use verification::verify;
 
 use chetaev_functionals::functional::{Functional, Role};
-use chetaev_functionals::variation::{Condition, Trace};
+use chetaev_functionals::notation::{indexed, Node};
+use chetaev_functionals::variation::{Condition, Trace, Variation};
 use chetaev_symbolic::print::{Document, Options};
 use chetaev_symbolic::simplify;
 use chetaev_symbolic::Expr;
@@ -22,12 +29,35 @@ struct Shown {
     value: Expr,
 }
 
+/// An equation in index notation.
+struct Indexed {
+    /// `δu_k`.
+    of: String,
+    /// What vanishes.
+    value: Node,
+}
+
+/// The Euler equations in index notation, of the fields for which there is a form.
+fn indexed_euler(functional: &Functional, variation: &Variation) -> Vec<Indexed> {
+    let own = indexed::euler(functional, variation).into_iter().flatten();
+    own.map(shown_indexed).collect()
+}
+
+/// The conditions on a piece in index notation; `None` where they have no short form.
+fn indexed_natural(functional: &Functional, piece: &str) -> Option<Vec<Indexed>> {
+    let own = indexed::natural(functional, functional.piece(piece)?)?;
+    Some(own.into_iter().map(shown_indexed).collect())
+}
+
+fn shown_indexed(own: indexed::Indexed) -> Indexed {
+    Indexed {
+        of: format!("δ{}", own.of),
+        value: own.value,
+    }
+}
+
 /// The Euler equations, simplified for reading.
-fn euler(study: &chetaev_functionals::Study) -> Vec<Shown> {
-    let functional = &study.problem.functional;
-    let Ok(variation) = &study.variation else {
-        return Vec::new();
-    };
+fn euler(functional: &Functional, variation: &Variation) -> Vec<Shown> {
     let own = variation.euler.iter().map(|&(component, value)| Shown {
         of: format!("δ{}", functional.space.component_at(component).name),
         value: readable(functional, value),
@@ -36,11 +66,7 @@ fn euler(study: &chetaev_functionals::Study) -> Vec<Shown> {
 }
 
 /// Pieces of the boundary with their natural conditions, and corners.
-fn boundary(study: &chetaev_functionals::Study) -> Vec<(String, Vec<Shown>)> {
-    let functional = &study.problem.functional;
-    let Ok(variation) = &study.variation else {
-        return Vec::new();
-    };
+fn boundary(functional: &Functional, variation: &Variation) -> Vec<(String, Vec<Shown>)> {
     let mut found: Vec<(String, Vec<Shown>)> = Vec::new();
     for on in &variation.pieces {
         let own = on.conditions.iter().map(|condition| Shown {

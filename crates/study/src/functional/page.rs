@@ -1,8 +1,12 @@
 //! The report of a functional.
 
-use super::{boundary, document, euler, labels, options, Shown};
+use super::{
+    boundary, document, euler, indexed_euler, indexed_natural, labels, options, pictures, table,
+    Indexed, Shown,
+};
 use crate::page::{evidence, source};
 use chetaev_functionals::functional::{Functional, Role};
+use chetaev_functionals::notation::{parse_sides, written, written_equation, Node};
 use chetaev_functionals::study::Decided;
 use chetaev_functionals::Study;
 use chetaev_report::data::{
@@ -36,7 +40,10 @@ fn report(study: &Study, command: Option<String>) -> Report {
             .collect(),
         facts: facts(f),
         parameters: f.parameters.iter().map(|p| parameter(f, p)).collect(),
+        tables: vec![table::table(&study.problem)],
         sections: sections(study),
+        figures: pictures::figures(study),
+        maps: pictures::maps(study),
         claims: study.verdicts.iter().map(|d| claim(f, d)).collect(),
         model: Some(source(&study.problem.text)),
         notices: study.notices.clone(),
@@ -159,21 +166,85 @@ fn section(
     }
 }
 
+fn in_indices(
+    f: &Functional,
+    id: &str,
+    title: &str,
+    explanation: &str,
+    all: &[Indexed],
+) -> EquationSection {
+    let write = |own: &Indexed, format| written_equation(&own.value, &f.scope, format);
+    let equations = all.iter().map(|own| Equation {
+        label: Some(own.of.clone()),
+        formula: Formula {
+            mathml: Some(write(own, Format::Mathml)),
+            text: write(own, Format::Text),
+            latex: Some(write(own, Format::Latex)),
+        },
+        ..Equation::default()
+    });
+    EquationSection {
+        id: id.into(),
+        title: title.into(),
+        explanation: vec![explanation.into()],
+        equations: equations.collect(),
+        ..EquationSection::default()
+    }
+}
+
 fn sections(study: &Study) -> Vec<EquationSection> {
     let f = &study.problem.functional;
     let mut found = vec![stated(f)];
-    found.push(EquationSection {
-        claim: Some(format!("functional.euler#{}", f.name)),
-        ..section(
-            f,
-            "euler",
-            "Euler equations",
-            "The coefficient of each variation in the interior vanishes. A component off the diagonal of a symmetric tensor is one \
-             unknown; its equation is divided by two.",
-            &euler(study),
-        )
-    });
-    for (piece, conditions) in boundary(study) {
+    let Ok(variation) = &study.variation else {
+        return found;
+    };
+    let indexed = indexed_euler(f, variation);
+    let claim = Some(format!("functional.euler#{}", f.name));
+    let in_words = "The coefficient of each variation in the interior vanishes.";
+    let in_components = "A component off the diagonal of a symmetric tensor is one unknown; its equation is divided by two.";
+    if indexed.is_empty() {
+        let words = format!("{in_words} {in_components}");
+        found.push(EquationSection {
+            claim,
+            ..section(f, "euler", "Euler equations", &words, &euler(f, variation))
+        });
+    } else {
+        found.push(EquationSection {
+            claim,
+            ..in_indices(f, "euler", "Euler equations", in_words, &indexed)
+        });
+        found.push(EquationSection {
+            collapsed: true,
+            ..section(
+                f,
+                "euler-components",
+                "Euler equations in components",
+                in_components,
+                &euler(f, variation),
+            )
+        });
+    }
+    for (piece, conditions) in boundary(f, variation) {
+        if let Some(indexed) = indexed_natural(f, &piece).filter(|own| !own.is_empty()) {
+            found.push(in_indices(
+                f,
+                &format!("on-{piece}"),
+                &format!("Conditions on {piece}"),
+                "The coefficient of each variation that is free here vanishes. A traction is varied as a whole.",
+                &indexed,
+            ));
+            found.push(EquationSection {
+                collapsed: true,
+                ..section(
+                    f,
+                    &format!("on-{piece}-components"),
+                    &format!("Conditions on {piece} in components"),
+                    "By the fields and their derivatives across the boundary.",
+                    &conditions,
+                )
+            });
+            continue;
+        }
         let explanation = if conditions.is_empty() {
             "Nothing is free here, or every coefficient vanishes."
         } else {
@@ -208,10 +279,7 @@ fn stated(f: &Functional) -> EquationSection {
             };
             Equation {
                 label: Some(format!("({})", e.label)),
-                formula: Formula {
-                    text: e.written.clone(),
-                    ..Formula::default()
-                },
+                formula: as_stated(f, e),
                 caption: Some(format!("{}{on}; {role}", e.title)),
                 ..Equation::default()
             }
@@ -222,6 +290,38 @@ fn stated(f: &Functional) -> EquationSection {
         explanation: vec!["As the model states them.".into()],
         equations: equations.collect(),
         ..EquationSection::default()
+    }
+}
+
+/// A stated equation, typeset as it is written.
+fn as_stated(f: &Functional, e: &chetaev_functionals::functional::Equation) -> Formula {
+    let sides = parse_sides(&e.written, &f.scope, &mut Vec::new());
+    let Some((left, right)) = sides else {
+        return Formula {
+            text: e.written.clone(),
+            ..Formula::default()
+        };
+    };
+    let zero = Node::number(0, left.span);
+    let right = right.unwrap_or(zero);
+    let side = |node: &Node, format| written(node, &f.scope, format);
+    let inner = |node: &Node| {
+        let own = side(node, Format::Mathml);
+        let own = own.strip_prefix("<math>").unwrap_or(&own);
+        own.strip_suffix("</math>").unwrap_or(own).to_owned()
+    };
+    Formula {
+        mathml: Some(format!(
+            "<math>{}<mo>=</mo>{}</math>",
+            inner(&left),
+            inner(&right)
+        )),
+        text: e.written.clone(),
+        latex: Some(format!(
+            "{} = {}",
+            side(&left, Format::Latex),
+            side(&right, Format::Latex)
+        )),
     }
 }
 

@@ -1,17 +1,19 @@
 //! `study.json` of a functional.
 
-use super::{boundary, euler, Shown};
+use super::{boundary, euler, indexed_euler, indexed_natural, Indexed, Shown};
 use crate::record::{
     of_verdict, ConditionRecord, FunctionalRecord, ModelRecord, OptionsRecord, Record,
-    VerdictRecord, WorkRecord, SCHEMA,
+    VerdictRecord, WorkRecord, WrittenRecord, SCHEMA,
 };
-use chetaev_functionals::functional::Role;
+use chetaev_functionals::functional::{Functional, Role};
+use chetaev_functionals::notation::written;
 use chetaev_functionals::study::Decided;
 use chetaev_functionals::Study;
+use chetaev_symbolic::print::Format;
 use chetaev_symbolic::Graph;
 
-/// The record of a study; `claims` are the words that selected them.
-pub fn record(study: &Study, claims: &[String]) -> Record {
+/// The record of a study; `claims` are the words that selected them, `files` what was written beside it.
+pub fn record(study: &Study, claims: &[String], files: &[WrittenRecord]) -> Record {
     Record {
         schema: SCHEMA.into(),
         chetaev: env!("CARGO_PKG_VERSION").into(),
@@ -24,7 +26,7 @@ pub fn record(study: &Study, claims: &[String]) -> Record {
             claims: claims.to_vec(),
             ..OptionsRecord::default()
         },
-        files: Vec::new(),
+        files: files.to_vec(),
         work: WorkRecord::default(),
         functional: Some(functional(study)),
     }
@@ -55,9 +57,17 @@ fn functional(study: &Study) -> FunctionalRecord {
     let own = &study.problem.functional;
     let g = &own.space.graph;
     let labels = |role: Role| own.with_role(role).map(|e| e.label.clone()).collect();
-    let mut conditions = Vec::new();
-    for (piece, all) in boundary(study) {
-        conditions.extend(all.iter().map(|shown| condition(g, Some(&piece), shown)));
+    let (mut inside, mut conditions, mut indexed) = (Vec::new(), Vec::new(), Vec::new());
+    if let Ok(variation) = &study.variation {
+        let all = euler(own, variation);
+        inside.extend(all.iter().map(|shown| condition(g, None, shown)));
+        let all = indexed_euler(own, variation);
+        indexed.extend(all.iter().map(|shown| in_indices(own, None, shown)));
+        for (piece, all) in boundary(own, variation) {
+            conditions.extend(all.iter().map(|shown| condition(g, Some(&piece), shown)));
+            let all = indexed_natural(own, &piece).unwrap_or_default();
+            indexed.extend(all.iter().map(|shown| in_indices(own, Some(&piece), shown)));
+        }
     }
     FunctionalRecord {
         name: own.name.clone(),
@@ -66,11 +76,17 @@ fn functional(study: &Study) -> FunctionalRecord {
         fields: own.fields.iter().map(|f| f.name.clone()).collect(),
         imposed: labels(Role::Imposed),
         yields: labels(Role::Yielded),
-        euler: euler(study)
-            .iter()
-            .map(|shown| condition(g, None, shown))
-            .collect(),
+        euler: inside,
         boundary: conditions,
+        indexed,
+    }
+}
+
+fn in_indices(functional: &Functional, on: Option<&str>, shown: &Indexed) -> ConditionRecord {
+    ConditionRecord {
+        on: on.map(str::to_owned),
+        of: shown.of.clone(),
+        zero: written(&shown.value, &functional.scope, Format::Text),
     }
 }
 

@@ -1,9 +1,11 @@
 //! The text for a terminal.
 
-use super::{boundary, euler, labels, Shown};
+use super::{boundary, euler, indexed_euler, indexed_natural, labels, table, Indexed, Shown};
 use crate::summary::{bold, coloured, Style};
 use chetaev_functionals::functional::Role;
+use chetaev_functionals::notation::written_equation;
 use chetaev_functionals::Study;
+use chetaev_symbolic::print::Format;
 use chetaev_symbolic::simplify;
 use std::fmt::Write;
 
@@ -15,26 +17,90 @@ pub fn summary(study: &Study, style: Style) -> String {
     let mut text = String::new();
     heading(&mut text, study, style);
     stated(&mut text, study, style);
-    let _ = writeln!(text, "\n{}", bold(style, "Euler equations"));
-    equations(&mut text, study, &euler(study));
-    if let Err(problem) = &study.variation {
-        let _ = writeln!(text, "  not derived: {problem}");
-    }
-    let _ = writeln!(text, "\n{}", bold(style, "boundary conditions"));
-    for (piece, conditions) in boundary(study) {
-        let _ = writeln!(text, "  on {piece}");
-        let given = given(study, &piece);
-        if !given.is_empty() {
-            let _ = writeln!(text, "    given: {}", given.join(", "));
-        }
-        equations(&mut text, study, &conditions);
-    }
+    derived(&mut text, study, style);
+    levels(&mut text, study, style);
     let _ = writeln!(text, "\n{}", bold(style, "claims"));
     claims(&mut text, study, style);
     for notice in &study.notices {
         let _ = writeln!(text, "\nnote: {notice}");
     }
     text
+}
+
+fn derived(text: &mut String, study: &Study, style: Style) {
+    let f = &study.problem.functional;
+    let _ = writeln!(text, "\n{}", bold(style, "Euler equations"));
+    let variation = match &study.variation {
+        Ok(variation) => variation,
+        Err(problem) => {
+            let _ = writeln!(text, "  not derived: {problem}");
+            return;
+        }
+    };
+    both(
+        text,
+        study,
+        &indexed_euler(f, variation),
+        &euler(f, variation),
+    );
+    let _ = writeln!(text, "\n{}", bold(style, "boundary conditions"));
+    for (piece, conditions) in boundary(f, variation) {
+        let _ = writeln!(text, "  on {piece}");
+        let given = given(study, &piece);
+        if !given.is_empty() {
+            let _ = writeln!(text, "    given: {}", given.join(", "));
+        }
+        let indexed = indexed_natural(f, &piece).unwrap_or_default();
+        both(text, study, &indexed, &conditions);
+    }
+}
+
+/// In index notation, then in components; one of them where both are the same.
+fn both(text: &mut String, study: &Study, indexed: &[Indexed], shown: &[Shown]) {
+    let f = &study.problem.functional;
+    let g = &f.space.graph;
+    let is_scalar = indexed.len() == shown.len() && indexed.iter().all(|own| !own.of.contains('_'));
+    for own in indexed {
+        let line = written_equation(&own.value, &f.scope, Format::Text);
+        let _ = writeln!(text, "    {:<12} {line}", own.of);
+    }
+    let is_short = |own: &Shown| simplify::length(g, own.value) <= WRITTEN;
+    if indexed.is_empty() || is_scalar && f.space.dimensions() > 1 {
+        equations(text, study, shown);
+    } else if !is_scalar && shown.iter().all(is_short) {
+        let _ = writeln!(text, "   in components");
+        equations(text, study, shown);
+    } else if !is_scalar {
+        let _ = writeln!(text, "   in components: in the report");
+    }
+}
+
+/// The levels of the family.
+fn levels(text: &mut String, study: &Study, style: Style) {
+    if study.problem.family.is_empty() {
+        return;
+    }
+    let _ = writeln!(text, "\n{}", bold(style, "levels"));
+    let rows = table::rows(&study.problem);
+    let head = table::HEADINGS.map(str::to_lowercase);
+    let widths: Vec<usize> = (0..head.len())
+        .map(|k| {
+            let own = rows.iter().map(|row| row.cells[k].chars().count());
+            own.chain([head[k].chars().count()]).max().unwrap_or(0)
+        })
+        .collect();
+    let mut line = |mark: &str, cells: &[String]| {
+        let all: Vec<String> = cells
+            .iter()
+            .zip(&widths)
+            .map(|(cell, &width)| format!("{cell:<width$}"))
+            .collect();
+        let _ = writeln!(text, "{mark} {}", all.join("  ").trim_end());
+    };
+    line(" ", &head);
+    for row in &rows {
+        line(if row.is_own { ">" } else { " " }, &row.cells);
+    }
 }
 
 fn heading(text: &mut String, study: &Study, style: Style) {

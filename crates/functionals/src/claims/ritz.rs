@@ -1,0 +1,199 @@
+//! `functional.ritz`: Ritz's method gives the closed solution, or comes near to it.
+
+use super::{Claim, Context, Finding, Formula};
+use crate::functional::Functional;
+use crate::ritz::{approximation, with_values, Approximation, Asked};
+use crate::variation::Variation;
+use chetaev_symbolic::verdict::{Evidence, Proof};
+use chetaev_symbolic::{rational, Expr, Verdict};
+
+/// `functional.ritz#NAME`.
+pub(super) struct Ritz;
+
+/// Largest relative error at a point that counts as agreement.
+const NEAR: f64 = 1e-3;
+
+impl Claim for Ritz {
+    fn id(&self) -> &'static str {
+        "functional.ritz"
+    }
+
+    fn title(&self) -> &'static str {
+        "Ritz's method gives the closed solution"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "W. Ritz (1909): in the place of all fields, polynomials are admitted that satisfy what is given on the faces of a box; the \
+         functional is then a quadratic function of their coefficients, whose integrals are exact rational numbers, and its stationary \
+         point is found by exact elimination. Where the polynomial satisfies the Euler equations and all natural conditions it is the solution: \
+         proved. Else its values are compared with those of a closed solution that [ritz] states: numerical, with the error for each degree."
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        match &cx.problem.ritz {
+            Some(_) => vec![cx.own()],
+            None => Vec::new(),
+        }
+    }
+
+    fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
+        let (Some(asked), Ok(variation)) = (&cx.problem.ritz, &cx.variation) else {
+            return Verdict::undecided("the first variation was not derived").into();
+        };
+        let mut all = Vec::new();
+        for &degree in &asked.degrees {
+            match approximation(cx.functional(), asked, degree) {
+                Ok(own) => all.push(own),
+                Err(problem) => return Verdict::undecided(problem.to_string()).into(),
+            }
+        }
+        let Some(last) = all.last() else {
+            return Verdict::undecided("no degree is asked for").into();
+        };
+        let verdict = verdict(cx.functional(), variation, asked, &all, last);
+        let formulas = formulas(cx.functional(), last);
+        Finding { verdict, formulas }
+    }
+}
+
+fn formulas(functional: &Functional, last: &Approximation) -> Vec<Formula> {
+    let space = &*functional.space;
+    let own = last.fields.iter().map(|(component, polynomial)| Formula {
+        caption: format!(
+            "{} of degree {}",
+            space.component_at(*component).name,
+            last.degree
+        ),
+        value: polynomial.expr(space),
+    });
+    own.collect()
+}
+
+/// Largest relative error at the points.
+pub(crate) fn error(asked: &Asked, own: &Approximation) -> Option<f64> {
+    let errors = asked.points.iter().filter_map(|point| {
+        let (_, polynomial) = own.fields.iter().find(|(c, _)| *c == point.component)?;
+        let value = polynomial.exact(&point.at);
+        let wanted = rational::to_f64(&point.value);
+        let difference = rational::to_f64(&(value - &point.value)).abs();
+        Some(if wanted == 0.0 {
+            difference
+        } else {
+            difference / wanted.abs()
+        })
+    });
+    errors.max_by(f64::total_cmp)
+}
+
+fn verdict(
+    functional: &Functional,
+    variation: &Variation,
+    asked: &Asked,
+    all: &[Approximation],
+    last: &Approximation,
+) -> Verdict {
+    let space = &*functional.space;
+    let told: Vec<String> = all
+        .iter()
+        .map(|own| match error(asked, own) {
+            Some(error) => format!("degree {}: {error:.1e}", own.degree),
+            None => format!(
+                "degree {}: value {:.6}",
+                own.degree,
+                rational::to_f64(&own.value)
+            ),
+        })
+        .collect();
+    let kind = match last.is_minimum {
+        true => "a minimum among these polynomials",
+        false => "no minimum",
+    };
+    let exact = residuals(functional, variation, asked, last);
+    if exact.iter().all(|&e| space.vanish(&[e])) {
+        let differs = asked.points.iter().any(|point| {
+            let own = last.fields.iter().find(|(c, _)| *c == point.component);
+            point.is_exact && own.is_some_and(|(_, p)| p.exact(&point.at) != point.value)
+        });
+        if differs {
+            return Verdict::undecided("the polynomial is the solution, and has other values than those that [ritz] states");
+        }
+        return Verdict::Proved(Proof::exact(
+            "the box with the stated numbers",
+            format!(
+                "the polynomial of degree {} with {} unknowns satisfies the Euler equations and all natural conditions; the value is {}, {kind}",
+                last.degree, last.unknowns, last.value
+            ),
+        ));
+    }
+    match error(asked, last) {
+        Some(largest) if largest <= NEAR => Verdict::Numerical(Evidence {
+            samples: all.len() as u32,
+            region: format!(
+                "polynomials up to the degree {} by each variable; {kind}",
+                last.degree
+            ),
+            digits: 16,
+            residual: largest,
+            seed: None,
+            why_no_proof: format!(
+                "the solution is no polynomial; relative errors at the points: {}",
+                told.join(", ")
+            ),
+        }),
+        Some(_) => Verdict::undecided(format!(
+            "the values are not those of the closed solution; relative errors: {}",
+            told.join(", ")
+        )),
+        None => Verdict::undecided(format!(
+            "no closed solution is stated, and the polynomial is none: {}",
+            told.join(", ")
+        )),
+    }
+}
+
+/// Euler expressions and natural conditions at the polynomial.
+fn residuals(
+    functional: &Functional,
+    variation: &Variation,
+    asked: &Asked,
+    own: &Approximation,
+) -> Vec<Expr> {
+    let space = &*functional.space;
+    let put = |e: Expr| {
+        space.replace(with_values(functional, asked, e), &|symbol| {
+            let jet = space.as_jet(symbol)?;
+            let (_, polynomial) = own.fields.iter().find(|(c, _)| *c == jet.component)?;
+            Some(polynomial.slopes(&jet.by).expr(space))
+        })
+    };
+    let mut found: Vec<Expr> = variation.euler.iter().map(|(_, e)| put(*e)).collect();
+    let on = |name: &str, e: Expr| {
+        let side = functional.piece(name).map(|piece| &piece.side);
+        match side {
+            Some(crate::functional::Side::Flat { axis, at, .. }) => {
+                let at = with_values(functional, asked, *at);
+                space
+                    .graph
+                    .substitute(put(e), &[(space.coordinates[*axis].expr, at)])
+            }
+            _ => put(e),
+        }
+    };
+    for piece in &variation.pieces {
+        found.extend(piece.conditions.iter().map(|c| on(&piece.piece, c.value)));
+    }
+    for corner in &variation.corners {
+        let both = on(&corner.pieces.0, corner.value);
+        let other = functional.piece(&corner.pieces.1).map(|piece| &piece.side);
+        found.push(match other {
+            Some(crate::functional::Side::Flat { axis, at, .. }) => {
+                let at = with_values(functional, asked, *at);
+                space
+                    .graph
+                    .substitute(both, &[(space.coordinates[*axis].expr, at)])
+            }
+            _ => both,
+        });
+    }
+    found
+}

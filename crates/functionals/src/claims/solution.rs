@@ -1,0 +1,387 @@
+//! `functional.solution`: stated fields make the functional stationary, and give it the stated value.
+
+use super::degeneration::put_in;
+use super::{Claim, Context, Finding};
+use crate::functional::{Functional, Role, Side, Solution, Special, SpecialKind};
+use crate::integral::{coefficients, over_box, over_face};
+use crate::read::on_side;
+use crate::variation::Variation;
+use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::{rational, Expr, Symbol, Verdict};
+
+/// `functional.solution#NAME`.
+pub(super) struct Stated;
+
+/// Degree of the polynomials that variations are made of.
+const DEGREE: usize = 3;
+
+impl Claim for Stated {
+    fn id(&self) -> &'static str {
+        "functional.solution"
+    }
+
+    fn title(&self) -> &'static str {
+        "The stated fields make the functional stationary and give it the stated value"
+    }
+
+    fn explanation(&self) -> &'static str {
+        "A section [solutions.NAME] states fields in closed form, data, parameters and constitutive functions on a box, and where the \
+         pieces of the boundary lie. They are put into what is imposed, into every Euler equation and every natural condition, \
+         which must vanish identically. In one dimension the functional itself is then varied, without its Euler equations: every admissible \
+         variation by polynomials up to the third degree must leave it unchanged to the first order. Admissible are variations that keep what is \
+         imposed; how many there are is said, as for some functionals there are none. The value is integrated exactly."
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        let all = cx.problem.solutions.iter();
+        all.map(|solution| Some(solution.name.clone())).collect()
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        let mut all = cx.problem.solutions.iter();
+        let own = all.find(|solution| Some(solution.name.as_str()) == subject);
+        match (own, &cx.variation) {
+            (Some(own), Ok(variation)) => {
+                let inserted = Inserted {
+                    functional: cx.functional(),
+                    solution: own,
+                };
+                inserted.verdict(variation).into()
+            }
+            (None, _) => Verdict::undecided("there is no such solution").into(),
+            (_, Err(problem)) => Verdict::undecided(problem.to_string()).into(),
+        }
+    }
+}
+
+struct Inserted<'f> {
+    functional: &'f Functional,
+    solution: &'f Solution,
+}
+
+impl Inserted<'_> {
+    fn verdict(&self, variation: &Variation) -> Verdict {
+        let space = &*self.functional.space;
+        for (what, e) in self.residuals(variation) {
+            match space.vanishing(&[e], true) {
+                Verdict::Proved(_) => {}
+                other => {
+                    return other.prefixed(&format!("{what} does not hold for the stated fields"))
+                }
+            }
+        }
+        let mut told = vec![
+            "the stated fields satisfy what is imposed, every Euler equation and every natural condition"
+                .to_owned(),
+        ];
+        if space.coordinates.len() == 1 {
+            match self.varied() {
+                Ok(sentence) => told.push(sentence),
+                Err(verdict) => return *verdict,
+            }
+        }
+        if let Some((written, wanted)) = &self.solution.value {
+            let Some(value) = self.value() else {
+                return Verdict::undecided("the densities are no polynomials at the stated fields, so the value was not integrated");
+            };
+            let difference = space.graph.sub(value, *wanted);
+            match space.vanishing(&[difference], true) {
+                Verdict::Proved(_) => told.push(format!("the value is {written}")),
+                other => {
+                    let own = space.graph.text(value);
+                    return other.prefixed(&format!("the value is {own}, not {written}"));
+                }
+            }
+        }
+        Verdict::Proved(Proof::exact("the stated fields", told.join("; ")))
+    }
+
+    /// The stated values put in; fields with their derivatives.
+    fn at(&self, e: Expr) -> Expr {
+        let functions: Vec<Special> = self.some(|s| matches!(s.what, SpecialKind::Function { .. }));
+        let space = &*self.functional.space;
+        let e = put_in(self.functional, &functions, e);
+        let pairs: Vec<(Expr, Expr)> = self
+            .solution
+            .values
+            .iter()
+            .filter_map(|special| match &special.what {
+                SpecialKind::Symbols(pairs) => Some(pairs.clone()),
+                SpecialKind::Function { .. } => None,
+            })
+            .flatten()
+            .collect();
+        space.replace(space.explicit(e), &|symbol: Symbol| {
+            let value = |own: Expr| pairs.iter().find(|(l, _)| *l == own).map(|(_, r)| *r);
+            match space.as_jet(symbol) {
+                Some(jet) => {
+                    let value = value(space.jet(jet.component, &[]))?;
+                    Some(space.totals(value, &jet.by))
+                }
+                None => value(space.graph.symbol_expr(symbol)),
+            }
+        })
+    }
+
+    fn some(&self, wanted: impl Fn(&Special) -> bool) -> Vec<Special> {
+        let own = self.solution.values.iter();
+        own.filter(|s| wanted(s)).cloned().collect()
+    }
+
+    fn side(&self, piece: &str) -> Option<&Side> {
+        let own = self.solution.pieces.iter();
+        own.clone()
+            .find(|(name, _)| name == piece)
+            .map(|(_, side)| side)
+    }
+
+    /// An expression on a piece: the normal, and the variable that is constant there.
+    fn on(&self, piece: &str, e: Expr) -> Option<Expr> {
+        let space = &*self.functional.space;
+        let side = self.side(piece)?;
+        let e = on_side(&self.functional.scope, side, e);
+        let Side::Flat { axis, at, .. } = side else {
+            return None;
+        };
+        let own = self.at(e);
+        Some(
+            space
+                .graph
+                .substitute(own, &[(space.coordinates.get(*axis)?.expr, *at)]),
+        )
+    }
+
+    /// What must vanish.
+    fn residuals(&self, variation: &Variation) -> Vec<(String, Expr)> {
+        let space = &*self.functional.space;
+        let mut found = Vec::new();
+        for equation in self.functional.with_role(Role::Imposed) {
+            let what = format!("the imposed equation ({})", equation.label);
+            for &e in &equation.residuals {
+                let own = match &equation.on {
+                    None => Some(self.at(e)),
+                    Some(piece) => self.on(piece, e),
+                };
+                found.extend(own.map(|e| (what.clone(), e)));
+            }
+        }
+        for &(component, value) in &variation.euler {
+            let name = space.component_at(component).name;
+            found.push((format!("the Euler equation of {name}"), self.at(value)));
+        }
+        for on in &variation.pieces {
+            for condition in &on.conditions {
+                let name = space.component_at(condition.component).name;
+                let what = format!("the natural condition of {name} on {}", on.piece);
+                let own = self.on(&on.piece, condition.value);
+                found.extend(own.map(|e| (what, e)));
+            }
+        }
+        found
+    }
+
+    fn value(&self) -> Option<Expr> {
+        let space = &*self.functional.space;
+        let mut terms = vec![over_box(
+            space,
+            self.at(self.functional.density),
+            &self.solution.intervals,
+        )?];
+        for piece in &self.functional.pieces {
+            let side = self.side(&piece.name)?;
+            let own = self.at(on_side(&self.functional.scope, side, piece.density));
+            terms.push(over_face(space, own, side, &self.solution.intervals)?);
+        }
+        Some(space.graph.add(&terms))
+    }
+
+    /// The first variation of the functional itself by all admissible polynomials.
+    fn varied(&self) -> Result<String, Box<Verdict>> {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let undecided = |why: &str| Box::new(Verdict::undecided(why));
+        let ansatz = self.ansatz();
+        let unknowns: Vec<Expr> = ansatz.iter().flat_map(|(_, own)| own.clone()).collect();
+        let conditions = self
+            .kept(&ansatz)
+            .ok_or_else(|| undecided("what is imposed is no polynomial at the stated fields"))?;
+        let first = self
+            .first(&ansatz)
+            .ok_or_else(|| undecided("the densities are no polynomials at the stated fields"))?;
+        let slopes = |e: Expr| -> Vec<Expr> {
+            let one = g.one();
+            let own = unknowns.iter().filter_map(|&c| g.as_symbol(c));
+            own.map(|c| g.derive(&[e], &|s| (s == c).then_some(one)).swap_remove(0))
+                .collect()
+        };
+        let rows: Vec<Vec<Expr>> = conditions.iter().map(|&e| slopes(e)).collect();
+        let kernel = kernel(self.functional, &rows, unknowns.len())
+            .ok_or_else(|| undecided("the conditions on admissible variations were not solved"))?;
+        let gradient = slopes(first);
+        for vector in &kernel {
+            let terms: Vec<Expr> = vector
+                .iter()
+                .zip(&gradient)
+                .map(|(&a, &b)| g.mul(&[a, b]))
+                .collect();
+            match space.vanishing(&[g.add(&terms)], true) {
+                Verdict::Proved(_) => {}
+                other => {
+                    return Err(Box::new(other.prefixed(
+                        "the first variation of the functional does not vanish for an admissible variation",
+                    )))
+                }
+            }
+        }
+        Ok(self.told(&ansatz, &kernel))
+    }
+
+    fn told(&self, ansatz: &[(usize, Vec<Expr>)], kernel: &[Vec<Expr>]) -> String {
+        let g = &self.functional.space.graph;
+        let mut at = 0;
+        let mut fields: Vec<String> = Vec::new();
+        let mut idle: Vec<String> = Vec::new();
+        for (component, own) in ansatz {
+            let range = at..at + own.len();
+            at += own.len();
+            let moves = kernel.iter().any(|vector| {
+                range
+                    .clone()
+                    .any(|i| vector.get(i).is_some_and(|&e| !g.is_zero(e)))
+            });
+            let name = self.functional.space.component_at(*component).name;
+            match moves {
+                true => fields.push(name),
+                false => idle.push(name),
+            }
+        }
+        let all: usize = ansatz.iter().map(|(_, own)| own.len()).sum();
+        if kernel.is_empty() {
+            return format!("no variation by polynomials of degree {DEGREE} is admissible, so that there is nothing to vary");
+        }
+        let none = match idle.is_empty() {
+            true => String::new(),
+            false => format!(", none of which varies {}", idle.join(", ")),
+        };
+        format!(
+            "the first variation vanishes for all admissible variations of {} by polynomials of degree {DEGREE} ({} of {all} coefficients are free{none})",
+            fields.join(", "),
+            kernel.len()
+        )
+    }
+
+    /// Every component that is varied with the coefficients of its polynomial; on a piece it is a number.
+    fn ansatz(&self) -> Vec<(usize, Vec<Expr>)> {
+        let g = &self.functional.space.graph;
+        let mut found = Vec::new();
+        for field in &self.functional.fields {
+            let count = if field.on.is_some() { 1 } else { DEGREE + 1 };
+            for &component in &field.components {
+                let own = (0..count)
+                    .map(|k| g.symbol(&format!("variation {component} {k}"), 0))
+                    .collect();
+                found.push((component, own));
+            }
+        }
+        found
+    }
+
+    /// The change of an expression to the first order, at the stated fields.
+    fn change(&self, e: Expr, ansatz: &[(usize, Vec<Expr>)]) -> Expr {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let variable = space.coordinates.first().map(|c| c.expr);
+        let mut terms = Vec::new();
+        for jet in space.jets_in(&[e]) {
+            let Some((_, own)) = ansatz.iter().find(|(c, _)| *c == jet.component) else {
+                continue;
+            };
+            let powers = own
+                .iter()
+                .enumerate()
+                .filter_map(|(k, &c)| Some(g.mul(&[c, g.powi(variable?, k as i64)])));
+            let varied = g.add(&powers.collect::<Vec<_>>());
+            let slope = self.at(space.partial(e, &jet));
+            terms.push(g.mul(&[slope, space.totals(varied, &jet.by)]));
+        }
+        g.add(&terms)
+    }
+
+    /// The first variation, linear in the coefficients.
+    fn first(&self, ansatz: &[(usize, Vec<Expr>)]) -> Option<Expr> {
+        let space = &*self.functional.space;
+        let inside = self.change(self.functional.density, ansatz);
+        let mut terms = vec![over_box(space, inside, &self.solution.intervals)?];
+        for piece in &self.functional.pieces {
+            terms.push(self.change_on(&piece.name, piece.density, ansatz)?);
+        }
+        Some(space.graph.add(&terms))
+    }
+
+    fn change_on(&self, piece: &str, e: Expr, ansatz: &[(usize, Vec<Expr>)]) -> Option<Expr> {
+        let side = self.side(piece)?;
+        let own = self.change(on_side(&self.functional.scope, side, e), ansatz);
+        over_face(&self.functional.space, own, side, &self.solution.intervals)
+    }
+
+    /// What keeps the imposed equations to the first order, and what is given on a piece.
+    fn kept(&self, ansatz: &[(usize, Vec<Expr>)]) -> Option<Vec<Expr>> {
+        let space = &*self.functional.space;
+        let mut found = Vec::new();
+        for equation in self.functional.with_role(Role::Imposed) {
+            for &e in &equation.residuals {
+                match &equation.on {
+                    None => found.extend(coefficients(space, self.change(e, ansatz), 0)?),
+                    Some(piece) => found.push(self.change_on(piece, e, ansatz)?),
+                }
+            }
+        }
+        for piece in &self.functional.pieces {
+            for &(component, is_normal) in &piece.fixed {
+                let by: &[usize] = if is_normal { &[0] } else { &[] };
+                found.push(self.change_on(&piece.name, space.jet(component, by), ansatz)?);
+            }
+        }
+        Some(found)
+    }
+}
+
+/// A basis of the solutions of linear homogeneous equations with constant coefficients.
+fn kernel(functional: &Functional, rows: &[Vec<Expr>], columns: usize) -> Option<Vec<Vec<Expr>>> {
+    let space = &*functional.space;
+    let g = &space.graph;
+    let is_zero = |e: Expr| g.is_zero(e) || space.vanish(&[e]);
+    let mut rows: Vec<Vec<Expr>> = rows.to_vec();
+    let mut pivots: Vec<(usize, usize)> = Vec::new();
+    let mut next = 0;
+    for column in 0..columns {
+        let found = (next..rows.len()).find(|&r| rows[r].get(column).is_some_and(|&e| !is_zero(e)));
+        let Some(found) = found else { continue };
+        rows.swap(next, found);
+        let pivot = *rows.get(next)?.get(column)?;
+        let own: Vec<Expr> = rows[next].iter().map(|&e| g.div(e, pivot)).collect();
+        for (r, row) in rows.iter_mut().enumerate() {
+            let factor = *row.get(column)?;
+            if r == next || g.is_zero(factor) {
+                continue;
+            }
+            for (e, &o) in row.iter_mut().zip(&own) {
+                let new = g.sub(*e, g.mul(&[factor, o]));
+                *e = if is_zero(new) { g.zero() } else { new };
+            }
+        }
+        rows[next] = own;
+        pivots.push((next, column));
+        next += 1;
+    }
+    let free = (0..columns).filter(|c| pivots.iter().all(|(_, own)| own != c));
+    let basis = free.map(|column| {
+        let mut vector = vec![g.zero(); columns];
+        vector[column] = g.number(rational::integer(1));
+        for &(row, own) in &pivots {
+            vector[own] = g.neg(rows[row][column]);
+        }
+        vector
+    });
+    Some(basis.collect())
+}

@@ -1,0 +1,70 @@
+//! Exact integrals of polynomials over a box and its faces.
+
+use crate::functional::{Interval, Side};
+use crate::space::Space;
+use chetaev_symbolic::{rational, Expr};
+
+/// Highest degree by one variable.
+const HIGHEST_DEGREE: usize = 40;
+
+/// The coefficients of the powers of an independent variable; `None` where the expression is no polynomial in it.
+pub fn coefficients(space: &Space, e: Expr, axis: usize) -> Option<Vec<Expr>> {
+    let g = &space.graph;
+    let variable = space.coordinates.get(axis)?.expr;
+    let symbol = g.as_symbol(variable)?;
+    let one = g.one();
+    let mut found = Vec::new();
+    let mut slope = e;
+    let mut factorial = rational::integer(1);
+    for k in 0..=HIGHEST_DEGREE {
+        if g.is_zero(slope) || (k > 2 && space.vanish(&[slope])) {
+            return Some(found);
+        }
+        if k > 0 {
+            factorial = rational::product(&factorial, &rational::integer(k as i64));
+        }
+        let at_zero = g.substitute(slope, &[(variable, g.zero())]);
+        found.push(g.div(at_zero, g.number(factorial.clone())));
+        slope = g
+            .derive(&[slope], &|own| (own == symbol).then_some(one))
+            .swap_remove(0);
+    }
+    None
+}
+
+/// The integral by one variable.
+pub fn along(space: &Space, e: Expr, interval: &Interval) -> Option<Expr> {
+    let g = &space.graph;
+    let own = coefficients(space, e, interval.axis)?;
+    let terms: Vec<Expr> = own
+        .into_iter()
+        .enumerate()
+        .map(|(k, c)| {
+            let n = k as i64 + 1;
+            let difference = g.sub(g.powi(interval.upper, n), g.powi(interval.lower, n));
+            g.div(g.mul(&[c, difference]), g.integer(n))
+        })
+        .collect();
+    Some(g.add(&terms))
+}
+
+/// The integral over the box.
+pub fn over_box(space: &Space, e: Expr, intervals: &[Interval]) -> Option<Expr> {
+    intervals
+        .iter()
+        .try_fold(e, |e, interval| along(space, e, interval))
+}
+
+/// The integral over a face of the box.
+pub fn over_face(space: &Space, e: Expr, side: &Side, intervals: &[Interval]) -> Option<Expr> {
+    let Side::Flat { axis, at, .. } = side else {
+        return None;
+    };
+    let on = space
+        .graph
+        .substitute(e, &[(space.coordinates.get(*axis)?.expr, *at)]);
+    let others = intervals.iter().filter(|own| own.axis != *axis);
+    others
+        .cloned()
+        .try_fold(on, |e, interval| along(space, e, &interval))
+}

@@ -1,0 +1,627 @@
+//! Euler equations and natural conditions in index notation.
+//!
+//! They are derived from the densities as they are written, by the rules of index notation alone, and shown only where their components are
+//! proved to be those of the first variation. A definition on the boundary that contains the normal, such as the traction, is varied as
+//! a whole: the conditions then are the coefficients of δP_k and δu_k (T4 §4).
+
+use super::canonical::{collected, sum_of};
+use super::terms::{renamed, times, Calculus, Linear, Term};
+use super::{Atom, Index, Kind, Node};
+use crate::functional::{Field, Functional, Piece, Role};
+use crate::read::on_side;
+use crate::space::Jet;
+use crate::tensors::{Scope, Shape, Tensor};
+use crate::variation::{piece_form, Variation};
+use chetaev_symbolic::syntax::Span;
+use chetaev_symbolic::{rational, Expr};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A coefficient in index notation; it vanishes.
+#[derive(Clone, Debug)]
+pub struct Indexed {
+    /// What it is the coefficient of: `u_k`.
+    pub of: String,
+    /// The coefficient.
+    pub value: Node,
+}
+
+/// The Euler equations of all fields, `None` in the place of one that index notation has no short form for.
+pub fn euler(functional: &Functional, variation: &Variation) -> Vec<Option<Indexed>> {
+    let fields = functional.interior();
+    fields
+        .map(|field| equation(functional, variation, field))
+        .collect()
+}
+
+fn equation(functional: &Functional, variation: &Variation, field: &Field) -> Option<Indexed> {
+    if has_multipliers(functional) {
+        return None;
+    }
+    let scope = &functional.scope;
+    let none = BTreeSet::new();
+    let calculus = Calculus::new(scope, &none);
+    let terms = calculus.terms(&functional.tree)?;
+    let linear = calculus.linear(&terms, &field.name)?;
+    let free = free_of(field.shape, scope)?;
+    let value = moved(&calculus, linear, &free, scope)?;
+    let value = symmetrized(value, field.shape, &free, scope)?;
+    let own = components(scope, &value, field.shape, &free);
+    let all = field.components.iter().zip(own).all(|(component, value)| {
+        let known = variation.euler.iter().find(|(c, _)| c == component);
+        known.is_some_and(|(_, known)| agree(functional, value, *known))
+    });
+    all.then(|| Indexed {
+        of: name_of(&field.name, &free),
+        value,
+    })
+}
+
+fn has_multipliers(functional: &Functional) -> bool {
+    let mut imposed = functional.with_role(Role::Imposed);
+    imposed.any(|equation| equation.multiplier.is_some())
+}
+
+fn agree(functional: &Functional, a: Expr, b: Expr) -> bool {
+    let space = &*functional.space;
+    let difference = space.graph.sub(a, b);
+    space.graph.is_zero(difference) || space.vanish(&[difference])
+}
+
+/// Letters for the free indices of a field.
+fn free_of(shape: Shape, scope: &Scope) -> Option<Vec<char>> {
+    let is_coordinate = |letter: &char| {
+        scope
+            .space
+            .coordinates
+            .iter()
+            .any(|c| c.name == letter.to_string())
+    };
+    let wanted = match shape.rank() {
+        0 => "",
+        1 => "klmpqrs",
+        2 => "ijlmpqrs",
+        _ => return None,
+    };
+    let usable: Vec<char> = wanted.chars().filter(|l| !is_coordinate(l)).collect();
+    usable.get(..shape.rank()).map(<[char]>::to_vec)
+}
+
+fn name_of(name: &str, free: &[char]) -> String {
+    match free {
+        [] => name.to_owned(),
+        _ => format!("{name}_{}", free.iter().collect::<String>()),
+    }
+}
+
+/// `Σ (−1)^m (coefficient),α`: derivatives are moved off the variation.
+fn moved(calculus: &Calculus<'_>, linear: Linear, free: &[char], scope: &Scope) -> Option<Node> {
+    let mut groups: BTreeMap<Vec<Index>, Vec<Term>> = BTreeMap::new();
+    let canonical: Vec<char> = (0..2).map(|_| calculus.fresh()).collect();
+    for (term, occurrence) in linear {
+        let mut pairs: Vec<(char, char)> = Vec::new();
+        let mut term = term;
+        bind(&mut term, &occurrence.indices, free, &mut pairs)?;
+        let mut key = Vec::new();
+        for (at, index) in occurrence.derivatives.iter().enumerate() {
+            key.push(match index {
+                Index::Letter(letter) => match pairs.iter().find(|(own, _)| own == letter) {
+                    Some((_, new)) => Index::Letter(*new),
+                    None => {
+                        let new = *canonical.get(at)?;
+                        pairs.push((*letter, new));
+                        Index::Letter(new)
+                    }
+                },
+                place => *place,
+            });
+        }
+        let factors = term
+            .factors
+            .iter()
+            .map(|own| renamed(own, &pairs))
+            .collect();
+        let odd = key.len() % 2 == 1;
+        let number = if odd {
+            -term.number.clone()
+        } else {
+            term.number.clone()
+        };
+        key.sort_unstable();
+        groups
+            .entry(key)
+            .or_default()
+            .push(Term { number, factors });
+    }
+    let mut parts: Vec<(bool, Node)> = Vec::new();
+    for (key, terms) in groups {
+        parts.extend(group(&key, terms, free, scope)?);
+    }
+    let span = Span::new(0, 0);
+    match <[(bool, Node); 1]>::try_from(parts) {
+        Ok([(false, only)]) => Some(only),
+        Ok([only]) => Some(Node {
+            kind: Kind::Sum(vec![only]),
+            span,
+        }),
+        Err(parts) if parts.is_empty() => Some(Node::number(0, span)),
+        Err(parts) => Some(Node {
+            kind: Kind::Sum(parts),
+            span,
+        }),
+    }
+}
+
+/// What is differentiated by the same indices.
+fn group(
+    key: &[Index],
+    terms: Vec<Term>,
+    free: &[char],
+    scope: &Scope,
+) -> Option<Vec<(bool, Node)>> {
+    let mut held: Vec<char> = free.to_vec();
+    // The letters of the derivatives get names that can be read.
+    let mut names = "ijlmpqrs".chars().filter(|letter| {
+        !free.contains(letter)
+            && scope
+                .space
+                .coordinates
+                .iter()
+                .all(|c| c.name != letter.to_string())
+    });
+    let mut pairs = Vec::new();
+    for index in key {
+        if let Index::Letter(letter) = index {
+            if !free.contains(letter) && pairs.iter().all(|(own, _)| own != letter) {
+                let new = names.next()?;
+                pairs.push((*letter, new));
+                held.push(new);
+            }
+        }
+    }
+    let named: Vec<Index> = key
+        .iter()
+        .map(|index| match index {
+            Index::Letter(letter) => {
+                let known = pairs.iter().find(|(own, _)| own == letter);
+                Index::Letter(known.map_or(*letter, |(_, new)| *new))
+            }
+            place => *place,
+        })
+        .collect();
+    let terms: Vec<Term> = terms
+        .into_iter()
+        .map(|term| Term {
+            factors: term
+                .factors
+                .iter()
+                .map(|own| renamed(own, &pairs))
+                .collect(),
+            number: term.number,
+        })
+        .collect();
+    let terms = collected(terms, &held, scope)?;
+    if key.is_empty() {
+        let parts = sum_of(terms).map(|node| match node.kind {
+            Kind::Sum(parts) => parts,
+            _ => vec![(false, node)],
+        });
+        return Some(parts.unwrap_or_default());
+    }
+    // One sign for all, so that it stands before the parentheses.
+    let is_minus = terms
+        .first()
+        .is_some_and(|t| rational::is_negative(&t.number));
+    let terms = terms.into_iter().map(|term| Term {
+        number: if is_minus {
+            -term.number.clone()
+        } else {
+            term.number.clone()
+        },
+        factors: term.factors,
+    });
+    let Some(inner) = sum_of(terms.collect()) else {
+        return Some(Vec::new());
+    };
+    Some(vec![(is_minus, differentiated(inner, named))])
+}
+
+fn differentiated(inner: Node, by: Vec<Index>) -> Node {
+    let span = inner.span;
+    match inner.kind {
+        Kind::Atom(atom) => {
+            let mut derivatives = atom.derivatives.clone();
+            derivatives.extend(by);
+            let kind = Kind::Atom(Atom {
+                derivatives,
+                ..atom
+            });
+            Node { kind, span }
+        }
+        kind => {
+            let inner = Node { kind, span };
+            Node {
+                kind: Kind::Derivative(Box::new(inner), by),
+                span,
+            }
+        }
+    }
+}
+
+/// The indices of the variation become the free letters.
+fn bind(
+    term: &mut Term,
+    indices: &[Index],
+    free: &[char],
+    pairs: &mut Vec<(char, char)>,
+) -> Option<()> {
+    for (index, &wanted) in indices.iter().zip(free) {
+        let Index::Letter(letter) = index else {
+            return None;
+        };
+        match pairs.iter().find(|(own, _)| own == letter) {
+            Some(&(_, first)) => term.factors.push(unit(first, wanted)),
+            None => pairs.push((*letter, wanted)),
+        }
+    }
+    Some(())
+}
+
+fn unit(a: char, b: char) -> Node {
+    let kind = Kind::Atom(Atom {
+        name: "delta".into(),
+        primes: 0,
+        indices: vec![Index::Letter(a), Index::Letter(b)],
+        derivatives: Vec::new(),
+        argument: None,
+    });
+    Node {
+        kind,
+        span: Span::new(0, 0),
+    }
+}
+
+/// The symmetric part, where the coefficient is not symmetric itself.
+fn symmetrized(value: Node, shape: Shape, free: &[char], scope: &Scope) -> Option<Node> {
+    let (Shape::Symmetric, [i, j]) = (shape, free) else {
+        return Some(value);
+    };
+    let d = scope.space.dimensions();
+    let all = Tensor {
+        rank: 2,
+        components: scope.components(&value, free),
+    };
+    let g = &scope.space.graph;
+    let mut differences = Vec::new();
+    for a in 0..d {
+        for b in a + 1..d {
+            differences.push(g.sub(all.at(&[a, b], d)?, all.at(&[b, a], d)?));
+        }
+    }
+    if differences.iter().all(|&e| g.is_zero(e)) || scope.space.vanish(&differences) {
+        return Some(value);
+    }
+    let turned = renamed(&value, &[(*i, *j), (*j, *i)]);
+    let span = value.span;
+    let sum = Node {
+        kind: Kind::Sum(vec![(false, value), (false, turned)]),
+        span,
+    };
+    let half = Node {
+        kind: Kind::Number(rational::ratio(1, 2)?),
+        span,
+    };
+    Some(Node {
+        kind: Kind::Product(vec![(false, half), (false, sum)]),
+        span,
+    })
+}
+
+/// The components of a coefficient in the order of those of the field.
+fn components(scope: &Scope, value: &Node, shape: Shape, free: &[char]) -> Vec<Expr> {
+    let d = scope.space.dimensions();
+    let all = Tensor {
+        rank: free.len(),
+        components: scope.components(value, free),
+    };
+    let own = shape.components(d).into_iter();
+    own.filter_map(|(indices, _)| all.at(&indices, d)).collect()
+}
+
+/// The natural conditions on a piece; `None` where the densities have no short form there.
+pub fn natural(functional: &Functional, piece: &Piece) -> Option<Vec<Indexed>> {
+    if has_multipliers(functional) {
+        return None;
+    }
+    let scope = &functional.scope;
+    let mut kept = varied_as_a_whole(functional, piece);
+    let through: Vec<Through> = kept
+        .iter()
+        .filter_map(|name| through(scope, name))
+        .collect();
+    let tractions = kept.clone();
+    kept.extend(through.iter().map(|own| own.stress.clone()));
+    let calculus = Calculus::new(scope, &kept);
+    let inside = calculus.terms(&functional.tree)?;
+    let outside = match &piece.tree {
+        Some(tree) => calculus.terms(tree)?,
+        None => Vec::new(),
+    };
+    let mut found = Vec::new();
+    let mut coefficients: Vec<(String, Shape, Vec<Expr>)> = Vec::new();
+    for name in &tractions {
+        let (letters, _) = scope.definitions.get(name)?;
+        let shape = match letters.len() {
+            0 => Shape::Scalar,
+            1 => Shape::Vector,
+            _ => Shape::Matrix,
+        };
+        let mut linear = calculus.linear(&outside, name)?;
+        for own in through.iter().filter(|own| own.traction == *name) {
+            linear.extend(own.flux(&calculus, &inside)?);
+        }
+        let (indexed, own) = condition(&calculus, linear, name, shape, scope)?;
+        let vanishes = own.iter().all(|&e| {
+            let e = on_side(scope, &piece.side, e);
+            scope.space.graph.is_zero(e) || scope.space.vanish(&[e])
+        });
+        if !vanishes {
+            found.extend(indexed);
+        }
+        coefficients.push((name.clone(), shape, own));
+    }
+    let here = functional
+        .fields
+        .iter()
+        .filter(|f| f.on.as_ref().is_none_or(|on| *on == piece.name));
+    for field in here {
+        let mut linear = Linear::new();
+        if field.on.is_none() {
+            let mut all = calculus.linear(&inside, &field.name)?;
+            for own in &through {
+                all.extend(own.rest(&calculus, &inside, scope, &field.name)?);
+            }
+            for (term, mut occurrence) in all {
+                match occurrence.derivatives[..] {
+                    [] => continue,
+                    [Index::Place(at)] if at >= scope.space.dimensions() => continue,
+                    [by] => {
+                        occurrence.derivatives.clear();
+                        linear.push((times(&normal(by), &term), occurrence));
+                    }
+                    _ => return None,
+                }
+            }
+        }
+        linear.extend(calculus.linear(&outside, &field.name)?);
+        let (indexed, own) = condition(&calculus, linear, &field.name, field.shape, scope)?;
+        let is_fixed = field
+            .components
+            .iter()
+            .any(|&c| piece.fixed.contains(&(c, false)));
+        let vanishes = own.iter().all(|&e| {
+            let e = on_side(scope, &piece.side, e);
+            scope.space.graph.is_zero(e) || scope.space.vanish(&[e])
+        });
+        if !is_fixed && !vanishes {
+            found.extend(indexed);
+        }
+        coefficients.push((field.name.clone(), field.shape, own));
+    }
+    is_first_variation(functional, piece, &coefficients).then_some(found)
+}
+
+/// A traction that is the normal times a stress, which may stand in the density with a derivative.
+struct Through {
+    traction: String,
+    stress: String,
+    /// Which index of the stress belongs to the normal.
+    at: usize,
+}
+
+fn through(scope: &Scope, traction: &str) -> Option<Through> {
+    let (letters, body) = scope.definitions.get(traction)?;
+    let Kind::Product(factors) = &body.kind else {
+        return None;
+    };
+    let [(false, one), (false, other)] = &factors[..] else {
+        return None;
+    };
+    let (Kind::Atom(normal), Kind::Atom(stress)) = (&one.kind, &other.kind) else {
+        return None;
+    };
+    let is_normal = normal.name == "n" && scope.definitions.contains_key(&stress.name);
+    let at = stress
+        .indices
+        .iter()
+        .position(|index| normal.indices.contains(index))?;
+    let mut rest = stress.indices.clone();
+    rest.remove(at);
+    let wanted: Vec<Index> = letters.iter().map(|&l| Index::Letter(l)).collect();
+    let is_plain = is_normal && stress.derivatives.is_empty() && rest == wanted;
+    is_plain.then(|| Through {
+        traction: traction.to_owned(),
+        stress: stress.name.clone(),
+        at,
+    })
+}
+
+impl Through {
+    /// What the derivative of the stress in the density leaves on the boundary.
+    fn flux(&self, calculus: &Calculus<'_>, inside: &[Term]) -> Option<Linear> {
+        let mut found = Linear::new();
+        for (term, mut occurrence) in calculus.linear(inside, &self.stress)? {
+            match occurrence.derivatives[..] {
+                [] => continue,
+                [by] if occurrence.indices.get(self.at) == Some(&by) => {
+                    occurrence.indices.remove(self.at);
+                    occurrence.derivatives.clear();
+                    found.push((term, occurrence));
+                }
+                _ => return None,
+            }
+        }
+        Some(found)
+    }
+
+    /// The linear part in a field that is in the stress, after the derivative was moved off the stress.
+    fn rest(
+        &self,
+        calculus: &Calculus<'_>,
+        inside: &[Term],
+        scope: &Scope,
+        field: &str,
+    ) -> Option<Linear> {
+        let none = BTreeSet::new();
+        let open = Calculus::following(scope, &none, calculus);
+        let mut found = Linear::new();
+        for (term, occurrence) in calculus.linear(inside, &self.stress)? {
+            let coefficients = match occurrence.derivatives[..] {
+                [] => vec![term],
+                [by] => {
+                    let mut all = calculus.derived(&term, by)?;
+                    for own in &mut all {
+                        own.number = -own.number.clone();
+                    }
+                    all
+                }
+                _ => return None,
+            };
+            let stress = Term {
+                number: rational::integer(1),
+                factors: vec![Node {
+                    kind: Kind::Atom(Atom {
+                        name: self.stress.clone(),
+                        primes: 0,
+                        indices: occurrence.indices,
+                        derivatives: Vec::new(),
+                        argument: None,
+                    }),
+                    span: Span::new(0, 0),
+                }],
+            };
+            let linear = open.linear(&[stress], field)?;
+            calculus.follow(&open);
+            for coefficient in &coefficients {
+                let own = linear
+                    .iter()
+                    .map(|(term, o)| (times(coefficient, term), o.clone()));
+                found.extend(own);
+            }
+        }
+        Some(found)
+    }
+}
+
+fn normal(by: Index) -> Term {
+    let kind = Kind::Atom(Atom {
+        name: "n".into(),
+        primes: 0,
+        indices: vec![by],
+        derivatives: Vec::new(),
+        argument: None,
+    });
+    Term {
+        number: rational::integer(1),
+        factors: vec![Node {
+            kind,
+            span: Span::new(0, 0),
+        }],
+    }
+}
+
+/// The coefficient with its components; derivatives of the variation have no place here.
+fn condition(
+    calculus: &Calculus<'_>,
+    linear: Linear,
+    name: &str,
+    shape: Shape,
+    scope: &Scope,
+) -> Option<(Option<Indexed>, Vec<Expr>)> {
+    if linear
+        .iter()
+        .any(|(_, occurrence)| !occurrence.derivatives.is_empty())
+    {
+        return None;
+    }
+    let free = free_of(shape, scope)?;
+    let is_empty = linear.is_empty();
+    let value = symmetrized(moved(calculus, linear, &free, scope)?, shape, &free, scope)?;
+    let own = components(scope, &value, shape, &free);
+    let of = name_of(name, &free);
+    Some(((!is_empty).then_some(Indexed { of, value }), own))
+}
+
+/// Definitions in the density of a piece that contain the normal and a field that is varied.
+fn varied_as_a_whole(functional: &Functional, piece: &Piece) -> BTreeSet<String> {
+    let scope = &functional.scope;
+    let mut named = Vec::new();
+    if let Some(tree) = &piece.tree {
+        super::terms::names(tree, &mut named);
+    }
+    let varied: BTreeSet<usize> = functional
+        .interior()
+        .flat_map(|f| f.components.clone())
+        .collect();
+    let normal = scope.space.normals();
+    let own = named.into_iter().filter(|name| {
+        let Some(tensor) = scope
+            .tensors
+            .get(name)
+            .filter(|_| scope.definitions.contains_key(name))
+        else {
+            return false;
+        };
+        let symbols = scope.space.symbols_in(&tensor.components);
+        let jets = scope.space.jets_in(&tensor.components);
+        symbols.iter().any(|s| normal.contains(s))
+            && jets.iter().any(|j| varied.contains(&j.component))
+    });
+    own.collect()
+}
+
+/// Whether `Σ c δ(…)` has the coefficients of the first variation on the piece.
+fn is_first_variation(
+    functional: &Functional,
+    piece: &Piece,
+    coefficients: &[(String, Shape, Vec<Expr>)],
+) -> bool {
+    let scope = &functional.scope;
+    let space = &*functional.space;
+    let g = &space.graph;
+    let Some(form) = piece_form(functional, &piece.name) else {
+        return false;
+    };
+    let d = space.dimensions();
+    let mut wanted: BTreeMap<Jet, Vec<Expr>> = form
+        .into_iter()
+        .map(|(jet, value)| (jet, vec![g.neg(value)]))
+        .collect();
+    for (name, shape, values) in coefficients {
+        let Some(tensor) = scope.tensors.get(name) else {
+            return false;
+        };
+        for ((indices, multiplicity), &value) in shape.components(d).iter().zip(values) {
+            let Some(own) = tensor.at(indices, d) else {
+                return false;
+            };
+            let own = on_side(scope, &piece.side, own);
+            for jet in space.jets_in(&[own]) {
+                let slope = space.partial(own, &jet);
+                let term = g.mul(&[
+                    g.integer(*multiplicity),
+                    on_side(scope, &piece.side, value),
+                    slope,
+                ]);
+                let is_varied = functional
+                    .fields
+                    .iter()
+                    .any(|f| f.components.contains(&jet.component));
+                if is_varied {
+                    wanted.entry(jet).or_default().push(term);
+                }
+            }
+        }
+    }
+    let sums: Vec<Expr> = wanted.values().map(|terms| g.add(terms)).collect();
+    sums.iter().all(|&e| g.is_zero(e) || space.vanish(&[e]))
+}

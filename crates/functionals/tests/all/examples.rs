@@ -1,0 +1,132 @@
+//! The acceptance examples of T4 §5.
+
+use crate::table::{loaded_text, read_text, row_text, studied_text, ROWS};
+use chetaev_functionals::notation::parse;
+use chetaev_functionals::variation::variation;
+use chetaev_functionals::Problem;
+use std::collections::BTreeMap;
+
+/// Whether the Euler expression of a component is the given one.
+fn is_euler(problem: &Problem, component: &str, wanted: &str) -> bool {
+    let f = &problem.functional;
+    let found = variation(f).unwrap();
+    let at = f.space.component_named(component).unwrap();
+    let (_, own) = found.euler.iter().find(|(c, _)| *c == at).unwrap();
+    let node = parse(wanted, &f.scope, &mut Vec::new()).unwrap();
+    let wanted = f.scope.value(&node, &BTreeMap::new());
+    let own = f.space.explicit(*own);
+    f.space
+        .vanish(&[f.space.graph.sub(own, f.space.explicit(wanted))])
+}
+
+/// A row with a density of its own.
+fn bar(row: &str, energy: &str) -> Problem {
+    let text = row_text(row).replace("energy-abstract", energy);
+    loaded_text(row, &text, &[("d", "1")])
+}
+
+#[test]
+fn e1_the_equations_of_the_bar() {
+    let own = bar("p3pb", "energy-abstract");
+    assert!(is_euler(&own, "e_11", "beta (A'_11(e) - s_11)"));
+    assert!(is_euler(
+        &own,
+        "s_11",
+        "-beta e_11 - (1 - beta) B'_11(s) + u_1,1 + u_1,1^2/2"
+    ));
+    assert!(is_euler(&own, "u_1", "-(s_11 (1 + u_1,1)),1 - F_1"));
+    assert!(!is_euler(&own, "u_1", "-(s_11 (1 - u_1,1)),1 - F_1"));
+    let own = bar("p4pb", "energy-abstract");
+    assert!(is_euler(&own, "e_11", "beta A'_11(e) + sstar_11 - s_11"));
+    assert!(is_euler(
+        &own,
+        "sstar_11",
+        "e_11 - B'_11(X)"
+            .replace("(X)", "(sstar_ij/(1 - beta))")
+            .as_str()
+    ));
+}
+
+#[test]
+fn e2_a_splitting_tensor_that_is_a_projector_leaves_components_undetermined() {
+    // S-F18: density K2 (tr e)²/2 − (tr e)(tr s)/2 − dev s:dev s/(4 G) + D:s.
+    let text = |yields: &str| {
+        format!(
+            r#"
+kind = "functional"
+name = "projector"
+density = "K2/2 e_ii e_jj - 1/2 e_ii s_jj - (s_ij s_ij - 1/2 s_ii s_jj)/(4 G) + D_ij s_ij - F_k u_k"
+yields = [{yields}]
+[sizes]
+d = 2
+[domain]
+coordinates = "x_i"
+boundary = ["S"]
+[parameters]
+K2 = {{}}
+G = {{}}
+[data]
+F = "vector"
+[fields]
+e = "symmetric"
+s = "symmetric"
+u = "vector"
+[define]
+D_ij = "1/2 (u_i,j + u_j,i)"
+[boundary]
+S = {{ fixed = ["u"] }}
+[equations]
+pressure = "s_ii = 2 K2 e_ii"
+volume = "e_ii = D_ii"
+shear = "s_ij - 1/2 s_kk delta_ij = 2 G (D_ij - 1/2 D_kk delta_ij)"
+equilibrium = "s_ij,i + F_j = 0"
+strain = "e_ij = D_ij"
+"#
+        )
+    };
+    let verdict = |yields: &str| {
+        let study = studied_text("p4p", &text(yields), &[]);
+        let own = study
+            .verdicts
+            .iter()
+            .find(|d| d.claim == "functional.euler")
+            .unwrap();
+        let verdict = &own.finding.verdict;
+        (verdict.word().to_owned(), verdict.detail().to_owned())
+    };
+    let all = "\"pressure\", \"volume\", \"shear\", \"equilibrium\"";
+    let (word, detail) = verdict(all);
+    assert_eq!(word, "proved", "{detail}");
+    assert!(
+        detail.contains("e is not determined: 2 of its 3 components are left free"),
+        "{detail}"
+    );
+    // The strains are not all determined.
+    let (word, detail) = verdict("\"pressure\", \"strain\", \"shear\", \"equilibrium\"");
+    assert_eq!(word, "refuted", "{detail}");
+}
+
+#[test]
+fn e3_an_energy_that_is_not_quadratic() {
+    for row in ROWS
+        .iter()
+        .filter(|row| row_text(row).contains("energy-abstract"))
+    {
+        let text = row_text(row).replace("energy-abstract", "energy-cosh");
+        let problem = read_text(row, &text, &[("d", "1")]).problem;
+        assert!(problem.is_some(), "{row}");
+    }
+    let own = bar("p3p1", "energy-cosh");
+    assert!(is_euler(&own, "e_11", "sinh(e_11) - s_11"));
+    let own = bar("p3p0", "energy-cosh");
+    assert!(is_euler(&own, "s_11", "u_1,1 + u_1,1^2/2 - asinh(s_11)"));
+}
+
+#[test]
+fn e4_equilibrium_in_the_plane_with_large_displacements() {
+    let own = loaded_text("p3p1", &row_text("p3p1"), &[("d", "2")]);
+    for k in [1, 2] {
+        let wanted = format!("-(s_ij (delta_{k}j + u_{k},j)),i - F_{k}");
+        assert!(is_euler(&own, &format!("u_{k}"), &wanted), "{wanted}");
+    }
+}

@@ -1,0 +1,77 @@
+//! Euler equations and natural conditions in index notation: what T4 §4 and §5 state, and agreement with the components.
+
+use crate::table::{loaded_text, row_text, ROWS};
+use chetaev_functionals::notation::indexed::{euler, natural};
+use chetaev_functionals::notation::written;
+use chetaev_functionals::variation::variation;
+use chetaev_symbolic::print::Format;
+
+fn equations(row: &str, set: &[(&str, &str)]) -> Vec<String> {
+    let functional = loaded_text(row, &row_text(row), set).functional;
+    let variation = variation(&functional).unwrap();
+    let inside = euler(&functional, &variation).into_iter().flatten();
+    let on = functional.pieces.iter().flat_map(|piece| {
+        let own = natural(&functional, piece).unwrap_or_default().into_iter();
+        own.map(|one| (piece.name.clone(), one))
+    });
+    let text =
+        |node: &chetaev_functionals::notation::Node| written(node, &functional.scope, Format::Text);
+    inside
+        .map(|own| format!("{}: {}", own.of, text(&own.value)))
+        .chain(on.map(|(piece, own)| format!("{piece} {}: {}", own.of, text(&own.value))))
+        .collect()
+}
+
+#[test]
+fn the_equations_of_hu_and_washizu_read_as_in_the_literature() {
+    let own = equations("p3p1", &[("d", "3"), ("nonlinear", "0")]);
+    let wanted = [
+        "s_ij: D_ij - e_ij",
+        "e_ij: A'_ij(e) - s_ij",
+        "u_k: -F_k - s_ik,i",
+        "S_u P_k: ubar_k - u_k",
+        "S_s u_k: n_i s_ik - Pbar_k",
+    ];
+    for line in wanted {
+        assert!(
+            own.iter().any(|o| same(o, line)),
+            "{line} is not among {own:#?}"
+        );
+    }
+}
+
+#[test]
+fn geometry_enters_equilibrium_and_traction() {
+    // E4 of the theory.
+    let own = equations("p3p1", &[("d", "2")]);
+    let line = "u_k: -F_k - (s_ik + s_ij u_k,j),i";
+    assert!(own.iter().any(|o| same(o, line)), "{own:#?}");
+    let line = "S_s u_k: n_i s_ik + n_i s_ij u_k,j - Pbar_k";
+    assert!(own.iter().any(|o| same(o, line)), "{own:#?}");
+}
+
+/// The same up to the order of terms and the name of summed letters.
+fn same(a: &str, b: &str) -> bool {
+    let key = |text: &str| {
+        let mut own: Vec<char> = text.chars().filter(|c| !c.is_whitespace()).collect();
+        own.sort_unstable();
+        own
+    };
+    a.split(':').next() == b.split(':').next() && key(a) == key(b)
+}
+
+// P0c has second derivatives inside a gradient; it is shown in components.
+#[test]
+fn every_row_without_multipliers_has_its_equations_in_index_notation() {
+    for row in ROWS.iter().filter(|row| !matches!(**row, "pc" | "p0c")) {
+        let functional = loaded_text(row, &row_text(row), &[("d", "2")]).functional;
+        let variation = variation(&functional).unwrap();
+        let all = euler(&functional, &variation);
+        assert!(all.iter().all(Option::is_some), "{row}: {all:?}");
+        for piece in &functional.pieces {
+            // The stress of P1c is itself a gradient: its conditions are shown in components.
+            let is_short = natural(&functional, piece).is_some();
+            assert!(is_short || *row == "p1c", "{row} on {}", piece.name);
+        }
+    }
+}

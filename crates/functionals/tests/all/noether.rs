@@ -1,0 +1,222 @@
+//! Noether's theorem for fields: the integrals J, L and M, against references computed by others (S-F14, S-F15), and refutations with the
+//! defect where a hypothesis fails.
+
+use crate::table::loaded_text;
+use chetaev_functionals::claims::noether::current;
+use chetaev_functionals::functional::{Functional, Interval, Side};
+use chetaev_functionals::integral::over_face;
+use chetaev_functionals::notation::parse;
+use chetaev_functionals::study;
+use chetaev_symbolic::Expr;
+use std::collections::BTreeMap;
+
+fn text(name: &str) -> String {
+    let path = format!(
+        "{}/../../gallery/fields/{name}/model.toml",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    std::fs::read_to_string(path).unwrap()
+}
+
+fn expression(f: &Functional, written: &str) -> Expr {
+    let node = parse(written, &f.scope, &mut Vec::new()).unwrap();
+    f.scope.value(&node, &BTreeMap::new())
+}
+
+/// The integral of a current over the edge of the rectangle 0 < x_1 < 1, 0 < x_2 < 2, outwards, for a given field.
+fn around(f: &Functional, symmetry: &str, field: [&str; 2]) -> String {
+    let space = &*f.space;
+    let g = &space.graph;
+    let values = field.map(|own| expression(f, own));
+    let flux = current(f, symmetry).unwrap().flux;
+    let put = |e: Expr| {
+        space.replace(e, &|symbol| match space.as_jet(symbol) {
+            Some(jet) => {
+                let name = space.component_at(jet.component).name;
+                let value = values[if name == "u_1" { 0 } else { 1 }];
+                Some(space.totals(value, &jet.by))
+            }
+            None => match g.symbol_name(symbol) {
+                "lambda" => Some(g.integer(2)),
+                "mu" => Some(g.integer(1)),
+                _ => None,
+            },
+        })
+    };
+    let intervals = [(0, 1), (1, 2)].map(|(axis, upper)| Interval {
+        axis,
+        lower: g.zero(),
+        upper: g.integer(upper),
+    });
+    let mut terms = Vec::new();
+    for (axis, own) in flux.iter().enumerate() {
+        for is_upper in [false, true] {
+            let at = if is_upper {
+                intervals[axis].upper
+            } else {
+                intervals[axis].lower
+            };
+            let side = Side::Flat { axis, is_upper, at };
+            let value = over_face(space, put(*own), &side, &intervals).unwrap();
+            terms.push(if is_upper { value } else { g.neg(value) });
+        }
+    }
+    g.text(g.add(&terms))
+}
+
+#[test]
+fn the_integrals_j_l_and_m_of_a_plane_field_are_those_of_the_reference() {
+    // S-F14: Eshelby 1951, Rice 1968, Knowles and Sternberg 1972.
+    let f = loaded_text("p4p", &text("elastic-plane"), &[]).functional;
+    let field = ["x_1^2 x_2 - x_2", "x_1^2/2 + x_1 x_2^2"];
+    let wanted = [
+        ("translation-x_1", "-69"),
+        ("translation-x_2", "-2"),
+        ("scaling", "-49"),
+        ("rotation-x_1-x_2", "49"),
+    ];
+    for (symmetry, value) in wanted {
+        assert_eq!(around(&f, symmetry, field), value, "{symmetry}");
+    }
+}
+
+#[test]
+fn the_integral_around_the_tip_of_a_crack_is_the_energy_release_rate() {
+    // S-F15: w = (2K/μ) √(r/2π) sin(θ/2), J = K²/(2μ).
+    let f = loaded_text("p4p", &text("crack"), &[]).functional;
+    let (space, g) = (&*f.space, &f.space.graph);
+    let flux = current(&f, "translation-x").unwrap().flux;
+    let (mu, k) = (80.0, 3.0);
+    let slopes = |r: f64, angle: f64| {
+        let c = k / mu / (2.0 * std::f64::consts::PI * r).sqrt();
+        (-c * (angle / 2.0).sin(), c * (angle / 2.0).cos())
+    };
+    for r in [0.5, 2.0] {
+        let count = 2000;
+        let mut sum = 0.0;
+        for i in 0..count {
+            let angle = -std::f64::consts::PI
+                + 2.0 * std::f64::consts::PI * (f64::from(i) + 0.5) / f64::from(count);
+            let (wx, wy) = slopes(r, angle);
+            let values = g
+                .evaluate_f64(&flux, &|symbol| match space.as_jet(symbol) {
+                    Some(jet) => Some(if jet.by == [0] { wx } else { wy }),
+                    None => Some(mu),
+                })
+                .unwrap();
+            let step = 2.0 * std::f64::consts::PI * r / f64::from(count);
+            sum += (values[0] * angle.cos() + values[1] * angle.sin()) * step;
+        }
+        assert!((sum - 0.05625).abs() < 1e-9, "{sum}");
+    }
+}
+
+/// The verdict on a symmetry, with the formulas shown.
+fn verdict(text: &str, symmetry: &str) -> (String, String, Vec<String>) {
+    let problem = loaded_text("p4p", text, &[]);
+    let study = study(problem, &|id| id == "functional.noether", &|| 0.0);
+    let found = study
+        .verdicts
+        .iter()
+        .find(|d| d.claim == "functional.noether" && d.subject.as_deref() == Some(symmetry));
+    let finding = &found.unwrap_or_else(|| panic!("no {symmetry}")).finding;
+    let g = &study.problem.functional.space.graph;
+    let formulas = finding
+        .formulas
+        .iter()
+        .map(|f| format!("{}: {}", f.caption, g.text(f.value)));
+    (
+        finding.verdict.word().to_owned(),
+        finding.verdict.detail().to_owned(),
+        formulas.collect(),
+    )
+}
+
+/// The words for translation, rotation and scaling; a refuted one shows its defect.
+fn words(text: &str, wanted: [&str; 3]) {
+    let all = ["translation-x_1", "rotation-x_1-x_2", "scaling"];
+    for (symmetry, word) in all.into_iter().zip(wanted) {
+        let (own, detail, formulas) = verdict(text, symmetry);
+        assert_eq!(own, word, "{symmetry}: {detail}");
+        let has_defect = formulas.iter().any(|f| f.contains("defect"));
+        assert_eq!(has_defect, word == "refuted", "{symmetry}: {formulas:?}");
+    }
+}
+
+fn plane_with(from: &str, to: &str) -> String {
+    let plane = text("elastic-plane");
+    assert!(plane.contains(from));
+    plane.replace(from, to)
+}
+
+#[test]
+fn a_body_force_leaves_none_of_the_currents() {
+    let force = plane_with(
+        "(u_i,j + u_j,i)\"\nyields",
+        "(u_i,j + u_j,i) - F_k u_k\"\nyields",
+    );
+    let force = force.replace("[fields]", "[data]\nF = \"vector\"\n[fields]");
+    words(&force, ["refuted"; 3]);
+}
+
+#[test]
+fn a_body_that_is_not_homogeneous_has_no_current_of_translations() {
+    let graded = plane_with("lambda/2 u_i,i", "lambda x_1/2 u_i,i");
+    words(&graded, ["refuted"; 3]);
+}
+
+#[test]
+fn a_fibre_takes_the_current_of_rotations() {
+    let fibre = plane_with("lambda/2 u_i,i u_j,j", "lambda/2 u_1,1^2");
+    words(&fibre, ["proved", "refuted", "proved"]);
+}
+
+#[test]
+fn an_energy_that_is_not_homogeneous_in_the_gradient_takes_that_of_scalings() {
+    let mixed = text("crack").replace("mu/2 w,i w,i", "mu/2 w,i w,i + mu/4 (w,i w,i)^2");
+    for (symmetry, wanted) in [
+        ("translation-x", "proved"),
+        ("rotation-x-y", "proved"),
+        ("scaling", "refuted"),
+    ] {
+        let (word, detail, _) = verdict(&mixed, symmetry);
+        assert_eq!(word, wanted, "{symmetry}: {detail}");
+    }
+}
+
+#[test]
+fn the_exponent_of_a_scaling_follows_from_the_degree() {
+    // A gradient to the power p in n dimensions: exponent (p − n)/p.
+    let crack = text("crack");
+    for (density, exponent) in [
+        ("mu/2 w,i w,i", "0"),
+        ("mu/4 (w,i w,i)^2", "1/2"),
+        ("mu/6 (w,i w,i)^3", "2/3"),
+    ] {
+        let text = crack.replace("mu/2 w,i w,i", density);
+        let (word, detail, _) = verdict(&text, "scaling");
+        assert_eq!(word, "proved", "{density}: {detail}");
+        assert!(
+            detail.contains(&format!("w with the exponent {exponent}")),
+            "{detail}"
+        );
+    }
+}
+
+#[test]
+fn energy_is_the_current_of_time() {
+    let text = std::fs::read_to_string(format!(
+        "{}/../../gallery/fields/string/model.toml",
+        env!("CARGO_MANIFEST_DIR")
+    ))
+    .unwrap();
+    let text = text.replacen("yields", "symmetries = [\"translations\"]\nyields", 1);
+    let (word, detail, formulas) = verdict(&text, "translation-t");
+    assert_eq!(word, "proved", "{detail}");
+    assert!(
+        formulas
+            .iter()
+            .any(|f| f.starts_with("the current along t")),
+        "{formulas:?}"
+    );
+}
