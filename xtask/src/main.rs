@@ -1,5 +1,5 @@
 //! House tasks: `cargo xtask test`, `cargo xtask laws`, `cargo xtask measure`,
-//! `cargo xtask lines`, `cargo xtask checked`, `cargo xtask bench`.
+//! `cargo xtask lines`, `cargo xtask fuzz`, `cargo xtask checked`, `cargo xtask bench`.
 
 mod bench;
 mod browser;
@@ -12,6 +12,7 @@ mod citations;
 #[path = "../../tests/src/extent.rs"]
 #[allow(dead_code, unreachable_pub, reason = "public where the tests are")]
 mod extent;
+mod fuzz;
 mod laws;
 // The arguments of the laws are read here too, so that a slip is refused before anything is built.
 #[path = "../../crates/laws/src/arguments.rs"]
@@ -38,6 +39,7 @@ Usage: cargo xtask <TASK> [ARGUMENTS]
   laws      random systems and the laws they must obey
   measure   figures of the house: lines, circles of imports, errors that are texts, citations
   lines     how many lines the models of bodies have
+  fuzz      coverage-guided fuzzing of what reads texts
   checked   what the independent checker confirms of the gallery, as a page
   bench     the benchmark, and the page of the book made of it
   help      this text
@@ -59,6 +61,7 @@ fn main() -> ExitCode {
         "laws" => laws::run(rest),
         "measure" => measure::run(rest),
         "lines" => lines::run(rest),
+        "fuzz" => fuzz::run(rest),
         "bench" => bench::run(rest),
         "checked" => checked::run(rest),
         "help" | "--help" | "-h" => {
