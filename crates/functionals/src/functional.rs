@@ -1,12 +1,11 @@
 //! A functional of fields over space as plain data: densities, boundary pieces, what is imposed and what is stated.
 
 use crate::notation::Node;
-use crate::ritz::Asked;
 use crate::space::Space;
 use crate::tensors::{Scope, Shape};
 use chetaev_model::model::ModelText;
 use chetaev_model::Place;
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::{Expr, Rational};
 use std::rc::Rc;
 
 /// A field, or data that depend on place.
@@ -310,6 +309,32 @@ pub struct Solution {
     pub pieces: Vec<(String, Side)>,
     /// The value of the functional, as written and as an expression.
     pub value: Option<(String, Expr)>,
+}
+
+/// What `[ritz]` asks for.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    /// Degrees by each variable, ascending.
+    pub degrees: Vec<u32>,
+    /// Values of parameters and data.
+    pub values: Vec<(Expr, Expr)>,
+    /// Points at which a field is compared.
+    pub points: Vec<Point>,
+}
+
+/// A value that a field has at a point.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// As written: `w at x = 1/2, y = 1/2`.
+    pub written: String,
+    /// The component.
+    pub component: usize,
+    /// One rational number for each independent variable.
+    pub at: Vec<Rational>,
+    /// The value of the closed solution.
+    pub value: Rational,
+    /// Whether it is exact, and not a decimal fraction of a series.
+    pub is_exact: bool,
 }
 
 /// What a model file of a functional states.

@@ -6,31 +6,7 @@ use crate::space::Jet;
 use chetaev_symbolic::{rational, Expr, Rational};
 use std::collections::BTreeMap;
 
-/// What `[ritz]` asks for.
-#[derive(Clone, Debug)]
-pub struct Asked {
-    /// Degrees by each variable, ascending.
-    pub degrees: Vec<u32>,
-    /// Values of parameters and data.
-    pub values: Vec<(Expr, Expr)>,
-    /// Points at which a field is compared.
-    pub points: Vec<Point>,
-}
-
-/// A value that a field has at a point.
-#[derive(Clone, Debug)]
-pub struct Point {
-    /// As written: `w at x = 1/2, y = 1/2`.
-    pub written: String,
-    /// The component.
-    pub component: usize,
-    /// One rational number for each independent variable.
-    pub at: Vec<Rational>,
-    /// The value of the closed solution.
-    pub value: Rational,
-    /// Whether it is exact, and not a decimal fraction of a series.
-    pub is_exact: bool,
-}
+pub use crate::functional::{Asked, Point};
 
 /// A stationary polynomial.
 #[derive(Clone, Debug)]
