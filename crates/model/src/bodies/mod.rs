@@ -88,6 +88,7 @@ pub(crate) fn lower(
         return Conditions::default();
     }
     families::expand(root, SECTIONS, overrides, problems);
+    families::expand(root, &["particles"], overrides, problems);
     let own = std::mem::take(root);
     let place = SECTIONS
         .iter()

@@ -164,6 +164,10 @@ fn add_energies(
             entries: vec![(word("L", whole.place), whole)],
         },
     };
+    // As without bodies, an energy that is stated is that of the particles too.
+    if !kinetic.is_empty() && own.get("T").is_none() && own.get("L").is_none() {
+        kinetic.extend(of_particles(root));
+    }
     let whole = own.remove("L").map(|raw| stated(root, "stated_L", raw));
     kinetic.extend(own.remove("T").map(|raw| stated(root, "stated_T", raw)));
     potential.extend(own.remove("V").map(|raw| stated(root, "stated_V", raw)));
@@ -190,6 +194,32 @@ fn add_energies(
     let kind = Kind::Table(own);
     root.entries
         .push((word("lagrangian", place), Raw { place, kind }));
+}
+
+/// The kinetic energies of particles, whose masses and places become definitions. What is no particle is reported where particles are read.
+fn of_particles(root: &mut Table) -> Vec<String> {
+    let particles = root.get("particles").and_then(Raw::table).cloned();
+    let mut terms = Vec::new();
+    for (key, raw) in particles.into_iter().flat_map(|table| table.entries) {
+        let parts = raw
+            .table()
+            .map(|own| (own.get("mass"), own.get("position")));
+        let Some((Some(mass), Some(position))) = parts else {
+            continue;
+        };
+        let Kind::Array(components) = &position.kind else {
+            continue;
+        };
+        let name = &key.content;
+        let mass = stated(root, &format!("{name}_m"), mass.clone());
+        let mut squares = Vec::new();
+        for (number, component) in components.iter().enumerate() {
+            let place = format!("{name}_r_{}", number + 1);
+            squares.push(stated(root, &place, component.clone()) + "'^2");
+        }
+        terms.push(format!("1/2 {mass} ({})", squares.join(" + ")));
+    }
+    terms
 }
 
 fn add_dissipation(root: &mut Table, mut terms: Vec<String>, place: Place) {

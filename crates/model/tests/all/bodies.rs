@@ -280,6 +280,30 @@ rayleigh = "1/2 z'^2"
     same(&whole, whole.lagrangian, "z' q + 1/2 b_mass q'^2");
 }
 
+/// A bead of a rotor, at the distance b from its axle: its moment of inertia is increased by m b².
+#[test]
+fn particles_beside_bodies_have_their_energies_too() {
+    let text = r#"
+gravity = 0
+bodies.rotor = { shape = "disc", mass = 2, radius = 0.3 }
+joints.a = { child = "rotor", axis = "y" }
+sizes = { n = 2 }
+indices = { i = "1..n" }
+parameters = { b = 0.2, m_1 = 1, m_2 = 3 }
+[particles]
+"bead_{i}" = { mass = "m_{i}", position = ["i b cos(a)", "-i b sin(a)"] }
+"#;
+    let own = model(text);
+    let hand = "1/4 rotor_mass rotor_radius^2 a'^2 + 1/2 (m_1 b^2 + 4 m_2 b^2) a'^2";
+    same(&own, kinetic(&own), hand);
+    assert_eq!(own.particles.len(), 2);
+    let stated = format!("{text}\n[lagrangian]\nT = \"1/2 (m_1 + m_2) b^2 a'^2\"\n");
+    // As without bodies, an energy that is stated is that of the particles too.
+    let own = model(&stated);
+    let hand = "1/4 rotor_mass rotor_radius^2 a'^2 + 1/2 (m_1 + m_2) b^2 a'^2";
+    same(&own, kinetic(&own), hand);
+}
+
 #[test]
 fn the_lowered_text_is_the_same_model() {
     let text = "name = \"disc\"\nbodies.disc = { shape = \"disc\", mass = \"2 kg\", radius = \"30 cm\" }\ncontacts.rim = { type = \"rolling\", body = \"disc\" }\ninitial = { \"disc_pitch'\" = 3 }\n";
