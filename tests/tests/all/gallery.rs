@@ -379,7 +379,7 @@ fn every_model_is_studied_with_exit_status_0_and_writes_all_files() {
 }
 
 /// Lines that a study may print, and their characters: a screen.
-const LINES: usize = 40;
+const LINES: usize = 44;
 const WIDTH: usize = 100;
 
 /// What a person sees fits on a screen: the equations of motion, what was found, the motion, and where all is.
