@@ -1,5 +1,5 @@
 //! House tasks: `cargo xtask test`, `cargo xtask laws`, `cargo xtask measure`,
-//! `cargo xtask lines`, `cargo xtask fuzz`, `cargo xtask checked`, `cargo xtask bench`.
+//! `cargo xtask lines`, `cargo xtask fuzz`, `cargo xtask python`, `cargo xtask checked`, `cargo xtask bench`.
 
 mod bench;
 mod browser;
@@ -24,6 +24,7 @@ mod lines;
 #[allow(dead_code, unreachable_pub, reason = "public where the tests are")]
 mod lines_of_models;
 mod measure;
+mod python;
 mod summary;
 mod test;
 
@@ -41,6 +42,7 @@ Usage: cargo xtask <TASK> [ARGUMENTS]
   lines     how many lines the models of bodies have
   fuzz      coverage-guided fuzzing of what reads texts
   checked   what the independent checker confirms of the gallery, as a page
+  python    the Python package in a virtual environment, and its tests
   bench     the benchmark, and the page of the book made of it
   help      this text
 
@@ -62,6 +64,7 @@ fn main() -> ExitCode {
         "measure" => measure::run(rest),
         "lines" => lines::run(rest),
         "fuzz" => fuzz::run(rest),
+        "python" => python::run(rest),
         "bench" => bench::run(rest),
         "checked" => checked::run(rest),
         "help" | "--help" | "-h" => {

@@ -2,7 +2,7 @@
 
 use crate::extent::{commit, Extent, ALL, PARTS, VARIABLE};
 use crate::summary::Summary;
-use crate::{browser, cargo, err, out, refuse, status_of};
+use crate::{browser, cargo, err, out, python, refuse, status_of};
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{ExitStatus, Stdio};
@@ -14,7 +14,8 @@ Usage: cargo xtask test [--full]
 
 Looks for Chromium or Chrome, which the tests of the report need: the program that the environment variable CHROMIUM
 names, else one in PATH. Where there is none, it is installed by apt-get if that is possible and allowed. Then every test
-runs, also after a failure, and the last line sums them up. The exit status is cargo's.
+runs, also after a failure, those of the Python package last (`cargo xtask python`), and the last line sums up those of Rust. The
+exit status is cargo's, or that of the Python tests.
 
 What is long is taken by fifths: the replays of the gallery, and the random systems of the laws (ten of fifty of each family).
 Which fifth follows from the commit that is checked out and is said at the start; the
@@ -53,8 +54,10 @@ pub(crate) fn run(words: &[String]) -> u8 {
     match tests(extent) {
         Ok((status, mut summary)) => {
             summary.failed_elsewhere |= !status.success();
+            let of_python = python::run(&[]);
+            summary.failed_elsewhere |= of_python != 0;
             out(&format!("\n{summary}\n"));
-            status_of(status)
+            status_of(status).max(of_python)
         }
         Err(problem) => {
             err(&format!("error: cargo could not be run: {problem}\n"));

@@ -22,6 +22,8 @@
 //! # Ok::<(), String>(())
 //! ```
 
+pub mod disk;
+
 pub use chetaev_compile as compile;
 pub use chetaev_ensemble as ensemble;
 pub use chetaev_functionals as functionals;

@@ -238,6 +238,20 @@ pub(crate) enum Notation {
     C,
 }
 
+impl From<Notation> for chetaev::study::written::Notation {
+    fn from(own: Notation) -> Self {
+        match own {
+            Notation::Text => Self::Text,
+            Notation::Latex => Self::Latex,
+            Notation::Mathml => Self::Mathml,
+            Notation::Sympy => Self::Sympy,
+            Notation::Json => Self::Json,
+            Notation::Rust => Self::Rust,
+            Notation::C => Self::C,
+        }
+    }
+}
+
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   chetaev principles gallery/particle-y-dx/model.toml

@@ -2,74 +2,12 @@
 
 use crate::arguments::ModelArguments;
 use crate::terminal;
+use chetaev::disk::{text_of, Disk};
 use chetaev::functionals;
-use chetaev::model::{self, Diagnostic, Diagnostics, Files, Model, Sources, Style};
+use chetaev::model::{self, Diagnostic, Diagnostics, Model, Sources, Style};
 use chetaev::study::placed;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
-
-/// The file system for included files: regular files below the folder of the model, or of the nearest `chetaev.toml` above it. What a
-/// model includes ends up in records that are passed on, so that it may not be any file of the machine.
-pub(crate) struct Disk {
-    root: PathBuf,
-}
-
-/// The file that says that models below its folder may include each other.
-const PROJECT: &str = "chetaev.toml";
-
-/// Most bytes of one text.
-const MOST_BYTES: u64 = 16 << 20;
-
-impl Disk {
-    /// What a model at this path may include.
-    fn beside(model: &Path) -> Disk {
-        let folder = match model.parent() {
-            Some(folder) if folder != Path::new("") => folder,
-            _ => Path::new("."),
-        };
-        let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-        let project = folder
-            .ancestors()
-            .find(|above| above.join(PROJECT).is_file());
-        Disk {
-            root: project.unwrap_or(&folder).to_owned(),
-        }
-    }
-}
-
-impl Files for Disk {
-    fn read(&self, path: &str) -> Result<String, String> {
-        let found = Path::new(path).canonicalize().map_err(|e| e.to_string())?;
-        if !found.starts_with(&self.root) {
-            return Err(format!(
-                "it lies outside of {}, and a model includes what is below its own folder only; a file {PROJECT} in a folder above both allows what is below that",
-                self.root.display()
-            ));
-        }
-        text_of(&found, true)
-    }
-}
-
-/// The text of a file of bounded size. One that is no regular file may never end, or never begin.
-fn text_of(path: &Path, regular: bool) -> Result<String, String> {
-    use std::io::Read;
-    // Opening a pipe waits for whoever writes into it.
-    if regular
-        && !std::fs::metadata(path)
-            .map_err(|e| e.to_string())?
-            .is_file()
-    {
-        return Err("it is not a regular file".into());
-    }
-    let file = std::fs::File::open(path).map_err(|e| e.to_string())?;
-    let mut bytes = Vec::new();
-    let read = file.take(MOST_BYTES + 1).read_to_end(&mut bytes);
-    read.map_err(|e| e.to_string())?;
-    if bytes.len() as u64 > MOST_BYTES {
-        return Err(format!("it has more than {} MiB", MOST_BYTES >> 20));
-    }
-    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".into())
-}
 
 /// A model with the texts it was read from.
 pub(crate) struct Read {

@@ -10,6 +10,7 @@ use crate::study::integrate;
 use chetaev_mechanics::equations::unused_name;
 use chetaev_mechanics::formulations::Vakonomic;
 use chetaev_mechanics::{Context, Formulation};
+use chetaev_model::Model;
 use chetaev_motion::observe::Observer;
 use chetaev_motion::{Run, RunSettings, Subject};
 use chetaev_principles::stationarity::Closure;
@@ -51,6 +52,12 @@ impl Gap {
             }
         })
     }
+}
+
+/// Whether a name is `kappa_` and the name of a constraint; where the model uses that name for something else, more follows.
+pub fn is_multiplier(model: &Model, name: &str) -> bool {
+    let own = name.strip_prefix("kappa_");
+    own.is_some_and(|own| model.constraints.iter().any(|c| own.starts_with(&c.name)))
 }
 
 /// Tolerances that two runs of one curve may differ by, relative to the size of the coordinate.

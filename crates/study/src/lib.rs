@@ -9,13 +9,15 @@
 //!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
 //! - [`sweep`]: a model as an ensemble; [`stability`](mod@stability): linear equations about a steady motion; [`functional`]: summary, record
 //!   and page of a functional of fields over space;
-//! - for people: [`derivation`], [`overview`], [`story`], [`summary`], [`page`], [`picture`], [`typeset`]; for programs: [`record`] with the model lowered ([`flat`]) and
+//! - for people: [`derivation`], [`written`] (equations in every notation), [`explanation`],
+//!   [`overview`], [`story`], [`summary`], [`page`], [`picture`], [`typeset`]; for programs: [`record`] with the model lowered ([`flat`]) and
 //!   the equations of every formulation ([`stated_equations`]), [`table`]; [`verify`].
 
 pub mod beside;
 pub mod derivation;
 pub mod error;
 mod expectations;
+pub mod explanation;
 pub mod flat;
 pub mod functional;
 pub mod jumps;
@@ -47,6 +49,7 @@ pub mod typeset;
 pub mod verify;
 mod watch;
 pub mod witness;
+pub mod written;
 
 pub use error::{StudyError, UnknownClaim};
 pub use options::{ClaimSelection, Hooks, StudyOptions};

@@ -19,6 +19,30 @@ impl ClaimSelection {
         ClaimSelection::default()
     }
 
+    /// What a motion alone is asked for: its drift.
+    pub fn of_motion() -> ClaimSelection {
+        ClaimSelection {
+            words: ["motion.constraint-drift", "motion.integral-drift"]
+                .map(String::from)
+                .to_vec(),
+        }
+    }
+
+    /// What the story of the principles tells; with the constrained extremum beside the motion where they are compared.
+    pub fn of_principles(compared: bool) -> ClaimSelection {
+        let mut words = [
+            "principles",
+            "formulation.vakonomic-coincides",
+            "model.hessian-regular",
+        ]
+        .map(String::from)
+        .to_vec();
+        if compared {
+            words.push("motion.constraint-drift".into());
+        }
+        ClaimSelection { words }
+    }
+
     /// Reads `model,formulations,energy.integral`.
     ///
     /// # Errors

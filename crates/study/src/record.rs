@@ -427,6 +427,16 @@ pub fn record(study: &Study, files: &[String]) -> Record {
     }
 }
 
+/// The motion of a study with its notices, as data; null where there is none.
+pub fn run(study: &Study, files: &[String]) -> serde_json::Value {
+    let motion = study.motion.as_ref();
+    let mut run = serde_json::json!(motion.map(|m| trajectory_record(study, m, files)));
+    if let Some(fields) = run.as_object_mut() {
+        fields.insert("notices".into(), study.notices.clone().into());
+    }
+    run
+}
+
 /// `2^-n`, rounded to the safe side.
 pub fn bound_text(log2: f64) -> String {
     format!("2^{}", log2.ceil() as i64)

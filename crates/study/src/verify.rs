@@ -51,6 +51,29 @@ pub struct Verified {
     pub replay: Replay,
 }
 
+impl Replay {
+    /// What it says in a word, and the details.
+    pub fn words(&self) -> (&'static str, String) {
+        match self {
+            Replay::Confirmed => ("confirmed", String::new()),
+            Replay::Open { tried } => ("open", tried.clone()),
+            Replay::Differs { found, detail } => {
+                ("DISAGREES", format!("replay finds {found}: {detail}"))
+            }
+            Replay::Numbers { what } => ("DISAGREES", what.clone()),
+            Replay::Remark { what } => ("remark", what.clone()),
+        }
+    }
+}
+
+impl Verified {
+    /// The line as data.
+    pub fn to_json(&self) -> serde_json::Value {
+        let (result, detail) = self.replay.words();
+        serde_json::json!({"claim": self.claim, "recorded": self.recorded, "result": result, "detail": detail})
+    }
+}
+
 /// Why a record cannot be replayed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]

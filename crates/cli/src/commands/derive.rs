@@ -1,21 +1,14 @@
 //! `chetaev derive`.
 
-mod code;
-mod compare;
-mod latex;
-mod printed;
-
 use super::{error, with_progress};
-use crate::arguments::{Derive as Arguments, Notation};
+use crate::arguments::Derive as Arguments;
 use crate::progress::ProgressLine;
 use crate::{files, terminal, DONE, INPUT};
 use chetaev::mechanics::card::Relation;
-use chetaev::mechanics::characteristics::CharacteristicsError;
-use chetaev::mechanics::{
-    choice, formulation, Context, Formulation, Prepared, Prover, System, FORMULATIONS,
-};
-use chetaev::study::derivation::{claim_of, derivation, Derivation, NotDerived, Readings};
+use chetaev::mechanics::{formulation, Context, Formulation, Prover, System, FORMULATIONS};
+use chetaev::study::derivation::claim_of;
 use chetaev::study::registry;
+use chetaev::study::written::{comparison, equations, prepared, NotWritten, Notation};
 use std::time::Instant;
 
 /// What is derived when nothing is asked for.
@@ -35,7 +28,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             return INPUT;
         }
     };
-    let (prepared, notes) = match with_progress(|line| prepare(&system, line)) {
+    let (prepared, notes) = match with_progress(|line| {
+        line.show("deriving", None);
+        prepared(&system)
+    }) {
         Ok(prepared) => prepared,
         Err(problem) => {
             read.refuse(problem);
@@ -49,7 +45,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     let (terms, selection) = (&prepared.terms, &prepared.selection);
     let cx = Context::new(&system, terms, selection, &known, Prover::default());
     let written = match arguments.compare.as_slice() {
-        [a, b] => with_progress(|line| compare::text(&cx, a, b, line)),
+        [a, b] => with_progress(|line| {
+            let show = |what: &str| line.show(what, None);
+            comparison(&cx, (a, b), &show)
+        }),
         _ => {
             let names = asked(arguments);
             with_progress(|line| all(&cx, &names, arguments, line))
@@ -79,59 +78,32 @@ fn asked(arguments: &Arguments) -> Vec<&'static dyn Formulation> {
     }
 }
 
-/// Terms and selection, with what a reader of the equations must know about them.
-fn prepare(
-    system: &System,
-    line: &ProgressLine,
-) -> Result<(Prepared, Vec<String>), CharacteristicsError> {
-    line.show("deriving", None);
-    let prepared = Prepared::new(system)?;
-    let mut notes = Vec::new();
-    if let Some(left_out) = prepared.left_out(system)? {
-        notes.push(format!(
-            "redundant constraints: {} left out, the others imply what they say",
-            left_out.quoted()
-        ));
-    }
-    notes.extend(choice::unheeded(
-        system,
-        &prepared.terms,
-        &prepared.selection,
-    ));
-    Ok((prepared, notes))
-}
-
 /// Everything that is printed.
 fn all(
     cx: &Context<'_>,
     asked: &[&'static dyn Formulation],
     arguments: &Arguments,
     line: &ProgressLine,
-) -> Result<String, String> {
-    let is_code = matches!(arguments.notation, Notation::Rust | Notation::C);
-    let readings = Readings::default();
-    let mut found: Vec<Result<Derivation, NotDerived>> = Vec::new();
-    for formulation in asked {
+) -> Result<String, NotWritten> {
+    let mut began = Instant::now();
+    let mut told = |formulation: &'static dyn Formulation, found: Option<&Result<_, _>>| {
         let name = formulation.card().name;
-        line.show(&format!("deriving and simplifying {name}"), None);
-        let began = Instant::now();
-        let one = derivation(cx, *formulation, (!is_code).then_some(&readings));
-        let derived = began.elapsed().as_secs_f64();
-        if let (true, Ok(_)) = (arguments.time, &one) {
-            line.show(&format!("proving {name}"), None);
-            time(cx, *formulation, derived);
+        match found {
+            None => {
+                line.show(&format!("deriving and simplifying {name}"), None);
+                began = Instant::now();
+            }
+            Some(found) => {
+                let derived = began.elapsed().as_secs_f64();
+                if let (true, Ok(_)) = (arguments.time, found) {
+                    line.show(&format!("proving {name}"), None);
+                    time(cx, formulation, derived);
+                }
+            }
         }
-        match one {
-            // Among all formulations one that does not apply is an answer.
-            Err(problem) if !arguments.all => return Err(problem.to_string()),
-            one => found.push(one),
-        }
-    }
-    line.show("writing", None);
-    match arguments.notation {
-        Notation::Rust | Notation::C => code::source(cx.system, &found, arguments.notation),
-        notation => Ok(printed::text(cx, &found, notation)),
-    }
+    };
+    let notation = Notation::from(arguments.notation);
+    equations(cx, asked, (notation, arguments.all), &mut told)
 }
 
 /// Says on standard error how long it took to derive the equations and to decide what is claimed of them.

@@ -1,11 +1,11 @@
 //! What `study` and `check` do with a functional of fields over space.
 
 use super::error;
-use super::explain::nearest;
 use crate::arguments::{Notation, Study as Arguments};
 use crate::{files, terminal, DONE, INPUT, UNMET};
 use chetaev::functionals::claims::CLAIMS;
 use chetaev::functionals::{self, Loaded, Study};
+use chetaev::study::explanation::nearest;
 use chetaev::study::functional::{derivation, page, record, summary};
 use chetaev::study::record::WrittenRecord;
 use chetaev::symbolic::print::Format;

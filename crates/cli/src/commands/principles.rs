@@ -5,14 +5,7 @@ use super::{error, options, refuse, with_hooks};
 use crate::arguments::Principles as Arguments;
 use crate::{files, terminal, INPUT};
 use chetaev::model::Model;
-use chetaev::study::{record, story, study, ClaimSelection, StudyError, StudyOptions};
-
-/// What is told, beside the claims of the group.
-const TOLD: [&str; 3] = [
-    "principles",
-    "formulation.vakonomic-coincides",
-    "model.hessian-regular",
-];
+use chetaev::study::{beside, record, story, study, ClaimSelection, StudyError, StudyOptions};
 
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let Some(read) = files::model(&arguments.model) else {
@@ -67,11 +60,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
 /// The options on the command line; prints what is wrong with them.
 fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
     let options = options(&arguments.motion, model)?;
-    let mut words: Vec<String> = TOLD.map(String::from).to_vec();
     let mut kappa: Vec<(String, f64)> = Vec::new();
-    if arguments.compare {
-        words.push("motion.constraint-drift".into());
-    }
     for given in &arguments.kappa {
         let Some((name, value)) = given.split_once('=') else {
             error(format!(
@@ -80,7 +69,7 @@ fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
             return None;
         };
         let name = name.trim();
-        if !is_multiplier(model, name) {
+        if !beside::is_multiplier(model, name) {
             let names = model.constraints.iter();
             let names: Vec<String> = names.map(|c| format!("kappa_{}", c.name)).collect();
             error(format!(
@@ -105,15 +94,9 @@ fn asked(arguments: &Arguments, model: &Model) -> Option<StudyOptions> {
     }
     Some(StudyOptions {
         budget: arguments.budget,
-        claims: ClaimSelection { words },
+        claims: ClaimSelection::of_principles(arguments.compare),
         motion: arguments.compare,
         extremum: arguments.compare.then_some(kappa),
         ..options
     })
-}
-
-/// Whether a name is `kappa_` and the name of a constraint; where the model uses that name for something else, more follows.
-fn is_multiplier(model: &Model, name: &str) -> bool {
-    let own = name.strip_prefix("kappa_");
-    own.is_some_and(|own| model.constraints.iter().any(|c| own.starts_with(&c.name)))
 }

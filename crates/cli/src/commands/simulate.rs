@@ -14,11 +14,7 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         return INPUT;
     };
     let options = StudyOptions {
-        claims: ClaimSelection {
-            words: ["motion.constraint-drift", "motion.integral-drift"]
-                .map(String::from)
-                .to_vec(),
-        },
+        claims: ClaimSelection::of_motion(),
         ..motion
     };
     let study = match with_hooks(|hooks| study(read.model.clone(), options, hooks)) {
@@ -53,12 +49,8 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     if arguments.json {
         let mut names = vec!["trajectory.csv".to_string(), "trajectory.npz".to_string()];
         names.extend(events.map(|_| "events.csv".to_string()));
-        let record = record::record(&study, &names);
-        let mut trajectory = serde_json::json!(record.trajectory);
-        if let Some(fields) = trajectory.as_object_mut() {
-            fields.insert("notices".into(), record.notices.into());
-        }
-        terminal::out(&serde_json::to_string_pretty(&trajectory).unwrap_or_default());
+        let run = record::run(&study, &names);
+        terminal::out(&serde_json::to_string_pretty(&run).unwrap_or_default());
         terminal::out("\n");
     } else {
         terminal::out(&overview::of_motion(&study, terminal::style()));

@@ -1,11 +1,11 @@
 //! `chetaev study`.
 
-use super::explain::did_you_mean;
 use super::{error, options, refuse, with_hooks};
 use crate::arguments::Study as Arguments;
 use crate::{files, terminal, INPUT};
 use chetaev::mechanics::Group;
 use chetaev::model::Model;
+use chetaev::study::explanation::did_you_mean;
 use chetaev::study::record::WrittenRecord;
 use chetaev::study::table::Table;
 use chetaev::study::{

@@ -91,13 +91,7 @@ fn files(record: &Record, path: &Path) -> Vec<Verified> {
 
 fn report(lines: &[Verified], json: bool) {
     if json {
-        let data: Vec<serde_json::Value> = lines
-            .iter()
-            .map(|l| {
-                let (result, detail) = words(&l.replay);
-                serde_json::json!({"claim": l.claim, "recorded": l.recorded, "result": result, "detail": detail})
-            })
-            .collect();
+        let data: Vec<serde_json::Value> = lines.iter().map(Verified::to_json).collect();
         terminal::out(&format!(
             "{}\n",
             serde_json::to_string_pretty(&data).unwrap_or_default()
@@ -105,7 +99,7 @@ fn report(lines: &[Verified], json: bool) {
         return;
     }
     for line in lines {
-        let (result, detail) = words(&line.replay);
+        let (result, detail) = line.replay.words();
         terminal::out(&format!(
             "{result:<10} {:<36} {:<14} {detail}\n",
             line.claim, line.recorded
@@ -116,16 +110,4 @@ fn report(lines: &[Verified], json: bool) {
         .filter(|l| l.replay == Replay::Confirmed)
         .count();
     terminal::out(&format!("{confirmed} of {} confirmed\n", lines.len()));
-}
-
-fn words(replay: &Replay) -> (&'static str, String) {
-    match replay {
-        Replay::Confirmed => ("confirmed", String::new()),
-        Replay::Open { tried } => ("open", tried.clone()),
-        Replay::Differs { found, detail } => {
-            ("DISAGREES", format!("replay finds {found}: {detail}"))
-        }
-        Replay::Numbers { what } => ("DISAGREES", what.clone()),
-        Replay::Remark { what } => ("remark", what.clone()),
-    }
 }

@@ -1,17 +1,17 @@
 //! Equations as functions in C and Rust.
 
-use crate::arguments::Notation;
-use chetaev::mechanics::System;
-use chetaev::study::derivation::{Derivation, NotDerived};
-use chetaev::symbolic::print::{source_code, CodeFunction, Language};
-use chetaev::symbolic::{Expr, Symbol};
+use super::{NotWritten, Notation};
+use crate::derivation::{Derivation, NotDerived};
+use chetaev_mechanics::System;
+use chetaev_symbolic::print::{source_code, CodeFunction, Language};
+use chetaev_symbolic::{Expr, Symbol};
 
 /// For each formulation the rates of its state, its state from coordinates and velocities, and its multipliers.
 pub(super) fn source(
     system: &System,
     found: &[Result<Derivation, NotDerived>],
     notation: Notation,
-) -> Result<String, String> {
+) -> Result<String, NotWritten> {
     let language = match notation {
         Notation::Rust => Language::Rust,
         _ => Language::C,
@@ -28,7 +28,7 @@ pub(super) fn source(
         functions.extend(context.functions(system, derivation, names));
     }
     let title = [format!("Equations of motion of {}.", system.name)];
-    source_code(&system.graph, &title, &functions, language).map_err(|problem| problem.to_string())
+    source_code(&system.graph, &title, &functions, language).map_err(NotWritten::Code)
 }
 
 /// What all functions take.

@@ -1,27 +1,27 @@
 //! Two formulations held against each other.
 
-use crate::progress::ProgressLine;
-use chetaev::mechanics::claims::formulation::{equivalence, manifold};
-use chetaev::mechanics::{formulation, Context, Equations};
-use chetaev::study::derivation::{derivation, Derivation, ReadableGroup};
-use chetaev::study::typeset;
-use chetaev::symbolic::print::{Document, Format};
-use chetaev::symbolic::{simplify, Expr, Verdict};
+use super::NotWritten;
+use crate::derivation::{derivation, Derivation, ReadableGroup};
+use crate::typeset;
+use chetaev_mechanics::claims::formulation::{equivalence, manifold};
+use chetaev_mechanics::{formulation, Context, Equations};
+use chetaev_symbolic::print::{Document, Format};
+use chetaev_symbolic::{simplify, Expr, Verdict};
 
 /// Differences of the two forms and why they vanish, or where they do not.
 pub(super) fn text(
     cx: &Context<'_>,
     a: &str,
     b: &str,
-    line: &ProgressLine,
-) -> Result<String, String> {
-    let derive = |name: &str| -> Result<Derivation, String> {
-        line.show(&format!("deriving {name}"), None);
-        let known = formulation(name).ok_or_else(|| format!("there is no formulation `{name}`"))?;
-        derivation(cx, known, None).map_err(|problem| problem.to_string())
+    progress: &dyn Fn(&str),
+) -> Result<String, NotWritten> {
+    let derive = |name: &str| -> Result<Derivation, NotWritten> {
+        progress(&format!("deriving {name}"));
+        let known = formulation(name).ok_or_else(|| NotWritten::Unknown(name.to_owned()))?;
+        Ok(derivation(cx, known, None)?)
     };
     let (first, second) = (derive(a)?, derive(b)?);
-    line.show("comparing", None);
+    progress("comparing");
     let mut text = format!("{} and {}\n", first.card.title, second.card.title);
     let of = (&first.equations, &second.equations);
     let verdict = match cx.terms.order {

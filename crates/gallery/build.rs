@@ -1,4 +1,4 @@
-//! Builds the gallery into the program, so that `chetaev gallery` works from anywhere.
+//! Builds the gallery into the program, so that it can be had from anywhere.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

@@ -1,13 +1,13 @@
 //! Equations in the notations for reading, and as data.
 
 use super::latex;
-use crate::arguments::Notation;
-use chetaev::mechanics::equations::Schema;
-use chetaev::mechanics::{Context, System};
-use chetaev::study::derivation::{Derivation, NotDerived};
-use chetaev::study::typeset;
-use chetaev::symbolic::print::{sympy_module, Document, Format, PythonSection};
-use chetaev::symbolic::Expr;
+use super::Notation;
+use crate::derivation::{Derivation, NotDerived};
+use crate::typeset;
+use chetaev_mechanics::equations::Schema;
+use chetaev_mechanics::{Context, System};
+use chetaev_symbolic::print::{sympy_module, Document, Format, PythonSection};
+use chetaev_symbolic::Expr;
 
 /// Equations under a heading, with their general form.
 pub(super) struct Section {

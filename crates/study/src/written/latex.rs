@@ -1,10 +1,10 @@
 //! Equations as a whole document of LaTeX: numbered and aligned, with the general forms, the objects, and a table of symbols.
 
 use super::printed::sections;
-use chetaev::mechanics::System;
-use chetaev::study::derivation::Derivation;
-use chetaev::study::typeset;
-use chetaev::symbolic::print::{Document, Format};
+use crate::derivation::Derivation;
+use crate::typeset;
+use chetaev_mechanics::System;
+use chetaev_symbolic::print::{Document, Format};
 
 /// What stands before the first formulation.
 const BEGIN: &str = r"\documentclass{article}

@@ -1,0 +1,474 @@
+//! Equations of motion as functions over NumPy arrays.
+
+use crate::problem;
+use chetaev::compile::{
+    backend, Backend, BlockEvaluator, EvaluateFailure, Evaluator, Lanes, Lowering, Workspace, LANES,
+};
+use chetaev::mechanics::characteristics::CharacteristicsError;
+use chetaev::mechanics::{Prepared, System};
+use chetaev::motion::functions::FunctionsError;
+use chetaev::motion::{Binding, NumericError};
+use chetaev::symbolic::{Expr, Graph};
+use numpy::{
+    PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods,
+};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// Why there are no functions.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum NotCompiled {
+    /// No admissible state.
+    #[error(transparent)]
+    Characteristics(#[from] CharacteristicsError),
+    /// Something has no number.
+    #[error(transparent)]
+    Numeric(#[from] NumericError),
+    /// The expressions have no program.
+    #[error(transparent)]
+    Functions(#[from] FunctionsError),
+    /// The state of such a system is more than positions and velocities.
+    #[error("constraints of order {0}: the state is more than positions and velocities; `simulate` computes the motion")]
+    Order(u32),
+}
+
+/// The equations of motion of a system with the values of its parameters, compiled when they are first asked for. The state y is
+/// (coordinates, masses with a law of their own, velocities).
+#[pyclass(frozen, module = "chetaev.chetaev_native")]
+pub(crate) struct Compiled {
+    system: System,
+    prepared: Prepared,
+    binding: Binding,
+    /// Accelerations, then the multipliers of the independent constraints.
+    unknowns: Vec<Expr>,
+    known: [OnceLock<Arc<Program>>; WHAT.len()],
+}
+
+/// What can be asked for.
+const WHAT: [&str; 5] = ["rates", "jacobian", "mass", "reactions", "residuals"];
+
+/// Expressions as machine code.
+struct Program {
+    backend: Backend,
+    /// Shape of the values at one state.
+    shape: Vec<usize>,
+    /// Where the values that are not zero identically belong.
+    places: Vec<usize>,
+}
+
+impl Compiled {
+    pub(crate) fn new(system: &System) -> Result<Compiled, NotCompiled> {
+        let prepared = Prepared::new(system)?;
+        if prepared.terms.order > 1 {
+            return Err(NotCompiled::Order(prepared.terms.order));
+        }
+        let binding = Binding::new(system)?;
+        Ok(Compiled {
+            unknowns: unknowns(system, &prepared)?,
+            system: system.clone(),
+            prepared,
+            binding,
+            known: Default::default(),
+        })
+    }
+
+    /// v, rates of masses, accelerations.
+    fn rates(&self) -> Vec<Expr> {
+        let g = &self.system.graph;
+        let velocities = self.system.velocity_symbols().into_iter();
+        let velocities = velocities.map(|v| g.symbol_expr(v));
+        let masses = self.system.masses.iter().map(|m| m.rate);
+        let accelerations = self.unknowns.iter().take(self.system.n()).copied();
+        velocities.chain(masses).chain(accelerations).collect()
+    }
+
+    /// Values and their shape.
+    fn expressions(&self, what: usize) -> (Vec<Expr>, Vec<usize>) {
+        let (g, n) = (&self.system.graph, self.system.n());
+        let terms = &self.prepared.terms;
+        let lawful = |es: &[Expr]| g.substitute_all(es, &self.binding.controls);
+        match WHAT[what] {
+            "rates" => {
+                let rates = lawful(&self.rates());
+                let count = rates.len();
+                (rates, vec![count])
+            }
+            "jacobian" => {
+                let rates = lawful(&self.rates());
+                let count = rates.len();
+                let rows = g.jacobian(&rates, &self.binding.variables[1..]);
+                (rows.concat(), vec![count, count])
+            }
+            "mass" => (lawful(&terms.mass_matrix.concat()), vec![n, n]),
+            "reactions" => {
+                let mut all = vec![g.zero(); terms.constraints.len()];
+                for (&row, &value) in self.prepared.selection.rows.iter().zip(&self.unknowns[n..]) {
+                    all[row] = value;
+                }
+                let count = all.len();
+                (lawful(&all), vec![count])
+            }
+            _ => (lawful(&terms.constraints), vec![terms.constraints.len()]),
+        }
+    }
+
+    fn program(&self, what: usize) -> Result<Arc<Program>, FunctionsError> {
+        if let Some(known) = self.known[what].get() {
+            return Ok(known.clone());
+        }
+        let (values, shape) = self.expressions(what);
+        let made = program(&self.system.graph, &self.binding, &values, shape)?;
+        Ok(self.known[what].get_or_init(|| Arc::new(made)).clone())
+    }
+}
+
+/// The solution of `M a − Jᵀ λ = b`, `J a = g` with the independent rows of J (T2 §4).
+fn unknowns(system: &System, prepared: &Prepared) -> Result<Vec<Expr>, FunctionsError> {
+    let (g, n, terms) = (&system.graph, system.n(), &prepared.terms);
+    let rows = &prepared.selection.rows;
+    let size = n + rows.len();
+    let mut matrix = vec![g.zero(); size * size];
+    for (i, row) in terms.mass_matrix.iter().enumerate() {
+        matrix[i * size..i * size + n].copy_from_slice(row);
+    }
+    for (l, &row) in rows.iter().enumerate() {
+        for (i, &entry) in terms.jacobian[row].iter().enumerate() {
+            matrix[(n + l) * size + i] = entry;
+            matrix[i * size + n + l] = g.neg(entry);
+        }
+    }
+    let rates = rows.iter().map(|&row| terms.constraint_rate[row]);
+    let right: Vec<Expr> = terms.force.iter().copied().chain(rates).collect();
+    g.solve(&matrix, &right)
+        .map_err(|_| FunctionsError::Singular)
+}
+
+fn program(
+    g: &Graph,
+    binding: &Binding,
+    values: &[Expr],
+    shape: Vec<usize>,
+) -> Result<Program, FunctionsError> {
+    let present = values.iter().enumerate().filter(|(_, &e)| !g.is_zero(e));
+    let (places, values): (Vec<usize>, Vec<Expr>) = present.map(|(i, &e)| (i, e)).unzip();
+    let symbols: Vec<_> = binding.parameters.iter().map(|own| own.0).collect();
+    let lowering = Lowering::new(g)
+        .variables(&binding.variables)
+        .parameters(&symbols)
+        .output("values", &values);
+    Ok(Program {
+        backend: backend(lowering.lower()?)?,
+        shape,
+        places,
+    })
+}
+
+#[pymethods]
+impl Compiled {
+    /// Names of the components of the state: coordinates, masses with a law of their own, velocities.
+    #[getter]
+    fn state(&self) -> Vec<String> {
+        let g = &self.system.graph;
+        let all = self.binding.variables[1..].iter();
+        all.map(|&s| g.symbol_text(s)).collect()
+    }
+
+    /// Names of the constraints, one for each component of reactions and residuals.
+    #[getter]
+    fn constraints(&self) -> Vec<&str> {
+        let all = self.prepared.terms.constraint_index.iter();
+        all.map(|&l| self.system.constraints[l].name.as_str())
+            .collect()
+    }
+
+    /// Names and values of the parameters.
+    #[getter]
+    fn parameters(&self) -> Vec<(String, f64)> {
+        let g = &self.system.graph;
+        let all = self.binding.parameters.iter();
+        all.map(|&(s, value)| (g.symbol_text(s), value)).collect()
+    }
+
+    /// One of the functions, with these values of the parameters, in their order.
+    #[pyo3(signature = (what, parameters=None))]
+    fn function(
+        &self,
+        py: Python<'_>,
+        what: &str,
+        parameters: Option<Vec<f64>>,
+    ) -> PyResult<Function> {
+        let Some(what) = WHAT.iter().position(|own| *own == what) else {
+            return Err(PyValueError::new_err(format!(
+                "there is no function `{what}`"
+            )));
+        };
+        let program = py
+            .detach(|| self.program(what))
+            .map_err(|problem| problem::of_option(py, &problem))?;
+        let usual = || self.binding.parameters.iter().map(|own| own.1).collect();
+        let parameters = parameters.unwrap_or_else(usual);
+        let function = Function {
+            width: self.binding.variables.len() - 1,
+            program,
+            parameters,
+            ready: Mutex::default(),
+        };
+        let ready = function
+            .prepared()
+            .map_err(|problem| problem::of_option(py, &problem))?;
+        function.give_back(ready);
+        Ok(function)
+    }
+}
+
+/// A compiled function f(t, y, out=None).
+///
+/// Parameters
+/// ----------
+/// t : float
+///     The time.
+/// y : array of shape (n,), or (…, n) for many states at once
+///     States.
+/// out : array of doubles of the shape of the result, optional
+///     Where the values are written.
+///
+/// Returns
+/// -------
+/// array
+///     The values; not a number where the equations have no solution.
+#[pyclass(frozen, module = "chetaev.chetaev_native")]
+pub(crate) struct Function {
+    program: Arc<Program>,
+    width: usize,
+    parameters: Vec<f64>,
+    /// Storage that no thread uses at present.
+    ready: Mutex<Vec<Ready>>,
+}
+
+/// Storage of one thread.
+struct Ready {
+    workspace: Workspace,
+    inputs: Vec<f64>,
+    computed: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl Function {
+    fn size(&self) -> usize {
+        self.program.shape.iter().product()
+    }
+
+    fn prepared(&self) -> Result<Ready, EvaluateFailure> {
+        let mut free = self.ready.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(ready) = free.pop() {
+            return Ok(ready);
+        }
+        drop(free);
+        let own = &self.program.backend;
+        let mut workspace = own.workspace();
+        own.prepare(&self.parameters, &mut workspace)?;
+        Ok(Ready {
+            workspace,
+            inputs: vec![0.0; self.width + 1],
+            computed: vec![0.0; self.program.places.len()],
+            values: vec![0.0; self.size()],
+        })
+    }
+
+    fn give_back(&self, ready: Ready) {
+        let mut free = self.ready.lock().unwrap_or_else(PoisonError::into_inner);
+        free.push(ready);
+    }
+
+    /// Computes the values at the inputs.
+    fn compute(&self, ready: &mut Ready) {
+        let program = &self.program;
+        let done =
+            program
+                .backend
+                .evaluate(&ready.inputs, &mut ready.workspace, &mut ready.computed);
+        if done.is_err() {
+            ready.computed.fill(f64::NAN);
+        }
+        for (&place, &value) in program.places.iter().zip(&ready.computed) {
+            ready.values[place] = value;
+        }
+    }
+
+    /// One state.
+    fn one(
+        &self,
+        t: f64,
+        y: &PyReadonlyArray1<'_, f64>,
+        write: impl FnOnce(&[f64]) -> PyResult<Py<PyAny>>,
+    ) -> PyResult<Py<PyAny>> {
+        let mut ready = self
+            .prepared()
+            .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
+        ready.inputs[0] = t;
+        match y.as_slice() {
+            Ok(y) => ready.inputs[1..].copy_from_slice(y),
+            Err(_) => {
+                for (own, y) in ready.inputs[1..].iter_mut().zip(y.as_array()) {
+                    *own = *y;
+                }
+            }
+        }
+        self.compute(&mut ready);
+        let written = write(&ready.values);
+        self.give_back(ready);
+        written
+    }
+
+    /// Many states; `values` has a row for each.
+    fn many(
+        &self,
+        t: numpy::ndarray::ArrayView1<'_, f64>,
+        y: numpy::ndarray::ArrayView2<'_, f64>,
+        values: &mut [f64],
+    ) -> Result<(), EvaluateFailure> {
+        let own = &self.program.backend;
+        let size = self.size();
+        let mut workspace = own.block_workspace();
+        let parameters: Vec<Lanes> = self.parameters.iter().map(|&p| Lanes::splat(p)).collect();
+        own.prepare_block(&parameters, &mut workspace)?;
+        let count = y.nrows();
+        let mut inputs = vec![Lanes::default(); self.width + 1];
+        let mut computed = vec![Lanes::default(); self.program.places.len()];
+        for first in (0..count).step_by(LANES) {
+            let last = (first + LANES).min(count) - 1;
+            let at = |lane: usize| (first + lane).min(last);
+            inputs[0] = Lanes::from_fn(|lane| t[if t.len() == 1 { 0 } else { at(lane) }]);
+            for (i, input) in inputs[1..].iter_mut().enumerate() {
+                *input = Lanes::from_fn(|lane| y[[at(lane), i]]);
+            }
+            own.evaluate_block(1, &inputs, &mut workspace, &mut computed)?;
+            let rows = &mut values[first * size..(last + 1) * size];
+            for (&place, column) in self.program.places.iter().zip(&computed) {
+                for (row, &value) in rows.chunks_exact_mut(size).zip(column.as_slice()) {
+                    row[place] = value;
+                }
+            }
+            for &(lane, _) in workspace.failures() {
+                if first + lane <= last {
+                    rows[lane * size..(lane + 1) * size].fill(f64::NAN);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What is no vector of doubles: sequences, other numbers, batches.
+    fn general<'py>(
+        &self,
+        py: Python<'py>,
+        (t, y): (&Bound<'py, PyAny>, &Bound<'py, PyAny>),
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let numpy = py.import("numpy")?;
+        let doubles = PyDict::new(py);
+        doubles.set_item("dtype", "f8")?;
+        let y = numpy.call_method("asarray", (y,), Some(&doubles))?;
+        let t = numpy.call_method("asarray", (t,), Some(&doubles))?;
+        let mut shape: Vec<usize> = y.getattr("shape")?.extract()?;
+        let last = shape.pop();
+        if last != Some(self.width) {
+            return Err(PyValueError::new_err(format!(
+                "the last axis of y has the {} components of the state, not {}",
+                self.width,
+                last.map_or("none".to_owned(), |own| own.to_string())
+            )));
+        }
+        let count: usize = shape.iter().product();
+        let rows = match shape.len() {
+            1 => y.clone(),
+            _ => y.call_method1("reshape", ((count, self.width),))?,
+        };
+        let t = match t.getattr("ndim")?.extract::<usize>()? {
+            0 => t.call_method1("reshape", (1,))?,
+            _ => {
+                let wide = numpy.call_method1("broadcast_to", (t, shape.clone()))?;
+                wide.call_method1("reshape", (count,))?
+            }
+        };
+        let whole: Vec<usize> = shape.iter().chain(&self.program.shape).copied().collect();
+        let target = match out {
+            None => PyArrayDyn::<f64>::zeros(py, whole.clone(), false),
+            Some(out) => {
+                let out = out
+                    .cast::<PyArrayDyn<f64>>()
+                    .map_err(|_| PyTypeError::new_err("out is an array of doubles (float64)"))?;
+                if out.shape() != whole || !out.is_c_contiguous() {
+                    return Err(PyValueError::new_err(format!(
+                        "out is a contiguous array of shape {whole:?}, not {:?}",
+                        out.shape()
+                    )));
+                }
+                out.clone()
+            }
+        };
+        let y: PyReadonlyArray2<'_, f64> = rows.extract()?;
+        let t: PyReadonlyArray1<'_, f64> = t.extract()?;
+        let mut write = target
+            .try_readwrite()
+            .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
+        let values = write
+            .as_slice_mut()
+            .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
+        if out.is_some() {
+            values.fill(0.0);
+        }
+        let (t, y) = (t.as_array(), y.as_array());
+        let done = py.detach(|| self.many(t, y, values));
+        done.map_err(|problem| PyValueError::new_err(problem.to_string()))?;
+        Ok(target.into_any())
+    }
+}
+
+#[pymethods]
+impl Function {
+    #[pyo3(signature = (t, y, out=None))]
+    fn __call__<'py>(
+        &self,
+        py: Python<'py>,
+        t: &Bound<'py, PyAny>,
+        y: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Py<PyAny>> {
+        let single = y.cast::<PyArray1<f64>>().ok();
+        let single = single.filter(|y| y.len() == self.width && self.program.shape.len() == 1);
+        let (Some(single), Ok(time)) = (single, t.extract::<f64>()) else {
+            return Ok(self.general(py, (t, y), out)?.unbind());
+        };
+        let y = single
+            .try_readonly()
+            .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
+        match out.map(|out| out.cast::<PyArray1<f64>>()) {
+            None => self.one(time, &y, |values| {
+                Ok(PyArray1::from_slice(py, values).into_any().unbind())
+            }),
+            Some(Ok(target)) if target.len() == self.size() => self.one(time, &y, |values| {
+                let mut write = target
+                    .try_readwrite()
+                    .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
+                let own = write
+                    .as_slice_mut()
+                    .map_err(|problem| PyValueError::new_err(problem.to_string()))?;
+                own.copy_from_slice(values);
+                Ok(target.clone().into_any().unbind())
+            }),
+            Some(_) => Err(PyTypeError::new_err(format!(
+                "out is a vector of {} doubles (float64)",
+                self.size()
+            ))),
+        }
+    }
+
+    /// Whether machine code runs.
+    #[getter]
+    fn is_native(&self) -> bool {
+        self.program.backend.is_native()
+    }
+}

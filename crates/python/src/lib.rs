@@ -1,0 +1,32 @@
+//! The native part of the Python package: models, what is computed of them, and compiled functions.
+//!
+//! Python code in `python/chetaev` is the face of it. What stands here returns plain data: texts, JSON, NumPy arrays.
+//!
+//! - [`model`]: a model read from texts, and every question asked of it; [`outcome`]: a study; [`linear`]: linear equations; [`compiled`]: its equations as a function;
+//! - [`waiting`]: long work beside a thread that hears Ctrl-C and shows progress; [`problem`]: exceptions.
+
+mod compiled;
+mod linear;
+mod model;
+mod outcome;
+mod problem;
+mod waiting;
+
+use pyo3::prelude::*;
+
+/// What `chetaev` is made of; the package in `python/chetaev` is its face.
+#[pymodule(gil_used = false)]
+mod chetaev_native {
+    #[pymodule_export]
+    use crate::compiled::{Compiled, Function};
+    #[pymodule_export]
+    use crate::linear::Linear;
+    #[pymodule_export]
+    use crate::model::{explain, gallery, verify, Model};
+    #[pymodule_export]
+    use crate::outcome::Outcome;
+
+    /// The version of the package.
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+}

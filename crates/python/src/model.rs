@@ -1,0 +1,540 @@
+//! A model, and what can be asked of it.
+
+use crate::compiled::Compiled;
+use crate::linear::Linear;
+use crate::outcome::Outcome;
+use crate::{problem, waiting};
+use chetaev::disk::{text_of, Disk};
+use chetaev::mechanics::{formulation, Context, Formulation, Prover, System, FORMULATIONS};
+use chetaev::model::model::{ModelText, Precision};
+use chetaev::model::{self, Diagnostics, Files, Loaded, NoFiles, Sources, Style};
+use chetaev::motion::double_double;
+use chetaev::study::written::{self, NotWritten, Notation};
+use chetaev::study::{
+    beside, check, diagnostics, explanation, interruptible, registry, stability, study,
+    ClaimSelection, StudyError, StudyOptions,
+};
+use chetaev::symbolic::print::{sympy_module, Document, Options, PythonSection};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError};
+use pyo3::prelude::*;
+use std::path::Path;
+
+/// Names with their values, as they are written.
+type Pairs = Vec<(String, String)>;
+
+/// A model that was read without errors.
+#[pyclass(frozen, module = "chetaev.chetaev_native")]
+pub(crate) struct Model {
+    model: chetaev::model::Model,
+    sources: Sources,
+    warnings: Diagnostics,
+}
+
+/// How a motion is computed, and what is asked of it: the options of the command line.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Asked {
+    claims: Option<String>,
+    budget: Option<f64>,
+    t_end: Option<String>,
+    tolerance: Option<f64>,
+    step: Option<String>,
+    method: Option<String>,
+    precision: Option<String>,
+    formulation: Option<String>,
+    project: bool,
+    keep_integrals: bool,
+    branch: Option<usize>,
+    kappa: Pairs,
+}
+
+/// What is asked of linear equations.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Linearized {
+    about: Option<String>,
+    speeds: Option<String>,
+    outputs: Option<String>,
+    symbolic: bool,
+    over: Option<String>,
+}
+
+impl Model {
+    fn of(py: Python<'_>, loaded: Loaded) -> PyResult<Model> {
+        match loaded.into_result() {
+            Ok((model, warnings)) => Ok(Model {
+                sources: warnings.sources.clone(),
+                model,
+                warnings,
+            }),
+            Err(found) => Err(problem::of_model(py, &found)),
+        }
+    }
+
+    fn place(&self) -> (&chetaev::model::Model, &Sources) {
+        (&self.model, &self.sources)
+    }
+
+    fn system(&self, py: Python<'_>) -> PyResult<System> {
+        System::from_model(&self.model)
+            .map_err(|problem| problem::of_system(py, &problem, self.place()))
+    }
+
+    fn options(&self, py: Python<'_>, asked: &Asked) -> PyResult<StudyOptions> {
+        let constant = |label: &str, text: &Option<String>| {
+            let found = text.as_ref().map(|text| self.model.constant(label, text));
+            let found = found.transpose();
+            found.map_err(|found| problem::of_model(py, &found))
+        };
+        let t_end = constant("t_end", &asked.t_end)?;
+        let step = constant("step", &asked.step)?;
+        let precision = match asked.precision.as_deref() {
+            None => None,
+            Some(word) => {
+                let mut known = Precision::WORDS.into_iter();
+                let found = known.find(|(own, _)| *own == word).map(|(_, own)| own);
+                Some(found.ok_or_else(|| {
+                    let said =
+                        format!("precision: `{word}` is neither `double` nor `double-double`");
+                    problem::of_option(py, &said)
+                })?)
+            }
+        };
+        let usual = StudyOptions::default();
+        Ok(StudyOptions {
+            budget: asked.budget.unwrap_or(usual.budget),
+            t_end: t_end.map(|(_, value)| value),
+            t_end_exact: t_end.and_then(|(e, _)| double_double::number(&self.model.graph, e)),
+            precision,
+            tolerance: asked.tolerance,
+            step: step.map(|(_, value)| value),
+            method: asked.method.clone(),
+            formulation: asked.formulation.clone(),
+            project: asked.project,
+            keep_integrals: asked.keep_integrals,
+            branch: asked.branch,
+            ..usual
+        })
+    }
+
+    /// Initial values of the multipliers of the constrained extremum.
+    fn kappa(&self, py: Python<'_>, asked: &Asked) -> PyResult<Vec<(String, f64)>> {
+        let value = |(name, value): &(String, String)| {
+            if !beside::is_multiplier(&self.model, name) {
+                let said = format!("kappa: `{name}` is no multiplier of the extremum");
+                return Err(problem::of_option(py, &said));
+            }
+            match self.model.constant_value("kappa", value) {
+                Ok(value) => Ok((name.clone(), value)),
+                Err(found) => Err(problem::of_model(py, &found)),
+            }
+        };
+        asked.kappa.iter().map(value).collect()
+    }
+
+    fn studied(
+        &self,
+        py: Python<'_>,
+        options: StudyOptions,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Outcome> {
+        let own = self.model.clone();
+        let found = waiting::done(py, tell, |hooks| study(own, options, hooks))?;
+        match found.result {
+            Ok(study) => Ok(Outcome::new(study, found.interrupted)),
+            Err(problem) => Err(problem::of_study(py, &problem, self.place())),
+        }
+    }
+
+    /// Does something with the derived equations.
+    fn with_equations(
+        &self,
+        py: Python<'_>,
+        tell: Option<&Bound<'_, PyAny>>,
+        work: impl FnOnce(&Context<'_>, &dyn Fn(&str)) -> Result<String, NotWritten> + Send,
+    ) -> PyResult<(String, Vec<String>)> {
+        let system = self.system(py)?;
+        let found = waiting::done(py, tell, |hooks| {
+            interruptible(hooks, |hooks| {
+                (hooks.progress)("deriving", None);
+                let (prepared, notes) = written::prepared(&system)?;
+                let known = registry();
+                let (terms, selection) = (&prepared.terms, &prepared.selection);
+                let cx = Context::new(&system, terms, selection, &known, Prover::default());
+                let show = std::cell::RefCell::new(&mut hooks.progress);
+                let text = work(&cx, &|what: &str| (show.borrow_mut())(what, None));
+                Ok((text, notes))
+            })
+        })?;
+        let Ok(found) = found.result else {
+            return Err(PyKeyboardInterrupt::new_err(()));
+        };
+        let found = found.map_err(
+            |problem: chetaev::mechanics::characteristics::CharacteristicsError| {
+                problem::of_system(py, &problem, self.place())
+            },
+        );
+        let (text, notes) = found?;
+        let text = text.map_err(|problem| {
+            let class = match problem {
+                NotWritten::NotDerived(_) => "NotDerivedError",
+                _ => "OptionError",
+            };
+            problem::named(py, class, (problem.to_string(), "[]".into()))
+        })?;
+        Ok((text, notes))
+    }
+}
+
+#[pymethods]
+impl Model {
+    /// Reads a model file, with what it includes; `overrides` are names and values of parameters and sizes.
+    #[staticmethod]
+    fn from_file(py: Python<'_>, path: &str, overrides: Pairs) -> PyResult<Model> {
+        let disk = Disk::beside(Path::new(path));
+        let text = text_of(Path::new(path), false)
+            .map_err(|why| PyOSError::new_err(format!("{path} cannot be read: {why}")))?;
+        let loaded = py.detach(|| model::load(path, &text, &disk, &overrides));
+        Model::of(py, loaded)
+    }
+
+    /// Reads a model from its text. Files that it includes are looked for as if it stood at `path`; nothing is included without one.
+    #[staticmethod]
+    fn from_text(
+        py: Python<'_>,
+        text: &str,
+        path: Option<&str>,
+        overrides: Pairs,
+    ) -> PyResult<Model> {
+        let disk = path.map(|path| Disk::beside(Path::new(path)));
+        let files: &(dyn Files + Sync) = match &disk {
+            Some(disk) => disk,
+            None => &NoFiles,
+        };
+        let path = path.unwrap_or("model.toml");
+        let loaded = py.detach(|| model::load(path, text, files, &overrides));
+        Model::of(py, loaded)
+    }
+
+    /// Reads a model again from what `texts` gave.
+    #[staticmethod]
+    fn from_texts(
+        py: Python<'_>,
+        path: String,
+        text: String,
+        includes: Pairs,
+        overrides: Pairs,
+    ) -> PyResult<Model> {
+        let text = ModelText {
+            path,
+            text,
+            includes,
+            overrides,
+        };
+        let loaded = py.detach(|| model::reload(&text));
+        Model::of(py, loaded)
+    }
+
+    /// Path, text, included files and overrides: enough to read the model again anywhere.
+    fn texts(&self) -> (String, String, Pairs, Pairs) {
+        let own = self.model.text.clone();
+        (own.path, own.text, own.includes, own.overrides)
+    }
+
+    /// The model with its bodies, joints and contacts written out as coordinates, energies and constraints.
+    fn lowered(&self, py: Python<'_>) -> PyResult<String> {
+        let own = &self.model.text;
+        let files: std::collections::BTreeMap<String, String> =
+            own.includes.iter().cloned().collect();
+        model::lowered(&own.path, &own.text, &files, &own.overrides)
+            .map_err(|found| problem::of_model(py, &found))
+    }
+
+    /// Its name.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.model.name
+    }
+
+    /// Names of the coordinates.
+    #[getter]
+    fn coordinates(&self) -> Vec<&str> {
+        let all = self.model.coordinates.iter();
+        all.map(|c| c.name.as_str()).collect()
+    }
+
+    /// Names of the parameters with the texts of their values, or `None`.
+    #[getter]
+    fn parameters(&self) -> Vec<(&str, Option<String>)> {
+        let value =
+            |p: &chetaev::model::model::Parameter| p.value.map(|e| self.model.graph.text(e));
+        let all = self.model.parameters.iter();
+        all.map(|p| (p.name.as_str(), value(p))).collect()
+    }
+
+    /// Names of the constraints.
+    #[getter]
+    fn constraints(&self) -> Vec<&str> {
+        let all = self.model.constraints.iter();
+        all.map(|c| c.name.as_str()).collect()
+    }
+
+    /// Warnings as they are printed; an empty text where there are none.
+    fn warnings(&self) -> String {
+        match self.warnings.list.is_empty() {
+            true => String::new(),
+            false => self.warnings.render(Style::Plain),
+        }
+    }
+
+    /// A Python module whose list `found["all"]` has these expressions in SymPy.
+    fn sympy(&self, py: Python<'_>, texts: Vec<String>) -> PyResult<String> {
+        let read = |text: &String| self.model.expression(text);
+        let read: Result<Vec<_>, _> = texts.iter().map(read).collect();
+        let read = read.map_err(|found| problem::of_model(py, &found))?;
+        let g = &self.model.graph;
+        let moving = |symbol| self.model.varies(g.symbol_name(symbol));
+        let moving: Vec<String> = g
+            .symbols_in(&read)
+            .into_iter()
+            .filter(|&symbol| moving(symbol))
+            .map(|symbol| g.symbol_name(symbol).to_owned())
+            .collect();
+        let document = Document::expressions(g, &read, &Options::default());
+        let section = PythonSection {
+            name: "found",
+            title: "Expressions",
+            groups: vec![("all", &document)],
+        };
+        Ok(sympy_module(&[section], &moving))
+    }
+
+    /// Everything wrong or doubtful, as it is printed and as JSON; and whether there are errors.
+    fn check(&self, py: Python<'_>) -> PyResult<(String, String, bool)> {
+        let mut found = self.warnings.clone();
+        found.list.extend(self.model.unused.iter().cloned());
+        let checked = waiting::done(py, None, |hooks| check(&self.model, hooks))?;
+        match checked.result {
+            Ok(()) => {}
+            Err(StudyError::Interrupted) => return Err(PyKeyboardInterrupt::new_err(())),
+            Err(problem) => found.list.extend(diagnostics(&problem, &self.model)),
+        }
+        let data = serde_json::to_string(&found.to_data()).unwrap_or_default();
+        Ok((found.render(Style::Plain), data, found.has_errors()))
+    }
+
+    /// The equations of formulations in a notation, and notes: `derive`.
+    #[pyo3(signature = (names, all, notation, tell=None))]
+    fn derive(
+        &self,
+        py: Python<'_>,
+        names: Vec<String>,
+        all: bool,
+        notation: &str,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(String, Vec<String>)> {
+        let Some(notation) = Notation::named(notation) else {
+            let said = format!("there is no notation `{notation}`");
+            return Err(problem::of_option(py, &said));
+        };
+        let mut asked: Vec<&'static dyn Formulation> = Vec::new();
+        match all {
+            true => asked.extend(FORMULATIONS),
+            false => {
+                for name in &names {
+                    let known = formulation(name).ok_or_else(|| {
+                        problem::of_option(py, &NotWritten::Unknown(name.clone()))
+                    })?;
+                    asked.push(known);
+                }
+            }
+        }
+        self.with_equations(py, tell, |cx, show| {
+            let mut told = |one: &'static dyn Formulation, found: Option<&Result<_, _>>| {
+                if found.is_none() {
+                    show(&format!("deriving and simplifying {}", one.card().name));
+                }
+            };
+            written::equations(cx, &asked, (notation, all), &mut told)
+        })
+    }
+
+    /// Two formulations held against each other, and notes: `derive --compare`.
+    #[pyo3(signature = (a, b, tell=None))]
+    fn compare(
+        &self,
+        py: Python<'_>,
+        a: &str,
+        b: &str,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(String, Vec<String>)> {
+        self.with_equations(py, tell, |cx, show| written::comparison(cx, (a, b), show))
+    }
+
+    /// Claims and motion: `study`.
+    #[pyo3(signature = (asked, tell=None))]
+    fn study(
+        &self,
+        py: Python<'_>,
+        asked: &Bound<'_, PyAny>,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Outcome> {
+        let asked: Asked = asked.extract()?;
+        let claims = match &asked.claims {
+            None => ClaimSelection::all(),
+            Some(text) => ClaimSelection::parse(text, registry().claims()).map_err(|word| {
+                let near = explanation::did_you_mean(&word, registry().claims());
+                let said = format!("claims: `{word}` is neither a group nor a claim{near}");
+                problem::of_option(py, &said)
+            })?,
+        };
+        let options = StudyOptions {
+            claims,
+            ..self.options(py, &asked)?
+        };
+        self.studied(py, options, tell)
+    }
+
+    /// The motion alone: `simulate`.
+    #[pyo3(signature = (asked, tell=None))]
+    fn simulate(
+        &self,
+        py: Python<'_>,
+        asked: &Bound<'_, PyAny>,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Outcome> {
+        let options = StudyOptions {
+            claims: ClaimSelection::of_motion(),
+            ..self.options(py, &asked.extract()?)?
+        };
+        self.studied(py, options, tell)
+    }
+
+    /// What the variational principles state: `principles`.
+    #[pyo3(signature = (asked, compare, tell=None))]
+    fn principles(
+        &self,
+        py: Python<'_>,
+        asked: &Bound<'_, PyAny>,
+        compare: bool,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Outcome> {
+        let asked: Asked = asked.extract()?;
+        let kappa = self.kappa(py, &asked)?;
+        let options = StudyOptions {
+            claims: ClaimSelection::of_principles(compare),
+            motion: compare,
+            extremum: compare.then_some(kappa),
+            ..self.options(py, &asked)?
+        };
+        self.studied(py, options, tell)
+    }
+
+    /// Linear equations about a steady motion and their stability: `linearize` and `stability`.
+    #[pyo3(signature = (wanted, tell=None))]
+    fn stability(
+        &self,
+        py: Python<'_>,
+        wanted: &Bound<'_, PyAny>,
+        tell: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Linear> {
+        let wanted: Linearized = wanted.extract()?;
+        let found = waiting::done(py, tell, |hooks| {
+            interruptible(hooks, |hooks| {
+                (hooks.progress)("linear equations", None);
+                stability::stability(
+                    &self.model,
+                    &stability::Wanted {
+                        about: wanted.about.as_deref(),
+                        speeds: wanted.speeds.as_deref(),
+                        outputs: wanted.outputs.as_deref(),
+                        symbolic: wanted.symbolic,
+                        over: wanted.over.as_deref(),
+                    },
+                )
+                .map_err(Box::new)
+            })
+        })?;
+        match found.result {
+            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
+            Ok(Ok(found)) => Ok(Linear::new(found)),
+            Ok(Err(problem)) => Err(match *problem {
+                stability::StabilityError::System(problem) => {
+                    problem::of_system(py, &problem, self.place())
+                }
+                problem => problem::of_option(py, &problem),
+            }),
+        }
+    }
+
+    /// The equations of motion as functions of numbers.
+    fn compile(&self, py: Python<'_>) -> PyResult<Compiled> {
+        let system = self.system(py)?;
+        let found = waiting::done(py, None, |hooks| {
+            interruptible(hooks, |_| Compiled::new(&system))
+        })?;
+        match found.result {
+            Err(_) => Err(PyKeyboardInterrupt::new_err(())),
+            Ok(Ok(found)) => Ok(found),
+            Ok(Err(problem)) => Err(problem::of_system(py, &problem, self.place())),
+        }
+    }
+}
+
+/// What a claim or a formulation states, in words and as JSON; all claims without a name.
+#[pyfunction]
+#[pyo3(signature = (claim=None))]
+pub(crate) fn explain(py: Python<'_>, claim: Option<&str>) -> PyResult<(String, String)> {
+    let said = explanation::text(claim).map_err(|problem| problem::of_option(py, &problem))?;
+    let data = explanation::data(claim).map_err(|problem| problem::of_option(py, &problem))?;
+    Ok((said, data.to_string()))
+}
+
+/// Replays the verdicts of a record within a budget; the lines as JSON, and whether all agree.
+#[pyfunction]
+#[pyo3(signature = (record, budget, tell=None))]
+pub(crate) fn verify(
+    py: Python<'_>,
+    record: &str,
+    budget: f64,
+    tell: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(String, bool)> {
+    use chetaev::study::verify::{agrees, read, verify, Verified, VerifyError};
+    let wrong = |problem: VerifyError| match problem {
+        VerifyError::Study(StudyError::Interrupted) => PyKeyboardInterrupt::new_err(()),
+        problem => problem::of_option(py, &problem),
+    };
+    let record = read(record).map_err(wrong)?;
+    let found = waiting::done(py, tell, |hooks| verify(&record, budget, hooks))?;
+    if found.interrupted {
+        return Err(PyKeyboardInterrupt::new_err(()));
+    }
+    let lines = found.result.map_err(wrong)?;
+    let data: Vec<serde_json::Value> = lines.iter().map(Verified::to_json).collect();
+    Ok((serde_json::json!(data).to_string(), agrees(&lines)))
+}
+
+/// The models that come with Chetaev as JSON; of one model, its texts by path.
+#[pyfunction]
+#[pyo3(signature = (name=None))]
+pub(crate) fn gallery(py: Python<'_>, name: Option<&str>) -> PyResult<(String, Pairs, String)> {
+    let Some(name) = name else {
+        let all: Vec<serde_json::Value> = chetaev_gallery::models().map(|m| m.to_json()).collect();
+        return Ok((
+            serde_json::json!(all).to_string(),
+            Vec::new(),
+            String::new(),
+        ));
+    };
+    let Some(entry) = chetaev_gallery::find(name) else {
+        let said = format!("there is no model `{name}` in the gallery");
+        return Err(problem::of_option(py, &said));
+    };
+    let texts = entry.copied().into_iter();
+    let texts = texts.map(|(path, text)| (path, text.to_owned())).collect();
+    Ok((
+        entry.to_json().to_string(),
+        texts,
+        entry.readme().to_owned(),
+    ))
+}

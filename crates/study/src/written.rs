@@ -1,0 +1,137 @@
+//! Equations of motion written out: for reading, as data, as code, and two formulations held against each other: `chetaev derive`.
+
+mod code;
+mod comparison;
+mod latex;
+mod printed;
+
+use crate::derivation::{derivation, Derivation, NotDerived, Readings};
+use chetaev_mechanics::characteristics::CharacteristicsError;
+use chetaev_mechanics::{choice, Context, Formulation, Prepared, System};
+use chetaev_symbolic::print::CodeError;
+
+/// How equations are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Notation {
+    /// As in a model file.
+    Text,
+    /// LaTeX.
+    Latex,
+    /// MathML.
+    Mathml,
+    /// A Python module of SymPy equations.
+    Sympy,
+    /// JSON.
+    Json,
+    /// Functions in Rust.
+    Rust,
+    /// Functions in C.
+    C,
+}
+
+impl Notation {
+    /// All notations with their words.
+    pub const WORDS: [(&'static str, Notation); 7] = [
+        ("text", Notation::Text),
+        ("latex", Notation::Latex),
+        ("mathml", Notation::Mathml),
+        ("sympy", Notation::Sympy),
+        ("json", Notation::Json),
+        ("rust", Notation::Rust),
+        ("c", Notation::C),
+    ];
+
+    /// The notation of a word.
+    pub fn named(word: &str) -> Option<Notation> {
+        let mut known = Notation::WORDS.into_iter();
+        known.find(|(own, _)| *own == word).map(|(_, own)| own)
+    }
+
+    /// Whether it is a programming language, in which the equations stand as they were derived.
+    pub fn is_code(self) -> bool {
+        matches!(self, Notation::Rust | Notation::C)
+    }
+}
+
+/// Why nothing is written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotWritten {
+    /// A formulation that does not exist.
+    #[error("there is no formulation `{0}`")]
+    Unknown(String),
+    /// A formulation that does not apply, or gives nothing.
+    #[error(transparent)]
+    NotDerived(#[from] NotDerived),
+    /// What has no code.
+    #[error(transparent)]
+    Code(CodeError),
+}
+
+/// Terms and selection, with what a reader of the equations must know about them: constraints that are left out, wishes that are not
+/// heeded.
+///
+/// # Errors
+/// [`CharacteristicsError`] where no admissible state is found.
+pub fn prepared(system: &System) -> Result<(Prepared, Vec<String>), CharacteristicsError> {
+    let prepared = Prepared::new(system)?;
+    let mut notes = Vec::new();
+    if let Some(left_out) = prepared.left_out(system)? {
+        notes.push(format!(
+            "redundant constraints: {} left out, the others imply what they say",
+            left_out.quoted()
+        ));
+    }
+    notes.extend(choice::unheeded(
+        system,
+        &prepared.terms,
+        &prepared.selection,
+    ));
+    Ok((prepared, notes))
+}
+
+/// What hears of a formulation before it is derived, and after, with what it gave.
+pub type Told<'a> = &'a mut dyn FnMut(&'static dyn Formulation, Option<&Tried>);
+
+/// A formulation derived, or why it is not.
+pub type Tried = Result<Derivation, NotDerived>;
+
+/// The equations of several formulations, one after the other; `told` hears of each before and after, with what it gave.
+///
+/// # Errors
+/// [`NotWritten`]; with `all` formulations one that does not apply is an answer.
+pub fn equations(
+    cx: &Context<'_>,
+    asked: &[&'static dyn Formulation],
+    (notation, all): (Notation, bool),
+    told: Told<'_>,
+) -> Result<String, NotWritten> {
+    let readings = Readings::default();
+    let mut found = Vec::new();
+    for formulation in asked {
+        told(*formulation, None);
+        let one = derivation(cx, *formulation, (!notation.is_code()).then_some(&readings));
+        told(*formulation, Some(&one));
+        match one {
+            Err(problem) if !all => return Err(problem.into()),
+            one => found.push(one),
+        }
+    }
+    if notation.is_code() {
+        code::source(cx.system, &found, notation)
+    } else {
+        Ok(printed::text(cx, &found, notation))
+    }
+}
+
+/// Differences of the equations of two formulations, and why they vanish or where they do not.
+///
+/// # Errors
+/// [`NotWritten`].
+pub fn comparison(
+    cx: &Context<'_>,
+    (a, b): (&str, &str),
+    progress: &dyn Fn(&str),
+) -> Result<String, NotWritten> {
+    comparison::text(cx, a, b, progress)
+}

@@ -1,0 +1,40 @@
+"""Analytical mechanics with nonholonomic constraints: equations in every form, proved verdicts, motions with their drift.
+
+>>> import chetaev
+>>> sleigh = chetaev.System.from_gallery("chaplygin-sleigh")
+>>> sleigh.coordinates
+['x', 'y', 'phi']
+>>> study = sleigh.study(claims="energy.integral")
+>>> study["energy.integral"].verdict
+'proved'
+"""
+
+from __future__ import annotations
+
+from . import errors, gallery
+from .chetaev_native import VERSION as __version__
+from .claims import explain, verify
+from .errors import (
+    ChetaevError,
+    Interrupted,
+    ModelError,
+    ModelWarning,
+    NotDerivedError,
+    OptionError,
+)
+from .system import System
+
+__all__ = [
+    "ChetaevError",
+    "Interrupted",
+    "ModelError",
+    "ModelWarning",
+    "NotDerivedError",
+    "OptionError",
+    "System",
+    "__version__",
+    "errors",
+    "explain",
+    "gallery",
+    "verify",
+]

@@ -1,0 +1,76 @@
+"""Exceptions and warnings."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+
+class ChetaevError(Exception):
+    """Anything that Chetaev refuses."""
+
+    def __init__(self, rendered: str, data: str = "[]") -> None:
+        super().__init__(rendered, data)
+        self.rendered = rendered.rstrip()
+        self.diagnostics: list[dict[str, Any]] = json.loads(data)
+
+    def __str__(self) -> str:
+        return self.rendered
+
+
+class ModelError(ChetaevError, ValueError):
+    """A model is wrong. It prints every problem with its line, the text underlined, and advice.
+
+    Attributes
+    ----------
+    diagnostics : list of dict
+        All problems, as ``chetaev check --json`` writes them.
+    file, line, column, text, hint
+        Of the first error: name of the file, line and column from 1, the offending text, and the first advice or ``None``.
+    """
+
+    @property
+    def _first(self) -> dict[str, Any]:
+        errors = [own for own in self.diagnostics if own["severity"] == "error"]
+        return (errors or self.diagnostics)[0]
+
+    @property
+    def file(self) -> str:
+        return str(self._first["at"]["file"])
+
+    @property
+    def line(self) -> int:
+        return int(self._first["at"]["line"])
+
+    @property
+    def column(self) -> int:
+        return int(self._first["at"]["column"])
+
+    @property
+    def text(self) -> str:
+        return str(self._first["at"]["text"])
+
+    @property
+    def hint(self) -> str | None:
+        hints = self._first["hints"]
+        return str(hints[0]) if hints else None
+
+
+class OptionError(ChetaevError, ValueError):
+    """The value of a keyword is wrong."""
+
+
+class NotDerivedError(ChetaevError, ValueError):
+    """A formulation does not apply to the system; the message says which requirement fails, with its evidence."""
+
+
+class ModelWarning(UserWarning):
+    """Something in a model is doubtful."""
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C ended a computation; ``result`` is what there was."""
+
+    def __init__(self, result: Any) -> None:
+        super().__init__("interrupted; what was computed is in the attribute `result` of this exception")
+        self.result = result

@@ -1,0 +1,43 @@
+"""The models that come with Chetaev."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any
+
+from . import chetaev_native as native
+from .results import Result, write
+
+
+class Gallery(Result):
+    """Names, titles and files of models."""
+
+
+def list() -> Gallery:  # noqa: A001
+    """All models."""
+    data = json.loads(native.gallery()[0])
+    width = max(len(own["name"]) for own in data)
+    return Gallery(data, "\n".join(f"{own['name']:<{width}} {own['title']}" for own in data))
+
+
+def describe(name: str) -> Gallery:
+    """The description of a model."""
+    data, _, description = native.gallery(name)
+    return Gallery({**json.loads(data), "description": description}, description)
+
+
+def copy(name: str, folder: str | os.PathLike[str] | None = None) -> Gallery:
+    """Writes a model into a new folder, its own name when left out."""
+    data, texts, _ = native.gallery(name)
+    target = os.fspath(folder if folder is not None else name.rsplit("/", 1)[-1])
+    if os.path.exists(target):
+        raise FileExistsError(f"{target} exists already; nothing was written")
+    for path, text in texts:
+        write(os.path.join(target, path), text.encode())
+    return Gallery({**json.loads(data), "folder": target}, f"wrote {target}")
+
+
+def texts(name: str) -> dict[str, Any]:
+    """The files of a model, and of the others of its group, by path."""
+    return dict(native.gallery(name)[1])

@@ -1,0 +1,581 @@
+"""What the methods of a system give: objects that print, that notebooks typeset, and that are plain data where it is asked for."""
+
+from __future__ import annotations
+
+import contextlib
+import html
+import json
+import os
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from .chetaev_native import Linear, Outcome
+    from .system import System
+
+Json = Any
+#: Colours of verdicts, legible on light and dark pages.
+_COLOURS = {
+    "proved": "#2e9e4f",
+    "numerical": "#1f8fb3",
+    "refuted": "#d0443c",
+    "conditional": "#c08a12",
+    "not-applicable": "#888888",
+    "undecided": "#888888",
+}
+
+
+def write(path: str | os.PathLike[str], content: bytes) -> None:
+    """Writes a file completely or not at all."""
+    path = os.fspath(path)
+    folder = os.path.dirname(path) or "."
+    os.makedirs(folder, exist_ok=True)
+    handle, partial = tempfile.mkstemp(dir=folder, suffix=".partial")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+        os.replace(partial, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.remove(partial)
+        raise
+
+
+class Result:
+    """An answer with its data."""
+
+    def __init__(self, data: Json, text: str) -> None:
+        self._data = data
+        self._text = text
+
+    def to_dict(self) -> Json:
+        """The data, equal to what the command writes with ``--json``."""
+        return json.loads(json.dumps(self._data))
+
+    def __str__(self) -> str:
+        return self._text.rstrip("\n")
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def _html(self) -> str:
+        return f"<pre>{html.escape(str(self))}</pre>"
+
+    def _latex(self) -> str | None:
+        return None
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        bundle = {"text/plain": str(self), "text/html": self._html()}
+        latex = self._latex()
+        if latex is not None:
+            bundle["text/latex"] = latex
+        return bundle
+
+
+class Check(Result):
+    """What is wrong or doubtful in a model. ``diagnostics`` are its problems; ``ok`` says that there is no error."""
+
+    def __init__(self, data: Json, text: str, has_errors: bool) -> None:
+        super().__init__(data, text or "no errors")
+        self.ok = not has_errors
+
+    @property
+    def diagnostics(self) -> list[dict[str, Any]]:
+        return list(self.to_dict())
+
+
+class Equation:
+    """An equation ``left = right`` as texts of the model notation, with its LaTeX."""
+
+    def __init__(self, data: Mapping[str, str]) -> None:
+        self.label = data["label"]
+        self.left = data["left"]
+        self.right = data["right"]
+        self.latex = data["latex"]
+
+    def __repr__(self) -> str:
+        return f"{self.left} = {self.right}"
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex}$"
+
+
+class Formulation:
+    """The equations of motion in one form: ``groups`` by their headings, and intermediate ``objects``.
+
+    A formulation that does not apply has no groups, and ``not_derived`` says why.
+    """
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        self.name: str = data["formulation"]
+        self.not_derived: str | None = data.get("not_derived")
+        self.title: str = data.get("title", self.name)
+        self.statement: str = data.get("statement", "")
+        self.principle: str = data.get("principle", "")
+        self.state: list[str] = data.get("state", [])
+        self.groups: dict[str, list[Equation]] = {
+            group["title"]: [Equation(own) for own in group["equations"]] for group in data.get("groups", [])
+        }
+        self.objects: dict[str, dict[str, Any]] = {own["name"]: own for own in data.get("objects", [])}
+
+    @property
+    def equations(self) -> list[Equation]:
+        """All equations, group by group."""
+        return [own for group in self.groups.values() for own in group]
+
+    def __repr__(self) -> str:
+        if self.not_derived is not None:
+            return self.not_derived
+        lines = [self.title]
+        for heading, equations in self.groups.items():
+            lines += [f"{heading}:"] + [f"  {own}" for own in equations]
+        return "\n".join(lines)
+
+    def to_latex(self) -> str:
+        """The equations in an ``aligned`` environment."""
+        rows = [own.latex.replace(" = ", " &= ", 1) for own in self.equations]
+        return "\\begin{aligned}\n" + " \\\\\n".join(rows) + "\n\\end{aligned}"
+
+    def _repr_latex_(self) -> str:
+        return f"$${self.to_latex()}$$"
+
+
+class Derivation(Result, Sequence[Formulation]):
+    """Equations of motion in one or several forms."""
+
+    def __init__(self, system: System, asked: tuple[list[str], bool], data: Json, notes: list[str]) -> None:
+        self._system = system
+        self._asked = asked
+        self.notes = notes
+        self.formulations = [Formulation(own) for own in data]
+        super().__init__(data, "\n\n".join(repr(own) for own in self.formulations))
+
+    def __len__(self) -> int:
+        return len(self.formulations)
+
+    def __getitem__(self, which: Any) -> Any:
+        """By number, or by the name of the formulation."""
+        if isinstance(which, str):
+            for own in self.formulations:
+                if own.name == which:
+                    return own
+            raise KeyError(which)
+        return self.formulations[which]
+
+    def to(self, notation: str) -> str:
+        """The text of ``chetaev derive --as notation``: text, latex, mathml, sympy, json, rust or c."""
+        return self._system._native.derive(*self._asked, notation)[0]
+
+    def to_latex(self) -> str:
+        return self.to("latex")
+
+    def to_sympy(self) -> dict[str, dict[str, list[Any]]]:
+        """SymPy equations by formulation and heading, exact."""
+        space: dict[str, Any] = {}
+        exec(compile(self.to("sympy"), "<chetaev>", "exec"), space)
+        names = [own.name for own in self.formulations if own.not_derived is None]
+        return {name: space[name.replace("-", "_")] for name in names}
+
+    def _latex(self) -> str | None:
+        return "\n".join(f"$${own.to_latex()}$$" for own in self.formulations if own.groups)
+
+    def _html(self) -> str:
+        parts = []
+        for own in self.formulations:
+            if own.not_derived is not None:
+                parts.append(f"<p>{html.escape(own.not_derived)}</p>")
+                continue
+            parts.append(f"<h4>{html.escape(own.title)}</h4>")
+            for heading, equations in own.groups.items():
+                parts.append(f"<p><i>{html.escape(heading)}</i></p>")
+                parts += [f"<p>$\\displaystyle {html.escape(e.latex)}$</p>" for e in equations]
+        return "\n".join(parts)
+
+
+class Comparison(Result):
+    """Two forms of the equations held against each other: what differs, and why it vanishes."""
+
+
+class Linearization(Result):
+    """Linear equations ``E z' = F z`` about a steady motion, exact."""
+
+    def __init__(self, system: System, native: Linear, text: str) -> None:
+        super().__init__(json.loads(native.json()), text)
+        self._system = system
+        self._native = native
+        self.variables: list[str] = self._data["variables"]
+
+    def to_latex(self) -> str:
+        """The matrices in LaTeX."""
+        return self._native.latex()
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes a file in the format of its end: .npz, .mat, .py (python-control), .tex, .json or .txt."""
+        own = self._native
+        formats: dict[str, Any] = {
+            ".npz": own.npz, ".mat": own.mat, ".py": own.control, ".tex": own.latex, ".txt": own.equations,
+            ".json": lambda: json.dumps(self._data, indent=2, ensure_ascii=False) + "\n",
+        }
+        end = os.path.splitext(path)[1]
+        if end not in formats:
+            raise ValueError(f"{os.fspath(path)}: the end of the name says the format: {', '.join(formats)}")
+        content = formats[end]()
+        write(path, content.encode() if isinstance(content, str) else bytes(content))
+
+    @property
+    def E(self) -> list[list[str]]:
+        """The left matrix, exact texts."""
+        return [list(row) for row in self._data["E"]]
+
+    @property
+    def F(self) -> list[list[str]]:
+        """The right matrix, exact texts."""
+        return [list(row) for row in self._data["F"]]
+
+    @property
+    def eigenvalues(self) -> NDArray[np.complex128] | None:
+        """At the values of the model; ``None`` where one has no value."""
+        import numpy as np
+
+        pairs = self._data["eigenvalues"]
+        return None if pairs is None else np.array([complex(re, im) for re, im in pairs])
+
+    def to_sympy(self) -> tuple[Any, Any]:
+        """The matrices E and F."""
+        import sympy as sp
+
+        rows = self.E + self.F
+        flat = self._system.sympify([own for row in rows for own in row])
+        width, height = len(self.variables), len(self.E)
+        cells = iter(flat)
+        whole = [[next(cells) for _ in range(width)] for _ in rows]
+        return sp.Matrix(whole[:height]), sp.Matrix(whole[height:])
+
+
+class Stability(Linearization):
+    """Stability of a steady motion; over a range of a parameter ``regions`` and ``critical`` values with their enclosures."""
+
+    @property
+    def critical(self) -> list[dict[str, Any]] | None:
+        found: list[dict[str, Any]] | None = self.to_dict().get("critical")
+        return found
+
+    @property
+    def regions(self) -> list[dict[str, Any]] | None:
+        found: list[dict[str, Any]] | None = self.to_dict().get("regions")
+        return found
+
+
+class Verdict:
+    """One claim with its verdict and the evidence.
+
+    Attributes
+    ----------
+    claim : str
+        ``id`` or ``id#subject``.
+    verdict : str
+        ``proved``, ``numerical``, ``refuted``, ``conditional``, ``not-applicable`` or ``undecided``.
+    detail : str
+        One sentence.
+    data : dict
+        All of the record: method, bound of the error, seed, counterexample, condition, formulas.
+    """
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        self.data = data
+        subject = data["subject"]
+        self.claim: str = data["claim"] if subject is None else f"{data['claim']}#{subject}"
+        self.verdict: str = data["verdict"]
+        self.detail: str = data["detail"]
+
+    def __repr__(self) -> str:
+        return f"{self.claim}: {self.verdict}: {self.detail}"
+
+    def __bool__(self) -> bool:
+        raise TypeError("a verdict has no truth value: compare `verdict` with one of the six words")
+
+    def _row(self) -> str:
+        said = {key: own for key, own in self.data.items() if own not in (None, [], "")}
+        evidence = html.escape(json.dumps(said, indent=1, ensure_ascii=False))
+        colour = _COLOURS.get(self.verdict, "#888888")
+        return (
+            f"<tr><td style='text-align:left'><code>{html.escape(self.claim)}</code></td>"
+            f"<td style='text-align:left;color:{colour}'><b>{self.verdict}</b></td>"
+            f"<td style='text-align:left'><details><summary>{html.escape(self.detail)}</summary>"
+            f"<pre>{evidence}</pre></details></td></tr>"
+        )
+
+    def _repr_html_(self) -> str:
+        return f"<table>{self._row()}</table>"
+
+
+class Trajectory(Result):
+    """A computed motion. ``trajectory["x"]``, ``trajectory["x'"]``, ``trajectory["lambda_blade"]`` are arrays by name.
+
+    Attributes
+    ----------
+    t : array of shape (rows,)
+        The times.
+    names : list of str
+        Names of the columns: ``t``, coordinates, velocities, accelerations, multipliers, ``energy``, integrals.
+    """
+
+    def __init__(self, outcome: Outcome, text: str) -> None:
+        self._outcome = outcome
+        super().__init__(json.loads(outcome.run([])), text)
+        self.names, self._columns = outcome.columns()
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        try:
+            column: NDArray[np.float64] = self._columns[self.names.index(name)]
+        except ValueError:
+            raise KeyError(f"there is no column `{name}`; there are {', '.join(self.names)}") from None
+        return column
+
+    def __len__(self) -> int:
+        return int(self._columns.shape[1])
+
+    def keys(self) -> list[str]:
+        """Names of the columns; with this, ``dict(trajectory)`` works."""
+        return list(self.names)
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        return self["t"]
+
+    @property
+    def finished(self) -> bool:
+        """Whether the end of the time span was reached."""
+        return bool(self._data["finished"])
+
+    @property
+    def reason(self) -> str:
+        """Why it ended."""
+        return str(self._data["reason"])
+
+    @property
+    def notices(self) -> list[str]:
+        """What a reader must know."""
+        return list(self._data["notices"])
+
+    @property
+    def drift(self) -> dict[str, float | None]:
+        """Largest changes of constraints, energy and integrals along the motion."""
+        return {own["name"]: own["value"] for own in self._data["drifts"]}
+
+    @property
+    def events(self) -> list[dict[str, Any]]:
+        """Events that were met: name, time, how the function passes zero, state."""
+        return list(self.to_dict()["events"])
+
+    def to_numpy(self) -> NDArray[np.float64]:
+        """One array of shape (rows, columns)."""
+        return self._columns.T
+
+    def to_pandas(self) -> Any:
+        """A ``pandas.DataFrame`` with the time as index."""
+        import pandas as pd
+
+        frame = pd.DataFrame({name: self[name] for name in self.names})
+        return frame.set_index("t")
+
+    def to_polars(self) -> Any:
+        """A ``polars.DataFrame``."""
+        import polars as pl
+
+        return pl.DataFrame({name: self[name] for name in self.names})
+
+    def to_xarray(self) -> Any:
+        """An ``xarray.Dataset`` over the time."""
+        import xarray as xr
+
+        return xr.Dataset({name: ("t", self[name]) for name in self.names[1:]}, coords={"t": self.t})
+
+    def to_csv(self) -> str:
+        """The text of ``trajectory.csv``."""
+        return self._outcome.csv()
+
+    def plot(self, names: Sequence[str] | None = None, ax: Any = None) -> Any:
+        """Draws columns over the time by matplotlib; coordinates when none are named.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        if ax is None:
+            import matplotlib.pyplot as plt
+
+            _, ax = plt.subplots()
+        wanted = list(names) if names is not None else [own["name"] for own in self._data["initial"] if "'" not in own["name"]]
+        for name in wanted:
+            ax.plot(self.t, self[name], label=name)
+        ax.set_xlabel("t")
+        ax.legend()
+        return ax
+
+    def picture(self, *, at: float | None = None, ghosts: int = 0, width: int = 960, height: int = 540) -> Picture:
+        """The drawing at a time, the end when left out, with the bodies at so many earlier times."""
+        return Picture(self._outcome, at, ghosts, (width, height))
+
+    def animate(self, *, seconds: float | None = None, width: int = 640, height: int = 360) -> Film:
+        """The moving drawing, of so many seconds."""
+        return Film(self._outcome, seconds, (width, height))
+
+    def report(self) -> str:
+        """The report, one HTML page with equations, plots and animation."""
+        return self._outcome.page([])
+
+    def save_report(self, path: str | os.PathLike[str]) -> None:
+        """Writes the report."""
+        write(path, self.report().encode())
+
+    def save(self, folder: str | os.PathLike[str]) -> None:
+        """Writes ``trajectory.csv``, ``trajectory.npz`` and, where the model states events, ``events.csv``."""
+        for name, content in _data_files(self._outcome).items():
+            write(os.path.join(folder, name), content)
+
+    def render_static(self) -> str:
+        """HTML with the report inside, which exported notebooks keep."""
+        return f'<iframe srcdoc="{html.escape(self.report())}" style="width:100%;height:40em;border:0"></iframe>'
+
+
+def _data_files(outcome: Outcome) -> dict[str, bytes]:
+    files = {"trajectory.csv": outcome.csv().encode(), "trajectory.npz": bytes(outcome.npz())}
+    events = outcome.events()
+    if events is not None:
+        files["events.csv"] = events.encode()
+    return files
+
+
+class Picture:
+    """The drawing of a motion at a time; notebooks show it."""
+
+    def __init__(self, outcome: Outcome, at: float | None, ghosts: int, size: tuple[int, int]) -> None:
+        self._outcome = outcome
+        self._asked = (at, ghosts, size)
+
+    def to_svg(self) -> str:
+        return bytes(self._outcome.picture("svg", *self._asked)).decode()
+
+    def to_png(self) -> bytes:
+        return bytes(self._outcome.picture("png", *self._asked))
+
+    def to_dict(self) -> Json:
+        """The description of the picture, equal to ``scene.json``."""
+        return json.loads(self._outcome.scene())
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes .svg, .png, or .json with the description of the picture."""
+        contents: dict[str, Any] = {
+            ".svg": lambda: self.to_svg().encode(),
+            ".png": self.to_png,
+            ".json": lambda: self._outcome.scene().encode(),
+        }
+        end = os.path.splitext(path)[1]
+        if end not in contents:
+            raise ValueError(f"{os.fspath(path)}: a picture is written as .svg or .png, its description as .json")
+        write(path, contents[end]())
+
+    def _repr_svg_(self) -> str:
+        return self.to_svg()
+
+
+class Film:
+    """The moving drawing of a motion, a GIF; notebooks show it."""
+
+    def __init__(self, outcome: Outcome, seconds: float | None, size: tuple[int, int]) -> None:
+        self.content: bytes = bytes(outcome.film(seconds, size))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes a .gif."""
+        if os.path.splitext(path)[1] != ".gif":
+            raise ValueError(f"{os.fspath(path)}: a film is written as .gif")
+        write(path, self.content)
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        import base64
+
+        data = base64.b64encode(self.content).decode()
+        return {"text/html": f'<img src="data:image/gif;base64,{data}">', "text/plain": f"<film of {len(self.content)} bytes>"}
+
+
+class Study(Result):
+    """Claims with their verdicts, and the motion. ``study["energy.integral"]`` is a verdict, ``study.verdicts`` are all."""
+
+    def __init__(self, outcome: Outcome, text: str) -> None:
+        self._outcome = outcome
+        super().__init__(json.loads(outcome.record([])), text)
+        self.verdicts = [Verdict(own) for own in self._data["verdicts"]]
+        self.trajectory = Trajectory(outcome, outcome.summary()) if outcome.has_motion else None
+
+    def __getitem__(self, claim: str) -> Verdict:
+        for own in self.verdicts:
+            if own.claim == claim:
+                return own
+        raise KeyError(f"`{claim}` was not decided")
+
+    def __iter__(self) -> Iterator[Verdict]:
+        return iter(self.verdicts)
+
+    @property
+    def ok(self) -> bool:
+        """Whether everything is as the model expects, and the motion ended as it should: exit status 0 of the command."""
+        return self._outcome.status == 0
+
+    @property
+    def notices(self) -> list[str]:
+        """What a reader must know."""
+        return self._outcome.notices
+
+    def summary(self) -> str:
+        """The text that the command prints."""
+        return self._outcome.summary()
+
+    def report(self) -> str:
+        """The report, one HTML page."""
+        return self._outcome.page([])
+
+    def save_report(self, path: str | os.PathLike[str]) -> None:
+        """Writes the report."""
+        write(path, self.report().encode())
+
+    def save(self, folder: str | os.PathLike[str]) -> None:
+        """Writes what the command writes: the trajectory, ``report.html``, and ``study.json`` with checksums of the others."""
+        import hashlib
+
+        files = _data_files(self._outcome) if self._outcome.has_motion else {}
+        names = list(files)
+        files["report.html"] = self._outcome.page(names).encode()
+        record = json.loads(self._outcome.record(names))
+        for name, content in files.items():
+            write(os.path.join(folder, name), content)
+            record["files"].append({"name": name, "sha256": hashlib.sha256(content).hexdigest()})
+        text = json.dumps(record, indent=2, ensure_ascii=False) + "\n"
+        write(os.path.join(folder, "study.json"), text.encode())
+
+    def render_static(self) -> str:
+        """HTML with the report inside, which exported notebooks keep."""
+        return f'<iframe srcdoc="{html.escape(self.report())}" style="width:100%;height:40em;border:0"></iframe>'
+
+    def _html(self) -> str:
+        rows = "".join(own._row() for own in self.verdicts)
+        notes = "".join(f"<p>{html.escape(own)}</p>" for own in self.notices)
+        return f"<table>{rows}</table>{notes}"
+
+
+class Explanation(Result):
+    """What a claim or a formulation states, and how it is decided."""
+
+
+class Verification(Result):
+    """What a replay says of each verdict of a record; ``agrees`` says that nothing disagrees."""
+
+    def __init__(self, data: Json, agrees: bool) -> None:
+        width = max((len(own["claim"]) for own in data), default=0)
+        lines = [f"{own['result']:<10} {own['claim']:<{width}} {own['recorded']:<14} {own['detail']}" for own in data]
+        super().__init__(data, "\n".join(lines))
+        self.agrees = agrees

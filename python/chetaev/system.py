@@ -1,0 +1,596 @@
+"""A mechanical system, and every question that can be asked of it."""
+
+from __future__ import annotations
+
+import json
+import os
+import warnings
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from . import chetaev_native as native
+from .errors import Interrupted, ModelWarning
+from .results import Check, Comparison, Derivation, Film, Linearization, Picture, Stability, Study, Trajectory
+from .texts import exact, toml
+
+if TYPE_CHECKING:
+    from .compiled import Compiled
+
+#: A number, a text of the model notation, a fraction, or a SymPy expression.
+Value = Any
+_DEFAULT = ("routh", "maggi")
+_Found = TypeVar("_Found", Study, Trajectory)
+
+
+class System:
+    """A mechanical system.
+
+    Every section of a model file is a keyword; its content is a mapping, or a list where the file has one. Expressions are
+    texts in the notation of the model file, numbers (a float is the decimal that it prints as), fractions, or SymPy expressions.
+
+    Parameters
+    ----------
+    name : str
+        A name.
+    coordinates : list of str, or mapping to units
+        The coordinates.
+    kinetic, potential : expression, optional
+        Kinetic and potential energy.
+    lagrangian : expression, or mapping with the keys ``T``, ``V``, ``L``, optional
+        The Lagrangian itself.
+    constraints : mapping from names to equations, or list of equations, optional
+        Constraints, as ``"y' cos(phi) = x' sin(phi)"``.
+    **sections
+        ``parameters``, ``initial``, ``simulation``, ``define``, ``forces``, ``assumptions``, ``steady``, ``events``, …
+
+    Examples
+    --------
+    >>> skate = System(
+    ...     "skate",
+    ...     coordinates=["x", "y", "phi"],
+    ...     parameters={"m": 1, "J": "2/5"},
+    ...     kinetic="1/2 m (x'^2 + y'^2) + 1/2 J phi'^2",
+    ...     constraints={"blade": "y' cos(phi) = x' sin(phi)"},
+    ...     initial={"x'": 1, "phi'": 0.5},
+    ... )
+    >>> skate.constraints
+    ['blade']
+    """
+
+    _native: native.Model
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        coordinates: Sequence[str] | Mapping[str, Any],
+        kinetic: Value = None,
+        potential: Value = None,
+        lagrangian: Value = None,
+        constraints: Mapping[str, Value] | Sequence[Value] | None = None,
+        **sections: Any,
+    ) -> None:
+        energies = dict(lagrangian) if isinstance(lagrangian, Mapping) else {"L": lagrangian}
+        energies.update({"T": kinetic, "V": potential})
+        content: dict[str, Any] = {"name": name, "coordinates": coordinates}
+        content["lagrangian"] = {key: own for key, own in energies.items() if own is not None}
+        if constraints is not None:
+            named = constraints if isinstance(constraints, Mapping) else {
+                f"constraint_{number}": own for number, own in enumerate(constraints, 1)
+            }
+            content["constraints"] = {key: own if isinstance(own, Mapping) else exact(own) for key, own in named.items()}
+        content.update({key: own for key, own in sections.items() if own is not None})
+        self._take(native.Model.from_text(toml({key: own for key, own in content.items() if own != {}}), None, []))
+
+    def _take(self, model: native.Model) -> System:
+        self._native = model
+        said = model.warnings()
+        if said:
+            warnings.warn(said, ModelWarning, stacklevel=3)
+        return self
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str], *, set: Mapping[str, Value] | None = None) -> System:
+        """Reads a model file.
+
+        Parameters
+        ----------
+        path : path
+            The file.
+        set : mapping, optional
+            Other values of parameters and sizes, exactly, as ``--set``.
+
+        Raises
+        ------
+        ModelError
+            With everything that is wrong, each at its place.
+        """
+        return cls.__new__(cls)._take(native.Model.from_file(os.fspath(path), _pairs(set)))
+
+    @classmethod
+    def from_text(
+        cls, text: str, *, path: str | os.PathLike[str] | None = None, set: Mapping[str, Value] | None = None
+    ) -> System:
+        """Reads a model from its text; what it includes is looked for beside ``path``."""
+        place = None if path is None else os.fspath(path)
+        return cls.__new__(cls)._take(native.Model.from_text(text, place, _pairs(set)))
+
+    @classmethod
+    def from_gallery(cls, name: str, *, set: Mapping[str, Value] | None = None) -> System:
+        """A model that comes with Chetaev; ``chetaev.gallery.list()`` names them."""
+        texts = native.gallery(name)[1]
+        group, _, member = name.rpartition("/")
+        own = f"{member}/model.toml" if group else "model.toml"
+        main = dict(texts)[own]
+        includes = [(os.path.normpath(path).replace(os.sep, "/"), text) for path, text in texts if path != own]
+        return cls.__new__(cls)._take(native.Model.from_texts(own, main, includes, _pairs(set)))
+
+    @classmethod
+    def from_sympy(
+        cls,
+        lagrangian: Any,
+        coordinates: Sequence[Any] | None = None,
+        *,
+        constraints: Mapping[str, Any] | Iterable[Any] = (),
+        forces: Mapping[Any, Any] | None = None,
+        parameters: Mapping[Any, Value] | None = None,
+        name: str = "system",
+        **sections: Any,
+    ) -> System:
+        """A system that is stated in SymPy.
+
+        Parameters
+        ----------
+        lagrangian : expression, LagrangesMethod, KanesMethod or sympy.physics.mechanics.System
+            The Lagrangian L(q, q', t), or an object that states a whole system.
+        coordinates : sequence of functions of the time
+            As ``dynamicsymbols`` makes them; needed with a Lagrangian.
+        constraints : sequence or mapping
+            Expressions that vanish, or equations.
+        forces : mapping from coordinates to expressions
+            Generalized forces that are not in the Lagrangian.
+        parameters : mapping from symbols to values
+            Those without a value stay symbols.
+        **sections
+            As for :class:`System`: ``initial``, ``simulation``, …
+
+        Examples
+        --------
+        >>> import sympy as sp
+        >>> from sympy.physics.mechanics import dynamicsymbols
+        >>> th = dynamicsymbols("theta"); g, l = sp.symbols("g l")
+        >>> System.from_sympy(l**2 * th.diff()**2 / 2 + g * l * sp.cos(th), [th]).coordinates
+        ['theta']
+        """
+        from .from_sympy import Statement, statement
+
+        if coordinates is None:
+            stated = statement(lagrangian, parameters)
+        else:
+            stated = Statement(lagrangian, coordinates, constraints=constraints, forces=forces, parameters=parameters)
+        return cls(name, **{**stated.sections, **sections})
+
+    def with_values(self, **values: Value) -> System:
+        """The same system with other values of parameters and sizes."""
+        path, text, includes, overrides = self._native.texts()
+        kept = [own for own in overrides if own[0] not in values]
+        return type(self).__new__(type(self))._take(
+            native.Model.from_texts(path, text, includes, kept + _pairs(values))
+        )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (type(self), *self._native.texts())
+
+    @property
+    def name(self) -> str:
+        return self._native.name
+
+    @property
+    def coordinates(self) -> list[str]:
+        """Names of the coordinates."""
+        return self._native.coordinates
+
+    @property
+    def parameters(self) -> dict[str, str | None]:
+        """Names of the parameters with their exact values; ``None`` where one has no value."""
+        return dict(self._native.parameters)
+
+    @property
+    def constraints(self) -> list[str]:
+        """Names of the constraints."""
+        return self._native.constraints
+
+    @property
+    def text(self) -> str:
+        """The model file."""
+        return self._native.texts()[1]
+
+    def __repr__(self) -> str:
+        return f"<System {self.name}: coordinates {', '.join(self.coordinates)}; constraints {', '.join(self.constraints) or 'none'}>"
+
+    def _repr_html_(self) -> str:
+        import html
+
+        return f"<b>{html.escape(self.name)}</b><pre>{html.escape(self.text)}</pre>"
+
+    def sympify(self, expressions: Sequence[str] | str) -> Any:
+        """Expressions of the model notation in SymPy, exactly.
+
+        Coordinates are functions of the time, ``sympy.Function("x", real=True)(t)``; a text gives one expression, a list a list.
+        """
+        texts = [expressions] if isinstance(expressions, str) else list(expressions)
+        space: dict[str, Any] = {}
+        exec(compile(self._native.sympy(texts), "<chetaev>", "exec"), space)
+        found = list(space["found"]["all"])
+        return found[0] if isinstance(expressions, str) else found
+
+    def lowered(self) -> str:
+        """The model file with bodies, joints and contacts written out as coordinates, energies and constraints."""
+        return self._native.lowered()
+
+    def check(self) -> Check:
+        """Everything wrong or doubtful in the model."""
+        text, data, has_errors = self._native.check()
+        return Check(json.loads(data), text, has_errors)
+
+    def derive(
+        self, formulation: str | Iterable[str] = (), *, all: bool = False, progress: bool = False
+    ) -> Derivation:
+        """Derives the equations of motion.
+
+        Parameters
+        ----------
+        formulation : str or list of str
+            Names of formulations; Routh's and Maggi's when left out.
+        all : bool
+            Every formulation; those that do not apply say why.
+
+        Raises
+        ------
+        NotDerivedError
+            Where a formulation that was named does not apply.
+        """
+        names = [formulation] if isinstance(formulation, str) else list(formulation)
+        asked = (names or list(_DEFAULT), all)
+        with _Progress(progress) as tell:
+            text, notes = self._native.derive(*asked, "json", tell)
+        return Derivation(self, asked, json.loads(text), notes)
+
+    def compare(self, a: str, b: str, *, progress: bool = False) -> Comparison:
+        """Holds two forms of the equations against each other: ``derive --compare a b``."""
+        with _Progress(progress) as tell:
+            text, notes = self._native.compare(a, b, tell)
+        return Comparison({"a": a, "b": b, "text": text, "notes": notes}, text)
+
+    def study(
+        self,
+        *,
+        claims: str | Iterable[str] | None = None,
+        budget: float = 60.0,
+        out: str | os.PathLike[str] | None = None,
+        progress: bool = False,
+        t_end: Value = None,
+        tolerance: float | None = None,
+        step: Value = None,
+        method: str | None = None,
+        precision: str | None = None,
+        formulation: str | None = None,
+        project: bool = False,
+        keep_integrals: bool = False,
+        branch: int | None = None,
+    ) -> Study:
+        """Decides every claim and computes the motion.
+
+        Parameters
+        ----------
+        claims : str or list of str, optional
+            Groups and claim ids; all when left out.
+        budget : float
+            Work for all claims together, in seconds of a usual machine.
+        out : path, optional
+            Folder to write the report, the record and the trajectory into.
+        progress : bool
+            Whether a progress bar is shown.
+        t_end : expression, optional
+            End of the run.
+        tolerance : float, optional
+            Relative tolerance.
+        step : expression, optional
+            Fixed step.
+        method : str, optional
+            ``dormand-prince-853``, ``taylor``, ``tsitouras-5`` or ``runge-kutta-4``.
+        precision : str, optional
+            ``double`` or ``double-double``.
+        formulation : str, optional
+            The formulation whose equations are integrated.
+        project : bool
+            Moves inadmissible initial data to the nearest admissible state.
+        keep_integrals : bool
+            Keeps the first integrals that are found, by projection.
+        branch : int, optional
+            Which branch of the motion is followed, where there are several.
+        """
+        words = claims if claims is None or isinstance(claims, str) else ",".join(claims)
+        asked = _asked(
+            claims=words, budget=budget, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
+            formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
+        )
+        with _Progress(progress) as tell:
+            outcome = self._native.study(asked, tell)
+        return _finished(Study(outcome, outcome.summary()), outcome, out)
+
+    def simulate(
+        self,
+        *,
+        out: str | os.PathLike[str] | None = None,
+        progress: bool = False,
+        t_end: Value = None,
+        tolerance: float | None = None,
+        step: Value = None,
+        method: str | None = None,
+        precision: str | None = None,
+        formulation: str | None = None,
+        project: bool = False,
+        keep_integrals: bool = False,
+        branch: int | None = None,
+    ) -> Trajectory:
+        """Computes the motion from the initial data of the model; the keywords are those of :meth:`study`.
+
+        Raises
+        ------
+        Interrupted
+            By Ctrl-C; its ``result`` is the trajectory as far as it went.
+        """
+        asked = _asked(
+            t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
+            formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
+        )
+        with _Progress(progress) as tell:
+            outcome = self._native.simulate(asked, tell)
+        return _finished(Trajectory(outcome, outcome.summary()), outcome, out)
+
+    def plot(
+        self,
+        *,
+        out: str | os.PathLike[str] | None = None,
+        at: float | None = None,
+        ghosts: int = 0,
+        width: int = 960,
+        height: int = 540,
+        progress: bool = False,
+        t_end: Value = None,
+        tolerance: float | None = None,
+        step: Value = None,
+        method: str | None = None,
+        precision: str | None = None,
+        formulation: str | None = None,
+        project: bool = False,
+        keep_integrals: bool = False,
+        branch: int | None = None,
+    ) -> Picture:
+        """Draws the motion at a time.
+
+        Parameters
+        ----------
+        out : path, optional
+            A file to write: .svg, .png, or .json with the description of the picture.
+        at : float, optional
+            The time that is shown; the end when left out.
+        ghosts : int
+            Shows the bodies at so many earlier times too.
+        width, height : int
+            Width and greatest height in pixels.
+        """
+        motion = self.simulate(
+            progress=progress, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
+            formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
+        )
+        picture = motion.picture(at=at, ghosts=ghosts, width=width, height=height)
+        if out is not None:
+            picture.save(out)
+        return picture
+
+    def film(
+        self,
+        *,
+        out: str | os.PathLike[str] | None = None,
+        seconds: float | None = None,
+        width: int = 640,
+        height: int = 360,
+        progress: bool = False,
+        t_end: Value = None,
+        tolerance: float | None = None,
+        step: Value = None,
+        method: str | None = None,
+        precision: str | None = None,
+        formulation: str | None = None,
+        project: bool = False,
+        keep_integrals: bool = False,
+        branch: int | None = None,
+    ) -> Film:
+        """Films the motion, as a GIF.
+
+        Parameters
+        ----------
+        out : path, optional
+            A .gif to write.
+        seconds : float, optional
+            How long the film is; as long as the motion, from 2 to 20 seconds, when left out.
+        width, height : int
+            Width and greatest height in pixels.
+        """
+        motion = self.simulate(
+            progress=progress, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
+            formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
+        )
+        film = motion.animate(seconds=seconds, width=width, height=height)
+        if out is not None:
+            film.save(out)
+        return film
+
+    def principles(
+        self,
+        *,
+        compare: bool = False,
+        kappa: Mapping[str, Value] | None = None,
+        out: str | os.PathLike[str] | None = None,
+        budget: float = 60.0,
+        progress: bool = False,
+        t_end: Value = None,
+        tolerance: float | None = None,
+        step: Value = None,
+        method: str | None = None,
+        precision: str | None = None,
+        formulation: str | None = None,
+        project: bool = False,
+        keep_integrals: bool = False,
+        branch: int | None = None,
+    ) -> Study:
+        """Tells what the variational principles say of the system.
+
+        Parameters
+        ----------
+        compare : bool
+            Computes the motion and the constrained extremum from the same state.
+        kappa : mapping, optional
+            Initial values of multipliers of the extremum, ``{"kappa_blade": 0.5}``.
+        """
+        if kappa and not compare:
+            raise ValueError("kappa: it needs compare=True")
+        if out is not None and not compare:
+            raise ValueError("out: it needs compare=True")
+        asked = _asked(
+            budget=budget, kappa=kappa, t_end=t_end, tolerance=tolerance, step=step, method=method, precision=precision,
+            formulation=formulation, project=project, keep_integrals=keep_integrals, branch=branch,
+        )
+        with _Progress(progress) as tell:
+            outcome = self._native.principles(asked, compare, tell)
+        return _finished(Study(outcome, outcome.story()), outcome, out)
+
+    def linearize(
+        self,
+        *,
+        about: str | None = None,
+        speeds: str | Iterable[str] | None = None,
+        outputs: str | Iterable[str] | None = None,
+        symbolic: bool = False,
+        save: str | os.PathLike[str] | None = None,
+        progress: bool = False,
+    ) -> Linearization:
+        """Linear equations about a steady motion, exact.
+
+        Parameters
+        ----------
+        about : str, optional
+            A motion of ``steady``, ``rest`` (at the initial positions) or ``start`` (the initial state).
+        speeds : str or list of str, optional
+            Independent speeds of choice: velocities, or functions linear in them.
+        outputs : str or list of str, optional
+            Outputs: functions of coordinates, velocities and controls; all variables when left out.
+        symbolic : bool
+            Leaves all parameters as symbols.
+        save : path, optional
+            Writes a file in the format of its end: .npz, .mat, .py (python-control), .tex, .json or .txt.
+        """
+        wanted = _wanted(about=about, speeds=speeds, outputs=outputs, symbolic=symbolic)
+        with _Progress(progress) as tell:
+            found = self._native.stability(wanted, tell)
+        result = Linearization(self, found, found.equations())
+        if save is not None:
+            result.save(save)
+        return result
+
+    def stability(self, *, about: str | None = None, over: str | None = None, progress: bool = False) -> Stability:
+        """Decides the stability of a steady motion, also over a range of a parameter.
+
+        Parameters
+        ----------
+        about : str, optional
+            As in :meth:`linearize`.
+        over : str, optional
+            A parameter with a range, ``"v=0:10"``.
+        """
+        with _Progress(progress) as tell:
+            found = self._native.stability(_wanted(about=about, over=over), tell)
+        return Stability(self, found, found.ranges())
+
+    def compile(self, **values: float) -> Compiled:
+        """The equations of motion as functions of NumPy arrays, with the values of the model or these ones.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> f = System.from_gallery("chaplygin-sleigh").compile()
+        >>> f.rhs(0.0, np.zeros(6)).shape
+        (6,)
+        """
+        from .compiled import Compiled
+
+        return Compiled(self, values)
+
+
+def _again(cls: type[System], path: str, text: str, includes: Any, overrides: Any) -> System:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ModelWarning)
+        return cls.__new__(cls)._take(native.Model.from_texts(path, text, includes, overrides))
+
+
+def _pairs(values: Mapping[str, Value] | None) -> list[tuple[str, str]]:
+    return [(name, exact(value)) for name, value in (values or {}).items()]
+
+
+def _asked(**options: Any) -> dict[str, Any]:
+    """All options, with those that are exact expressions as texts."""
+    usual = {
+        "claims": None, "budget": None, "t_end": None, "tolerance": None, "step": None, "method": None, "precision": None,
+        "formulation": None, "project": False, "keep_integrals": False, "branch": None,
+    }
+    asked = {**usual, **options}
+    for name in ("t_end", "step"):
+        if asked[name] is not None:
+            asked[name] = exact(asked[name])
+    asked["kappa"] = _pairs(options.get("kappa"))
+    return asked
+
+
+def _wanted(**options: Any) -> dict[str, Any]:
+    """What is asked of linear equations, lists joined by commas."""
+    asked = {"about": None, "speeds": None, "outputs": None, "symbolic": False, "over": None, **options}
+    for name in ("speeds", "outputs"):
+        if asked[name] is not None and not isinstance(asked[name], str):
+            asked[name] = ",".join(asked[name])
+    return asked
+
+
+def _finished(result: _Found, outcome: native.Outcome, out: str | os.PathLike[str] | None) -> _Found:
+    if out is not None:
+        result.save(out)
+    if outcome.interrupted:
+        raise Interrupted(result)
+    return result
+
+
+class _Progress:
+    """A progress bar where tqdm is installed, else nothing."""
+
+    def __init__(self, wanted: bool) -> None:
+        self._bar: Any = None
+        if wanted:
+            try:
+                from tqdm.auto import tqdm
+            except ImportError:
+                return
+            self._bar = tqdm(total=100, bar_format="{desc} {percentage:3.0f} %|{bar}| {elapsed}")
+
+    def __enter__(self) -> Callable[[str, float | None], None] | None:
+        return self._tell if self._bar is not None else None
+
+    def _tell(self, what: str, fraction: float | None) -> None:
+        self._bar.set_description_str(what)
+        if fraction is not None:
+            self._bar.n = round(100 * fraction)
+        self._bar.refresh()
+
+    def __exit__(self, *_: object) -> None:
+        if self._bar is not None:
+            self._bar.close()

@@ -1,0 +1,127 @@
+"""Values of Python as the exact texts of model files, and back to SymPy."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from numbers import Integral, Rational, Real
+from typing import Any
+
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+
+
+def exact(value: Any) -> str:
+    """A number or an expression as the exact text that a model file has.
+
+    Texts are taken as they stand; a float is the shortest decimal that reads back as it (0.1 is a tenth); what SymPy has is
+    written by :func:`of_sympy`.
+    """
+    if isinstance(value, str):
+        return value
+    if isinstance(value, bool):
+        raise TypeError("a number or an expression is needed, not a truth value")
+    if isinstance(value, Integral):
+        return str(int(value))
+    if isinstance(value, Rational):
+        return f"{int(value.numerator)}/{int(value.denominator)}"
+    if isinstance(value, Real):
+        number = float(value)
+        if not math.isfinite(number):
+            raise ValueError(f"{number} is no finite number")
+        return repr(number)
+    if hasattr(value, "free_symbols"):
+        return of_sympy(value)
+    raise TypeError(f"a number, a text or a SymPy expression is needed, not {type(value).__name__}")
+
+
+def of_sympy(value: Any) -> str:
+    """A SymPy expression, or an equation, as text.
+
+    Functions of the time ``x(t)`` become names, their derivatives names with primes.
+    """
+    import sympy as sp
+    from sympy.printing.str import StrPrinter
+
+    class Printer(StrPrinter):  # type: ignore[misc, unused-ignore]
+        def _print_Derivative(self, e: Any) -> str:
+            (variable, count), = e.variable_count
+            function = self._print(e.expr)
+            if variable.name not in ("t", "_t") or not count.is_Integer or not _NAME.fullmatch(function):
+                raise ValueError(f"{e} is no derivative of a coordinate with respect to the time")
+            return str(function + "'" * int(count))
+
+        def _print_Float(self, e: Any) -> str:
+            return repr(float(e))
+
+        def _print_Function(self, e: Any) -> str:
+            if isinstance(e, sp.core.function.AppliedUndef):
+                if len(e.args) == 1 and getattr(e.args[0], "name", "") in ("t", "_t"):
+                    return self._name(e.func.__name__)
+                raise ValueError(f"{e} is no function of the time alone")
+            own = {"Abs": "abs"}.get(e.func.__name__, e.func.__name__)
+            return f"{own}({', '.join(self._print(a) for a in e.args)})"
+
+        _print_Abs = _print_Function
+        _print_sign = _print_Function
+
+        def _print_Symbol(self, e: Any) -> str:
+            return self._name("t" if e.name == "_t" else e.name)
+
+        _print_Dummy = _print_Symbol
+
+        def _print_Exp1(self, e: Any) -> str:
+            return "exp(1)"
+
+        def _print_Relational(self, e: Any) -> str:
+            return f"{self._print(e.lhs)} {'=' if e.rel_op == '==' else e.rel_op} {self._print(e.rhs)}"
+
+        @staticmethod
+        def _name(name: str) -> str:
+            if not _NAME.fullmatch(name):
+                raise ValueError(f"`{name}` is no name: letters, digits and underscores are, with a letter first")
+            return name
+
+    value = sp.sympify(value)
+    for atom in value.atoms(sp.Integral, sp.Piecewise, sp.I.__class__):
+        raise ValueError(f"{atom} has no place in a model")
+    return str(Printer({"order": "none"}).doprint(value))
+
+
+def toml(sections: Mapping[str, Any]) -> str:
+    """A model file of keys and sections, each a number, a text, a list, or a mapping."""
+    plain = {key: own for key, own in sections.items() if not isinstance(own, Mapping)}
+    tables = {key: own for key, own in sections.items() if isinstance(own, Mapping)}
+    lines = [f"{_key(key)} = {_value(own)}" for key, own in plain.items()]
+    for name, table in tables.items():
+        lines += ["", f"[{_key(name)}]"]
+        lines += [f"{_key(key)} = {_value(own)}" for key, own in table.items()]
+    return "\n".join(lines) + "\n"
+
+
+def _key(key: str) -> str:
+    return key if _BARE.fullmatch(key) else _text(key)
+
+
+def _text(text: str) -> str:
+    # The escapes of JSON are those of TOML, but for that of the delete character.
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def _value(value: Any) -> str:
+    if value is None:
+        return "{}"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{_key(key)} = {_value(own)}" for key, own in value.items()) + " }"
+    if isinstance(value, (Integral, Real)) and not isinstance(value, Fraction):
+        return exact(value)
+    if isinstance(value, str):
+        return _text(value)
+    if isinstance(value, Sequence) or type(value).__name__ in ("ndarray", "Tuple"):
+        return "[" + ", ".join(_value(own) for own in value) + "]"
+    return _text(exact(value))

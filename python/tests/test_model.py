@@ -1,0 +1,108 @@
+"""Models: files, texts, keywords, errors, pickles."""
+
+from __future__ import annotations
+
+import pickle
+import subprocess
+import sys
+import time
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+import chetaev
+from chetaev import ModelError, System
+from chetaev.texts import exact, toml
+
+
+def skate(**sections: object) -> System:
+    usual: dict[str, object] = {
+        "parameters": {"m": 1, "J": Fraction(2, 5)},
+        "initial": {"x'": 1, "phi'": 0.5},
+        "simulation": {"t_end": 2},
+    }
+    usual.update(sections)
+    return System(
+        "skate",
+        coordinates=["x", "y", "phi"],
+        kinetic="1/2 m (x'^2 + y'^2) + 1/2 J phi'^2",
+        constraints={"blade": "y' cos(phi) = x' sin(phi)"},
+        **usual,
+    )
+
+
+def test_keywords_state_what_a_file_states() -> None:
+    system = skate()
+    assert system.coordinates == ["x", "y", "phi"]
+    assert system.constraints == ["blade"]
+    assert system.parameters == {"m": "1", "J": "2/5"}
+    again = System.from_text(system.text)
+    assert again.parameters == system.parameters
+    assert again.derive("maggi").to_dict() == system.derive("maggi").to_dict()
+
+
+def test_floats_are_the_decimals_that_they_print_as() -> None:
+    assert skate(parameters={"m": 0.1, "J": 1e-3}).parameters == {"m": "1/10", "J": "1/1000"}
+
+
+def test_values_are_replaced_exactly(gallery: Path) -> None:
+    system = System.from_file(gallery / "chaplygin-sleigh" / "model.toml", set={"a": 0.3})
+    assert system.parameters["a"] == "3/10"
+    assert system.with_values(a=Fraction(1, 3)).parameters["a"] == "1/3"
+
+
+def test_an_error_has_its_place_and_prints_it() -> None:
+    with pytest.raises(ModelError) as caught:
+        System.from_text('name = "wrong"\ncoordinates = ["x"]\n[lagrangian]\nT = "1/2 mas x\'^2"\n')
+    error = caught.value
+    assert (error.line, error.text) == (4, "mas")
+    assert error.column == 10
+    assert error.file.endswith("model.toml")
+    assert "mas" in str(error) and "^" in str(error) and "4" in str(error)
+    assert isinstance(error, ValueError) and isinstance(error, chetaev.ChetaevError)
+    again = pickle.loads(pickle.dumps(error))
+    assert (again.line, str(again)) == (4, str(error))
+
+
+def test_a_missing_file_is_an_error_of_the_system() -> None:
+    with pytest.raises(OSError, match="nowhere.toml"):
+        System.from_file("nowhere.toml")
+
+
+def test_wrong_options_say_which() -> None:
+    with pytest.raises(chetaev.OptionError, match="euler"):
+        skate().simulate(method="euler")
+    with pytest.raises(chetaev.OptionError, match="energie"):
+        skate().study(claims="energie")
+    with pytest.raises(ModelError):
+        skate().simulate(t_end="2 +")
+
+
+def test_systems_pickle(gallery: Path) -> None:
+    system = System.from_file(gallery / "chaplygin-sleigh" / "model.toml", set={"a": "1/3"})
+    again = pickle.loads(pickle.dumps(system))
+    assert again.parameters == system.parameters
+    assert again.text == system.text
+
+
+def test_values_are_written_exactly() -> None:
+    assert [exact(x) for x in (3, 0.1, Fraction(-1, 3), "2 pi", 1e-20)] == ["3", "0.1", "-1/3", "2 pi", "1e-20"]
+    for wrong in (True, float("nan"), float("inf"), None, object()):
+        with pytest.raises((TypeError, ValueError)):
+            exact(wrong)
+    assert toml({"a": 1, "b": {"x'": "q\"\\", "c": [1, "d"], "e": None}}) == (
+        'a = 1\n\n[b]\n"x\'" = "q\\"\\\\"\nc = [1, "d"]\ne = {}\n'
+    )
+
+
+def test_the_package_is_imported_quickly() -> None:
+    def seconds(statement: str) -> float:
+        began = time.perf_counter()
+        subprocess.run([sys.executable, "-c", statement], check=True)
+        return time.perf_counter() - began
+
+    # On a machine with other work only the quickest of several says what it takes.
+    took = min(seconds("import chetaev") - seconds("pass") for _ in range(5))
+    assert took < 0.15
+    subprocess.run([sys.executable, "-c", "import chetaev, sys; assert 'numpy' not in sys.modules"], check=True)

@@ -1,0 +1,147 @@
+"""Systems stated in SymPy have the accelerations that SymPy derives; expressions go there and back."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy as sp
+import sympy.physics.mechanics as me
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from chetaev import System
+from chetaev.texts import of_sympy
+
+t = me.dynamicsymbols._t
+RNG = np.random.default_rng(11)
+
+
+def accelerations(system: System, values: dict[str, float], y: np.ndarray) -> np.ndarray:
+    """Of the coordinates, at a state (q, q')."""
+    return system.compile(**values).rhs(0.0, y)[len(y) // 2 :]
+
+
+def by_sympy(mass: Any, force: Any, values: dict[Any, float]) -> np.ndarray:
+    """The solution of SymPy's own linear equations at a state, in numbers."""
+    numbers = [sp.Matrix(own).subs(values).evalf() for own in (mass, force)]
+    found = [np.array(own.tolist(), dtype=float) for own in numbers]
+    return np.linalg.solve(found[0], found[1]).ravel()
+
+
+def test_a_pendulum_by_its_lagrangian() -> None:
+    th = me.dynamicsymbols("theta")
+    g, ell = sp.symbols("g l")
+    L = ell**2 * th.diff() ** 2 / 2 + g * ell * sp.cos(th)
+    system = System.from_sympy(L, [th], parameters={g: 9.81, ell: Fraction(3, 2)}, initial={"theta": 0.3})
+    assert system.coordinates == ["theta"]
+    assert system.parameters == {"g": "981/100", "l": "3/2"}
+    found = accelerations(system, {}, np.array([0.3, 0.2]))
+    np.testing.assert_allclose(found, [-9.81 / 1.5 * np.sin(0.3)], rtol=1e-14)
+
+
+def test_names_that_a_model_cannot_declare_are_changed() -> None:
+    q = me.dynamicsymbols("q_{1}")
+    lam, pi = sp.symbols("lambda pi")
+    system = System.from_sympy(lam * q.diff() ** 2 / 2 - pi * q**2 / 2, [q], parameters={lam: 2, pi: 3})
+    assert system.coordinates == ["q_1"]
+    assert set(system.parameters) == {"x_lambda", "x_pi"}
+    with pytest.raises(ValueError, match="neither a coordinate nor a parameter"):
+        System.from_sympy(q.diff() ** 2 + me.dynamicsymbols("F"), [q])
+
+
+def test_lagranges_method_with_a_rolling_constraint() -> None:
+    # A disc that rolls along a line, an incline, with a torque against it.
+    x, phi = me.dynamicsymbols("x phi")
+    m, r, g, a, c = sp.symbols("m r g a c", positive=True)
+    N = me.ReferenceFrame("N")
+    A = N.orientnew("A", "axis", [phi, N.z])
+    P = me.Point("P")
+    P.set_vel(N, x.diff() * N.x)
+    L = m * x.diff() ** 2 / 2 + m * r**2 * phi.diff() ** 2 / 4 + m * g * sp.sin(a) * x
+    method = me.LagrangesMethod(
+        L, [x, phi], forcelist=[(A, -c * phi.diff() * N.z)], frame=N, nonhol_coneqs=[x.diff() - r * phi.diff()]
+    )
+    method.form_lagranges_equations()
+    numbers = {m: 2.0, r: 0.5, g: 9.81, a: 0.3, c: 0.7}
+    system = System.from_sympy(method, parameters=numbers)
+    state = np.array([0.1, 0.2, 0.6, 1.2])
+    values = {own.diff(): value for own, value in zip((x, phi), state[2:], strict=True)} | {x: 0.1, phi: 0.2} | numbers
+    expected = by_sympy(method.mass_matrix_full, method.forcing_full, values)[2:4]
+    np.testing.assert_allclose(accelerations(system, {}, state), expected, rtol=1e-12)
+
+
+def test_a_pendulum_by_kanes_method() -> None:
+    q, u = me.dynamicsymbols("q u")
+    m, ell, g = sp.symbols("m l g")
+    N = me.ReferenceFrame("N")
+    A = N.orientnew("A", "Axis", [q, N.z])
+    A.set_ang_vel(N, u * N.z)
+    O, P = me.Point("O"), me.Point("P")
+    O.set_vel(N, 0)
+    P.set_pos(O, ell * A.x)
+    P.v2pt_theory(O, N, A)
+    particle = me.Particle("pa", P, m)
+    method = me.KanesMethod(N, q_ind=[q], u_ind=[u], kd_eqs=[q.diff() - u], bodies=[particle], forcelist=[(P, m * g * N.x)])
+    method.kanes_equations()
+    numbers = {m: 2.0, ell: 1.5, g: 9.81}
+    system = System.from_sympy(method, parameters=numbers)
+    expected = by_sympy(method.mass_matrix, method.forcing, {q: 0.3, u: 0.7, **numbers})
+    np.testing.assert_allclose(accelerations(system, {}, np.array([0.3, 0.7])), expected, rtol=1e-13)
+
+
+def test_a_particle_on_a_rotating_rod_with_a_velocity_constraint() -> None:
+    # Appell's constraint z' = y x' by Kane's method with dependent speeds.
+    x, y, z, u, v, w = me.dynamicsymbols("x y z u v w")
+    m, g = sp.symbols("m g")
+    N = me.ReferenceFrame("N")
+    P = me.Point("P")
+    P.set_vel(N, u * N.x + v * N.y + w * N.z)
+    method = me.KanesMethod(
+        N, q_ind=[x, y, z], u_ind=[u, v], u_dependent=[w], velocity_constraints=[w - y * u],
+        kd_eqs=[x.diff() - u, y.diff() - v, z.diff() - w], bodies=[me.Particle("p", P, m)], forcelist=[(P, -m * g * N.z)],
+    )
+    method.kanes_equations()
+    numbers = {m: 1.7, g: 9.81}
+    system = System.from_sympy(method, parameters=numbers)
+    state = np.array([0.2, 0.4, -0.1, 0.8, 1.1, 0.32])
+    values = dict(zip((x, y, z, u, v, w), state, strict=True)) | numbers
+    expected = by_sympy(method.mass_matrix, method.forcing, values)
+    np.testing.assert_allclose(accelerations(system, {}, state), expected, rtol=1e-12)
+
+
+names = st.sampled_from(["x", "y", "x'", "y'", "a", "b", "t"])
+numbers = st.one_of(
+    st.integers(-50, 50).map(str), st.fractions(max_denominator=99).map(lambda own: f"({own.numerator}/{own.denominator})")
+)
+
+
+def grown(inner: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
+    two = st.tuples(inner, inner)
+    return st.one_of(
+        two.map(lambda own: f"({own[0]} + {own[1]})"),
+        two.map(lambda own: f"({own[0]}) * ({own[1]})"),
+        inner.map(lambda own: f"(1 + ({own})^2)^(-1)"),
+        inner.map(lambda own: f"sin({own})"),
+        inner.map(lambda own: f"exp(cos({own}))"),
+        inner.map(lambda own: f"sqrt(2 + sin({own}))"),
+        inner.map(lambda own: f"abs({own})"),
+        st.tuples(inner, st.integers(1, 3)).map(lambda own: f"({own[0]})^{own[1]}"),
+    )
+
+
+SYSTEM = System("any", coordinates=["x", "y"], parameters={"a": 1, "b": {}}, kinetic="1/2 (x'^2 + y'^2)")
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.recursive(st.one_of(names, numbers), grown, max_leaves=8))
+def test_expressions_go_to_sympy_and_back(text: str) -> None:
+    there = SYSTEM.sympify(text)
+    # What comes back is the same expression of the graph, so that it is written the same.
+    back = SYSTEM.sympify(of_sympy(there))
+    if there != back:
+        point = {own: value for own, value in zip(sorted(there.atoms(sp.Function, sp.Symbol, sp.Derivative), key=str), RNG.uniform(0.1, 1, 50), strict=False)}
+        difference = (there - back).xreplace(point)
+        assert abs(complex(difference.evalf())) < 1e-9

@@ -1,0 +1,138 @@
+//! `cargo xtask python`: the Python package beside a virtual environment, and its tests.
+
+use crate::{cargo, err, out, refuse, status_of};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const HELP: &str = "\
+The Python package and its tests
+
+Usage: cargo xtask python [ARGUMENTS OF PYTEST]
+
+Builds the native part as the Rust tests do, puts it beside the Python files in target/python, makes a virtual environment there
+and installs what the tests need by pip, once. Without Python 3.10 and pip nothing is done, and that is said.
+";
+
+/// What the tests import.
+const NEEDED: [&str; 7] = [
+    "numpy",
+    "scipy",
+    "sympy",
+    "pytest",
+    "hypothesis",
+    "mypy",
+    "tqdm",
+];
+
+/// Runs the task; the exit status is that of the first program that fails.
+pub(crate) fn run(words: &[String]) -> u8 {
+    if words.iter().any(|word| word == "--help" || word == "-h") {
+        out(HELP);
+        return 0;
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let Some(python) = python() else {
+        out("The Python package is not tested: Python 3.10 or newer with venv and pip was not found.\n");
+        return 0;
+    };
+    let built = cargo()
+        // As all packages are built for the Rust tests, so that little is built again.
+        .args(["build", "--workspace", "--lib", "--bin", "chetaev"])
+        .current_dir(&root)
+        .status();
+    match built {
+        Ok(status) if status.success() => {}
+        Ok(status) => return status_of(status),
+        Err(problem) => return refuse(&format!("cargo could not be run: {problem}")),
+    }
+    let folder = root.join("target").join("python");
+    let prepared = environment(&python, &folder).and_then(|own| {
+        package(&root, &folder)?;
+        Ok(own)
+    });
+    let own = match prepared {
+        Ok(own) => own,
+        Err(problem) => {
+            err(&format!("error: the Python package: {problem}\n"));
+            return 1;
+        }
+    };
+    let tests = Command::new(own)
+        .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
+        .args(words)
+        .env("PYTHONPATH", folder.join("package"))
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .current_dir(&root)
+        .status();
+    match tests {
+        Ok(status) => status_of(status),
+        Err(problem) => refuse(&format!("Python could not be run: {problem}")),
+    }
+}
+
+/// An interpreter that is new enough and can make virtual environments.
+fn python() -> Option<PathBuf> {
+    let named = std::env::var_os("PYTHON").map(PathBuf::from);
+    let usual = ["python3", "python"].map(PathBuf::from);
+    let test = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))";
+    let serves = |path: &PathBuf| {
+        let done = Command::new(path).args(["-c", test]).output();
+        done.is_ok_and(|done| done.status.success())
+    };
+    named.into_iter().chain(usual).find(serves)
+}
+
+/// The interpreter of an environment that has what the tests need.
+fn environment(python: &Path, folder: &Path) -> std::io::Result<PathBuf> {
+    let own = folder.join("environment");
+    let inside = match cfg!(windows) {
+        true => own.join("Scripts").join("python.exe"),
+        false => own.join("bin").join("python"),
+    };
+    let (stamp, needed) = (own.join("needed"), NEEDED.join("\n"));
+    if inside.exists() && std::fs::read_to_string(&stamp).is_ok_and(|known| known == needed) {
+        return Ok(inside);
+    }
+    let made = Command::new(python)
+        .args(["-m", "venv"])
+        .arg(&own)
+        .status()?;
+    let install = [
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--disable-pip-version-check",
+    ];
+    let installed = Command::new(&inside).args(install).args(NEEDED).status()?;
+    if !(made.success() && installed.success()) {
+        return Err(std::io::Error::other(
+            "the virtual environment could not be made",
+        ));
+    }
+    std::fs::write(stamp, needed)?;
+    Ok(inside)
+}
+
+/// Puts the Python files and the native part together.
+fn package(root: &Path, folder: &Path) -> std::io::Result<()> {
+    let own = folder.join("package").join("chetaev");
+    if own.exists() {
+        std::fs::remove_dir_all(&own)?;
+    }
+    std::fs::create_dir_all(&own)?;
+    for entry in std::fs::read_dir(root.join("python").join("chetaev"))? {
+        let path = entry?.path();
+        if let (true, Some(name)) = (path.is_file(), path.file_name()) {
+            std::fs::copy(&path, own.join(name))?;
+        }
+    }
+    let [built, named] = match std::env::consts::OS {
+        "windows" => ["chetaev_native.dll", "chetaev_native.pyd"],
+        "macos" => ["libchetaev_native.dylib", "chetaev_native.abi3.so"],
+        _ => ["libchetaev_native.so", "chetaev_native.abi3.so"],
+    };
+    let built = root.join("target").join("debug").join(built);
+    std::fs::copy(built, own.join(named))?;
+    Ok(())
+}
