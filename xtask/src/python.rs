@@ -24,8 +24,23 @@ const NEEDED: [&str; 7] = [
     "tqdm",
 ];
 
+/// What is built where nothing is built yet: the native part, and the command line that it is compared with.
+const ALONE: &[&str] = &["build", "-p", "chetaev-python", "-p", "chetaev-cli"];
+/// The same after the Rust tests. Which features the libraries have depends on all that is built at once, and where they are the same
+/// nothing but the native part is left to build.
+const AFTER_TESTS: &[&str] = &["build", "--workspace", "--lib", "--bins", "--tests"];
+
 /// Runs the task; the exit status is that of the first program that fails.
 pub(crate) fn run(words: &[String]) -> u8 {
+    run_built(ALONE, words)
+}
+
+/// Runs the Python tests after those of Rust.
+pub(crate) fn after_tests() -> u8 {
+    run_built(AFTER_TESTS, &[])
+}
+
+fn run_built(build: &[&str], words: &[String]) -> u8 {
     if words.iter().any(|word| word == "--help" || word == "-h") {
         out(HELP);
         return 0;
@@ -35,11 +50,7 @@ pub(crate) fn run(words: &[String]) -> u8 {
         out("The Python package is not tested: Python 3.10 or newer with venv and pip was not found.\n");
         return 0;
     };
-    let built = cargo()
-        // As all packages are built for the Rust tests, so that little is built again.
-        .args(["build", "--workspace", "--lib", "--bin", "chetaev"])
-        .current_dir(&root)
-        .status();
+    let built = cargo().args(build).current_dir(&root).status();
     match built {
         Ok(status) if status.success() => {}
         Ok(status) => return status_of(status),

@@ -54,7 +54,7 @@ pub(crate) fn run(words: &[String]) -> u8 {
     match tests(extent) {
         Ok((status, mut summary)) => {
             summary.failed_elsewhere |= !status.success();
-            let of_python = python::run(&[]);
+            let of_python = python::after_tests();
             summary.failed_elsewhere |= of_python != 0;
             out(&format!("\n{summary}\n"));
             status_of(status).max(of_python)
