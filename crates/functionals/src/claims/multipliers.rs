@@ -23,9 +23,10 @@ impl Claim for Multipliers {
     fn explanation(&self) -> &'static str {
         "Courant's method: what is imposed, X = Φ, is released; X becomes a field of its own in the density (`released` in \
          [descent]), and λ (X − Φ) is added. The Euler equation of X determines the multiplier. Put back, it gives the density of the level \
-         above. Four steps are proved: the released density is that of this functional where X = Φ; the Euler equation of X gives the stated \
-         multiplier, modulo the equations that are named; the released density and the multiplier's term make the density of the level above; \
-         the terms of that density taken field by field have the field equations one after the other (the semi-inverse method: He 1997)."
+         above. Three steps are proved: the released density is that of this functional where X = Φ; the Euler equation of X gives the stated \
+         multiplier, modulo the equations that are named; the released density and the multiplier's term make the density of the level above. \
+         The terms of that density are printed field by field, as the semi-inverse method begins (He 1997); that its equations follow \
+         is `functional.euler` of that level."
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
