@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 /// The longest that any call of these tests may take.
-const LIMIT: Duration = Duration::from_secs(120);
+const LIMIT: Duration = Duration::from_secs(300);
 
 /// What a finished process left.
 #[derive(Clone, Debug)]
@@ -122,7 +122,7 @@ pub fn ok(arguments: &[&str]) -> Finished {
 /// Waits for a started process and reads its streams.
 ///
 /// # Panics
-/// When it runs longer than two minutes.
+/// When it runs longer than five minutes.
 pub fn finish(mut child: Child, arguments: &[&str]) -> Finished {
     let out = child.stdout.take().map(reader);
     let err = child.stderr.take().map(reader);

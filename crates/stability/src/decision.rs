@@ -149,6 +149,16 @@ pub(crate) fn verdict(
     }
 }
 
+/// Whether what the motion states has finite values for these values of the parameters.
+fn exists(about: &About<'_>, values: &[(Expr, Expr)]) -> bool {
+    let (g, motion) = (about.graph(), about.expansion.motion);
+    let stated = motion.positions.iter().chain(&motion.velocities);
+    let stated: Vec<Expr> = stated.filter_map(|value| *value).collect();
+    let stated = g.substitute_all(&stated, values);
+    let is_known = g.symbols_in(&stated).is_empty();
+    !is_known || g.enclose(&stated, &Precision::new(128), &|_| None).is_ok()
+}
+
 /// What is said where the model states a value for every parameter.
 fn at_values(about: &About<'_>, statement: &dyn Statement) -> Verdict {
     let Some(place) = about.question.place_at(about.graph(), None) else {
@@ -309,6 +319,11 @@ impl Pieces {
         };
         for border in &mut self.borders {
             let root = &border.root;
+            // Where there is no such motion nothing can fail.
+            if root.low == root.high && !exists(about, &values_at(system, symbol, &root.low)) {
+                border.holds = Some(true);
+                continue;
+            }
             let holds = |piece: &Piece| {
                 (piece.high == root.low || piece.low == root.high)
                     && matches!(piece.said, Said::Holds(_))
@@ -327,7 +342,6 @@ impl Pieces {
     }
 
     fn verdict(&self, about: &About<'_>, statement: &dyn Statement) -> Verdict {
-        let holds = |piece: &&Piece| matches!(piece.said, Said::Holds(_));
         let reasons: BTreeSet<&str> = self
             .pieces
             .iter()
@@ -343,20 +357,24 @@ impl Pieces {
         });
         let condition = self.condition();
         if let Some(why) = open {
-            let known = match condition.is_empty() {
-                true => String::new(),
-                false => format!("true for {condition}; "),
-            };
-            return Verdict::undecided(format!("{known}not decided for {}: {why}", self.open()));
+            let mut known = String::new();
+            if !condition.is_empty() {
+                known = format!("true for {condition}; ");
+            }
+            let failing = self.intervals(|said| *said == Said::Fails);
+            if !failing.is_empty() {
+                known = format!("{known}false for {failing}; ");
+            }
+            let open = self.intervals(|said| matches!(said, Said::Open(_)));
+            return Verdict::undecided(format!("{known}not decided for {open}: {why}"));
         }
-        let failing = self.pieces.iter().find(|piece| !holds(piece));
-        let counterexample = failing.map(|piece| Counterexample {
+        let counterexample = self.failing(about).map(|(piece, at)| Counterexample {
             point: vec![PointValue {
                 name: self.name.clone(),
-                exact: Some(piece.sample.clone()),
+                exact: Some(at.clone()),
                 enclosure: None,
             }],
-            ..statement.counterexample(about, piece.place, Some(&piece.sample))
+            ..statement.counterexample(about, piece.place, Some(&at))
         });
         let is_everywhere = self.borders.iter().all(|b| b.holds == Some(true));
         match (condition.is_empty(), counterexample) {
@@ -422,14 +440,28 @@ impl Pieces {
         }
     }
 
-    /// The intervals that were not decided.
-    fn open(&self) -> String {
-        let open = self
-            .pieces
-            .iter()
-            .filter(|p| matches!(p.said, Said::Open(_)));
-        let open = open.map(|p| self.interval((&p.low, false), (&p.high, false)));
-        open.collect::<Vec<_>>().join(" or ")
+    /// An interval in which the statement fails, and a value there: the one that the model states where it is among them.
+    fn failing(&self, about: &About<'_>) -> Option<(&Piece, RBig)> {
+        let mut values = stated_values(about).into_iter();
+        let stated = values.find(|value| value.name == self.name);
+        let stated = stated.and_then(|value| value.exact);
+        let mut failing = self.pieces.iter().filter(|p| p.said == Said::Fails);
+        let own = stated.and_then(|at| {
+            // Beyond the bound nothing changes any more.
+            let (first, last) = (-self.bound.clone(), &self.bound);
+            let holds_at =
+                |p: &&Piece| (p.low < at || p.low == first) && (at < p.high || p.high == *last);
+            let piece = failing.clone().find(holds_at)?;
+            Some((piece, at))
+        });
+        own.or_else(|| failing.next().map(|piece| (piece, piece.sample.clone())))
+    }
+
+    /// The intervals of which something is known.
+    fn intervals(&self, is_so: impl Fn(&Said) -> bool) -> String {
+        let own = self.pieces.iter().filter(|piece| is_so(&piece.said));
+        let own = own.map(|p| self.interval((&p.low, false), (&p.high, false)));
+        own.collect::<Vec<_>>().join(" or ")
     }
 
     /// Every border with its enclosure, and those at which the statement was not decided.

@@ -231,8 +231,8 @@ fn what_a_program_reads_is_json() {
     let is_motion =
         |model: &&serde_json::Value| model["name"].as_str().is_some_and(|n| !n.contains('/'));
     assert_eq!(names.clone().filter(is_motion).count(), gallery().len());
-    // The multi-level principles, and the classical functionals.
-    assert_eq!(names.filter(|model| !is_motion(model)).count(), 26 + 6);
+    // The multi-level principles; classical functionals, and those of Noether's theorem, Jacobi's condition and Ritz's method.
+    assert_eq!(names.filter(|model| !is_motion(model)).count(), 26 + 6 + 7);
     let described = ok(&["gallery", "describe", "trailer", "--json"]).json();
     assert_eq!(
         described["files"],

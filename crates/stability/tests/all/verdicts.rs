@@ -198,8 +198,8 @@ theta = "acos(3/5)"
     );
     assert_eq!(case.said("steady.stated", "precession"), "proved");
     for claim in ["stability.linear", "stability.nonlinear"] {
-        let found = case.said(claim, "precession");
-        assert_eq!(found, "W < 0 or W > 0", "{claim}");
+        // For W = 0 there is no such motion.
+        assert_eq!(case.said(claim, "precession"), "proved", "{claim}");
     }
 }
 
@@ -613,4 +613,41 @@ y = 0
     assert!(model("1", "x")
         .said("stability.nonlinear", "rest")
         .starts_with("undecided"));
+}
+
+/// A refutation speaks of the value stated, and where there is no motion nothing fails.
+#[test]
+fn what_is_said_is_of_the_values_stated() {
+    // x'' = w² x: unstable for every w but 0, and the model has w = 3.
+    let repelled = r#"
+coordinates = ["x", "s"]
+parameters = { w = 3 }
+lagrangian = "1/2 x'^2 + 1/2 s'^2 + 1/2 s'^2 x^2"
+[steady.ahead]
+x = 0
+"x'" = 0
+"s'" = "w"
+"#;
+    let case = Case::new(repelled);
+    let Verdict::Conditional {
+        condition,
+        counterexample: Some(own),
+        ..
+    } = case.verdict("stability.spectral", "ahead")
+    else {
+        panic!(
+            "conditional: {:?}",
+            case.verdict("stability.spectral", "ahead")
+        );
+    };
+    assert_eq!(condition, "w = 0");
+    let value = own.point[0].exact.as_ref().map(ToString::to_string);
+    assert_eq!(value.as_deref(), Some("3"));
+    assert!(own.residual.0.starts_with('3'), "{own:?}");
+    // x'' = −x whatever s' is; the motion is stated by 1/w.
+    let stated = repelled
+        .replace("+ 1/2 s'^2 x^2", "- 1/2 x^2")
+        .replace("\"w\"", "\"1/w\"");
+    let case = Case::new(&stated);
+    assert_eq!(case.said("stability.spectral", "ahead"), "proved");
 }

@@ -116,7 +116,12 @@ fn terms(equation: &str) -> Vec<&str> {
         match sign {
             '(' => depth += 1,
             ')' => depth = depth.saturating_sub(1),
-            ' ' if depth == 0 && equation[at + 1..].starts_with(['+', '-', '=']) => {
+            // A sign that belongs to what follows it is no beginning of a term.
+            ' ' if depth == 0
+                && ["+ ", "- ", "= "]
+                    .iter()
+                    .any(|s| equation[at + 1..].starts_with(s)) =>
+            {
                 terms.push(&equation[begin..at]);
                 begin = at + 1;
             }
