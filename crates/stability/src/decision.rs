@@ -215,6 +215,8 @@ struct Border {
     root: Root,
     /// Whether the statement holds there; `None` where that was not decided.
     holds: Option<bool>,
+    /// There is no such motion, so that nothing fails.
+    is_absent: bool,
 }
 
 /// All values of the parameter in parts.
@@ -295,7 +297,11 @@ impl Pieces {
                 place,
             });
         }
-        let border = |root| Border { root, holds: None };
+        let border = |root| Border {
+            root,
+            holds: None,
+            is_absent: false,
+        };
         self.borders = roots.into_iter().map(border).collect();
     }
 
@@ -319,9 +325,8 @@ impl Pieces {
         };
         for border in &mut self.borders {
             let root = &border.root;
-            // Where there is no such motion nothing can fail.
             if root.low == root.high && !exists(about, &values_at(system, symbol, &root.low)) {
-                border.holds = Some(true);
+                (border.holds, border.is_absent) = (Some(true), true);
                 continue;
             }
             let holds = |piece: &Piece| {
@@ -418,7 +423,9 @@ impl Pieces {
         let alone = self.borders.iter().filter(|b| {
             let touches = |piece: &Piece| piece.high == b.root.low || piece.low == b.root.high;
             let mut beside = self.pieces.iter().filter(|piece| touches(piece));
-            b.holds == Some(true) && beside.all(|piece| !matches!(piece.said, Said::Holds(_)))
+            b.holds == Some(true)
+                && !b.is_absent
+                && beside.all(|piece| !matches!(piece.said, Said::Holds(_)))
         });
         let alone = alone.map(|b| format!("{} = {}", self.name, decimal(&b.root.low)));
         parts.extend(alone);

@@ -650,4 +650,5 @@ x = 0
         .replace("\"w\"", "\"1/w\"");
     let case = Case::new(&stated);
     assert_eq!(case.said("stability.spectral", "ahead"), "proved");
+    assert_eq!(case.said("stability.asymptotic", "ahead"), "refuted");
 }
