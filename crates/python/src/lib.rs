@@ -2,8 +2,8 @@
 //!
 //! Python code in `python/chetaev` is the face of it. What stands here returns plain data: texts, JSON, NumPy arrays.
 //!
-//! - [`model`]: a model read from texts, and every question asked of it; [`outcome`]: a study; [`linear`]: linear equations; [`compiled`]: its equations as a function;
-//! - [`waiting`]: long work beside a thread that hears Ctrl-C and shows progress; [`problem`]: exceptions.
+//! - `model`: a model read from texts, and every question asked of it; `outcome`: a study; `linear`: linear equations; `compiled`: its equations as a function;
+//! - `waiting`: long work beside a thread that hears Ctrl-C and shows progress; `problem`: exceptions.
 
 mod compiled;
 mod linear;
