@@ -24,6 +24,9 @@ const TARGETS: [&str; 5] = ["parse", "resolve", "zero", "lower", "record"];
 /// Megabytes a target may take; more is a failure.
 const MEMORY: u32 = 2048;
 
+/// Runs up to so many seconds are the same every time, so that a change is not refused by chance; longer ones are drawn anew.
+const REPEATED: u32 = 60;
+
 /// Seconds one input may take; more is a failure.
 const SLOWEST: u32 = 10;
 
@@ -141,6 +144,7 @@ fn run_target(target: &str, seconds: u32) -> Result<String, String> {
     let finished = Command::new(program)
         .args([&corpus, &seeds])
         .arg(format!("-max_total_time={seconds}"))
+        .arg(format!("-seed={}", u32::from(seconds <= REPEATED)))
         .arg(format!("-timeout={SLOWEST}"))
         .arg(format!("-rss_limit_mb={MEMORY}"))
         .arg(format!("-artifact_prefix={artifacts}"))
