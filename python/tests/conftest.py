@@ -25,7 +25,7 @@ def command() -> Any:
     """Runs the command line; gives its JSON."""
     path = program()
     if path is None:
-        pytest.skip("the command line is not built")
+        pytest.fail("the command line is not built: cargo build -p chetaev-cli, or CHETAEV_PROGRAM names it")
 
     def run(*arguments: str, cwd: Path | None = None) -> Any:
         done = subprocess.run([str(path), *arguments, "--json"], cwd=cwd, capture_output=True, text=True, check=False)

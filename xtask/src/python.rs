@@ -96,9 +96,10 @@ fn python() -> Option<PathBuf> {
 /// The interpreter of an environment that has what the tests need.
 fn environment(python: &Path, folder: &Path) -> std::io::Result<PathBuf> {
     let own = folder.join("environment");
-    let inside = match cfg!(windows) {
-        true => own.join("Scripts").join("python.exe"),
-        false => own.join("bin").join("python"),
+    let inside = if cfg!(windows) {
+        own.join("Scripts").join("python.exe")
+    } else {
+        own.join("bin").join("python")
     };
     let (stamp, needed) = (own.join("needed"), NEEDED.join("\n"));
     if inside.exists() && std::fs::read_to_string(&stamp).is_ok_and(|known| known == needed) {

@@ -73,9 +73,10 @@ pub(crate) fn colours() -> bool {
 
 /// Colours on standard output, or none.
 pub(crate) fn style() -> Style {
-    match colours() {
-        true => Style::Ansi,
-        false => Style::Plain,
+    if colours() {
+        Style::Ansi
+    } else {
+        Style::Plain
     }
 }
 

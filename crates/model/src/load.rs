@@ -216,9 +216,10 @@ pub fn lowered(
     }
     let mut all = Diagnostics::once(loader.sources, problems);
     all.sort();
-    match all.has_errors() {
-        true => Err(all),
-        false => Ok(written),
+    if all.has_errors() {
+        Err(all)
+    } else {
+        Ok(written)
     }
 }
 

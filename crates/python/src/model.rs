@@ -281,9 +281,10 @@ impl Model {
 
     /// Warnings as they are printed; an empty text where there are none.
     fn warnings(&self) -> String {
-        match self.warnings.list.is_empty() {
-            true => String::new(),
-            false => self.warnings.render(Style::Plain),
+        if self.warnings.list.is_empty() {
+            String::new()
+        } else {
+            self.warnings.render(Style::Plain)
         }
     }
 
@@ -338,15 +339,13 @@ impl Model {
             return Err(problem::of_option(py, &said));
         };
         let mut asked: Vec<&'static dyn Formulation> = Vec::new();
-        match all {
-            true => asked.extend(FORMULATIONS),
-            false => {
-                for name in &names {
-                    let known = formulation(name).ok_or_else(|| {
-                        problem::of_option(py, &NotWritten::Unknown(name.clone()))
-                    })?;
-                    asked.push(known);
-                }
+        if all {
+            asked.extend(FORMULATIONS)
+        } else {
+            for name in &names {
+                let known = formulation(name)
+                    .ok_or_else(|| problem::of_option(py, &NotWritten::Unknown(name.clone())))?;
+                asked.push(known);
             }
         }
         self.with_equations(py, tell, |cx, show| {

@@ -162,9 +162,10 @@ impl Outcome {
 impl Outcome {
     fn drawn(&self) -> PyResult<Scene> {
         picture::scene(&self.study).ok_or_else(|| {
-            PyValueError::new_err(match self.study.notices.is_empty() {
-                true => "no motion was computed, so that there is nothing to draw".to_owned(),
-                false => self.study.notices.join("\n"),
+            PyValueError::new_err(if self.study.notices.is_empty() {
+                "no motion was computed, so that there is nothing to draw".to_owned()
+            } else {
+                self.study.notices.join("\n")
             })
         })
     }

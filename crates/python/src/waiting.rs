@@ -56,9 +56,10 @@ pub(crate) fn done<T: Send>(
         let worker = builder.spawn_scoped(scope, body)?;
         let mut end = |problem: PyErr| {
             interrupt.store(true, Ordering::Relaxed);
-            match problem.is_instance_of::<PyKeyboardInterrupt>(py) {
-                true => interrupted = true,
-                false => thrown = Some(problem),
+            if problem.is_instance_of::<PyKeyboardInterrupt>(py) {
+                interrupted = true
+            } else {
+                thrown = Some(problem)
             }
         };
         loop {

@@ -142,9 +142,12 @@ impl Combination {
             .iter()
             .zip(&self.weights)
             .filter(|(_, &w)| !g.is_zero(w));
-        let terms = terms.map(|(jet, &w)| match g.is_one(w) {
-            true => jet.name.clone(),
-            false => format!("({}) times {}", g.text(w), jet.name),
+        let terms = terms.map(|(jet, &w)| {
+            if g.is_one(w) {
+                jet.name.clone()
+            } else {
+                format!("({}) times {}", g.text(w), jet.name)
+            }
         });
         Bundle {
             text: terms.collect::<Vec<_>>().join(" + "),

@@ -17,14 +17,50 @@ pub use nonlinear::Nonlinear;
 pub use spectral::Spectral;
 pub use stated::Stated;
 
-use chetaev_mechanics::claims::Claim;
+use crate::decision::{verdict, Statement};
+use crate::evidence::{motions, requires};
+use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
+
+/// A statement on the stability of every steady motion, as a claim.
+#[derive(Clone, Copy, Debug)]
+struct OnStability<S>(S);
+
+impl<S: Statement + Sync> Claim for OnStability<S> {
+    fn id(&self) -> &'static str {
+        self.0.id()
+    }
+
+    fn group(&self) -> Group {
+        Group::Stability
+    }
+
+    fn title(&self) -> &'static str {
+        self.0.title()
+    }
+
+    fn explanation(&self) -> &'static str {
+        self.0.explanation()
+    }
+
+    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
+        motions(cx)
+    }
+
+    fn requires(&self, subject: Option<&str>) -> Vec<String> {
+        requires(subject)
+    }
+
+    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
+        verdict(cx, subject, &self.0).into()
+    }
+}
 
 /// The claims of this crate.
 pub static CLAIMS: &[&dyn Claim] = &[
     &Stated,
-    &Asymptotic,
-    &Spectral,
-    &Linear,
-    &Nonlinear,
+    &OnStability(Asymptotic),
+    &OnStability(Spectral),
+    &OnStability(Linear),
+    &OnStability(Nonlinear),
     &Critical,
 ];

@@ -100,6 +100,15 @@ pub(crate) fn about<'a>(
 
 /// A statement on the stability of a motion.
 pub(crate) trait Statement {
+    /// The id of the claim.
+    fn id(&self) -> &'static str;
+
+    /// What is stated, in a line.
+    fn title(&self) -> &'static str;
+
+    /// How it is decided.
+    fn explanation(&self) -> &'static str;
+
     /// What is known of it where the eigenvalues lie so, at a value of the parameter or throughout an interval about it in which no function of
     /// [`further`](Statement::further) vanishes.
     fn said(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Said;
@@ -474,9 +483,12 @@ impl Pieces {
     /// Every border with its enclosure, and those at which the statement was not decided.
     fn enclosures(&self) -> String {
         let name = &self.name;
-        let text = |border: &Border| match border.root.low == border.root.high {
-            true => format!("{name} = {}", border.root.low),
-            false => format!("{name} in {}", border.root.text()),
+        let text = |border: &Border| {
+            if border.root.low == border.root.high {
+                format!("{name} = {}", border.root.low)
+            } else {
+                format!("{name} in {}", border.root.text())
+            }
         };
         let all: Vec<String> = self.borders.iter().map(text).collect();
         let open: Vec<String> = self

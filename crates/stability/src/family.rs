@@ -11,9 +11,10 @@ impl Expansion<'_> {
     /// The dimension of the family of steady motions through this one, where it was proved: of straight lines, or of a manifold.
     pub(crate) fn family(&self, slopes: &[Vec<Expr>]) -> usize {
         let (straight, kernel) = self.straight_family(slopes);
-        match straight < kernel {
-            true => straight.max(self.curved_family(slopes)),
-            false => straight,
+        if straight < kernel {
+            straight.max(self.curved_family(slopes))
+        } else {
+            straight
         }
     }
 
@@ -28,13 +29,14 @@ impl Expansion<'_> {
             return (0, vectors.len());
         }
         let is_whole = self.is_steady_along(&vectors);
-        let found = match is_whole {
-            true => vectors.len(),
-            false => usize::from(
+        let found = if is_whole {
+            vectors.len()
+        } else {
+            usize::from(
                 vectors
                     .iter()
                     .any(|v| self.is_steady_along(std::slice::from_ref(v))),
-            ),
+            )
         };
         (found, vectors.len())
     }

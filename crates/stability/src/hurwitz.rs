@@ -155,9 +155,10 @@ impl Over<'_> {
     fn of(&self, own: &Deciding) -> Option<(Vec<Expr>, Vec<Boundary>)> {
         let leading = *own.coefficients.last()?;
         let list = determinants(self.g, &own.coefficients);
-        let pair = match own.is_paired {
-            true => Crossing::Collision,
-            false => Crossing::Pair,
+        let pair = if own.is_paired {
+            Crossing::Collision
+        } else {
+            Crossing::Pair
         };
         let mut all = self.boundaries(leading, Crossing::Infinity)?;
         all.extend(self.boundaries(*own.coefficients.first()?, Crossing::Zero)?);

@@ -137,9 +137,10 @@ impl Question {
             }
             is_left = false;
         }
-        Some(match is_apart_everywhere {
-            true => self.place(is_left),
-            false => Place::NotLeft,
+        Some(if is_apart_everywhere {
+            self.place(is_left)
+        } else {
+            Place::NotLeft
         })
     }
 

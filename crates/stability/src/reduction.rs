@@ -70,12 +70,13 @@ impl ClosedSystem {
                 Some(found) => found,
                 None => {
                     let chosen = independent(selection);
-                    match chosen.as_ref().is_ok_and(serves) {
-                        true => chosen?,
-                        false => independent(
+                    if chosen.as_ref().is_ok_and(serves) {
+                        chosen?
+                    } else {
+                        independent(
                             &conditioned(system, terms, selection, point)
                                 .unwrap_or_else(|| selection.clone()),
-                        )?,
+                        )?
                     }
                 }
             },

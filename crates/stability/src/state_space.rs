@@ -187,9 +187,12 @@ impl StateSpace {
             return None;
         }
         let s = g.symbol_expr(s(g));
-        let resolvent = |r: usize, c: usize| match r == c {
-            true => g.sub(s, self.a[r][c]),
-            false => g.neg(self.a[r][c]),
+        let resolvent = |r: usize, c: usize| {
+            if r == c {
+                g.sub(s, self.a[r][c])
+            } else {
+                g.neg(self.a[r][c])
+            }
         };
         let square: Vec<Vec<Expr>> = (0..n)
             .map(|r| (0..n).map(|c| resolvent(r, c)).collect())

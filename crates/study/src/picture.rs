@@ -52,9 +52,10 @@ pub fn to_json(scene: &Scene) -> String {
 pub fn from_json(text: &str) -> Result<Scene, SceneError> {
     let file: SceneFile =
         serde_json::from_str(text).map_err(|problem| SceneError::Json(problem.to_string()))?;
-    match file.schema == SCHEMA {
-        true => Ok(file.scene),
-        false => Err(SceneError::Schema { found: file.schema }),
+    if file.schema == SCHEMA {
+        Ok(file.scene)
+    } else {
+        Err(SceneError::Schema { found: file.schema })
     }
 }
 

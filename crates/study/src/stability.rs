@@ -180,9 +180,10 @@ pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, Stabil
             None if wanted.symbolic => None,
             None => parameter_of_motion(&system, motion),
         };
-        let values = match wanted.symbolic && range.is_none() {
-            true => Vec::new(),
-            false => values_but(&system, free),
+        let values = if wanted.symbolic && range.is_none() {
+            Vec::new()
+        } else {
+            values_but(&system, free)
         };
         match Expansion::in_speeds(&system, terms, &selection, motion, (&values, speeds)) {
             Ok(about) => {
@@ -356,12 +357,15 @@ impl Stability {
             .into_iter()
             .filter_map(|(s, e)| Some((g.as_symbol(s)?, g.evaluate_f64(&[e], &|_| None).ok()?[0])))
             .collect();
-        let value = |s: Symbol| match Some(s) == self.question.over {
-            true => free,
-            false => stated
-                .iter()
-                .find(|(own, _)| *own == s)
-                .map(|(_, value)| *value),
+        let value = |s: Symbol| {
+            if Some(s) == self.question.over {
+                free
+            } else {
+                stated
+                    .iter()
+                    .find(|(own, _)| *own == s)
+                    .map(|(_, value)| *value)
+            }
         };
         let number = |e: &Expr| {
             g.evaluate_f64(&[*e], &value)

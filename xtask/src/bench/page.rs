@@ -85,9 +85,10 @@ fn caution(results: &Results) -> String {
 /// The same in one sentence for the README.
 fn provisional(results: &Results) -> &'static str {
     let is_shared = results.load().is_some_and(|(_, high)| high > 1.5);
-    match results.quick || is_shared {
-        true => " Treat these timings as provisional: they are of a quick run on a machine that had other work.",
-        false => "",
+    if results.quick || is_shared {
+        " Treat these timings as provisional: they are of a quick run on a machine that had other work."
+    } else {
+        ""
     }
 }
 

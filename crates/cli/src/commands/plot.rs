@@ -106,9 +106,10 @@ fn scene(model: &ModelArguments, motion: &MotionArguments) -> Result<Scene, u8> 
     let found = with_hooks(|hooks| study(read.model.clone(), options, hooks))
         .map_err(|problem| refuse(&problem, motion, &read))?;
     picture::scene(&found).ok_or_else(|| {
-        error(match found.notices.is_empty() {
-            true => "no motion was computed, so that there is nothing to draw".to_owned(),
-            false => found.notices.join("\n"),
+        error(if found.notices.is_empty() {
+            "no motion was computed, so that there is nothing to draw".to_owned()
+        } else {
+            found.notices.join("\n")
         });
         INPUT
     })

@@ -43,9 +43,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         return study.outcome.exit_status();
     }
     let style = terminal::style();
-    terminal::out(&match arguments.all {
-        true => story::story(&study, style),
-        false => story::outline(&study, style),
+    terminal::out(&if arguments.all {
+        story::story(&study, style)
+    } else {
+        story::outline(&study, style)
     });
     if arguments.compare {
         let report = folder.join("report.html");

@@ -22,9 +22,10 @@ pub(crate) fn linearize(arguments: &Linearize) -> u8 {
         if let Some(path) = &arguments.save {
             return saved(found, path);
         }
-        Ok(match arguments.json {
-            true => json(found),
-            false => found.linear_text(),
+        Ok(if arguments.json {
+            json(found)
+        } else {
+            found.linear_text()
         })
     })
 }
@@ -51,9 +52,10 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
         ..Wanted::default()
     };
     answer(&arguments.model, &wanted, |found| {
-        Ok(match arguments.json {
-            true => json(found),
-            false => found.ranges_text(),
+        Ok(if arguments.json {
+            json(found)
+        } else {
+            found.ranges_text()
         })
     })
 }

@@ -130,9 +130,10 @@ fn steps(
     for (caption, value) in by_field(above) {
         formulas.push(Formula { caption, value });
     }
-    let named = match modulo.is_empty() {
-        true => String::new(),
-        false => format!(", modulo {}", super::modulo::labels(&modulo)),
+    let named = if modulo.is_empty() {
+        String::new()
+    } else {
+        format!(", modulo {}", super::modulo::labels(&modulo))
     };
     let detail = format!(
         "({}) is released with the multiplier {}; the Euler equation of {} determines it{named}, and with it the density is that of {}",

@@ -225,16 +225,15 @@ fn defect(functional: &Functional, own: &Generator, varied: &[usize]) -> Expr {
     }));
     for jet in space.jets_in(&[density]) {
         let slope = space.partial(density, &jet);
-        let rate = match varied.contains(&jet.component) {
-            true => prolonged(space, own, &jet),
-            false => {
-                let along = own.xi.iter().enumerate().map(|(i, &xi)| {
-                    let mut by = jet.by.clone();
-                    by.push(i);
-                    g.mul(&[xi, space.jet(jet.component, &by)])
-                });
-                g.add(&along.collect::<Vec<_>>())
-            }
+        let rate = if varied.contains(&jet.component) {
+            prolonged(space, own, &jet)
+        } else {
+            let along = own.xi.iter().enumerate().map(|(i, &xi)| {
+                let mut by = jet.by.clone();
+                by.push(i);
+                g.mul(&[xi, space.jet(jet.component, &by)])
+            });
+            g.add(&along.collect::<Vec<_>>())
         };
         terms.push(g.mul(&[slope, rate]));
     }
@@ -466,9 +465,10 @@ fn on_solutions(
         .iter()
         .map(|(name, exponent)| format!("{name} with the exponent {exponent}"))
         .collect();
-    let scaled = match scaled.is_empty() {
-        true => String::new(),
-        false => format!(" ({})", scaled.join(", ")),
+    let scaled = if scaled.is_empty() {
+        String::new()
+    } else {
+        format!(" ({})", scaled.join(", "))
     };
     let explicit = space.explicit(current.defect);
     if space.vanish(&[current.defect]) || space.vanish(&[explicit]) {

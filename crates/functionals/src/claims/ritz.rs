@@ -104,9 +104,10 @@ fn verdict(
             ),
         })
         .collect();
-    let kind = match last.is_minimum {
-        true => "a minimum among these polynomials",
-        false => "no minimum",
+    let kind = if last.is_minimum {
+        "a minimum among these polynomials"
+    } else {
+        "no minimum"
     };
     let exact = residuals(functional, variation, asked, last);
     if exact.iter().all(|&e| space.vanish(&[e])) {

@@ -250,18 +250,20 @@ impl Inserted<'_> {
                     .any(|i| vector.get(i).is_some_and(|&e| !g.is_zero(e)))
             });
             let name = self.functional.space.component_at(*component).name;
-            match moves {
-                true => fields.push(name),
-                false => idle.push(name),
+            if moves {
+                fields.push(name)
+            } else {
+                idle.push(name)
             }
         }
         let all: usize = ansatz.iter().map(|(_, own)| own.len()).sum();
         if kernel.is_empty() {
             return format!("no variation by polynomials of degree {DEGREE} is admissible, so that there is nothing to vary");
         }
-        let none = match idle.is_empty() {
-            true => String::new(),
-            false => format!(", none of which varies {}", idle.join(", ")),
+        let none = if idle.is_empty() {
+            String::new()
+        } else {
+            format!(", none of which varies {}", idle.join(", "))
         };
         format!(
             "the first variation vanishes for all admissible variations of {} by polynomials of degree {DEGREE} ({} of {all} coefficients are free{none})",

@@ -1,7 +1,7 @@
 //! Equal products are written the same way: names of summed letters, order of indices of symmetric tensors, order of factors.
 
 use super::terms::{letters, renamed, Term};
-use super::{written::written, Atom, Index, Kind, Node};
+use super::{print::written, Atom, Index, Kind, Node};
 use crate::tensors::{Scope, Shape};
 use chetaev_symbolic::print::Format;
 use chetaev_symbolic::syntax::Span;

@@ -5,15 +5,15 @@
 //! [`chetaev_symbolic::syntax`]; what tokens mean together is decided here, since a comma means something else there.
 
 mod canonical;
-pub mod indexed;
+pub mod equations;
 mod indices;
 mod parse;
+mod print;
 mod terms;
-mod written;
 
 pub use indices::{check, free_letters};
 pub use parse::{parse, parse_sides};
-pub use written::{written, written_equation};
+pub use print::{written, written_equation};
 
 use chetaev_symbolic::syntax::Span;
 use chetaev_symbolic::{Function, Rational};

@@ -1,7 +1,7 @@
 //! Euler equations and natural conditions in index notation: what T4 §4 and §5 state, and agreement with the components.
 
 use crate::table::{loaded_text, row_text, ROWS};
-use chetaev_functionals::notation::indexed::{euler, natural};
+use chetaev_functionals::notation::equations::{euler, natural};
 use chetaev_functionals::notation::written;
 use chetaev_functionals::variation::variation;
 use chetaev_symbolic::print::Format;

@@ -64,9 +64,10 @@ impl<'r> Lowering<'r> {
         let turns: Vec<usize> = self.axes_of(joint, Freedom::Turn);
         let words = joint.object.words();
         for axis in (0..3).filter(|axis| !slides.contains(axis)) {
-            let apart = match slides.is_empty() {
-                true => gap[axis],
-                false => self.algebra.dot(gap, column(&rows, axis)),
+            let apart = if slides.is_empty() {
+                gap[axis]
+            } else {
+                self.algebra.dot(gap, column(&rows, axis))
             };
             let end = ["x", "y", "z"][axis];
             self.constrain_loop(&format!("{name}_{end}"), apart, &words, place);

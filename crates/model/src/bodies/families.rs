@@ -6,7 +6,7 @@ use chetaev_symbolic::syntax::{
 };
 use chetaev_symbolic::{Expr, Graph};
 
-use super::written::word;
+use super::sections::word;
 use crate::diagnostic::Diagnostic;
 use crate::raw::{Kind, Raw, Table};
 use crate::resolve::Override;
@@ -189,9 +189,10 @@ impl Numbers {
     /// A text that no index changes keeps the places of its letters.
     fn text(&self, text: &Text, bindings: &Bindings) -> Text {
         let content = self.instance(&text.content, bindings);
-        match content == text.content {
-            true => text.clone(),
-            false => word(content, text.place),
+        if content == text.content {
+            text.clone()
+        } else {
+            word(content, text.place)
         }
     }
 }

@@ -3,9 +3,9 @@
 use super::algebra::Vector;
 use super::lowering::{Lowering, Step, GROUND};
 use super::placing::Built;
+use super::sections::{array, table, text};
 use super::shapes::Look;
 use super::tree::Tree;
-use super::written::{array, table, text};
 use crate::raw::Raw;
 use crate::source::Place;
 

@@ -6,8 +6,8 @@ use chetaev_symbolic::syntax::names;
 use chetaev_symbolic::Expr;
 
 use super::algebra::{Algebra, Turn, Vector};
+use super::sections::{table, text, word, Written};
 use super::shapes::{Shape, Sizes};
-use super::written::{table, text, word, Written};
 use crate::diagnostic::Diagnostic;
 use crate::raw::{Kind, Raw, Table};
 use crate::source::Place;

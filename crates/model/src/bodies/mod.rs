@@ -18,11 +18,11 @@ mod lowering;
 mod placing;
 mod pruning;
 mod reading;
+mod sections;
 mod shapes;
 mod solids;
 mod touching;
 mod tree;
-mod written;
 
 use std::collections::BTreeSet;
 
@@ -180,7 +180,7 @@ impl Lowering<'_> {
     /// A name for what is short or has another name; it stays only where somebody writes it.
     fn alias(&mut self, name: &str, e: Expr, place: Place) {
         if !self.taken.contains(name) {
-            let value = written::text(self.algebra.graph.text(e), place);
+            let value = sections::text(self.algebra.graph.text(e), place);
             self.define(name, value, !self.algebra.is_constant(e));
         }
     }
@@ -214,7 +214,7 @@ impl Lowering<'_> {
         let acceleration = Some(self.algebra.symbol("g"));
         let usual = Raw {
             place,
-            kind: Kind::Number(written::word("9.81", place)),
+            kind: Kind::Number(sections::word("9.81", place)),
         };
         let usual = (!self.taken.contains("g")).then_some((slot, usual));
         Gravity {

@@ -6,9 +6,9 @@ use super::algebra::{Turn, Vector};
 use super::joints::{Freedom, Motion};
 use super::lowering::{FrameId, Lowering, Step, GROUND};
 use super::reading::Object;
+use super::sections::word;
 use super::shapes::Outline;
 use super::tree::{JointStated, Tree};
-use super::written::word;
 use crate::diagnostic::Diagnostic;
 use crate::raw::{Kind, Raw};
 use crate::source::Place;
@@ -133,9 +133,10 @@ impl<'r> Lowering<'r> {
         let turns = self.turns(object, "turn", true);
         let shifted = self.step(parent, Step::Shift(at), name, object.place);
         let turned = self.turned(shifted, &turns, name, object.place);
-        let own = match turned == parent {
-            true => self.add(parent, Step::Shift(self.algebra.zero()), name, object.place),
-            false => turned,
+        let own = if turned == parent {
+            self.add(parent, Step::Shift(self.algebra.zero()), name, object.place)
+        } else {
+            turned
         };
         self.frames[own].is_kept = true;
         own
@@ -168,9 +169,10 @@ impl<'r> Lowering<'r> {
     fn step_name(&self, object: &Object<'r>) -> String {
         let name = object.name();
         let is_body = self.bodies.iter().any(|body| body.name == name);
-        match is_body {
-            true => format!("{name}_{}", object.what),
-            false => name.to_owned(),
+        if is_body {
+            format!("{name}_{}", object.what)
+        } else {
+            name.to_owned()
         }
     }
 
@@ -182,9 +184,10 @@ impl<'r> Lowering<'r> {
         name: &str,
         place: Place,
     ) -> FrameId {
-        let signed = match motion.is_backward {
-            true => self.algebra.graph.neg(q),
-            false => q,
+        let signed = if motion.is_backward {
+            self.algebra.graph.neg(q)
+        } else {
+            q
         };
         let step = match motion.freedom {
             Freedom::Turn => Step::Turn(Turn {
@@ -338,23 +341,24 @@ impl<'r> Lowering<'r> {
             };
             let name = self.algebra.graph.symbol_name(name).to_owned();
             if key != load || object.get("motion").is_some() {
-                let message = match key == load {
-                    true => format!(
+                let message = if key == load {
+                    format!(
                         "the motion of {} is prescribed: a {key} on it has no effect",
                         object.words()
-                    ),
-                    false => format!(
+                    )
+                } else {
+                    format!(
                         "a {key} does not act on the {} of {}",
                         if load == "torque" { "angle" } else { "length" },
                         object.words()
-                    ),
+                    )
                 };
                 self.error("not-allowed-here", raw.place, message);
                 continue;
             }
             let unit = if load == "torque" { "N m" } else { "N" };
             if let Some(value) = self.function(&object.slot(key, unit), raw) {
-                let value = super::written::text(self.algebra.graph.text(value), raw.place);
+                let value = super::sections::text(self.algebra.graph.text(value), raw.place);
                 self.written
                     .forces
                     .entries
@@ -422,18 +426,20 @@ impl<'r> Lowering<'r> {
     /// Where the middle of a shape lies in the axes of its body: at the centre of mass where the body is homogeneous, else at the
     /// origin.
     pub(crate) fn outline_center(&self, body: &super::lowering::Body) -> Vector {
-        match body.is_homogeneous {
-            true => body.center,
-            false => self.algebra.zero(),
+        if body.is_homogeneous {
+            body.center
+        } else {
+            self.algebra.zero()
         }
     }
 
     /// The vertical of a plane as a vector.
     pub(crate) fn up_vector(&self) -> Vector {
         let unit = self.algebra.unit(self.up.axis);
-        match self.up.is_backward {
-            true => self.algebra.minus(self.algebra.zero(), unit),
-            false => unit,
+        if self.up.is_backward {
+            self.algebra.minus(self.algebra.zero(), unit)
+        } else {
+            unit
         }
     }
 

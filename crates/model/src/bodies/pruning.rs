@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::written::Written;
+use super::sections::Written;
 use crate::raw::{Kind, Raw, Table};
 
 /// Leaves out the written definitions that neither the written sections nor the user's own text names.

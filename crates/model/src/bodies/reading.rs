@@ -6,7 +6,7 @@ use chetaev_symbolic::{Expr, Graph};
 
 use super::algebra::{Turn, Vector};
 use super::lowering::{FrameId, Lowering, Step};
-use super::written::{text, word};
+use super::sections::{text, word};
 use crate::diagnostic::Diagnostic;
 use crate::raw::{Kind, Raw, Table};
 use crate::source::Place;
@@ -411,9 +411,10 @@ impl<'r> Lowering<'r> {
         let mut is_whole = true;
         for ((own, item), end) in all.iter_mut().zip(items).zip(["x", "y", "z"]) {
             let slot = slot.component(end);
-            let read = match is_function {
-                true => self.function(&slot, item),
-                false => self.number(&slot, item),
+            let read = if is_function {
+                self.function(&slot, item)
+            } else {
+                self.number(&slot, item)
             };
             is_whole &= read.is_some();
             *own = read.unwrap_or(*own);
@@ -446,18 +447,23 @@ impl<'r> Lowering<'r> {
                 let Some((index, is_backward)) = self.axis_of(axis) else {
                     continue;
                 };
-                let end = match several {
-                    true => format!("{key}_{}_{}", number + 1, axis.content),
-                    false => format!("{key}_{}", axis.content),
+                let end = if several {
+                    format!("{key}_{}_{}", number + 1, axis.content)
+                } else {
+                    format!("{key}_{}", axis.content)
                 };
                 let slot = object.slot(&end.replace('-', ""), "rad");
-                let read = match is_function {
-                    true => self.function(&slot, raw),
-                    false => self.number(&slot, raw),
+                let read = if is_function {
+                    self.function(&slot, raw)
+                } else {
+                    self.number(&slot, raw)
                 };
-                let signed = |angle| match is_backward {
-                    true => self.algebra.graph.neg(angle),
-                    false => angle,
+                let signed = |angle| {
+                    if is_backward {
+                        self.algebra.graph.neg(angle)
+                    } else {
+                        angle
+                    }
                 };
                 turns.extend(read.map(|angle| Turn {
                     axis: index,

@@ -273,9 +273,10 @@ impl<'r> Lowering<'r> {
         std::array::from_fn(|i| {
             std::array::from_fn(|j| {
                 let product = a.graph.mul(&[d[i], d[j]]);
-                let steiner = match i == j {
-                    true => a.graph.sub(square, product),
-                    false => a.graph.neg(product),
+                let steiner = if i == j {
+                    a.graph.sub(square, product)
+                } else {
+                    a.graph.neg(product)
                 };
                 a.graph.sub(matrix[i][j], a.graph.mul(&[mass, steiner]))
             })
@@ -289,9 +290,12 @@ impl<'r> Lowering<'r> {
         let trace = graph.add(&[matrix[0][0], matrix[1][1], matrix[2][2]]);
         let half = graph.mul(&[self.algebra.ratio(1, 2), trace]);
         let second: [Vector; 3] = std::array::from_fn(|i| {
-            std::array::from_fn(|j| match i == j {
-                true => graph.sub(half, matrix[i][i]),
-                false => graph.neg(matrix[i][j]),
+            std::array::from_fn(|j| {
+                if i == j {
+                    graph.sub(half, matrix[i][i])
+                } else {
+                    graph.neg(matrix[i][j])
+                }
             })
         });
         let minor = |i: usize, j: usize| {
@@ -418,9 +422,10 @@ impl<'r> Lowering<'r> {
     /// How high a point of a frame is.
     pub(crate) fn height(&mut self, frame: FrameId, point: Vector) -> Expr {
         let height = self.point(GROUND, frame, point)[self.up.axis];
-        match self.up.is_backward {
-            true => self.algebra.graph.neg(height),
-            false => height,
+        if self.up.is_backward {
+            self.algebra.graph.neg(height)
+        } else {
+            height
         }
     }
 }

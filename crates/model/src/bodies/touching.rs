@@ -12,9 +12,9 @@ use super::algebra::Vector;
 use super::contacts::Touch;
 use super::lowering::{FrameId, Lowering};
 use super::placing::Built;
+use super::sections::{table, text, word};
 use super::shapes::Outline;
 use super::tree::{ContactStated, Tree};
-use super::written::{table, text, word};
 use crate::diagnostic::Diagnostic;
 use crate::source::Place;
 
@@ -199,18 +199,20 @@ impl<'r> Lowering<'r> {
     /// The normal of a plane in the axes of a frame that it carries.
     fn normal(&mut self, plane: FrameId, frame: FrameId) -> Vector {
         let row = self.axes(plane, frame)[self.up.axis];
-        match self.up.is_backward {
-            true => self.algebra.minus(self.algebra.zero(), row),
-            false => row,
+        if self.up.is_backward {
+            self.algebra.minus(self.algebra.zero(), row)
+        } else {
+            row
         }
     }
 
     /// How high the origin of a frame is above a plane.
     fn rise(&mut self, plane: FrameId, frame: FrameId) -> Expr {
         let height = self.position(plane, frame)[self.up.axis];
-        match self.up.is_backward {
-            true => self.algebra.graph.neg(height),
-            false => height,
+        if self.up.is_backward {
+            self.algebra.graph.neg(height)
+        } else {
+            height
         }
     }
 
@@ -223,9 +225,10 @@ impl<'r> Lowering<'r> {
     ) -> (FrameId, Vector) {
         let axes = self.unspun(body, is_same);
         let middle = self.point(axes, body, figure.middle);
-        match middle.iter().all(|e| self.algebra.is_constant(*e)) {
-            true => (axes, middle),
-            false => (body, figure.middle),
+        if middle.iter().all(|e| self.algebra.is_constant(*e)) {
+            (axes, middle)
+        } else {
+            (body, figure.middle)
         }
     }
 

@@ -88,9 +88,10 @@ impl<'r> Lowering<'r> {
             self.known_keys(&object, JOINT_KEYS);
             if let Some(joint) = self.read_joint(object) {
                 let number = tree.joints.len();
-                match tree.placing.contains_key(&joint.child) {
-                    true => tree.closing.push(number),
-                    false => drop(tree.placing.insert(joint.child.clone(), number)),
+                if tree.placing.contains_key(&joint.child) {
+                    tree.closing.push(number);
+                } else {
+                    tree.placing.insert(joint.child.clone(), number);
                 }
                 tree.joints.push(joint);
             }

@@ -8,9 +8,10 @@ use chetaev_integrate::{EvaluationFailure, Expansion};
 impl MultiplierFlow {
     /// The states at which rates are asked for: where nothing brings them back to the constraints they stray.
     fn states(&self) -> States {
-        match self.kind == StateKind::Full && self.system.r > 0 {
-            true => self.projection.states(),
-            false => States::Admissible,
+        if self.kind == StateKind::Full && self.system.r > 0 {
+            self.projection.states()
+        } else {
+            States::Admissible
         }
     }
 

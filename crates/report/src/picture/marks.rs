@@ -83,9 +83,10 @@ impl Painter<'_> {
         let next = next.min(times.len() - 1);
         let here = next.saturating_sub(1);
         let span = times[next] - times[here];
-        let part = match span > 0.0 {
-            true => ((time - times[here]) / span).clamp(0.0, 1.0),
-            false => 0.0,
+        let part = if span > 0.0 {
+            ((time - times[here]) / span).clamp(0.0, 1.0)
+        } else {
+            0.0
         };
         let row = |frame: usize| &element.values[frame * stride..(frame + 1) * stride];
         let mixed = row(here).iter().zip(row(next));
@@ -206,9 +207,10 @@ impl Painter<'_> {
             }
             Shape::Blade => {
                 let (direction, length) = rest.split_at(rest.len() - 1);
-                let along = match self.scene.spatial {
-                    true => unit(direction),
-                    false => vec![direction[0].cos(), direction[0].sin()],
+                let along = if self.scene.spatial {
+                    unit(direction)
+                } else {
+                    vec![direction[0].cos(), direction[0].sin()]
                 };
                 let end = |sign: f64| plus(a, &along, sign * length[0] / 2.0);
                 let pen = Pen { width: 5.0, ..pen };
@@ -282,18 +284,18 @@ impl Painter<'_> {
     }
 
     fn ring(&self, center: &[f64], axis: &[f64], radius: f64) -> Ring {
-        let (e1, e2) = match self.scene.spatial {
-            false => (vec![1.0, 0.0], vec![0.0, 1.0]),
-            true => {
-                let n = unit(axis);
-                let level = [-n[1], n[0], 0.0];
-                let e1 = match level[0].hypot(level[1]) > 1e-9 {
-                    true => unit(&level),
-                    false => vec![1.0, 0.0, 0.0],
-                };
-                let e2 = cross(&n, &e1);
-                (e1, e2)
-            }
+        let (e1, e2) = if self.scene.spatial {
+            let n = unit(axis);
+            let level = [-n[1], n[0], 0.0];
+            let e1 = if level[0].hypot(level[1]) > 1e-9 {
+                unit(&level)
+            } else {
+                vec![1.0, 0.0, 0.0]
+            };
+            let e2 = cross(&n, &e1);
+            (e1, e2)
+        } else {
+            (vec![1.0, 0.0], vec![0.0, 1.0])
         };
         Ring {
             center: center.to_vec(),

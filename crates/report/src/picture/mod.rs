@@ -135,9 +135,10 @@ fn check(scene: &Animation, view: &View) -> Result<(), PictureError> {
         let expected = element.shape.stride(scene.spatial) * scene.times.len();
         if element.values.len() != expected {
             return Err(PictureError::Numbers {
-                element: match element.name.is_empty() {
-                    true => (place + 1).to_string(),
-                    false => element.name.clone(),
+                element: if element.name.is_empty() {
+                    (place + 1).to_string()
+                } else {
+                    element.name.clone()
                 },
             });
         }

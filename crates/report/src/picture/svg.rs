@@ -64,10 +64,11 @@ fn one(text: &mut String, mark: &Mark) {
             if *close {
                 path.push('Z');
             }
-            let inside = match *fill > 0.0 {
-                true => format!("currentColor\" fill-opacity=\"{fill:.2}"),
-                false => "none".into(),
-            };
+            let inside = if *fill > 0.0 {
+format!("currentColor\" fill-opacity=\"{fill:.2}")
+} else {
+"none".into()
+};
             writeln!(
                 text,
                 "<path class=\"{}\" d=\"{path}\" fill=\"{inside}\" stroke=\"currentColor\" stroke-width=\"{width}\" stroke-opacity=\"{alpha:.2}\"/>",

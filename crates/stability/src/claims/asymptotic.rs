@@ -1,9 +1,8 @@
 //! All transversal eigenvalues lie left of the axis.
 
-use crate::decision::{verdict, About, Said, Statement};
-use crate::evidence::{counted, motions, requires, unstable};
+use crate::decision::{About, Said, Statement};
+use crate::evidence::{counted, unstable};
 use crate::question::Place;
-use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_symbolic::verdict::Counterexample;
 use dashu_ratio::RBig;
 
@@ -11,13 +10,9 @@ use dashu_ratio::RBig;
 #[derive(Clone, Copy, Debug)]
 pub struct Asymptotic;
 
-impl Claim for Asymptotic {
+impl Statement for Asymptotic {
     fn id(&self) -> &'static str {
         "stability.asymptotic"
-    }
-
-    fn group(&self) -> Group {
-        Group::Stability
     }
 
     fn title(&self) -> &'static str {
@@ -28,20 +23,6 @@ impl Claim for Asymptotic {
         include_str!("asymptotic.md")
     }
 
-    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        motions(cx)
-    }
-
-    fn requires(&self, subject: Option<&str>) -> Vec<String> {
-        requires(subject)
-    }
-
-    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        verdict(cx, subject, self).into()
-    }
-}
-
-impl Statement for Asymptotic {
     fn said(&self, about: &About<'_>, place: Place, _: Option<&RBig>) -> Said {
         let question = &about.question;
         let further = question

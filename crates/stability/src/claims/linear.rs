@@ -1,10 +1,9 @@
 //! No eigenvalue lies right of the axis, and those on it are semisimple.
 
-use crate::decision::{verdict, About, Said, Statement};
-use crate::evidence::{counted, motions, requires, unstable};
+use crate::decision::{About, Said, Statement};
+use crate::evidence::{counted, unstable};
 use crate::multiplicity::{defects, Defect};
 use crate::question::Place;
-use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_symbolic::verdict::Counterexample;
 use dashu_ratio::RBig;
 
@@ -12,13 +11,12 @@ use dashu_ratio::RBig;
 #[derive(Clone, Copy, Debug)]
 pub struct Linear;
 
-impl Claim for Linear {
+/// What a bounded linear motion does not say.
+const NO_MORE: &str = "of the nonlinear motion that says nothing by itself";
+
+impl Statement for Linear {
     fn id(&self) -> &'static str {
         "stability.linear"
-    }
-
-    fn group(&self) -> Group {
-        Group::Stability
     }
 
     fn title(&self) -> &'static str {
@@ -29,23 +27,6 @@ impl Claim for Linear {
         include_str!("linear.md")
     }
 
-    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        motions(cx)
-    }
-
-    fn requires(&self, subject: Option<&str>) -> Vec<String> {
-        requires(subject)
-    }
-
-    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        verdict(cx, subject, self).into()
-    }
-}
-
-/// What a bounded linear motion does not say.
-const NO_MORE: &str = "of the nonlinear motion that says nothing by itself";
-
-impl Statement for Linear {
     fn said(&self, about: &About<'_>, place: Place, _: Option<&RBig>) -> Said {
         match place {
             Place::Left => Said::Holds("all eigenvalues but the zeros of the family lie left of the axis, and these have as many eigenvectors as the family has dimensions".into()),

@@ -1,9 +1,8 @@
 //! The motion itself is stable.
 
-use crate::decision::{verdict, About, Said, Statement};
-use crate::evidence::{motions, requires, unstable};
+use crate::decision::{About, Said, Statement};
+use crate::evidence::unstable;
 use crate::question::Place;
-use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_symbolic::verdict::Counterexample;
 use chetaev_symbolic::Expr;
 use dashu_ratio::RBig;
@@ -12,13 +11,9 @@ use dashu_ratio::RBig;
 #[derive(Clone, Copy, Debug)]
 pub struct Nonlinear;
 
-impl Claim for Nonlinear {
+impl Statement for Nonlinear {
     fn id(&self) -> &'static str {
         "stability.nonlinear"
-    }
-
-    fn group(&self) -> Group {
-        Group::Stability
     }
 
     fn title(&self) -> &'static str {
@@ -29,20 +24,6 @@ impl Claim for Nonlinear {
         include_str!("nonlinear.md")
     }
 
-    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        motions(cx)
-    }
-
-    fn requires(&self, subject: Option<&str>) -> Vec<String> {
-        requires(subject)
-    }
-
-    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        verdict(cx, subject, self).into()
-    }
-}
-
-impl Statement for Nonlinear {
     fn said(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Said {
         let (g, question) = (about.graph(), &about.question);
         if place == Place::Right {

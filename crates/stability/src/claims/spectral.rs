@@ -1,9 +1,8 @@
 //! No eigenvalue lies right of the axis.
 
-use crate::decision::{verdict, About, Said, Statement};
-use crate::evidence::{motions, requires, unstable};
+use crate::decision::{About, Said, Statement};
+use crate::evidence::unstable;
 use crate::question::Place;
-use chetaev_mechanics::claims::{Claim, Context, Finding, Group};
 use chetaev_symbolic::verdict::Counterexample;
 use dashu_ratio::RBig;
 
@@ -11,13 +10,9 @@ use dashu_ratio::RBig;
 #[derive(Clone, Copy, Debug)]
 pub struct Spectral;
 
-impl Claim for Spectral {
+impl Statement for Spectral {
     fn id(&self) -> &'static str {
         "stability.spectral"
-    }
-
-    fn group(&self) -> Group {
-        Group::Stability
     }
 
     fn title(&self) -> &'static str {
@@ -28,20 +23,6 @@ impl Claim for Spectral {
         include_str!("spectral.md")
     }
 
-    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        motions(cx)
-    }
-
-    fn requires(&self, subject: Option<&str>) -> Vec<String> {
-        requires(subject)
-    }
-
-    fn decide(&self, cx: &Context<'_>, subject: Option<&str>) -> Finding {
-        verdict(cx, subject, self).into()
-    }
-}
-
-impl Statement for Spectral {
     fn said(&self, about: &About<'_>, place: Place, _: Option<&RBig>) -> Said {
         match place {
             Place::Left if about.question.deciding(about.graph()).is_empty() => Said::Holds(

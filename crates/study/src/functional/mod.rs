@@ -15,7 +15,7 @@ pub use summary::summary;
 pub use verification::verify;
 
 use chetaev_functionals::functional::{Functional, Role};
-use chetaev_functionals::notation::{indexed, Node};
+use chetaev_functionals::notation::{equations, Node};
 use chetaev_functionals::variation::{Condition, Trace, Variation};
 use chetaev_symbolic::print::{Document, Options};
 use chetaev_symbolic::simplify;
@@ -39,17 +39,19 @@ struct Indexed {
 
 /// The Euler equations in index notation, of the fields for which there is a form.
 fn indexed_euler(functional: &Functional, variation: &Variation) -> Vec<Indexed> {
-    let own = indexed::euler(functional, variation).into_iter().flatten();
+    let own = equations::euler(functional, variation)
+        .into_iter()
+        .flatten();
     own.map(shown_indexed).collect()
 }
 
 /// The conditions on a piece in index notation; `None` where they have no short form.
 fn indexed_natural(functional: &Functional, piece: &str) -> Option<Vec<Indexed>> {
-    let own = indexed::natural(functional, functional.piece(piece)?)?;
+    let own = equations::natural(functional, functional.piece(piece)?)?;
     Some(own.into_iter().map(shown_indexed).collect())
 }
 
-fn shown_indexed(own: indexed::Indexed) -> Indexed {
+fn shown_indexed(own: equations::Indexed) -> Indexed {
     Indexed {
         of: format!("δ{}", own.of),
         value: own.value,

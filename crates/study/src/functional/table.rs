@@ -49,9 +49,10 @@ fn relative(own: &Functional) -> Relative {
 fn row(own: &Relative, is_own: bool) -> Row {
     let labels = |all: &[String]| -> String {
         let each: Vec<String> = all.iter().map(|label| format!("({label})")).collect();
-        match each.is_empty() {
-            true => "–".to_owned(),
-            false => each.join(" "),
+        if each.is_empty() {
+            "–".to_owned()
+        } else {
+            each.join(" ")
         }
     };
     Row {

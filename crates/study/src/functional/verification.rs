@@ -110,12 +110,15 @@ fn equations(old: Option<&FunctionalRecord>, new: Option<&FunctionalRecord>) -> 
             },
         )];
     };
-    let outcome = |holds: bool, found: &str| match holds {
-        true => Replay::Confirmed,
-        false => Replay::Differs {
-            found: found.to_owned(),
-            detail: "the record says otherwise".into(),
-        },
+    let outcome = |holds: bool, found: &str| {
+        if holds {
+            Replay::Confirmed
+        } else {
+            Replay::Differs {
+                found: found.to_owned(),
+                detail: "the record says otherwise".into(),
+            }
+        }
     };
     let told = |all: &[ConditionRecord]| format!("{} of them", all.len());
     let mut bare = (old.clone(), new.clone());

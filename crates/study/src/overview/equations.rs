@@ -103,9 +103,10 @@ fn broken(equation: &str) -> String {
     }
     text.push_str(&line);
     text.push('\n');
-    match text.lines().all(|line| line.chars().count() <= WIDTH) {
-        true => text,
-        false => hanging(MARGINS[0], equation),
+    if text.lines().all(|line| line.chars().count() <= WIDTH) {
+        text
+    } else {
+        hanging(MARGINS[0], equation)
     }
 }
 

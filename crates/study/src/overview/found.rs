@@ -178,9 +178,10 @@ fn quadratures(study: &Study) -> Option<Found> {
             let missing =
                 parts.filter(|part| part.ends_with("missing") || part.contains("measure"));
             let missing: Vec<&str> = missing.collect();
-            match missing.is_empty() {
-                true => format!("not decided: {}", first(study, tried)),
-                false => format!("not decided: {}", shortened(&missing.join("; "), LONG)),
+            if missing.is_empty() {
+                format!("not decided: {}", first(study, tried))
+            } else {
+                format!("not decided: {}", shortened(&missing.join("; "), LONG))
             }
         }
         _ => return None,

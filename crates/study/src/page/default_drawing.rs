@@ -15,9 +15,10 @@ const POINTS: usize = 12;
 /// A drawing of particles, else of points, else of the first coordinate and its velocity; `None` without coordinates.
 pub(super) fn drawn_by_itself(study: &Study) -> Option<Drawing> {
     let particles = particles(&study.model);
-    let points = match particles.is_empty() {
-        true => points(&study.system),
-        false => particles,
+    let points = if particles.is_empty() {
+        points(&study.system)
+    } else {
+        particles
     };
     if points.is_empty() {
         return phase_portrait(&study.system);

@@ -51,9 +51,10 @@ fn written(study: &Study, integral: &Decided) -> String {
     let number = integral.subject.as_deref().unwrap_or_default();
     let motion = study.motion.as_ref();
     let energy = motion.and_then(|m| m.found.energy.as_ref());
-    let name = match energy.is_some_and(|own| own.name == number) {
-        true => format!("{number}, the energy"),
-        false => number.to_owned(),
+    let name = if energy.is_some_and(|own| own.name == number) {
+        format!("{number}, the energy")
+    } else {
+        number.to_owned()
     };
     let Some(formula) = integral.finding.formulas.first() else {
         return name;

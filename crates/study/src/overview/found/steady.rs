@@ -38,9 +38,10 @@ pub(super) fn found(study: &Study) -> Option<Found> {
             }
         }
         let name = name.unwrap_or_default();
-        sentences.push(match parts.is_empty() {
-            true => format!("{name}: steady"),
-            false => format!("{name}: {}", parts.join("; ")),
+        sentences.push(if parts.is_empty() {
+            format!("{name}: steady")
+        } else {
+            format!("{name}: {}", parts.join("; "))
         });
     }
     Some(Found {
@@ -64,12 +65,15 @@ fn stability(decided: &Decided, words: &str) -> Option<String> {
 /// Numbers of many digits with six of them: the claim encloses them.
 fn rounded(text: &str) -> String {
     let is_number = |word: &str| word.len() > 9 && word.parse::<f64>().is_ok();
-    let words = text.split(' ').map(|word| match is_number(word) {
-        true => word.parse::<f64>().map_or(word.to_owned(), |x| {
-            let text = format!("{x:.5}");
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        }),
-        false => word.to_owned(),
+    let words = text.split(' ').map(|word| {
+        if is_number(word) {
+            word.parse::<f64>().map_or(word.to_owned(), |x| {
+                let text = format!("{x:.5}");
+                text.trim_end_matches('0').trim_end_matches('.').to_owned()
+            })
+        } else {
+            word.to_owned()
+        }
     });
     words.collect::<Vec<String>>().join(" ")
 }

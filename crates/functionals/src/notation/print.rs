@@ -229,9 +229,10 @@ impl Writer<'_> {
                 format!("<msub><mrow>{head}</mrow><mrow>{inner}</mrow></msub>")
             }
             _ => {
-                let lower = match lower.is_empty() {
-                    true => String::new(),
-                    false => format!("_{}", lower.concat()),
+                let lower = if lower.is_empty() {
+                    String::new()
+                } else {
+                    format!("_{}", lower.concat())
                 };
                 let comma = if by.is_empty() { "" } else { "," };
                 format!("{head}{lower}{comma}{}", behind.concat())

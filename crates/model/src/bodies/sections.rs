@@ -174,9 +174,10 @@ fn add_energies(
     let sum = |terms: &[String]| terms.join(" + ").replace("+ -", "- ");
     match whole {
         Some(whole) => {
-            let minus = match potential.is_empty() {
-                true => String::new(),
-                false => format!(" - ({})", sum(&potential)),
+            let minus = if potential.is_empty() {
+                String::new()
+            } else {
+                format!(" - ({})", sum(&potential))
             };
             let total = [vec![whole], kinetic].concat();
             let total = format!("{}{minus}", sum(&total));
