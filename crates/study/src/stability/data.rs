@@ -1,0 +1,146 @@
+//! What was asked of a steady motion, as data for other programs: matrices in numbers, LaTeX, JSON.
+
+use super::{named_parts, Stability};
+use crate::state_space::{latex, Matrices};
+use chetaev_stability::hurwitz::{Boundary, Crossing};
+use chetaev_stability::question::Place;
+use chetaev_symbolic::{Expr, Rational};
+use serde_json::{json, Value};
+
+impl Stability {
+    /// All matrices in numbers, for other programs.
+    pub fn matrices(&self) -> Matrices {
+        let (space, at) = (&self.space, self.stated());
+        let (n, m) = (space.states.len(), space.inputs.len());
+        let mut matrices: Vec<(String, Vec<Vec<f64>>, usize)> = [
+            ("A", &space.a, n),
+            ("B", &space.b, m),
+            ("C", &space.c, n),
+            ("D", &space.d, m),
+        ]
+        .into_iter()
+        .map(|(name, rows, columns)| (name.to_owned(), self.numbers(rows, at), columns))
+        .collect();
+        for (name, rows) in self.parts.iter().flat_map(named_parts) {
+            matrices.push((format!("{name}_second"), self.numbers(rows, at), rows.len()));
+        }
+        Matrices {
+            matrices,
+            names: vec![
+                ("states".into(), space.states.clone()),
+                ("inputs".into(), space.inputs.clone()),
+                ("outputs".into(), space.outputs.clone()),
+            ],
+            title: format!(
+                "{}, linear equations about the steady motion {}",
+                self.system.name, self.motion.name
+            ),
+        }
+    }
+
+    /// The exact matrices as LaTeX.
+    pub fn latex(&self) -> String {
+        let (linear, space) = (&self.question.linear, &self.space);
+        let mut all: Vec<(&str, &[Vec<Expr>])> = vec![
+            ("E", &linear.left),
+            ("F", &linear.right),
+            ("A", &space.a),
+            ("B", &space.b),
+            ("C", &space.c),
+            ("D", &space.d),
+        ];
+        all.extend(self.parts.iter().flat_map(named_parts));
+        latex(self.graph(), &all)
+    }
+
+    /// The answer as JSON: variables, matrices as exact text, polynomial, eigenvalues, and over a range `critical` and `regions`.
+    pub fn json(&self) -> Value {
+        let g = self.graph();
+        let linear = &self.question.linear;
+        let exact = |rows: &[Vec<Expr>]| -> Value {
+            let row = |row: &Vec<Expr>| row.iter().map(|&e| g.text(e)).collect::<Vec<_>>();
+            json!(rows.iter().map(row).collect::<Vec<_>>())
+        };
+        let pairs = |list: Vec<(f64, f64)>| {
+            list.iter()
+                .map(|(re, im)| json!([re, im]))
+                .collect::<Vec<_>>()
+        };
+        let polynomial = self.question.polynomial.as_ref().map(|p| {
+            json!({
+                "coefficients": p.coefficients.iter().map(|&e| g.text(e)).collect::<Vec<_>>(),
+                "factors": self.question.spectrum.factors.iter().map(|(f, power)| json!({
+                    "coefficients": f.iter().map(|&e| g.text(e)).collect::<Vec<_>>(),
+                    "multiplicity": power,
+                })).collect::<Vec<_>>(),
+                "zeros_of_family": p.zeros,
+                "further_zeros": p.further_zeros,
+            })
+        });
+        let mut value = json!({
+            "system": self.system.name,
+            "motion": self.motion.name,
+            "variables": linear.names,
+            "ignorable": linear.ignorable,
+            "family": linear.family,
+            "speeds": linear.speeds.iter().map(|(name, e)| json!({"name": name, "definition": g.text(*e)})).collect::<Vec<_>>(),
+            "E": exact(&linear.left),
+            "F": exact(&linear.right),
+            "inputs": self.space.inputs,
+            "outputs": self.space.outputs,
+            "A": exact(&self.space.a),
+            "B": exact(&self.space.b),
+            "C": exact(&self.space.c),
+            "D": exact(&self.space.d),
+            "second_order": self.parts.as_ref().map(|parts| {
+                let parts = named_parts(parts).into_iter();
+                parts.map(|(name, rows)| (name.to_owned(), exact(rows))).collect::<serde_json::Map<_, _>>()
+            }),
+            "characteristic_polynomial": polynomial,
+            "eigenvalues": self.eigenvalues(self.stated()).map(pairs),
+        });
+        if let Some(range) = &self.range {
+            value["parameter"] = json!(range.name);
+            value["critical"] = match &self.ranges {
+                None => Value::Null,
+                Some(ranges) => ranges
+                    .boundaries
+                    .iter()
+                    .map(|b| self.critical(&range.name, b))
+                    .collect(),
+            };
+            value["regions"] = match &self.ranges {
+                None => Value::Null,
+                Some(ranges) => {
+                    let region = |r: &chetaev_stability::hurwitz::Region| {
+                        let place = match self.question.place(r.is_left) {
+                            Place::Left => "asymptotic",
+                            Place::OnAxis => "spectral",
+                            Place::Right | Place::NotLeft => "unstable",
+                        };
+                        json!({"from": r.low.to_f64().value(), "to": r.high.to_f64().value(), "stability": place})
+                    };
+                    ranges.regions.iter().map(region).collect()
+                }
+            };
+            let table = self.table(range).into_iter();
+            value["table"] = table
+                .map(|(at, list)| json!({"value": at, "eigenvalues": pairs(list)}))
+                .collect();
+        }
+        value
+    }
+
+    fn critical(&self, name: &str, boundary: &Boundary) -> Value {
+        let (low, high) = boundary.root.decimal_bounds();
+        let kind = match boundary.crossing {
+            Crossing::Zero => "zero",
+            Crossing::Pair => "pair",
+            Crossing::Collision => "collision",
+            Crossing::Infinity => "infinity",
+            Crossing::Touching => "touching",
+        };
+        let middle = (&boundary.root.low + &boundary.root.high) / Rational::from(2);
+        json!({"parameter": name, "value": middle.to_f64().value(), "enclosure": [low, high], "kind": kind})
+    }
+}

@@ -1,0 +1,371 @@
+//! What was asked of a steady motion, in words and columns for a terminal.
+
+use super::{named_parts, Mode, Stability};
+use chetaev_stability::hurwitz::{Boundary, Crossing};
+use chetaev_stability::multiplicity::defects;
+use chetaev_stability::question::Place;
+use chetaev_stability::real_roots::decimal;
+use chetaev_stability::spectrum::expression;
+use chetaev_symbolic::factors::coefficients;
+use chetaev_symbolic::{Expr, Graph, Symbol};
+use std::fmt::Write as _;
+
+impl Stability {
+    /// Linear equations, polynomial and eigenvalues as text.
+    pub fn linear_text(&self) -> String {
+        let g = self.graph();
+        let linear = &self.question.linear;
+        let mut text = self.heading();
+        let _ = writeln!(
+            text,
+            "\nE z' = F z with z = ({}), deviations from the motion:\n",
+            linear.names.join(", ")
+        );
+        for (name, rows) in [("E", &linear.left), ("F", &linear.right)] {
+            text.push_str(&matrix(g, name, rows));
+        }
+        for (name, slopes) in &linear.dependent {
+            let terms = linear
+                .names
+                .iter()
+                .zip(slopes)
+                .filter(|(_, e)| !g.is_zero(**e));
+            let terms: Vec<String> = terms
+                .map(|(own, e)| format!("({}) {own}", g.text(*e)))
+                .collect();
+            let sum = if terms.is_empty() {
+                "0".into()
+            } else {
+                terms.join(" + ")
+            };
+            let _ = writeln!(
+                text,
+                "\nThe finite constraints give the deviation of {name}: {sum}"
+            );
+        }
+        text.push_str(&self.space_text());
+        text.push_str(&self.parts_text());
+        text.push_str(&self.polynomial_text());
+        text.push_str(&self.modes_text());
+        text
+    }
+
+    /// A, B, C, D as text, with what inputs reach and outputs show, and the transfer functions.
+    fn space_text(&self) -> String {
+        let (g, space) = (self.graph(), &self.space);
+        let mut text = String::from("\nz' = A z + B u, y = C z + D u");
+        let _ = writeln!(
+            text,
+            " with u = ({}), y = ({}):\n",
+            space.inputs.join(", "),
+            space.outputs.join(", ")
+        );
+        text.push_str(&matrix(g, "A", &space.a));
+        if space.inputs.is_empty() && space.outputs == space.states {
+            return text;
+        }
+        for (name, rows) in [("B", &space.b), ("C", &space.c), ("D", &space.d)] {
+            if rows.iter().any(|row| !row.is_empty()) {
+                text.push_str(&matrix(g, name, rows));
+            }
+        }
+        let n = space.states.len();
+        let (reached, seen) = space.ranks(g);
+        if !space.inputs.is_empty() {
+            let _ = writeln!(
+                text,
+                "\nThe inputs reach {reached} of {n} dimensions, the outputs show {seen}"
+            );
+        }
+        for (output, row) in space
+            .outputs
+            .iter()
+            .zip(space.transfer(g).unwrap_or_default())
+        {
+            for (input, e) in space.inputs.iter().zip(row) {
+                let _ = writeln!(text, "  {output}/{input} = {}", shown(g, e));
+            }
+        }
+        text
+    }
+
+    /// The parts of second order that do not vanish.
+    fn parts_text(&self) -> String {
+        let Some(parts) = &self.parts else {
+            return String::new();
+        };
+        let g = self.graph();
+        let mut text = format!(
+            "\nM q'' + (D + G) q' + (K + N) q = 0 with q = ({}); mass, damping, gyroscopic, stiffness, circulatory:\n\n",
+            parts.names.join(", ")
+        );
+        for (name, rows) in named_parts(parts) {
+            if rows.iter().flatten().any(|&e| !g.is_zero(e)) {
+                text.push_str(&matrix(g, name, rows));
+            }
+        }
+        text
+    }
+
+    /// Eigenvalues, each with its mode, and the chains of those on the axis that are not semisimple.
+    fn modes_text(&self) -> String {
+        let mut text = self.eigenvalues_text();
+        let list = defects(self.graph(), &self.question, None).unwrap_or_default();
+        for own in &list {
+            let what = if own.factor.is_some() {
+                "an imaginary pair"
+            } else {
+                "zero"
+            };
+            let _ = writeln!(
+                text,
+                "A Jordan block: {what} has multiplicity {} and {} eigenvectors",
+                own.multiplicity, own.chains
+            );
+        }
+        let modes = self.modes();
+        if !modes.is_empty() {
+            let _ = writeln!(text, "\nModes ({}):", self.question.linear.names.join(", "));
+        }
+        for Mode { eigenvalue, vector } in modes {
+            let vector: Vec<String> = vector.into_iter().map(complex).collect();
+            let _ = writeln!(text, "  {}: ({})", complex(eigenvalue), vector.join(", "));
+        }
+        text
+    }
+
+    fn heading(&self) -> String {
+        let linear = &self.question.linear;
+        let mut text = format!(
+            "{}, steady motion `{}`\n",
+            self.system.name, self.motion.name
+        );
+        if !linear.ignorable.is_empty() {
+            let _ = writeln!(
+                text,
+                "Ignorable, nothing depends on them: {}",
+                linear.ignorable.join(", ")
+            );
+        }
+        if linear.family > 0 {
+            let _ = writeln!(
+                text,
+                "The motion belongs to a family of steady motions of dimension {}, proved",
+                linear.family
+            );
+        }
+        for (name, definition) in &linear.speeds {
+            let written = self.graph().text(*definition);
+            if *name != written {
+                let _ = writeln!(text, "{name} = {written}");
+            }
+        }
+        text
+    }
+
+    fn polynomial_text(&self) -> String {
+        let g = self.graph();
+        let Some(polynomial) = &self.question.polynomial else {
+            return "\nThe system is too large for an exact characteristic polynomial.\n".into();
+        };
+        let mut text = String::from("\nCharacteristic polynomial");
+        match polynomial.zeros {
+            0 => {}
+            1 => text.push_str(", without the zero of the family of steady motions"),
+            n => {
+                let _ = write!(
+                    text,
+                    ", without the {n} zeros of the family of steady motions"
+                );
+            }
+        }
+        text.push_str(":\n");
+        let shifted = polynomial.further_zeros;
+        for (power, &e) in polynomial.coefficients.iter().enumerate().rev() {
+            let _ = writeln!(text, "  λ^{}: {}", power + shifted, shown(g, e));
+        }
+        let factors = &self.question.spectrum.factors;
+        if factors.len() > 1 || factors.iter().any(|(_, power)| *power > 1) {
+            let factor = |(f, power): &(Vec<Expr>, u32)| {
+                let symbol = g.intern_symbol("λ", 0);
+                let written = g.text(expression(g, symbol, f));
+                match power {
+                    1 => format!("({written})"),
+                    power => format!("({written})^{power}"),
+                }
+            };
+            let list: Vec<String> = factors.iter().map(factor).collect();
+            let _ = writeln!(text, "  its factors: {}", list.join(" "));
+        }
+        text
+    }
+
+    fn eigenvalues_text(&self) -> String {
+        let at = self.stated();
+        let mut text = match (self.question.over, at) {
+            (Some(symbol), Some(value)) => format!(
+                "\nEigenvalues at {} = {value}:\n",
+                self.graph().symbol_text(symbol)
+            ),
+            _ => "\nEigenvalues:\n".into(),
+        };
+        match self.eigenvalues(at) {
+            Some(list) => list.iter().for_each(|l| {
+                let _ = writeln!(text, "  {}", complex(*l));
+            }),
+            None => text.push_str("  not computed: a parameter has no value, or E is singular\n"),
+        }
+        text
+    }
+
+    /// Stability over the range as text, with a table of eigenvalues.
+    pub fn ranges_text(&self) -> String {
+        let mut text = self.heading();
+        let Some(range) = &self.range else {
+            text.push_str(&self.polynomial_text());
+            text.push_str(&self.eigenvalues_text());
+            return text;
+        };
+        let name = &range.name;
+        text.push('\n');
+        match &self.ranges {
+            None => {
+                let _ = writeln!(
+                    text,
+                    "The boundaries of stability in {name} were not enclosed."
+                );
+            }
+            Some(ranges) => {
+                for region in &ranges.regions {
+                    let place = match self.question.place(region.is_left) {
+                        Place::Left => "stable: all eigenvalues but the zeros of the family are left of the axis",
+                        Place::OnAxis => "all eigenvalues on the axis and simple: linear motions stay bounded",
+                        Place::Right | Place::NotLeft => "unstable: an eigenvalue is right of the axis",
+                    };
+                    let _ = writeln!(
+                        text,
+                        "{} < {name} < {}: {place}",
+                        decimal(&region.low),
+                        decimal(&region.high)
+                    );
+                }
+                for boundary in &ranges.boundaries {
+                    let _ = writeln!(
+                        text,
+                        "{name} in {}: {}",
+                        boundary.root.text(),
+                        self.crossing(boundary)
+                    );
+                }
+            }
+        }
+        let _ = writeln!(text, "\nEigenvalues");
+        for (value, list) in self.table(range) {
+            let list: Vec<String> = list.iter().map(|l| complex(*l)).collect();
+            let _ = writeln!(text, "  {name} = {value:<8}  {}", list.join("  "));
+        }
+        text
+    }
+
+    fn crossing(&self, boundary: &Boundary) -> &'static str {
+        match boundary.crossing {
+            Crossing::Zero => "an eigenvalue passes through zero",
+            Crossing::Pair => "a pair of eigenvalues passes the imaginary axis",
+            Crossing::Collision => "two pairs of eigenvalues meet",
+            Crossing::Infinity => "an eigenvalue goes to infinity",
+            Crossing::Touching => {
+                "two eigenvalues are opposite, and the stability is the same on both sides"
+            }
+        }
+    }
+}
+
+fn complex((re, im): (f64, f64)) -> String {
+    // No minus before what is zero as it is printed.
+    let plain = |x: f64| if x.abs() < 5e-7 { 0.0 } else { x };
+    let (re, im) = (plain(re), plain(im));
+    if im == 0.0 {
+        format!("{re:.6}")
+    } else {
+        format!("{re:.6}{im:+.6}i")
+    }
+}
+
+/// The longest exact entry that is shown as it is.
+const LONGEST: usize = 24;
+
+/// An exact entry; where it is long, in decimal numbers, as a polynomial in the only symbol that occurs.
+fn shown(g: &Graph, e: Expr) -> String {
+    let exact = g.text(e);
+    if exact.len() <= LONGEST {
+        return exact;
+    }
+    match g.symbols_in(&[e]).as_slice() {
+        [] => g
+            .evaluate_f64(&[e], &|_| None)
+            .map_or(exact, |value| format!("{}", value[0])),
+        [only] => decimal_polynomial(g, e, *only).unwrap_or(exact),
+        _ => exact,
+    }
+}
+
+/// A polynomial in a symbol with decimal coefficients; `None` where it is none.
+fn decimal_polynomial(g: &Graph, e: Expr, symbol: Symbol) -> Option<String> {
+    let degree = coefficients(g, e, symbol)?.len() - 1;
+    let mut derivative = e;
+    let (mut terms, mut factorial) = (Vec::new(), 1.0);
+    for power in 0..=degree {
+        let at_zero = g.substitute(derivative, &[(g.symbol_expr(symbol), g.zero())]);
+        let value = g.evaluate_f64(&[at_zero], &|_| None).ok()?[0] / factorial;
+        if value != 0.0 {
+            terms.push((power, value));
+        }
+        derivative = g.diff(derivative, symbol);
+        factorial *= (power + 1) as f64;
+    }
+    // What is left of a quotient is no polynomial.
+    let rest = g.evaluate_f64(&[derivative], &|_| Some(1.0)).ok()?[0];
+    if rest != 0.0 {
+        return None;
+    }
+    let name = g.symbol_text(symbol);
+    let term = |(power, value): &(usize, f64)| match power {
+        0 => format!("{value:.8}"),
+        1 => format!("{value:.8} {name}"),
+        power => format!("{value:.8} {name}^{power}"),
+    };
+    let terms: Vec<String> = terms.iter().rev().map(term).collect();
+    Some(terms.join(" + ").replace("+ -", "- "))
+}
+
+/// A matrix in columns.
+fn matrix(g: &Graph, name: &str, rows: &[Vec<Expr>]) -> String {
+    let entries: Vec<Vec<String>> = rows
+        .iter()
+        .map(|row| row.iter().map(|&e| shown(g, e)).collect())
+        .collect();
+    let columns = entries.first().map_or(0, Vec::len);
+    let width = |c: usize| {
+        entries
+            .iter()
+            .map(|row| row[c].chars().count())
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut text = String::new();
+    for (r, row) in entries.iter().enumerate() {
+        let head = if r == 0 {
+            format!("  {name} = ")
+        } else {
+            " ".repeat(name.len() + 5)
+        };
+        let cells: Vec<String> = row
+            .iter()
+            .zip(&widths)
+            .map(|(cell, w)| format!("{cell:>w$}", w = *w))
+            .collect();
+        let _ = writeln!(text, "{head}[{}]", cells.join("  "));
+    }
+    text
+}
