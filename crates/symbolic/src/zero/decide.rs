@@ -1,5 +1,7 @@
 //! The driver of the zero test.
 
+use std::collections::BTreeSet;
+
 use super::assumptions::Assumptions;
 use super::branches;
 use super::eliminate::{eliminate_all, Eliminated};
@@ -291,6 +293,11 @@ impl Case<'_> {
 
     fn search(self, why: &str) -> Verdict {
         if !self.test.options.refute {
+            return Verdict::undecided(why);
+        }
+        // A point is enclosed by as many equations as it has unknowns; that others hold there would have to be proved.
+        let symbols: BTreeSet<Symbol> = self.implicit.iter().map(|(_, s)| *s).collect();
+        if symbols.len() < self.implicit.len() {
             return Verdict::undecided(why);
         }
         let claim = Claim {

@@ -149,6 +149,8 @@ pub(super) struct Run<'p, R: Ring> {
     factors: FxHashMap<Value, R::Factors>,
     /// Values of the dependent symbols.
     dependent: Vec<R::Element>,
+    /// Cosine and sine of circles that are not those of the point.
+    circles: FxHashMap<u32, (R::Element, R::Element)>,
 }
 
 impl<'p, R: Ring> Run<'p, R> {
@@ -160,7 +162,13 @@ impl<'p, R: Ring> Run<'p, R> {
             vectors: FxHashMap::default(),
             factors: FxHashMap::default(),
             dependent,
+            circles: FxHashMap::default(),
         }
+    }
+
+    /// The run with these cosines and sines in the place of those of the point.
+    pub(super) fn with_circles(self, circles: FxHashMap<u32, (R::Element, R::Element)>) -> Self {
+        Self { circles, ..self }
     }
 
     /// Runs up to, not including, operation `end`.
@@ -201,8 +209,14 @@ impl<'p, R: Ring> Run<'p, R> {
         Ok(match &program.operations[value as usize] {
             Operation::Number(index) => ring.scalar(constant(index)),
             Operation::Generator(index) => self.generator(ring, *index),
-            Operation::CircleCos(circle) => ring.scalar(self.point.circles[*circle as usize].0),
-            Operation::CircleSin(circle) => ring.scalar(self.point.circles[*circle as usize].1),
+            Operation::CircleCos(circle) => match self.circles.get(circle) {
+                Some((cos, _)) => cos.clone(),
+                None => ring.scalar(self.point.circles[*circle as usize].0),
+            },
+            Operation::CircleSin(circle) => match self.circles.get(circle) {
+                Some((_, sin)) => sin.clone(),
+                None => ring.scalar(self.point.circles[*circle as usize].1),
+            },
             Operation::UnityCos(k) => ring.scalar(self.point.unity_cos(field, *k).ok_or(pole)?),
             Operation::UnitySin(k) => ring.scalar(self.point.unity_sin(field, *k).ok_or(pole)?),
             Operation::Sum {

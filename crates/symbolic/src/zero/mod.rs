@@ -13,6 +13,7 @@
 mod approach;
 pub mod assumptions;
 mod branches;
+mod coupled;
 mod decide;
 mod eliminate;
 pub mod enclose;

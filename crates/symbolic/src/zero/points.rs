@@ -7,13 +7,15 @@
 use super::assumptions::Assumptions;
 use super::eliminate::{eliminate_all, Eliminated};
 use super::evaluate::{Parametrization, Point, Run};
-use super::modular::bound;
+use super::modular::bound::{self, Norm};
 use super::prepare::{prepare, Question};
 use super::program::{Generator, Operation, Program};
 use super::ring::Scalars;
 use super::size::{Sizes, SLACK};
 use super::tower::{Element, Tower};
 use super::variety::{Solution, Variety};
+use rustc_hash::FxHashMap;
+
 use crate::graph::Graph;
 use crate::node::{Expr, Symbol};
 use crate::number::modular_polynomial::random_root;
@@ -71,6 +73,9 @@ const REFUSED: u32 = 4000;
 
 /// At most so many are refused where there are constraints: a draw without points is found out by its refusals, and each costs more.
 const REFUSED_ON_CONSTRAINTS: u32 = 400;
+
+/// Values of the dependent symbols, and of the circles of dependent angles.
+type Determined = (Vec<Residue>, FxHashMap<u32, (Residue, Residue)>);
 
 /// A tower is taken apart at most so often.
 const DEEPEST: usize = 24;
@@ -144,7 +149,8 @@ impl Points {
     /// over the algebraic elements multiply degree and height, refused points the probability.
     pub fn miss_log2(&self, outputs: usize, degree: u32, size: usize) -> f64 {
         let program = &self.program;
-        let sizes = Sizes::of(program, &bound::weights(program), None);
+        let variety = Variety::new(program, 1, 0);
+        let sizes = Sizes::of(program, &bound::weights(program, variety.coupled()), None);
         let (mut largest, mut divisors) = ((0.0_f64, 0.0_f64), (0.0, 0.0));
         for &output in program.outputs.iter().take(outputs) {
             let (own, divisor) = (sizes.get(output), sizes.denominator(output));
@@ -156,8 +162,9 @@ impl Points {
             factor * (largest.0 + divisors.0),
             factor * (largest.1 + divisors.1 + 8.0),
         );
-        let tower = if program.constraints.is_empty() { 0 } else { 8 };
-        let norm = f64::from(program.radicals + tower).exp2();
+        let over = Norm::of(program, variety.coupled());
+        let norm = (f64::from(program.radicals) + over.log2).exp2();
+        let rows = (rows.0, rows.1 + rows.0 * over.height);
         let prime = norm * rows.1 / 61.0 / (LOG2_PRIME_COUNT - 4.0).exp2();
         let point = 2.0 * norm * rows.0 / 60.9_f64.exp2();
         (prime + point).log2() + f64::from(REFUSED).log2()
@@ -285,7 +292,8 @@ impl Points {
             field: draw.field,
             negative: &draw.negative,
         };
-        let mut run = Run::new(program, point, self.dependent(draw, point, random)?);
+        let (dependent, circles) = self.dependent(draw, point, random)?;
+        let mut run = Run::new(program, point, dependent).with_circles(circles);
         run.advance(&ring, program.operations.len()).ok()?;
         // The equation of a symbol has more solutions than the constraint where roots contain it.
         let mut constraints = program.constraints.iter();
@@ -295,21 +303,26 @@ impl Points {
     }
 
     /// Values of the dependent symbols: in the ring of all solutions a root of each equation is chosen, until one solution is left.
-    fn dependent(&self, draw: &Draw, point: &Point, random: &mut Random) -> Option<Vec<Residue>> {
+    fn dependent(&self, draw: &Draw, point: &Point, random: &mut Random) -> Option<Determined> {
         let variety = Variety::new(&self.solving, 1, 0);
         let scalar = |e: &Element| e.first().copied().unwrap_or(Residue::ZERO);
         let mut prescribed: Vec<Option<Vec<Element>>> = Vec::new();
         for _ in 0..DEEPEST {
             let tower = Tower::new(draw.field, &draw.negative, &prescribed);
-            let (level, equation) = match variety.solutions(&tower, point) {
+            let (level, equation) = match variety.solutions(&tower, point, &draw.negative) {
                 Solution::None => return None,
                 Solution::Split(split) => {
                     let [first, second] = split.factors;
                     let is_first = random.next_u64() & 1 == 0;
                     (split.level, if is_first { first } else { second })
                 }
-                Solution::Dependent(dependent) => match tower.first_extension() {
-                    None => return Some(dependent.iter().map(scalar).collect()),
+                Solution::Dependent(values) => match tower.first_extension() {
+                    None => {
+                        let circles = values.circles.iter();
+                        let circles = circles.map(|(&c, (cos, sin))| (c, (scalar(cos), scalar(sin))));
+                        let dependent = values.dependent.iter().map(scalar).collect();
+                        return Some((dependent, circles.collect()));
+                    }
                     Some((level, equation)) => {
                         let coefficients: Vec<Residue> = equation.iter().map(scalar).collect();
                         let root = random_root(&draw.field, &coefficients, random)?;

@@ -141,6 +141,10 @@ pub(super) struct Program {
     pub(super) circles: u32,
     /// What the base angles are multiples of, one for each circle.
     pub(super) circle_angles: Vec<Expr>,
+    /// For each circle whose base angle is a multiple of a dependent symbol, the number of its constraint.
+    pub(super) dependent_circles: Vec<Option<u32>>,
+    /// For each constraint, whether it determines a symbol of its own; others hold besides.
+    pub(super) determines: Vec<bool>,
     /// Number of square roots.
     pub(super) radicals: u32,
     /// Which of them depend on dependent symbols: these are adjoined to the tower of the constraints, not chosen.
@@ -160,6 +164,16 @@ pub(super) struct Program {
 }
 
 impl Program {
+    /// Whether no dependent symbol occurs both by itself and as an angle: x and sin x are independent of each other, and a constraint that
+    /// contains both is no polynomial equation.
+    pub(super) fn angles_stand_alone(&self) -> bool {
+        let mut turning = self.dependent_circles.iter().flatten();
+        turning.all(|&k| {
+            let is_it = |g: &Generator| matches!(g, Generator::Dependent(j) if *j == k);
+            !self.generators.iter().any(is_it)
+        })
+    }
+
     /// Drops what the outputs do not need and moves what the radicands need to the front.
     pub(super) fn arranged(mut self) -> Self {
         let count = self.operations.len();
@@ -215,6 +229,9 @@ impl Program {
             let mut below = match operation {
                 Operation::Generator(index) => {
                     matches!(self.generators[*index as usize], Generator::Dependent(_))
+                }
+                Operation::CircleCos(circle) | Operation::CircleSin(circle) => {
+                    self.dependent_circles[*circle as usize].is_some()
                 }
                 _ => false,
             };

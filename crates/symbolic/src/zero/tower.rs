@@ -76,6 +76,11 @@ impl<'a> Tower<'a> {
         Self { adjoined, ..self }
     }
 
+    /// The value of a root that is known already.
+    pub(super) fn set_root(&self, radical: u32, root: Element) {
+        self.roots.borrow_mut().insert(radical, root);
+    }
+
     /// Dimension over the prime field.
     pub(super) fn dimension(&self) -> usize {
         dimension(&self.levels.borrow())

@@ -1,5 +1,6 @@
 //! Points of the constraints: over a random point of the independent data, the ring of all solutions for the dependent symbols.
 
+use super::coupled::{Coupled, Together, Values};
 use super::evaluate::{Point, Run, Stop};
 use super::modular::Parts;
 use super::polynomials::Polynomials;
@@ -18,6 +19,8 @@ pub(super) struct Variety<'p> {
     program: &'p Program,
     /// For each constraint, the values it needs.
     closures: Vec<Vec<bool>>,
+    /// What is solved for jointly, where no order solves it.
+    coupled: Option<Coupled>,
     /// The shape of the matrix of outputs.
     rows: usize,
     columns: usize,
@@ -34,7 +37,7 @@ pub(super) enum Failure {
 
 /// What one tower gives for the dependent symbols.
 pub(super) enum Solution {
-    Dependent(Vec<Element>),
+    Dependent(Values),
     Split(Split),
     /// Nothing at this point.
     None,
@@ -58,12 +61,34 @@ impl<'p> Variety<'p> {
             .iter()
             .map(|&constraint| program.closure(constraint))
             .collect();
-        Self {
+        let mut variety = Self {
             program,
             closures,
+            coupled: None,
             rows,
             columns,
-        }
+        };
+        let mut own = variety.closures.iter().enumerate();
+        let is_in_order = !own.any(|(k, closure)| variety.uses_later(k, closure));
+        variety.coupled = Coupled::of(program, is_in_order);
+        variety
+    }
+
+    /// What is solved for jointly.
+    pub(super) fn coupled(&self) -> Option<&Coupled> {
+        self.coupled.as_ref()
+    }
+
+    /// All solutions over a point of what is solved for jointly: `Ok(None)` where there is nothing of that kind.
+    fn together(
+        &self,
+        field: &PrimeField,
+        point: &Point,
+        negative: &[bool],
+    ) -> Result<Option<Option<Together>>, Failure> {
+        let coupled = self.coupled.as_ref();
+        let solve = |own: &Coupled| own.solve(self.program, field, point, negative);
+        coupled.map(solve).transpose()
     }
 
     /// Follows every part of the variety over the point.
@@ -74,6 +99,11 @@ impl<'p> Variety<'p> {
         negative: &[bool],
     ) -> Result<Parts, Failure> {
         let mut parts = Parts::default();
+        let together = match self.together(field, point, negative)? {
+            Some(None) => return Ok(parts),
+            Some(together) => together,
+            None => None,
+        };
         let mut stack: Vec<Vec<Option<Vec<Element>>>> = vec![Vec::new()];
         let mut followed = 0;
         while let Some(prescribed) = stack.pop() {
@@ -84,7 +114,7 @@ impl<'p> Variety<'p> {
                 ));
             }
             let tower = Tower::new(*field, negative, &prescribed).adjoining(&self.program.adjoined);
-            match self.part(&tower, point)? {
+            match self.part(&tower, point, together.as_ref())? {
                 Part::Rank(dimension, pivots) => parts.add(dimension, pivots),
                 Part::Elsewhere => {}
                 Part::Pole => parts.poles += 1,
@@ -101,16 +131,30 @@ impl<'p> Variety<'p> {
     }
 
     /// The dependent symbols at the solutions that one tower stands for.
-    pub(super) fn solutions(&self, tower: &Tower<'_>, point: &Point) -> Solution {
-        match self.solve(tower, point) {
-            Ok(Ok(dependent)) => Solution::Dependent(dependent),
+    pub(super) fn solutions(
+        &self,
+        tower: &Tower<'_>,
+        point: &Point,
+        negative: &[bool],
+    ) -> Solution {
+        let together = match self.together(tower.field(), point, negative) {
+            Ok(Some(None)) | Err(_) => return Solution::None,
+            Ok(together) => together.flatten(),
+        };
+        match self.solve(tower, point, together.as_ref()) {
+            Ok(Ok(values)) => Solution::Dependent(values),
             Ok(Err(Part::Split(split))) => Solution::Split(split),
             _ => Solution::None,
         }
     }
 
-    fn part(&self, tower: &Tower<'_>, point: &Point) -> Result<Part, Failure> {
-        let outputs = match self.evaluated(tower, point)? {
+    fn part(
+        &self,
+        tower: &Tower<'_>,
+        point: &Point,
+        together: Option<&Together>,
+    ) -> Result<Part, Failure> {
+        let outputs = match self.evaluated(tower, point, together)? {
             Ok(outputs) => outputs,
             Err(part) => return Ok(part),
         };
@@ -124,12 +168,14 @@ impl<'p> Variety<'p> {
         &self,
         tower: &Tower<'_>,
         point: &Point,
+        together: Option<&Together>,
     ) -> Result<Result<Vec<Element>, Part>, Failure> {
-        let dependent = match self.solve(tower, point)? {
-            Ok(dependent) => dependent,
+        let values = match self.solve(tower, point, together)? {
+            Ok(values) => values,
             Err(part) => return Ok(Err(part)),
         };
-        let mut run = Run::new(self.program, point, dependent);
+        let run = Run::new(self.program, point, values.dependent);
+        let mut run = run.with_circles(values.circles);
         if let Err(stop) = run.advance(tower, self.program.operations.len()) {
             return stopped(tower, stop).map(Err);
         }
@@ -147,8 +193,30 @@ impl<'p> Variety<'p> {
         Ok(Ok(outputs))
     }
 
-    /// The dependent symbols as elements of the tower.
+    /// What the constraints determine as elements of the tower.
     fn solve(
+        &self,
+        tower: &Tower<'_>,
+        point: &Point,
+        together: Option<&Together>,
+    ) -> Result<Result<Values, Part>, Failure> {
+        match together {
+            Some(together) => match together.values(tower) {
+                Some(values) => Ok(Ok(values)),
+                None => stopped(tower, Stop::NoRoot).map(Err),
+            },
+            None => {
+                let found = self.one_after_the_other(tower, point)?;
+                Ok(found.map(|dependent| Values {
+                    dependent,
+                    circles: Default::default(),
+                }))
+            }
+        }
+    }
+
+    /// The dependent symbols as elements of the tower, each from its own constraint.
+    fn one_after_the_other(
         &self,
         tower: &Tower<'_>,
         point: &Point,
@@ -156,10 +224,6 @@ impl<'p> Variety<'p> {
         let mut dependent: Vec<Element> = Vec::new();
         for (k, closure) in self.closures.iter().enumerate() {
             let constraint = self.program.constraints[k];
-            if self.uses_later(k, closure) {
-                let why = "the nonlinear constraints are not triangular: one contains the symbol of a later one";
-                return Err(Failure::Unsupported(why.to_owned()));
-            }
             let ring = Polynomials::new(tower);
             let mut values: Vec<_> = dependent
                 .iter()

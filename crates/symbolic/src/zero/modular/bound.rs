@@ -1,5 +1,6 @@
 //! The bound on the probability of error of one trial.
 
+use super::super::coupled::Coupled;
 use super::super::program::{Operation, Program};
 use super::super::size::{Sizes, Weight, SLACK};
 use super::Plan;
@@ -18,7 +19,48 @@ pub(super) struct Bound<'s> {
     pub(super) plan: &'s Plan,
     pub(super) sizes: &'s Sizes,
     pub(super) suspects: usize,
-    pub(super) tower: bool,
+    pub(super) norm: Norm,
+}
+
+/// What norms over the solutions of the constraints cost.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::zero) struct Norm {
+    /// log2 of the factor of degrees and heights.
+    pub(in crate::zero) log2: f64,
+    /// What is added to heights before.
+    pub(in crate::zero) height: f64,
+}
+
+impl Norm {
+    /// Of constraints solved one after the other: the tower is no larger than it may be. Of constraints solved jointly: by É. Bézout's
+    /// theorem the hypersurface of the data over which an output of degree d vanishes at a solution has at most the degree d Π d_i, d_i
+    /// the degrees of the equations, and by its arithmetic form at most the height Π d_i (h + d Σ h_i + d m log2(m + 1)) for m equations
+    /// (T. Krick, L. M. Pardo and M. Sombra, Duke Math. J. 109, 2001); discriminants and denominators add as much as in a tower.
+    pub(in crate::zero) fn of(program: &Program, coupled: Option<&Coupled>) -> Norm {
+        if program.constraints.is_empty() {
+            return Norm::default();
+        }
+        let Some(coupled) = coupled else {
+            return Norm {
+                log2: LOG2_TOWER,
+                height: 0.0,
+            };
+        };
+        let sizes = Sizes::of(program, &weights(program, Some(coupled)), None);
+        let adjoined = program.adjoined.iter().filter(|&&own| own).count();
+        let quadratic = (coupled.circles() + adjoined) as f64;
+        let (mut log2, mut height) = (LOG2_TOWER + quadratic, 2.0 * quadratic);
+        for &constraint in &program.constraints {
+            let (size, divisor) = (sizes.get(constraint), sizes.denominator(constraint));
+            log2 += (size.degree + divisor.degree).max(1.0).log2();
+            height += size.height + divisor.height;
+        }
+        let count = program.constraints.len() as f64 + quadratic;
+        Norm {
+            log2,
+            height: height + count * (count + 1.0).log2(),
+        }
+    }
 }
 
 impl Bound<'_> {
@@ -58,8 +100,7 @@ impl Bound<'_> {
             _ => 0.0,
         };
         let odd: f64 = self.program.operations.iter().map(odd).sum();
-        let tower = if self.tower { LOG2_TOWER } else { 0.0 };
-        squares + odd + (self.program.order_of_unity as f64).log2() + tower
+        squares + odd + (self.program.order_of_unity as f64).log2() + self.norm.log2
     }
 
     /// log2 of the number of primes the choice is made from, rounded down.
@@ -82,6 +123,7 @@ impl Bound<'_> {
     /// log2 of the probability that one trial errs, or why that is not useful.
     pub(super) fn for_one_trial(&self) -> Result<f64, String> {
         let (degree, height) = self.worst();
+        let height = height + degree * self.norm.height;
         let m = self.multiplicity().exp2() * SLACK;
         let prime = m * height / 61.0 / self.log2_primes().exp2();
         let point = 2.0 * m * degree / 60.9_f64.exp2();
@@ -98,7 +140,7 @@ impl Bound<'_> {
 }
 
 /// Degrees and heights of the constraints, each as coefficients of the equation of its symbol.
-pub(in crate::zero) fn weights(program: &Program) -> Vec<Weight> {
+pub(in crate::zero) fn weights(program: &Program, coupled: Option<&Coupled>) -> Vec<Weight> {
     let mut weights = vec![
         Weight {
             degree: 1.0,
@@ -106,6 +148,10 @@ pub(in crate::zero) fn weights(program: &Program) -> Vec<Weight> {
         };
         program.constraints.len()
     ];
+    // What is solved for jointly is a variable like others (see `Norm`).
+    if coupled.is_some() {
+        return weights;
+    }
     // Roots over the symbol: the equation is the norm of the constraint.
     let adjoined = program
         .adjoined

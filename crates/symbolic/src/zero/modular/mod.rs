@@ -42,7 +42,7 @@ use super::variety::{Failure, Variety};
 use crate::number::prime::random_prime;
 use crate::number::prime_field::PrimeField;
 use crate::number::random::Random;
-use bound::Bound;
+use bound::{Bound, Norm};
 
 /// How a modular proof is made.
 #[derive(Clone, Copy, Debug)]
@@ -127,13 +127,15 @@ pub(super) fn decide(program: &Program, plan: &Plan) -> Outcome {
         let why = format!("roots of degree {q} occur together with angles of a {q}-th of π");
         return Outcome::Open { why };
     }
-    let weights = bound::weights(program);
-    let sizes = Sizes::of(program, &weights, None);
     let variety =
         (!program.constraints.is_empty()).then(|| Variety::new(program, plan.rows, plan.columns));
+    let coupled = variety.as_ref().and_then(Variety::coupled);
+    let weights = bound::weights(program, coupled);
+    let sizes = Sizes::of(program, &weights, None);
     let mut session = Session {
         program,
         plan,
+        norm: Norm::of(program, coupled),
         weights,
         sizes,
         variety,
@@ -159,6 +161,7 @@ pub(super) fn decide(program: &Program, plan: &Plan) -> Outcome {
 struct Session<'p> {
     program: &'p Program,
     plan: &'p Plan,
+    norm: Norm,
     weights: Vec<Weight>,
     sizes: Sizes,
     /// How the constraints are satisfied, if there are any.
@@ -209,7 +212,7 @@ impl Session<'_> {
             plan: self.plan,
             sizes: &self.sizes,
             suspects: self.suspects.len(),
-            tower: self.variety.is_some(),
+            norm: self.norm,
         }
     }
 

@@ -80,10 +80,14 @@ impl Builder<'_> {
         let point = match self.known_angle(monomial, parts)? {
             Some(point) => point,
             None => {
-                self.program.faithful &= self.is_monomial_in_symbols(monomial);
+                let symbol = self.graph.as_symbol(monomial);
+                let constraint = symbol.and_then(|s| self.dependent.get(&s).copied());
+                self.program.faithful &=
+                    constraint.is_some() || self.is_monomial_in_symbols(monomial);
                 let index = self.program.circles;
                 self.program.circles += 1;
                 self.program.circle_angles.push(monomial);
+                self.program.dependent_circles.push(constraint);
                 (
                     self.push(Operation::CircleCos(index)),
                     self.push(Operation::CircleSin(index)),

@@ -55,6 +55,7 @@ pub(super) fn prepare(graph: &Graph, question: &Question<'_>) -> Program {
     builder.program.outputs = question.outputs.iter().map(value).collect();
     builder.program.constraints = question.constraints.iter().map(|(f, _)| value(f)).collect();
     builder.program.positive = builder.positive();
+    builder.program.faithful &= builder.program.angles_stand_alone();
     builder.program.arranged()
 }
 
@@ -99,17 +100,20 @@ struct Builder<'g> {
 
 impl<'g> Builder<'g> {
     fn new(graph: &'g Graph, question: &Question<'_>) -> Self {
-        let dependent = question
-            .constraints
-            .iter()
-            .enumerate()
-            .map(|(i, (_, symbol))| (*symbol, i as u32));
+        // A further constraint on a symbol that has one holds besides.
+        let mut dependent: FxHashMap<Symbol, u32> = FxHashMap::default();
+        let mut determines = Vec::new();
+        for (i, (_, symbol)) in question.constraints.iter().enumerate() {
+            determines.push(!dependent.contains_key(symbol));
+            dependent.entry(*symbol).or_insert(i as u32);
+        }
         Self {
             graph,
             signs: Signs::new(graph, question.assumptions),
             program: Program {
                 order_of_unity: 1,
                 faithful: true,
+                determines,
                 ..Program::default()
             },
             plain: Signs::new(graph, question.assumptions),
@@ -117,7 +121,7 @@ impl<'g> Builder<'g> {
             constants: BTreeMap::new(),
             forms: FxHashMap::default(),
             relations: relations::Relations::default(),
-            dependent: dependent.collect(),
+            dependent,
             angle_parts: FxHashMap::default(),
             exponent_parts: FxHashMap::default(),
             circles: FxHashMap::default(),

@@ -232,3 +232,45 @@ fn counterexamples_on_bounded_varieties_are_found() {
     let small = [("x'^2 + y'^2 + z'^2 - 1/100", "z'")];
     assert_eq!(decide_on(&g, "x' - 2*y'", &small).word(), "refuted");
 }
+
+/// Three cranks of length 1, the second and third pivots at (1, 0) and (2, 0), on a bar of length 2: the bar stays parallel, so that the last
+/// constraint follows from the others. No order solves them one after the other, and angles are dependent.
+#[test]
+fn three_cranks_on_one_bar() {
+    let g = Graph::new();
+    let cranks = [
+        ("x - cos(a)", "x"),
+        ("y - sin(a)", "y"),
+        ("x + cos(phi) - 1 - cos(b)", "b"),
+        ("x + 2*cos(phi) - 2 - cos(c)", "c"),
+        ("y + 2*sin(phi) - sin(c)", "phi"),
+        // Holds besides: it contains b, whose cosine alone the others determine.
+        ("y + sin(phi) - sin(b)", "b"),
+    ];
+    for residual in ["sin(phi)", "cos(phi) - 1", "cos(b) - x", "sin(c) - y"] {
+        let verdict = decide_on(&g, residual, &cranks);
+        assert_eq!(verdict.word(), "proved", "{residual}: {verdict:?}");
+    }
+    for residual in ["x - y", "sin(b) + sin(c)", "sin(a) - 1"] {
+        let verdict = decide_on(&g, residual, &cranks);
+        assert_ne!(verdict.word(), "proved", "{residual}");
+    }
+    // Where the bar may turn, three constraints fewer, nothing of the kind is true.
+    assert_ne!(decide_on(&g, "sin(phi)", &cranks[..3]).word(), "proved");
+}
+
+/// A four-bar linkage in dependent angles: what its closure determines, and Freudenstein's equation between the two cranks.
+#[test]
+fn a_linkage_is_solved_for_its_angles() {
+    let g = Graph::new();
+    let closure = [
+        ("a*cos(u) + b*cos(v) - c*cos(w) - d", "v"),
+        ("a*sin(u) + b*sin(v) - c*sin(w)", "w"),
+    ];
+    let freudenstein =
+        "2*a*d*cos(u) - 2*c*d*cos(w) + 2*a*c*cos(u - w) + b^2 - a^2 - c^2 - d^2";
+    let verdict = decide_on(&g, freudenstein, &closure);
+    assert_eq!(verdict.word(), "proved", "{verdict:?}");
+    let wrong = "2*a*d*cos(u) - 2*c*d*cos(w) + 2*a*c*cos(u + w) + b^2 - a^2 - c^2 - d^2";
+    assert_ne!(decide_on(&g, wrong, &closure).word(), "proved");
+}
