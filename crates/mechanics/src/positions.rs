@@ -1,16 +1,19 @@
 //! The set of positions: the finite constraints as exact data of a zero test.
 
 use crate::characteristics::Manifold;
+use crate::sample;
+use crate::selection::eliminate;
 use crate::system::System;
 use crate::terms::MotionTerms;
-use chetaev_symbolic::{Expr, Symbol};
+use chetaev_symbolic::{Expr, Graph, Node, Symbol};
 
 /// Coordinates that finite constraints determine.
 #[derive(Clone, Debug, Default)]
 pub struct Positions {
     /// Coordinates as functions of the others, where a constraint is affine in them with a number as coefficient.
     pub solved: Vec<(Symbol, Expr)>,
-    /// Further constraints, each with a coordinate that it determines, in an order in which each contains those of the former alone.
+    /// Further constraints, each with a coordinate that it determines, in an order in which each contains those of the former alone; then
+    /// those that determine some jointly, and those that hold besides, with a coordinate that another one determines.
     pub implicit: Vec<(Expr, Symbol)>,
     /// Whether all finite constraints are among them. What is proved of more positions than there are is true of these; what is
     /// refuted need not be.
@@ -46,8 +49,49 @@ pub fn of(system: &System, terms: &MotionTerms) -> Positions {
         used.push(symbol);
         found.implicit.push((rest.remove(index), symbol));
     }
-    found.is_whole = rest.is_empty();
+    let free: Vec<Symbol> = symbols.into_iter().filter(|s| !used.contains(s)).collect();
+    match jointly(system, terms, &rest, &free) {
+        Some(pairs) => found.implicit.extend(pairs),
+        None => found.is_whole = rest.is_empty(),
+    }
     found
+}
+
+/// Constraints that are coupled, with the coordinates that they determine jointly near a position of the set: those of a largest minor
+/// of their gradients, coordinates first that do not stand in angles. Constraints beyond the rank hold besides.
+fn jointly(
+    system: &System,
+    terms: &MotionTerms,
+    rest: &[Expr],
+    free: &[Symbol],
+) -> Option<Vec<(Expr, Symbol)>> {
+    if rest.is_empty() {
+        return None;
+    }
+    let g = &system.graph;
+    let point = sample::admissible_point(system, terms, 0x9051_7104)?;
+    let gradient = g.jacobian(rest, free).concat();
+    let values = g
+        .evaluate_f64(&gradient, &|s| point.get(&s).copied())
+        .ok()?;
+    let cost = |e: &Expr| free.iter().map(|&s| turns(g, *e, s)).collect();
+    let chosen = eliminate(values, rest.iter().map(cost).collect(), free.len());
+    let pairs = chosen.rows.iter().zip(&chosen.dependent);
+    let mut pairs: Vec<(Expr, Symbol)> = pairs.map(|(&row, &j)| (rest[row], free[j])).collect();
+    let (_, first) = *pairs.first()?;
+    let others = (0..rest.len()).filter(|row| !chosen.rows.contains(row));
+    pairs.extend(others.map(|row| (rest[row], first)));
+    Some(pairs)
+}
+
+/// 0 for a symbol in which an expression is a polynomial, 1 for one that stands in angles.
+fn turns(g: &Graph, e: Expr, symbol: Symbol) -> usize {
+    let own = [symbol];
+    let stands_in = |e: Expr| match g.node(e) {
+        Node::Apply { arguments, .. } => g.any_contains_any(arguments, &own),
+        _ => false,
+    };
+    usize::from(g.reachable(&[e]).into_iter().any(stands_in))
 }
 
 /// A constraint that is affine in a coordinate with a number as coefficient, with the coordinate and its value.

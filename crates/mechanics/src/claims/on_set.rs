@@ -4,6 +4,7 @@ use super::formulation::manifold;
 use super::Context;
 use crate::characteristics::Manifold;
 use crate::constraint::ConstraintKind;
+use crate::positions;
 use crate::sample::radicands;
 use crate::system::System;
 use chetaev_symbolic::factors::factored;
@@ -17,6 +18,11 @@ use std::collections::BTreeMap;
 pub fn constraint_set(cx: &Context<'_>) -> Manifold {
     let (system, g) = (cx.system, &cx.system.graph);
     let mut set = manifold(cx);
+    let is_finite = |l: &&usize| system.constraints[**l].kind == ConstraintKind::Holonomic;
+    if cx.terms.constraint_index.iter().filter(is_finite).count() > 1 {
+        let positions = cx.shared(|_| positions::of(system, cx.terms));
+        return positions.joined(&set);
+    }
     let pairs = cx.selection.rows.iter().zip(&cx.selection.dependent);
     for (&row, &dependent) in pairs {
         let constraint = &system.constraints[cx.terms.constraint_index[row]];

@@ -73,7 +73,7 @@ fn three_equal_cranks_have_rank_five() {
     assert_eq!(prepared.selection.rows.len(), 5);
     let left_out = prepared.left_out(&system).unwrap().unwrap();
     assert!(
-        matches!(left_out.follows, Verdict::Numerical(_)),
+        matches!(left_out.follows, Verdict::Proved(_)),
         "{left_out:?}"
     );
 }

@@ -60,14 +60,21 @@ impl Coupled {
         }
         let mut is_unknown = vec![false; count];
         let mut turning = Vec::new();
-        for (operation, _) in program.operations.iter().zip(&closure).filter(|(_, &own)| own) {
+        for (operation, _) in program
+            .operations
+            .iter()
+            .zip(&closure)
+            .filter(|(_, &own)| own)
+        {
             match operation {
                 Operation::Generator(index) => {
                     if let Generator::Dependent(k) = program.generators[*index as usize] {
                         is_unknown[k as usize] = true;
                     }
                 }
-                Operation::CircleCos(circle) | Operation::CircleSin(circle) => turning.push(*circle),
+                Operation::CircleCos(circle) | Operation::CircleSin(circle) => {
+                    turning.push(*circle)
+                }
                 _ => {}
             }
         }
@@ -99,7 +106,13 @@ impl Coupled {
         let free = |k: usize| {
             let is_it = |g: &Generator| matches!(g, Generator::Dependent(j) if *j as usize == k);
             let index = program.generators.iter().position(is_it).unwrap_or(0);
-            ring.scalar(point.generators.get(index).copied().unwrap_or(Residue::ZERO))
+            ring.scalar(
+                point
+                    .generators
+                    .get(index)
+                    .copied()
+                    .unwrap_or(Residue::ZERO),
+            )
         };
         let own = self.is_unknown.iter().enumerate();
         let dependent: Vec<_> = own
@@ -125,7 +138,8 @@ impl Coupled {
             Ok(found) => found,
             Err(NotSolved::None) => return Ok(None),
             Err(NotSolved::Infinite) => {
-                let why = "the constraints do not determine all the symbols that they are solved for";
+                let why =
+                    "the constraints do not determine all the symbols that they are solved for";
                 return Err(Failure::Unsupported(why.to_owned()));
             }
             Err(NotSolved::TooLarge) => {
@@ -139,7 +153,8 @@ impl Coupled {
             None => {
                 let own = |k: &usize| terms.first().is_some_and(|(p, _)| p.is_power_of(*k));
                 let k = (0..count).find(own);
-                k.and_then(|k| found.values.get(k).cloned()).unwrap_or_default()
+                k.and_then(|k| found.values.get(k).cloned())
+                    .unwrap_or_default()
             }
         };
         Ok(Some(Together {
@@ -147,9 +162,16 @@ impl Coupled {
             circles: self
                 .circles
                 .iter()
-                .filter_map(|c| circles.get(c).map(|(cos, sin)| (*c, value(cos), value(sin))))
+                .filter_map(|c| {
+                    circles
+                        .get(c)
+                        .map(|(cos, sin)| (*c, value(cos), value(sin)))
+                })
                 .collect(),
-            roots: roots.iter().map(|(&radical, terms)| (radical, value(terms))).collect(),
+            roots: roots
+                .iter()
+                .map(|(&radical, terms)| (radical, value(terms)))
+                .collect(),
             equation: found.equation,
         }))
     }
@@ -181,7 +203,11 @@ impl Together {
         }
         Some(Values {
             dependent: self.dependent.iter().map(value).collect(),
-            circles: self.circles.iter().map(|(c, cos, sin)| (*c, (value(cos), value(sin)))).collect(),
+            circles: self
+                .circles
+                .iter()
+                .map(|(c, cos, sin)| (*c, (value(cos), value(sin))))
+                .collect(),
         })
     }
 }

@@ -24,7 +24,7 @@ pub struct ZeroTest<'a> {
     /// Symbols determined exactly: each is replaced by its expression (which may be a component of a solve and may use
     /// other symbols of this list, without circles).
     pub solved: &'a [(Symbol, Expr)],
-    /// Nonlinear constraints `f = 0`, each with the symbol it determines.
+    /// Nonlinear constraints `f = 0`, each with the symbol it determines; one that names a symbol for the second time holds besides.
     pub implicit: &'a [(Expr, Symbol)],
     /// Signs and ranges that may be used.
     pub assumptions: &'a Assumptions,

@@ -73,7 +73,10 @@ pub(super) fn eliminate_all(
     loop {
         let mut result = replaced(graph, solved.clone(), roots, &implicit, assumptions)?;
         let unordered = in_triangular_order(graph, &mut result.implicit);
+        // What two constraints name is left to both of them.
+        let named = |symbol: Symbol| result.implicit.iter().filter(|(_, s)| *s == symbol).count();
         let affine = (unordered..result.implicit.len())
+            .filter(|&i| named(result.implicit[i].1) == 1)
             .find_map(|i| Some((i, affine_solution(graph, result.implicit[i])?)));
         let Some((index, solution)) = affine else {
             return Ok(result);

@@ -319,7 +319,8 @@ impl Points {
                 Solution::Dependent(values) => match tower.first_extension() {
                     None => {
                         let circles = values.circles.iter();
-                        let circles = circles.map(|(&c, (cos, sin))| (c, (scalar(cos), scalar(sin))));
+                        let circles =
+                            circles.map(|(&c, (cos, sin))| (c, (scalar(cos), scalar(sin))));
                         let dependent = values.dependent.iter().map(scalar).collect();
                         return Some((dependent, circles.collect()));
                     }

@@ -106,16 +106,13 @@ pub(super) fn add_scaled(field: &PrimeField, a: &Terms, b: &Terms, factor: Resid
 }
 
 /// a + factor·power·b.
-fn add_shifted(
-    field: &PrimeField,
-    a: &Terms,
-    b: &Terms,
-    factor: Residue,
-    power: Power,
-) -> Terms {
+fn add_shifted(field: &PrimeField, a: &Terms, b: &Terms, factor: Residue, power: Power) -> Terms {
     let mut sum = Vec::with_capacity(a.len() + b.len());
     let mut left = a.iter().copied().peekable();
-    let mut right = b.iter().map(|&(p, c)| (p.times(power), field.mul(c, factor))).peekable();
+    let mut right = b
+        .iter()
+        .map(|&(p, c)| (p.times(power), field.mul(c, factor)))
+        .peekable();
     loop {
         let order = match (left.peek(), right.peek()) {
             (Some((p, _)), Some((q, _))) => p.cmp(q),
@@ -197,7 +194,8 @@ impl Basis {
 
     /// Whether there are no solutions.
     pub(super) fn is_whole_ring(&self) -> bool {
-        self.needed().any(|e| e.first().is_some_and(|(p, _)| *p == Power::ONE))
+        self.needed()
+            .any(|e| e.first().is_some_and(|(p, _)| *p == Power::ONE))
     }
 
     /// The elements of a minimal basis.
@@ -208,7 +206,9 @@ impl Basis {
 
     /// The leading powers of a minimal basis.
     pub(super) fn leading(&self) -> Vec<Power> {
-        self.needed().filter_map(|e| e.first().map(|(p, _)| *p)).collect()
+        self.needed()
+            .filter_map(|e| e.first().map(|(p, _)| *p))
+            .collect()
     }
 
     /// The remainder of a polynomial: no term of it is divisible by a leading power.
@@ -257,7 +257,9 @@ impl Basis {
         let Some(reciprocal) = self.field.inv(coefficient) else {
             return Ok(());
         };
-        let monic = rest.iter().map(|&(p, c)| (p, self.field.mul(c, reciprocal)));
+        let monic = rest
+            .iter()
+            .map(|&(p, c)| (p, self.field.mul(c, reciprocal)));
         let monic: Terms = monic.collect();
         self.update(pairs, lead);
         self.elements.push(monic);
@@ -296,7 +298,10 @@ impl Basis {
                 multiple: multiple(index),
             });
         }
-        let replaced: Vec<usize> = candidates.into_iter().filter(|&k| lead.divides(leading(k))).collect();
+        let replaced: Vec<usize> = candidates
+            .into_iter()
+            .filter(|&k| lead.divides(leading(k)))
+            .collect();
         for index in replaced {
             self.is_needed[index] = false;
         }
@@ -313,7 +318,9 @@ mod tests {
 
     fn poly(field: &PrimeField, terms: &[(&[usize], i64)]) -> Terms {
         terms.iter().fold(Vec::new(), |sum, (unknowns, c)| {
-            let power = unknowns.iter().fold(Power::ONE, |p, &k| p.times(Power::unknown(k)));
+            let power = unknowns
+                .iter()
+                .fold(Power::ONE, |p, &k| p.times(Power::unknown(k)));
             add_scaled(field, &sum, &vec![(power, field.from_i64(*c))], field.one())
         })
     }

@@ -191,7 +191,10 @@ impl<'f> Algebra<'f> {
         let matrix = modular_matrix::factorize(field, self.size, columns.collect())?;
         let mut one = vec![Residue::ZERO; self.size];
         one[0] = field.one();
-        let values = self.products.iter().map(|rows| matrix.solve(field, &rows[0]));
+        let values = self
+            .products
+            .iter()
+            .map(|rows| matrix.solve(field, &rows[0]));
         Some(Solutions {
             values: values.collect(),
             equation,

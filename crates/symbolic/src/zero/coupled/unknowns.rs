@@ -55,7 +55,12 @@ impl<'a> Unknowns<'a> {
     pub(super) fn circle(&self) -> (Terms, Terms) {
         let (cos, sin) = (self.unknown(), self.unknown());
         let one = self.field.one();
-        let squares = add_scaled(&self.field, &self.mul(&cos, &cos), &self.mul(&sin, &sin), one);
+        let squares = add_scaled(
+            &self.field,
+            &self.mul(&cos, &cos),
+            &self.mul(&sin, &sin),
+            one,
+        );
         self.vanishes(self.minus_one(&squares));
         (cos, sin)
     }
@@ -133,7 +138,10 @@ impl Ring for Unknowns<'_> {
         }
         let reciprocal = self.unknown();
         self.vanishes(self.minus_one(&self.mul(a, &reciprocal)));
-        self.state.borrow_mut().reciprocals.insert(key, reciprocal.clone());
+        self.state
+            .borrow_mut()
+            .reciprocals
+            .insert(key, reciprocal.clone());
         Some(reciprocal)
     }
 
@@ -151,14 +159,23 @@ impl Ring for Unknowns<'_> {
             Some(scalar) if !is_adjoined => {
                 let root = self.field.sqrt(scalar).ok_or(NoSquareRoot::NonSquare)?;
                 let is_negative = self.negative.get(radical as usize).is_some_and(|&own| own);
-                let signed = if is_negative { self.field.neg(root) } else { root };
+                let signed = if is_negative {
+                    self.field.neg(root)
+                } else {
+                    root
+                };
                 return Ok(self.scalar(signed));
             }
             _ => {}
         }
         let root = self.unknown();
         let minus_one = self.field.neg(self.field.one());
-        self.vanishes(add_scaled(&self.field, &self.mul(&root, &root), a, minus_one));
+        self.vanishes(add_scaled(
+            &self.field,
+            &self.mul(&root, &root),
+            a,
+            minus_one,
+        ));
         self.state.borrow_mut().roots.insert(radical, root.clone());
         Ok(root)
     }

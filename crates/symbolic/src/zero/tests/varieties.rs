@@ -267,8 +267,7 @@ fn a_linkage_is_solved_for_its_angles() {
         ("a*cos(u) + b*cos(v) - c*cos(w) - d", "v"),
         ("a*sin(u) + b*sin(v) - c*sin(w)", "w"),
     ];
-    let freudenstein =
-        "2*a*d*cos(u) - 2*c*d*cos(w) + 2*a*c*cos(u - w) + b^2 - a^2 - c^2 - d^2";
+    let freudenstein = "2*a*d*cos(u) - 2*c*d*cos(w) + 2*a*c*cos(u - w) + b^2 - a^2 - c^2 - d^2";
     let verdict = decide_on(&g, freudenstein, &closure);
     assert_eq!(verdict.word(), "proved", "{verdict:?}");
     let wrong = "2*a*d*cos(u) - 2*c*d*cos(w) + 2*a*c*cos(u + w) + b^2 - a^2 - c^2 - d^2";
