@@ -1,5 +1,5 @@
 //! House tasks: `cargo xtask test`, `cargo xtask laws`, `cargo xtask measure`,
-//! `cargo xtask lines`, `cargo xtask fuzz`, `cargo xtask python`, `cargo xtask checked`, `cargo xtask bench`.
+//! `cargo xtask lines`, `cargo xtask fuzz`, `cargo xtask python`, `cargo xtask checked`, `cargo xtask web`, `cargo xtask bench`.
 
 mod bench;
 mod browser;
@@ -27,6 +27,7 @@ mod measure;
 mod python;
 mod summary;
 mod test;
+mod web;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -43,6 +44,7 @@ Usage: cargo xtask <TASK> [ARGUMENTS]
   fuzz      coverage-guided fuzzing of what reads texts
   checked   what the independent checker confirms of the gallery, as a page
   python    the Python package in a virtual environment, and its tests
+  web       the playground in the browser, and its tests
   bench     the benchmark, and the page of the book made of it
   help      this text
 
@@ -65,6 +67,7 @@ fn main() -> ExitCode {
         "lines" => lines::run(rest),
         "fuzz" => fuzz::run(rest),
         "python" => python::run(rest),
+        "web" => web::run(rest),
         "bench" => bench::run(rest),
         "checked" => checked::run(rest),
         "help" | "--help" | "-h" => {

@@ -11,9 +11,14 @@ pub struct Entry {
 
 include!(concat!(env!("OUT_DIR"), "/gallery.rs"));
 
+/// All folders with texts, models or what they include, in the order of their names.
+pub fn entries() -> impl Iterator<Item = &'static Entry> {
+    ENTRIES.iter()
+}
+
 /// All models, in the order of their names.
 pub fn models() -> impl Iterator<Item = &'static Entry> {
-    ENTRIES.iter().filter(|entry| entry.is_model())
+    entries().filter(|entry| entry.is_model())
 }
 
 /// The model of a name.

@@ -55,5 +55,5 @@ pub use error::{StudyError, UnknownClaim};
 pub use options::{ClaimSelection, Hooks, StudyOptions};
 pub use placed::{diagnostics, placed};
 pub use registry::registry;
-pub use study::{check, study, Decided, Motion, Outcome, Study};
+pub use study::{check, study, study_telling, Decided, Motion, Outcome, Study};
 pub use watch::{in_time, interruptible};

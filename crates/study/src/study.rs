@@ -294,6 +294,19 @@ pub fn study(
     options: StudyOptions,
     hooks: &mut Hooks<'_>,
 ) -> Result<Study, StudyError> {
+    study_telling(model, options, hooks, &mut |_| {})
+}
+
+/// [`study`](study()), where `told` hears of each claim when it is decided.
+///
+/// # Errors
+/// [`StudyError`] when the input is wrong in a way that leaves nothing to study.
+pub fn study_telling(
+    model: Model,
+    options: StudyOptions,
+    hooks: &mut Hooks<'_>,
+    told: &mut dyn FnMut(&Decided),
+) -> Result<Study, StudyError> {
     let known = registry();
     let began = interruptible(hooks, |hooks| {
         let (system, prepared, numeric) = prepare(&model, &options, hooks)?;
@@ -347,6 +360,7 @@ pub fn study(
         known_motion,
         (&options, &work),
         hooks,
+        told,
     );
     let mut motion = motion;
     if let Some(motion) = &mut motion {
@@ -760,13 +774,14 @@ fn decide(
     KnownMotion { start, motion }: KnownMotion<'_>,
     (options, work): (&StudyOptions, &Arc<Work>),
     hooks: &mut Hooks<'_>,
+    told: &mut dyn FnMut(&Decided),
 ) -> (Vec<Decided>, Option<Arc<FoundIntegrals>>, Witness) {
     let known = registry();
     let grounds = Grounds::new(system, prepared, &|on, list| at_start(on, start?, list));
     let strata = strata(&grounds, &known, options, motion);
     let deadline = (hooks.clock)() + LATE * options.budget;
     let verdicts = watched(hooks, work, Some(deadline), |hooks| {
-        decide_all(&strata, &known, model, work, options, hooks)
+        decide_all(&strata, &known, model, (options, work), hooks, told)
     });
     let of_run = known
         .find(witness::STATIONARY)
@@ -787,9 +802,9 @@ fn decide_all(
     strata: &Strata<'_>,
     known: &Registry,
     model: &Model,
-    work: &Arc<Work>,
-    options: &StudyOptions,
+    (options, work): (&StudyOptions, &Arc<Work>),
     hooks: &mut Hooks<'_>,
+    told: &mut dyn FnMut(&Decided),
 ) -> Vec<Decided> {
     let mut verdicts = Vec::new();
     let of = |group: Group| known.claims().iter().filter(move |c| c.group() == group);
@@ -820,7 +835,7 @@ fn decide_all(
                 strata.spend_time();
                 Arc::new(Finding::from(stopped_verdict(stopped, options.budget)))
             });
-            verdicts.push(Decided {
+            let decided = Decided {
                 claim: claim.id(),
                 title: claim.title_of(subject.as_deref()),
                 group: claim.group(),
@@ -829,7 +844,9 @@ fn decide_all(
                 seconds: (hooks.clock)() - start,
                 expected: expected(model, claim.id(), subject.as_deref()),
                 subject,
-            });
+            };
+            told(&decided);
+            verdicts.push(decided);
         }
     }
     // Where they follow each other is the order of the groups.

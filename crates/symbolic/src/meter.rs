@@ -9,7 +9,7 @@
 use std::cell::{Cell, RefCell};
 use std::panic::{catch_unwind, resume_unwind, AssertUnwindSafe};
 use std::sync::atomic::{AtomicU64, AtomicU8, Ordering};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Units of work that count as one second: about what a processor of 2020 does. The rate is fixed, so that a budget in seconds is the
 /// same work everywhere.
@@ -123,6 +123,32 @@ thread_local! {
 /// What unwinds; nobody else catches it.
 struct Unwinding;
 
+/// How a piece of work is left where nothing unwinds, as in a browser: a panic ends the whole program there.
+pub trait Escape: Sync {
+    /// Does something, and says whether it was left by [`Escape::leave`]. What was owned on the way is not dropped then.
+    fn attempt(&self, what: &mut dyn FnMut()) -> bool;
+
+    /// Goes back to the innermost [`Escape::attempt`].
+    fn leave(&self) -> !;
+}
+
+static ESCAPE: OnceLock<&'static dyn Escape> = OnceLock::new();
+
+/// Leaves pieces of work by `escape` in place of unwinding, from now on. The first one counts.
+pub fn escape_by(escape: &'static dyn Escape) {
+    let _ = ESCAPE.set(escape);
+}
+
+/// Does something, which may be left; what it gave otherwise.
+fn attempted<T>(what: impl FnOnce() -> T) -> Result<T, Box<dyn std::any::Any + Send>> {
+    let Some(escape) = ESCAPE.get() else {
+        return catch_unwind(AssertUnwindSafe(what));
+    };
+    let (mut what, mut found) = (Some(what), None);
+    escape.attempt(&mut || found = what.take().map(|what| what()));
+    found.ok_or_else(|| Box::new(Unwinding) as _)
+}
+
 /// Counts units of work. Does not return where the work is to stop.
 #[inline]
 pub fn spend(units: u64) {
@@ -146,7 +172,10 @@ fn settle() {
     });
     // A second unwinding while one is going on would abort.
     if stopped.is_some() && !std::thread::panicking() {
-        resume_unwind(Box::new(Unwinding));
+        match ESCAPE.get() {
+            Some(escape) => escape.leave(),
+            None => resume_unwind(Box::new(Unwinding)),
+        }
     }
 }
 
@@ -190,7 +219,7 @@ pub fn within<T>(work: &Arc<Work>, what: impl FnOnce() -> T) -> Result<T, Stoppe
         return Err(reason);
     }
     let replaced = Replaced::by(Some(Arc::clone(work)));
-    let found = catch_unwind(AssertUnwindSafe(what));
+    let found = attempted(what);
     drop(replaced);
     match found {
         Ok(found) => Ok(found),

@@ -1,0 +1,230 @@
+//! What the playground in a browser calls: texts go in, texts, JSON and columns of numbers come out.
+//!
+//! The module runs in a worker of the page, without threads, files or a clock of its own; [`Listener`] hears what is found while it is found.
+//! Work that is to stop is left by an exception of the host ([`chetaev::symbolic::meter::Escape`]), as nothing unwinds there.
+//!
+//! - `reading`: texts as models; `checking`: diagnostics, fixes and sliders; `outcome`: a study that is done;
+//! - `shelf`: the gallery as files; `host`: what the browser provides.
+
+mod checking;
+mod host;
+mod outcome;
+mod reading;
+mod shelf;
+
+use chetaev::mechanics::{formulation, Context, Prover, System, FORMULATIONS};
+use chetaev::study::written::{self, Notation};
+use chetaev::study::{
+    functional, interruptible, registry, study_telling, ClaimSelection, Decided, Hooks,
+    StudyOptions,
+};
+use chetaev::symbolic::print::Format;
+use host::seconds;
+pub use host::Listener;
+pub use outcome::Outcome;
+use reading::Read;
+use serde::Deserialize;
+use serde_json::json;
+use wasm_bindgen::prelude::*;
+
+/// Sets up the module; the host calls it once.
+#[wasm_bindgen]
+pub fn begin() {
+    host::begin();
+}
+
+/// The version of Chetaev.
+#[wasm_bindgen]
+pub fn version() -> String {
+    env!("CARGO_PKG_VERSION").to_owned()
+}
+
+/// The models of the gallery as JSON: name, title, files.
+#[wasm_bindgen]
+pub fn gallery() -> String {
+    shelf::list().to_string()
+}
+
+/// The text of a file of the gallery; empty where there is none.
+#[wasm_bindgen(js_name = galleryText)]
+pub fn gallery_text(folder: &str, file: &str) -> String {
+    shelf::text(folder, file).unwrap_or_default().to_owned()
+}
+
+/// The forms of the equations of motion and the claims, as JSON, for menus and completion.
+#[wasm_bindgen]
+pub fn vocabulary() -> String {
+    let forms = FORMULATIONS.iter().map(|f| {
+        let card = f.card();
+        json!({"name": card.name, "title": card.title})
+    });
+    let known = registry();
+    let claims = known
+        .claims()
+        .iter()
+        .map(|claim| json!({"id": claim.id(), "group": claim.group().word()}));
+    json!({
+        "forms": forms.collect::<Vec<_>>(),
+        "claims": claims.collect::<Vec<_>>(),
+    })
+    .to_string()
+}
+
+/// Everything wrong or doubtful in a text as JSON, with names and sliders (see `checking`).
+#[wasm_bindgen]
+pub fn check(path: &str, text: &str) -> String {
+    with_hooks(&mut |_, _| {}, |hooks| checking::checked(path, text, hooks)).to_string()
+}
+
+/// The equations in the forms named, apart by commas, in a notation of `chetaev derive --as`.
+///
+/// # Errors
+/// What is wrong, in words.
+#[wasm_bindgen]
+pub fn derive(path: &str, text: &str, forms: &str, notation: &str) -> Result<String, String> {
+    let notation = Notation::named(notation).ok_or("there is no such notation")?;
+    if let Read::Functional(loaded) = reading::read(path, text) {
+        let problem = loaded.problem.ok_or("the model has errors")?;
+        let format = match notation {
+            Notation::Text => Format::Text,
+            Notation::Latex => Format::Latex,
+            Notation::Mathml => Format::Mathml,
+            Notation::Sympy => Format::Sympy,
+            Notation::Json => Format::Json,
+            Notation::Rust | Notation::C => {
+                return Err(
+                    "code is made of equations of motion; a functional has field equations"
+                        .to_owned(),
+                )
+            }
+        };
+        return functional::derivation(&problem.functional, format).map_err(|e| e.to_string());
+    }
+    let model = reading::motion(path, text)?;
+    let system = System::from_model(&model).map_err(|e| e.to_string())?;
+    let names: Vec<&str> = forms
+        .split(',')
+        .map(str::trim)
+        .filter(|n| !n.is_empty())
+        .collect();
+    let asked: Option<Vec<_>> = names.iter().map(|name| formulation(name)).collect();
+    let asked = asked.ok_or("there is no such formulation")?;
+    let found = with_hooks(&mut |_, _| {}, |hooks| {
+        interruptible(hooks, |_| {
+            let (prepared, _) = written::prepared(&system).map_err(|e| e.to_string())?;
+            let known = registry();
+            let (terms, selection) = (&prepared.terms, &prepared.selection);
+            let cx = Context::new(&system, terms, selection, &known, Prover::default());
+            written::equations(&cx, &asked, (notation, false), &mut |_, _| {})
+                .map_err(|e| e.to_string())
+        })
+    });
+    found.map_err(|_| "it was stopped".to_owned())?
+}
+
+/// What is asked of a study; what is left out is as in the model.
+#[derive(Deserialize, Default)]
+#[serde(default, deny_unknown_fields)]
+struct Asked {
+    /// Groups and ids of claims, apart by commas; all where it is left out.
+    claims: Option<String>,
+    /// Seconds of work for all claims.
+    budget: Option<f64>,
+    /// Whether the motion is left out.
+    still: bool,
+    /// Whether the run for the estimate of the error is left out.
+    coarse: bool,
+    /// Rows of the trajectory go up to this time.
+    t_end: Option<f64>,
+    /// Relative tolerance.
+    tolerance: Option<f64>,
+    /// The formulation that is integrated.
+    formulation: Option<String>,
+}
+
+impl Asked {
+    fn options(&self) -> Result<StudyOptions, String> {
+        let usual = StudyOptions::default();
+        let claims = match self.claims.as_deref() {
+            None => ClaimSelection::all(),
+            // Nothing but equations.
+            Some("none") => ClaimSelection {
+                words: vec!["none".to_owned()],
+            },
+            Some("motion-only") => ClaimSelection::of_motion(),
+            Some(text) => ClaimSelection::parse(text, registry().claims())
+                .map_err(|word| format!("`{word}` is neither a group nor a claim"))?,
+        };
+        Ok(StudyOptions {
+            claims,
+            budget: self.budget.unwrap_or(usual.budget),
+            motion: !self.still,
+            global_error: !self.coarse,
+            t_end: self.t_end,
+            tolerance: self.tolerance,
+            formulation: self.formulation.clone(),
+            ..usual
+        })
+    }
+}
+
+/// A study as the command makes it; `asked` is JSON. The listener hears `doing` (what is begun), `part` (which part of it is done) and
+/// `decided` (a claim with its verdict, as JSON).
+///
+/// # Errors
+/// What is wrong, in words.
+#[wasm_bindgen]
+pub fn study(path: &str, text: &str, asked: &str, listener: &Listener) -> Result<Outcome, String> {
+    let asked: Asked = serde_json::from_str(asked).map_err(|e| e.to_string())?;
+    if let Read::Functional(loaded) = reading::read(path, text) {
+        let problem = loaded.problem.ok_or("the model has errors")?;
+        let wants = |_: &str| asked.claims.as_deref() != Some("none");
+        return Ok(Outcome::of_functional(chetaev::functionals::study(
+            problem, &wants, &seconds,
+        )));
+    }
+    let model = reading::motion(path, text)?;
+    let options = asked.options()?;
+    let mut progress = |what: &str, part: Option<f64>| match part {
+        None => listener.told("doing", what),
+        Some(part) => listener.told("part", &format!("{part}")),
+    };
+    let own = model.clone();
+    let found = with_hooks(&mut progress, |hooks| {
+        study_telling(own, options, hooks, &mut |decided| {
+            listener.told("decided", &said(decided))
+        })
+    });
+    match found {
+        Ok(study) => Ok(Outcome::of_motion(study)),
+        Err(problem) => {
+            let said = chetaev::study::diagnostics(&problem, &model);
+            let said: Vec<String> = said.into_iter().map(|d| d.message).collect();
+            Err(said.join("\n"))
+        }
+    }
+}
+
+/// A claim with its verdict as JSON.
+fn said(decided: &Decided) -> String {
+    json!({
+        "id": decided.full_id(),
+        "group": decided.group.word(),
+        "title": decided.title,
+        "verdict": decided.finding.verdict.word(),
+        "detail": decided.finding.verdict.detail(),
+    })
+    .to_string()
+}
+
+/// With the clock of the host.
+fn with_hooks<T>(
+    progress: &mut dyn FnMut(&str, Option<f64>),
+    work: impl FnOnce(&mut Hooks<'_>) -> T,
+) -> T {
+    work(&mut Hooks {
+        clock: &seconds,
+        interrupt: None,
+        progress,
+    })
+}

@@ -1,0 +1,66 @@
+// The report in its frame: the page that the command writes, with the script of the command, shown again at every change.
+
+interface Shown {
+  state(): unknown;
+  resume(state: unknown): void;
+  move(other: Document, data: unknown): void;
+}
+
+type FrameWindow = Window & { begin?: () => void; shown?: Shown };
+
+export class ReportView {
+  private frame: HTMLIFrameElement | null = null;
+  private showing = 0;
+
+  constructor(private readonly place: HTMLElement) {}
+
+  private get window(): FrameWindow | null { return (this.frame?.contentWindow as FrameWindow) ?? null; }
+
+  /** Shows a page; where the reader is stays, if `stays`. */
+  async show(page: string, stays: boolean): Promise<void> {
+    const own = ++this.showing;
+    const parsed = new DOMParser().parseFromString(page, "text/html");
+    const next = document.createElement("iframe");
+    next.title = "Report";
+    next.className = "next";
+    const ready = new Promise<void>((resolve) => {
+      const listen = (event: MessageEvent) => {
+        if (event.source !== next.contentWindow || event.data !== "report-ready") return;
+        removeEventListener("message", listen);
+        resolve();
+      };
+      addEventListener("message", listen);
+    });
+    next.src = "./report.html";
+    this.place.append(next);
+    await ready;
+    if (own !== this.showing) { next.remove(); return; }
+    const inside = next.contentDocument as Document;
+    for (const script of parsed.querySelectorAll("script:not([type='application/json'])")) script.remove();
+    inside.title = parsed.title;
+    inside.documentElement.dataset.theme = document.documentElement.dataset.theme ?? "";
+    inside.body.replaceWith(inside.adoptNode(parsed.body));
+    (next.contentWindow as FrameWindow).begin?.();
+    const state = stays ? this.window?.shown?.state() : undefined;
+    if (state) (next.contentWindow as FrameWindow).shown?.resume(state);
+    const old = this.frame;
+    this.frame = next;
+    next.className = "";
+    old?.remove();
+  }
+
+  /** Shows the motion of another page of the same model. */
+  move(page: string) {
+    const parsed = new DOMParser().parseFromString(page, "text/html");
+    const data = JSON.parse(parsed.getElementById("data")?.textContent ?? "null");
+    if (data?.trajectory && this.window?.shown) this.window.shown.move(parsed, data);
+  }
+
+  /** The theme of the page around it. */
+  theme(theme: string) {
+    const root = this.frame?.contentDocument?.documentElement;
+    if (root) root.dataset.theme = theme;
+  }
+
+  set stale(stale: boolean) { this.place.classList.toggle("stale", stale); }
+}
