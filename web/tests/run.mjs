@@ -1,0 +1,323 @@
+// `node tests/run.mjs [--full] [NAME…]`: drives web/dist as a person would.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { numbers, run } from "./harness.mjs";
+
+const ROOT = resolve(import.meta.dirname, "../..");
+const DIST = join(ROOT, "web/dist");
+const words = process.argv.slice(2);
+const isFull = words.includes("--full");
+const chosen = words.filter((word) => !word.startsWith("--"));
+
+/** The sleigh of the README. */
+const README = readFileSync(join(ROOT, "README.md"), "utf8");
+const SLEIGH = /```toml\n([\s\S]*?)```/.exec(README)[1];
+
+/** Models whose claims take few seconds; `--full` takes all of them. */
+const SHORT = ["chaplygin-sleigh", "skate-level", "vertical-rolling-disc", "particle-y-dx"];
+
+/** What the command says: verdicts by claim, and the trajectory by the interpreter. */
+function command(model) {
+  const out = mkdtempSync(join(tmpdir(), "chetaev-web-"));
+  const built = process.env.CARGO_TARGET_DIR ?? join(ROOT, "target");
+  const path = `gallery/${model}/model.toml`;
+  try {
+    execFileSync(join(built, "debug/chetaev"), ["study", path, "--out", out], { cwd: ROOT, env: { ...process.env, CHETAEV_BACKEND: "interpreter" }, stdio: "pipe" });
+  } catch (problem) {
+    // Expectations that are not met are told by the status.
+    if (problem.status !== 1) throw problem;
+  }
+  const read = (name) => { try { return readFileSync(join(out, name), "utf8"); } catch { return ""; } };
+  const found = { record: JSON.parse(read("study.json")), csv: read("trajectory.csv") };
+  rmSync(out, { recursive: true });
+  return found;
+}
+
+const verdicts = (record) => Object.fromEntries(record.verdicts.map((own) => [own.id ?? own.claim + (own.subject ? `#${own.subject}` : ""), own.verdict]));
+
+async function downloaded(sheet, what) {
+  const [file] = await Promise.all([sheet.page.waitForEvent("download"), sheet.page.selectOption("#download", what)]);
+  return readFileSync(await file.path(), "utf8");
+}
+
+/** Finds nothing serious, in the page and in the report. */
+async function accessible(sheet) {
+  const source = readFileSync(join(ROOT, "web/node_modules/axe-core/axe.min.js"), "utf8");
+  for (const frame of [sheet.page.mainFrame(), await sheet.frame()]) {
+    await frame.evaluate(source);
+    const { violations } = await frame.evaluate(() => axe.run(document, { iframes: false, resultTypes: ["violations"] }));
+    const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
+    assert.deepEqual(serious.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map((node) => node.html.slice(0, 160)).join(" | ")}`), []);
+  }
+}
+
+const tests = [
+  ["the first load is small and the first equations come soon", async (sheet) => {
+    let packed = 0;
+    const { gzipSync } = await import("node:zlib");
+    const walk = (folder) => {
+      for (const name of readdirSync(folder)) {
+        const path = join(folder, name);
+        if (statSync(path).isDirectory()) walk(path);
+        else packed += name.endsWith(".bin") ? statSync(path).size : gzipSync(readFileSync(path)).length;
+      }
+    };
+    walk(DIST);
+    await sheet.open();
+    numbers.firstLoadBytes = packed;
+    numbers.firstEquationsMilliseconds = Math.round(await sheet.mark("equations"));
+    assert.ok(packed <= 3e6, `${packed} bytes`);
+    assert.ok(numbers.firstEquationsMilliseconds <= 2000, `${numbers.firstEquationsMilliseconds} ms`);
+  }],
+
+  ["the sleigh of the README is typed letter by letter", async (sheet) => {
+    await sheet.open();
+    await sheet.mark("equations");
+    await sheet.page.click(".cm-content");
+    await sheet.page.keyboard.press("Control+a");
+    await sheet.page.keyboard.press("Delete");
+    await sheet.page.keyboard.type(SLEIGH, { delay: 4 });
+    const since = await sheet.now();
+    numbers.equationsAfterTypingMilliseconds = Math.round(await sheet.mark("equations", since) - since);
+    assert.equal(await sheet.kept(), SLEIGH);
+    await sheet.mark("motion", since);
+    const frame = await sheet.frame();
+    assert.equal(await frame.textContent("h1"), "Sleigh");
+    assert.ok(await frame.locator("#equations math").count() > 3);
+    await sheet.mark("claims", since);
+    assert.match(await sheet.said(), /claims are decided/);
+    numbers.claimsOfSleighMilliseconds = Math.round(await sheet.mark("claims", since) - since);
+    numbers.longestTaskWhileTypingMilliseconds = Math.round(await sheet.longest());
+    assert.ok(numbers.longestTaskWhileTypingMilliseconds <= 100, `a task of ${numbers.longestTaskWhileTypingMilliseconds} ms`);
+  }],
+
+  ["a slip is underlined and mended by the quick fix", async (sheet) => {
+    await sheet.open();
+    await sheet.mark("motion");
+    await sheet.paste(SLEIGH.replace("phi' sin(phi))^2", "phi' sin(phj))^2"));
+    await sheet.page.waitForSelector(".cm-lintRange-error");
+    const since = await sheet.now();
+    await sheet.page.click("#problems .fix");
+    await sheet.mark("equations", since);
+    assert.equal(await sheet.kept(), SLEIGH);
+    assert.equal(await sheet.page.locator(".cm-lintRange-error").count(), 0);
+    // The same from the keyboard.
+    await sheet.paste(SLEIGH.replace("coordinates", "coordinats"));
+    await sheet.page.waitForSelector(".cm-lintRange-error");
+    await sheet.page.keyboard.press("Control+Home");
+    await sheet.page.keyboard.press("Control+.");
+    await sheet.mark("equations", await sheet.now());
+    assert.equal(await sheet.kept(), SLEIGH);
+  }],
+
+  ["a slider moves the motion and the text", async (sheet) => {
+    await sheet.open();
+    await sheet.mark("motion");
+    await sheet.page.click("#sliders > summary");
+    const slider = sheet.page.locator("input[type=range][data-name=a]");
+    const path = async () => (await sheet.frame()).evaluate(() => shown.state().time);
+    await slider.scrollIntoViewIfNeeded();
+    const box = await slider.boundingBox();
+    await sheet.page.mouse.move(box.x + box.width * 0.6, box.y + box.height / 2);
+    await sheet.page.mouse.down();
+    for (let i = 0; i < 12; i++) {
+      await sheet.page.mouse.move(box.x + box.width * (0.6 + 0.02 * i), box.y + box.height / 2);
+      await sheet.page.waitForTimeout(30);
+    }
+    await path();
+    const since = await sheet.now();
+    await sheet.page.mouse.up();
+    await sheet.mark("motion", since);
+    const moved = /a = ([-\d.]+)/.exec(await sheet.kept());
+    assert.notEqual(Number(moved[1]), 0.25);
+    assert.ok(Number(moved[1]) > 0.25);
+  }],
+
+  ["the motion plays", async (sheet) => {
+    await sheet.open();
+    await sheet.mark("motion");
+    const frame = await sheet.frame();
+    await frame.click("#animation .play");
+    await sheet.page.waitForTimeout(600);
+    await frame.click("#animation .play");
+    assert.ok(await frame.evaluate(() => shown.state().time) > 0.2);
+  }],
+
+  ["verdicts are the words of the command, and trajectories its bits", async (sheet) => {
+    await sheet.open();
+    await sheet.mark("equations");
+    const all = await sheet.page.evaluate(async () => [...document.querySelectorAll("[data-model]")].map((card) => card.dataset.model));
+    for (const model of isFull ? all : SHORT) {
+      const since = await sheet.now();
+      await sheet.page.click("#gallery-button");
+      await sheet.page.click(`[data-model="${model}"]`);
+      await sheet.mark("claims", since, 280);
+      const page = JSON.parse(await downloaded(sheet, "record"));
+      const own = command(model);
+      if (!own.record.verdicts) continue;
+      assert.deepEqual(verdicts(page), verdicts(own.record), model);
+      if (own.csv) assert.equal(await downloaded(sheet, "csv") === own.csv, true, `the trajectory of ${model}`);
+    }
+  }],
+
+  ["every model of the gallery opens", async (sheet) => {
+    await sheet.open();
+    await sheet.mark("equations");
+    const all = await sheet.page.evaluate(() => [...document.querySelectorAll("[data-model]")].map((card) => card.dataset.model));
+    assert.ok(all.length > 60);
+    const step = isFull ? 1 : 7;
+    for (const model of all.filter((_, i) => i % step === 0)) {
+      const since = await sheet.now();
+      await sheet.page.click("#gallery-button");
+      await sheet.page.click(`[data-model="${model}"]`);
+      const took = await sheet.mark("equations", since, 60) - since;
+      if (took > (numbers.slowestEquationsMilliseconds ?? 0)) Object.assign(numbers, { slowestEquationsMilliseconds: Math.round(took), slowestEquations: model });
+    }
+  }],
+
+  ["it works offline", async (sheet, context) => {
+    await sheet.open();
+    await sheet.mark("motion");
+    await sheet.page.evaluate(() => navigator.serviceWorker.ready);
+    await sheet.page.waitForFunction(async () => (await caches.keys()).some((name) => name.startsWith("chetaev-")));
+    await sheet.page.reload();
+    await sheet.mark("equations");
+    await context.setOffline(true);
+    await sheet.page.reload();
+    await sheet.mark("motion");
+    assert.ok(await (await sheet.frame()).locator("math").count() > 3);
+  }],
+
+  ["a link holds the model", async (sheet, context) => {
+    await sheet.open();
+    await sheet.mark("motion");
+    await sheet.paste(SLEIGH.replace('name = "sleigh"', 'name = "<b>fräulein</b>"'));
+    await sheet.mark("motion", await sheet.now());
+    await sheet.page.click("#share-button");
+    await sheet.page.waitForFunction(() => location.hash.startsWith("#m="));
+    const link = await sheet.page.evaluate(() => navigator.clipboard.readText());
+    const other = await context.newPage();
+    await other.goto(link);
+    await other.waitForFunction(() => performance.getEntriesByName("motion").length > 0, null, { timeout: 30000 });
+    const frame = await (await other.waitForSelector("#page iframe:not(.next)")).contentFrame();
+    // A hostile name is text.
+    assert.equal(await frame.locator("b", { hasText: /^fräulein$/ }).count(), 0);
+    assert.match(await frame.textContent("h1"), /fräulein/i);
+    await other.close();
+  }],
+
+  ["a hostile link ends with a sentence", async (sheet) => {
+    const bomb = Buffer.from((await import("node:zlib")).deflateRawSync(Buffer.alloc(50 << 20, 32))).toString("base64url");
+    await sheet.open(`#m=${bomb}`);
+    await sheet.page.waitForFunction(() => performance.getEntriesByName("motion").length > 0);
+    await sheet.open("#m=%%%");
+    await sheet.page.waitForFunction(() => performance.getEntriesByName("motion").length > 0);
+  }],
+
+  ["LaTeX is copied", async (sheet) => {
+    await sheet.open();
+    await sheet.mark("motion");
+    const frame = await sheet.frame();
+    const button = frame.locator(".equation .copy").first();
+    await button.scrollIntoViewIfNeeded();
+    await button.focus();
+    await sheet.page.keyboard.press("Enter");
+    await sheet.page.waitForFunction(async () => (await navigator.clipboard.readText()).length > 3);
+    assert.match(await sheet.page.evaluate(() => navigator.clipboard.readText()), /[\\=]/);
+    assert.match(await downloaded(sheet, "python"), /sympy/);
+    assert.match(await downloaded(sheet, "c"), /double/);
+  }],
+
+  ["a phone", async (sheet) => {
+    await sheet.open();
+    await sheet.mark("equations");
+    await sheet.page.click("#show-report");
+    await sheet.page.waitForTimeout(300);
+    const wide = () => document.documentElement.scrollWidth - innerWidth;
+    assert.ok(await sheet.page.evaluate(wide) <= 0);
+    assert.ok(await (await sheet.frame()).evaluate(wide) <= 0);
+    await accessible(sheet);
+    await sheet.page.click("#show-model");
+    assert.ok(await sheet.page.isVisible(".cm-content"));
+    await sheet.page.click("#gallery-button");
+    assert.ok(await sheet.page.evaluate(wide) <= 0);
+  }, { viewport: { width: 390, height: 800 } }],
+
+  ["with the keyboard only", async (sheet) => {
+    await sheet.open();
+    await sheet.mark("equations");
+    const { keyboard } = sheet.page;
+    const focused = () => sheet.page.evaluate(() => document.activeElement?.id || document.activeElement?.className || "");
+    const tabTo = async (wanted) => {
+      for (let i = 0; i < 60; i++) {
+        await keyboard.press("Tab");
+        if ((await focused()).includes(wanted)) return;
+      }
+      assert.fail(`${wanted} cannot be reached`);
+    };
+    await tabTo("gallery-button");
+    await keyboard.press("Enter");
+    await tabTo("gallery-search");
+    await keyboard.type("skate on a level");
+    for (let i = 0; i < 20 && !(await sheet.page.evaluate(() => document.activeElement?.dataset.model)); i++) await keyboard.press("Tab");
+    const since = await sheet.now();
+    await keyboard.press("Enter");
+    await sheet.mark("equations", since);
+    // Into the editor and out of it again.
+    await tabTo("cm-content");
+    await keyboard.press("Escape");
+    await keyboard.press("Tab");
+    assert.notEqual(await focused(), "cm-content");
+  }],
+
+  ["nothing serious for those who do not see", async (sheet) => {
+    await sheet.open();
+    await sheet.mark("claims");
+    await sheet.page.click("#claims > summary");
+    await sheet.page.click("#sliders > summary");
+    await accessible(sheet);
+    await sheet.page.click("#theme-button");
+    await accessible(sheet);
+  }],
+
+  ["mutated models", async (sheet) => {
+    await sheet.open();
+    await sheet.mark("equations");
+    let seed = 12345;
+    const random = (n) => { seed = (Math.imul(seed, 1103515245) + 12345) >>> 0; return Math.floor((seed / 2 ** 32) * n); };
+    const folders = readdirSync(join(ROOT, "gallery")).filter((name) => { try { return statSync(join(ROOT, "gallery", name, "model.toml")).isFile(); } catch { return false; } });
+    const texts = folders.map((name) => readFileSync(join(ROOT, "gallery", name, "model.toml"), "utf8"));
+    const pieces = ["'", "\"", "^2", "^-9", "[", "]", "=", "1e308", "0", "sqrt(", ")", "/0", "phi", "{", "}", "\u0000", "∞", "\n", "sum(i = 1..9999, x)", "#"];
+    const count = isFull ? 2000 : 200;
+    for (let i = 0; i < count; i++) {
+      let text = texts[random(texts.length)];
+      for (let k = 0; k <= random(4); k++) {
+        const at = random(text.length);
+        const cut = random(3) === 0 ? random(12) : 0;
+        text = text.slice(0, at) + pieces[random(pieces.length)] + text.slice(at + cut);
+      }
+      text = text.replaceAll("\u0000", " ").replaceAll("\r", "");
+      await sheet.paste(text);
+      await sheet.page.waitForTimeout(isFull ? 250 : 60 + random(150));
+      assert.equal(await sheet.kept(), text, `mutant ${i}`);
+    }
+    const memory = await sheet.page.evaluate(() => performance.memory?.usedJSHeapSize ?? 0);
+    numbers.longestTaskOfMutantsMilliseconds = Math.round(await sheet.longest());
+    assert.ok(memory <= 1e9, `${memory} bytes`);
+    assert.ok(numbers.longestTaskOfMutantsMilliseconds <= 100, `a task of ${numbers.longestTaskOfMutantsMilliseconds} ms`);
+    // It still answers.
+    const since = await sheet.now();
+    await sheet.paste(SLEIGH);
+    await sheet.mark("motion", since, 60);
+  }],
+];
+
+const failed = await run(tests, chosen);
+console.log(JSON.stringify(numbers, null, 2));
+const out = process.env.CHETAEV_NUMBERS;
+if (out) writeFileSync(out, `${JSON.stringify(numbers, null, 2)}\n`);
+process.exitCode = failed === 0 ? 0 : 1;
