@@ -4,12 +4,13 @@
 //! Work that is to stop is left by an exception of the host ([`chetaev::symbolic::meter::Escape`]), as nothing unwinds there.
 //!
 //! - `reading`: texts as models; `checking`: diagnostics, fixes and sliders; `outcome`: a study that is done;
-//! - `shelf`: the gallery as files; `host`: what the browser provides.
+//! - `refused`: why there is no answer; `shelf`: the gallery as files; `host`: what the browser provides.
 
 mod checking;
 mod host;
 mod outcome;
 mod reading;
+mod refused;
 mod shelf;
 
 use chetaev::mechanics::{formulation, Context, Prover, System, FORMULATIONS};
@@ -23,6 +24,7 @@ use host::seconds;
 pub use host::Listener;
 pub use outcome::Outcome;
 use reading::Read;
+pub use refused::Refused;
 use serde::Deserialize;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
@@ -81,45 +83,44 @@ pub fn check(path: &str, text: &str) -> String {
 /// # Errors
 /// What is wrong, in words.
 #[wasm_bindgen]
-pub fn derive(path: &str, text: &str, forms: &str, notation: &str) -> Result<String, String> {
-    let notation = Notation::named(notation).ok_or("there is no such notation")?;
+pub fn derive(path: &str, text: &str, forms: &str, notation: &str) -> Result<String, Refused> {
+    let notation = Notation::named(notation).ok_or(Refused::Absent("such notation"))?;
     if let Read::Functional(loaded) = reading::read(path, text) {
-        let problem = loaded.problem.ok_or("the model has errors")?;
+        let problem = loaded.problem.ok_or(Refused::Functional)?;
         let format = match notation {
             Notation::Text => Format::Text,
             Notation::Latex => Format::Latex,
             Notation::Mathml => Format::Mathml,
             Notation::Sympy => Format::Sympy,
             Notation::Json => Format::Json,
-            Notation::Rust | Notation::C => {
-                return Err(
-                    "code is made of equations of motion; a functional has field equations"
-                        .to_owned(),
-                )
-            }
+            Notation::Rust | Notation::C => return Err(Refused::NoCode),
         };
-        return functional::derivation(&problem.functional, format).map_err(|e| e.to_string());
+        return Ok(functional::derivation(&problem.functional, format)?);
     }
     let model = reading::motion(path, text)?;
-    let system = System::from_model(&model).map_err(|e| e.to_string())?;
+    let system = System::from_model(&model)?;
     let names: Vec<&str> = forms
         .split(',')
         .map(str::trim)
         .filter(|n| !n.is_empty())
         .collect();
     let asked: Option<Vec<_>> = names.iter().map(|name| formulation(name)).collect();
-    let asked = asked.ok_or("there is no such formulation")?;
+    let asked = asked.ok_or(Refused::Absent("such formulation"))?;
     let found = with_hooks(&mut |_, _| {}, |hooks| {
         interruptible(hooks, |_| {
-            let (prepared, _) = written::prepared(&system).map_err(|e| e.to_string())?;
+            let (prepared, _) = written::prepared(&system)?;
             let known = registry();
             let (terms, selection) = (&prepared.terms, &prepared.selection);
             let cx = Context::new(&system, terms, selection, &known, Prover::default());
-            written::equations(&cx, &asked, (notation, false), &mut |_, _| {})
-                .map_err(|e| e.to_string())
+            Ok::<_, Refused>(written::equations(
+                &cx,
+                &asked,
+                (notation, false),
+                &mut |_, _| {},
+            )?)
         })
     });
-    found.map_err(|_| "it was stopped".to_owned())?
+    found.map_err(|_| Refused::Stopped)?
 }
 
 /// What is asked of a study; what is left out is as in the model.
@@ -143,7 +144,7 @@ struct Asked {
 }
 
 impl Asked {
-    fn options(&self) -> Result<StudyOptions, String> {
+    fn options(&self) -> Result<StudyOptions, Refused> {
         let usual = StudyOptions::default();
         let claims = match self.claims.as_deref() {
             None => ClaimSelection::all(),
@@ -152,8 +153,9 @@ impl Asked {
                 words: vec!["none".to_owned()],
             },
             Some("motion-only") => ClaimSelection::of_motion(),
-            Some(text) => ClaimSelection::parse(text, registry().claims())
-                .map_err(|word| format!("`{word}` is neither a group nor a claim"))?,
+            Some(text) => {
+                ClaimSelection::parse(text, registry().claims()).map_err(Refused::Claim)?
+            }
         };
         Ok(StudyOptions {
             claims,
@@ -174,10 +176,10 @@ impl Asked {
 /// # Errors
 /// What is wrong, in words.
 #[wasm_bindgen]
-pub fn study(path: &str, text: &str, asked: &str, listener: &Listener) -> Result<Outcome, String> {
-    let asked: Asked = serde_json::from_str(asked).map_err(|e| e.to_string())?;
+pub fn study(path: &str, text: &str, asked: &str, listener: &Listener) -> Result<Outcome, Refused> {
+    let asked: Asked = serde_json::from_str(asked)?;
     if let Read::Functional(loaded) = reading::read(path, text) {
-        let problem = loaded.problem.ok_or("the model has errors")?;
+        let problem = loaded.problem.ok_or(Refused::Functional)?;
         let wants = |_: &str| asked.claims.as_deref() != Some("none");
         return Ok(Outcome::of_functional(chetaev::functionals::study(
             problem, &wants, &seconds,
@@ -199,8 +201,9 @@ pub fn study(path: &str, text: &str, asked: &str, listener: &Listener) -> Result
         Ok(study) => Ok(Outcome::of_motion(study)),
         Err(problem) => {
             let said = chetaev::study::diagnostics(&problem, &model);
-            let said: Vec<String> = said.into_iter().map(|d| d.message).collect();
-            Err(said.join("\n"))
+            Err(Refused::Study(
+                said.into_iter().map(|d| d.message).collect(),
+            ))
         }
     }
 }

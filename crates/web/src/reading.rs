@@ -1,8 +1,9 @@
 //! Texts as models.
 
-use crate::shelf::Shelf;
+use crate::refused::Refused;
+use crate::shelf::beside;
 use chetaev::functionals;
-use chetaev::model::{self, Loaded, Model, Sources, Style};
+use chetaev::model::{self, Loaded, Model, Sources};
 
 /// What a text states.
 pub(crate) enum Read {
@@ -14,21 +15,20 @@ pub(crate) enum Read {
 
 /// Reads a text.
 pub(crate) fn read(path: &str, text: &str) -> Read {
-    let tables = model::tables(path, text, &Shelf, &[], Sources::default());
+    let files = beside(path);
+    let tables = model::tables(path, text, &files, &[], Sources::default());
     match tables.is_functional() {
-        true => Read::Functional(Box::new(functionals::load(path, text, &Shelf, &[]))),
-        false => Read::Motion(Box::new(model::load(path, text, &Shelf, &[]))),
+        true => Read::Functional(Box::new(functionals::load(path, text, &files, &[]))),
+        false => Read::Motion(Box::new(model::load(path, text, &files, &[]))),
     }
 }
 
 /// The model of a text that states a motion.
 ///
 /// # Errors
-/// Its problems, as they are printed.
-pub(crate) fn motion(path: &str, text: &str) -> Result<Model, String> {
-    let loaded = model::load(path, text, &Shelf, &[]);
-    let read = loaded
-        .into_result()
-        .map_err(|found| found.render(Style::Plain))?;
-    Ok(read.0)
+/// Its problems.
+pub(crate) fn motion(path: &str, text: &str) -> Result<Model, Refused> {
+    let loaded = model::load(path, text, &beside(path), &[]);
+    let (model, _) = loaded.into_result().map_err(Refused::Model)?;
+    Ok(model)
 }

@@ -1,28 +1,27 @@
 //! The gallery as files that models may include.
 
-use chetaev::model::Files;
-use chetaev_gallery::{models, Entry};
-
-/// The texts of the gallery below the folder `gallery`.
-pub(crate) struct Shelf;
+use chetaev_gallery::{entries, models, Entry};
+use std::collections::BTreeMap;
 
 /// The folder that paths of the gallery begin with.
 const FOLDER: &str = "gallery/";
 
-impl Files for Shelf {
-    fn read(&self, path: &str) -> Result<String, String> {
-        let absent = || {
-            "a model in the browser can include the files of the gallery beside it only".to_owned()
-        };
-        let inside = path.strip_prefix(FOLDER).ok_or_else(absent)?;
-        let (folder, file) = inside.rsplit_once('/').ok_or_else(absent)?;
-        text(folder, file).map(str::to_owned).ok_or_else(absent)
-    }
+/// The texts that a model at this path may include: those of its folder in the gallery, and of its group.
+pub(crate) fn beside(path: &str) -> BTreeMap<String, String> {
+    let inside = path.strip_prefix(FOLDER).unwrap_or_default();
+    let folder = inside.split('/').next().unwrap_or_default();
+    let is_near = |entry: &&Entry| entry.name.split('/').next() == Some(folder);
+    let near = entries().filter(is_near);
+    near.flat_map(|entry| {
+        let files = entry.files.iter();
+        files.map(|(file, text)| (format!("{FOLDER}{}/{file}", entry.name), (*text).to_owned()))
+    })
+    .collect()
 }
 
 /// The text of a file of the gallery.
 pub(crate) fn text(folder: &str, file: &str) -> Option<&'static str> {
-    let entry = chetaev_gallery::entries().find(|entry| entry.name == folder)?;
+    let entry = entries().find(|entry| entry.name == folder)?;
     let found = entry.files.iter().find(|(name, _)| *name == file)?;
     Some(found.1)
 }

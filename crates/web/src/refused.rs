@@ -1,0 +1,54 @@
+//! Why a question has no answer.
+
+use chetaev::mechanics::characteristics::CharacteristicsError;
+use chetaev::mechanics::SystemError;
+use chetaev::study::written::NotWritten;
+use wasm_bindgen::JsValue;
+
+/// Why a question has no answer, in words for the page.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Refused {
+    /// The text states no model.
+    #[error("{0}")]
+    Model(chetaev::model::Diagnostics),
+    /// The functional has errors, which the check tells.
+    #[error("the model has errors")]
+    Functional,
+    /// The system cannot be set up.
+    #[error(transparent)]
+    System(#[from] SystemError),
+    /// No admissible state.
+    #[error(transparent)]
+    Characteristics(#[from] CharacteristicsError),
+    /// There are no such equations.
+    #[error(transparent)]
+    Written(#[from] NotWritten),
+    /// Orders of derivatives without conditions on the boundary.
+    #[error(transparent)]
+    Variation(#[from] chetaev::functionals::variation::VariationError),
+    /// A form or a notation that there is not.
+    #[error("there is no {0}")]
+    Absent(&'static str),
+    /// Code of a functional.
+    #[error("code is made of equations of motion; a functional has field equations")]
+    NoCode,
+    /// What is asked cannot be read.
+    #[error(transparent)]
+    Question(#[from] serde_json::Error),
+    /// A claim that there is not.
+    #[error("`{0}` is neither a group nor a claim")]
+    Claim(String),
+    /// What the study finds wrong with the model.
+    #[error("{}", .0.join("\n"))]
+    Study(Vec<String>),
+    /// The work was stopped.
+    #[error("it was stopped")]
+    Stopped,
+}
+
+impl From<Refused> for JsValue {
+    fn from(refused: Refused) -> JsValue {
+        JsValue::from_str(&refused.to_string())
+    }
+}
