@@ -43,6 +43,6 @@ export async function unpack(fragment: string): Promise<string | null> {
 
 /** The model of the gallery that a fragment names. */
 export function galleryName(fragment: string): string | null {
-  const found = /^#gallery=([\w/-]{1,80})$/.exec(decodeURIComponent(fragment));
+  const found = /^#gallery=([\w/-]{1,80})$/.exec(fragment.replaceAll("%2F", "/"));
   return found ? found[1] : null;
 }
