@@ -247,7 +247,7 @@ const tests = [
 
   ["a phone", async (sheet) => {
     await sheet.open();
-    await sheet.mark("equations");
+    await sheet.mark("claims");
     await sheet.page.click("#show-report");
     await sheet.page.waitForTimeout(300);
     const wide = () => document.documentElement.scrollWidth - innerWidth;

@@ -143,7 +143,6 @@ class Plot {
       const button = make("button", {
         type: "button",
         "aria-pressed": curve.visible,
-        "aria-label": fill(words.showSeries, plainName(curve.label)),
         title: curve.description ?? fill(words.showSeries, plainName(curve.label)),
       }, this.legend);
       const swatch = draw("svg", { class: "swatch", viewBox: "0 0 26 6", "aria-hidden": "true" }, button);
