@@ -471,6 +471,7 @@ class System:
         self,
         *,
         about: str | None = None,
+        at: str | None = None,
         speeds: str | Iterable[str] | None = None,
         outputs: str | Iterable[str] | None = None,
         symbolic: bool = False,
@@ -482,7 +483,9 @@ class System:
         Parameters
         ----------
         about : str, optional
-            A motion of ``steady``, ``rest`` (at the initial positions) or ``start`` (the initial state).
+            A motion of ``steady``, the number of one that ``chetaev steady`` finds, ``rest`` (at the initial positions) or ``start`` (the initial state).
+        at : str, optional
+            Values of controls without a law and of parameters of a family, ``"u=1/2,theta_0=0.3"``.
         speeds : str or list of str, optional
             Independent speeds of choice: velocities, or functions linear in them.
         outputs : str or list of str, optional
@@ -492,7 +495,7 @@ class System:
         save : path, optional
             Writes a file in the format of its end: .npz, .mat, .py (python-control), .tex, .json or .txt.
         """
-        wanted = _wanted(about=about, speeds=speeds, outputs=outputs, symbolic=symbolic)
+        wanted = _wanted(about=about, at=at, speeds=speeds, outputs=outputs, symbolic=symbolic)
         with _Progress(progress) as tell:
             found = self._native.stability(wanted, tell)
         result = Linearization(self, found, found.equations())
@@ -500,7 +503,9 @@ class System:
             result.save(save)
         return result
 
-    def stability(self, *, about: str | None = None, over: str | None = None, progress: bool = False) -> Stability:
+    def stability(
+        self, *, about: str | None = None, over: str | None = None, at: str | None = None, progress: bool = False
+    ) -> Stability:
         """Decides the stability of a steady motion, also over a range of a parameter.
 
         Parameters
@@ -509,9 +514,11 @@ class System:
             As in :meth:`linearize`.
         over : str, optional
             A parameter with a range, ``"v=0:10"``.
+        at : str, optional
+            As in :meth:`linearize`.
         """
         with _Progress(progress) as tell:
-            found = self._native.stability(_wanted(about=about, over=over), tell)
+            found = self._native.stability(_wanted(about=about, over=over, at=at), tell)
         return Stability(self, found, found.ranges())
 
     def compile(self, **values: float) -> Compiled:
@@ -555,7 +562,7 @@ def _asked(**options: Any) -> dict[str, Any]:
 
 def _wanted(**options: Any) -> dict[str, Any]:
     """What is asked of linear equations, lists joined by commas."""
-    asked = {"about": None, "speeds": None, "outputs": None, "symbolic": False, "over": None, **options}
+    asked = {"about": None, "speeds": None, "outputs": None, "symbolic": False, "over": None, "at": None, **options}
     for name in ("speeds", "outputs"):
         if asked[name] is not None and not isinstance(asked[name], str):
             asked[name] = ",".join(asked[name])

@@ -34,6 +34,8 @@ pub(crate) enum Command {
     Plot(Plot),
     /// Draw the motion as a film: GIF
     Film(Film),
+    /// Find all steady motions: equilibria, and motions along which everything that matters is constant
+    Steady(Steady),
     /// Linearize about a steady motion: exact matrices, characteristic polynomial, eigenvalues
     Linearize(Linearize),
     /// Decide the stability of a steady motion, also over a range of a parameter, with enclosed boundaries
@@ -139,9 +141,12 @@ pub(crate) struct MotionArguments {
 pub(crate) struct Linearize {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
-    /// A motion of [steady.NAME], rest (at the initial positions), or start (the initial state)
+    /// A motion of [steady.NAME], the number of one that `chetaev steady` finds, rest (at the initial positions), or start (the initial state)
     #[arg(long, value_name = "NAME")]
     pub(crate) about: Option<String>,
+    /// Values of controls without a law and of parameters of a family: --at u=1/2,theta_0=0.3
+    #[arg(long, value_name = "NAME=VALUE,...")]
+    pub(crate) at: Option<String>,
     /// Independent speeds of choice: velocities, or functions linear in them
     #[arg(long, value_name = "SPEED,...")]
     pub(crate) speeds: Option<String>,
@@ -161,16 +166,35 @@ pub(crate) struct Linearize {
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
+  chetaev steady gallery/double-pendulum/model.toml
+  chetaev steady gallery/falling-rolling-disc/model.toml --symbolic
+  chetaev stability gallery/double-pendulum/model.toml --about 2")]
+pub(crate) struct Steady {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// Leave all parameters as symbols, in general position
+    #[arg(long)]
+    pub(crate) symbolic: bool,
+    /// Print JSON: values as exact text with their enclosures, families with their equations
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
   chetaev stability gallery/whipple-bicycle/model.toml --over v=0:10
   chetaev stability gallery/chaplygin-sleigh/model.toml --over u=-2:2
   chetaev stability model.toml --about upright --json")]
 pub(crate) struct Stability {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
-    /// A motion of [steady.NAME], rest (at the initial positions), or start (the initial state)
+    /// A motion of [steady.NAME], the number of one that `chetaev steady` finds, rest (at the initial positions), or start (the initial state)
     #[arg(long, value_name = "NAME")]
     pub(crate) about: Option<String>,
-    /// A parameter with a range, exact numbers: --over v=0:10
+    /// Values of controls without a law and of parameters of a family: --at u=1/2,theta_0=0.3
+    #[arg(long, value_name = "NAME=VALUE,...")]
+    pub(crate) at: Option<String>,
+    /// A parameter of the model, or of a family, with a range, exact numbers: --over v=0:10
     #[arg(long, value_name = "NAME=FROM:TO", allow_hyphen_values = true)]
     pub(crate) over: Option<String>,
     /// Print JSON: regions, and critical values with their enclosures

@@ -34,6 +34,7 @@ fn main() -> ExitCode {
         Command::Simulate(a) => commands::simulate::run(&a),
         Command::Plot(a) => commands::plot::run(&a),
         Command::Film(a) => commands::plot::film(&a),
+        Command::Steady(a) => commands::stability::find(&a),
         Command::Linearize(a) => commands::stability::linearize(&a),
         Command::Stability(a) => commands::stability::run(&a),
         Command::Sweep(a) => commands::sweep::run(&a),

@@ -57,6 +57,7 @@ struct Linearized {
     outputs: Option<String>,
     symbolic: bool,
     over: Option<String>,
+    at: Option<String>,
 }
 
 impl Model {
@@ -449,6 +450,7 @@ impl Model {
                         outputs: wanted.outputs.as_deref(),
                         symbolic: wanted.symbolic,
                         over: wanted.over.as_deref(),
+                        at: wanted.at.as_deref(),
                     },
                 )
                 .map_err(Box::new)

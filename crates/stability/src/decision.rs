@@ -123,6 +123,11 @@ pub(crate) trait Statement {
         None
     }
 
+    /// Whether it is proved for all values of the parameter in an enclosure of such a value.
+    fn holds_throughout(&self, _: &About<'_>, _: &Root) -> bool {
+        false
+    }
+
     /// What contradicts it, at a value of the parameter.
     fn counterexample(&self, about: &About<'_>, place: Place, at: Option<&RBig>) -> Counterexample;
 }
@@ -336,6 +341,10 @@ impl Pieces {
             let root = &border.root;
             if root.low == root.high && !exists(about, &values_at(system, symbol, &root.low)) {
                 (border.holds, border.is_absent) = (Some(true), true);
+                continue;
+            }
+            if statement.holds_throughout(about, root) {
+                border.holds = Some(true);
                 continue;
             }
             let holds = |piece: &Piece| {

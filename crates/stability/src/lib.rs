@@ -13,8 +13,10 @@
 //! 5. *Are they left of the axis?* [`hurwitz`]: Hurwitz's determinants over a range of one parameter, with boundaries enclosed by
 //!    [`real_roots`]; [`question`] puts it together.
 //! 6. *Is the motion itself stable?* [`integrals`] up to the second order, and [`bundle`]: their combinations as Lyapunov functions.
-//! 7. *What is stated?* [`claims`], each for all values of the parameter of the motion.
+//! 7. *Which motions are steady?* [`steady_set`]: all of them, where their equations are polynomials in the unknowns, their sines and roots.
+//! 8. *What is stated?* [`claims`], each for all values of the parameter of the motion.
 
+mod branch;
 pub mod bundle;
 pub mod characteristic;
 pub mod claims;
@@ -32,7 +34,9 @@ pub mod parts;
 pub mod problem;
 pub mod question;
 pub mod real_roots;
+mod real_zeros;
 pub mod reduction;
 pub mod spectrum;
 pub mod state_space;
 pub mod steady;
+pub mod steady_set;

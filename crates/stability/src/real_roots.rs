@@ -83,6 +83,14 @@ pub fn sign_at(g: &Graph, e: Expr, symbol: Symbol, at: &RBig) -> Option<Ordering
     sign_of(g, g.substitute(e, &[value]))
 }
 
+/// The sign of `e` for all values of `symbol` in an enclosure; `None` where it is not one.
+pub fn sign_over(g: &Graph, e: Expr, symbol: Symbol, root: &Root) -> Option<Ordering> {
+    let over = ball(&root.low, &root.high);
+    let value = |s: Symbol| (s == symbol).then(|| over.clone());
+    let found = g.enclose(&[e], &Precision::new(BITS), &value).ok()?.pop()?;
+    found.sign()
+}
+
 /// The sign of a number; `None` where it is not decided, or where a symbol occurs.
 pub fn sign_of(g: &Graph, e: Expr) -> Option<Ordering> {
     let e = closed(g, e);

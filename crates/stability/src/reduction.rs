@@ -232,9 +232,16 @@ const SOMEWHERE: f64 = 0.377;
 /// A slope beyond this is taken for a pole that rounding hides.
 const LARGEST_SLOPE: f64 = 1e12;
 
-/// The expressions with zero for a symbol on which they are proved not to depend.
+/// The expressions with a number for a symbol on which they are proved not to depend: zero, or one where they have no form at zero, as the
+/// velocities of Euler's angles.
 pub(crate) fn without(g: &Graph, es: &[Expr], symbol: Expr) -> Option<Vec<Expr>> {
-    let at_zero = g.substitute_all(es, &[(symbol, g.zero())]);
+    [0, 1]
+        .into_iter()
+        .find_map(|value| with_number(g, es, symbol, g.integer(value)))
+}
+
+fn with_number(g: &Graph, es: &[Expr], symbol: Expr, number: Expr) -> Option<Vec<Expr>> {
+    let at_zero = g.substitute_all(es, &[(symbol, number)]);
     let pairs = es.iter().zip(&at_zero);
     let differences: Vec<Expr> = pairs.map(|(&a, &b)| g.sub(a, b)).collect();
     let none = Assumptions::new();

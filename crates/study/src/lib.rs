@@ -7,7 +7,7 @@
 //! - [`study`](mod@study): the loop over the claims of [`registry`](mod@registry), with its budget; [`options`], [`error`];
 //! - the run: [`motion_evidence`] (what a run tells), [`motion_claims`], [`method_order`], [`jumps`], [`witness`] (integrals of the
 //!   principles over the motion), [`beside`] (the constrained extremum beside the motion);
-//! - [`sweep`]: a model as an ensemble; [`stability`](mod@stability): linear equations about a steady motion; [`functional`]: summary, record
+//! - [`sweep`]: a model as an ensemble; [`steady`](mod@steady): all steady motions; [`stability`](mod@stability): linear equations about one; [`functional`]: summary, record
 //!   and page of a functional of fields over space;
 //! - for people: [`derivation`], [`written`] (equations in every notation), [`explanation`],
 //!   [`overview`], [`story`], [`summary`], [`page`], [`picture`], [`typeset`]; for programs: [`record`] with the model lowered ([`flat`]) and
@@ -40,6 +40,7 @@ pub mod stability;
 mod start;
 pub mod state_space;
 pub mod stated_equations;
+pub mod steady;
 pub mod story;
 pub mod study;
 pub mod summary;

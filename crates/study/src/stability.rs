@@ -21,6 +21,7 @@ use chetaev_stability::parts::Parts;
 use chetaev_stability::question::{parameter_of_motion, values_but, Question};
 use chetaev_stability::reduction::Speeds;
 use chetaev_stability::state_space::{StateSpace, StateSpaceError};
+use chetaev_stability::steady_set::{steady_set, SteadySet, SteadySetError};
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 
 /// Eigenvalues that differ by less, in parts of the largest, are one for the table of modes.
@@ -39,10 +40,12 @@ pub enum StabilityError {
     #[error(transparent)]
     Characteristics(#[from] CharacteristicsError),
     /// No motion was named.
-    #[error("the model names no steady motion: state one, as in\n\n[steady.upright]\n{example}\n\nor say --about rest or --about start")]
+    #[error("the model names no steady motion: state one, as in\n\n[steady.upright]\n{example}\n\nor say --about rest or --about start{found}")]
     NoMotion {
         /// Lines of an example with the coordinates of the model.
         example: String,
+        /// Those that were found, in words.
+        found: String,
     },
     /// Several motions, and none was asked for.
     #[error("which steady motion? --about {}", names.join(" or --about "))]
@@ -51,12 +54,31 @@ pub enum StabilityError {
         names: Vec<String>,
     },
     /// A name that the model does not have.
-    #[error("the model names no steady motion `{name}`; known are {}", known.join(", "))]
+    #[error("the model names no steady motion `{name}`; known are {}{found}", known.join(", "))]
     UnknownMotion {
         /// The name asked for.
         name: String,
         /// Those that exist.
         known: Vec<String>,
+        /// Those that were found, in words.
+        found: String,
+    },
+    /// The values of a motion that was found have no closed form.
+    #[error("the motion {name} is known by enclosures of its values only, and linear equations need values in closed form")]
+    NoClosedForm {
+        /// Its number.
+        name: String,
+    },
+    /// Steady motions were not found.
+    #[error(transparent)]
+    SteadySet(#[from] SteadySetError),
+    /// A value for something that has none.
+    #[error("--at {text}: {why}")]
+    At {
+        /// As it was given.
+        text: String,
+        /// What is wrong.
+        why: String,
     },
     /// A parameter that the model does not have.
     #[error("`{name}` is no parameter of the model; its parameters are {}", known.join(", "))]
@@ -101,6 +123,8 @@ pub struct Wanted<'a> {
     pub about: Option<&'a str>,
     /// `NAME=FROM:TO`.
     pub over: Option<&'a str>,
+    /// Values of controls without a law and of parameters of a family, `NAME=VALUE` separated by commas.
+    pub at: Option<&'a str>,
     /// Independent speeds, separated by commas: velocities, or functions linear in them.
     pub speeds: Option<&'a str>,
     /// Outputs, separated by commas: functions of coordinates, velocities and controls.
@@ -166,11 +190,26 @@ pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, Stabil
         Some(text) => list(model, text)?,
         None => Vec::new(),
     };
-    let range = wanted
-        .over
-        .map(|text| range(model, &system, text))
-        .transpose()?;
-    let motions = motions(model, &system, wanted.about)?;
+    let range = wanted.over.map(|text| range(model, text)).transpose()?;
+    let at = wanted.at.map(|text| at(model, text)).transpose()?;
+    let at = at.unwrap_or_default();
+    let over = range.as_ref().map(|range| range.symbol);
+    let wanted_values = if wanted.symbolic && range.is_none() {
+        Vec::new()
+    } else {
+        values_but(&system, over)
+    };
+    let found = || steady_set(&system, terms, &prepared.selection, &wanted_values);
+    let mut motions = motions(model, &system, wanted.about, &found)?;
+    if let Some(range) = &range {
+        check_parameter(&system, &motions, range)?;
+    }
+    let unknown = with_values(&mut system, &mut motions, &at);
+    if let Some(name) = unknown {
+        let text = wanted.at.unwrap_or_default().into();
+        let why = format!("`{name}` is neither a control nor a parameter of the motion; values of parameters of the model are set by --set");
+        return Err(StabilityError::At { text, why });
+    }
     let mut problem = None;
     for motion in &motions {
         let free = match &range {
@@ -178,10 +217,9 @@ pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, Stabil
             None if wanted.symbolic => None,
             None => parameter_of_motion(&system, motion),
         };
-        let values = if wanted.symbolic && range.is_none() {
-            Vec::new()
-        } else {
-            values_but(&system, free)
+        let values = match over.is_none() && wanted.symbolic {
+            true => Vec::new(),
+            false => values_but(&system, free),
         };
         match Expansion::in_speeds(&system, terms, &selection, motion, (&values, speeds)) {
             Ok(about) => {
@@ -206,8 +244,97 @@ pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, Stabil
     }
     match problem {
         Some(own) if wanted.about.is_some() || !system.steady.is_empty() => Err(own.into()),
-        _ => Err(StabilityError::NoMotion {
-            example: example(&system, " = 0", "\n"),
+        _ => {
+            let found = steady_set(&system, terms, &prepared.selection, &wanted_values);
+            Err(StabilityError::NoMotion {
+                example: example(&system, " = 0", "\n"),
+                found: found_text(&system, &found),
+            })
+        }
+    }
+}
+
+/// What was found, as the end of a sentence that says what was missed.
+fn found_text(system: &System, found: &Result<SteadySet, SteadySetError>) -> String {
+    match found {
+        Ok(set) if set.found.is_empty() => "; there is no steady motion".into(),
+        Ok(set) => format!(
+            ", or by its number one of those that were found:\n\n{}",
+            crate::steady::lines(&system.graph, set)
+        ),
+        Err(_) => String::new(),
+    }
+}
+
+/// Values that were given for names.
+fn at(model: &Model, text: &str) -> Result<Vec<(String, Expr)>, StabilityError> {
+    let wrong = |why: &str| StabilityError::At {
+        text: text.into(),
+        why: why.into(),
+    };
+    let pair = |part: &str| {
+        let (name, value) = part
+            .split_once('=')
+            .ok_or_else(|| wrong("write NAME=VALUE, as in u=1/2"))?;
+        let (value, _) = model
+            .constant("--at", value)
+            .map_err(StabilityError::Expression)?;
+        Ok((name.trim().to_owned(), value))
+    };
+    text.split(',').map(pair).collect()
+}
+
+/// Puts in values of controls and of parameters of families; the first name that is neither.
+fn with_values(
+    system: &mut System,
+    motions: &mut [SteadyMotion],
+    at: &[(String, Expr)],
+) -> Option<String> {
+    let g = system.graph.clone();
+    for (name, value) in at {
+        if let Some(control) = system.controls.iter_mut().find(|c| c.name == *name) {
+            control.law = Some(*value);
+            continue;
+        }
+        let symbol = g.symbol(name, 0);
+        let mut is_used = false;
+        for motion in motions.iter_mut() {
+            let places = motion.positions.iter_mut().chain(&mut motion.velocities);
+            for place in places.flatten() {
+                let own = g.substitute(*place, &[(symbol, *value)]);
+                is_used |= own != *place;
+                *place = own;
+            }
+        }
+        let is_parameter = system.parameters.iter().any(|p| p.name == *name);
+        if !is_used || is_parameter {
+            return Some(name.clone());
+        }
+    }
+    None
+}
+
+/// A range is one of a parameter of the model, or of a family.
+fn check_parameter(
+    system: &System,
+    motions: &[SteadyMotion],
+    range: &Range,
+) -> Result<(), StabilityError> {
+    let g = &system.graph;
+    let places = motions
+        .iter()
+        .flat_map(|motion| motion.positions.iter().chain(&motion.velocities));
+    let places: Vec<Expr> = places.flatten().copied().collect();
+    let names = system.parameters.iter().map(|p| p.name.clone());
+    let mut known: Vec<String> = names.collect();
+    let of_motions = g.symbols_in(&places).into_iter();
+    known.extend(of_motions.map(|s| g.symbol_text(s)));
+    known.dedup();
+    match known.contains(&range.name) {
+        true => Ok(()),
+        false => Err(StabilityError::UnknownParameter {
+            name: range.name.clone(),
+            known,
         }),
     }
 }
@@ -268,6 +395,7 @@ fn motions(
     model: &Model,
     system: &System,
     about: Option<&str>,
+    found: &dyn Fn() -> Result<SteadySet, SteadySetError>,
 ) -> Result<Vec<SteadyMotion>, StabilityError> {
     let names: Vec<String> = system.steady.iter().map(|s| s.name.clone()).collect();
     let of_start = |order: u32| -> Vec<Option<Expr>> {
@@ -299,32 +427,38 @@ fn motions(
             "rest",
             of_start(0),
         )]),
-        (Some(name), _) => Err(StabilityError::UnknownMotion {
-            name: name.into(),
-            known: names
-                .into_iter()
-                .chain(["rest".into(), "start".into()])
-                .collect(),
-        }),
+        (Some(name), _) => {
+            let found = found();
+            let own = found.as_ref().ok().and_then(|set| {
+                let mut all = set.found.iter();
+                all.find(|own| own.name == name)
+            });
+            match own.map(|own| own.motion.clone()) {
+                Some(Some(motion)) => Ok(vec![motion]),
+                Some(None) => Err(StabilityError::NoClosedForm { name: name.into() }),
+                None => Err(StabilityError::UnknownMotion {
+                    name: name.into(),
+                    known: names
+                        .into_iter()
+                        .chain(["rest".into(), "start".into()])
+                        .collect(),
+                    found: found_text(system, &found),
+                }),
+            }
+        }
         (None, [only]) => Ok(vec![only.clone()]),
         (None, _) => Err(StabilityError::SeveralMotions { names }),
     }
 }
 
-fn range(model: &Model, system: &System, text: &str) -> Result<Range, StabilityError> {
+fn range(model: &Model, text: &str) -> Result<Range, StabilityError> {
     let wrong = || StabilityError::Range { text: text.into() };
     let (name, ends) = text.split_once('=').ok_or_else(wrong)?;
     let (low, high) = ends.split_once(':').ok_or_else(wrong)?;
     let name = name.trim();
-    if !system.parameters.iter().any(|p| p.name == name) {
-        return Err(StabilityError::UnknownParameter {
-            name: name.into(),
-            known: system.parameters.iter().map(|p| p.name.clone()).collect(),
-        });
-    }
     let number = |text: &str| -> Option<Rational> {
         let (value, _) = model.constant("--over", text).ok()?;
-        system.graph.as_number(value).cloned()
+        model.graph.as_number(value).cloned()
     };
     let (low, high) = (
         number(low).ok_or_else(wrong)?,
@@ -332,7 +466,7 @@ fn range(model: &Model, system: &System, text: &str) -> Result<Range, StabilityE
     );
     if low < high {
         Ok(Range {
-            symbol: system.graph.intern_symbol(name, 0),
+            symbol: model.graph.intern_symbol(name, 0),
             name: name.into(),
             low,
             high,

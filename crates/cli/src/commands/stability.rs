@@ -1,18 +1,20 @@
-//! `chetaev linearize` and `chetaev stability`.
+//! `chetaev steady`, `chetaev linearize` and `chetaev stability`.
 #![allow(
     clippy::result_large_err,
     reason = "an error is made once, and told at once"
 )]
 
 use super::{error, with_progress};
-use crate::arguments::{Linearize, Stability as Arguments};
+use crate::arguments::{Linearize, Stability as Arguments, Steady};
 use crate::{files, terminal, DONE, INPUT};
 use chetaev::study::stability::{stability, Stability, StabilityError, Wanted};
+use chetaev::study::steady::steady;
 use std::path::Path;
 
 pub(crate) fn linearize(arguments: &Linearize) -> u8 {
     let wanted = Wanted {
         about: arguments.about.as_deref(),
+        at: arguments.at.as_deref(),
         speeds: arguments.speeds.as_deref(),
         outputs: arguments.outputs.as_deref(),
         symbolic: arguments.symbolic,
@@ -48,6 +50,7 @@ fn saved(found: &Stability, path: &Path) -> std::io::Result<String> {
 pub(crate) fn run(arguments: &Arguments) -> u8 {
     let wanted = Wanted {
         about: arguments.about.as_deref(),
+        at: arguments.at.as_deref(),
         over: arguments.over.as_deref(),
         ..Wanted::default()
     };
@@ -61,8 +64,40 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
 }
 
 fn json(found: &Stability) -> String {
-    let text = serde_json::to_string_pretty(&found.json()).unwrap_or_default();
+    pretty(&found.json())
+}
+
+fn pretty(value: &serde_json::Value) -> String {
+    let text = serde_json::to_string_pretty(value).unwrap_or_default();
     format!("{text}\n")
+}
+
+pub(crate) fn find(arguments: &Steady) -> u8 {
+    let Some(read) = files::model(&arguments.model) else {
+        return INPUT;
+    };
+    let found = with_progress(|line| {
+        line.show("steady motions", None);
+        steady(&read.model, arguments.symbolic)
+    });
+    match found {
+        Ok(found) => {
+            terminal::out(&if arguments.json {
+                pretty(&found.json())
+            } else {
+                found.text()
+            });
+            DONE
+        }
+        Err(StabilityError::System(problem)) => {
+            read.refuse(problem);
+            INPUT
+        }
+        Err(problem) => {
+            error(problem);
+            INPUT
+        }
+    }
 }
 
 fn answer(

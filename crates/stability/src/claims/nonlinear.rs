@@ -3,6 +3,7 @@
 use crate::decision::{About, Said, Statement};
 use crate::evidence::unstable;
 use crate::question::Place;
+use crate::real_roots::{sign_over, Root};
 use chetaev_symbolic::verdict::Counterexample;
 use chetaev_symbolic::Expr;
 use dashu_ratio::RBig;
@@ -57,6 +58,15 @@ impl Statement for Nonlinear {
                 .flat_map(|own| own.functions().collect::<Vec<_>>())
                 .collect(),
         }
+    }
+
+    fn holds_throughout(&self, about: &About<'_>, root: &Root) -> bool {
+        let Some(symbol) = about.question.over else {
+            return false;
+        };
+        // The value is a zero of some function of some combination, perhaps of none that is needed.
+        let sign = |e: Expr| sign_over(about.graph(), e, symbol, root);
+        about.bundles().iter().any(|own| own.is_definite(&sign))
     }
 
     fn counterexample(&self, about: &About<'_>, _: Place, at: Option<&RBig>) -> Counterexample {

@@ -3,4 +3,5 @@
 
 mod common;
 mod reference;
+mod steady_set;
 mod verdicts;

@@ -18,6 +18,7 @@ mod monomial;
 pub mod normal_form;
 mod rational_function;
 mod sparse;
+mod triangular;
 mod univariate;
 mod zippel;
 
@@ -26,6 +27,7 @@ pub use factor::Factorization;
 pub use monomial::Monomial;
 pub use rational_function::RationalFunction;
 pub use sparse::Polynomial;
+pub use triangular::{triangular_systems, TriangularSystem};
 
 #[cfg(test)]
 mod tests;

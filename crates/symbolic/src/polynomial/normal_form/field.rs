@@ -207,6 +207,18 @@ impl<'g> Field<'g> {
         (relation.order == 2).then_some(&relation.value)
     }
 
+    /// The polynomials that vanish by the relations, each with the generator that it determines by those created before.
+    ///
+    /// # Errors
+    /// [`TooLarge`] when they exceed the budget.
+    pub fn relations(&self) -> Result<Vec<(usize, Polynomial)>, TooLarge> {
+        let relation = |r: &Relation| {
+            let power = Polynomial::generator(r.generator).pow(u32::from(r.order), &self.meter)?;
+            Ok((r.generator, power.sub(&r.value)))
+        };
+        self.relations.iter().map(relation).collect()
+    }
+
     /// The argument of a generator that is a function of one argument.
     pub fn argument_of(&self, generator: usize) -> Option<Expr> {
         match self.g.node(self.generators.get(generator)?.expr) {

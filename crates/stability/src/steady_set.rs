@@ -1,0 +1,595 @@
+//! All steady motions of a system: the common zeros of what changes the variables of its smallest closed system.
+//!
+//! Sines and cosines of coordinates, and roots, are unknowns of their own with the relations that they satisfy, so that the equations are
+//! polynomials; their zeros are a union of triangular systems, in which each equation determines one unknown by those before it. Where no unknown
+//! is free the motions are isolated, and every real one is enclosed; else they are a family with the free unknowns as parameters.
+
+use crate::branch::{Branch, Chain};
+use crate::problem::LinearizationError;
+use crate::reduction::{ClosedSystem, Speeds};
+use crate::steady::{at_point, closed};
+use chetaev_mechanics::constraint::ConstraintKind;
+use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
+use chetaev_symbolic::matrix::determinant;
+use chetaev_symbolic::number::ball::{Ball, Precision};
+use chetaev_symbolic::polynomial::normal_form::{
+    normal_forms, Field, Kind, NormalFormError, Options,
+};
+use chetaev_symbolic::polynomial::{triangular_systems, Budget, Polynomial, TooLarge};
+use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol};
+
+/// Bits of the enclosures.
+pub(crate) const BITS: usize = 256;
+
+/// A number for all symbols, to see whether a function has values.
+const SOMEWHERE: f64 = 0.377;
+
+/// More minors of the gradients of the constraints are not looked at.
+const MINORS: usize = 200;
+
+/// Why the steady motions were not all found.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SteadySetError {
+    /// There is no closed system.
+    #[error(transparent)]
+    System(#[from] LinearizationError),
+    /// Something that is neither polynomial nor a sine, cosine or root of an unknown.
+    #[error("the equations of steady motion are not polynomial in the unknowns and their sines and cosines: they contain {what}; a motion of which positions and velocities are known can be stated as [steady.NAME]")]
+    NotPolynomial {
+        /// It.
+        what: String,
+    },
+    /// The equations are too large.
+    #[error("the equations of steady motion are too large to be solved exactly: {0}; a motion of which positions and velocities are known can be stated as [steady.NAME]")]
+    Form(#[from] NormalFormError),
+    /// Their solution is.
+    #[error("the equations of steady motion are too large to be solved exactly: {0}; a motion of which positions and velocities are known can be stated as [steady.NAME]")]
+    TooLarge(#[from] TooLarge),
+    /// The real zeros of a polynomial were not told apart.
+    #[error("the real zeros of {polynomial} were not enclosed one by one")]
+    NotEnclosed {
+        /// The polynomial.
+        polynomial: String,
+    },
+}
+
+/// All steady motions.
+#[derive(Clone, Debug)]
+pub struct SteadySet {
+    /// The variables that are constant: coordinates that are not ignorable, then quasi-velocities.
+    pub variables: Vec<String>,
+    /// The quasi-velocities as functions of the velocities, by name.
+    pub speeds: Vec<(String, Expr)>,
+    /// Coordinates that run uniformly, or stand.
+    pub ignorable: Vec<String>,
+    /// The motions: isolated ones first, then families by their dimension.
+    pub found: Vec<Found>,
+    /// Functions in denominators: where one vanishes the equations are not defined, and nothing is said.
+    pub excluded: Vec<Expr>,
+    /// Whether the gradients of the constraints are proved independent everywhere; else nothing is said where they are not.
+    pub has_full_rank: bool,
+}
+
+/// An isolated steady motion, or a family of them.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// Its number, as a name.
+    pub name: String,
+    /// The variables, in the order of [`SteadySet::variables`].
+    pub values: Vec<Value>,
+    /// Parameters of the family, each with the variable whose value it is.
+    pub free: Vec<(Expr, usize)>,
+    /// What must not be negative for the motion to be real.
+    pub conditions: Vec<Expr>,
+    /// Equations between the variables that are not solved.
+    pub equations: Vec<Expr>,
+    /// The motion, where all values have a closed form.
+    pub motion: Option<SteadyMotion>,
+    /// Whether a real motion of the family is known; isolated ones are real.
+    pub is_real: bool,
+}
+
+/// The value of a variable.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// A number.
+    Number {
+        /// In closed form, where its equation is linear or quadratic.
+        exact: Option<Expr>,
+        /// Enclosed.
+        ball: Ball,
+    },
+    /// A function of the parameters of the family, and of the system.
+    Function(Expr),
+    /// Tied to others by an equation.
+    Tied,
+}
+
+impl Found {
+    /// The number of free parameters.
+    pub fn dimension(&self) -> usize {
+        self.free.len()
+    }
+}
+
+/// An unknown of the closed system.
+#[derive(Clone, Debug)]
+pub(crate) struct Unknown {
+    pub(crate) symbol: Symbol,
+    pub(crate) name: String,
+    pub(crate) is_speed: bool,
+    /// The generators by which it is determined.
+    pub(crate) by: Generators,
+}
+
+/// What stands for an unknown in the polynomials.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Generators {
+    /// Itself.
+    Own(usize),
+    /// Cosine and sine of so many times it.
+    Angle {
+        cosine: usize,
+        sine: usize,
+        /// Numerator and denominator.
+        times: (i64, i64),
+    },
+    /// None: it does not occur.
+    None,
+}
+
+/// The steady motions of a system with these values of parameters; others stay symbols in general position.
+///
+/// # Errors
+/// [`SteadySetError`] where they cannot all be found so.
+pub fn steady_set(
+    system: &System,
+    terms: &MotionTerms,
+    selection: &Selection,
+    values: &[(Expr, Expr)],
+) -> Result<SteadySet, SteadySetError> {
+    let g = &system.graph;
+    let equations = Equations::new(system, terms, selection, values)?;
+    let symbols: Vec<Symbol> = equations.unknowns.iter().map(|(s, _)| *s).collect();
+    let mut options = Options::proof(Budget::PROOF);
+    options.base_angles = angles(g, &equations.vanishing, &symbols);
+    let all = [equations.vanishing.clone(), equations.slopes.clone()].concat();
+    let (field, forms) = normal_forms(g, &all, &options)?;
+    let vanishing = forms.iter().take(equations.vanishing.len());
+    let numerators: Vec<Polynomial> = vanishing.map(|f| f.numerator().clone()).collect();
+    let count = numerators.len();
+    let denominators: Vec<Polynomial> = forms.iter().map(|f| f.denominator().clone()).collect();
+    let mut polynomials = [numerators, denominators.clone()].concat();
+    let relations = needed(&field, &mut polynomials)?;
+    let unknowns = unknowns(&field, &equations, &polynomials)?;
+    let order = order(&field, &unknowns, &polynomials);
+    let meter = field.meter();
+    let vanishing = &polynomials[..count];
+    let vanishing: Vec<Polynomial> = vanishing.iter().chain(&relations).cloned().collect();
+    let chains = triangular_systems(&vanishing, &denominators, &order, meter)?;
+    let mut found = Vec::new();
+    for system_of_chain in &chains {
+        let chain = Chain {
+            system,
+            field: &field,
+            unknowns: &unknowns,
+            order: &order,
+            relations: &relations,
+            equations: system_of_chain,
+        };
+        for branch in chain.branches()? {
+            found.push(found_of(&chain, &equations, branch));
+        }
+    }
+    sort(&mut found);
+    Ok(SteadySet {
+        variables: unknowns.iter().map(|u| u.name.clone()).collect(),
+        speeds: equations.speeds(),
+        ignorable: equations.ignorable(),
+        found,
+        excluded: excluded(&field, &denominators, &symbols)?,
+        has_full_rank: equations.has_full_rank(terms, selection),
+    })
+}
+
+/// What vanishes along a steady motion.
+struct Equations<'a> {
+    system: &'a System,
+    own: ClosedSystem,
+    values: Vec<(Expr, Expr)>,
+    /// Rates of coordinates, forces, finite and implicit constraints.
+    vanishing: Vec<Expr>,
+    /// The slopes of the velocities by the quasi-velocities: where one has no value these do not serve.
+    slopes: Vec<Expr>,
+    /// The unknowns with their names, those that are coordinates first.
+    unknowns: Vec<(Symbol, String)>,
+}
+
+impl<'a> Equations<'a> {
+    fn new(
+        system: &'a System,
+        terms: &MotionTerms,
+        selection: &Selection,
+        values: &[(Expr, Expr)],
+    ) -> Result<Equations<'a>, SteadySetError> {
+        let g = &system.graph;
+        let numbers = system.parameter_values().into_iter();
+        let numbers = numbers.filter_map(|(symbol, value)| {
+            let number = g.evaluate_f64(&[value], &|_| None).ok()?[0];
+            Some((g.as_symbol(symbol)?, number))
+        });
+        let numbers: Vec<(Symbol, f64)> = numbers.collect();
+        let own = ClosedSystem::about(system, terms, selection, (Speeds::Suitable, &numbers))?;
+        let ignorable: Vec<Symbol> = own
+            .ignorable(system)
+            .into_iter()
+            .map(|j| system.coordinates[j].q_symbol)
+            .collect();
+        let rows = selection.rows.iter();
+        let constraints = rows.map(|&row| &system.constraints[terms.constraint_index[row]]);
+        let finite = constraints.filter(|c| c.kind == ConstraintKind::Holonomic);
+        let finite = finite.map(|c| c.stated);
+        let implicit = own.characteristics.manifold.implicit.iter();
+        let mut vanishing = [own.rates.clone(), own.equations.force.clone()].concat();
+        vanishing.extend(finite.filter(|&e| !g.contains_any(e, &ignorable)));
+        vanishing.extend(implicit.clone().map(|(e, _)| *e));
+        let controls = controls(system, &vanishing);
+        let vanishing = at_point(g, &vanishing, &[&controls, values]);
+        let slopes: Vec<Expr> = own.characteristics.basis.concat();
+        let slopes = at_point(g, &slopes, &[&controls, values]);
+        if g.any_contains_any(&vanishing, &[g.intern_symbol("t", 0)]) {
+            return Err(LinearizationError::NotAutonomous.into());
+        }
+        let coordinates = own.coordinates.iter().map(|&j| &system.coordinates[j]);
+        let mut unknowns: Vec<(Symbol, String)> =
+            coordinates.map(|c| (c.q_symbol, c.name.clone())).collect();
+        let speeds = own.characteristics.parameters.iter();
+        unknowns.extend(speeds.map(|p| (p.symbol, p.name.clone())));
+        unknowns.extend(implicit.map(|(_, s)| (*s, g.symbol_text(*s))));
+        Ok(Equations {
+            system,
+            values: values.to_vec(),
+            vanishing,
+            slopes: moving(g, slopes),
+            unknowns,
+            own,
+        })
+    }
+
+    /// Whether the sum of the squares of all minors of the gradients of the constraints is a number that is not zero.
+    fn has_full_rank(&self, terms: &MotionTerms, selection: &Selection) -> bool {
+        let (g, n) = (&self.system.graph, self.system.n());
+        let rows = selection.rows.iter();
+        let rows: Vec<Vec<Expr>> = rows.map(|&row| terms.jacobian[row].clone()).collect();
+        let choices = choices(n, rows.len());
+        if choices.len() > MINORS {
+            return false;
+        }
+        let square = |columns: &Vec<usize>| {
+            let of_row = |row: &Vec<Expr>| columns.iter().map(|&j| row[j]).collect();
+            let minor: Vec<Vec<Expr>> = rows.iter().map(of_row).collect();
+            g.powi(determinant(g, &minor), 2)
+        };
+        let squares: Vec<Expr> = choices.iter().map(square).collect();
+        let sum = at_point(g, &[g.add(&squares)], &[&self.values]);
+        rows.is_empty()
+            || sum
+                .iter()
+                .all(|&e| g.as_number(e).is_some() && !g.is_zero(e))
+    }
+
+    fn speeds(&self) -> Vec<(String, Expr)> {
+        let speeds = self.own.characteristics.parameters.iter();
+        speeds.map(|p| (p.name.clone(), p.definition)).collect()
+    }
+
+    fn ignorable(&self) -> Vec<String> {
+        let all = self.own.ignorable(self.system).into_iter();
+        all.map(|j| self.system.coordinates[j].name.clone())
+            .collect()
+    }
+
+    /// The motion with these values of the unknowns. An ignorable coordinate on which velocities depend is put
+    /// where they are finite.
+    fn motion(&self, name: &str, values: &[Expr]) -> SteadyMotion {
+        let (system, g) = (self.system, &self.system.graph);
+        let pairs: Vec<(Expr, Expr)> = self
+            .unknowns
+            .iter()
+            .zip(values)
+            .map(|((symbol, _), &value)| (g.symbol_expr(*symbol), value))
+            .collect();
+        let ignorable = self.own.ignorable(system);
+        let directed = |j: &usize| {
+            let own = [system.coordinates[*j].q_symbol];
+            g.any_contains_any(&self.own.characteristics.velocities, &own)
+        };
+        let directed: Vec<usize> = ignorable.into_iter().filter(directed).collect();
+        let velocities = &self.own.characteristics.velocities;
+        let controls = controls(system, velocities);
+        let half = g.mul(&[fraction(g, (1, 2)), g.pi()]);
+        let at = |place: Expr| {
+            let origin = directed.iter().map(|&j| (system.coordinates[j].q, place));
+            let origin: Vec<(Expr, Expr)> = origin.collect();
+            at_point(g, velocities, &[&controls, &self.values, &pairs, &origin])
+        };
+        let is_finite = |es: &[Expr]| {
+            let found = g.evaluate_f64(es, &|_| Some(SOMEWHERE));
+            found.is_ok_and(|found| found.iter().all(|x| x.is_finite()))
+        };
+        // Euler's angles have no velocities at zero.
+        let places = [g.zero(), half, g.one()].into_iter();
+        let mut places = places.map(|place| (place, at(place)));
+        let (place, velocities) = places
+            .find(|(_, velocities)| is_finite(velocities))
+            .unwrap_or_else(|| (g.zero(), at(g.zero())));
+        let position = |j: usize| {
+            let own = self.own.coordinates.iter().position(|&own| own == j);
+            let origin = directed.contains(&j).then_some(place);
+            own.map(|at| values[at]).or(origin)
+        };
+        SteadyMotion {
+            name: name.into(),
+            positions: (0..system.n()).map(position).collect(),
+            velocities: velocities.into_iter().map(Some).collect(),
+        }
+    }
+}
+
+/// Controls by their laws, and zero where a model states none.
+fn controls(system: &System, es: &[Expr]) -> Vec<(Expr, Expr)> {
+    let g = &system.graph;
+    let of = |symbol: Symbol| {
+        let name = g.symbol_name(symbol);
+        let control = system.controls.iter().find(|c| c.name == name)?;
+        let law = control.law.unwrap_or_else(|| g.zero());
+        let rate = |e: Expr| g.total_derivative(e, &|_| false);
+        let value = (0..g.symbol_order(symbol)).fold(law, |e, _| rate(e));
+        Some((g.symbol_expr(symbol), value))
+    };
+    g.symbols_in(es).into_iter().filter_map(of).collect()
+}
+
+/// The choices of so many of the first n numbers.
+fn choices(n: usize, count: usize) -> Vec<Vec<usize>> {
+    if count == 0 {
+        return vec![Vec::new()];
+    }
+    let mut all = Vec::new();
+    for last in count..=n {
+        for mut own in choices(last - 1, count - 1) {
+            own.push(last - 1);
+            all.push(own);
+            if all.len() > MINORS {
+                return all;
+            }
+        }
+    }
+    all
+}
+
+/// The expressions that are no numbers.
+fn moving(g: &Graph, es: Vec<Expr>) -> Vec<Expr> {
+    es.into_iter()
+        .filter(|&e| g.as_number(e).is_none())
+        .collect()
+}
+
+/// The symbols that stand inside of functions: their sines and cosines are unknowns.
+fn angles(g: &Graph, es: &[Expr], symbols: &[Symbol]) -> Vec<Expr> {
+    let functions: Vec<Expr> = g
+        .reachable(es)
+        .into_iter()
+        .filter(|&e| matches!(g.node(e), Node::Apply { .. }))
+        .collect();
+    let occurring = symbols
+        .iter()
+        .filter(|&&s| g.any_contains_any(&functions, &[s]));
+    occurring.map(|&s| g.symbol_expr(s)).collect()
+}
+
+/// The relations of all generators that occur, and of those that occur in these relations; a sine always brings its cosine.
+fn needed(field: &Field<'_>, polynomials: &mut [Polynomial]) -> Result<Vec<Polynomial>, TooLarge> {
+    let all = field.relations()?;
+    let mut kept: Vec<Polynomial> = Vec::new();
+    loop {
+        let occurs = |generator: usize| {
+            let mut own = polynomials.iter().chain(&kept);
+            own.any(|p| p.degree_in(generator) > 0)
+        };
+        let partner = |generator: usize| match field.generators()[generator].kind {
+            Kind::Sine { partner } => occurs(partner),
+            _ => false,
+        };
+        let next = all.iter().find(|(generator, p)| {
+            !kept.contains(p) && (occurs(*generator) || partner(*generator))
+        });
+        match next {
+            Some((_, p)) => kept.push(p.clone()),
+            None => return Ok(kept),
+        }
+    }
+}
+
+/// The unknowns with the generators that stand for them.
+fn unknowns(
+    field: &Field<'_>,
+    equations: &Equations<'_>,
+    polynomials: &[Polynomial],
+) -> Result<Vec<Unknown>, SteadySetError> {
+    let g = field.graph();
+    let own: Vec<Symbol> = equations.unknowns.iter().map(|(s, _)| *s).collect();
+    let occurs = |generator: usize| polynomials.iter().any(|p| p.degree_in(generator) > 0);
+    let mut found: Vec<Unknown> = Vec::new();
+    for (at, (symbol, name)) in equations.unknowns.iter().enumerate() {
+        let plain = field.generator_of(g.symbol_expr(*symbol));
+        let mut by = plain
+            .filter(|&generator| occurs(generator))
+            .map_or(Generators::None, Generators::Own);
+        for pair in field.pythagoras().iter().filter(|pair| pair.circular) {
+            if !occurs(pair.sine) && !occurs(pair.cosine) {
+                continue;
+            }
+            let argument = field.argument_of(pair.sine);
+            let Some(times) = argument.and_then(|e| multiple(g, e, *symbol)) else {
+                continue;
+            };
+            if !matches!(by, Generators::None) {
+                return Err(not_polynomial(field, pair.sine));
+            }
+            by = Generators::Angle {
+                cosine: pair.cosine,
+                sine: pair.sine,
+                times,
+            };
+        }
+        found.push(Unknown {
+            symbol: *symbol,
+            name: name.clone(),
+            is_speed: at >= equations.own.coordinates.len(),
+            by,
+        });
+    }
+    let is_known = |generator: usize| {
+        let own = &field.generators()[generator];
+        let mut all = found.iter();
+        let is_of = |u: &Unknown| match u.by {
+            Generators::Own(own) => own == generator,
+            Generators::Angle { cosine, sine, .. } => cosine == generator || sine == generator,
+            Generators::None => false,
+        };
+        let is_root = matches!(own.kind, Kind::Absolute | Kind::Radical { .. });
+        is_root || all.any(is_of)
+    };
+    let count = field.generators().len();
+    let mut odd = (0..count).filter(|&at| occurs(at) && !is_known(at));
+    let strange = odd.find(|&at| g.contains_any(field.generators()[at].expr, &own));
+    match strange {
+        Some(at) => Err(not_polynomial(field, at)),
+        None => Ok(found),
+    }
+}
+
+fn not_polynomial(field: &Field<'_>, generator: usize) -> SteadySetError {
+    SteadySetError::NotPolynomial {
+        what: field.graph().text(field.generators()[generator].expr),
+    }
+}
+
+/// The rational number by which a symbol is multiplied to give an expression.
+fn multiple(g: &Graph, e: Expr, symbol: Symbol) -> Option<(i64, i64)> {
+    let slope = g.diff(e, symbol);
+    let own = g.as_number(slope)?.clone();
+    let rest = closed(g, g.sub(e, g.mul(&[slope, g.symbol_expr(symbol)])));
+    if !g.is_zero(rest) || g.is_zero(slope) {
+        return None;
+    }
+    let (above, below) = own.into_parts();
+    Some((i64::try_from(above).ok()?, i64::try_from(below).ok()?))
+}
+
+/// The generators to be determined, those that are eliminated last first: numbers, then angles, coordinates, velocities (those of lower degree
+/// are solved for first), roots.
+fn order(field: &Field<'_>, unknowns: &[Unknown], polynomials: &[Polynomial]) -> Vec<usize> {
+    let g = field.graph();
+    let symbols: Vec<Symbol> = unknowns.iter().map(|u| u.symbol).collect();
+    let depends = |at: usize| g.contains_any(field.generators()[at].expr, &symbols);
+    let relations = field.relations().unwrap_or_default();
+    let related = || relations.iter().map(|(generator, _)| *generator);
+    let mut all: Vec<usize> = related().filter(|&at| !depends(at)).collect();
+    for own in unknowns {
+        if let Generators::Angle { cosine, sine, .. } = own.by {
+            all.extend([cosine, sine]);
+        }
+    }
+    let degree = |at: usize| polynomials.iter().map(|p| p.degree_in(at)).max();
+    let plain = unknowns.iter().filter_map(|u| match u.by {
+        Generators::Own(at) => Some((u.is_speed, std::cmp::Reverse(degree(at)), at)),
+        _ => None,
+    });
+    let mut plain: Vec<_> = plain.collect();
+    plain.sort_unstable();
+    all.extend(plain.into_iter().map(|(_, _, at)| at));
+    let roots: Vec<usize> = related()
+        .filter(|&at| depends(at) && !all.contains(&at))
+        .collect();
+    all.extend(roots);
+    all
+}
+
+/// The denominators in which unknowns occur.
+fn excluded(
+    field: &Field<'_>,
+    denominators: &[Polynomial],
+    symbols: &[Symbol],
+) -> Result<Vec<Expr>, TooLarge> {
+    let g = field.graph();
+    let mut all = Vec::new();
+    for p in denominators {
+        for (factor, _) in p.factorize(field.meter())?.factors {
+            let e = field.polynomial_expression(&factor);
+            if g.contains_any(e, symbols) && !all.contains(&e) {
+                all.push(e);
+            }
+        }
+    }
+    Ok(all)
+}
+
+fn found_of(chain: &Chain<'_, '_>, equations: &Equations<'_>, branch: Branch) -> Found {
+    let g = chain.field.graph();
+    let values: Vec<Value> = chain.values(&branch);
+    let exact = |value: &Value| match value {
+        Value::Number { exact, .. } => *exact,
+        Value::Function(e) => Some(*e),
+        Value::Tied => None,
+    };
+    let all: Option<Vec<Expr>> = values.iter().map(exact).collect();
+    Found {
+        name: String::new(),
+        motion: all.map(|all| equations.motion("", &all)),
+        is_real: branch.free.is_empty() || chain.has_real_point(),
+        equations: chain.open_equations(&branch),
+        conditions: branch
+            .conditions
+            .iter()
+            .map(|&e| closed(g, e))
+            .filter(|&e| g.as_number(e).is_none())
+            .collect(),
+        free: branch.free,
+        values,
+    }
+}
+
+/// Isolated motions first, by their values, then families by their dimension; each gets its number.
+fn sort(found: &mut [Found]) {
+    let key = |own: &Found| -> (usize, Vec<f64>) {
+        let values = own.values.iter().map(|value| match value {
+            Value::Number { ball, .. } => ball.to_f64(),
+            _ => f64::INFINITY,
+        });
+        (own.dimension(), values.collect())
+    };
+    found.sort_by(|a, b| {
+        let ((m, a), (n, b)) = (key(a), key(b));
+        let pairs = a.iter().zip(&b).map(|(a, b)| a.total_cmp(b));
+        m.cmp(&n)
+            .then(pairs.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then))
+    });
+    for (at, own) in found.iter_mut().enumerate() {
+        own.name = (at + 1).to_string();
+        if let Some(motion) = &mut own.motion {
+            motion.name = own.name.clone();
+        }
+    }
+}
+
+/// A rational number as an expression.
+pub(crate) fn fraction(g: &Graph, (above, below): (i64, i64)) -> Expr {
+    g.number(Rational::from_parts_signed(above.into(), below.into()))
+}
+
+/// The precision of the enclosures.
+pub(crate) fn precision() -> Precision {
+    Precision::new(BITS)
+}

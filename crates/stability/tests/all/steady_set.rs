@@ -1,0 +1,199 @@
+//! Complete sets of steady motions against the literature.
+#![allow(clippy::unwrap_used, reason = "test code fails where it stands")]
+
+use crate::common::Case;
+use chetaev_stability::expansion::Expansion;
+use chetaev_stability::steady_set::{steady_set, Found, SteadySet, SteadySetError, Value};
+
+/// The steady motions for the values that the model states; each with a closed form is steady by the check that linearization makes.
+fn found(case: &Case) -> SteadySet {
+    let own = set(case).unwrap();
+    let (terms, selection) = (&case.prepared.terms, &case.prepared.selection);
+    for motion in own.found.iter().filter_map(|found| found.motion.as_ref()) {
+        let values = case.system.parameter_values();
+        let about = Expansion::new(&case.system, terms, selection, motion, &values);
+        assert!(about.is_ok(), "{motion:?}: {:?}", about.err());
+    }
+    own
+}
+
+fn set(case: &Case) -> Result<SteadySet, SteadySetError> {
+    let (terms, selection) = (&case.prepared.terms, &case.prepared.selection);
+    steady_set(
+        &case.system,
+        terms,
+        selection,
+        &case.system.parameter_values(),
+    )
+}
+
+fn numbers(found: &Found) -> Vec<f64> {
+    let number = |value: &Value| match value {
+        Value::Number { ball, .. } => ball.to_f64(),
+        _ => f64::NAN,
+    };
+    found.values.iter().map(number).collect()
+}
+
+/// Each row is among the isolated motions, and there are no others.
+fn are(own: &SteadySet, expected: &[&[f64]]) {
+    let points: Vec<Vec<f64>> = own.found.iter().map(numbers).collect();
+    assert_eq!(points.len(), expected.len(), "{points:?}");
+    for row in expected {
+        let near = |point: &Vec<f64>| {
+            let mut pairs = point.iter().zip(*row);
+            pairs.all(|(a, b)| (a - b).abs() < 1e-14)
+        };
+        assert!(points.iter().any(near), "{row:?} is not in {points:?}");
+    }
+}
+
+#[test]
+fn a_double_pendulum_hangs_and_stands_in_four_ways() {
+    let own = found(&Case::gallery("double-pendulum"));
+    let pi = std::f64::consts::PI;
+    let expected = [[0.0, 0.0], [0.0, pi], [pi, 0.0], [pi, pi]];
+    let expected: Vec<Vec<f64>> = expected
+        .iter()
+        .map(|[a, b]| vec![*a, *b, 0.0, 0.0])
+        .collect();
+    let rows: Vec<&[f64]> = expected.iter().map(Vec::as_slice).collect();
+    are(&own, &rows);
+    assert!(own.ignorable.is_empty());
+}
+
+/// A pendulum whose plane turns with ω: beside hanging and standing it stays at cos θ = g/(l ω²) where that is below 1.
+const TURNING: &str = r#"
+coordinates = ["theta"]
+[parameters]
+l = 0.5
+W = 6
+g = 9.81
+[lagrangian]
+T = "1/2 l^2 (theta'^2 + W^2 sin(theta)^2)"
+V = "-g l cos(theta)"
+[initial]
+theta = 1
+"theta'" = 0
+"#;
+
+#[test]
+fn a_turning_pendulum_has_four_equilibria_beyond_a_rate() {
+    let own = found(&Case::new(TURNING));
+    let (pi, lean) = (std::f64::consts::PI, (9.81_f64 / (0.5 * 36.0)).acos());
+    are(
+        &own,
+        &[&[0.0, 0.0], &[pi, 0.0], &[lean, 0.0], &[-lean, 0.0]],
+    );
+    let slow = found(&Case::new(&TURNING.replace("W = 6", "W = 4")));
+    are(&slow, &[&[0.0, 0.0], &[pi, 0.0]]);
+}
+
+/// x³ − 3x + 1 vanishes at 2 cos 40°, 2 cos 80° and −2 cos 20°.
+#[test]
+fn zeros_of_higher_degree_are_enclosed() {
+    let own = found(&Case::new(
+        r#"
+coordinates = ["x"]
+[lagrangian]
+T = "1/2 x'^2"
+V = "x^4/4 - 3/2 x^2 + x"
+[initial]
+x = 1
+"x'" = 0
+"#,
+    ));
+    let zero = |degrees: f64| 2.0 * degrees.to_radians().cos();
+    are(
+        &own,
+        &[&[zero(40.0), 0.0], &[zero(80.0), 0.0], &[-zero(20.0), 0.0]],
+    );
+    assert!(own.found.iter().all(|found| found.motion.is_none()));
+}
+
+#[test]
+fn the_sleigh_goes_straight_on_at_any_speed() {
+    let own = found(&Case::gallery("chaplygin-sleigh"));
+    assert_eq!(own.found.len(), 1, "{:?}", own.found);
+    assert_eq!(own.found[0].dimension(), 1);
+    let motion = own.found[0].motion.as_ref().unwrap();
+    let case = Case::gallery("chaplygin-sleigh");
+    let turn = case.system.coordinates.iter().position(|c| c.name == "phi");
+    assert!(motion.velocities[turn.unwrap()].is_some_and(|v| case.system.graph.is_zero(v)));
+}
+
+/// The axis of the top is vertical, up or down, with any two rates, or leans and precesses with A cos θ φ'² − C ω₃ φ' + m g l = 0
+/// (Goldstein, Classical Mechanics, sec. 5.7).
+#[test]
+fn a_top_sleeps_hangs_or_precesses() {
+    let case = Case::gallery("heavy-top");
+    let own = found(&case);
+    assert_eq!(own.found.len(), 3, "{:?}", own.found);
+    assert!(own
+        .found
+        .iter()
+        .all(|found| found.dimension() == 2 && found.is_real));
+}
+
+/// A disc rolls straight on upright, or leans at θ and goes round with Ω, with (C + m r²) ω₂ Ω cos θ = A Ω² sin θ cos θ − m g r sin θ and
+/// ω₂ = ψ' + Ω sin θ (Routh, Advanced rigid dynamics, 1905, art. 244).
+#[test]
+fn a_disc_rolls_straight_on_or_in_circles() {
+    let case = Case::gallery("falling-rolling-disc");
+    let own = found(&case);
+    assert!(own.has_full_rank);
+    let dimensions: Vec<usize> = own.found.iter().map(Found::dimension).collect();
+    // Upright with the rim below, and above the floor as the equations do not know of it.
+    assert_eq!(dimensions, [1, 1, 2]);
+    let circle = own.found[2].motion.as_ref().unwrap();
+    let place = |name: &str| {
+        let mut names = case.system.coordinates.iter();
+        names.position(|c| c.name == name).unwrap()
+    };
+    let of = |name: &str| {
+        let own = case.system.parameters.iter().find(|p| p.name == name);
+        case.number(own.unwrap().value.unwrap(), &[])
+    };
+    let ([m, g, r], [a, c]) = (["m", "g", "r"].map(of), ["A", "Cc"].map(of));
+    for (theta, turn) in [(0.3_f64, 2.0_f64), (-0.7, 5.0), (1.1, -3.0)] {
+        let free = [("theta_0", theta), ("phi_rate_0", turn)];
+        let spin = case.number(circle.velocities[place("psi")].unwrap(), &free);
+        let along_axle = spin + turn * theta.sin();
+        let left = (c + m * r * r) * along_axle * turn * theta.cos();
+        let right = a * turn * turn * theta.sin() * theta.cos() - m * g * r * theta.sin();
+        assert!((left - right).abs() < 1e-12 * right.abs(), "{left} {right}");
+    }
+}
+
+/// A ball in a vertical cylinder neither rises nor sinks where its spin about the normal balances gravity; its orientation is no matter.
+#[test]
+fn the_orientation_of_a_ball_is_no_variable() {
+    let own = found(&Case::gallery("ball-in-cylinder"));
+    assert_eq!(own.variables, ["u", "v", "N"]);
+    assert!(own
+        .found
+        .iter()
+        .any(|found| found.dimension() == 1 && found.is_real));
+}
+
+/// A particle in a potential like a hat rests on the top, or anywhere on the brim, a circle.
+#[test]
+fn a_hat_has_a_circle_of_equilibria() {
+    let own = found(&Case::new(
+        r#"
+coordinates = ["x", "y"]
+[lagrangian]
+T = "1/2 (x'^2 + y'^2)"
+V = "1/2 (x^2 + y^2 - 1)^2"
+[initial]
+x = 1
+y = 0
+"x'" = 0
+"y'" = 0
+"#,
+    ));
+    // A circle of equilibria beside the one in its center.
+    let dimensions: Vec<usize> = own.found.iter().map(Found::dimension).collect();
+    assert_eq!(dimensions.first(), Some(&0));
+    assert!(dimensions[1..].iter().all(|&d| d == 1), "{dimensions:?}");
+}

@@ -1,0 +1,188 @@
+//! All steady motions of a model: `chetaev steady`.
+#![allow(
+    clippy::result_large_err,
+    reason = "an error is made once, and told at once"
+)]
+
+use crate::stability::StabilityError;
+use chetaev_mechanics::{Prepared, System};
+use chetaev_model::Model;
+use chetaev_stability::steady_set::{steady_set, Found, SteadySet, Value};
+use chetaev_symbolic::Graph;
+use serde_json::json;
+use std::fmt::Write as _;
+
+/// The steady motions of a system.
+#[derive(Debug)]
+pub struct Steady {
+    /// The system.
+    pub system: System,
+    /// All of them.
+    pub set: SteadySet,
+    /// Whether parameters stayed symbols, so that their values are in general position.
+    pub is_symbolic: bool,
+}
+
+/// The steady motions of a model for the values of its parameters, or for values in general position.
+///
+/// # Errors
+/// [`StabilityError`].
+pub fn steady(model: &Model, is_symbolic: bool) -> Result<Steady, StabilityError> {
+    let system = System::from_model(model)?;
+    let prepared = Prepared::new(&system)?;
+    let values = match is_symbolic {
+        true => Vec::new(),
+        false => system.parameter_values(),
+    };
+    let set = steady_set(&system, &prepared.terms, &prepared.selection, &values)?;
+    Ok(Steady {
+        set,
+        system,
+        is_symbolic,
+    })
+}
+
+impl Steady {
+    /// The motions in words.
+    pub fn text(&self) -> String {
+        let (g, set) = (&self.system.graph, &self.set);
+        let mut text = format!("{}: motions along which ", self.system.name);
+        let _ = match set.ignorable.as_slice() {
+            [] => writeln!(text, "{} are constant", set.variables.join(", ")),
+            own => writeln!(
+                text,
+                "{} are constant; {} run on uniformly or stand, anywhere",
+                set.variables.join(", "),
+                own.join(", ")
+            ),
+        };
+        let coordinates = &self.system.coordinates;
+        let is_velocity = |name: &str| coordinates.iter().any(|c| format!("{}'", c.name) == name);
+        let named = |name: &String| !is_velocity(name);
+        let of_names = set.speeds.iter().filter(|(name, _)| named(name));
+        for (name, definition) in of_names {
+            let _ = writeln!(text, "  {name} = {}", g.text(*definition));
+        }
+        text.push('\n');
+        text.push_str(&lines(g, set));
+        text.push('\n');
+        let _ = writeln!(text, "{}", self.completeness());
+        for e in &set.excluded {
+            let _ = writeln!(
+                text,
+                "Nothing is said where {} vanishes: the equations are not defined there.",
+                g.text(*e)
+            );
+        }
+        if !set.has_full_rank {
+            text.push_str("Nothing is said of states at which the gradients of the constraints depend on each other.\n");
+        }
+        text
+    }
+
+    fn completeness(&self) -> &'static str {
+        match (self.set.found.is_empty(), self.is_symbolic) {
+            (true, _) => "There are none: the equations are polynomial in the variables, their sines and cosines, and were solved exactly.",
+            (false, false) => "These are all: the equations are polynomial in the variables, their sines and cosines, and were solved exactly.",
+            (false, true) => "These are all for parameters in general position: the equations are polynomial in the variables, their sines and cosines, and were solved exactly. For special values there may be others.",
+        }
+    }
+
+    /// The motions as data.
+    pub fn json(&self) -> serde_json::Value {
+        let (g, set) = (&self.system.graph, &self.set);
+        let text = |e: &chetaev_symbolic::Expr| g.text(*e);
+        let texts = |all: &[chetaev_symbolic::Expr]| all.iter().map(text).collect::<Vec<_>>();
+        let motion = |own: &Found| {
+            let values = set.variables.iter().zip(&own.values);
+            let values = values.map(|(name, value)| match value {
+                Value::Number { exact, ball } => {
+                    let (low, high) = ball.to_decimal_interval(20);
+                    json!({"name": name, "exact": exact.as_ref().map(text), "value": ball.to_f64(), "enclosure": [low, high]})
+                }
+                Value::Function(e) => json!({"name": name, "exact": text(e)}),
+                Value::Tied => json!({"name": name}),
+            });
+            let velocities = own.motion.iter().flat_map(|motion| {
+                let velocities = self.system.coordinates.iter().zip(&motion.velocities);
+                velocities.filter_map(|(c, v)| {
+                    Some(json!({"name": format!("{}'", c.name), "exact": text(v.as_ref()?)}))
+                })
+            });
+            json!({
+                "name": own.name,
+                "dimension": own.dimension(),
+                "free": own.free.iter().map(|(e, _)| text(e)).collect::<Vec<_>>(),
+                "values": values.collect::<Vec<_>>(),
+                "velocities": velocities.collect::<Vec<_>>(),
+                "equations": texts(&own.equations),
+                "not_negative": texts(&own.conditions),
+                "real": own.is_real,
+                "closed_form": own.motion.is_some(),
+            })
+        };
+        json!({
+            "system": self.system.name,
+            "variables": set.variables,
+            "speeds": set.speeds.iter().map(|(name, e)| json!({"name": name, "definition": text(e)})).collect::<Vec<_>>(),
+            "ignorable": set.ignorable,
+            "complete": true,
+            "general_position": self.is_symbolic,
+            "full_rank": set.has_full_rank,
+            "excluded": texts(&set.excluded),
+            "motions": set.found.iter().map(motion).collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// One paragraph for each motion.
+pub(crate) fn lines(g: &Graph, set: &SteadySet) -> String {
+    set.found.iter().map(|own| paragraph(g, set, own)).collect()
+}
+
+fn paragraph(g: &Graph, set: &SteadySet, own: &Found) -> String {
+    let values = set.variables.iter().zip(&own.values).enumerate();
+    let values = values.filter_map(|(at, (name, value))| match value {
+        Value::Number {
+            exact: Some(e),
+            ball,
+        } => Some(number(g, name, *e, ball.to_f64())),
+        Value::Number { exact: None, ball } => {
+            let (low, high) = ball.to_decimal_interval(16);
+            Some(format!("{name} in [{low}, {high}]"))
+        }
+        Value::Function(e) if own.free.iter().any(|(_, free)| *free == at) => {
+            Some(format!("{name} = {}, free", g.text(*e)))
+        }
+        Value::Function(e) => Some(format!("{name} = {}", g.text(*e))),
+        Value::Tied => None,
+    });
+    let mut parts: Vec<String> = values.collect();
+    parts.extend(own.equations.iter().map(|&e| format!("{} = 0", g.text(e))));
+    let needed = own.conditions.iter();
+    parts.extend(needed.map(|&e| format!("where {} >= 0", g.text(e))));
+    if !own.is_real {
+        parts.push("no real motion of this family was found at the places tried".into());
+    }
+    match own.dimension() {
+        0 => format!("  {}  {}\n", own.name, parts.join(", ")),
+        count => {
+            let s = if count == 1 { "" } else { "s" };
+            format!(
+                "  {}  a family with {count} parameter{s}\n       {}\n",
+                own.name,
+                parts.join("\n       ")
+            )
+        }
+    }
+}
+
+/// `theta = acos(109/200) = 0.99439…`; a rational number as it is.
+fn number(g: &Graph, name: &str, exact: chetaev_symbolic::Expr, value: f64) -> String {
+    let text = g.text(exact);
+    if g.as_number(exact).is_some_and(|r| r.is_int()) {
+        format!("{name} = {text}")
+    } else {
+        format!("{name} = {text} = {value:.12}")
+    }
+}
