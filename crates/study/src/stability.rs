@@ -239,6 +239,10 @@ pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, Stabil
                     system,
                 });
             }
+            // What was found is steady: its values are not simple enough to show it.
+            Err(LinearizationError::NotSteady { motion: name, .. }) if is_found(&system, &name) => {
+                return Err(StabilityError::NoClosedForm { name });
+            }
             Err(own) => problem = Some(own),
         }
     }
@@ -252,6 +256,12 @@ pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, Stabil
             })
         }
     }
+}
+
+/// Whether a motion has a number as its name, as those that were found, and none that the model states.
+fn is_found(system: &System, name: &str) -> bool {
+    let is_number = name.chars().all(|c| c.is_ascii_digit());
+    is_number && !system.steady.iter().any(|own| own.name == name)
 }
 
 /// What was found, as the end of a sentence that says what was missed.

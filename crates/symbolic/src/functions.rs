@@ -96,8 +96,6 @@ impl Graph {
         };
         let y = *arguments.first()?;
         match (function, inner) {
-            // Both sides are defined for |y| ≤ 1 only, where neither is negative.
-            (Sin, Acos) | (Cos, Asin) => Some(self.sqrt(self.sub(self.one(), self.powi(y, 2)))),
             (Exp, Log)
             | (Log, Exp)
             | (Sin, Asin)
