@@ -73,6 +73,7 @@ impl System {
                     thrust: thrust(&p.thrust),
                 })
                 .collect(),
+            mechanism: model.mechanism.clone(),
             masses: model
                 .masses
                 .iter()

@@ -1,6 +1,6 @@
 //! A constrained system, the registry of claims, and the equations of motion that follow.
 //!
-//! - The system: [`system`], [`constraint`], [`particles`], [`mass`] (masses that vary, thrust), [`order`] (constraints of order m);
+//! - The system: [`system`], [`constraint`], [`particles`], [`bodies`], [`mass`] (masses that vary, thrust), [`order`] (constraints of order m);
 //! - what is derived once: [`terms`] (`W, b, J, g`), [`selection`] (independent constraints and velocities), [`frame`],
 //!   [`characteristics`], [`curvature`], [`linear`];
 //! - the forms of the equations: [`formulations`], one file each, which deliver [`equations`] with a [`card`];
@@ -10,6 +10,7 @@
 //! - for computing: [`regular`] (quasi-velocities without singular places), [`reduced_equations`], [`choice`];
 //! - [`sample`]: states for heuristic choices, evidence only where a verdict says `numerical`.
 
+pub mod bodies;
 pub mod card;
 pub mod characteristics;
 pub mod choice;

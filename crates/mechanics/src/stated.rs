@@ -205,6 +205,8 @@ impl System {
             all.push(&mut particle.mass);
             all.extend(particle.position.iter_mut().chain(&mut particle.force));
         }
+        let objects = self.mechanism.iter_mut();
+        all.extend(objects.flat_map(|own| own.expressions()));
         all.extend(self.definitions.iter_mut().map(|(_, e)| e));
         let conditions = self.integral_conditions.iter_mut();
         all.extend(conditions.flat_map(|(_, left, right, _)| [left, right]));

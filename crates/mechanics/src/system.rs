@@ -6,6 +6,7 @@ use crate::constraint::Constraint;
 use crate::mass::{self, NamedMasses};
 use crate::names::Names;
 use crate::particles;
+use chetaev_model::mechanism::Mechanism;
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -275,6 +276,8 @@ pub struct SystemParts {
     pub characteristics: Option<CharacteristicFormulas>,
     /// Particles; their applied forces count beside the generalized forces.
     pub particles: Vec<Particle>,
+    /// Bodies, joints and contacts from which the rest was made.
+    pub mechanism: Option<Mechanism>,
     /// Masses with a law of their own, as (name, rate).
     pub masses: Vec<(String, Expr)>,
     /// Named masses that are functions of t, q, q' and other masses, as (name, value).
@@ -412,6 +415,8 @@ pub struct System {
     pub characteristics: Option<CharacteristicFormulas>,
     /// Particles of the model; their applied forces are contained in [`forces`](System::forces).
     pub particles: Vec<Particle>,
+    /// Bodies, joints and contacts of the model; all else was made from them already.
+    pub mechanism: Option<Mechanism>,
     /// Parameters that are defined by others, with their definitions; free symbols wherever nothing else is said.
     pub definitions: Vec<(Expr, Expr)>,
     /// Names of the coordinates that are angles by their unit.
@@ -533,6 +538,7 @@ impl System {
             frame: parts.frame,
             characteristics: parts.characteristics,
             particles: parts.particles,
+            mechanism: parts.mechanism,
             definitions: parts
                 .definitions
                 .into_iter()

@@ -11,6 +11,7 @@ mod dimension;
 pub mod drawing;
 mod expression;
 mod load;
+pub mod mechanism;
 pub mod model;
 pub mod raw;
 mod render;

@@ -73,10 +73,18 @@ pub fn load(path: &str, text: &str, files: &dyn Files, overrides: &[(String, Str
     if let Some(mut table) = table.filter(|_| !failed) {
         rename_frame(&mut table, &mut diagnostics);
         let before = diagnostics.len();
-        let conditions = bodies::lower(&mut table, file, &overrides, &mut diagnostics);
+        let mut conditions = bodies::lower(&mut table, file, &overrides, &mut diagnostics);
         let is_whole = diagnostics.len() == before;
-        let (resolved, mut found) =
-            resolve::resolve(&table, file, sources.clone(), kept, overrides, others);
+        let objects = conditions.kept.take();
+        let (resolved, mut found) = resolve::resolve(
+            &table,
+            file,
+            sources.clone(),
+            kept,
+            overrides,
+            others,
+            objects,
+        );
         conditions.explain(&mut found);
         // What bodies that could not be placed would have given is not missed.
         found.retain(|problem| is_whole || problem.code != "missing-section");
@@ -364,9 +372,11 @@ impl<'f> Loader<'f> {
         };
         let sources = self.sources.clone();
         rename_frame(&mut table, &mut Vec::new());
-        let conditions = bodies::lower(&mut table, file, &[], &mut self.diagnostics);
+        let mut conditions = bodies::lower(&mut table, file, &[], &mut self.diagnostics);
+        let objects = conditions.kept.take();
+        let others = BTreeMap::new();
         let (model, mut found) =
-            resolve::resolve(&table, file, sources, kept, Vec::new(), BTreeMap::new());
+            resolve::resolve(&table, file, sources, kept, Vec::new(), others, objects);
         conditions.explain(&mut found);
         let is_error = |d: &&Diagnostic| d.severity == chetaev_symbolic::syntax::Severity::Error;
         // Warnings are those of the other file.

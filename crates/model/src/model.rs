@@ -7,6 +7,7 @@ use chetaev_symbolic::syntax::Relation;
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 
 use crate::drawing::Drawing;
+use crate::mechanism::Mechanism;
 use crate::source::{Place, Sources};
 use crate::units::Unit;
 
@@ -49,6 +50,8 @@ pub struct Model {
     pub particles: Vec<Particle>,
     /// Whether [`Model::kinetic`] is the sum over the particles, because the model states neither T nor L.
     pub kinetic_from_particles: bool,
+    /// Bodies, joints and contacts, where the model states any.
+    pub mechanism: Option<Mechanism>,
     /// Kinetic energy T, where the model gives it or its particles.
     pub kinetic: Option<Expr>,
     /// Potential energy V, where the model gives it.

@@ -491,6 +491,7 @@ fn what_does_not_apply_says_which_requirement_fails() {
         .filter(|l| l.contains("does not apply"))
         .collect();
     let expected = [
+        ("newton-euler", "model.bodies", "no bodies"),
         (
             "volterra-first-cartesian",
             "model.particles",

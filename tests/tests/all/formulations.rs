@@ -40,6 +40,8 @@ const NOT_APPLICABLE: &[(&[&str], &[&str], &str)] = &[
         &["*"],
         "model.particles",
     ),
+    // Whoever states a Lagrangian states no bodies.
+    (&["newton-euler"], &["*"], "model.bodies"),
     // Chaplygin needs as many coordinates that occur neither in L nor in the constraints as there are constraints, with
     // velocities that can be the dependent ones. Upright cylinder: only the spin psi is absent. Rotating platform: x and y
     // are in the blade's equation. Floor y' = b t: y is in V, x' cannot be dependent. Rod: x and y are in the constraint.

@@ -53,6 +53,7 @@ pub(super) fn seen(subject: &Sampled<'_>, id: &str) -> Seen {
             masses_of(subject, &symbols, true)
         }
         "model.particles" => particles(subject),
+        "model.bodies" if subject.cx.system.mechanism.is_none() => Seen::Fails,
         "model.cartesian-coordinates" => cartesian(subject.cx.system),
         _ => Seen::Unclear,
     }

@@ -6,6 +6,7 @@ use crate::card::Relation;
 use crate::characteristics::{Characteristics, Manifold};
 use crate::equations::{keep_names_apart, Equations};
 use crate::formulations::{self, Basis, DeriveError, FORMULATIONS};
+use crate::system::System;
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -250,6 +251,7 @@ pub fn residuals(cx: &Context<'_>, reference: &Equations, other: &Equations) -> 
         functions.extend(equations.velocity_residuals(system));
         roots::identified(cx, &functions)
     };
+    let reactions = both_multipliers(system, reference, other);
     let (mut other, mut reference) = (natural(other), natural(reference));
     let velocities: Vec<Expr> = [&mut other, &mut reference]
         .into_iter()
@@ -257,10 +259,26 @@ pub fn residuals(cx: &Context<'_>, reference: &Equations, other: &Equations) -> 
         .collect();
     let accelerations = other.into_iter().zip(reference);
     accelerations
+        .chain(reactions)
         .map(|(a, b)| g.sub(a, b))
         .chain(velocities)
         .filter(|&residual| !g.is_zero(residual))
         .collect()
+}
+
+/// The multipliers of the same constraints in both forms, as functions of (q, v, t).
+fn both_multipliers(
+    system: &System,
+    reference: &Equations,
+    other: &Equations,
+) -> Vec<(Expr, Expr)> {
+    let own = other.multipliers.iter();
+    own.filter_map(|&(constraint, value)| {
+        let mut all = reference.multipliers.iter();
+        let (_, reference) = all.find(|(index, _)| *index == constraint)?;
+        Some((other.in_natural_state(system, &[value])[0], *reference))
+    })
+    .collect()
 }
 
 /// The manifold of admissible velocities by independent velocities.

@@ -1,6 +1,7 @@
 //! `model.metric-positive`: whether the kinetic metric of Jacobi's principle is positive on the admissible velocities.
 
 use super::{Claim, Context, Finding, Group};
+use crate::bodies;
 use crate::characteristics::{Characteristics, Manifold};
 use crate::claims::formulation::manifold;
 use crate::formulations::stated_apart;
@@ -48,6 +49,19 @@ impl Claim for MetricPositive {
 
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         let (system, g) = (cx.system, &cx.system.graph);
+        for (values, when) in [
+            (Vec::new(), ""),
+            (
+                system.parameter_values(),
+                "for the values of the parameters ",
+            ),
+        ] {
+            if bodies::has_positive_energies(system, &values) {
+                let on = located("wherever both sides are defined", ON, system);
+                let detail = format!("{when}the kinetic energy is the sum of ½ m v² + ½ ω·Jω of bodies and particles, and none of these is negative");
+                return Verdict::Proved(Proof::structural(on, detail)).into();
+            }
+        }
         if let Some(kinetic) = stated_apart(system).map(|(kinetic, _)| kinetic) {
             let valued = g.substitute(kinetic, &system.parameter_values());
             let detail = "the kinetic energy is a quadratic form that is nowhere negative by its leading minors";

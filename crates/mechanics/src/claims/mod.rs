@@ -4,6 +4,7 @@
 //! claims as slices; a [`Registry`] joins them, and hypotheses are resolved by id at run time, so that a formulation
 //! may require a verdict of the geometry without the crates knowing each other.
 
+pub mod bodies;
 pub mod formulation;
 pub mod gauss;
 pub mod hypotheses;
@@ -263,6 +264,7 @@ pub static CLAIMS: &[&dyn Claim] = &[
     &hypotheses::RestrictedHessianRegular,
     &hypotheses::ConstrainedExtremumRegular,
     &particles::Particles,
+    &bodies::Bodies,
     &particles::CartesianCoordinates,
     &mass::MassesFreeOfVelocity,
     &mass::MassesOfTime,

@@ -2,10 +2,11 @@
 //!
 //! `F_σ + F*_σ = 0` with generalized speeds P, partial velocities `∂r_a'/∂P_σ`, active forces
 //! `F_σ = Σ_a (F_a + R_a) · ∂r_a'/∂P_σ` (R_a: thrust where masses vary) and inertia forces
-//! `F*_σ = -Σ_a m_a r_a'' · ∂r_a'/∂P_σ` (T1 (49)). Where the model states no particles that carry the whole inertia,
+//! `F*_σ = -Σ_a m_a r_a'' · ∂r_a'/∂P_σ` (T1 (49)); for bodies also `M · ∂ω/∂P_σ` and `-(J ω' + ω × Jω) · ∂ω/∂P_σ`. Where the model states no particles that carry the whole inertia,
 //! `F_σ = Σ_i (Q_i - ∂V/∂q^i) ∂v^i/∂P_σ`, `F*_σ = -Σ_i E_i[T] ∂v^i/∂P_σ`; where it states no T and V apart, L stands for T.
 
 use super::{bare, potential_forces, stated_apart, Basis, DeriveError, Formulation};
+use crate::bodies::{self, cross, dot, image, plus};
 use crate::card::{Card, Principle, Relation, Source};
 use crate::characteristics::Characteristics;
 use crate::equations::{Equation, Equations, NamedExpr, Schema};
@@ -13,7 +14,8 @@ use crate::mass;
 use crate::order::determined::in_characteristics;
 use crate::particles;
 use crate::system::System;
-use chetaev_symbolic::Expr;
+use chetaev_model::mechanism::{Body, Mechanism, Vector};
+use chetaev_symbolic::{Expr, Graph};
 
 /// Kane's equations.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +39,12 @@ const SCHEMA: Schema = Schema {
     latex: r"F_\sigma + F^*_\sigma = 0, \quad F_\sigma = \sum_a (F_a + R_a) \cdot \frac{\partial \dot r_a}{\partial P_\sigma}, \quad F^*_\sigma = -\sum_a m_a \ddot r_a \cdot \frac{\partial \dot r_a}{\partial P_\sigma}",
 };
 
+/// From bodies.
+const SCHEMA_OF_BODIES: Schema = Schema {
+    text: "F_σ + F*_σ = 0,  F_σ = Σ_b (F_b·∂v_b/∂P_σ + M_b·∂ω_b/∂P_σ),  F*_σ = −Σ_b (m_b v_b'·∂v_b/∂P_σ + (J_b ω_b' + ω_b×J_b ω_b)·∂ω_b/∂P_σ)",
+    latex: r"F_\sigma + F^*_\sigma = 0, \quad F_\sigma = \sum_b \Bigl(F_b \cdot \frac{\partial v_b}{\partial P_\sigma} + M_b \cdot \frac{\partial \omega_b}{\partial P_\sigma}\Bigr), \quad F^*_\sigma = -\sum_b \Bigl(m_b \dot v_b \cdot \frac{\partial v_b}{\partial P_\sigma} + (J_b \dot\omega_b + \omega_b \times J_b \omega_b) \cdot \frac{\partial \omega_b}{\partial P_\sigma}\Bigr)",
+};
+
 /// Without particles, from T and V.
 const SCHEMA_OF_T: Schema = Schema {
     text: "F_σ + F*_σ = 0,  F_σ = Σ_i ( Q_i − ∂V/∂q^i ) ∂v^i/∂P_σ,  F*_σ = −Σ_i ( D(∂T/∂v^i) − ∂T/∂q^i ) ∂v^i/∂P_σ",
@@ -58,10 +66,12 @@ impl Formulation for Kane {
     fn equations(&self, basis: &Basis<'_>) -> Result<Equations, DeriveError> {
         let (system, characteristics) = (basis.system, basis.kinematic_characteristics()?);
         let g = &system.graph;
-        let (balance, schema) = match particles::suffice(system) {
-            true => (from_particles(system, &characteristics), SCHEMA),
-            false => (
-                from_lagrangian(system, &characteristics),
+        let own = &characteristics;
+        let (balance, schema) = match bodies::sufficient(system) {
+            Some(mechanism) => (from_bodies(system, mechanism, own), SCHEMA_OF_BODIES),
+            None if particles::suffice(system) => (from_particles(system, own), SCHEMA),
+            None => (
+                from_lagrangian(system, own),
                 match stated_apart(system) {
                     Some(_) => SCHEMA_OF_T,
                     None => SCHEMA_OF_L,
@@ -87,7 +97,8 @@ impl Formulation for Kane {
     }
 
     fn structural(&self, basis: &Basis<'_>) -> Option<&'static str> {
-        (!particles::suffice(basis.system)).then_some(
+        let is_own = |system| particles::suffice(system) || bodies::sufficient(system).is_some();
+        (!is_own(basis.system)).then_some(
             "active and inertia forces are built from the Lagrangian, as no particles that carry the whole inertia are stated: their sum is Lagrange's left sides contracted with the basis of virtual displacements, as in Maggi's equations",
         )
     }
@@ -134,49 +145,131 @@ impl Balance {
     }
 }
 
-fn from_particles(system: &System, c: &Characteristics) -> Balance {
-    let g = &system.graph;
-    let further = c.restrict(system, &particles::further_forces(system));
-    let mut active: Vec<Vec<Expr>> = c
-        .contract(system, &further)
-        .into_iter()
-        .map(|f| vec![f])
-        .collect();
-    let mut inertia: Vec<Vec<Expr>> = vec![Vec::new(); c.k()];
-    let mut partial = Vec::new();
-    for particle in &system.particles {
-        let velocity = c.restrict(system, &particles::velocity(system, particle));
+/// Terms of the forces along each generalized speed, while they are collected.
+struct Parts {
+    active: Vec<Vec<Expr>>,
+    inertia: Vec<Vec<Expr>>,
+    partial: Vec<NamedExpr>,
+}
+
+impl Parts {
+    /// With these active forces along the speeds.
+    fn new(active: Vec<Expr>) -> Parts {
+        Parts {
+            inertia: vec![Vec::new(); active.len()],
+            active: active.into_iter().map(|force| vec![force]).collect(),
+            partial: Vec::new(),
+        }
+    }
+
+    fn summed(self, g: &Graph) -> Balance {
+        let sums = |parts: Vec<Vec<Expr>>| parts.iter().map(|parts| g.add(parts)).collect();
+        Balance {
+            active: sums(self.active),
+            inertia: sums(self.inertia),
+            partial: self.partial,
+        }
+    }
+
+    fn add_particles(&mut self, system: &System, c: &Characteristics) {
+        let g = &system.graph;
+        for particle in &system.particles {
+            let velocity = c.restrict(system, &particles::velocity(system, particle));
+            let slopes = c.by_parameters(system, &velocity);
+            let accelerations = c.total_derivative(system, &velocity);
+            let applied = c.restrict(system, &mass::force_with_thrust(system, particle));
+            for (component, row) in slopes.iter().enumerate() {
+                let mass_times = g.mul(&[particle.mass, accelerations[component]]);
+                for (sigma, &slope) in row
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, &slope)| !g.is_zero(slope))
+                {
+                    self.active[sigma].push(g.mul(&[applied[component], slope]));
+                    self.inertia[sigma].push(g.neg(g.mul(&[mass_times, slope])));
+                    let p = &c.parameters[sigma].name;
+                    self.partial.push(NamedExpr::new(
+                        format!("V_{}_{}_{}", particle.name, component + 1, bare(p)),
+                        slope,
+                        format!(
+                            "component {} of the partial velocity of `{}` along {p}",
+                            component + 1,
+                            particle.name
+                        ),
+                    ));
+                }
+            }
+        }
+    }
+
+    fn add_body(&mut self, system: &System, c: &Characteristics, body: &Body) {
+        let g = &system.graph;
+        let own = bodies::velocities(system, body);
+        let restricted = |v: Vector| vector(&c.restrict(system, &v));
+        let changed = |v: Vector| vector(&c.total_derivative(system, &v));
+        let (velocity, omega) = (restricted(own.center), restricted(own.omega));
+        let momentum = changed(velocity).map(|e| g.mul(&[body.mass, e]));
+        let moment = image(g, &body.inertia, omega);
+        let turned = cross(g, restricted(own.turning), moment);
+        let moment = plus(g, image(g, &body.inertia, changed(omega)), turned);
+        let weight = restricted(body.weight);
         let slopes = c.by_parameters(system, &velocity);
-        let accelerations = c.total_derivative(system, &velocity);
-        let applied = c.restrict(system, &mass::force_with_thrust(system, particle));
-        for (component, row) in slopes.iter().enumerate() {
-            let mass_times = g.mul(&[particle.mass, accelerations[component]]);
-            for (sigma, &slope) in row
-                .iter()
-                .enumerate()
-                .filter(|(_, &slope)| !g.is_zero(slope))
-            {
-                active[sigma].push(g.mul(&[applied[component], slope]));
-                inertia[sigma].push(g.neg(g.mul(&[mass_times, slope])));
-                let p = &c.parameters[sigma].name;
-                partial.push(NamedExpr::new(
-                    format!("V_{}_{}_{}", particle.name, component + 1, bare(p)),
-                    slope,
+        let turns = c.by_parameters(system, &omega);
+        for (sigma, p) in c.parameters.iter().enumerate() {
+            let slope = std::array::from_fn(|i| slopes[i][sigma]);
+            let turn = std::array::from_fn(|i| turns[i][sigma]);
+            self.active[sigma].push(dot(g, weight, slope));
+            let inertia = g.add(&[dot(g, momentum, slope), dot(g, moment, turn)]);
+            self.inertia[sigma].push(g.neg(inertia));
+            let both = [
+                ("V", slope, "partial velocity"),
+                ("W", turn, "partial angular velocity"),
+            ];
+            for (letter, partial, what) in both {
+                self.name_partial(g, [letter, &body.name, bare(&p.name)], partial, what);
+            }
+        }
+    }
+
+    fn name_partial(&mut self, g: &Graph, names: [&str; 3], partial: Vector, what: &str) {
+        let [letter, body, speed] = names;
+        for (component, value) in partial.into_iter().enumerate() {
+            if !g.is_zero(value) {
+                self.partial.push(NamedExpr::new(
+                    format!("{letter}_{body}_{}_{speed}", component + 1),
+                    value,
                     format!(
-                        "component {} of the partial velocity of `{}` along {p}",
-                        component + 1,
-                        particle.name
+                        "component {} of the {what} of `{body}` along {speed}",
+                        component + 1
                     ),
                 ));
             }
         }
     }
-    let sums = |parts: &[Vec<Expr>]| parts.iter().map(|parts| g.add(parts)).collect();
-    Balance {
-        active: sums(&active),
-        inertia: sums(&inertia),
-        partial,
+}
+
+fn from_particles(system: &System, c: &Characteristics) -> Balance {
+    let further = c.restrict(system, &particles::further_forces(system));
+    let mut parts = Parts::new(c.contract(system, &further));
+    parts.add_particles(system, c);
+    parts.summed(&system.graph)
+}
+
+/// From the partial velocities of the centres of mass along the axes of the ground, and the partial angular velocities along those of
+/// the bodies.
+fn from_bodies(system: &System, mechanism: &Mechanism, c: &Characteristics) -> Balance {
+    let further = c.restrict(system, &bodies::further_forces(system, mechanism));
+    let mut parts = Parts::new(c.contract(system, &further));
+    for body in &mechanism.bodies {
+        parts.add_body(system, c, body);
     }
+    parts.add_particles(system, c);
+    parts.summed(&system.graph)
+}
+
+/// Three components.
+fn vector(es: &[Expr]) -> Vector {
+    std::array::from_fn(|i| es[i])
 }
 
 fn from_lagrangian(system: &System, c: &Characteristics) -> Balance {

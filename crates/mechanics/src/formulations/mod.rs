@@ -13,6 +13,7 @@ mod lagrange_dalembert;
 mod lagrange_vector_field;
 pub mod legendre;
 mod maggi;
+mod newton_euler;
 mod nielsen;
 mod parametric;
 mod parametric_canonical;
@@ -38,6 +39,7 @@ pub use kane::Kane;
 pub use lagrange_dalembert::LagrangeDalembert;
 pub use lagrange_vector_field::LagrangeVectorField;
 pub use maggi::Maggi;
+pub use newton_euler::NewtonEuler;
 pub use nielsen::{nielsen_left_sides, Nielsen};
 pub use parametric::Parametric;
 pub use parametric_canonical::ParametricCanonical;
@@ -295,6 +297,7 @@ pub trait Formulation: Sync {
 pub static FORMULATIONS: &[&dyn Formulation] = &[
     &Routh,
     &LagrangeDalembert,
+    &NewtonEuler,
     &Maggi,
     &Voronets,
     &Chaplygin,

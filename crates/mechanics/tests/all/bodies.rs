@@ -7,9 +7,10 @@
     reason = "test code fails where it stands; numbers stand as they were computed"
 )]
 
-use chetaev_mechanics::claims::formulation::derive;
+use chetaev_mechanics::claims::formulation::{derive, equivalence};
 use chetaev_mechanics::claims::{Context, Prepared, Registry, CLAIMS};
 use chetaev_mechanics::{Prover, System};
+use chetaev_model::mechanism::Mechanism;
 use chetaev_model::{load, lowered, Files};
 use chetaev_symbolic::Verdict;
 use std::path::Path;
@@ -149,6 +150,8 @@ struct Numbers {
     state: &'static [(&'static str, &'static str)],
     /// Expressions of accelerations.
     expected: &'static [(&'static str, f64)],
+    /// Forces of joints and multipliers of contacts, as the balances of Newton and Euler give them.
+    reactions: &'static [(&'static str, f64)],
 }
 
 const NUMBERS: &[Numbers] = &[
@@ -178,6 +181,7 @@ middle_y = "disc_p_y"
             ("middle_x''", 1.610_039_963_301_596_7),
             ("middle_y''", -1.989_275_349_859_689_9),
         ],
+        reactions: &[("R_rim_z", 12.4054034718958294)],
     },
     // The same disc held by a finite constraint, its axle along x and the vertical along y.
     Numbers {
@@ -206,6 +210,7 @@ contacts.rim = { type = "rolling", body = "disc", radius = 0.4, axis = "x" }
             ("c''", 1.610_039_963_301_596_7),
             ("b''", -1.539_731_018_736_113_76),
         ],
+        reactions: &[("lambda_rim_touch", 12.4054034718958294)],
     },
     // A sleigh.
     Numbers {
@@ -227,6 +232,7 @@ contacts.blade = { type = "blade", body = "sleigh" }
             ("y''", 0.898_729_628_479_014_868),
             ("theta''", -1.126_088_116_414_848_54),
         ],
+        reactions: &[("lambda_blade", 1.35130573969781825)],
     },
     // A snakeboard with motors.
     Numbers {
@@ -266,6 +272,12 @@ back = { type = "blade" }
             ("psi''", 7.209_869_275_201_148_35),
             ("phi_f''", 9.209_869_275_201_148_35),
             ("phi_b''", -20.790_130_724_798_851_6),
+        ],
+        reactions: &[
+            ("lambda_front", 2.13078219295762421),
+            ("lambda_back", 0.226516956135468219),
+            ("R_psi_x", -0.455208826445118484),
+            ("R_psi_y", 0.42300883840678741),
         ],
     },
     // A robot on two driven wheels and a caster: one of the lateral constraints of the driven wheels is redundant.
@@ -308,6 +320,7 @@ caster = { type = "rolling" }
             ("delta''", 25.241_316_842_200_926_6),
             ("phi_c''", 53.185_545_506_403_415_6),
         ],
+        reactions: &[],
     },
     // A unicycle with a rider.
     Numbers {
@@ -339,6 +352,12 @@ rim = { type = "rolling", body = "wheel" }
             ("beta'' + rel''", 5.955_736_885_365_448_81),
             ("beta''", -0.994_235_530_204_478_227),
         ],
+        reactions: &[
+            ("R_free_z", 56.2605323517656202),
+            ("R_rel_x", -7.42365512172888209),
+            ("R_rel_y", 7.20821681239998555),
+            ("R_rel_z", -46.56662713437077),
+        ],
     },
     // A four-bar with a motor.
     Numbers {
@@ -367,6 +386,16 @@ close = { parent = "coupler", child = "rocker", at = [1.1, 0, 0], child_at = [0.
             ("a'' + b''", 7.489_866_805_842_008_94),
             ("c''", 1.991_680_377_971_895_19),
         ],
+        reactions: &[
+            ("R_a_x", -6.42722992172141619),
+            ("R_a_y", 7.87109865882718848),
+            ("R_b_x", -7.53436879480880162),
+            ("R_b_y", 1.6455821722169149),
+            ("R_c_x", 5.88057266940204708),
+            ("R_c_y", 24.3614250283750169),
+            ("lambda_close_x", -7.12120895511271419),
+            ("lambda_close_y", -9.55779753048011258),
+        ],
     },
     // A gyroscope in gimbals.
     Numbers {
@@ -392,6 +421,13 @@ gamma = { parent = "inner", child = "rotor", torque = 0.02 }
             ("beta''", 9.692_361_790_756_020_65),
             ("gamma''", 3.177_111_138_388_327_81),
         ],
+        reactions: &[
+            ("R_alpha_x", 0.0656665114634155397),
+            ("R_alpha_y", -0.316432094568587821),
+            ("R_alpha_z", 14.4285135458995203),
+            ("R_gamma_x", 0.0656665114634155397),
+            ("R_gamma_z", 14.4285135458995203),
+        ],
     },
     // A pendulum on a support that is moved.
     Numbers {
@@ -402,6 +438,10 @@ joints.theta = { parent = "pivot", child = "rod", axis = "-y" }
 "#,
         state: &[("t", "0.3"), ("theta", "0.6"), ("theta'", "1.5")],
         expected: &[("theta''", -9.551_556_961_278_925_13)],
+        reactions: &[
+            ("R_theta_x", -4.90758788869991982),
+            ("R_theta_z", 8.30114232063703634),
+        ],
     },
     // A ball whose mass centre is not its middle.
     Numbers {
@@ -426,6 +466,11 @@ contacts.foot = { type = "rolling", body = "top" }
             ("a''", 119.336_436_992_915_597),
             ("b''", -763.966_704_688_096_965),
             ("c''", -99.053_929_617_101_479_3),
+        ],
+        reactions: &[
+            ("R_free_z", 0.174276746021467283),
+            ("lambda_foot_forward", -0.00288573779622591771),
+            ("lambda_foot_side", 0.00402953590627895765),
         ],
     },
     // A rattleback with the numbers of Kane and Levinson.
@@ -454,6 +499,11 @@ contacts.foot = { type = "rolling", body = "celt" }
             ("b''", -24.500_101_044_259_299_4),
             ("c''", -94.170_659_746_193_322_4),
         ],
+        reactions: &[
+            ("lambda_foot_touch", 1.53913487601089243),
+            ("lambda_foot_forward", 0.761814458681904294),
+            ("lambda_foot_side", 0.609602068440184851),
+        ],
     },
     // The benchmark bicycle off its upright motion.
     Numbers {
@@ -480,11 +530,15 @@ contacts.foot = { type = "rolling", body = "celt" }
             ("theta'' - thR''", -1.295_254_940_707_104_73),
             ("-thF''", -0.159_818_546_049_562_674),
         ],
+        reactions: &[
+            ("R_free_z", -610.954882222398448),
+            ("lambda_front_tyre_touch", 326.065666559081874),
+        ],
     },
 ];
 
 /// The accelerations of a model at a state, as expressions of accelerations ask for them.
-fn accelerations(text: &str, state: &[(&str, &str)], asked: &[&str]) -> Vec<f64> {
+fn accelerations(text: &str, form: &str, state: &[(&str, &str)], asked: &[&str]) -> Vec<f64> {
     let loaded = load("bodies/model.toml", text, &Gallery, &[]);
     let (model, _) = loaded
         .into_result()
@@ -494,17 +548,18 @@ fn accelerations(text: &str, state: &[(&str, &str)], asked: &[&str]) -> Vec<f64>
     let registry = Registry::new(&[CLAIMS]);
     let (terms, selection) = (&prepared.terms, &prepared.selection);
     let cx = Context::new(&system, terms, selection, &registry, Prover::default());
-    let routh = derive(&cx, "routh").unwrap();
+    let derived = derive(&cx, form).unwrap();
     let g = &system.graph;
-    let moved: Vec<_> = system
-        .coordinates
-        .iter()
-        .map(|own| own.a)
-        .zip(routh.accelerations.iter().copied())
-        .collect();
+    let own = derived.in_natural_state(&system, &derived.accelerations);
+    let places = system.coordinates.iter().map(|own| own.a);
+    let moved: Vec<_> = places.zip(own).collect();
+    let object = |name: &str| derived.objects.iter().find(|own| own.name == name);
     let asked: Vec<_> = asked
         .iter()
-        .map(|text| model.expression(text).unwrap())
+        .map(|text| match object(text) {
+            Some(own) => own.value,
+            None => model.expression(text).unwrap(),
+        })
         .collect();
     let values = g.substitute_all(&asked, &moved);
     let numbers: std::collections::BTreeMap<String, f64> = state
@@ -537,6 +592,9 @@ fn accelerations(text: &str, state: &[(&str, &str)], asked: &[&str]) -> Vec<f64>
     g.evaluate_f64(&values, &of).unwrap()
 }
 
+/// Forms that are derived each by its own rule, the last three from the bodies.
+const FORMS: &[&str] = &["routh", "newton-euler", "kane", "gibbs-appell"];
+
 #[test]
 fn published_accelerations_come_out_of_the_bodies() {
     let mut wrong = Vec::new();
@@ -546,10 +604,18 @@ fn published_accelerations_come_out_of_the_bodies() {
             text => text.to_owned(),
         };
         let asked: Vec<&str> = case.expected.iter().map(|(text, _)| *text).collect();
-        let found = accelerations(&text, case.state, &asked);
         let largest = case.expected.iter().map(|(_, x)| x.abs());
         let size = largest.fold(0.0, f64::max);
-        for ((asked, expected), found) in case.expected.iter().zip(found) {
+        let of_forms = FORMS
+            .iter()
+            .map(|form| accelerations(&text, form, case.state, &asked));
+        let mut all: Vec<_> = of_forms
+            .flat_map(|found| case.expected.iter().zip(found))
+            .collect();
+        let named: Vec<&str> = case.reactions.iter().map(|(name, _)| *name).collect();
+        let reactions = accelerations(&text, "newton-euler", case.state, &named);
+        all.extend(case.reactions.iter().zip(reactions));
+        for ((asked, expected), found) in all {
             let error = (found - expected).abs();
             // Not a number is wrong too.
             if !matches!(
@@ -561,4 +627,159 @@ fn published_accelerations_come_out_of_the_bodies() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+// ---- Newton and Euler, Kane, Gibbs and Appell
+
+/// What is known of the forms that are built from bodies.
+fn forms_of_bodies(text: &str) -> Vec<(String, Verdict)> {
+    let loaded = load("bodies/model.toml", text, &Gallery, &[]);
+    let (model, _) = loaded
+        .into_result()
+        .unwrap_or_else(|problems| panic!("{text}{problems}"));
+    let system = System::from_model(&model).unwrap();
+    forms_of_system(&system)
+}
+
+fn forms_of_system(system: &System) -> Vec<(String, Verdict)> {
+    let prepared = Prepared::new(system).unwrap();
+    let registry = Registry::new(&[CLAIMS]);
+    let (terms, selection) = (&prepared.terms, &prepared.selection);
+    let cx = Context::new(system, terms, selection, &registry, Prover::default());
+    FORMS[1..]
+        .iter()
+        .map(|form| format!("formulation.equivalent#{form}"))
+        .map(|id| (id.clone(), cx.finding(&id).verdict.clone()))
+        .collect()
+}
+
+/// Every model of bodies in the gallery that is no family of sizes of its own.
+const ALL: &[&str] = &[
+    "chain",
+    "chaplygin-sleigh",
+    "chaplygin-sphere",
+    "differential-drive",
+    "double-pendulum",
+    "falling-rolling-disc",
+    "four-bar",
+    "gyroscope",
+    "heavy-top",
+    "mecanum",
+    "rattleback",
+    "roller-racer",
+    "slider-crank",
+    "snakeboard",
+    "sphere-on-turntable",
+    "tippe-top",
+    "trailer",
+    "unicycle",
+    "vertical-rolling-disc",
+    "whipple-bicycle",
+];
+
+#[test]
+fn the_forms_of_bodies_are_the_same_equations() {
+    let mut wrong = Vec::new();
+    for file in ALL {
+        for (id, verdict) in forms_of_bodies(&stated(file)) {
+            let is_own = match &verdict {
+                Verdict::Proved(proof) => !proof.detail.contains("contracted"),
+                _ => false,
+            };
+            if !is_own {
+                wrong.push(format!("{file}: {id}: {verdict:?}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A body that tumbles on a joint, with springs, a motor, a damper and a particle beside it.
+const TUMBLING: &str = r#"
+[bodies]
+plate = { mass = 2, center = [0.1, 0.2, 0.3], inertia = { xx = 3, yy = 4, zz = 5, xy = 0.1, xz = 0.2, yz = 0.3, at = [0, 0, 0.1], turn = { z = 0.3 } } }
+rotor = { shape = "disc", mass = 1, radius = 0.5 }
+[joints]
+plate = { type = "universal", sequence = "xy" }
+rotor = { parent = "plate", at = [0.3, 0, 1], tilt = { x = 0.4 }, torque = "2 - 3 sin(rotor)", spring = 3, damper = 0.2 }
+"#;
+
+#[test]
+fn springs_motors_and_particles_stand_in_the_balances() {
+    let text = format!(
+        "{}\n[coordinates]\ns = {{}}\n[particles]\nbead = {{ mass = 0.3, position = [\"s\", \"plate_lean\", \"s^2\"], force = [0, 1, \"-s\"] }}\n[lagrangian]\nV = \"s^2 + plate_pitch^3\"\n",
+        TUMBLING
+    );
+    for (id, verdict) in forms_of_bodies(&text) {
+        assert!(matches!(verdict, Verdict::Proved(_)), "{id}: {verdict:#?}");
+    }
+}
+
+#[test]
+fn energies_beside_bodies_have_no_force_on_a_body() {
+    let text = format!("{}\n[lagrangian]\nL = \"plate_lean'^2\"\n", TUMBLING);
+    let found = forms_of_bodies(&text);
+    let (_, own) = &found[0];
+    let Verdict::NotApplicable { .. } = own else {
+        panic!("{own:#?}");
+    };
+    assert!(format!("{own:?}").contains("beside its bodies"), "{own:?}");
+}
+
+/// The bodies of a system, changed: what is derived from them is another motion than that of the Lagrangian, and is refuted.
+#[test]
+fn wrong_bodies_are_refuted() {
+    type Mutant = (&'static str, fn(&System, &mut Mechanism));
+    const MUTANTS: &[Mutant] = &[
+        (
+            "the gyroscopic term of the axes is dropped",
+            |system, all| {
+                all.bodies[0].turning = [system.graph.zero(); 3];
+            },
+        ),
+        (
+            "the inertia is taken in axes turned about x",
+            |system, all| {
+                let (g, body) = (&system.graph, &mut all.bodies[0]);
+                let turned =
+                    |i: usize, j: usize, e| if (i == 0) != (j == 0) { g.neg(e) } else { e };
+                let own = body.inertia;
+                body.inertia =
+                    std::array::from_fn(|i| std::array::from_fn(|j| turned(i, j, own[i][j])));
+            },
+        ),
+        ("Steiner's term has the wrong sign", |system, all| {
+            let (g, body) = (&system.graph, &mut all.bodies[0]);
+            let moved = g.mul(&[
+                body.mass,
+                g.number(chetaev_symbolic::Rational::from(1) / chetaev_symbolic::Rational::from(5)),
+            ]);
+            body.inertia[0][0] = g.add(&[body.inertia[0][0], moved]);
+        }),
+        ("the weight acts upwards", |system, all| {
+            let (g, body) = (&system.graph, &mut all.bodies[1]);
+            body.weight = body.weight.map(|e| g.neg(e));
+        }),
+    ];
+    let (model, _) = load("bodies/model.toml", TUMBLING, &Gallery, &[])
+        .into_result()
+        .unwrap();
+    for (name, change) in MUTANTS {
+        let mut system = System::from_model(&model).unwrap();
+        let mut mechanism = system.mechanism.take().unwrap();
+        change(&system, &mut mechanism);
+        system.mechanism = Some(mechanism);
+        let system = system.for_parameter_values().unwrap();
+        let prepared = Prepared::new(&system).unwrap();
+        let registry = Registry::new(&[CLAIMS]);
+        let (terms, selection) = (&prepared.terms, &prepared.selection);
+        let cx = Context::new(&system, terms, selection, &registry, Prover::default());
+        let reference = derive(&cx, "routh").unwrap();
+        let own = derive(&cx, "newton-euler").unwrap();
+        let verdict = equivalence(&cx, &reference, &own);
+        assert!(
+            matches!(verdict, Verdict::Refuted(_)),
+            "{name}: {verdict:#?}"
+        );
+    }
 }

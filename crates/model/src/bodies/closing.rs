@@ -2,6 +2,7 @@
 
 use super::algebra::Vector;
 use super::joints::Freedom;
+use super::keeping::KeptReaction;
 use super::lowering::{FrameId, Lowering, Step, GROUND};
 use super::tree::{JointStated, Tree};
 use crate::diagnostic::Diagnostic;
@@ -69,8 +70,19 @@ impl<'r> Lowering<'r> {
             } else {
                 self.algebra.dot(gap, column(&rows, axis))
             };
-            let end = ["x", "y", "z"][axis];
-            self.constrain_loop(&format!("{name}_{end}"), apart, &words, place);
+            let along = if slides.is_empty() {
+                self.algebra.unit(axis)
+            } else {
+                column(&rows, axis)
+            };
+            let own = format!("{name}_{}", ["x", "y", "z"][axis]);
+            let ends = if slides.is_empty() {
+                [to, from]
+            } else {
+                [to, to]
+            };
+            self.react_at(joint, &own, ends, [along, self.algebra.zero()]);
+            self.constrain_loop(&own, apart, &words, place);
         }
         let right = |lowering: &Self, i: usize, j: usize| {
             lowering.algebra.dot(column(&rows, i), column(&other, j))
@@ -84,8 +96,34 @@ impl<'r> Lowering<'r> {
         for (i, j) in pairs {
             let cosine = right(self, i, j);
             let end = format!("{}{}", ["x", "y", "z"][i], ["x", "y", "z"][j]);
-            self.constrain_loop(&format!("{name}_{end}"), cosine, &words, place);
+            // The rate of the cosine of two axes is the difference of the angular velocities along their vector product.
+            let about = self.algebra.cross(column(&other, j), column(&rows, i));
+            let own = format!("{name}_{end}");
+            self.react_at(joint, &own, [to, to], [self.algebra.zero(), about]);
+            self.constrain_loop(&own, cosine, &words, place);
         }
+    }
+
+    /// The force and the torque of a closing constraint, at the ends of the child and the parent.
+    fn react_at(
+        &mut self,
+        joint: &JointStated<'_>,
+        constraint: &str,
+        ends: [Vector; 2],
+        wrench: [Vector; 2],
+    ) {
+        let ([force, torque], [point, other_point]) = (wrench, ends);
+        self.keep_reaction(KeptReaction {
+            constraint: constraint.to_owned(),
+            object: joint.object.name().to_owned(),
+            place: joint.object.place,
+            body: joint.child.clone(),
+            other: joint.parent.clone(),
+            force,
+            point,
+            other_point,
+            torque,
+        });
     }
 
     fn axes_of(&self, joint: &JointStated<'_>, freedom: Freedom) -> Vec<usize> {

@@ -6,6 +6,7 @@ use chetaev_symbolic::syntax::names;
 use chetaev_symbolic::Expr;
 
 use super::algebra::{Algebra, Turn, Vector};
+use super::keeping::KeptReaction;
 use super::sections::{table, text, word, Written};
 use super::shapes::{Shape, Sizes};
 use crate::diagnostic::Diagnostic;
@@ -94,6 +95,10 @@ pub(crate) struct Lowering<'r> {
     /// Contacts and joints that touch or close for some values of the parameters only, with their words.
     pub(crate) touching: Vec<(Place, String)>,
     pub(crate) closing: Vec<(Place, String)>,
+    /// Springs, as terms of the potential energy.
+    pub(crate) springs: Vec<String>,
+    /// Reactions of the constraints of contacts and closing joints.
+    pub(crate) reactions: Vec<KeptReaction<Expr>>,
     /// Numbers that were read, by their names and places.
     pub(crate) read: HashMap<(String, Place), Expr>,
     named: HashMap<Expr, Expr>,
@@ -140,6 +145,8 @@ impl<'r> Lowering<'r> {
             },
             touching: Vec::new(),
             closing: Vec::new(),
+            springs: Vec::new(),
+            reactions: Vec::new(),
             read: HashMap::new(),
             named: HashMap::new(),
             assumed: BTreeSet::new(),

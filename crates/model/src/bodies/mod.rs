@@ -12,6 +12,7 @@ mod closing;
 mod contacts;
 mod families;
 mod joints;
+pub(crate) mod keeping;
 mod kinematics;
 mod look;
 mod lowering;
@@ -32,6 +33,7 @@ use crate::diagnostic::Diagnostic;
 use crate::raw::{Kind, Raw, Table};
 use crate::resolve::Override;
 use crate::source::Place;
+use keeping::Kept;
 use lowering::{Lowering, Up};
 use reading::{quantity, Slot};
 
@@ -45,6 +47,8 @@ pub(crate) struct Conditions {
     numbers: BTreeSet<Place>,
     touching: Vec<(Place, String)>,
     closing: Vec<(Place, String)>,
+    /// The objects themselves.
+    pub(crate) kept: Option<Kept>,
 }
 
 impl Conditions {
@@ -95,7 +99,7 @@ pub(crate) fn lower(
         .find_map(|section| own.get(section).map(|raw| raw.place))
         .unwrap_or(file);
     let mut lowering = Lowering::new(&own, place);
-    lowering.run();
+    let mut kept = lowering.run();
     let Lowering {
         mut written,
         problems: found,
@@ -106,7 +110,7 @@ pub(crate) fn lower(
     problems.extend(found);
     let numbers = written.parameters.entries.iter();
     let numbers = numbers.map(|(key, _)| key.place).collect();
-    pruning::prune(&mut written, &own);
+    pruning::prune(&mut written, &own, &mut kept);
     *root = own;
     for section in SECTIONS.iter().chain(&["gravity"]) {
         root.remove(section);
@@ -116,11 +120,12 @@ pub(crate) fn lower(
         numbers,
         touching,
         closing,
+        kept: Some(kept),
     }
 }
 
 impl Lowering<'_> {
-    fn run(&mut self) {
+    fn run(&mut self) -> Kept {
         self.has_units = states_units(self.root);
         let gravity = self.gravity();
         for object in self.objects("bodies", "body") {
@@ -140,13 +145,20 @@ impl Lowering<'_> {
             self.energies(number, gravity.acceleration);
         }
         let is_heavy = self.written.potential.len() > before;
-        if let (Some(usual), true) = (gravity.usual, is_heavy) {
-            self.number(&usual.0, &usual.1);
+        let mut weight = gravity.acceleration;
+        if let Some(usual) = gravity.usual {
+            if is_heavy {
+                self.number(&usual.0, &usual.1);
+            } else {
+                // It changes no motion, and is no parameter of it; reactions feel it.
+                weight = Some(self.algebra.ratio(981, 100));
+            }
         }
         self.name_motions();
         self.touch_all(&tree, &built);
         self.close_all(&tree);
         self.draw_all(&tree, &built);
+        self.keep_all(&tree, &built, weight)
     }
 
     /// Angular velocity, velocity, axes and position of every body and frame have names, which the user may write.

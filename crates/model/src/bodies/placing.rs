@@ -15,8 +15,10 @@ use crate::source::Place;
 use crate::text::Text;
 
 /// How a contact is built into the coordinates of the body that everything else hangs on.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Built {
+    /// The body whose place it is built into.
+    pub(crate) body: String,
     /// The contact by its number.
     pub(crate) contact: usize,
     /// The frame that turns with the heading only, its origin at the point of contact.
@@ -322,7 +324,9 @@ impl<'r> Lowering<'r> {
                     .graph
                     .sub(q, rest.unwrap_or(self.algebra.graph.zero()));
                 let energy = graph(self, &[half, k, self.algebra.graph.powi(away, 2)]);
-                self.written.potential.push(self.algebra.graph.text(energy));
+                let energy = self.algebra.graph.text(energy);
+                self.springs.push(energy.clone());
+                self.written.potential.push(energy);
             }
         }
         if let Some(raw) = object.get("damper") {
@@ -516,6 +520,7 @@ impl<'r> Lowering<'r> {
             }
         }
         built.push(Built {
+            body: name.to_owned(),
             contact,
             heading,
             leaning,

@@ -2,11 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::keeping::Kept;
 use super::sections::Written;
 use crate::raw::{Kind, Raw, Table};
 
-/// Leaves out the written definitions that neither the written sections nor the user's own text names.
-pub(crate) fn prune(written: &mut Written, own: &Table) {
+/// Leaves out the written definitions that neither the written sections nor the user's own text names. Those that the objects name
+/// are put aside with them.
+pub(crate) fn prune(written: &mut Written, own: &Table, kept: &mut Kept) {
     let mut used: BTreeSet<String> = BTreeSet::new();
     words_of_table(own, &mut used);
     for table in [&written.parameters, &written.constraints, &written.forces] {
@@ -18,25 +20,37 @@ pub(crate) fn prune(written: &mut Written, own: &Table) {
     for terms in [&written.kinetic, &written.potential, &written.dissipation] {
         terms.iter().for_each(|term| words(term, &mut used));
     }
-    let defined: BTreeMap<&str, &Raw> = written
+    let defined: BTreeMap<String, Raw> = written
         .define
         .entries
         .iter()
-        .map(|(key, raw)| (key.content.as_str(), raw))
+        .map(|(key, raw)| (key.content.clone(), raw.clone()))
         .collect();
+    close(&mut used, &defined);
+    let mut named: BTreeSet<String> = BTreeSet::new();
+    kept.texts().for_each(|text| words(text, &mut named));
+    close(&mut named, &defined);
+    let (used_ones, others) = std::mem::take(&mut written.define.entries)
+        .into_iter()
+        .partition(|(key, _)| used.contains(&key.content));
+    written.define.entries = used_ones;
+    kept.define.entries = others;
+    kept.define
+        .entries
+        .retain(|(key, _)| named.contains(&key.content));
+}
+
+/// Adds what the definitions of the names contain.
+fn close(used: &mut BTreeSet<String>, defined: &BTreeMap<String, Raw>) {
     let mut open: Vec<String> = used.iter().cloned().collect();
     while let Some(name) = open.pop() {
-        let Some(raw) = defined.get(name.as_str()) else {
+        let Some(raw) = defined.get(&name) else {
             continue;
         };
         let mut inner = BTreeSet::new();
         words_of(raw, &mut inner);
         open.extend(inner.into_iter().filter(|word| used.insert(word.clone())));
     }
-    written
-        .define
-        .entries
-        .retain(|(key, _)| used.contains(&key.content));
 }
 
 fn words_of_table(table: &Table, used: &mut BTreeSet<String>) {

@@ -365,7 +365,7 @@ impl<'r> Lowering<'r> {
     }
 
     /// The velocity of the centre of mass, in axes that do not turn about it where that is shorter.
-    fn center_velocity(
+    pub(crate) fn center_velocity(
         &mut self,
         frame: FrameId,
         center: Vector,
@@ -380,22 +380,27 @@ impl<'r> Lowering<'r> {
     }
 
     /// The angular velocity in axes in which the inertia is constant, and that spin as little as possible.
-    fn turning(
+    pub(crate) fn turning(
         &mut self,
         frame: FrameId,
         inertia: &[Vector; 3],
         name: &str,
         place: Place,
     ) -> Vector {
+        let axes = self.inertia_axes(frame, inertia);
+        let omega = self.omega_in(GROUND, axes, frame);
+        self.name_vector(&format!("{name}_omega"), omega, place)
+    }
+
+    /// The frame in whose axes the inertia is constant, and that spins as little as possible.
+    pub(crate) fn inertia_axes(&self, frame: FrameId, inertia: &[Vector; 3]) -> FrameId {
         let graph = &self.algebra.graph;
         let is_same = |axis: usize| {
             let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
             let zero = |a: usize, b: usize| graph.is_zero(inertia[a][b]);
             inertia[i][i] == inertia[j][j] && zero(i, j) && zero(i, axis) && zero(j, axis)
         };
-        let axes = self.unspun(frame, is_same);
-        let omega = self.omega_in(GROUND, axes, frame);
-        self.name_vector(&format!("{name}_omega"), omega, place)
+        self.unspun(frame, is_same)
     }
 
     fn weigh(

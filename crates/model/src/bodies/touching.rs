@@ -9,8 +9,8 @@
 use chetaev_symbolic::Expr;
 
 use super::algebra::Vector;
-use super::contacts::Touch;
-use super::lowering::{FrameId, Lowering};
+use super::keeping::KeptReaction;
+use super::lowering::{FrameId, Lowering, GROUND};
 use super::placing::Built;
 use super::sections::{table, text, word};
 use super::shapes::Outline;
@@ -34,10 +34,19 @@ impl Figure {
     }
 }
 
-/// A contact with the height of its lowest point.
+/// What a body does at the point where it touches a plane, against the plane.
 struct Found {
-    touch: Touch,
+    /// The velocity of its touching point along the rim or the blade, that across it in the plane, and the angular velocity about
+    /// the normal.
+    velocities: [Expr; 3],
+    /// The height of its lowest point.
     height: Expr,
+    /// In which axes the following are given.
+    axes: FrameId,
+    /// The touching point.
+    point: Vector,
+    /// Unit vectors along, across and normal.
+    directions: [Vector; 3],
 }
 
 impl<'r> Lowering<'r> {
@@ -83,21 +92,60 @@ impl<'r> Lowering<'r> {
             Some(raw) => self.number(&object.slot("angle", "rad"), raw),
             None => None,
         };
-        let touch = Touch {
-            angle: angle.unwrap_or(found.touch.angle),
-            ..found.touch
-        };
-        let statements = (contact.kind.statements)(&self.algebra, &touch);
+        let angle = angle.unwrap_or(self.algebra.graph.zero());
+        let statements = (contact.kind.statements)(&self.algebra, angle);
         for statement in statements {
             let about = format!("{} {}", object.words(), statement.says);
-            self.constrain(
-                &format!("{name}{}", statement.suffix),
-                statement.vanishes,
-                about,
-                place,
-            );
+            let vanishes = self.algebra.dot(statement.along, found.velocities);
+            let own = format!("{name}{}", statement.suffix);
+            self.react(contact, &own, &found, statement.along);
+            self.constrain(&own, vanishes, about, place);
         }
+        self.react_normally(contact, &format!("{name}_touch"), &found);
         self.stay(&name, found.height, &object.words(), place);
+    }
+
+    /// The reaction of a statement: a force along and across, and a torque about the normal.
+    fn react(
+        &mut self,
+        contact: &ContactStated<'r>,
+        constraint: &str,
+        found: &Found,
+        along: [Expr; 3],
+    ) {
+        let a = &self.algebra;
+        let [forward, side, normal] = found.directions;
+        let force = a.plus(a.times(along[0], forward), a.times(along[1], side));
+        let torque = a.times(along[2], normal);
+        self.react_by(contact, constraint, found, [force, torque]);
+    }
+
+    /// The force along the normal.
+    fn react_normally(&mut self, contact: &ContactStated<'r>, constraint: &str, found: &Found) {
+        let wrench = [found.directions[2], self.algebra.zero()];
+        self.react_by(contact, constraint, found, wrench);
+    }
+
+    fn react_by(
+        &mut self,
+        contact: &ContactStated<'r>,
+        constraint: &str,
+        found: &Found,
+        wrench: [Vector; 2],
+    ) {
+        let [force, torque] = wrench.map(|v| self.in_base(GROUND, found.axes, v));
+        let point = self.point(GROUND, found.axes, found.point);
+        self.keep_reaction(KeptReaction {
+            constraint: constraint.to_owned(),
+            object: contact.object.name().to_owned(),
+            place: contact.object.place,
+            body: contact.body.clone(),
+            other: contact.on.clone(),
+            force,
+            point,
+            other_point: point,
+            torque,
+        });
     }
 
     /// The lowest point stays on the plane: a constraint, or nothing where its height does not change.
@@ -275,14 +323,20 @@ impl<'r> Lowering<'r> {
             side.push(a.graph.mul(&[share, a.dot(turning, along)]));
             level.push(a.graph.neg(tube));
         }
-        let touch = Touch {
-            forward: a.graph.add(&forward),
-            side: a.graph.add(&side),
-            spin,
-            angle: a.graph.zero(),
-        };
-        let height = a.graph.add(&level);
-        Found { touch, height }
+        let share = |v: Vector| v.map(|e| a.graph.div(e, length));
+        let mut down = a.times(a.graph.neg(figure.radius()), share(flat));
+        if figure.outline == Outline::Torus {
+            let tube = figure.lengths.get(1).copied();
+            let tube = tube.unwrap_or(a.graph.zero());
+            down = a.minus(down, a.times(tube, normal));
+        }
+        Found {
+            velocities: [a.graph.add(&forward), a.graph.add(&side), spin],
+            height: a.graph.add(&level),
+            axes,
+            point: a.plus(middle, down),
+            directions: [share(along), share(across), normal],
+        }
     }
 
     fn ellipsoid(
@@ -310,15 +364,27 @@ impl<'r> Lowering<'r> {
         let slip = a.plus(rates.velocity, a.cross(rates.omega, arm));
         let slip = self.name_vector(&format!("{name}_slip"), slip, place);
         let a = &self.algebra;
-        let touch = Touch {
-            forward: a.dot(slip, rows[if self.up.axis == 0 { 1 } else { 0 }]),
-            side: a.dot(slip, rows[if self.up.axis == 2 { 1 } else { 2 }]),
-            spin: a.dot(rates.omega, normal),
-            angle: a.graph.zero(),
-        };
         let level = a.graph.add(&[rise, a.dot(normal, figure.middle)]);
-        let height = a.graph.sub(level, root);
-        Found { touch, height }
+        let [forward, side] = self.level_axes(&rows);
+        Found {
+            velocities: [
+                a.dot(slip, forward),
+                a.dot(slip, side),
+                a.dot(rates.omega, normal),
+            ],
+            height: a.graph.sub(level, root),
+            axes: body,
+            point: arm,
+            directions: [forward, side, normal],
+        }
+    }
+
+    /// The axes of a plane that lie in it.
+    fn level_axes(&self, rows: &[Vector; 3]) -> [Vector; 2] {
+        [
+            rows[if self.up.axis == 0 { 1 } else { 0 }],
+            rows[if self.up.axis == 2 { 1 } else { 2 }],
+        ]
     }
 
     /// A rim whose point of contact is the origin of the heading frame.
@@ -337,14 +403,18 @@ impl<'r> Lowering<'r> {
         let down = a.times(a.graph.neg(figure.radius()), normal);
         let axle = a.unit(figure.axis);
         let slip = a.plus(rates.velocity, a.cross(rolling, down));
-        let touch = Touch {
-            forward: a.dot(slip, a.cross(axle, normal)),
-            side: a.dot(slip, axle),
-            spin: a.dot(turning, normal),
-            angle: a.graph.zero(),
-        };
-        let height = a.graph.zero();
-        Found { touch, height }
+        let along = a.cross(axle, normal);
+        Found {
+            velocities: [
+                a.dot(slip, along),
+                a.dot(slip, axle),
+                a.dot(turning, normal),
+            ],
+            height: a.graph.zero(),
+            axes: built.heading,
+            point: a.zero(),
+            directions: [along, axle, normal],
+        }
     }
 
     fn sphere(&mut self, figure: &Figure, plane: FrameId, body: FrameId) -> Found {
@@ -358,15 +428,19 @@ impl<'r> Lowering<'r> {
         let down = a.times(a.graph.neg(figure.radius()), normal);
         let carried = a.plus(rates.velocity, a.cross(rates.omega, middle));
         let slip = a.plus(carried, a.cross(turning, down));
-        let touch = Touch {
-            forward: a.dot(slip, rows[if self.up.axis == 0 { 1 } else { 0 }]),
-            side: a.dot(slip, rows[if self.up.axis == 2 { 1 } else { 2 }]),
-            spin: a.dot(turning, normal),
-            angle: a.graph.zero(),
-        };
         let level = a.graph.add(&[rise, a.dot(normal, middle)]);
-        let height = a.graph.sub(level, figure.radius());
-        Found { touch, height }
+        let [forward, side] = self.level_axes(&rows);
+        Found {
+            velocities: [
+                a.dot(slip, forward),
+                a.dot(slip, side),
+                a.dot(turning, normal),
+            ],
+            height: a.graph.sub(level, figure.radius()),
+            axes,
+            point: a.plus(middle, down),
+            directions: [forward, side, normal],
+        }
     }
 
     /// A point of the body, with the direction of a blade.
@@ -377,13 +451,17 @@ impl<'r> Lowering<'r> {
         let a = &self.algebra;
         let forward = a.unit(figure.axis);
         let slip = a.plus(rates.velocity, a.cross(rates.omega, figure.middle));
-        let touch = Touch {
-            forward: a.dot(slip, forward),
-            side: a.dot(slip, a.cross(normal, forward)),
-            spin: a.dot(rates.omega, normal),
-            angle: a.graph.zero(),
-        };
-        let height = a.graph.add(&[rise, a.dot(normal, figure.middle)]);
-        Found { touch, height }
+        let side = a.cross(normal, forward);
+        Found {
+            velocities: [
+                a.dot(slip, forward),
+                a.dot(slip, side),
+                a.dot(rates.omega, normal),
+            ],
+            height: a.graph.add(&[rise, a.dot(normal, figure.middle)]),
+            axes: body,
+            point: figure.middle,
+            directions: [forward, side, normal],
+        }
     }
 }

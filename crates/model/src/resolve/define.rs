@@ -33,6 +33,8 @@ pub(crate) enum DefineKind {
     QuasiVelocity,
     /// `[moving_frame.fields]`; the value follows from all fields together.
     FrameVelocity,
+    /// A definition that only bodies, joints and contacts name.
+    Object,
     /// A value in `[masses]`.
     Mass,
     /// A rate in `[masses]`; called like the derivative of its mass.
@@ -42,7 +44,7 @@ pub(crate) enum DefineKind {
 impl DefineKind {
     fn word(self) -> &'static str {
         match self {
-            DefineKind::Definition => "a definition",
+            DefineKind::Definition | DefineKind::Object => "a definition",
             DefineKind::Mass => "a mass",
             DefineKind::MassRate => "the rate of a mass",
             _ => "a quasi-velocity",
@@ -203,7 +205,7 @@ impl Resolver {
             ..
         } = self.defines[number].clone();
         let context = match kind {
-            DefineKind::Definition => Context::jet("a definition"),
+            DefineKind::Definition | DefineKind::Object => Context::jet("a definition"),
             DefineKind::QuasiVelocity => Context::state("a quasi-velocity").without_masses(),
             DefineKind::Mass => Context::state("a mass"),
             DefineKind::MassRate => Context::state("the rate of a mass"),

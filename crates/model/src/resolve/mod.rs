@@ -14,6 +14,7 @@ pub(crate) mod formula;
 pub(crate) mod frame;
 mod integrals;
 mod masses;
+mod mechanism;
 mod parameters;
 mod particles;
 mod run;
@@ -32,6 +33,7 @@ use std::sync::Arc;
 use chetaev_symbolic::syntax::{names, Span};
 use chetaev_symbolic::Graph;
 
+use crate::bodies::keeping::Kept;
 use crate::diagnostic::{Diagnostic, Known};
 use crate::dimension;
 use crate::model::{Control, Coordinate, Definition, Model, ModelText, Parameter};
@@ -140,6 +142,7 @@ pub(crate) fn resolve(
     text: ModelText,
     overrides: Vec<Override>,
     others: BTreeMap<Place, Option<Model>>,
+    kept: Option<Kept>,
 ) -> (Option<Model>, Vec<Diagnostic>) {
     let mut resolver = Resolver {
         graph: Arc::new(Graph::new()),
@@ -165,7 +168,7 @@ pub(crate) fn resolve(
         others,
     };
     resolver.known_keys(root, SECTIONS, "of a model file");
-    let model = resolver.model(root, file, sources, text);
+    let model = resolver.model(root, file, sources, text, kept);
     let failed = resolver
         .diagnostics
         .iter()
@@ -180,8 +183,9 @@ impl Resolver {
         file: Place,
         sources: Sources,
         text: ModelText,
+        kept: Option<Kept>,
     ) -> Option<Model> {
-        self.names_and_values(root, file);
+        self.names_and_values(root, file, kept.as_ref());
         let assumptions = self.assumptions(root);
         self.check_assumptions(&assumptions);
         let particles = self.particles(root);
@@ -211,6 +215,7 @@ impl Resolver {
         let history = self.prose(root, "history");
         let source = self.references(root);
         let unused = self.unused(&twins);
+        let mechanism = kept.and_then(|kept| self.mechanism(&kept));
         let lagrangian = lagrangian?;
         let masses = self.masses();
         Some(Model {
@@ -229,6 +234,7 @@ impl Resolver {
             inertia_by_masses: lagrangian.by_masses,
             particles,
             kinetic_from_particles: lagrangian.from_particles,
+            mechanism,
             kinetic: lagrangian.kinetic,
             potential: lagrangian.potential,
             lagrangian: lagrangian.total,
@@ -297,13 +303,14 @@ impl Resolver {
     }
 
     /// Declares every name and gives it its value.
-    fn names_and_values(&mut self, root: &Table, file: Place) {
+    fn names_and_values(&mut self, root: &Table, file: Place, kept: Option<&Kept>) {
         self.declare_sizes(root);
         self.declare_coordinates(root, file);
         self.declare_controls(root);
         self.declare_parameters(root);
         self.declare_masses(root);
         self.declare_defines(root);
+        self.declare_objects(kept);
         self.declare_frame(root);
         self.declare_characteristics(root);
         self.resolve_parameters();
@@ -319,7 +326,9 @@ impl Resolver {
             .defines
             .iter()
             .filter(|define| define.is_quasi_velocity() == quasi)
-            .filter(|define| define.kind != define::DefineKind::MassRate)
+            .filter(|define| {
+                ![define::DefineKind::MassRate, define::DefineKind::Object].contains(&define.kind)
+            })
             .collect();
         chosen.sort_by_key(|define| if quasi { 0 } else { define.rank });
         chosen

@@ -4,10 +4,10 @@ use super::kind::{no_slip_sideways, Contact, Statement};
 
 pub(super) const BLADE: Contact = Contact {
     word: "blade",
-    statements: |_, touch| {
+    statements: |a, _| {
         vec![Statement {
             suffix: "",
-            ..no_slip_sideways(touch)
+            ..no_slip_sideways(a)
         }]
     },
 };

@@ -4,23 +4,12 @@ use chetaev_symbolic::Expr;
 
 use crate::bodies::algebra::Algebra;
 
-/// Velocities at the point where a body touches a plane, against the plane.
-#[derive(Clone, Copy)]
-pub(crate) struct Touch {
-    /// Of the touching point of the body, along the rim or the blade.
-    pub(crate) forward: Expr,
-    /// Of the same point across it, in the plane.
-    pub(crate) side: Expr,
-    /// The angular velocity of the body about the normal.
-    pub(crate) spin: Expr,
-    /// The angle that the user states, for rollers: from the axle towards the rim.
-    pub(crate) angle: Expr,
-}
-
 /// A statement of a contact: the end of the constraint's name, what vanishes, and a word about it.
 pub(crate) struct Statement {
     pub(crate) suffix: &'static str,
-    pub(crate) vanishes: Expr,
+    /// What vanishes: so much of the velocity of the touching point against the plane along the rim or the blade, of that across it,
+    /// and of the angular velocity about the normal.
+    pub(crate) along: [Expr; 3],
     pub(crate) says: &'static str,
 }
 
@@ -28,24 +17,24 @@ pub(crate) struct Statement {
 pub(crate) struct Contact {
     /// Its word in the model file.
     pub(crate) word: &'static str,
-    /// What it says.
-    pub(crate) statements: fn(&Algebra, &Touch) -> Vec<Statement>,
+    /// What it says; with the angle that the user states, for rollers: from the axle towards the rim.
+    pub(crate) statements: fn(&Algebra, Expr) -> Vec<Statement>,
 }
 
 /// No motion along the rim.
-pub(super) fn no_slip_forward(touch: &Touch) -> Statement {
+pub(super) fn no_slip_forward(a: &Algebra) -> Statement {
     Statement {
         suffix: "_forward",
-        vanishes: touch.forward,
+        along: a.unit(0),
         says: "does not slip forwards",
     }
 }
 
 /// No motion across the rim.
-pub(super) fn no_slip_sideways(touch: &Touch) -> Statement {
+pub(super) fn no_slip_sideways(a: &Algebra) -> Statement {
     Statement {
         suffix: "_side",
-        vanishes: touch.side,
+        along: a.unit(1),
         says: "does not slip sideways",
     }
 }

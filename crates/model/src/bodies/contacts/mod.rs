@@ -7,7 +7,7 @@ mod rolling;
 mod rolling_without_spinning;
 mod sliding;
 
-pub(crate) use kind::{Contact, Touch};
+pub(crate) use kind::Contact;
 
 /// Every contact; a new one is a file and a line here.
 pub(crate) const CONTACTS: &[&Contact] = &[

@@ -6,15 +6,10 @@ use super::kind::{Contact, Statement};
 
 pub(super) const ROLLER: Contact = Contact {
     word: "roller",
-    statements: |a, touch| {
-        let (cos, sin) = (a.graph.cos(touch.angle), a.graph.sin(touch.angle));
-        let along = [
-            a.graph.mul(&[cos, touch.side]),
-            a.graph.mul(&[sin, touch.forward]),
-        ];
+    statements: |a, angle| {
         vec![Statement {
             suffix: "",
-            vanishes: a.graph.add(&along),
+            along: [a.graph.sin(angle), a.graph.cos(angle), a.graph.zero()],
             says: "does not slip along the axis of its roller",
         }]
     },

@@ -4,5 +4,5 @@ use super::kind::{no_slip_forward, no_slip_sideways, Contact};
 
 pub(super) const ROLLING: Contact = Contact {
     word: "rolling",
-    statements: |_, touch| vec![no_slip_forward(touch), no_slip_sideways(touch)],
+    statements: |a, _| vec![no_slip_forward(a), no_slip_sideways(a)],
 };

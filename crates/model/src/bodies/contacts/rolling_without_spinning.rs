@@ -4,12 +4,12 @@ use super::kind::{no_slip_forward, no_slip_sideways, Contact, Statement};
 
 pub(super) const ROLLING_WITHOUT_SPINNING: Contact = Contact {
     word: "rolling-without-spinning",
-    statements: |_, touch| {
+    statements: |a, _| {
         let spin = Statement {
             suffix: "_spin",
-            vanishes: touch.spin,
+            along: a.unit(2),
             says: "does not turn about the normal",
         };
-        vec![no_slip_forward(touch), no_slip_sideways(touch), spin]
+        vec![no_slip_forward(a), no_slip_sideways(a), spin]
     },
 };
