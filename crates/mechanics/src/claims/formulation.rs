@@ -4,7 +4,7 @@
 use super::{order, roots, Claim, Context, Finding, Group};
 use crate::card::Relation;
 use crate::characteristics::{Characteristics, Manifold};
-use crate::equations::{keep_names_apart, Equations};
+use crate::equations::{keep_names_apart, Equations, StateVariable};
 use crate::formulations::{self, Basis, DeriveError, FORMULATIONS};
 use crate::system::System;
 use chetaev_symbolic::verdict::Proof;
@@ -266,12 +266,17 @@ pub fn residuals(cx: &Context<'_>, reference: &Equations, other: &Equations) -> 
         .collect()
 }
 
-/// The multipliers of the same constraints in both forms, as functions of (q, v, t).
+/// The multipliers of the same constraints in both forms, as functions of (q, v, t); of forms that have velocities and nothing else as
+/// their state.
 fn both_multipliers(
     system: &System,
     reference: &Equations,
     other: &Equations,
 ) -> Vec<(Expr, Expr)> {
+    let is_plain = |x: &StateVariable| x.definition == Some(x.value);
+    if !other.variables.iter().all(is_plain) {
+        return Vec::new();
+    }
     let own = other.multipliers.iter();
     own.filter_map(|&(constraint, value)| {
         let mut all = reference.multipliers.iter();
