@@ -67,12 +67,24 @@ impl LeftOut {
             Err(_) => Default::default(),
         };
         let set = positions::of(system, terms);
-        let on = |manifold: &Manifold| {
-            prover.consequence(system, &stated, manifold, "on the constraint manifold")
+        let g = &system.graph;
+        let on = |values: &[(Expr, Expr)]| {
+            let manifold = set.joined(&manifold).substituted(g, values);
+            let stated = g.substitute_all(&stated, values);
+            prover.consequence(system, &stated, &manifold, "on the constraint manifold")
         };
-        let mut follows = on(&set.joined(&manifold));
-        if !matches!(follows, Verdict::Proved(_)) && !set.is_whole {
-            follows = at_points(system, terms, selection).unwrap_or(follows);
+        let mut follows = on(&[]);
+        if !matches!(follows, Verdict::Proved(_)) {
+            // A linkage may move by its measures alone.
+            let values = system.parameter_values();
+            if let (false, Verdict::Proved(proof)) = (values.is_empty(), on(&values)) {
+                let sentence = "for the values of the parameters that the model states";
+                follows = Verdict::Proved(proof).prefixed(sentence);
+            } else if !set.is_whole {
+                follows = at_points(system, terms, selection).unwrap_or_else(|| {
+                    Verdict::undecided("no positions were found that satisfy the finite constraints")
+                });
+            }
         }
         Some(LeftOut {
             names,

@@ -44,7 +44,7 @@ pub fn select(system: &System, terms: &MotionTerms) -> Result<Selection, Charact
             dependent: Vec::new(),
         });
     }
-    let point = sample::admissible_point(system, terms, 0x0c4e_7ae5).ok_or_else(|| {
+    let point = sample::admissible_point(system, terms, sample::SEED).ok_or_else(|| {
         CharacteristicsError::NoAdmissibleState {
             names: constraint_names(system, terms),
         }
