@@ -2,7 +2,7 @@
 
 use crate::characteristics::Manifold;
 use crate::sample;
-use crate::selection::eliminate;
+use crate::selection::{eliminate, Selection};
 use crate::system::System;
 use crate::terms::MotionTerms;
 use chetaev_symbolic::{Expr, Graph, Node, Symbol};
@@ -21,13 +21,16 @@ pub struct Positions {
 }
 
 /// The set of positions of a system.
-pub fn of(system: &System, terms: &MotionTerms) -> Positions {
+pub fn of(system: &System, terms: &MotionTerms, selection: &Selection) -> Positions {
     let g = &system.graph;
     let stated = terms
         .constraint_index
         .iter()
         .map(|&l| &system.constraints[l]);
-    let mut rest: Vec<Expr> = stated.filter(|c| c.order == 0).map(|c| c.stated).collect();
+    let finite = stated.enumerate().filter(|(_, c)| c.order == 0);
+    let (mut rows, mut rest): (Vec<usize>, Vec<Expr>) =
+        finite.map(|(row, c)| (row, c.stated)).unzip();
+    let is_finite = rows.len() == terms.constraints.len();
     let mut found = Positions {
         is_whole: true,
         ..Positions::default()
@@ -35,9 +38,11 @@ pub fn of(system: &System, terms: &MotionTerms) -> Positions {
     let symbols = system.coordinate_symbols();
     while let Some((index, symbol, value)) = solvable(system, &rest, &symbols) {
         rest.remove(index);
+        rows.remove(index);
         let pair = [(g.symbol_expr(symbol), value)];
-        rest = g.substitute_all(&rest, &pair);
-        rest.retain(|&e| !g.is_zero(e));
+        let put_in = g.substitute_all(&rest, &pair);
+        let pairs = rows.into_iter().zip(put_in);
+        (rows, rest) = pairs.filter(|(_, e)| !g.is_zero(*e)).unzip();
         for (_, e) in &mut found.solved {
             *e = g.substitute(*e, &pair);
         }
@@ -47,41 +52,63 @@ pub fn of(system: &System, terms: &MotionTerms) -> Positions {
     let mut used: Vec<Symbol> = Vec::new();
     while let Some((index, symbol)) = triangular(system, &rest, &symbols, &used) {
         used.push(symbol);
+        rows.remove(index);
         found.implicit.push((rest.remove(index), symbol));
     }
     let free: Vec<Symbol> = symbols.into_iter().filter(|s| !used.contains(s)).collect();
-    match jointly(system, terms, &rest, &free) {
+    // Where all constraints are finite the selection is one of positions.
+    let chosen = is_finite.then(|| selected(system, selection, &rows, &free));
+    let chosen = chosen.flatten().or_else(|| sampled(system, terms, &rest, &free));
+    match chosen.and_then(|chosen| jointly(&chosen, &rest)) {
         Some(pairs) => found.implicit.extend(pairs),
         None => found.is_whole = rest.is_empty(),
     }
     found
 }
 
-/// Constraints that are coupled, with the coordinates that they determine jointly near a position of the set: those of a largest minor
-/// of their gradients, coordinates first that do not stand in angles. Constraints beyond the rank hold besides.
-fn jointly(
+/// Constraints that are coupled, with the coordinates that they determine jointly; those that are not chosen hold besides.
+fn jointly(chosen: &[(usize, Symbol)], rest: &[Expr]) -> Option<Vec<(Expr, Symbol)>> {
+    let (_, first) = *chosen.first()?;
+    let own = chosen.iter().map(|&(place, symbol)| (rest[place], symbol));
+    let is_chosen = |place: usize| chosen.iter().any(|&(own, _)| own == place);
+    let others = (0..rest.len()).filter(|&place| !is_chosen(place));
+    Some(own.chain(others.map(|place| (rest[place], first))).collect())
+}
+
+/// The constraints of a selection with their coordinates; `None` where a coordinate is taken already.
+fn selected(
+    system: &System,
+    selection: &Selection,
+    rows: &[usize],
+    free: &[Symbol],
+) -> Option<Vec<(usize, Symbol)>> {
+    let pairs = selection.rows.iter().zip(&selection.dependent);
+    let own = pairs.filter_map(|(row, &j)| {
+        let place = rows.iter().position(|r| r == row)?;
+        Some((place, system.coordinates.get(j)?.q_symbol))
+    });
+    let own: Vec<(usize, Symbol)> = own.collect();
+    own.iter().all(|(_, s)| free.contains(s)).then_some(own)
+}
+
+/// Constraints and coordinates of a largest minor of the gradients at a position of the set, coordinates first that do not stand in angles.
+fn sampled(
     system: &System,
     terms: &MotionTerms,
     rest: &[Expr],
     free: &[Symbol],
-) -> Option<Vec<(Expr, Symbol)>> {
+) -> Option<Vec<(usize, Symbol)>> {
     if rest.is_empty() {
         return None;
     }
     let g = &system.graph;
     let point = sample::admissible_point(system, terms, sample::SEED)?;
     let gradient = g.jacobian(rest, free).concat();
-    let values = g
-        .evaluate_f64(&gradient, &|s| point.get(&s).copied())
-        .ok()?;
+    let values = g.evaluate_f64(&gradient, &|s| point.get(&s).copied()).ok()?;
     let cost = |e: &Expr| free.iter().map(|&s| turns(g, *e, s)).collect();
     let chosen = eliminate(values, rest.iter().map(cost).collect(), free.len());
     let pairs = chosen.rows.iter().zip(&chosen.dependent);
-    let mut pairs: Vec<(Expr, Symbol)> = pairs.map(|(&row, &j)| (rest[row], free[j])).collect();
-    let (_, first) = *pairs.first()?;
-    let others = (0..rest.len()).filter(|row| !chosen.rows.contains(row));
-    pairs.extend(others.map(|row| (rest[row], first)));
-    Some(pairs)
+    Some(pairs.map(|(&place, &j)| (place, free[j])).collect())
 }
 
 /// 0 for a symbol in which an expression is a polynomial, 1 for one that stands in angles.

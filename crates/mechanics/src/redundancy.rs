@@ -66,7 +66,7 @@ impl LeftOut {
             Ok(c) => (c.manifold.clone(), c.restrict(system, &stated)),
             Err(_) => Default::default(),
         };
-        let set = positions::of(system, terms);
+        let set = positions::of(system, terms, selection);
         let g = &system.graph;
         let on = |values: &[(Expr, Expr)]| {
             let manifold = set.joined(&manifold).substituted(g, values);
@@ -148,7 +148,7 @@ impl Reactions {
         let transposed: Vec<Expr> = (0..size)
             .flat_map(|d| rows.iter().map(move |row| row[d]))
             .collect();
-        let set = positions::of(system, terms);
+        let set = positions::of(system, terms, selection);
         let mut parts: Vec<Vec<Expr>> = vec![Vec::new(); size];
         let lambda = |row: usize| {
             let name = &system.constraints[terms.constraint_index[row]].name;

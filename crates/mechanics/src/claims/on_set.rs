@@ -20,7 +20,7 @@ pub fn constraint_set(cx: &Context<'_>) -> Manifold {
     let mut set = manifold(cx);
     let is_finite = |l: &&usize| system.constraints[**l].kind == ConstraintKind::Holonomic;
     if cx.terms.constraint_index.iter().filter(is_finite).count() > 1 {
-        let positions = cx.shared(|_| positions::of(system, cx.terms));
+        let positions = cx.shared(|_| positions::of(system, cx.terms, cx.selection));
         return positions.joined(&set);
     }
     let pairs = cx.selection.rows.iter().zip(&cx.selection.dependent);
