@@ -4,8 +4,9 @@
 //! for these; the gradient of a function with a conjugate is undone by the conjugate. Rules are differentiated as needed. What is
 //! solved is triangular, so that an expression in which no rule applies any more is a function of free jets, and vanishes
 //! where the equations hold exactly when it vanishes identically. For that, two rules that give the same derivative of a component have to
-//! agree: their difference is one more equation. (Of the integrability conditions of Riquier and Janet these are the ones that do not raise the
-//! order; the others are not looked at.)
+//! agree: their difference is one more equation. While equations are solved, these are the integrability conditions of Riquier and Janet
+//! that do not raise the order. Before something is said not to follow, the others are taken too, up to [`Solved::highest`]: what
+//! follows by differentiation and elimination is no counterexample, and where conditions beyond that order are left nothing is refuted.
 //!
 //! A field that is known on a curved piece of the boundary is what is known plus the distance from the piece times a new free field
 //! (see [`boundary`](crate::boundary)): so the derivatives along the piece are known, and the one across it is not.
@@ -13,12 +14,13 @@
 use crate::boundary::CURVATURE;
 use crate::functional::Side;
 use crate::space::{Component, Jet, Space};
-use chetaev_symbolic::verdict::Proof;
+use chetaev_symbolic::verdict::{Counterexample, Proof};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::{generic_rank, known_sign, Options, Pivots, RankTest};
 use chetaev_symbolic::{Expr, Node, Verdict};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 /// Equations that belong together: the components of one.
 #[derive(Clone, Debug)]
@@ -39,6 +41,11 @@ pub struct Solved<'s> {
     preferred: BTreeSet<String>,
     /// Pairs of rules that were compared.
     crossed: BTreeSet<(usize, usize)>,
+    /// Up to which order conditions of integrability that raise the order are taken; none of them where it is `None`.
+    order: Option<usize>,
+    /// Whether there are conditions beyond that order.
+    is_cut: bool,
+    prolonged: RefCell<Option<Rc<Solved<'s>>>>,
     known: RefCell<BTreeMap<Jet, Expr>>,
     judged: RefCell<BTreeMap<Expr, bool>>,
     /// Equations that are left, with their labels.
@@ -119,6 +126,9 @@ impl<'s> Solved<'s> {
             is_corner: false,
             preferred: BTreeSet::new(),
             crossed: BTreeSet::new(),
+            order: None,
+            is_cut: false,
+            prolonged: RefCell::default(),
             known: RefCell::default(),
             judged: RefCell::default(),
             left: Vec::new(),
@@ -180,8 +190,32 @@ impl<'s> Solved<'s> {
     pub fn with(&self, groups: &[Group]) -> Solved<'s> {
         let mut own = self.clone();
         own.left.extend(groups.iter().cloned());
+        own.prolonged = RefCell::default();
         own.solve();
         own
+    }
+
+    /// The order up to which conditions of integrability are looked at before something is refuted: two derivatives of the highest order
+    /// meet at the latest at twice that order, and what comes of it may be differentiated once more.
+    pub fn highest(&self) -> usize {
+        let orders = self.rules.iter().map(|rule| rule.jet.by.len());
+        2 * orders.max().unwrap_or(0) + 1
+    }
+
+    /// The same with the conditions of integrability that raise the order.
+    fn prolonged(&self) -> Rc<Solved<'s>> {
+        let known = self.prolonged.borrow().clone();
+        if let Some(known) = known {
+            return known;
+        }
+        let mut own = self.clone();
+        own.order = Some(self.highest());
+        own.is_cut = false;
+        own.crossed.clear();
+        own.solve();
+        let made = Rc::new(own);
+        *self.prolonged.borrow_mut() = Some(Rc::clone(&made));
+        made
     }
 
     /// An expression where the equations hold: rules and their derivatives put in.
@@ -250,9 +284,17 @@ impl<'s> Solved<'s> {
                     continue;
                 }
                 let (by_a, by_b) = (missing(&b.jet.by, &a.jet.by), missing(&a.jet.by, &b.jet.by));
+                if !a.reach.allows(&by_a) || !b.reach.allows(&by_b) {
+                    continue;
+                }
                 // Where neither is a derivative of the other, what follows is of higher order than both.
                 let is_above = !by_a.is_empty() && !by_b.is_empty();
-                if is_above || !a.reach.allows(&by_a) || !b.reach.allows(&by_b) {
+                if is_above
+                    && self
+                        .order
+                        .is_none_or(|most| a.jet.by.len() + by_a.len() > most)
+                {
+                    self.is_cut = true;
                     continue;
                 }
                 let g = &self.space.graph;
@@ -294,8 +336,55 @@ impl<'s> Solved<'s> {
                 "",
                 "it is a multiple of an equation that holds, by a factor without fields",
             )),
-            _ => self.contradicted(self.space.explicit(own)),
+            _ => match self.contradicted(self.space.explicit(own)) {
+                Verdict::Refuted(found) => self.confirmed(e, found),
+                other => other,
+            },
         }
+    }
+
+    /// A counterexample holds where no consequence of the equations speaks against it: they are differentiated, and what all derivatives
+    /// together say of jets of lower order is put in.
+    fn confirmed(&self, e: Expr, found: Counterexample) -> Verdict {
+        if !self.is_cut {
+            return Verdict::Refuted(found);
+        }
+        let full = self.prolonged();
+        let own = full.normal(e);
+        if full.pivots != self.pivots {
+            return Verdict::undecided(format!(
+                "conditions of integrability up to order {} can be solved only where a coefficient that depends on fields does not vanish",
+                self.highest()
+            ));
+        }
+        match self.space.vanishing(&[own], false) {
+            Verdict::Proved(_) => {
+                return Verdict::Proved(Proof::exact(
+                    "",
+                    "it follows by differentiation and elimination",
+                ))
+            }
+            _ if full.is_multiple(own) => {
+                return Verdict::Proved(Proof::exact(
+                    "",
+                    "it is a multiple of a condition of integrability",
+                ))
+            }
+            _ => {}
+        }
+        let is_settled = self
+            .space
+            .jets_in(&[own])
+            .iter()
+            .all(|jet| full.rule(jet).is_none());
+        if full.is_cut || full.left.len() > self.left.len() || !is_settled {
+            return Verdict::undecided(format!(
+                "it does not follow from the equations and their conditions of integrability up to order {}; conditions beyond that, or such \
+                 that cannot be solved for a derivative, were not used",
+                self.highest()
+            ));
+        }
+        full.contradicted(self.space.explicit(own))
     }
 
     /// A counterexample, where the boundary is plane if there is one: there the derivatives of the curvature are consistent.

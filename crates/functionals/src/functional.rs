@@ -246,8 +246,10 @@ pub enum Relation {
 /// The density in which an imposed equation is released, with the multiplier.
 #[derive(Clone, Debug)]
 pub struct Release {
-    /// The density.
-    pub density: Expr,
+    /// The density of the interior; the functional's own where none is stated.
+    pub density: Option<Expr>,
+    /// The density as written.
+    pub tree: Option<Node>,
     /// The multiplier as written.
     pub written: String,
     /// All its components.

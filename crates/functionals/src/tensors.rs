@@ -185,6 +185,16 @@ impl Scope {
             .collect()
     }
 
+    /// Whether a name is a tensor of rank two with equal components off the diagonal.
+    pub fn is_symmetric(&self, name: &str) -> bool {
+        let d = self.space.dimensions();
+        let Some(own) = self.tensors.get(name).filter(|own| own.rank == 2) else {
+            return false;
+        };
+        let mut all = pairs(d).into_iter();
+        all.all(|(i, j)| own.at(&[i, j], d) == own.at(&[j, i], d))
+    }
+
     /// The value of a checked expression where its free letters have `places`.
     pub fn value(&self, node: &Node, places: &Places) -> Expr {
         let g = &self.space.graph;

@@ -187,23 +187,13 @@ impl Multipliers {
             else {
                 continue;
             };
-            for (k, (&residual, &value)) in equation.residuals.iter().zip(values).enumerate() {
-                let component = space.component(crate::space::Component {
-                    name: format!("multiplier_{}_{}", equation.label, k + 1),
-                    tensor: format!("multiplier_{}", equation.label),
-                    multiplicity: 1,
-                    is_varied: false,
-                    is_of_boundary: false,
-                });
-                own.values.push((component, value));
-                let term = g.mul(&[space.jet(component, &[]), residual]);
-                match &equation.on {
-                    None => own.density = g.add(&[own.density, term]),
-                    Some(name) => {
-                        let at = functional.pieces.iter().position(|p| p.name == *name);
-                        if let Some(density) = at.and_then(|at| own.pieces.get_mut(at)) {
-                            *density = g.add(&[*density, term]);
-                        }
+            let term = own.term(space, &equation.label, &equation.residuals, values);
+            match &equation.on {
+                None => own.density = g.add(&[own.density, term]),
+                Some(name) => {
+                    let at = functional.pieces.iter().position(|p| p.name == *name);
+                    if let Some(density) = at.and_then(|at| own.pieces.get_mut(at)) {
+                        *density = g.add(&[*density, term]);
                     }
                 }
             }
@@ -211,17 +201,62 @@ impl Multipliers {
         own
     }
 
+    /// `λ R` with multipliers that are functions of place and are not varied.
+    fn term(&mut self, space: &Space, label: &str, residuals: &[Expr], values: &[Expr]) -> Expr {
+        let g = &space.graph;
+        let mut terms = Vec::new();
+        for (k, (&residual, &value)) in residuals.iter().zip(values).enumerate() {
+            let component = space.component(crate::space::Component {
+                name: format!("multiplier_{label}_{}", k + 1),
+                tensor: format!("multiplier_{label}"),
+                multiplicity: 1,
+                is_varied: false,
+                is_of_boundary: false,
+            });
+            self.values.push((component, value));
+            terms.push(g.mul(&[space.jet(component, &[]), residual]));
+        }
+        g.add(&terms)
+    }
+
     /// The multipliers replaced by what is stated for them.
     fn settled(&self, space: &Space, e: Expr) -> Expr {
         if self.values.is_empty() {
             return e;
         }
-        space.replace(e, &|symbol| {
+        let settled = space.replace(e, &|symbol| {
             let jet = space.as_jet(symbol)?;
             let (_, value) = self.values.iter().find(|(c, _)| *c == jet.component)?;
             Some(space.totals(*value, &jet.by))
-        })
+        });
+        match space.vanish(&[settled]) {
+            true => space.graph.zero(),
+            false => settled,
+        }
     }
+}
+
+/// An equation with its multiplier.
+#[derive(Clone, Copy, Debug)]
+pub struct Held<'e> {
+    /// Its label.
+    pub label: &'e str,
+    /// What vanishes, all components.
+    pub residuals: &'e [Expr],
+    /// The multipliers, all components.
+    pub multiplier: &'e [Expr],
+}
+
+/// The Euler expression of a component for the density with a term `λ R`, in which λ is not varied and takes its value afterwards.
+pub fn euler_with(space: &Space, density: Expr, held: Held<'_>, component: usize) -> Expr {
+    let mut own = Multipliers {
+        density,
+        pieces: Vec::new(),
+        values: Vec::new(),
+    };
+    let term = own.term(space, held.label, held.residuals, held.multiplier);
+    let whole = space.graph.add(&[density, term]);
+    own.settled(space, euler_expression(space, whole, component))
 }
 
 /// `Σ (−D)^α ∂L/∂c_α`.
@@ -294,13 +329,26 @@ pub(crate) fn flux(
 
 /// The coefficients of the variations and their derivatives on a piece, before anything is moved off them.
 pub(crate) fn piece_form(functional: &Functional, name: &str) -> Option<BTreeMap<Jet, Expr>> {
-    let piece = functional.piece(name)?;
+    let space = &*functional.space;
+    let lagrange = Multipliers::of(functional);
+    let at = functional.pieces.iter().position(|p| p.name == name)?;
     let varied: Vec<usize> = functional
         .interior()
         .flat_map(|f| f.components.clone())
         .collect();
-    let flux = flux(&functional.space, functional.density, &varied).ok()?;
-    Some(boundary_form(functional, piece, piece.density, &flux))
+    let flux = flux(space, lagrange.density, &varied).ok()?;
+    let form = boundary_form(
+        functional,
+        &functional.pieces[at],
+        lagrange.pieces[at],
+        &flux,
+    );
+    let settled = form.into_iter();
+    Some(
+        settled
+            .map(|(jet, value)| (jet, lagrange.settled(space, value)))
+            .collect(),
+    )
 }
 
 /// `n_i W_i + δb` on a piece.

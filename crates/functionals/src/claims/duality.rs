@@ -126,10 +126,7 @@ fn with_flux(functional: &Functional, other: &Functional, written: &str, flux: &
                         piece.name,
                         labels(&needed)
                     );
-                    formulas.push(Formula {
-                        caption,
-                        value: sum,
-                    });
+                    formulas.push(Formula::new(caption, sum));
                 }
                 all = all.and(Verdict::Proved(proof));
             }

@@ -13,7 +13,10 @@ mod second_variation;
 mod solution;
 
 use crate::functional::{Functional, Problem};
+use crate::notation::{written, Node};
+use crate::tensors::Scope;
 use crate::variation::{variation, Variation, VariationError};
+use chetaev_symbolic::print::Format;
 use chetaev_symbolic::{Expr, Verdict};
 
 /// A formula shown with a verdict.
@@ -23,6 +26,42 @@ pub struct Formula {
     pub caption: String,
     /// The expression; where it is an equation, it vanishes.
     pub value: Expr,
+    /// The same in index notation, where it has such a form.
+    pub indexed: Option<Printed>,
+}
+
+impl Formula {
+    /// A formula that is shown in components.
+    pub fn new(caption: impl Into<String>, value: Expr) -> Formula {
+        Formula {
+            caption: caption.into(),
+            value,
+            indexed: None,
+        }
+    }
+
+    /// The same, shown as a tree in the names of a scope.
+    #[must_use]
+    pub fn written(mut self, tree: &Node, scope: &Scope) -> Formula {
+        let of = |format| written(tree, scope, format);
+        self.indexed = Some(Printed {
+            text: of(Format::Text),
+            mathml: of(Format::Mathml),
+            latex: of(Format::Latex),
+        });
+        self
+    }
+}
+
+/// Index notation in every notation of a page.
+#[derive(Clone, Debug)]
+pub struct Printed {
+    /// As a model file writes it.
+    pub text: String,
+    /// MathML.
+    pub mathml: String,
+    /// LaTeX.
+    pub latex: String,
 }
 
 /// A verdict with the formulas that support it.

@@ -1,10 +1,11 @@
-//! `functional.multipliers`: a level follows from the one below by Lagrange multipliers that become fields.
+//! `functional.multipliers`: the level above follows by Lagrange multipliers that become fields, and by the semi-inverse method.
 
+use super::modulo::{equations, labels, vanishing};
 use super::{Claim, Context, Finding, Formula};
 use crate::elimination::{Group, Solved};
-use crate::functional::{Functional, Relation, Release};
-use crate::notation::Kind;
-use crate::variation::euler_expression;
+use crate::functional::{Equation, Field, Functional, Relation, Release};
+use crate::notation::{parse_sides, Kind, Node};
+use crate::variation::{euler_expression, euler_with, variation, Held, Variation};
 use chetaev_symbolic::verdict::Proof;
 use chetaev_symbolic::{Expr, Verdict};
 
@@ -21,12 +22,15 @@ impl Claim for Multipliers {
     }
 
     fn explanation(&self) -> &'static str {
-        "Courant's method: what is imposed, X = Φ, is released; X becomes a field of its own in the density (`released` in \
-         [descent]), and λ (X − Φ) is added. The Euler equation of X determines the multiplier. Put back, it gives the density of the level \
-         above. Three steps are proved: the released density is that of this functional where X = Φ; the Euler equation of X gives the stated \
-         multiplier, modulo the equations that are named; the released density and the multiplier's term make the density of the level above. \
-         The terms of that density are printed field by field, as the semi-inverse method begins (He 1997); that its equations follow \
-         is `functional.euler` of that level."
+        "Courant's method: what is imposed, X = Φ, is released. Where X is a field of the level above, it gets a place of its own in the \
+         density (`released` in [descent]); else the density stays as it is. The term λ (X − Φ) is added, in the interior or on the piece of \
+         the boundary where the equation is imposed. The Euler equation of X, or the natural condition there, determines the multiplier. Put back, \
+         it gives the density of the level above. Three steps are proved: the released density is that of this functional where X = Φ; the \
+         stated multiplier, held fixed, makes the variation vanish modulo the equations that are named; the released density and the \
+         multiplier's term make the density of the level above. The semi-inverse method (He 1997) builds the same density field by field: \
+         to the terms of the fields before an unknown function F of the others is added, and the Euler equation of the next field \
+         shows what F contains of it. Each step is proved: what is left has none of the field, and the Euler equation of the field follows from \
+         the equations named."
     }
 
     fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
@@ -37,10 +41,25 @@ impl Claim for Multipliers {
     }
 
     fn decide(&self, cx: &Context<'_>, _subject: Option<&str>) -> Finding {
-        match released(cx) {
-            Some((above, imposed, release)) => steps(cx.functional(), above, imposed, release),
-            None => Verdict::undecided("nothing is released").into(),
-        }
+        let Some((above, imposed, release)) = released(cx) else {
+            return Verdict::undecided("nothing is released").into();
+        };
+        let own = above.equations.iter().find(|e| imposed.contains(&e.label));
+        let Some(equation) = own else {
+            return Verdict::undecided("the equation that is imposed is not stated").into();
+        };
+        let way = Way {
+            functional: cx.functional(),
+            above,
+            equation,
+            release,
+        };
+        let mut formulas = Vec::new();
+        let verdict = match way.proved(&mut formulas) {
+            Ok(detail) => Verdict::Proved(Proof::exact("all fields", detail)),
+            Err(verdict) => *verdict,
+        };
+        Finding { verdict, formulas }
     }
 }
 
@@ -58,185 +77,279 @@ fn released<'p>(cx: &'p Context<'_>) -> Option<(&'p Functional, &'p [String], &'
         })
 }
 
-fn steps(
-    functional: &Functional,
-    above: &Functional,
-    imposed: &[String],
-    release: &Release,
-) -> Finding {
-    let space = &*functional.space;
-    let g = &space.graph;
-    let equation = above
-        .equations
-        .iter()
-        .find(|e| imposed.contains(&e.label) && e.on.is_none());
-    let Some(equation) = equation else {
-        return Verdict::undecided("the equation that is imposed is not stated in the interior")
-            .into();
-    };
-    let group = Group {
-        label: equation.label.clone(),
-        equations: equation.residuals.clone(),
-    };
-    let fields: Vec<String> = above
-        .fields
-        .iter()
-        .map(|field| field.name.clone())
-        .filter(|name| functional.fields.iter().all(|own| own.name != *name))
-        .collect();
-    let solved = Solved::new(space).preferring(&fields).with(&[group]);
-    let pairing = pairing(above, equation.residuals.as_slice(), &release.multiplier);
-    let Some(term) = pairing.map(|terms| g.add(&terms)) else {
-        return Verdict::undecided(
-            "the multiplier has another number of components than the equation",
-        )
-        .into();
-    };
-    let mut formulas = vec![
-        Formula {
-            caption: format!("1. ({}) is released", equation.label),
-            value: release.density,
-        },
-        Formula {
-            caption: "2. the term of the multiplier".into(),
-            value: term,
-        },
-    ];
-    let checks = [
-        (
-            "the released density is not that of this functional where the equation holds",
-            solved.normal(g.sub(release.density, functional.density)),
-        ),
-        (
-            "with the multiplier's term the released density is not that of the level above",
-            g.sub(g.add(&[release.density, term]), above.density),
-        ),
-    ];
-    for (what, e) in checks {
-        if let Some(verdict) = failed(space, e, what) {
-            return Finding { verdict, formulas };
-        }
-    }
-    let determined = determined(above, equation.residuals.as_slice(), release, &fields);
-    let modulo = match determined {
-        Ok(modulo) => modulo,
-        Err(verdict) => {
-            return Finding {
-                verdict: *verdict,
-                formulas,
-            }
-        }
-    };
-    for (caption, value) in by_field(above) {
-        formulas.push(Formula { caption, value });
-    }
-    let named = if modulo.is_empty() {
-        String::new()
-    } else {
-        format!(", modulo {}", super::modulo::labels(&modulo))
-    };
-    let detail = format!(
-        "({}) is released with the multiplier {}; the Euler equation of {} determines it{named}, and with it the density is that of {}",
-        equation.label, release.written, fields.join(", "), above.name
-    );
-    Finding {
-        verdict: Verdict::Proved(Proof::exact("all fields", detail)),
-        formulas,
-    }
+/// The way from a functional to the level above.
+struct Way<'p> {
+    functional: &'p Functional,
+    above: &'p Functional,
+    equation: &'p Equation,
+    release: &'p Release,
 }
 
-fn failed(space: &crate::space::Space, e: Expr, what: &str) -> Option<Verdict> {
-    match space.vanishing(&[e], true) {
-        Verdict::Proved(_) => None,
-        other => Some(other.prefixed(what)),
-    }
-}
+type Step<T> = Result<T, Box<Verdict>>;
 
-/// `λ_ij (X − Φ)_ij` with all components.
-fn pairing(above: &Functional, residuals: &[Expr], multiplier: &[Expr]) -> Option<Vec<Expr>> {
-    let g = &above.space.graph;
-    (residuals.len() == multiplier.len()).then(|| {
-        let own = residuals.iter().zip(multiplier);
-        own.map(|(&r, &m)| g.mul(&[r, m])).collect()
-    })
-}
-
-/// Courant's rule: the variation of the new field in `released + λ (X − Φ)` with λ as an unknown gives the multiplier. The fewest
-/// equations of the level above that are needed are named.
-fn determined(
-    above: &Functional,
-    residuals: &[Expr],
-    release: &Release,
-    fields: &[String],
-) -> Result<Vec<String>, Box<Verdict>> {
-    let space = &*above.space;
-    let g = &space.graph;
-    let mut es = Vec::new();
-    for field in above
-        .fields
-        .iter()
-        .filter(|field| fields.contains(&field.name))
-    {
-        for &component in &field.components {
-            let mut terms = vec![euler_expression(space, release.density, component)];
-            for (&r, &m) in residuals.iter().zip(&release.multiplier) {
-                // λ is not varied: only the equation contains the field.
-                let slope = euler_expression(space, r, component);
-                terms.push(g.mul(&[m, slope]));
-            }
-            es.push(g.add(&terms));
-        }
-    }
-    let available = super::modulo::equations(above, None);
-    let (_, needed) = super::modulo::vanishing(above, &es, &available)?;
-    Ok(needed)
-}
-
-/// The terms of the density field by field: those with derivatives first, then what contains the next field and none of the earlier ones.
-fn by_field(above: &Functional) -> Vec<(String, Expr)> {
-    let space = &*above.space;
-    let g = &space.graph;
-    let mut fields: Vec<_> = above.interior().collect();
-    let order = |components: &[usize]| {
-        let jets = space.jets_in(&[above.density]);
-        let own = jets
-            .iter()
-            .filter(|jet| components.contains(&jet.component));
-        own.map(|jet| jet.by.len()).max().unwrap_or(0)
-    };
-    fields.sort_by_key(|field| std::cmp::Reverse(order(&field.components)));
-    let parts: Vec<Expr> = match &above.tree.kind {
-        Kind::Sum(parts) => {
-            let own = parts.iter().map(|(minus, part)| {
-                let value = above.scope.value(part, &Default::default());
-                if *minus {
-                    g.neg(value)
-                } else {
-                    value
-                }
-            });
-            own.collect()
-        }
-        _ => vec![above.density],
-    };
-    let mut found = Vec::new();
-    let mut left = parts;
-    for (k, field) in fields.iter().enumerate() {
-        let contains = |e: &Expr| {
-            let jets = space.jets_in(&[*e]);
-            jets.iter()
-                .any(|jet| field.components.contains(&jet.component))
+impl Way<'_> {
+    /// All steps; the formulas are printed, the sentence says what they show.
+    fn proved(&self, formulas: &mut Vec<Formula>) -> Step<String> {
+        let (label, written) = (&self.equation.label, &self.release.written);
+        let above = &self.above.name;
+        let determined = match &self.equation.on {
+            None => self.inside(formulas)?,
+            Some(piece) => self.on(piece, formulas)?,
         };
-        let (own, rest): (Vec<Expr>, Vec<Expr>) = left.into_iter().partition(contains);
-        let caption = format!(
-            "{}. the terms of {} with {}, which its Euler equation asks for",
-            k + 3,
-            above.name,
-            field.name
-        );
-        found.push((caption, g.add(&own)));
-        left = rest;
+        let built = self.semi_inverse(formulas)?;
+        Ok(format!(
+            "({label}) is released with the multiplier {written}; {determined}, and with it the density is that of {above}; \
+             the semi-inverse method builds it from {built}"
+        ))
     }
-    found.retain(|(_, e)| !g.is_zero(*e));
-    found
+
+    /// The term of the multiplier.
+    fn term(&self) -> Step<Expr> {
+        let g = &self.above.space.graph;
+        let (residuals, multiplier) = (&self.equation.residuals, &self.release.multiplier);
+        if residuals.len() != multiplier.len() {
+            return Err(Box::new(Verdict::undecided(
+                "the multiplier has another number of components than the equation",
+            )));
+        }
+        let own = residuals.iter().zip(multiplier);
+        let terms: Vec<Expr> = own.map(|(&r, &m)| g.mul(&[r, m])).collect();
+        Ok(g.add(&terms))
+    }
+
+    /// The term of the multiplier, shown by the equation that it multiplies.
+    fn paired(&self, caption: String, term: Expr) -> Formula {
+        let scope = &self.above.scope;
+        let shown = Formula::new(caption, term);
+        let sides = parse_sides(&self.equation.written, scope, &mut Vec::new());
+        let Some((left, right)) = sides else {
+            return shown;
+        };
+        let span = left.span;
+        let mut parts = vec![(false, left)];
+        parts.extend(right.map(|right| (true, right)));
+        let kind = Kind::Sum(parts);
+        shown.written(&Node { kind, span }, scope)
+    }
+
+    /// The fields of the level above that this one does not have.
+    fn dropped(&self) -> Vec<&Field> {
+        let own = |name: &String| self.functional.fields.iter().any(|own| own.name == *name);
+        let interior = self.above.interior();
+        interior.filter(|field| !own(&field.name)).collect()
+    }
+
+    fn inside(&self, formulas: &mut Vec<Formula>) -> Step<String> {
+        let space = &*self.functional.space;
+        let g = &space.graph;
+        let density = self.release.density.unwrap_or(self.functional.density);
+        let term = self.term()?;
+        let caption = format!("1. ({}) is released", self.equation.label);
+        let released = Formula::new(caption, density);
+        formulas.push(match &self.release.tree {
+            Some(tree) => released.written(tree, &self.above.scope),
+            None => released.written(&self.functional.tree, &self.functional.scope),
+        });
+        let caption = format!("2. the multiplier {} times", self.release.written);
+        formulas.push(self.paired(caption, term));
+        let names: Vec<String> = self.dropped().iter().map(|f| f.name.clone()).collect();
+        let group = Group {
+            label: self.equation.label.clone(),
+            equations: self.equation.residuals.clone(),
+        };
+        let solved = Solved::new(space).preferring(&names).with(&[group]);
+        self.vanishes(
+            solved.normal(g.sub(density, self.functional.density)),
+            "the released density is not that of this functional where the equation holds",
+        )?;
+        self.vanishes(
+            g.sub(g.add(&[density, term]), self.above.density),
+            "with the multiplier's term the released density is not that of the level above",
+        )?;
+        let (fields, needed) = self.determined(density)?;
+        Ok(format!(
+            "the Euler equation of {} determines it{}",
+            fields.join(" and "),
+            modulo(&needed)
+        ))
+    }
+
+    /// Courant's rule: the variation of the new fields in `released + λ (X − Φ)`, with λ held, gives the multiplier; where nothing was
+    /// dropped, that of the fields in the equation. The fewest equations of the level above that are needed are named.
+    fn determined(&self, density: Expr) -> Step<(Vec<String>, Vec<String>)> {
+        let space = &*self.above.space;
+        let jets = space.jets_in(&self.equation.residuals);
+        let occurs = |field: &&Field| {
+            let mut own = jets.iter();
+            own.any(|jet| field.components.contains(&jet.component))
+        };
+        let dropped = self.dropped();
+        let fields: Vec<&Field> = match dropped.is_empty() {
+            true => self.above.interior().filter(occurs).collect(),
+            false => dropped,
+        };
+        let held = Held {
+            label: &self.equation.label,
+            residuals: &self.equation.residuals,
+            multiplier: &self.release.multiplier,
+        };
+        let components = fields.iter().flat_map(|field| &field.components);
+        let es: Vec<Expr> = components
+            .map(|&component| euler_with(space, density, held, component))
+            .collect();
+        let (_, needed) = vanishing(self.above, &es, &equations(self.above, None))?;
+        let names = fields.iter().map(|field| field.name.clone()).collect();
+        Ok((names, needed))
+    }
+
+    /// The equation is imposed on a piece of the boundary: the multiplier is a field of the level above.
+    fn on(&self, name: &str, formulas: &mut Vec<Formula>) -> Step<String> {
+        let g = &self.functional.space.graph;
+        let (Some(own), Some(above)) = (self.functional.piece(name), self.above.piece(name)) else {
+            let said = format!("one of the functionals has no piece {name}");
+            return Err(Box::new(Verdict::undecided(said)));
+        };
+        let term = self.term()?;
+        let caption = format!("1. ({}) is released on {name}", self.equation.label);
+        let released = Formula::new(caption, own.density);
+        formulas.push(match &own.tree {
+            Some(tree) => released.written(tree, &self.functional.scope),
+            None => released,
+        });
+        let caption = format!("2. on {name} the multiplier {} times", self.release.written);
+        formulas.push(self.paired(caption, term));
+        self.vanishes(
+            g.sub(g.add(&[own.density, term]), above.density),
+            &format!(
+                "with the multiplier's term the density on {name} is not that of the level above"
+            ),
+        )?;
+        let varied = self.varied()?;
+        let here = varied.pieces.iter().filter(|piece| piece.piece == name);
+        let conditions: Vec<_> = here
+            .flat_map(|piece| &piece.conditions)
+            .filter(|own| {
+                let mut fields = self.above.interior();
+                fields.any(|field| field.components.contains(&own.component))
+            })
+            .collect();
+        let es: Vec<Expr> = conditions.iter().map(|own| own.value).collect();
+        let (_, needed) = vanishing(self.above, &es, &equations(self.above, Some(name)))?;
+        let mut fields: Vec<String> = conditions
+            .iter()
+            .map(|own| self.above.space.component_at(own.component).tensor)
+            .collect();
+        fields.dedup();
+        Ok(format!(
+            "the natural condition of {} on {name} determines it{}",
+            fields.join(" and "),
+            modulo(&needed)
+        ))
+    }
+
+    /// The semi-inverse method: the terms of the density field by field, those with derivatives first, and for each field the equations from
+    /// which its Euler equation follows.
+    fn semi_inverse(&self, formulas: &mut Vec<Formula>) -> Step<String> {
+        let above = self.above;
+        let space = &*above.space;
+        let g = &space.graph;
+        let jets = space.jets_in(&[above.density]);
+        let order = |field: &&Field| {
+            let own = jets.iter();
+            let own = own.filter(|jet| field.components.contains(&jet.component));
+            own.map(|jet| jet.by.len()).max()
+        };
+        let mut fields: Vec<&Field> = above.interior().filter(|f| order(f).is_some()).collect();
+        fields.sort_by_key(|field| std::cmp::Reverse(order(field)));
+        let mut left = terms(above);
+        let varied = self.varied()?;
+        let mut said = Vec::new();
+        for field in fields {
+            let contains = |own: &Term| {
+                let jets = space.jets_in(&[own.value]);
+                let mut own = jets.iter();
+                own.any(|jet| field.components.contains(&jet.component))
+            };
+            let (own, rest): (Vec<Term>, Vec<Term>) = left.into_iter().partition(contains);
+            left = rest;
+            let (values, trees): (Vec<Expr>, Vec<(bool, Node)>) =
+                own.into_iter().map(|own| (own.value, own.part)).unzip();
+            let rest = g.add(&left.iter().map(|own| own.value).collect::<Vec<_>>());
+            for &component in &field.components {
+                let e = euler_expression(space, rest, component);
+                self.vanishes(e, &format!("what is left contains {}", field.name))?;
+            }
+            let of_field = varied.euler.iter();
+            let of_field = of_field.filter(|(c, _)| field.components.contains(c));
+            let euler: Vec<Expr> = of_field.map(|(_, value)| *value).collect();
+            let found = vanishing(above, &euler, &equations(above, None));
+            let (_, needed) = found.map_err(|verdict| {
+                let what = format!("the Euler equation of {} does not follow", field.name);
+                Box::new(verdict.prefixed(&what))
+            })?;
+            let step = formulas.len() + 1;
+            let from = match needed.is_empty() {
+                true => "vanishes identically".to_owned(),
+                false => format!("follows from {}", labels(&needed)),
+            };
+            let caption = format!(
+                "{step}. what {} adds for {}, whose Euler equation {from}",
+                above.name, field.name
+            );
+            let kind = Kind::Sum(trees);
+            let span = above.tree.span;
+            let added = Formula::new(caption, g.add(&values));
+            formulas.push(added.written(&Node { kind, span }, &above.scope));
+            said.push(match needed.is_empty() {
+                true => field.name.clone(),
+                false => format!("{} with {}", field.name, labels(&needed)),
+            });
+        }
+        Ok(said.join(", "))
+    }
+
+    /// The first variation of the level above.
+    fn varied(&self) -> Step<Variation> {
+        variation(self.above).map_err(|e| Box::new(Verdict::undecided(e.to_string())))
+    }
+
+    fn vanishes(&self, e: Expr, what: &str) -> Step<()> {
+        match self.above.space.vanishing(&[e], true) {
+            Verdict::Proved(_) => Ok(()),
+            other => Err(Box::new(other.prefixed(what))),
+        }
+    }
+}
+
+/// `, modulo (3)`.
+fn modulo(needed: &[String]) -> String {
+    match needed {
+        [] => String::new(),
+        some => format!(", modulo {}", labels(some)),
+    }
+}
+
+/// A term of a density with its sign.
+struct Term {
+    part: (bool, Node),
+    value: Expr,
+}
+
+/// The terms of a density.
+fn terms(functional: &Functional) -> Vec<Term> {
+    let g = &functional.space.graph;
+    let Kind::Sum(parts) = &functional.tree.kind else {
+        return vec![Term {
+            part: (false, functional.tree.clone()),
+            value: functional.density,
+        }];
+    };
+    let term = |part: &(bool, Node)| {
+        let value = functional.scope.value(&part.1, &Default::default());
+        Term {
+            part: part.clone(),
+            value: if part.0 { g.neg(value) } else { value },
+        }
+    };
+    parts.iter().map(term).collect()
 }

@@ -506,7 +506,7 @@ fn formulas(functional: &Functional, current: &Current) -> Vec<Formula> {
             return;
         }
         let value = simplify::simplify(g, e, &simplify::Options::default());
-        found.push(Formula { caption, value });
+        found.push(Formula::new(caption, value));
     };
     for (coordinate, &e) in space.coordinates.iter().zip(&current.flux) {
         show(format!("the current along {}", coordinate.name), e);

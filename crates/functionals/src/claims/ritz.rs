@@ -58,13 +58,15 @@ impl Claim for Ritz {
 
 fn formulas(functional: &Functional, last: &Approximation) -> Vec<Formula> {
     let space = &*functional.space;
-    let own = last.fields.iter().map(|(component, polynomial)| Formula {
-        caption: format!(
-            "{} of degree {}",
-            space.component_at(*component).name,
-            last.degree
-        ),
-        value: polynomial.expr(space),
+    let own = last.fields.iter().map(|(component, polynomial)| {
+        Formula::new(
+            format!(
+                "{} of degree {}",
+                space.component_at(*component).name,
+                last.degree
+            ),
+            polynomial.expr(space),
+        )
     });
     own.collect()
 }

@@ -121,14 +121,8 @@ fn decided(functional: &Functional, solution: &Solution, component: usize) -> Fi
     Finding {
         verdict: own.verdict(),
         formulas: vec![
-            Formula {
-                caption: "Legendre: what has to be positive".into(),
-                value: own.leading,
-            },
-            Formula {
-                caption: "Jacobi's equation, left side minus right side".into(),
-                value: jacobi,
-            },
+            Formula::new("Legendre: what has to be positive", own.leading),
+            Formula::new("Jacobi's equation, left side minus right side", jacobi),
         ],
     }
 }

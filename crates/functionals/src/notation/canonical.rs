@@ -126,7 +126,7 @@ fn sorted(node: &Node, scope: &Scope) -> Node {
     let pairs = match scope.shapes.get(&own.name) {
         Some(Shape::Symmetric) => 1,
         Some(Shape::Elastic) => 2,
-        _ if own.name == "delta" => 1,
+        _ if own.name == "delta" || scope.is_symmetric(&own.name) => 1,
         _ if own.argument.is_some() && own.indices.len() == 2 * own.primes as usize => own.primes,
         _ => 0,
     };

@@ -2,12 +2,13 @@
 //!
 //! They are derived from the densities as they are written, by the rules of index notation alone, and shown only where their components are
 //! proved to be those of the first variation. A definition on the boundary that contains the normal, such as the traction, is varied as
-//! a whole: the conditions then are the coefficients of δP_k and δu_k (T4 §4).
+//! a whole: the conditions then are the coefficients of δP_k and δu_k (T4 §4). The gradient of an energy, `s_ij = A'_ij(D)`, is varied as a
+//! whole where its coefficient vanishes identically. Multipliers of imposed equations are varied by nothing, and put in at the end.
 
 use super::canonical::{collected, sum_of};
 use super::terms::{renamed, times, Calculus, Linear, Term};
-use super::{Atom, Index, Kind, Node};
-use crate::functional::{Field, Functional, Piece, Role};
+use super::{free_letters, parse, parse_sides, Atom, Index, Kind, Node};
+use crate::functional::{Equation, Field, Functional, Piece, Role};
 use crate::read::on_side;
 use crate::space::Jet;
 use crate::tensors::{Scope, Shape, Tensor};
@@ -25,23 +26,163 @@ pub struct Indexed {
     pub value: Node,
 }
 
+/// The densities with the terms of multipliers, in the names of the functional and of its multipliers.
+struct Densities {
+    scope: Scope,
+    inside: Node,
+    pieces: BTreeMap<String, Node>,
+    multipliers: BTreeSet<String>,
+}
+
+impl Densities {
+    fn of(functional: &Functional) -> Option<Densities> {
+        let mut own = Densities {
+            scope: functional.scope.clone(),
+            inside: functional.tree.clone(),
+            pieces: BTreeMap::new(),
+            multipliers: BTreeSet::new(),
+        };
+        for piece in &functional.pieces {
+            let tree = piece.tree.iter().cloned();
+            own.pieces
+                .extend(tree.map(|tree| (piece.name.clone(), tree)));
+        }
+        for equation in functional.with_role(Role::Imposed) {
+            if let Some((written, _)) = &equation.multiplier {
+                own.add(equation, written)?;
+            }
+        }
+        Some(own)
+    }
+
+    /// Adds `λ (left − right)`.
+    fn add(&mut self, equation: &Equation, written: &str) -> Option<()> {
+        let mut problems = Vec::new();
+        let (left, right) = parse_sides(&equation.written, &self.scope, &mut problems)?;
+        let value = parse(written, &self.scope, &mut problems)?;
+        let mut letters = free_letters(&value);
+        letters.sort_unstable();
+        let name = format!("multiplier_{}", equation.label);
+        let span = Span::new(0, 0);
+        let node = |kind: Kind| Node { kind, span };
+        let multiplier = node(Kind::Atom(Atom {
+            name: name.clone(),
+            primes: 0,
+            indices: letters.iter().map(|&l| Index::Letter(l)).collect(),
+            derivatives: Vec::new(),
+            argument: None,
+        }));
+        let mut sides = vec![(false, left)];
+        sides.extend(right.map(|right| (true, right)));
+        let residual = node(Kind::Sum(sides));
+        let term = node(Kind::Product(vec![(false, multiplier), (false, residual)]));
+        let components = self.scope.components(&value, &letters);
+        let rank = letters.len();
+        self.scope
+            .tensors
+            .insert(name.clone(), Tensor { rank, components });
+        self.scope
+            .definitions
+            .insert(name.clone(), (letters, value));
+        self.multipliers.insert(name);
+        let zero = Node::number(0, span);
+        let place = match &equation.on {
+            None => &mut self.inside,
+            Some(on) => self.pieces.entry(on.clone()).or_insert(zero),
+        };
+        *place = node(Kind::Sum(vec![(false, place.clone()), (false, term)]));
+        Some(())
+    }
+
+    /// Gradients of energies that may be varied as a whole, as the coefficient of their variation vanishes identically.
+    fn settled(&self) -> BTreeSet<String> {
+        let mut named = Vec::new();
+        super::terms::names(&self.inside, &mut named);
+        let mut all: Vec<String> = named.clone();
+        // Names in definitions, one step after the other.
+        while let Some(name) = named.pop() {
+            let mut further = Vec::new();
+            if let Some((_, body)) = self.scope.definitions.get(&name) {
+                super::terms::names(body, &mut further);
+            }
+            further.retain(|own| !all.contains(own));
+            all.extend(further.iter().cloned());
+            named.extend(further);
+        }
+        let own = all.into_iter().filter(|name| self.is_gradient(name));
+        let own: BTreeSet<String> = own.collect();
+        own.into_iter()
+            .filter(|name| self.is_settled(name).unwrap_or(false))
+            .collect()
+    }
+
+    /// Whether a name is defined as the gradient of a function with a Legendre conjugate.
+    fn is_gradient(&self, name: &str) -> bool {
+        let Some((_, body)) = self.scope.definitions.get(name) else {
+            return false;
+        };
+        let Kind::Atom(atom) = &body.kind else {
+            return false;
+        };
+        let function = self.scope.space.function_named(&atom.name);
+        let is_conjugate =
+            function.is_some_and(|at| self.scope.space.function_at(at).conjugate.is_some());
+        atom.primes == 1 && atom.derivatives.is_empty() && is_conjugate
+    }
+
+    fn is_settled(&self, name: &str) -> Option<bool> {
+        let mut kept = self.multipliers.clone();
+        kept.insert(name.to_owned());
+        let calculus = Calculus::new(&self.scope, &kept);
+        let linear = calculus.linear(&calculus.terms(&self.inside)?, name)?;
+        let shape = match self.scope.tensors.get(name)?.rank {
+            0 => Shape::Scalar,
+            1 => Shape::Vector,
+            _ if self.scope.is_symmetric(name) => Shape::Symmetric,
+            _ => Shape::Matrix,
+        };
+        let free = free_of(shape, &self.scope)?;
+        let value = moved(&calculus, linear, &free, &self.scope)?;
+        let value = symmetrized(value, shape, &free, &self.scope)?;
+        let own = components(&self.scope, &value, shape, &free);
+        Some(self.scope.space.vanish(&own))
+    }
+
+    /// Multipliers replaced by what is stated for them.
+    fn put_in(&self, calculus: &Calculus<'_>, linear: Linear) -> Option<Linear> {
+        let mut found = Linear::new();
+        for (term, occurrence) in linear {
+            let own = calculus.put_in(&term, &self.multipliers)?;
+            found.extend(own.into_iter().map(|term| (term, occurrence.clone())));
+        }
+        Some(found)
+    }
+}
+
 /// The Euler equations of all fields, `None` in the place of one that index notation has no short form for.
 pub fn euler(functional: &Functional, variation: &Variation) -> Vec<Option<Indexed>> {
     let fields = functional.interior();
+    let Some(densities) = Densities::of(functional) else {
+        return fields.map(|_| None).collect();
+    };
+    let mut kept = densities.settled();
+    kept.extend(densities.multipliers.iter().cloned());
     fields
-        .map(|field| equation(functional, variation, field))
+        .map(|field| equation(functional, variation, field, (&densities, &kept)))
         .collect()
 }
 
-fn equation(functional: &Functional, variation: &Variation, field: &Field) -> Option<Indexed> {
-    if has_multipliers(functional) {
-        return None;
-    }
-    let scope = &functional.scope;
-    let none = BTreeSet::new();
-    let calculus = Calculus::new(scope, &none);
-    let terms = calculus.terms(&functional.tree)?;
+fn equation(
+    functional: &Functional,
+    variation: &Variation,
+    field: &Field,
+    (densities, kept): (&Densities, &BTreeSet<String>),
+) -> Option<Indexed> {
+    let scope = &densities.scope;
+    let calculus = Calculus::new(scope, kept);
+    let terms = calculus.terms(&densities.inside)?;
     let linear = calculus.linear(&terms, &field.name)?;
+    let linear = densities.put_in(&calculus, linear)?;
     let free = free_of(field.shape, scope)?;
     let value = moved(&calculus, linear, &free, scope)?;
     let value = symmetrized(value, field.shape, &free, scope)?;
@@ -54,11 +195,6 @@ fn equation(functional: &Functional, variation: &Variation, field: &Field) -> Op
         of: name_of(&field.name, &free),
         value,
     })
-}
-
-fn has_multipliers(functional: &Functional) -> bool {
-    let mut imposed = functional.with_role(Role::Imposed);
-    imposed.any(|equation| equation.multiplier.is_some())
 }
 
 fn agree(functional: &Functional, a: Expr, b: Expr) -> bool {
@@ -95,7 +231,7 @@ fn name_of(name: &str, free: &[char]) -> String {
 
 /// `Σ (−1)^m (coefficient),α`: derivatives are moved off the variation.
 fn moved(calculus: &Calculus<'_>, linear: Linear, free: &[char], scope: &Scope) -> Option<Node> {
-    let mut groups: BTreeMap<Vec<Index>, Vec<Term>> = BTreeMap::new();
+    let mut groups = Groups::new();
     let canonical: Vec<char> = (0..2).map(|_| calculus.fresh()).collect();
     for (term, occurrence) in linear {
         let mut pairs: Vec<(char, char)> = Vec::new();
@@ -132,6 +268,7 @@ fn moved(calculus: &Calculus<'_>, linear: Linear, free: &[char], scope: &Scope) 
             .or_default()
             .push(Term { number, factors });
     }
+    let groups = shorter(calculus, groups, free, scope)?;
     let mut parts: Vec<(bool, Node)> = Vec::new();
     for (key, terms) in groups {
         parts.extend(group(&key, terms, free, scope)?);
@@ -149,6 +286,53 @@ fn moved(calculus: &Calculus<'_>, linear: Linear, free: &[char], scope: &Scope) 
             span,
         }),
     }
+}
+
+/// Terms by what they are differentiated by.
+type Groups = BTreeMap<Vec<Index>, Vec<Term>>;
+
+/// Second derivatives as first ones of the derived terms, where fewer terms are left then.
+fn shorter(
+    calculus: &Calculus<'_>,
+    groups: Groups,
+    free: &[char],
+    scope: &Scope,
+) -> Option<Groups> {
+    let count = |groups: &Groups| -> Option<usize> {
+        let mut sum = 0;
+        for (key, terms) in groups {
+            let mut held = free.to_vec();
+            held.extend(key.iter().filter_map(|index| match index {
+                Index::Letter(letter) => Some(*letter),
+                Index::Place(_) => None,
+            }));
+            sum += collected(terms.clone(), &held, scope)?.len();
+        }
+        Some(sum)
+    };
+    let mut other = Groups::new();
+    for (key, terms) in &groups {
+        let [outer, inner] = key[..] else {
+            other
+                .entry(key.clone())
+                .or_default()
+                .extend(terms.iter().cloned());
+            continue;
+        };
+        for term in terms {
+            match calculus.derived(term, inner) {
+                Some(own) => other.entry(vec![outer]).or_default().extend(own),
+                None => return Some(groups),
+            }
+        }
+    }
+    // Products with too many letters are not compared.
+    let is_shorter = match (count(&other), count(&groups)) {
+        (Some(one), Some(all)) => one < all,
+        (Some(_), None) => true,
+        _ => false,
+    };
+    Some(if is_shorter { other } else { groups })
 }
 
 /// What is differentiated by the same indices.
@@ -329,20 +513,31 @@ fn components(scope: &Scope, value: &Node, shape: Shape, free: &[char]) -> Vec<E
 
 /// The natural conditions on a piece; `None` where the densities have no short form there.
 pub fn natural(functional: &Functional, piece: &Piece) -> Option<Vec<Indexed>> {
-    if has_multipliers(functional) {
-        return None;
-    }
-    let scope = &functional.scope;
-    let mut kept = varied_as_a_whole(functional, piece);
+    let densities = Densities::of(functional)?;
+    let settled = densities.settled();
+    conditions_on(functional, piece, &densities, settled)
+        .or_else(|| conditions_on(functional, piece, &densities, BTreeSet::new()))
+}
+
+fn conditions_on(
+    functional: &Functional,
+    piece: &Piece,
+    densities: &Densities,
+    mut whole: BTreeSet<String>,
+) -> Option<Vec<Indexed>> {
+    let scope = &densities.scope;
+    whole.extend(densities.multipliers.iter().cloned());
+    let mut kept = varied_as_a_whole(functional, densities.pieces.get(&piece.name), scope);
     let through: Vec<Through> = kept
         .iter()
         .filter_map(|name| through(scope, name))
         .collect();
     let tractions = kept.clone();
     kept.extend(through.iter().map(|own| own.stress.clone()));
+    kept.extend(whole.iter().cloned());
     let calculus = Calculus::new(scope, &kept);
-    let inside = calculus.terms(&functional.tree)?;
-    let outside = match &piece.tree {
+    let inside = calculus.terms(&densities.inside)?;
+    let outside = match densities.pieces.get(&piece.name) {
         Some(tree) => calculus.terms(tree)?,
         None => Vec::new(),
     };
@@ -359,6 +554,7 @@ pub fn natural(functional: &Functional, piece: &Piece) -> Option<Vec<Indexed>> {
         for own in through.iter().filter(|own| own.traction == *name) {
             linear.extend(own.flux(&calculus, &inside)?);
         }
+        let linear = densities.put_in(&calculus, linear)?;
         let (indexed, own) = condition(&calculus, linear, name, shape, scope)?;
         let vanishes = own.iter().all(|&e| {
             let e = on_side(scope, &piece.side, e);
@@ -378,7 +574,7 @@ pub fn natural(functional: &Functional, piece: &Piece) -> Option<Vec<Indexed>> {
         if field.on.is_none() {
             let mut all = calculus.linear(&inside, &field.name)?;
             for own in &through {
-                all.extend(own.rest(&calculus, &inside, scope, &field.name)?);
+                all.extend(own.rest(&calculus, &inside, (scope, &whole), &field.name)?);
             }
             for (term, mut occurrence) in all {
                 match occurrence.derivatives[..] {
@@ -393,6 +589,7 @@ pub fn natural(functional: &Functional, piece: &Piece) -> Option<Vec<Indexed>> {
             }
         }
         linear.extend(calculus.linear(&outside, &field.name)?);
+        let linear = densities.put_in(&calculus, linear)?;
         let (indexed, own) = condition(&calculus, linear, &field.name, field.shape, scope)?;
         let is_fixed = field
             .components
@@ -407,7 +604,7 @@ pub fn natural(functional: &Functional, piece: &Piece) -> Option<Vec<Indexed>> {
         }
         coefficients.push((field.name.clone(), field.shape, own));
     }
-    is_first_variation(functional, piece, &coefficients).then_some(found)
+    is_first_variation(functional, piece, scope, &coefficients).then_some(found)
 }
 
 /// A traction that is the normal times a stress, which may stand in the density with a derivative.
@@ -468,11 +665,10 @@ impl Through {
         &self,
         calculus: &Calculus<'_>,
         inside: &[Term],
-        scope: &Scope,
+        (scope, whole): (&Scope, &BTreeSet<String>),
         field: &str,
     ) -> Option<Linear> {
-        let none = BTreeSet::new();
-        let open = Calculus::following(scope, &none, calculus);
+        let open = Calculus::following(scope, whole, calculus);
         let mut found = Linear::new();
         for (term, occurrence) in calculus.linear(inside, &self.stress)? {
             let coefficients = match occurrence.derivatives[..] {
@@ -552,10 +748,13 @@ fn condition(
 }
 
 /// Definitions in the density of a piece that contain the normal and a field that is varied.
-fn varied_as_a_whole(functional: &Functional, piece: &Piece) -> BTreeSet<String> {
-    let scope = &functional.scope;
+fn varied_as_a_whole(
+    functional: &Functional,
+    density: Option<&Node>,
+    scope: &Scope,
+) -> BTreeSet<String> {
     let mut named = Vec::new();
-    if let Some(tree) = &piece.tree {
+    if let Some(tree) = density {
         super::terms::names(tree, &mut named);
     }
     let varied: BTreeSet<usize> = functional
@@ -583,9 +782,9 @@ fn varied_as_a_whole(functional: &Functional, piece: &Piece) -> BTreeSet<String>
 fn is_first_variation(
     functional: &Functional,
     piece: &Piece,
+    scope: &Scope,
     coefficients: &[(String, Shape, Vec<Expr>)],
 ) -> bool {
-    let scope = &functional.scope;
     let space = &*functional.space;
     let g = &space.graph;
     let Some(form) = piece_form(functional, &piece.name) else {

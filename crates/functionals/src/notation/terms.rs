@@ -339,6 +339,36 @@ impl<'s> Calculus<'s> {
         Some(linear)
     }
 
+    /// A product in which names that were kept are what their definitions say.
+    pub(super) fn put_in(&self, term: &Term, names: &BTreeSet<String>) -> Option<Vec<Term>> {
+        let mut found = vec![Term {
+            number: term.number.clone(),
+            factors: Vec::new(),
+        }];
+        for factor in &term.factors {
+            let own = match &factor.kind {
+                Kind::Atom(atom) if names.contains(&atom.name) => {
+                    let (letters, body) = self.scope.definitions.get(&atom.name)?;
+                    let body = places(&self.with_own_letters(body), letters, &atom.indices);
+                    let mut own = self.terms(&body)?;
+                    for index in &atom.derivatives {
+                        own = self.all_derived(&own, *index)?;
+                    }
+                    own
+                }
+                _ => vec![Term {
+                    number: rational::integer(1),
+                    factors: vec![factor.clone()],
+                }],
+            };
+            found = found
+                .iter()
+                .flat_map(|term| own.iter().map(move |other| times(term, other)))
+                .collect();
+        }
+        Some(found)
+    }
+
     fn all_derived(&self, terms: &[Term], by: Index) -> Option<Vec<Term>> {
         let mut found = Vec::new();
         for term in terms {

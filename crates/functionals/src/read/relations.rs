@@ -115,14 +115,24 @@ impl Reader<'_> {
 
     /// `released` and `multiplier`, in the names of the level above.
     fn release(&mut self, section: &Table, above: &Functional) -> Option<Release> {
-        let released = self.optional(section, "released")?;
-        let multiplier = self.required(section, "multiplier", "what is released")?;
-        let density = self.scalar(&above.scope, &released)?;
+        let released = self.optional(section, "released");
+        let multiplier = match released {
+            Some(_) => self.required(section, "multiplier", "what is released"),
+            None => self.optional(section, "multiplier"),
+        }?;
+        let tree = match &released {
+            Some(text) => Some(self.node(&above.scope, text, Some(&[]))?),
+            None => None,
+        };
+        let density = tree
+            .as_ref()
+            .map(|tree| above.scope.value(tree, &BTreeMap::new()));
         let node = self.node(&above.scope, &multiplier, None)?;
         let mut letters = free_letters(&node);
         letters.sort_unstable();
         Some(Release {
             density,
+            tree,
             multiplier: above.scope.components(&node, &letters),
             written: multiplier.content,
         })

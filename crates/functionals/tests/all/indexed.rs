@@ -75,3 +75,16 @@ fn every_row_without_multipliers_has_its_equations_in_index_notation() {
         }
     }
 }
+
+#[test]
+fn where_the_stress_is_the_gradient_of_the_energy_it_is_varied_as_a_whole() {
+    // T4 §4: equilibrium from P1c; what P0c and Pc impose leaves nothing of the displacement in the interior.
+    let cases = [("p1c", "u_k: L_k"), ("p0c", "u_k: 0"), ("pc", "u_k: 0")];
+    for (row, line) in cases {
+        for d in ["2", "3"] {
+            let own = equations(row, &[("d", d)]);
+            let is_there = own.iter().any(|o| same(o, line));
+            assert!(is_there, "{row}: {line} is not among {own:#?}");
+        }
+    }
+}

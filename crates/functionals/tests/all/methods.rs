@@ -143,3 +143,48 @@ fn multipliers_become_fields_and_fields_multipliers() {
     );
     assert_eq!(word, "refuted");
 }
+
+#[test]
+fn every_level_comes_from_the_one_above_by_a_multiplier() {
+    // Courant's rule: where the multiplier is the field that the equation is conjugate to (T4 §3, §4).
+    let ways = [
+        ("p3p", "e_ij", "(3)"),
+        ("p3cb", "-e_ij", "(3)"),
+        ("p2p", "-beta_ijkl s_kl", "(3)"),
+        ("p2c1", "s_ij", "(3)"),
+        ("p1c", "0 s_ij", "(3)"),
+        // Equilibrium has the multiplier 0 for p, as it is the Euler equation, and the displacement for c.
+        ("p0p", "0 u_k", "(4)"),
+        ("p0c", "u_k", ""),
+        ("pp", "-Pb_k", "(7)"),
+        ("pc", "-ub_k", "(8)"),
+    ];
+    for (row, multiplier, needed) in ways {
+        let study = studied_text(row, &row_text(row), &[("d", "2")]);
+        let (word, detail) = verdict(&study, "functional.multipliers");
+        assert_eq!(word, "proved", "{row}: {detail}");
+        assert!(
+            detail.contains(&format!("multiplier {multiplier};")),
+            "{row}: {detail}"
+        );
+        assert!(detail.contains(needed), "{row}: {detail}");
+        assert!(
+            detail.contains("the semi-inverse method builds it from"),
+            "{row}: {detail}"
+        );
+        // With the opposite sign, or with something in the place of nothing, it is no multiplier.
+        let other = match multiplier.strip_prefix("0 ") {
+            Some(field) => field.to_owned(),
+            None => format!("2 {multiplier}").replace("2 -", "-2 "),
+        };
+        let wrong = row_text(row).replace(
+            &format!("multiplier = \"{multiplier}\""),
+            &format!("multiplier = \"{other}\""),
+        );
+        let (word, detail) = verdict(
+            &studied_text(row, &wrong, &[("d", "2")]),
+            "functional.multipliers",
+        );
+        assert_eq!(word, "refuted", "{row} with {other}: {detail}");
+    }
+}

@@ -223,3 +223,49 @@ fn overrides_that_mean_nothing_are_refused() {
         assert!(said.contains(words), "{said}");
     }
 }
+
+/// ∫ l_i (u,i − g_i) with g = (w,1 + h,1², w,2): that g is a gradient follows by differentiation and elimination only.
+fn gradient(stated: &str) -> (String, String) {
+    let text = format!(
+        r#"
+kind = "functional"
+name = "gradient"
+density = "l_i (u,i - g_i)"
+yields = ["gradient", "stated", "divergence"]
+[sizes]
+d = 2
+[domain]
+coordinates = "x_i"
+boundary = ["S"]
+[fields]
+l = "vector"
+u = "scalar"
+[data]
+w = "scalar"
+h = "scalar"
+[define]
+g_i = "delta_i1 (w,1 + h,1^2) + delta_i2 w,2"
+[boundary]
+S = {{ fixed = ["u"] }}
+[equations]
+gradient = "u,i = g_i"
+stated = "{stated}"
+divergence = "l_i,i = 0"
+"#
+    );
+    let study = studied_text("p4p", &text, &[]);
+    let own = study
+        .verdicts
+        .iter()
+        .find(|d| d.claim == "functional.euler");
+    let verdict = &own.unwrap().finding.verdict;
+    (verdict.word().to_owned(), verdict.detail().to_owned())
+}
+
+#[test]
+fn what_follows_by_differentiation_and_elimination_is_not_refuted() {
+    let (word, detail) = gradient("h,1 h,12 = 0");
+    assert_ne!(word, "refuted", "{detail}");
+    let (word, detail) = gradient("h,2 h,12 = 0");
+    assert_ne!(word, "proved", "{detail}");
+}

@@ -45,7 +45,10 @@ impl Part {
     fn text(&self, functional: &Functional, format: Format) -> String {
         let mut out = marked(&self.title, format);
         if self.indexed.is_empty() && self.shown.is_empty() {
-            out.push_str(&marked("nothing is free here", format));
+            out.push_str(&marked(
+                "nothing is free here, or every coefficient vanishes identically",
+                format,
+            ));
         }
         for own in &self.indexed {
             let line = written_equation(&own.value, &functional.scope, format);

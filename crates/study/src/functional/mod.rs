@@ -15,11 +15,11 @@ pub use summary::summary;
 pub use verification::verify;
 
 use chetaev_functionals::functional::{Functional, Role};
-use chetaev_functionals::notation::{equations, Node};
+use chetaev_functionals::notation::{equations, Kind, Node};
 use chetaev_functionals::variation::{Condition, Trace, Variation};
 use chetaev_symbolic::print::{Document, Options};
 use chetaev_symbolic::simplify;
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::{Expr, Rational};
 
 /// An equation to be shown: what it is the coefficient of, and what vanishes.
 struct Shown {
@@ -37,12 +37,14 @@ struct Indexed {
     value: Node,
 }
 
-/// The Euler equations in index notation, of the fields for which there is a form.
+/// The Euler equations in index notation, of the fields for which there is a form; without those that vanish identically.
 fn indexed_euler(functional: &Functional, variation: &Variation) -> Vec<Indexed> {
     let own = equations::euler(functional, variation)
         .into_iter()
         .flatten();
-    own.map(shown_indexed).collect()
+    own.map(shown_indexed)
+        .filter(|own| !matches!(&own.value.kind, Kind::Number(n) if *n == Rational::ZERO))
+        .collect()
 }
 
 /// The conditions on a piece in index notation; `None` where they have no short form.
@@ -64,7 +66,8 @@ fn euler(functional: &Functional, variation: &Variation) -> Vec<Shown> {
         of: format!("δ{}", functional.space.component_at(component).name),
         value: readable(functional, value),
     });
-    own.collect()
+    own.filter(|shown| !functional.space.graph.is_zero(shown.value))
+        .collect()
 }
 
 /// Pieces of the boundary with their natural conditions, and corners.
@@ -75,6 +78,7 @@ fn boundary(functional: &Functional, variation: &Variation) -> Vec<(String, Vec<
             of: varied(functional, on.piece.as_str(), condition),
             value: readable(functional, condition.value),
         });
+        let own = own.filter(|shown| !functional.space.graph.is_zero(shown.value));
         found.push((on.piece.clone(), own.collect()));
     }
     for corner in &variation.corners {

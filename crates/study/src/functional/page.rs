@@ -325,6 +325,21 @@ fn as_stated(f: &Functional, e: &chetaev_functionals::functional::Equation) -> F
     }
 }
 
+/// A formula of a verdict: in index notation, where it has such a form.
+fn step(f: &Functional, shown: &chetaev_functionals::claims::Formula) -> Equation {
+    match &shown.indexed {
+        Some(own) => Equation {
+            formula: Formula {
+                mathml: Some(own.mathml.clone()),
+                text: own.text.clone(),
+                latex: Some(own.latex.clone()),
+            },
+            ..Equation::default()
+        },
+        None => equation(f, String::new(), shown.value),
+    }
+}
+
 fn claim(f: &Functional, decided: &Decided) -> Claim {
     let verdict = &decided.finding.verdict;
     let mut claim = Claim {
@@ -345,7 +360,7 @@ fn claim(f: &Functional, decided: &Decided) -> Claim {
             .map(|shown| Equation {
                 caption: Some(shown.caption.clone()),
                 label: None,
-                ..equation(f, String::new(), shown.value)
+                ..step(f, shown)
             })
             .collect(),
         ..Claim::default()

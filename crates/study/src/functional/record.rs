@@ -45,7 +45,10 @@ fn verdict(study: &Study, decided: &Decided) -> VerdictRecord {
             .finding
             .formulas
             .iter()
-            .map(|f| format!("{}: {}", f.caption, g.text(f.value)))
+            .map(|f| match &f.indexed {
+                Some(own) => format!("{}: {}", f.caption, own.text),
+                None => format!("{}: {}", f.caption, g.text(f.value)),
+            })
             .collect(),
         ..VerdictRecord::default()
     };

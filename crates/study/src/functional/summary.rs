@@ -59,6 +59,13 @@ fn derived(text: &mut String, study: &Study, style: Style) {
 fn both(text: &mut String, study: &Study, indexed: &[Indexed], shown: &[Shown]) {
     let f = &study.problem.functional;
     let g = &f.space.graph;
+    if indexed.is_empty() && shown.is_empty() {
+        let _ = writeln!(
+            text,
+            "    nothing is free, or every coefficient vanishes identically"
+        );
+        return;
+    }
     let is_scalar = indexed.len() == shown.len() && indexed.iter().all(|own| !own.of.contains('_'));
     for own in indexed {
         let line = written_equation(&own.value, &f.scope, Format::Text);
@@ -197,6 +204,11 @@ fn claims(text: &mut String, study: &Study, style: Style) {
             coloured(style, verdict.word()),
             verdict.detail()
         );
+        for formula in &decided.finding.formulas {
+            if let Some(own) = &formula.indexed {
+                let _ = writeln!(text, "    {}: {}", formula.caption, own.text);
+            }
+        }
         if !decided.is_as_expected() {
             let _ = writeln!(
                 text,
