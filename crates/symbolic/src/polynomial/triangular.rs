@@ -426,7 +426,7 @@ mod tests {
         let meter = Meter::new(Budget::PROOF);
         let [a, x, _] = generators();
         let line = a.mul(&x, &meter).unwrap().sub(&number(1));
-        let found = triangular_systems(&[line.clone()], &[], &[1], &meter).unwrap();
+        let found = triangular_systems(std::slice::from_ref(&line), &[], &[1], &meter).unwrap();
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].equations, [(1, line)]);
         assert_eq!(found[0].nonzero, [a]);
