@@ -32,7 +32,7 @@ const MINORS: usize = 200;
 pub enum SteadySetError {
     /// There is no closed system.
     #[error(transparent)]
-    System(#[from] LinearizationError),
+    System(Box<LinearizationError>),
     /// Something that is neither polynomial nor a sine, cosine or root of an unknown.
     #[error("the equations of steady motion are not polynomial in the unknowns and their sines and cosines: they contain {what}; a motion of which positions and velocities are known can be stated as [steady.NAME]")]
     NotPolynomial {
@@ -51,6 +51,12 @@ pub enum SteadySetError {
         /// The polynomial.
         polynomial: String,
     },
+}
+
+impl From<LinearizationError> for SteadySetError {
+    fn from(problem: LinearizationError) -> SteadySetError {
+        SteadySetError::System(Box::new(problem))
+    }
 }
 
 /// All steady motions.
