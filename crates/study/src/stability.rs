@@ -217,9 +217,10 @@ pub fn stability(model: &Model, wanted: &Wanted<'_>) -> Result<Stability, Stabil
             None if wanted.symbolic => None,
             None => parameter_of_motion(&system, motion),
         };
-        let values = match over.is_none() && wanted.symbolic {
-            true => Vec::new(),
-            false => values_but(&system, free),
+        let values = if over.is_none() && wanted.symbolic {
+            Vec::new()
+        } else {
+            values_but(&system, free)
         };
         match Expansion::in_speeds(&system, terms, &selection, motion, (&values, speeds)) {
             Ok(about) => {
@@ -340,13 +341,13 @@ fn check_parameter(
     let of_motions = g.symbols_in(&places).into_iter();
     known.extend(of_motions.map(|s| g.symbol_text(s)));
     known.dedup();
-    match known.contains(&range.name) {
-        true => Ok(()),
-        false => Err(StabilityError::UnknownParameter {
-            name: range.name.clone(),
-            known,
-        }),
+    if known.contains(&range.name) {
+        return Ok(());
     }
+    Err(StabilityError::UnknownParameter {
+        name: range.name.clone(),
+        known,
+    })
 }
 
 /// Coordinates with something behind each.

@@ -30,9 +30,10 @@ pub struct Steady {
 pub fn steady(model: &Model, is_symbolic: bool) -> Result<Steady, StabilityError> {
     let system = System::from_model(model)?;
     let prepared = Prepared::new(&system)?;
-    let values = match is_symbolic {
-        true => Vec::new(),
-        false => system.parameter_values(),
+    let values = if is_symbolic {
+        Vec::new()
+    } else {
+        system.parameter_values()
     };
     let set = steady_set(&system, &prepared.terms, &prepared.selection, &values)?;
     Ok(Steady {
