@@ -1,6 +1,6 @@
 //! Constraints whose gradients depend on those of the others: they follow from them, or contradict them.
 
-use crate::characteristics::{Characteristics, CharacteristicsError, Manifold, Selection};
+use crate::characteristics::{Characteristics, CharacteristicsError, Selection};
 use crate::positions;
 use crate::prover::Prover;
 use crate::sample;
