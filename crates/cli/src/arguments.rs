@@ -212,7 +212,7 @@ pub(crate) struct Stability {
 pub(crate) struct Derive {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
-    /// A formulation by its name (again for several); routh and maggi when left out
+    /// A formulation by its name (again for several); when left out routh and maggi, or reduced for a function of arrays and a count
     #[arg(long, value_name = "NAME", value_parser = formulation_names())]
     pub(crate) formulation: Vec<String>,
     /// Every formulation; those that do not apply say why
@@ -224,6 +224,9 @@ pub(crate) struct Derive {
     /// Notation; comparisons are text
     #[arg(long = "as", value_enum, default_value_t = Notation::Text, conflicts_with = "compare")]
     pub(crate) notation: Notation,
+    /// The operations of the printed equations (+ − × ÷, powers, roots, functions) in their place
+    #[arg(long, conflicts_with_all = ["compare", "notation"])]
+    pub(crate) count: bool,
     /// Say on standard error how long deriving, proving and writing took
     #[arg(long)]
     pub(crate) time: bool,
@@ -260,6 +263,10 @@ pub(crate) enum Notation {
     Json,
     Rust,
     C,
+    /// NumPy functions for SciPy
+    Python,
+    Matlab,
+    Julia,
 }
 
 impl From<Notation> for chetaev::study::written::Notation {
@@ -272,6 +279,9 @@ impl From<Notation> for chetaev::study::written::Notation {
             Notation::Json => Self::Json,
             Notation::Rust => Self::Rust,
             Notation::C => Self::C,
+            Notation::Python => Self::Python,
+            Notation::Matlab => Self::Matlab,
+            Notation::Julia => Self::Julia,
         }
     }
 }

@@ -55,6 +55,9 @@ impl System {
                 fields: frame.fields.clone(),
                 drift: frame.drift.clone(),
             }),
+            start: (model.initial.values.iter())
+                .map(|(&(i, order), given)| (name_of(i), order, given.value))
+                .collect(),
             characteristics: model
                 .characteristics
                 .as_ref()

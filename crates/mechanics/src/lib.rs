@@ -7,7 +7,8 @@
 //! - claims: [`claims`] (registry, context, the claims of model, hypotheses and formulations), [`prover`] (the bridge to zero tests);
 //! - the set where all constraints hold: [`positions`] (what finite ones determine);
 //! - constraints that are special: [`redundancy`] (they follow from others, or contradict them), [`components`] (they are products);
-//! - for computing: [`regular`] (quasi-velocities without singular places), [`reduced_equations`], [`choice`];
+//! - for computing and reading: [`regular`] (quasi-velocities without singular places), [`speeds`] (those a person would choose),
+//!   [`reduced_equations`], [`choice`];
 //! - [`sample`]: states for heuristic choices, evidence only where a verdict says `numerical`.
 
 pub mod bodies;
@@ -19,12 +20,14 @@ pub mod components;
 pub mod constraint;
 pub mod counterexample;
 pub mod curvature;
+mod elimination;
 pub mod equations;
 pub mod formulations;
 pub mod frame;
 mod from_model;
 pub mod linear;
 pub mod mass;
+pub mod memo;
 mod names;
 pub mod order;
 pub mod particles;
@@ -38,6 +41,7 @@ pub mod regular;
 mod restricted;
 pub mod sample;
 pub mod selection;
+pub mod speeds;
 mod stated;
 pub mod system;
 pub mod terms;

@@ -17,7 +17,8 @@ use crate::quadratic_forms::{in_linear_forms, terms_of_degree};
 use crate::regular::regular;
 use crate::system::System;
 use crate::terms::{force, freeze_accelerations, MotionTerms};
-use chetaev_symbolic::simplify::{simplify_all, Options};
+use chetaev_symbolic::print::{Document, Options as Printing};
+use chetaev_symbolic::simplify::{simplify, simplify_all, Options};
 use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::{decide_zero, ZeroTest};
 use chetaev_symbolic::{Expr, Graph, Symbol, Verdict};
@@ -111,6 +112,40 @@ impl ReducedEquations {
         Some(ReducedEquations { mass, force })
     }
 
+    /// As [`new`](ReducedEquations::new), made short to be read: the linear forms are simplified, and what belongs to one weight of the
+    /// kinetic energy is put together before the whole is. Coordinates on which nothing depends are left out.
+    pub fn short(system: &System, c: &Characteristics) -> Option<ReducedEquations> {
+        let g = &system.graph;
+        let (kinetic, rest) = terms_of_degree(system, system.lagrangian, 2);
+        let momenta = g.gradient(rest, &system.velocity_symbols());
+        if g.any_contains_any(&momenta, &system.velocity_symbols()) {
+            return None;
+        }
+        let forms = Forms::of(system, c, kinetic)?.simplified(g).turned(system);
+        let k = c.k();
+        let mut sums = Vec::new();
+        for s in 0..k {
+            sums.extend((0..=s).map(|t| forms.inertia_of(g, s, t)));
+        }
+        let applied = c.contract(system, &c.restrict(system, &force(system, rest, &momenta)));
+        let inertia = forms.inertia_terms(system, c);
+        for (applied, inertia) in applied.into_iter().zip(inertia) {
+            let turned = |(weight, e): (Expr, Expr)| (weight, g.neg(e));
+            let mut all: Vec<(Expr, Expr)> = inertia.into_iter().map(turned).collect();
+            all.push((g.one(), applied));
+            sums.push(WeightedSum(all));
+        }
+        without_ignorable(system, &mut sums);
+        let entries: Vec<Expr> = sums.iter().map(|sum| sum.short(g)).collect();
+        let (lower, force) = entries.split_at(k * (k + 1) / 2);
+        let place = |s: usize, t: usize| s.max(t) * (s.max(t) + 1) / 2 + s.min(t);
+        let row = |s: usize| (0..k).map(|t| lower[place(s, t)]).collect();
+        Some(ReducedEquations {
+            mass: (0..k).map(row).collect(),
+            force: force.to_vec(),
+        })
+    }
+
     /// From the terms of the multiplier form: `Bᵀ W B` and `Bᵀ (b − W a*)`.
     pub fn of_terms(system: &System, terms: &MotionTerms, c: &Characteristics) -> ReducedEquations {
         let g = &system.graph;
@@ -196,6 +231,82 @@ impl ReducedEquations {
     }
 }
 
+/// `Σ w e` with weights w of the kinetic energy.
+struct WeightedSum(Vec<(Expr, Expr)>);
+
+impl WeightedSum {
+    fn value(&self, g: &Graph) -> Expr {
+        let terms = self.0.iter().map(|&(weight, e)| g.mul(&[weight, e]));
+        g.add(&terms.collect::<Vec<_>>())
+    }
+
+    /// The fewest operations of: as it is, with what belongs to one weight made short, and all made short.
+    fn short(&self, g: &Graph) -> Expr {
+        let plain = self.value(g);
+        if g.reachable(&[plain]).len() > READ {
+            return plain;
+        }
+        let mut by_weight: Vec<(Expr, Vec<Expr>)> = Vec::new();
+        for &(weight, e) in &self.0 {
+            match by_weight.iter_mut().find(|(own, _)| *own == weight) {
+                Some((_, all)) => all.push(e),
+                None => by_weight.push((weight, vec![e])),
+            }
+        }
+        let options = Options::default();
+        let terms = by_weight.iter().map(|(weight, all)| {
+            let sum = g.add(all);
+            g.mul(&[*weight, fewest(g, [simplify(g, sum, &options), sum])])
+        });
+        let apart = g.add(&terms.collect::<Vec<_>>());
+        fewest(g, [simplify(g, apart, &options), apart, plain])
+    }
+}
+
+/// The first of those with the fewest operations as they are printed.
+fn fewest<const N: usize>(g: &Graph, es: [Expr; N]) -> Expr {
+    let least = es.into_iter().min_by_key(|&e| operations(g, &[e]));
+    least.unwrap_or(g.zero())
+}
+
+fn operations(g: &Graph, es: &[Expr]) -> usize {
+    let printed = Document::expressions(g, es, &Printing::default());
+    printed.operations().total()
+}
+
+/// Components along and across the direction of an angle, made short.
+fn turned(g: &Graph, [a, b]: [Expr; 2], angle: Expr) -> [Expr; 2] {
+    let (s, c) = (g.sin(angle), g.cos(angle));
+    let along = g.add(&[g.mul(&[c, a]), g.mul(&[s, b])]);
+    let across = g.sub(g.mul(&[c, b]), g.mul(&[s, a]));
+    [along, across].map(|e| simplify(g, e, &Options::default()))
+}
+
+/// Puts a number in the place of coordinates on which the sums do not depend.
+fn without_ignorable(system: &System, sums: &mut [WeightedSum]) {
+    let g = &system.graph;
+    for c in &system.coordinates {
+        let values: Vec<Expr> = sums.iter().map(|sum| sum.value(g)).collect();
+        if !g.any_contains_any(&values, &[c.q_symbol]) {
+            continue;
+        }
+        let at_zero = g.substitute_all(&values, &[(c.q, g.zero())]);
+        let pairs = values.iter().zip(&at_zero);
+        let differences: Vec<Expr> = pairs.map(|(&a, &b)| g.sub(a, b)).collect();
+        if vanish(system, &differences) {
+            for (_, e) in sums.iter_mut().flat_map(|sum| &mut sum.0) {
+                *e = g.substitute(*e, &[(c.q, g.zero())]);
+            }
+        }
+    }
+}
+
+/// Sums of more nodes than this are not made short to be read.
+const READ: usize = 300;
+
+/// Linear forms of more nodes than this are left as they are.
+const FORM: usize = 120;
+
 /// Larger equations are not simplified: that takes a quarter of a second and seldom leaves them shorter.
 const SHORT: usize = 100;
 
@@ -238,29 +349,128 @@ impl Forms {
         })
     }
 
+    /// Two forms of equal weight that nothing couples, such as the components of a velocity, along the axis and across it that make them
+    /// shortest: turned by an angle that occurs in them, all that is made of them has the same value.
+    fn turned(mut self, system: &System) -> Forms {
+        let g = &system.graph;
+        let alone = |own: usize| {
+            let of_own = self
+                .weights
+                .iter()
+                .filter(|&&(_, i, j)| i == own || j == own);
+            let found: Vec<&(Expr, usize, usize)> = of_own.collect();
+            match found[..] {
+                [&(weight, i, j)] if i == j => Some(weight),
+                _ => None,
+            }
+        };
+        let weights: Vec<Option<Expr>> = (0..self.value.len()).map(alone).collect();
+        let mut left: Vec<usize> = (0..weights.len())
+            .filter(|&i| weights[i].is_some())
+            .collect();
+        while let Some(i) = left.first().copied() {
+            left.remove(0);
+            let Some(at) = left.iter().position(|&j| weights[j] == weights[i]) else {
+                continue;
+            };
+            let j = left[at];
+            if let Some(angle) = self.best_angle(system, i, j) {
+                self.turn_pair(g, i, j, angle);
+                left.remove(at);
+            }
+        }
+        self
+    }
+
+    /// The angle by which two forms become shorter.
+    fn best_angle(&self, system: &System, i: usize, j: usize) -> Option<Expr> {
+        let g = &system.graph;
+        let now = operations(g, &[self.value[i], self.value[j]]);
+        let both = [self.value[i], self.value[j]];
+        if g.reachable(&both).len() > FORM {
+            return None;
+        }
+        let angles = system.coordinates.iter().map(|c| c.q);
+        let angles = angles.filter(|&q| {
+            g.reachable(&both)
+                .into_iter()
+                .any(|e| e == g.sin(q) || e == g.cos(q))
+        });
+        let turned = angles.map(|angle| (operations(g, &turned(g, both, angle)), angle));
+        let best = turned.min_by_key(|(count, _)| *count)?;
+        (best.0 < now).then_some(best.1)
+    }
+
+    fn turn_pair(&mut self, g: &Graph, i: usize, j: usize, angle: Expr) {
+        let turn = |list: &mut [Expr]| {
+            let [a, b] = turned(g, [list[i], list[j]], angle);
+            (list[i], list[j]) = (a, b);
+        };
+        turn(&mut self.value);
+        turn(&mut self.frozen);
+        for rows in [&mut self.slope, &mut self.turn] {
+            for s in 0..rows[i].len() {
+                let [a, b] = turned(g, [rows[i][s], rows[j][s]], angle);
+                (rows[i][s], rows[j][s]) = (a, b);
+            }
+        }
+    }
+
+    /// With everything made short.
+    fn simplified(self, g: &Graph) -> Forms {
+        let short = |es: &[Expr]| -> Vec<Expr> {
+            let options = Options::default();
+            let is_small = |e: Expr| g.reachable(&[e]).len() <= FORM;
+            let one = |&e: &Expr| match is_small(e) {
+                true => simplify(g, e, &options),
+                false => e,
+            };
+            es.iter().map(one).collect()
+        };
+        Forms {
+            value: short(&self.value),
+            slope: self.slope.iter().map(|row| short(row)).collect(),
+            frozen: short(&self.frozen),
+            turn: self.turn.iter().map(|row| short(row)).collect(),
+            weights: self.weights,
+        }
+    }
+
+    /// An entry of M.
+    fn inertia_of(&self, g: &Graph, s: usize, t: usize) -> WeightedSum {
+        let terms = self.weights.iter();
+        let terms =
+            terms.map(|&(weight, i, j)| (weight, g.mul(&[self.slope[i][s], self.slope[j][t]])));
+        WeightedSum(terms.filter(|(_, e)| !g.is_zero(*e)).collect())
+    }
+
     /// What of the inertia does not contain P': `Σ E_kσ D(C_kl e_l) + Σ C_kl e_l ε_kσ − ½ Σ ∂C_kl/∂π_σ e_k e_l`.
     fn inertia(&self, system: &System, c: &Characteristics) -> Vec<Expr> {
+        let sums = self.inertia_terms(system, c).into_iter();
+        sums.map(|sum| WeightedSum(sum).value(&system.graph))
+            .collect()
+    }
+
+    /// The same by weights.
+    fn inertia_terms(&self, system: &System, c: &Characteristics) -> Vec<Vec<(Expr, Expr)>> {
         let g = &system.graph;
         let entries: Vec<Expr> = self.weights.iter().map(|own| own.0).collect();
         let rates = c.frozen_derivative(system, &entries);
         let by_position = c.by_quasi_coordinates(system, &entries);
         let half = g.div(g.one(), g.integer(2));
         let of = |s: usize| {
-            let terms = self
-                .weights
-                .iter()
-                .enumerate()
-                .map(|(at, &(weight, i, j))| {
-                    let rate = [
-                        g.mul(&[rates[at], self.value[j]]),
-                        g.mul(&[weight, self.frozen[j]]),
-                    ];
-                    let along = g.mul(&[self.slope[i][s], g.add(&rate)]);
-                    let turning = g.mul(&[weight, self.value[j], self.turn[i][s]]);
-                    let change = g.mul(&[half, by_position[at][s], self.value[i], self.value[j]]);
-                    g.add(&[along, turning, g.neg(change)])
-                });
-            g.add(&terms.collect::<Vec<_>>())
+            let terms = self.weights.iter().enumerate();
+            let terms = terms.flat_map(|(at, &(weight, i, j))| {
+                let along = g.mul(&[self.slope[i][s], self.frozen[j]]);
+                let turning = g.mul(&[self.value[j], self.turn[i][s]]);
+                let rate = g.mul(&[self.slope[i][s], rates[at], self.value[j]]);
+                let change = g.mul(&[half, by_position[at][s], self.value[i], self.value[j]]);
+                [
+                    (weight, g.add(&[along, turning])),
+                    (g.one(), g.sub(rate, change)),
+                ]
+            });
+            terms.filter(|(_, e)| !g.is_zero(*e)).collect()
         };
         (0..c.k()).map(of).collect()
     }

@@ -272,6 +272,8 @@ pub struct SystemParts {
     pub quasi_velocities: Vec<(String, Expr)>,
     /// Fields of a moving frame, one for each quasi-velocity.
     pub frame: Option<FrameFields>,
+    /// Where the motion starts, as far as it is stated: a coordinate, the order of its derivative, the value.
+    pub start: Vec<(String, u32, Expr)>,
     /// Kinematic characteristics by formulas.
     pub characteristics: Option<CharacteristicFormulas>,
     /// Particles; their applied forces count beside the generalized forces.
@@ -411,6 +413,8 @@ pub struct System {
     pub quasi_velocities: Vec<QuasiVelocity>,
     /// Fields of the user's moving frame, one for each quasi-velocity.
     pub frame: Option<FrameFields>,
+    /// Where the motion starts, as far as it is stated: coordinates and derivatives with their values, expressions of the parameters.
+    pub start: Vec<(Symbol, Expr)>,
     /// Kinematic characteristics by formulas.
     pub characteristics: Option<CharacteristicFormulas>,
     /// Particles of the model; their applied forces are contained in [`forces`](System::forces).
@@ -536,6 +540,9 @@ impl System {
                 .map(|(name, definition)| QuasiVelocity { name, definition })
                 .collect(),
             frame: parts.frame,
+            start: (parts.start.into_iter())
+                .map(|(name, order, value)| (g.intern_symbol(&name, order), value))
+                .collect(),
             characteristics: parts.characteristics,
             particles: parts.particles,
             mechanism: parts.mechanism,

@@ -1,6 +1,7 @@
 //! The terms every formulation is built from.
 
 use crate::mass;
+use crate::memo::Memo;
 use crate::order::lifting;
 use crate::system::{Coordinate, System};
 use chetaev_symbolic::{Expr, Symbol};
@@ -30,6 +31,8 @@ pub struct MotionTerms {
     pub affine: Vec<bool>,
     /// For each row, the index of its constraint in the system.
     pub constraint_index: Vec<usize>,
+    /// What was computed of the system and these terms.
+    pub memo: Memo,
 }
 
 impl MotionTerms {
@@ -59,6 +62,7 @@ impl MotionTerms {
         let is_affine = |row: &Vec<Expr>| !g.any_contains_any(row, &highest);
         let rates = freeze_derivatives(system, &constraints, order);
         MotionTerms {
+            memo: Memo::default(),
             affine: jacobian.iter().map(is_affine).collect(),
             constraint_rate: rates.into_iter().map(|rate| g.neg(rate)).collect(),
             order,

@@ -1,7 +1,9 @@
 //! Equations of motion written out: for reading, as data, as code, and two formulations held against each other: `chetaev derive`.
 
+mod arrays;
 mod code;
 mod comparison;
+mod count;
 mod latex;
 mod printed;
 
@@ -27,11 +29,17 @@ pub enum Notation {
     Rust,
     /// Functions in C.
     C,
+    /// A function for Python with NumPy, as SciPy's `solve_ivp` takes it.
+    Python,
+    /// A function for MATLAB and Octave, as `ode45` takes it.
+    Matlab,
+    /// A function for Julia, as DifferentialEquations.jl takes it.
+    Julia,
 }
 
 impl Notation {
     /// All notations with their words.
-    pub const WORDS: [(&'static str, Notation); 7] = [
+    pub const WORDS: [(&'static str, Notation); 10] = [
         ("text", Notation::Text),
         ("latex", Notation::Latex),
         ("mathml", Notation::Mathml),
@@ -39,6 +47,9 @@ impl Notation {
         ("json", Notation::Json),
         ("rust", Notation::Rust),
         ("c", Notation::C),
+        ("python", Notation::Python),
+        ("matlab", Notation::Matlab),
+        ("julia", Notation::Julia),
     ];
 
     /// The notation of a word.
@@ -49,7 +60,12 @@ impl Notation {
 
     /// Whether it is a programming language, in which the equations stand as they were derived.
     pub fn is_code(self) -> bool {
-        matches!(self, Notation::Rust | Notation::C)
+        matches!(self, Notation::Rust | Notation::C) || self.is_of_arrays()
+    }
+
+    /// Whether it is a language of arrays, in which one function is asked for.
+    pub fn is_of_arrays(self) -> bool {
+        matches!(self, Notation::Python | Notation::Matlab | Notation::Julia)
     }
 }
 
@@ -117,11 +133,34 @@ pub fn equations(
             one => found.push(one),
         }
     }
-    if notation.is_code() {
+    if notation.is_of_arrays() {
+        arrays::source(cx.system, &found, notation)
+    } else if notation.is_code() {
         code::source(cx.system, &found, notation)
     } else {
         Ok(printed::text(cx, &found, notation))
     }
+}
+
+/// The operations of the equations of several formulations as they are printed, one line for each.
+///
+/// # Errors
+/// [`NotWritten`]; with `all` formulations one that does not apply is an answer.
+pub fn counts(
+    cx: &Context<'_>,
+    asked: &[&'static dyn Formulation],
+    all: bool,
+) -> Result<String, NotWritten> {
+    let readings = Readings::default();
+    let mut text = String::new();
+    for formulation in asked {
+        match derivation(cx, *formulation, Some(&readings)) {
+            Ok(one) => text.push_str(&count::line(cx.system, &one)),
+            Err(problem) if !all => return Err(problem.into()),
+            Err(problem) => text.push_str(&format!("{problem}\n")),
+        }
+    }
+    Ok(text)
 }
 
 /// Differences of the equations of two formulations, and why they vanish or where they do not.

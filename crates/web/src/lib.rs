@@ -93,7 +93,11 @@ pub fn derive(path: &str, text: &str, forms: &str, notation: &str) -> Result<Str
             Notation::Mathml => Format::Mathml,
             Notation::Sympy => Format::Sympy,
             Notation::Json => Format::Json,
-            Notation::Rust | Notation::C => return Err(Refused::NoCode),
+            Notation::Rust
+            | Notation::C
+            | Notation::Python
+            | Notation::Matlab
+            | Notation::Julia => return Err(Refused::NoCode),
         };
         return Ok(functional::derivation(&problem.functional, format)?);
     }

@@ -34,6 +34,7 @@ mod running;
 mod scales;
 mod series;
 mod sheets;
+mod short_equations;
 mod special_values;
 mod stability;
 mod start;

@@ -8,7 +8,7 @@ use chetaev::mechanics::card::Relation;
 use chetaev::mechanics::{formulation, Context, Formulation, Prover, System, FORMULATIONS};
 use chetaev::study::derivation::claim_of;
 use chetaev::study::registry;
-use chetaev::study::written::{comparison, equations, prepared, NotWritten, Notation};
+use chetaev::study::written::{comparison, counts, equations, prepared, NotWritten, Notation};
 use std::time::Instant;
 
 /// What is derived when nothing is asked for.
@@ -49,8 +49,15 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
             let show = |what: &str| line.show(what, None);
             comparison(&cx, (a, b), &show)
         }),
+        _ if arguments.count => {
+            let names = asked(arguments, &system);
+            with_progress(|line| {
+                line.show("deriving and simplifying", None);
+                counts(&cx, &names, arguments.all)
+            })
+        }
         _ => {
-            let names = asked(arguments);
+            let names = asked(arguments, &system);
             with_progress(|line| all(&cx, &names, arguments, line))
         }
     };
@@ -66,13 +73,16 @@ pub(crate) fn run(arguments: &Arguments) -> u8 {
     }
 }
 
-/// The formulations that are asked for.
-fn asked(arguments: &Arguments) -> Vec<&'static dyn Formulation> {
+/// The formulations that are asked for. Of functions of arrays one is enough, and of equations to be counted the shortest.
+fn asked(arguments: &Arguments, system: &System) -> Vec<&'static dyn Formulation> {
     if arguments.all {
         return FORMULATIONS.to_vec();
     }
     let named = |names: &mut dyn Iterator<Item = &str>| names.filter_map(formulation).collect();
+    let is_single = arguments.count || Notation::from(arguments.notation).is_of_arrays();
     match arguments.formulation.is_empty() {
+        true if is_single && system.order() == 1 => named(&mut ["reduced"].into_iter()),
+        true if is_single => named(&mut ["routh"].into_iter()),
         true => named(&mut DEFAULT.into_iter()),
         false => named(&mut arguments.formulation.iter().map(String::as_str)),
     }

@@ -139,7 +139,7 @@ pub(super) fn derive(notation: Notation, loaded: Loaded) -> u8 {
         Notation::Mathml => Format::Mathml,
         Notation::Sympy => Format::Sympy,
         Notation::Json => Format::Json,
-        Notation::Rust | Notation::C => {
+        Notation::Rust | Notation::C | Notation::Python | Notation::Matlab | Notation::Julia => {
             error("code is made of equations of motion; a functional has field equations: text, latex, mathml, sympy or json");
             return INPUT;
         }

@@ -1,6 +1,7 @@
 //! Which sub-systems of several constraints are integrable by themselves.
 
 use super::{decide, on_each_side, PfaffSystem, Strength};
+use chetaev_mechanics::memo::Memo;
 use chetaev_mechanics::{characteristics, Context, MotionTerms, Selection, System};
 use chetaev_symbolic::Verdict;
 
@@ -160,6 +161,7 @@ fn verdict(cx: &Context<'_>, rows: &[usize], strength: Strength) -> Verdict {
 /// The terms with some of the constraints only.
 fn restricted_terms(terms: &MotionTerms, rows: &[usize]) -> MotionTerms {
     MotionTerms {
+        memo: Memo::default(),
         order: terms.order,
         jets: terms.jets.clone(),
         mass_matrix: terms.mass_matrix.clone(),

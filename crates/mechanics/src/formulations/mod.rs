@@ -18,6 +18,7 @@ mod nielsen;
 mod parametric;
 mod parametric_canonical;
 mod poincare_chetaev;
+pub mod reduced;
 mod routh;
 pub mod state_space;
 mod state_space_canonical;
@@ -44,6 +45,7 @@ pub use nielsen::{nielsen_left_sides, Nielsen};
 pub use parametric::Parametric;
 pub use parametric_canonical::ParametricCanonical;
 pub use poincare_chetaev::PoincareChetaev;
+pub use reduced::Reduced;
 pub use routh::Routh;
 pub use state_space::StateSpace;
 pub use state_space_canonical::{reactions as reactions_by_momenta, StateSpaceCanonical};
@@ -299,6 +301,7 @@ pub static FORMULATIONS: &[&dyn Formulation] = &[
     &LagrangeDalembert,
     &NewtonEuler,
     &Maggi,
+    &Reduced,
     &Voronets,
     &Chaplygin,
     &VolterraFirst,

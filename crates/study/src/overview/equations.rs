@@ -10,9 +10,9 @@ use chetaev_mechanics::{formulation, Context, Prover};
 use chetaev_symbolic::print::{Document, Format};
 use chetaev_symbolic::simplify;
 
-/// The forms that are compared: in the independent velocities, and with multipliers. The first is taken unless it is longer by more than
-/// half: a reader wants the motion and not the reactions.
-const FORMS: [(&str, f64); 2] = [("maggi", 1.0), ("routh", 1.5)];
+/// The forms that are compared: in quasi-velocities, in the independent velocities, and with multipliers. The last is taken only where the
+/// others are longer by more than half: a reader wants the motion and not the reactions.
+const FORMS: [(&str, f64); 3] = [("reduced", 1.0), ("maggi", 1.0), ("routh", 1.5)];
 
 /// Equations of more signs than these are not worked on: they would fill the screen however they are written.
 const SIGNS: u64 = 6_000;
@@ -76,7 +76,7 @@ fn statements(study: &Study, found: &Derivation) -> Vec<String> {
     let pairs: Vec<_> = (found.groups.iter())
         .flat_map(|group| group.pairs.iter().copied())
         .collect();
-    let options = typeset::print_options_with(&study.system, &found.objects);
+    let options = typeset::options_of(&study.system, found);
     let parts = Document::equations(&study.system.graph, &pairs, &options).parts(Format::Text);
     let mut all = parts.statements;
     let shared = parts.definitions.iter();

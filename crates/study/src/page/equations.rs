@@ -78,8 +78,8 @@ fn with_multipliers(
     sections
 }
 
-/// The forms that are compared for what stands open: the first unless it is longer by more than half, as in the overview of a terminal.
-const CHOSEN: [(&str, usize); 2] = [("maggi", 2), ("routh", 3)];
+/// The forms that are compared for what stands open: the first two unless they are longer by more than half, as in the overview of a terminal.
+const CHOSEN: [(&str, usize); 3] = [("reduced", 2), ("maggi", 2), ("routh", 3)];
 
 /// Characters of equations up to which they stand open.
 const OPEN: usize = 6_000;

@@ -101,6 +101,12 @@ impl Inputs {
                 listed(&self.masses)
             ));
         }
+        if !self.controls.is_empty() {
+            arrays.push(format!(
+                "u = ({}), controls without a law and their derivatives",
+                listed(&self.controls)
+            ));
+        }
         let about = |what: &str| -> Vec<String> {
             let mut lines = vec![format!("{}: {what}", derivation.card.title)];
             lines.extend(arrays.iter().cloned());

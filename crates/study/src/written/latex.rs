@@ -24,7 +24,7 @@ pub(super) fn document(system: &System, sections: &str) -> String {
 
 /// One formulation.
 pub(super) fn section(system: &System, derivation: &Derivation) -> String {
-    let options = typeset::print_options_with(system, &derivation.objects);
+    let options = typeset::options_of(system, derivation);
     let mut text = format!("\\section*{{{}}}\n", escaped(derivation.card.title));
     for section in sections(system, derivation) {
         text.push_str(&format!("\\paragraph{{{}}}\n", begun(&section.heading)));

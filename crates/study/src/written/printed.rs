@@ -91,7 +91,7 @@ pub(super) fn sections(system: &System, derivation: &Derivation) -> Vec<Section>
 }
 
 fn printed(system: &System, derivation: &Derivation, notation: Notation) -> String {
-    let options = typeset::print_options_with(system, &derivation.objects);
+    let options = typeset::options_of(system, derivation);
     let format = match notation {
         Notation::Mathml => Format::Mathml,
         _ => Format::Text,
@@ -201,7 +201,7 @@ fn derivation_json(system: &System, derivation: &Derivation) -> serde_json::Valu
             serde_json::json!({"title": group.title, "general_form": group.schema.map(|s| s.text), "equations": equations})
         })
         .collect();
-    let options = typeset::print_options_with(system, &derivation.objects);
+    let options = typeset::options_of(system, derivation);
     let objects: Vec<serde_json::Value> = derivation
         .objects
         .iter()

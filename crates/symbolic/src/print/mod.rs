@@ -6,6 +6,7 @@
 //!
 //! Reading the text of an expression gives the expression again, wherever the expression is defined.
 
+mod array;
 mod code;
 mod document;
 mod formula;
@@ -14,6 +15,7 @@ mod latex;
 mod layout;
 mod mathml;
 mod names;
+mod operations;
 mod order;
 mod share;
 mod sympy;
@@ -22,9 +24,11 @@ mod text;
 #[cfg(test)]
 mod tests;
 
+pub use array::{array_function, ArrayFunction, ArrayLanguage};
 pub use code::{source_code, CodeError, CodeFunction, Language};
 pub use document::Document;
 pub use names::with_indices;
+pub use operations::Operations;
 pub use sympy::{sympy_module, PythonSection};
 
 use crate::graph::Graph;
