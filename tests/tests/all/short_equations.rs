@@ -23,10 +23,10 @@ struct Hand {
     equations: &'static [(&'static str, &'static str)],
 }
 
-/// Neimark, Fufaev (1972): the skate, the sleigh, the disc that rolls upright and the one that falls; Ostrowski, Burdick, Lewis, Murray
+/// Neimark, Fufaev (1972): the skate, the sleigh, the disc that rolls upright; Ostrowski, Burdick, Lewis, Murray
 /// (1995): the snakeboard with J + J_r + 2 J_w = m l²; Lagrange's top in Landau, Lifshitz, § 35; a cart with two driven wheels from
 /// the balances of force and moment.
-const HANDS: [Hand; 7] = [
+const HANDS: [Hand; 6] = [
     Hand {
         name: "skate",
         model: r#"
@@ -104,32 +104,6 @@ back = "cos(theta - phi) y' - l cos(phi) theta' = sin(theta - phi) x'"
             ("s'", "0"),
             ("u'", "-(m l^2 - Jr) u s tan(phi)/(m l^2 - Jr sin(phi)^2)"),
             ("w'", "-(u' tan(phi) + u s/cos(phi)^2)/l"),
-        ],
-    },
-    Hand {
-        name: "falling-disc",
-        model: r#"
-coordinates = ["x", "y", "phi", "theta", "psi"]
-parameters = { m = 2, r = 0.3, g = 9.81, A = 0.045, Cc = 0.09 }
-assumptions = ["m > 0", "r > 0", "g > 0", "A > 0", "Cc > 0", "-pi/2 < theta < pi/2"]
-lagrangian = "1/2 m (cx'^2 + cy'^2 + cz'^2) + 1/2 A (theta'^2 + (phi' cos(theta))^2) + 1/2 Cc (psi' + phi' sin(theta))^2 - m g cz"
-define = { cx = "x + r sin(phi) sin(theta)", cy = "y - r cos(phi) sin(theta)", cz = "r cos(theta)" }
-constraints = { along = "x' = r psi' cos(phi)", across = "y' = r psi' sin(phi)" }
-initial = { theta = 0.25 }
-"#,
-        names: &["p", "s", "w"],
-        equations: &[
-            ("x'", "r psi' cos(phi)"),
-            ("y'", "r psi' sin(phi)"),
-            ("phi'", "w/cos(theta)"),
-            ("theta'", "p"),
-            ("psi'", "s - w tan(theta)"),
-            (
-                "(A + m r^2) p'",
-                "(Cc + m r^2) s w - A w^2 tan(theta) + m g r sin(theta)",
-            ),
-            ("(Cc + m r^2) s'", "-m r^2 p w"),
-            ("A w'", "p (A w tan(theta) - Cc s)"),
         ],
     },
     Hand {

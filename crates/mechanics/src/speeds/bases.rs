@@ -1,12 +1,23 @@
 //! Ways of solving the constraints for velocities.
 
-use super::{candidates, Basis};
+use super::candidates;
 use crate::characteristics::Parameter;
 use crate::elimination::{new_speed, Elimination, Start, Step, Writing};
 use crate::system::System;
 use crate::terms::MotionTerms;
 use chetaev_symbolic::simplify::{simplify_all, Options};
 use chetaev_symbolic::{Expr, Function, Node, Symbol};
+
+/// Systems of more coordinates than these are taken as the constraints give them.
+pub(super) const SEARCHED: usize = 8;
+
+/// Admissible velocities in speeds.
+#[derive(Clone, Debug)]
+pub(super) struct Basis {
+    pub(super) speeds: Vec<Parameter>,
+    pub(super) meanings: Vec<String>,
+    pub(super) velocities: Vec<Expr>,
+}
 
 /// In which order speeds are taken: with poles nowhere as far as that is possible.
 const STEPS: [Step; 4] = [
@@ -34,7 +45,7 @@ pub(super) fn all(
     };
     let mut found = Vec::new();
     found.extend(solve(new(), &STEPS));
-    if system.n() > super::SEARCHED {
+    if system.n() > SEARCHED {
         return found;
     }
     let axes = axes(system, &constraints);

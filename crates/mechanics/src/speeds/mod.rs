@@ -22,14 +22,12 @@ use crate::reduced_equations::ReducedEquations;
 use crate::regular::denominators;
 use crate::system::System;
 use crate::terms::MotionTerms;
+use bases::{Basis, SEARCHED};
 use chetaev_symbolic::meter::{within, Work};
 use chetaev_symbolic::print::{Document, Options as Printing};
 use chetaev_symbolic::simplify::{simplify_all, Options};
 use chetaev_symbolic::zero::known_sign;
 use chetaev_symbolic::{Expr, Symbol};
-
-/// Systems of more coordinates than these are taken as the constraints give them.
-const SEARCHED: usize = 8;
 
 /// Larger systems are not looked at.
 const LARGEST: usize = 40;
@@ -59,14 +57,6 @@ pub struct Choice {
     pub characteristics: Characteristics,
     /// What each is, in a few words; empty for the velocity of a coordinate.
     pub meanings: Vec<String>,
-}
-
-/// Admissible velocities in speeds.
-#[derive(Clone, Debug)]
-struct Basis {
-    speeds: Vec<Parameter>,
-    meanings: Vec<String>,
-    velocities: Vec<Expr>,
 }
 
 /// The quasi-velocities chosen for the constraints of `rows`; `None` where the rates of independent coordinates serve as well, or
