@@ -58,7 +58,9 @@ pub fn of(system: &System, terms: &MotionTerms, selection: &Selection) -> Positi
     let free: Vec<Symbol> = symbols.into_iter().filter(|s| !used.contains(s)).collect();
     // Where all constraints are finite the selection is one of positions.
     let chosen = is_finite.then(|| selected(system, selection, &rows, &free));
-    let chosen = chosen.flatten().or_else(|| sampled(system, terms, &rest, &free));
+    let chosen = chosen
+        .flatten()
+        .or_else(|| sampled(system, terms, &rest, &free));
     match chosen.and_then(|chosen| jointly(&chosen, &rest)) {
         Some(pairs) => found.implicit.extend(pairs),
         None => found.is_whole = rest.is_empty(),
@@ -72,7 +74,10 @@ fn jointly(chosen: &[(usize, Symbol)], rest: &[Expr]) -> Option<Vec<(Expr, Symbo
     let own = chosen.iter().map(|&(place, symbol)| (rest[place], symbol));
     let is_chosen = |place: usize| chosen.iter().any(|&(own, _)| own == place);
     let others = (0..rest.len()).filter(|&place| !is_chosen(place));
-    Some(own.chain(others.map(|place| (rest[place], first))).collect())
+    Some(
+        own.chain(others.map(|place| (rest[place], first)))
+            .collect(),
+    )
 }
 
 /// The constraints of a selection with their coordinates; `None` where a coordinate is taken already.
@@ -104,7 +109,9 @@ fn sampled(
     let g = &system.graph;
     let point = sample::admissible_point(system, terms, sample::SEED)?;
     let gradient = g.jacobian(rest, free).concat();
-    let values = g.evaluate_f64(&gradient, &|s| point.get(&s).copied()).ok()?;
+    let values = g
+        .evaluate_f64(&gradient, &|s| point.get(&s).copied())
+        .ok()?;
     let cost = |e: &Expr| free.iter().map(|&s| turns(g, *e, s)).collect();
     let chosen = eliminate(values, rest.iter().map(cost).collect(), free.len());
     let pairs = chosen.rows.iter().zip(&chosen.dependent);

@@ -82,7 +82,9 @@ impl LeftOut {
                 follows = Verdict::Proved(proof).prefixed(sentence);
             } else if !set.is_whole {
                 follows = at_points(system, terms, selection).unwrap_or_else(|| {
-                    Verdict::undecided("no positions were found that satisfy the finite constraints")
+                    Verdict::undecided(
+                        "no positions were found that satisfy the finite constraints",
+                    )
                 });
             }
         }

@@ -2,7 +2,7 @@
 
 use crate::real_zeros::real_zeros;
 use crate::steady::closed;
-use crate::steady_set::{fraction, precision, Generators, SteadySetError, Unknown, Value};
+use crate::steady_value::{fraction, precision, Generators, SteadySetError, Unknown, Value};
 use chetaev_mechanics::System;
 use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::number::random::Random;

@@ -40,3 +40,4 @@ pub mod spectrum;
 pub mod state_space;
 pub mod steady;
 pub mod steady_set;
+mod steady_value;

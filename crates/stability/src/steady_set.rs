@@ -8,56 +8,20 @@ use crate::branch::{Branch, Chain};
 use crate::problem::LinearizationError;
 use crate::reduction::{ClosedSystem, Speeds};
 use crate::steady::{at_point, closed};
+use crate::steady_value::{fraction, Generators, Unknown};
+pub use crate::steady_value::{SteadySetError, Value};
 use chetaev_mechanics::constraint::ConstraintKind;
 use chetaev_mechanics::{MotionTerms, Selection, SteadyMotion, System};
 use chetaev_symbolic::matrix::determinant;
-use chetaev_symbolic::number::ball::{Ball, Precision};
-use chetaev_symbolic::polynomial::normal_form::{
-    normal_forms, Field, Kind, NormalFormError, Options,
-};
+use chetaev_symbolic::polynomial::normal_form::{normal_forms, Field, Kind, Options};
 use chetaev_symbolic::polynomial::{triangular_systems, Budget, Polynomial, TooLarge};
-use chetaev_symbolic::{Expr, Graph, Node, Rational, Symbol};
-
-/// Bits of the enclosures.
-pub(crate) const BITS: usize = 256;
+use chetaev_symbolic::{Expr, Graph, Node, Symbol};
 
 /// A number for all symbols, to see whether a function has values.
 const SOMEWHERE: f64 = 0.377;
 
 /// More minors of the gradients of the constraints are not looked at.
 const MINORS: usize = 200;
-
-/// Why the steady motions were not all found.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum SteadySetError {
-    /// There is no closed system.
-    #[error(transparent)]
-    System(Box<LinearizationError>),
-    /// Something that is neither polynomial nor a sine, cosine or root of an unknown.
-    #[error("the equations of steady motion are not polynomial in the unknowns and their sines and cosines: they contain {what}; a motion of which positions and velocities are known can be stated as [steady.NAME]")]
-    NotPolynomial {
-        /// It.
-        what: String,
-    },
-    /// The equations are too large.
-    #[error("the equations of steady motion are too large to be solved exactly: {0}; a motion of which positions and velocities are known can be stated as [steady.NAME]")]
-    Form(#[from] NormalFormError),
-    /// Their solution is.
-    #[error("the equations of steady motion are too large to be solved exactly: {0}; a motion of which positions and velocities are known can be stated as [steady.NAME]")]
-    TooLarge(#[from] TooLarge),
-    /// The real zeros of a polynomial were not told apart.
-    #[error("the real zeros of {polynomial} were not enclosed one by one")]
-    NotEnclosed {
-        /// The polynomial.
-        polynomial: String,
-    },
-}
-
-impl From<LinearizationError> for SteadySetError {
-    fn from(problem: LinearizationError) -> SteadySetError {
-        SteadySetError::System(Box::new(problem))
-    }
-}
 
 /// All steady motions.
 #[derive(Clone, Debug)]
@@ -95,53 +59,11 @@ pub struct Found {
     pub is_real: bool,
 }
 
-/// The value of a variable.
-#[derive(Clone, Debug)]
-pub enum Value {
-    /// A number.
-    Number {
-        /// In closed form, where its equation is linear or quadratic.
-        exact: Option<Expr>,
-        /// Enclosed.
-        ball: Ball,
-    },
-    /// A function of the parameters of the family, and of the system.
-    Function(Expr),
-    /// Tied to others by an equation.
-    Tied,
-}
-
 impl Found {
     /// The number of free parameters.
     pub fn dimension(&self) -> usize {
         self.free.len()
     }
-}
-
-/// An unknown of the closed system.
-#[derive(Clone, Debug)]
-pub(crate) struct Unknown {
-    pub(crate) symbol: Symbol,
-    pub(crate) name: String,
-    pub(crate) is_speed: bool,
-    /// The generators by which it is determined.
-    pub(crate) by: Generators,
-}
-
-/// What stands for an unknown in the polynomials.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Generators {
-    /// Itself.
-    Own(usize),
-    /// Cosine and sine of so many times it.
-    Angle {
-        cosine: usize,
-        sine: usize,
-        /// Numerator and denominator.
-        times: (i64, i64),
-    },
-    /// None: it does not occur.
-    None,
 }
 
 /// The steady motions of a system with these values of parameters; others stay symbols in general position.
@@ -588,14 +510,4 @@ fn sort(found: &mut [Found]) {
             motion.name = own.name.clone();
         }
     }
-}
-
-/// A rational number as an expression.
-pub(crate) fn fraction(g: &Graph, (above, below): (i64, i64)) -> Expr {
-    g.number(Rational::from_parts_signed(above.into(), below.into()))
-}
-
-/// The precision of the enclosures.
-pub(crate) fn precision() -> Precision {
-    Precision::new(BITS)
 }

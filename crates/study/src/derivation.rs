@@ -5,8 +5,10 @@ use chetaev_mechanics::card::{Card, Relation};
 use chetaev_mechanics::claims::formulation::derive;
 use chetaev_mechanics::claims::full_id;
 use chetaev_mechanics::equations::{Equation, NamedExpr, Schema};
+use chetaev_mechanics::formulations::reduced::DEFINITIONS;
 use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::{Context, Equations, Formulation, System};
+use chetaev_symbolic::print::Options;
 use chetaev_symbolic::simplify;
 use chetaev_symbolic::{Expr, Verdict};
 use std::cell::RefCell;
@@ -189,4 +191,16 @@ fn readable_objects(system: &System, objects: &[NamedExpr], known: &Readings) ->
         })
         .filter(|object| !(object.is_component && g.is_zero(object.value)))
         .collect()
+}
+
+/// How names are printed in what is derived: quasi-velocities that were chosen stand before the velocities.
+pub fn options_of(system: &System, derived: &Derivation) -> Options {
+    let mut options = typeset::print_options_with(system, &derived.objects);
+    let chosen = derived
+        .groups
+        .iter()
+        .filter(|group| group.title == DEFINITIONS);
+    let chosen = chosen.flat_map(|group| group.labels.iter().filter(|l| !l.ends_with('\'')));
+    options.coordinates.splice(0..0, chosen.cloned());
+    options
 }

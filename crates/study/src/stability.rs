@@ -7,12 +7,14 @@
 )]
 
 mod data;
+pub(crate) mod error;
 mod text;
 
-use chetaev_mechanics::characteristics::CharacteristicsError;
+pub use error::StabilityError;
+
 use chetaev_mechanics::system::QuasiVelocity;
-use chetaev_mechanics::{Prepared, Selection, SteadyMotion, System, SystemError};
-use chetaev_model::{Diagnostics, Model};
+use chetaev_mechanics::{Prepared, Selection, SteadyMotion, System};
+use chetaev_model::Model;
 use chetaev_stability::eigenvalues::{eigenvalues, mode, Complex};
 use chetaev_stability::expansion::Expansion;
 use chetaev_stability::hurwitz::Ranges;
@@ -20,7 +22,7 @@ use chetaev_stability::linearization::LinearizationError;
 use chetaev_stability::parts::Parts;
 use chetaev_stability::question::{parameter_of_motion, values_but, Question};
 use chetaev_stability::reduction::Speeds;
-use chetaev_stability::state_space::{StateSpace, StateSpaceError};
+use chetaev_stability::state_space::StateSpace;
 use chetaev_stability::steady_set::{steady_set, SteadySet, SteadySetError};
 use chetaev_symbolic::{Expr, Graph, Rational, Symbol};
 
@@ -29,91 +31,6 @@ const SAME: f64 = 1e-9;
 
 /// Rows of the table of eigenvalues over a range.
 const ROWS: usize = 11;
-
-/// Why there is no answer.
-#[derive(Debug, thiserror::Error)]
-pub enum StabilityError {
-    /// The model is no system.
-    #[error(transparent)]
-    System(#[from] SystemError),
-    /// No admissible state.
-    #[error(transparent)]
-    Characteristics(#[from] CharacteristicsError),
-    /// No motion was named.
-    #[error("the model names no steady motion: state one, as in\n\n[steady.upright]\n{example}\n\nor say --about rest or --about start{found}")]
-    NoMotion {
-        /// Lines of an example with the coordinates of the model.
-        example: String,
-        /// Those that were found, in words.
-        found: String,
-    },
-    /// Several motions, and none was asked for.
-    #[error("which steady motion? --about {}", names.join(" or --about "))]
-    SeveralMotions {
-        /// Their names.
-        names: Vec<String>,
-    },
-    /// A name that the model does not have.
-    #[error("the model names no steady motion `{name}`; known are {}{found}", known.join(", "))]
-    UnknownMotion {
-        /// The name asked for.
-        name: String,
-        /// Those that exist.
-        known: Vec<String>,
-        /// Those that were found, in words.
-        found: String,
-    },
-    /// The values of a motion that was found have no closed form.
-    #[error("the motion {name} is known by enclosures of its values only, and linear equations need values in closed form")]
-    NoClosedForm {
-        /// Its number.
-        name: String,
-    },
-    /// Steady motions were not found.
-    #[error(transparent)]
-    SteadySet(#[from] SteadySetError),
-    /// A value for something that has none.
-    #[error("--at {text}: {why}")]
-    At {
-        /// As it was given.
-        text: String,
-        /// What is wrong.
-        why: String,
-    },
-    /// A parameter that the model does not have.
-    #[error("`{name}` is no parameter of the model; its parameters are {}", known.join(", "))]
-    UnknownParameter {
-        /// The name asked for.
-        name: String,
-        /// Those that exist.
-        known: Vec<String>,
-    },
-    /// A range that is none.
-    #[error("`{text}` is no range: write NAME=FROM:TO with FROM below TO, as in v=0:10")]
-    Range {
-        /// As it was given.
-        text: String,
-    },
-    /// Speeds that are no choice of independent ones.
-    #[error("{text}: name {needed} speeds, velocities or functions linear in them, as in --speeds \"{example}\"")]
-    Speeds {
-        /// As it was given.
-        text: String,
-        /// k.
-        needed: usize,
-        /// Velocities that could be named.
-        example: String,
-    },
-    /// An expression that could not be read.
-    #[error("{0}")]
-    Expression(Diagnostics),
-    /// The motion is not steady, or not admissible.
-    #[error(transparent)]
-    Linearization(#[from] LinearizationError),
-    /// The mass matrix is singular, or an output is no function of the variables.
-    #[error(transparent)]
-    StateSpace(#[from] StateSpaceError),
-}
 
 /// What is asked of a model.
 #[derive(Clone, Copy, Debug, Default)]

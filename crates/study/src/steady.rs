@@ -4,7 +4,7 @@
     reason = "an error is made once, and told at once"
 )]
 
-use crate::stability::StabilityError;
+use crate::stability::error::StabilityError;
 use chetaev_mechanics::{Prepared, System};
 use chetaev_model::Model;
 use chetaev_stability::steady_set::{steady_set, Found, SteadySet, Value};

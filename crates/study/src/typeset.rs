@@ -1,8 +1,6 @@
 //! Formulas for people: simplified, collected and printed in the notations of the outputs.
 
-use crate::derivation::Derivation;
 use chetaev_mechanics::equations::{Equation, Equations, NamedExpr};
-use chetaev_mechanics::formulations::reduced::DEFINITIONS;
 use chetaev_mechanics::{Manifold, Prover, System};
 use chetaev_report::data::{Definition, Equation as Printed, Formula};
 use chetaev_symbolic::print::{Document, Format, Options, Parts};
@@ -32,18 +30,6 @@ pub fn print_options_with(system: &System, objects: &[NamedExpr]) -> Options {
         display: typeset.collect(),
         ..print_options(system)
     }
-}
-
-/// The same for all that is derived: quasi-velocities that were chosen stand before the velocities.
-pub fn options_of(system: &System, derived: &Derivation) -> Options {
-    let mut options = print_options_with(system, &derived.objects);
-    let chosen = derived
-        .groups
-        .iter()
-        .filter(|group| group.title == DEFINITIONS);
-    let chosen = chosen.flat_map(|group| group.labels.iter().filter(|l| !l.ends_with('\'')));
-    options.coordinates.splice(0..0, chosen.cloned());
-    options
 }
 
 /// Accelerations first, then velocities: the groups by which equations of motion are collected.

@@ -2,7 +2,7 @@
 
 use super::algebra::Vector;
 use super::joints::Freedom;
-use super::keeping::KeptReaction;
+use super::kept::KeptReaction;
 use super::lowering::{FrameId, Lowering, Step, GROUND};
 use super::tree::{JointStated, Tree};
 use crate::diagnostic::Diagnostic;

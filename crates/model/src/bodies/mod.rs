@@ -12,7 +12,8 @@ mod closing;
 mod contacts;
 mod families;
 mod joints;
-pub(crate) mod keeping;
+mod keeping;
+pub(crate) mod kept;
 mod kinematics;
 mod look;
 mod lowering;
@@ -33,7 +34,7 @@ use crate::diagnostic::Diagnostic;
 use crate::raw::{Kind, Raw, Table};
 use crate::resolve::Override;
 use crate::source::Place;
-use keeping::Kept;
+use kept::Kept;
 use lowering::{Lowering, Up};
 use reading::{quantity, Slot};
 

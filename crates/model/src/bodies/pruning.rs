@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::keeping::Kept;
+use super::kept::Kept;
 use super::sections::Written;
 use crate::raw::{Kind, Raw, Table};
 

@@ -9,7 +9,7 @@
 use chetaev_symbolic::Expr;
 
 use super::algebra::Vector;
-use super::keeping::KeptReaction;
+use super::kept::KeptReaction;
 use super::lowering::{FrameId, Lowering, GROUND};
 use super::placing::Built;
 use super::sections::{table, text, word};

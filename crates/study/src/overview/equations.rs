@@ -1,10 +1,9 @@
 //! The equations of motion in the form that is shortest to read.
 
-use crate::derivation::{check_applies, derivation, Derivation, Readings};
+use crate::derivation::{check_applies, derivation, options_of, Derivation, Readings};
 use crate::layout::{hanging, WIDTH};
 use crate::registry::registry;
 use crate::study::Study;
-use crate::typeset;
 use chetaev_mechanics::claims::formulation::derive;
 use chetaev_mechanics::{formulation, Context, Prover};
 use chetaev_symbolic::print::{Document, Format};
@@ -76,7 +75,7 @@ fn statements(study: &Study, found: &Derivation) -> Vec<String> {
     let pairs: Vec<_> = (found.groups.iter())
         .flat_map(|group| group.pairs.iter().copied())
         .collect();
-    let options = typeset::options_of(&study.system, found);
+    let options = options_of(&study.system, found);
     let parts = Document::equations(&study.system.graph, &pairs, &options).parts(Format::Text);
     let mut all = parts.statements;
     let shared = parts.definitions.iter();

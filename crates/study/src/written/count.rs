@@ -1,7 +1,6 @@
 //! How many operations the equations of a formulation have as they are printed.
 
-use crate::derivation::Derivation;
-use crate::typeset;
+use crate::derivation::{options_of, Derivation};
 use chetaev_mechanics::formulations::reduced::DEFINITIONS;
 use chetaev_mechanics::System;
 use chetaev_symbolic::print::{Document, Operations};
@@ -15,7 +14,7 @@ pub(crate) fn operations(system: &System, one: &Derivation) -> Operations {
         .filter(|group| group.title != DEFINITIONS)
         .flat_map(|group| group.pairs.iter().copied())
         .collect();
-    let options = typeset::options_of(system, one);
+    let options = options_of(system, one);
     Document::equations(&system.graph, &pairs, &options).operations()
 }
 

@@ -1,7 +1,7 @@
 //! Equations as a whole document of LaTeX: numbered and aligned, with the general forms, the objects, and a table of symbols.
 
 use super::printed::sections;
-use crate::derivation::Derivation;
+use crate::derivation::{options_of, Derivation};
 use crate::typeset;
 use chetaev_mechanics::System;
 use chetaev_symbolic::print::{Document, Format};
@@ -24,7 +24,7 @@ pub(super) fn document(system: &System, sections: &str) -> String {
 
 /// One formulation.
 pub(super) fn section(system: &System, derivation: &Derivation) -> String {
-    let options = typeset::options_of(system, derivation);
+    let options = options_of(system, derivation);
     let mut text = format!("\\section*{{{}}}\n", escaped(derivation.card.title));
     for section in sections(system, derivation) {
         text.push_str(&format!("\\paragraph{{{}}}\n", begun(&section.heading)));

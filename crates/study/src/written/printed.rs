@@ -2,7 +2,7 @@
 
 use super::latex;
 use super::Notation;
-use crate::derivation::{Derivation, NotDerived};
+use crate::derivation::{options_of, Derivation, NotDerived};
 use crate::typeset;
 use chetaev_mechanics::equations::Schema;
 use chetaev_mechanics::{Context, System};
@@ -91,7 +91,7 @@ pub(super) fn sections(system: &System, derivation: &Derivation) -> Vec<Section>
 }
 
 fn printed(system: &System, derivation: &Derivation, notation: Notation) -> String {
-    let options = typeset::options_of(system, derivation);
+    let options = options_of(system, derivation);
     let format = match notation {
         Notation::Mathml => Format::Mathml,
         _ => Format::Text,
@@ -201,7 +201,7 @@ fn derivation_json(system: &System, derivation: &Derivation) -> serde_json::Valu
             serde_json::json!({"title": group.title, "general_form": group.schema.map(|s| s.text), "equations": equations})
         })
         .collect();
-    let options = typeset::options_of(system, derivation);
+    let options = options_of(system, derivation);
     let objects: Vec<serde_json::Value> = derivation
         .objects
         .iter()

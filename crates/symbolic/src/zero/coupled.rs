@@ -14,11 +14,10 @@ use rustc_hash::FxHashMap;
 
 use self::quotient::{solutions, NotSolved};
 use self::unknowns::{as_scalar, Unknowns};
-use super::evaluate::{Point, Run, Stop};
+use super::evaluate::{Failure, Point, Run, Stop};
 use super::program::{Generator, Operation, Program};
 use super::ring::Ring;
 use super::tower::{Element, Tower};
-use super::variety::Failure;
 use crate::number::prime_field::{PrimeField, Residue};
 
 /// What the constraints determine jointly.

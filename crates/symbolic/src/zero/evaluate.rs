@@ -38,6 +38,15 @@ pub(super) enum Stop {
     NoRoot,
 }
 
+/// Why a point gives nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Failure {
+    /// The point is refused.
+    Stop(Stop),
+    /// No point can be used.
+    Unsupported(String),
+}
+
 /// What the points are drawn with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parametrization {

@@ -1,7 +1,7 @@
 //! Points of the constraints: over a random point of the independent data, the ring of all solutions for the dependent symbols.
 
 use super::coupled::{Coupled, Together, Values};
-use super::evaluate::{Point, Run, Stop};
+use super::evaluate::{Failure, Point, Run, Stop};
 use super::modular::Parts;
 use super::polynomials::Polynomials;
 use super::program::{Generator, Program};
@@ -24,15 +24,6 @@ pub(super) struct Variety<'p> {
     /// The shape of the matrix of outputs.
     rows: usize,
     columns: usize,
-}
-
-/// Why a point gives nothing.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Failure {
-    /// The point is refused.
-    Stop(Stop),
-    /// No point can be used.
-    Unsupported(String),
 }
 
 /// What one tower gives for the dependent symbols.

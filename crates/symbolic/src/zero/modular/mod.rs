@@ -33,12 +33,12 @@ mod suspects;
 
 use std::collections::BTreeMap;
 
-use super::evaluate::{Parametrization, Point, Run, Stop};
+use super::evaluate::{Failure, Parametrization, Point, Run, Stop};
 use super::program::Program;
 use super::rank::{rank_over, Pivots};
 use super::ring::Scalars;
 use super::size::{Sizes, Weight};
-use super::variety::{Failure, Variety};
+use super::variety::Variety;
 use crate::number::prime::random_prime;
 use crate::number::prime_field::PrimeField;
 use crate::number::random::Random;
