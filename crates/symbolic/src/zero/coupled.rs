@@ -36,6 +36,8 @@ pub(super) struct Coupled {
 pub(super) struct Together {
     /// The monic equation of the generator without its leading 1.
     equation: Vec<Residue>,
+    /// Whether solutions at which the constraints do not determine their symbols are left out.
+    are_regular: bool,
     dependent: Vec<Vec<Residue>>,
     circles: Vec<(u32, Vec<Residue>, Vec<Residue>)>,
     roots: Vec<(u32, Vec<Residue>)>,
@@ -120,8 +122,18 @@ impl Coupled {
         let circles: FxHashMap<u32, _> = self.circles.iter().map(|&c| (c, ring.circle())).collect();
         let mut run = Run::new(program, point, dependent.clone()).with_circles(circles.clone());
         let end = run.advance_over(&ring, program.operations.len(), |value| self.closure[value]);
-        for &constraint in program.constraints.iter().filter(|_| end.is_ok()) {
-            ring.vanishes(run.get(constraint).clone());
+        let mut beside = Vec::new();
+        for (k, &constraint) in program
+            .constraints
+            .iter()
+            .enumerate()
+            .filter(|_| end.is_ok())
+        {
+            let equation = run.get(constraint).clone();
+            match program.determines[k] {
+                true => ring.vanishes(equation),
+                false => beside.push(equation),
+            }
         }
         if ring.is_unsupported() {
             let why = "the constraints have no polynomial equations that are short enough";
@@ -133,7 +145,8 @@ impl Coupled {
             Ok(()) => {}
         }
         let (count, equations, roots) = ring.finished();
-        let found = match solutions(field, count, &equations) {
+        let all = [&equations[..], &beside].concat();
+        let found = match solutions(field, count, &all, &equations) {
             Ok(found) => found,
             Err(NotSolved::None) => return Ok(None),
             Err(NotSolved::Infinite) => {
@@ -171,6 +184,7 @@ impl Coupled {
                 .iter()
                 .map(|(&radical, terms)| (radical, value(terms)))
                 .collect(),
+            are_regular: found.are_regular,
             equation: found.equation,
         }))
     }
@@ -182,6 +196,11 @@ impl Coupled {
 }
 
 impl Together {
+    /// Whether solutions are left out at which the constraints do not determine their symbols.
+    pub(super) fn are_regular(&self) -> bool {
+        self.are_regular
+    }
+
     /// The values in a tower whose first level is the generator; `None` where the tower becomes too large.
     pub(super) fn values(&self, tower: &Tower<'_>) -> Option<Values> {
         let field = tower.field();

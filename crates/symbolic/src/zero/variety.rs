@@ -95,6 +95,7 @@ impl<'p> Variety<'p> {
             Some(together) => together,
             None => None,
         };
+        parts.are_regular = together.as_ref().is_some_and(Together::are_regular);
         let mut stack: Vec<Vec<Option<Vec<Element>>>> = vec![Vec::new()];
         let mut followed = 0;
         while let Some(prescribed) = stack.pop() {

@@ -144,6 +144,18 @@ pub(super) fn product(field: &PrimeField, a: &Terms, b: &Terms) -> Terms {
     terms.filter(|(_, c)| !c.is_zero()).collect()
 }
 
+/// ∂a/∂x for one unknown.
+pub(super) fn derivative(field: &PrimeField, a: &Terms, index: usize) -> Terms {
+    let term = |&(power, c): &(Power, Residue)| {
+        let exponent = power.exponents[index];
+        let c = field.mul(c, field.from_u64(u64::from(exponent)));
+        (exponent > 0).then(|| (power.over(Power::unknown(index)), c))
+    };
+    let mut terms: Terms = a.iter().filter_map(term).collect();
+    terms.sort_by(|(p, _), (q, _)| q.cmp(p));
+    terms
+}
+
 /// Two elements whose leading powers are to be cancelled.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
@@ -235,6 +247,37 @@ impl Basis {
             }
         }
         Ok(done)
+    }
+
+    /// The remainder of the determinant of a square matrix, row by row: of the minors of the first rows only remainders are kept.
+    pub(super) fn determinant(&mut self, rows: &[Vec<Terms>]) -> Result<Terms, TooLarge> {
+        let field = self.field;
+        let mut minors = BTreeMap::from([(0_u64, vec![(Power::ONE, field.one())])]);
+        for row in rows {
+            let mut next: BTreeMap<u64, Terms> = BTreeMap::new();
+            for (columns, minor) in &minors {
+                for (column, entry) in row.iter().enumerate() {
+                    if columns >> column & 1 == 1 || entry.is_empty() {
+                        continue;
+                    }
+                    let is_odd = (columns >> column).count_ones() % 2 == 1;
+                    let sign = if is_odd {
+                        field.neg(field.one())
+                    } else {
+                        field.one()
+                    };
+                    let product = product(&field, entry, minor);
+                    let sum = next.entry(columns | 1 << column).or_default();
+                    *sum = add_scaled(&field, sum, &product, sign);
+                }
+            }
+            for minor in next.values_mut() {
+                *minor = self.remainder(std::mem::take(minor))?;
+            }
+            next.retain(|_, minor| !minor.is_empty());
+            minors = next;
+        }
+        Ok(minors.into_values().next().unwrap_or_default())
     }
 
     fn difference(&self, pair: Pair) -> Terms {

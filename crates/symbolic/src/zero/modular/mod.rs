@@ -95,6 +95,8 @@ pub(super) struct Finding {
     pub(super) why_no_bound: String,
     /// Radicals not known to be independent.
     pub(super) suspects: usize,
+    /// Whether solutions were left out at which the constraints do not determine their symbols.
+    pub(super) are_regular: bool,
 }
 
 /// Radicals not known to be independent: at most so many (2^d runs for each point).
@@ -179,6 +181,8 @@ pub(super) struct Parts {
     pub(super) pivots: Pivots,
     /// Parts refused because a denominator vanishes.
     pub(super) poles: usize,
+    /// Whether solutions are left out at which the constraints do not determine their symbols.
+    pub(super) are_regular: bool,
 }
 
 impl Parts {
@@ -197,6 +201,7 @@ impl Parts {
             self.pivots = other.pivots;
         }
         self.poles += other.poles;
+        self.are_regular |= other.are_regular;
     }
 }
 
@@ -331,6 +336,11 @@ impl Session<'_> {
                 return Trial::Stopped(Outcome::Empty { samples: empty });
             }
         }
+        // All solutions of what is solved jointly are followed, in whatever field they lie.
+        let is_coupled = self.variety.as_ref().and_then(Variety::coupled).is_some();
+        if is_coupled && empty > 0 && poles == 0 {
+            return Trial::Stopped(Outcome::Empty { samples: empty });
+        }
         let why = "no random point of a finite field was found at which all the square roots that occur have values".to_owned();
         Trial::Stopped(Outcome::Open { why })
     }
@@ -396,6 +406,7 @@ impl Finding {
     fn take(&mut self, parts: Parts) {
         let minimum = parts.ranks.keys().next().copied().unwrap_or(0);
         let maximum = parts.ranks.keys().next_back().copied().unwrap_or(0);
+        self.are_regular |= parts.are_regular;
         // Generic ranks are the largest seen; a smaller one at some point is an accident.
         self.minimum = self.minimum.max(minimum);
         if maximum >= self.maximum {
