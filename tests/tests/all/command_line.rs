@@ -804,7 +804,7 @@ fn progress_is_on_standard_error_and_a_summary_on_standard_output() {
     ]);
     for part in [
         "chaplygin-sleigh",
-        "m u' - m a w^2 = 0",
+        "u' = a w^2",
         "nonholonomic",
         "conserved",
         "forms of the equations of motion proved equal",

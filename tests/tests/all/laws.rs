@@ -147,6 +147,8 @@ fn every_formulation_is_refuted_with_a_slip_in_it() {
     for formulation in FORMULATIONS {
         let card = formulation.card();
         let is_compared = card.relation == Relation::Equivalent && card.name != "routh";
+        // No random system has bodies; the slips of their balances are made in the tests of mechanics.
+        let is_compared = is_compared && !card.requires.contains(&"model.bodies");
         assert!(!is_compared || spoilt.contains(card.name), "{}", card.name);
     }
 }

@@ -26,10 +26,6 @@ impl Claim for Bodies {
          is not applicable where T or L is stated beside bodies: no force on a body corresponds to what these contain."
     }
 
-    fn subjects(&self, cx: &Context<'_>) -> Vec<Option<String>> {
-        super::once_where(cx.system.mechanism.is_some())
-    }
-
     fn decide(&self, cx: &Context<'_>, _: Option<&str>) -> Finding {
         bodies::carry_inertia(cx.system, &cx.prover).into()
     }

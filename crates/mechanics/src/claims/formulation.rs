@@ -274,7 +274,8 @@ fn both_multipliers(
     other: &Equations,
 ) -> Vec<(Expr, Expr)> {
     let is_plain = |x: &StateVariable| x.definition == Some(x.value);
-    if !other.variables.iter().all(is_plain) {
+    let mut variables = other.variables.iter().chain(&reference.variables);
+    if !variables.all(is_plain) {
         return Vec::new();
     }
     let own = other.multipliers.iter();

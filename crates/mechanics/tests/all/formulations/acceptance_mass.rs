@@ -109,10 +109,11 @@ fn masses_of_velocities() {
         expect(&case, "mass.balance", "proved");
         let free = "model.masses-free-of-velocity";
         let excuses = [free, "model.masses-of-time", "model.forces-absent"];
-        assert_eq!(proved_forms(&case, &excuses), 2, "{thrust}");
+        assert_eq!(proved_forms(&case, &excuses), 3, "{thrust}");
         expect(&case, free, "refuted");
         expect(&case, "formulation.equivalent#maggi", "proved");
         expect(&case, "formulation.equivalent#lagrange-dalembert", "proved");
+        expect(&case, "formulation.equivalent#reduced", "proved");
     }
 }
 
