@@ -2,7 +2,7 @@
 //! components of the angular velocity.
 //!
 //! Every way of solving the constraints gives admissible velocities `v = φ(q, P, t)`: by constant coefficients, along blades, in axes that
-//! turn with a body ([`bases`]). The [`CANDIDATES`], a registry, propose speeds to put in the place of the P: the rates of the coordinates,
+//! turn with a body (`bases`). The [`CANDIDATES`], a registry, propose speeds to put in the place of the P: the rates of the coordinates,
 //! and the linear forms in which the kinetic energy is written. What is asked of all of them: no pole where the motion starts; then the
 //! fewest operations in `M P' = b` and in `q' = φ` as they are printed, poles elsewhere and new names counting as some. The search goes
 //! through a fixed list, and takes the first of the best: the same model has the same speeds always. Quasi-velocities of the user are never
