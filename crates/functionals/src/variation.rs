@@ -229,9 +229,10 @@ impl Multipliers {
             let (_, value) = self.values.iter().find(|(c, _)| *c == jet.component)?;
             Some(space.totals(*value, &jet.by))
         });
-        match space.vanish(&[settled]) {
-            true => space.graph.zero(),
-            false => settled,
+        if space.vanish(&[settled]) {
+            space.graph.zero()
+        } else {
+            settled
         }
     }
 }

@@ -155,9 +155,12 @@ fn second_moments(g: &Graph, inertia: &[Vector; 3]) -> [Vector; 3] {
     let trace = g.add(&[inertia[0][0], inertia[1][1], inertia[2][2]]);
     let half = g.div(trace, g.integer(2));
     std::array::from_fn(|i| {
-        std::array::from_fn(|j| match i == j {
-            true => g.sub(half, inertia[i][j]),
-            false => g.neg(inertia[i][j]),
+        std::array::from_fn(|j| {
+            if i == j {
+                g.sub(half, inertia[i][j])
+            } else {
+                g.neg(inertia[i][j])
+            }
         })
     })
 }

@@ -325,6 +325,13 @@ impl Equations {
         self
     }
 
+    /// Adds the multipliers of the constraints with these indices.
+    #[must_use]
+    pub fn with_multipliers(mut self, indices: Vec<usize>, values: Vec<Expr>) -> Equations {
+        self.multipliers = indices.into_iter().zip(values).collect();
+        self
+    }
+
     /// The laws of the masses that have one, as a group of equations `M' = Φ`; `None` without such masses.
     pub fn laws_of_masses(&self, system: &System) -> Option<EquationGroup> {
         let g = &system.graph;

@@ -421,9 +421,12 @@ impl Forms {
         let short = |es: &[Expr]| -> Vec<Expr> {
             let options = Options::default();
             let is_small = |e: Expr| g.reachable(&[e]).len() <= FORM;
-            let one = |&e: &Expr| match is_small(e) {
-                true => simplify(g, e, &options),
-                false => e,
+            let one = |&e: &Expr| {
+                if is_small(e) {
+                    simplify(g, e, &options)
+                } else {
+                    e
+                }
             };
             es.iter().map(one).collect()
         };

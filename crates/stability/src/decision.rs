@@ -4,9 +4,10 @@
 use crate::bundle::{bundles, Bundle};
 use crate::expansion::Expansion;
 use crate::hurwitz::{Crossing, Ranges};
+use crate::isolation::Root;
 use crate::problem::LinearizationError;
 use crate::question::{bound_of, parameter_of_motion, values_at, values_but, Place, Question};
-use crate::real_roots::{decimal, real_roots, Root};
+use crate::real_roots::{decimal, real_roots};
 use chetaev_mechanics::claims::Context;
 use chetaev_mechanics::SteadyMotion;
 use chetaev_symbolic::number::ball::Precision;

@@ -4,7 +4,8 @@
 //! one parameter the zeros of the determinants cut the range into intervals on each of which stability is the same; a boundary where the constant
 //! coefficient vanishes is passed by a real eigenvalue, one where Δ_{m−1} does by a pair (Orlando 1911).
 
-use crate::real_roots::{real_roots, sign_at, Root};
+use crate::isolation::Root;
+use crate::real_roots::{real_roots, sign_at};
 use crate::steady::closed;
 use chetaev_symbolic::matrix::determinant;
 use chetaev_symbolic::{Expr, Graph, Symbol};

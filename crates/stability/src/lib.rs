@@ -28,6 +28,7 @@ pub mod expansion;
 mod family;
 pub mod hurwitz;
 pub mod integrals;
+pub mod isolation;
 pub mod linearization;
 pub mod multiplicity;
 pub mod parts;

@@ -1,14 +1,13 @@
 //! Real zeros of functions of one parameter, enclosed: none is left out, and each interval holds exactly one.
 //!
-//! An interval on which the function is enclosed away from zero holds no zero; one on which the derivative is, and at whose ends the
-//! signs differ, exactly one (interval bisection with the mean value form, Moore 1966). Polynomials are split into square-free
+//! They are isolated by bisection with the mean value form ([`isolation`](crate::isolation)). Polynomials are split into square-free
 //! factors first, so that zeros are simple.
 
+use crate::isolation::{isolated, Enclosed, Look, Root};
 use crate::steady::closed;
 use chetaev_symbolic::factors::factors;
 use chetaev_symbolic::number::ball::{Ball, Precision};
 use chetaev_symbolic::{Expr, Graph, Symbol};
-use dashu_int::IBig;
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
 
@@ -18,33 +17,6 @@ const BITS: usize = 256;
 const INTERVALS: usize = 40_000;
 /// A zero is enclosed to 2^−64 of the range: more than double precision shows.
 const REFINEMENTS: usize = 64;
-
-/// An interval with exactly one zero, or the zero itself where both ends are equal.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Root {
-    /// The lower end.
-    pub low: RBig,
-    /// The upper end.
-    pub high: RBig,
-}
-
-impl Root {
-    /// Decimal bounds with 20 digits, rounded outwards.
-    pub fn decimal_bounds(&self) -> (String, String) {
-        let (low, _) = point(&self.low).to_decimal_interval(20);
-        let (_, high) = point(&self.high).to_decimal_interval(20);
-        (low, high)
-    }
-
-    /// The zero itself where it is known, else the interval.
-    pub fn text(&self) -> String {
-        if self.low == self.high {
-            return format!("{{{}}}", self.low);
-        }
-        let (low, high) = self.decimal_bounds();
-        format!("[{low}, {high}]")
-    }
-}
 
 /// A rational number as a person reads it, rounded to double precision.
 pub fn decimal(value: &RBig) -> String {
@@ -132,10 +104,6 @@ impl Function<'_> {
             .pop()
     }
 
-    fn sign(&self, at: &RBig) -> Option<Ordering> {
-        sign_at(self.graph, self.value, self.symbol, at)
-    }
-
     /// The value over an interval by the mean value form.
     fn mean_value(&self, low: &RBig, high: &RBig, slope: &Ball) -> Option<Ball> {
         let middle = (low + high) / RBig::from(2);
@@ -156,59 +124,29 @@ impl Function<'_> {
             }
         }
         found.dedup();
-        let mut open = vec![(low.clone(), high.clone())];
-        let mut looked = 0;
-        while let Some((a, b)) = open.pop() {
-            looked += 1;
-            if looked > INTERVALS {
-                return None;
-            }
-            let over = ball(&a, &b);
-            let slope = self.over(self.slope, &over);
-            let value = slope
-                .as_ref()
-                .and_then(|slope| self.mean_value(&a, &b, slope));
-            let excludes = |value: Option<Ball>| value.is_some_and(|value| value.excludes_zero());
-            if excludes(value) || excludes(self.over(self.value, &over)) {
-                continue;
-            }
-            if slope.is_some_and(|slope| slope.excludes_zero()) {
-                let (left, right) = (self.sign(&a)?, self.sign(&b)?);
-                if left != Ordering::Equal && right != Ordering::Equal && left != right {
-                    found.push(self.refined(a, b, left)?);
-                }
-                continue;
-            }
-            let middle = self.between(&a, &b)?;
-            open.push((a, middle.clone()));
-            open.push((middle, b));
-        }
+        found.extend(isolated(self, low, high, INTERVALS, REFINEMENTS)?);
         Some(found)
     }
+}
 
-    /// A place near the middle where the function does not vanish: zeros lie inside of intervals.
-    fn between(&self, a: &RBig, b: &RBig) -> Option<RBig> {
-        let at = |part: i64| a + (b - a) * RBig::from_parts(IBig::from(part), 64_u32.into());
-        let mut places = [32, 31, 35, 27].into_iter().map(at);
-        places.find(|place| self.sign(place).is_some_and(|s| s != Ordering::Equal))
+impl Enclosed for Function<'_> {
+    fn sign(&self, at: &RBig) -> Option<Ordering> {
+        sign_at(self.graph, self.value, self.symbol, at)
     }
 
-    /// The zero between two places with different signs, `left` being that of the lower one.
-    fn refined(&self, mut a: RBig, mut b: RBig, left: Ordering) -> Option<Root> {
-        for _ in 0..REFINEMENTS {
-            let middle = (&a + &b) / RBig::from(2);
-            match self.sign(&middle)? {
-                Ordering::Equal => {
-                    return Some(Root {
-                        low: middle.clone(),
-                        high: middle,
-                    })
-                }
-                own if own == left => a = middle,
-                _ => b = middle,
-            }
+    fn between(&self, low: &RBig, high: &RBig) -> Look {
+        let over = ball(low, high);
+        let slope = self.over(self.slope, &over);
+        let mean = slope.as_ref();
+        let mean = mean.and_then(|slope| self.mean_value(low, high, slope));
+        let excludes = |value: Option<Ball>| value.is_some_and(|value| value.excludes_zero());
+        if excludes(mean) || excludes(self.over(self.value, &over)) {
+            return Look::Empty;
         }
-        Some(Root { low: a, high: b })
+        if excludes(slope) {
+            return Look::Monotonic;
+        }
+        Look::Open
     }
 }
 

@@ -1,8 +1,8 @@
 //! Real zeros of a polynomial whose coefficients are enclosed.
 //!
-//! An interval over which the polynomial is enclosed away from zero holds no zero; one over which the derivative is, and at whose ends the signs
-//! differ, exactly one (Moore 1966). All zeros lie within Cauchy's bound.
+//! They are isolated by bisection ([`isolation`](crate::isolation)). All zeros lie within Cauchy's bound.
 
+use crate::isolation::{isolated, Enclosed, Look};
 use chetaev_symbolic::number::ball::{Ball, BallError, Precision};
 use dashu_ratio::RBig;
 use std::cmp::Ordering;
@@ -17,7 +17,7 @@ const HALVINGS: usize = 160;
 pub(crate) fn real_zeros(precision: &Precision, coefficients: &[Ball]) -> Option<Vec<Ball>> {
     let is_nothing = |ball: &&Ball| ball.is_exact() && ball.contains_zero();
     let zeros = coefficients.iter().take_while(is_nothing).count();
-    let own = Enclosed {
+    let own = Polynomial {
         precision,
         coefficients: coefficients.get(zeros..)?,
     };
@@ -38,13 +38,13 @@ pub(crate) fn real_zeros(precision: &Precision, coefficients: &[Ball]) -> Option
 }
 
 /// A polynomial.
-struct Enclosed<'a> {
+struct Polynomial<'a> {
     precision: &'a Precision,
     /// The constant first, the last one not zero.
     coefficients: &'a [Ball],
 }
 
-impl Enclosed<'_> {
+impl Polynomial<'_> {
     fn of_quadratic(&self, a: &Ball, b: &Ball, c: &Ball) -> Option<Vec<Ball>> {
         let p = self.precision;
         let product = p.mul(a, c).ok()?.shift(2);
@@ -71,11 +71,6 @@ impl Enclosed<'_> {
         Ok((value, slope))
     }
 
-    fn sign(&self, at: &RBig) -> Option<Ordering> {
-        let (value, _) = self.at(&self.precision.rational(at)).ok()?;
-        value.sign().filter(|sign| *sign != Ordering::Equal)
-    }
-
     fn over(&self, low: &RBig, high: &RBig) -> Option<Ball> {
         let end = |at| self.precision.rational(at);
         self.precision.union(&end(low), &end(high)).ok()
@@ -92,51 +87,27 @@ impl Enclosed<'_> {
 
     fn isolated(&self) -> Option<Vec<Ball>> {
         let bound = self.bound()?;
-        let (mut open, mut found) = (vec![(-bound.clone(), bound)], Vec::new());
-        let mut looked = 0;
-        while let Some((a, b)) = open.pop() {
-            looked += 1;
-            if looked > INTERVALS {
-                return None;
-            }
-            let (value, slope) = self.at(&self.over(&a, &b)?).ok()?;
-            if value.excludes_zero() {
-                continue;
-            }
-            if slope.excludes_zero() {
-                let (left, right) = (self.sign(&a)?, self.sign(&b)?);
-                if left != right {
-                    found.push(self.refined(a, b, left)?);
-                }
-                continue;
-            }
-            let middle = self.between(&a, &b)?;
-            open.push((a, middle.clone()));
-            open.push((middle, b));
-        }
-        Some(found)
+        let found = isolated(self, &-bound.clone(), &bound, INTERVALS, HALVINGS)?;
+        found
+            .iter()
+            .map(|own| self.over(&own.low, &own.high))
+            .collect()
+    }
+}
+
+impl Enclosed for Polynomial<'_> {
+    fn sign(&self, at: &RBig) -> Option<Ordering> {
+        let (value, _) = self.at(&self.precision.rational(at)).ok()?;
+        value.sign()
     }
 
-    /// A place near the middle at which the sign is known.
-    fn between(&self, a: &RBig, b: &RBig) -> Option<RBig> {
-        let at = |part: u8| a + (b - a) * RBig::from(part) / RBig::from(64_u8);
-        let mut places = [32, 31, 35, 27].into_iter().map(at);
-        places.find(|place| self.sign(place).is_some())
-    }
-
-    /// The only zero between two places with different signs, `left` being that of the lower one.
-    fn refined(&self, mut a: RBig, mut b: RBig, left: Ordering) -> Option<Ball> {
-        for _ in 0..HALVINGS {
-            let Some(middle) = self.between(&a, &b) else {
-                break;
-            };
-            if self.sign(&middle)? == left {
-                a = middle;
-            } else {
-                b = middle;
-            }
+    fn between(&self, low: &RBig, high: &RBig) -> Look {
+        let found = self.over(low, high).map(|over| self.at(&over));
+        match found {
+            Some(Ok((value, _))) if value.excludes_zero() => Look::Empty,
+            Some(Ok((_, slope))) if slope.excludes_zero() => Look::Monotonic,
+            _ => Look::Open,
         }
-        self.over(&a, &b)
     }
 }
 

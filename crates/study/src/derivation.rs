@@ -5,7 +5,7 @@ use chetaev_mechanics::card::{Card, Relation};
 use chetaev_mechanics::claims::formulation::derive;
 use chetaev_mechanics::claims::full_id;
 use chetaev_mechanics::equations::{Equation, NamedExpr, Schema};
-use chetaev_mechanics::formulations::reduced::DEFINITIONS;
+use chetaev_mechanics::formulations::reduced_form::DEFINITIONS;
 use chetaev_mechanics::formulations::DeriveError;
 use chetaev_mechanics::{Context, Equations, Formulation, System};
 use chetaev_symbolic::print::Options;

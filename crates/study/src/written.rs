@@ -10,7 +10,7 @@ mod printed;
 use crate::derivation::{derivation, Derivation, NotDerived, Readings};
 use chetaev_mechanics::characteristics::CharacteristicsError;
 use chetaev_mechanics::{choice, Context, Formulation, Prepared, System};
-use chetaev_symbolic::print::CodeError;
+use chetaev_symbolic::print::{CodeError, Format};
 
 /// How equations are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +51,22 @@ impl Notation {
         ("matlab", Notation::Matlab),
         ("julia", Notation::Julia),
     ];
+
+    /// The format of single expressions; `None` where functions of a program are written.
+    pub fn format(self) -> Option<Format> {
+        match self {
+            Notation::Text => Some(Format::Text),
+            Notation::Latex => Some(Format::Latex),
+            Notation::Mathml => Some(Format::Mathml),
+            Notation::Sympy => Some(Format::Sympy),
+            Notation::Json => Some(Format::Json),
+            Notation::Rust
+            | Notation::C
+            | Notation::Python
+            | Notation::Matlab
+            | Notation::Julia => None,
+        }
+    }
 
     /// The notation of a word.
     pub fn named(word: &str) -> Option<Notation> {

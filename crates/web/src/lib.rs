@@ -4,13 +4,13 @@
 //! Work that is to stop is left by an exception of the host ([`chetaev::symbolic::meter::Escape`]), as nothing unwinds there.
 //!
 //! - `reading`: texts as models; `checking`: diagnostics, fixes and sliders; `outcome`: a study that is done;
-//! - `refused`: why there is no answer; `shelf`: the gallery as files; `host`: what the browser provides.
+//! - `refusal`: why there is no answer; `shelf`: the gallery as files; `host`: what the browser provides.
 
 mod checking;
 mod host;
 mod outcome;
 mod reading;
-mod refused;
+mod refusal;
 mod shelf;
 
 use chetaev::mechanics::{formulation, Context, Prover, System, FORMULATIONS};
@@ -19,12 +19,11 @@ use chetaev::study::{
     functional, interruptible, registry, study_telling, ClaimSelection, Decided, Hooks,
     StudyOptions,
 };
-use chetaev::symbolic::print::Format;
 use host::seconds;
 pub use host::Listener;
 pub use outcome::Outcome;
 use reading::Read;
-pub use refused::Refused;
+pub use refusal::Refusal;
 use serde::Deserialize;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
@@ -83,22 +82,11 @@ pub fn check(path: &str, text: &str) -> String {
 /// # Errors
 /// What is wrong, in words.
 #[wasm_bindgen]
-pub fn derive(path: &str, text: &str, forms: &str, notation: &str) -> Result<String, Refused> {
-    let notation = Notation::named(notation).ok_or(Refused::Absent("such notation"))?;
+pub fn derive(path: &str, text: &str, forms: &str, notation: &str) -> Result<String, Refusal> {
+    let notation = Notation::named(notation).ok_or(Refusal::Absent("such notation"))?;
     if let Read::Functional(loaded) = reading::read(path, text) {
-        let problem = loaded.problem.ok_or(Refused::Functional)?;
-        let format = match notation {
-            Notation::Text => Format::Text,
-            Notation::Latex => Format::Latex,
-            Notation::Mathml => Format::Mathml,
-            Notation::Sympy => Format::Sympy,
-            Notation::Json => Format::Json,
-            Notation::Rust
-            | Notation::C
-            | Notation::Python
-            | Notation::Matlab
-            | Notation::Julia => return Err(Refused::NoCode),
-        };
+        let problem = loaded.problem.ok_or(Refusal::Functional)?;
+        let format = notation.format().ok_or(Refusal::NoCode)?;
         return Ok(functional::derivation(&problem.functional, format)?);
     }
     let model = reading::motion(path, text)?;
@@ -109,14 +97,14 @@ pub fn derive(path: &str, text: &str, forms: &str, notation: &str) -> Result<Str
         .filter(|n| !n.is_empty())
         .collect();
     let asked: Option<Vec<_>> = names.iter().map(|name| formulation(name)).collect();
-    let asked = asked.ok_or(Refused::Absent("such formulation"))?;
+    let asked = asked.ok_or(Refusal::Absent("such formulation"))?;
     let found = with_hooks(&mut |_, _| {}, |hooks| {
         interruptible(hooks, |_| {
             let (prepared, _) = written::prepared(&system)?;
             let known = registry();
             let (terms, selection) = (&prepared.terms, &prepared.selection);
             let cx = Context::new(&system, terms, selection, &known, Prover::default());
-            Ok::<_, Refused>(written::equations(
+            Ok::<_, Refusal>(written::equations(
                 &cx,
                 &asked,
                 (notation, false),
@@ -124,7 +112,7 @@ pub fn derive(path: &str, text: &str, forms: &str, notation: &str) -> Result<Str
             )?)
         })
     });
-    found.map_err(|_| Refused::Stopped)?
+    found.map_err(|_| Refusal::Stopped)?
 }
 
 /// What is asked of a study; what is left out is as in the model.
@@ -148,7 +136,7 @@ struct Asked {
 }
 
 impl Asked {
-    fn options(&self) -> Result<StudyOptions, Refused> {
+    fn options(&self) -> Result<StudyOptions, Refusal> {
         let usual = StudyOptions::default();
         let claims = match self.claims.as_deref() {
             None => ClaimSelection::all(),
@@ -158,7 +146,7 @@ impl Asked {
             },
             Some("motion-only") => ClaimSelection::of_motion(),
             Some(text) => {
-                ClaimSelection::parse(text, registry().claims()).map_err(Refused::Claim)?
+                ClaimSelection::parse(text, registry().claims()).map_err(Refusal::Claim)?
             }
         };
         Ok(StudyOptions {
@@ -180,10 +168,10 @@ impl Asked {
 /// # Errors
 /// What is wrong, in words.
 #[wasm_bindgen]
-pub fn study(path: &str, text: &str, asked: &str, listener: &Listener) -> Result<Outcome, Refused> {
+pub fn study(path: &str, text: &str, asked: &str, listener: &Listener) -> Result<Outcome, Refusal> {
     let asked: Asked = serde_json::from_str(asked)?;
     if let Read::Functional(loaded) = reading::read(path, text) {
-        let problem = loaded.problem.ok_or(Refused::Functional)?;
+        let problem = loaded.problem.ok_or(Refusal::Functional)?;
         let wants = |_: &str| asked.claims.as_deref() != Some("none");
         return Ok(Outcome::of_functional(chetaev::functionals::study(
             problem, &wants, &seconds,
@@ -205,7 +193,7 @@ pub fn study(path: &str, text: &str, asked: &str, listener: &Listener) -> Result
         Ok(study) => Ok(Outcome::of_motion(study)),
         Err(problem) => {
             let said = chetaev::study::diagnostics(&problem, &model);
-            Err(Refused::Study(
+            Err(Refusal::Study(
                 said.into_iter().map(|d| d.message).collect(),
             ))
         }

@@ -1,6 +1,6 @@
 //! Texts as models.
 
-use crate::refused::Refused;
+use crate::refusal::Refusal;
 use crate::shelf::beside;
 use chetaev::functionals;
 use chetaev::model::{self, Loaded, Model, Sources};
@@ -17,9 +17,10 @@ pub(crate) enum Read {
 pub(crate) fn read(path: &str, text: &str) -> Read {
     let files = beside(path);
     let tables = model::tables(path, text, &files, &[], Sources::default());
-    match tables.is_functional() {
-        true => Read::Functional(Box::new(functionals::load(path, text, &files, &[]))),
-        false => Read::Motion(Box::new(model::load(path, text, &files, &[]))),
+    if tables.is_functional() {
+        Read::Functional(Box::new(functionals::load(path, text, &files, &[])))
+    } else {
+        Read::Motion(Box::new(model::load(path, text, &files, &[])))
     }
 }
 
@@ -27,8 +28,8 @@ pub(crate) fn read(path: &str, text: &str) -> Read {
 ///
 /// # Errors
 /// Its problems.
-pub(crate) fn motion(path: &str, text: &str) -> Result<Model, Refused> {
+pub(crate) fn motion(path: &str, text: &str) -> Result<Model, Refusal> {
     let loaded = model::load(path, text, &beside(path), &[]);
-    let (model, _) = loaded.into_result().map_err(Refused::Model)?;
+    let (model, _) = loaded.into_result().map_err(Refusal::Model)?;
     Ok(model)
 }

@@ -8,7 +8,6 @@ use chetaev::functionals::{self, Loaded, Study};
 use chetaev::study::explanation::nearest;
 use chetaev::study::functional::{derivation, page, record, summary};
 use chetaev::study::record::WrittenRecord;
-use chetaev::symbolic::print::Format;
 use std::path::Path;
 use std::time::Instant;
 
@@ -133,16 +132,9 @@ pub(super) fn derive(notation: Notation, loaded: Loaded) -> u8 {
     let Some(problem) = loaded.problem else {
         return INPUT;
     };
-    let format = match notation {
-        Notation::Text => Format::Text,
-        Notation::Latex => Format::Latex,
-        Notation::Mathml => Format::Mathml,
-        Notation::Sympy => Format::Sympy,
-        Notation::Json => Format::Json,
-        Notation::Rust | Notation::C | Notation::Python | Notation::Matlab | Notation::Julia => {
-            error("code is made of equations of motion; a functional has field equations: text, latex, mathml, sympy or json");
-            return INPUT;
-        }
+    let Some(format) = chetaev::study::written::Notation::from(notation).format() else {
+        error("code is made of equations of motion; a functional has field equations: text, latex, mathml, sympy or json");
+        return INPUT;
     };
     match derivation(&problem.functional, format) {
         Ok(text) => {

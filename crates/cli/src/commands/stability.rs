@@ -89,14 +89,7 @@ pub(crate) fn find(arguments: &Steady) -> u8 {
             });
             DONE
         }
-        Err(StabilityError::System(problem)) => {
-            read.refuse(problem);
-            INPUT
-        }
-        Err(problem) => {
-            error(problem);
-            INPUT
-        }
+        Err(problem) => refuse(&read, problem),
     }
 }
 
@@ -125,13 +118,15 @@ fn answer(
     }
     match found {
         Ok(_) => DONE,
-        Err(StabilityError::System(problem)) => {
-            read.refuse(problem);
-            INPUT
-        }
-        Err(problem) => {
-            error(problem);
-            INPUT
-        }
+        Err(problem) => refuse(&read, problem),
     }
+}
+
+/// Tells why there is no answer, at the lines of the model where it is one of the model.
+fn refuse(read: &files::Read, problem: StabilityError) -> u8 {
+    match problem {
+        StabilityError::System(problem) => read.refuse(problem),
+        other => error(other),
+    }
+    INPUT
 }

@@ -184,9 +184,10 @@ impl Way<'_> {
             own.any(|jet| field.components.contains(&jet.component))
         };
         let dropped = self.dropped();
-        let fields: Vec<&Field> = match dropped.is_empty() {
-            true => self.above.interior().filter(occurs).collect(),
-            false => dropped,
+        let fields: Vec<&Field> = if dropped.is_empty() {
+            self.above.interior().filter(occurs).collect()
+        } else {
+            dropped
         };
         let held = Held {
             label: &self.equation.label,
@@ -288,9 +289,10 @@ impl Way<'_> {
                 Box::new(verdict.prefixed(&what))
             })?;
             let step = formulas.len() + 1;
-            let from = match needed.is_empty() {
-                true => "vanishes identically".to_owned(),
-                false => format!("follows from {}", labels(&needed)),
+            let from = if needed.is_empty() {
+                "vanishes identically".to_owned()
+            } else {
+                format!("follows from {}", labels(&needed))
             };
             let caption = format!(
                 "{step}. what {} adds for {}, whose Euler equation {from}",
@@ -300,9 +302,10 @@ impl Way<'_> {
             let span = above.tree.span;
             let added = Formula::new(caption, g.add(&values));
             formulas.push(added.written(&Node { kind, span }, &above.scope));
-            said.push(match needed.is_empty() {
-                true => field.name.clone(),
-                false => format!("{} with {}", field.name, labels(&needed)),
+            said.push(if needed.is_empty() {
+                field.name.clone()
+            } else {
+                format!("{} with {}", field.name, labels(&needed))
             });
         }
         Ok(said.join(", "))

@@ -7,12 +7,7 @@ use chetaev_symbolic::{rational, Graph, Rational};
 
 /// An expression in a format; text reads back as the same expression.
 pub fn written(node: &Node, scope: &Scope, format: Format) -> String {
-    let writer = Writer {
-        scope,
-        heads: Graph::new(),
-        format,
-    };
-    let inner = writer.node(node, Binding::Sum);
+    let inner = written_inside(node, scope, format);
     match format {
         Format::Mathml => format!("<math>{inner}</math>"),
         _ => inner,
@@ -21,16 +16,20 @@ pub fn written(node: &Node, scope: &Scope, format: Format) -> String {
 
 /// `expression = 0`.
 pub fn written_equation(node: &Node, scope: &Scope, format: Format) -> String {
+    let inner = written_inside(node, scope, format);
+    match format {
+        Format::Mathml => format!("<math>{inner}<mo>=</mo><mn>0</mn></math>"),
+        _ => format!("{inner} = 0"),
+    }
+}
+
+fn written_inside(node: &Node, scope: &Scope, format: Format) -> String {
     let writer = Writer {
         scope,
         heads: Graph::new(),
         format,
     };
-    let inner = writer.node(node, Binding::Sum);
-    match format {
-        Format::Mathml => format!("<math>{inner}<mo>=</mo><mn>0</mn></math>"),
-        _ => format!("{inner} = 0"),
-    }
+    writer.node(node, Binding::Sum)
 }
 
 /// How tightly what stands around binds.

@@ -223,14 +223,9 @@ fn stationary(
     }
     let accelerations = g.solve(&matrix, &right)?;
     let multipliers = reactions(basis, displacements, &accelerations)?;
-    let mut equations = Equations::in_velocities(CARD.name, system, accelerations)
-        .with_objects(deviation_without_inverse(basis));
-    equations.multipliers = basis
-        .constraint_indices()
-        .into_iter()
-        .zip(multipliers)
-        .collect();
-    Ok(equations)
+    Ok(Equations::in_velocities(CARD.name, system, accelerations)
+        .with_objects(deviation_without_inverse(basis))
+        .with_multipliers(basis.constraint_indices(), multipliers))
 }
 
 /// `Z_0 = ½ aᵀ W a - aᵀ b`, which is Z without a term free of the accelerations and exists where W is singular too.

@@ -4,8 +4,8 @@
 //!
 //! `m r'' = F + Σ R`, `J ω̊ + Ω × Jω = M + Σ (ρ × R + C)`,
 //!
-//! with the force R and the torque C of the joint by which it hangs, opposite on what it hangs on, and with a multiplier for
-//! each constraint of a contact or a closing joint. A joint is smooth: along each of its motions the force and the torque have
+//! with the force R and the torque C of the joint by which it hangs, opposite on what it hangs on. Each constraint of a contact or a closing
+//! joint has a multiplier. A joint is smooth: along each of its motions the force and the torque have
 //! the power of the force that is stated for the coordinate, and no other (J. Wittenburg, Dynamics of Multibody Systems, 2008,
 //! §§ 3.1, 5.4). The Lagrangian is not used.
 
@@ -67,18 +67,13 @@ impl Formulation for NewtonEuler {
         let mut reactions = found.split_off(system.n());
         let multipliers = reactions.split_off(reactions.len() - basis.selection.rows.len());
         let objects = balances.objects(basis, &reactions, &multipliers);
-        let mut equations = Equations::in_velocities(CARD.name, system, found)
+        let equations = Equations::in_velocities(CARD.name, system, found)
             .with_group("momentum", Some(SCHEMA), balances.momentum)
             .with_group("moment of momentum", None, balances.moment)
             .with_group("smooth joints", None, balances.smooth)
             .with_group("constraints", None, basis.constraint_equations())
             .with_objects(objects);
-        equations.multipliers = basis
-            .constraint_indices()
-            .into_iter()
-            .zip(multipliers)
-            .collect();
-        Ok(equations)
+        Ok(equations.with_multipliers(basis.constraint_indices(), multipliers))
     }
 }
 

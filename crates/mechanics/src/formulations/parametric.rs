@@ -45,7 +45,7 @@ impl Formulation for Parametric {
         let system = basis.system;
         let extended = Extended::new(basis);
         let (seconds, multipliers) = solve(system, &extended)?;
-        let mut equations = Equations::in_state(
+        let equations = Equations::in_state(
             CARD.name,
             system,
             state(system, &extended, &seconds),
@@ -66,12 +66,7 @@ impl Formulation for Parametric {
         .with_objects(mu_objects(basis, &multipliers));
         let scale = system.graph.powi(extended.time.value, -2);
         let lambdas = multipliers.iter().map(|&mu| system.graph.mul(&[scale, mu]));
-        equations.multipliers = basis
-            .constraint_indices()
-            .into_iter()
-            .zip(lambdas)
-            .collect();
-        Ok(equations)
+        Ok(equations.with_multipliers(basis.constraint_indices(), lambdas.collect()))
     }
 
     fn identities(&self, basis: &Basis<'_>) -> Result<Vec<Identity>, DeriveError> {

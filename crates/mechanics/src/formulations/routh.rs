@@ -75,7 +75,7 @@ impl Formulation for Routh {
         let (accelerations, values) = solve(basis)?;
         let mut objects = multiplier_objects(basis, &values);
         objects.extend(reactive_objects(basis));
-        let mut equations = Equations::in_velocities(CARD.name, basis.system, accelerations)
+        let equations = Equations::in_velocities(CARD.name, basis.system, accelerations)
             .with_group(
                 "equations of motion",
                 Some(schema(basis)),
@@ -83,8 +83,7 @@ impl Formulation for Routh {
             )
             .with_group("constraints", None, basis.constraint_equations())
             .with_objects(objects);
-        equations.multipliers = basis.constraint_indices().into_iter().zip(values).collect();
-        Ok(equations)
+        Ok(equations.with_multipliers(basis.constraint_indices(), values))
     }
 }
 

@@ -165,9 +165,12 @@ fn of_kinetic_energy(system: &System, base: &Basis, start: &Start) -> Option<Bas
     Some(Basis {
         meanings: forms
             .iter()
-            .map(|(p, _)| match p.definition == p.value {
-                true => String::new(),
-                false => "as the kinetic energy is written".into(),
+            .map(|(p, _)| {
+                if p.definition == p.value {
+                    String::new()
+                } else {
+                    "as the kinetic energy is written".into()
+                }
             })
             .collect(),
         speeds: forms.into_iter().map(|(p, _)| p).collect(),

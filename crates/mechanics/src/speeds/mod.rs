@@ -74,9 +74,10 @@ pub fn chosen(system: &System, terms: &MotionTerms, rows: &[usize]) -> Option<Ch
         rows: rows.to_vec(),
         choice: searched(system, terms, rows),
     });
-    match known.rows == rows {
-        true => known.choice.clone(),
-        false => searched(system, terms, rows),
+    if known.rows == rows {
+        known.choice.clone()
+    } else {
+        searched(system, terms, rows)
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::algebra::Vector;
 use super::joints::Freedom;
-use super::kept::KeptReaction;
 use super::lowering::{FrameId, Lowering, Step, GROUND};
+use super::objects::KeptReaction;
 use super::tree::{JointStated, Tree};
 use crate::diagnostic::Diagnostic;
 

@@ -3,8 +3,8 @@
 use chetaev_symbolic::Expr;
 
 use super::algebra::Vector;
-use super::kept::{Kept, KeptBody, KeptReaction};
 use super::lowering::{FrameId, Lowering, GROUND};
+use super::objects::{Kept, KeptBody, KeptReaction};
 use super::placing::Built;
 use super::tree::Tree;
 use crate::raw::{Raw, Table};

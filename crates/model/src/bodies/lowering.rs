@@ -6,7 +6,7 @@ use chetaev_symbolic::syntax::names;
 use chetaev_symbolic::Expr;
 
 use super::algebra::{Algebra, Turn, Vector};
-use super::kept::KeptReaction;
+use super::objects::KeptReaction;
 use super::sections::{table, text, word, Written};
 use super::shapes::{Shape, Sizes};
 use crate::diagnostic::Diagnostic;

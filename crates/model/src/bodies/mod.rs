@@ -13,10 +13,10 @@ mod contacts;
 mod families;
 mod joints;
 mod keeping;
-pub(crate) mod kept;
 mod kinematics;
 mod look;
 mod lowering;
+pub(crate) mod objects;
 mod placing;
 mod pruning;
 mod reading;
@@ -34,8 +34,8 @@ use crate::diagnostic::Diagnostic;
 use crate::raw::{Kind, Raw, Table};
 use crate::resolve::Override;
 use crate::source::Place;
-use kept::Kept;
 use lowering::{Lowering, Up};
+use objects::Kept;
 use reading::{quantity, Slot};
 
 /// The sections that are lowered.

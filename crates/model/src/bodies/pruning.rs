@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::kept::Kept;
+use super::objects::Kept;
 use super::sections::Written;
 use crate::raw::{Kind, Raw, Table};
 

@@ -9,8 +9,8 @@
 use chetaev_symbolic::Expr;
 
 use super::algebra::Vector;
-use super::kept::KeptReaction;
 use super::lowering::{FrameId, Lowering, GROUND};
+use super::objects::KeptReaction;
 use super::placing::Built;
 use super::sections::{table, text, word};
 use super::shapes::Outline;

@@ -6,7 +6,7 @@ use chetaev_symbolic::Expr;
 use super::define::DefineKind;
 use super::scope::Context;
 use super::Resolver;
-use crate::bodies::kept::{Kept, KeptBody, KeptReaction};
+use crate::bodies::objects::{Kept, KeptBody, KeptReaction};
 use crate::mechanism::{Body, Mechanism, Reaction, Vector};
 use crate::source::Place;
 use crate::text::Text;

@@ -33,7 +33,7 @@ use std::sync::Arc;
 use chetaev_symbolic::syntax::{names, Span};
 use chetaev_symbolic::Graph;
 
-use crate::bodies::kept::Kept;
+use crate::bodies::objects::Kept;
 use crate::diagnostic::{Diagnostic, Known};
 use crate::dimension;
 use crate::model::{Control, Coordinate, Definition, Model, ModelText, Parameter};

@@ -2,8 +2,9 @@
 
 use crate::decision::{About, Said, Statement};
 use crate::evidence::unstable;
+use crate::isolation::Root;
 use crate::question::Place;
-use crate::real_roots::{sign_over, Root};
+use crate::real_roots::sign_over;
 use chetaev_symbolic::verdict::Counterexample;
 use chetaev_symbolic::Expr;
 use dashu_ratio::RBig;

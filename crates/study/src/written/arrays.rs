@@ -259,9 +259,12 @@ fn least(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
         }
     }
     (0..k)
-        .map(|i| match taken[i] {
-            true => right[i] / matrix[i][i],
-            false => 0.0,
+        .map(|i| {
+            if taken[i] {
+                right[i] / matrix[i][i]
+            } else {
+                0.0
+            }
         })
         .collect()
 }

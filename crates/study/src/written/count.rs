@@ -1,7 +1,7 @@
 //! How many operations the equations of a formulation have as they are printed.
 
 use crate::derivation::{options_of, Derivation};
-use chetaev_mechanics::formulations::reduced::DEFINITIONS;
+use chetaev_mechanics::formulations::reduced_form::DEFINITIONS;
 use chetaev_mechanics::System;
 use chetaev_symbolic::print::{Document, Operations};
 use chetaev_symbolic::Expr;

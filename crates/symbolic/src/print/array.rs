@@ -297,9 +297,12 @@ impl Writer {
             Formula::Sum(terms) => self.sum(terms),
             Formula::Negative(inner) => format!("-{}", self.group(inner, Strength::Product)),
             Formula::Product(factors) => {
-                let factors = factors.iter().map(|f| match f.is_ratio() {
-                    true => format!("({})", self.formula(f)),
-                    false => self.group(f, Strength::Power),
+                let factors = factors.iter().map(|f| {
+                    if f.is_ratio() {
+                        format!("({})", self.formula(f))
+                    } else {
+                        self.group(f, Strength::Power)
+                    }
                 });
                 factors.collect::<Vec<_>>().join("*")
             }
@@ -341,21 +344,17 @@ impl Writer {
     fn sum(&self, terms: &[Term]) -> String {
         let mut out = String::new();
         for (place, term) in terms.iter().enumerate() {
-            out.push_str(match (place, term.negative) {
-                (0, false) => "",
-                (0, true) => "-",
-                (_, false) => " + ",
-                (_, true) => " - ",
-            });
+            out.push_str(term.sign(place));
             out.push_str(&self.group(&term.value, Strength::Product));
         }
         out
     }
 
     fn group(&self, e: &Formula, least: Strength) -> String {
-        match e.strength() >= least {
-            true => self.formula(e),
-            false => format!("({})", self.formula(e)),
+        if e.strength() >= least {
+            self.formula(e)
+        } else {
+            format!("({})", self.formula(e))
         }
     }
 

@@ -23,6 +23,18 @@ pub(crate) struct Term {
     pub(crate) value: Formula,
 }
 
+impl Term {
+    /// What stands before the term at this place of a sum.
+    pub(crate) fn sign(&self, place: usize) -> &'static str {
+        match (place, self.negative) {
+            (0, false) => "",
+            (0, true) => "-",
+            (_, false) => " + ",
+            (_, true) => " - ",
+        }
+    }
+}
+
 /// A formula as it is written.
 #[derive(Clone, Debug)]
 pub(crate) enum Formula {

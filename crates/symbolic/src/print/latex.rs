@@ -182,12 +182,7 @@ impl Latex<'_> {
 
     fn sum(&self, terms: &[Term], out: &mut String) {
         for (place, term) in terms.iter().enumerate() {
-            out.push_str(match (place, term.negative) {
-                (0, false) => "",
-                (0, true) => "-",
-                (_, false) => " + ",
-                (_, true) => " - ",
-            });
+            out.push_str(term.sign(place));
             self.group(&term.value, Strength::Product, out);
         }
     }

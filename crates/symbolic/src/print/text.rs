@@ -109,12 +109,7 @@ fn group(e: &Formula, least: Strength, out: &mut String) {
 
 fn sum(terms: &[Term], out: &mut String) {
     for (place, term) in terms.iter().enumerate() {
-        out.push_str(match (place, term.negative) {
-            (0, false) => "",
-            (0, true) => "-",
-            (_, false) => " + ",
-            (_, true) => " - ",
-        });
+        out.push_str(term.sign(place));
         group(&term.value, Strength::Product, out);
     }
 }

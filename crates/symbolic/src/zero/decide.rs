@@ -350,13 +350,14 @@ fn modular_proof(test: &ZeroTest<'_>, program: &Program, finding: &Finding, boun
     let points = if samples == 1 { "point" } else { "points" };
     Proof {
         method: Method::Modular,
-        on: match finding.are_regular {
-            true => format!(
+        on: if finding.are_regular {
+format!(
                 "{} and the constraints determine the symbols that they are solved for",
                 place(test, &program.conditions)
-            ),
-            false => place(test, &program.conditions),
-        },
+            )
+} else {
+place(test, &program.conditions)
+},
         error_bound_log2: Some(bound),
         samples,
         seed: Some(test.options.seed),

@@ -13,7 +13,7 @@
 mod approach;
 pub mod assumptions;
 mod branches;
-mod coupled;
+mod coupling;
 mod decide;
 mod eliminate;
 pub mod enclose;

@@ -201,10 +201,11 @@ fn at_most(test: &RankTest<'_>, finding: &Finding) -> Verdict {
     };
     Verdict::Proved(Proof {
         method: Method::Modular,
-        on: match finding.are_regular {
-            true => "wherever the matrix is defined and the constraints determine the symbols that they are solved for",
-            false => "wherever the matrix is defined",
-        }
+        on: if finding.are_regular {
+"wherever the matrix is defined and the constraints determine the symbols that they are solved for"
+} else {
+"wherever the matrix is defined"
+}
         .to_owned(),
         error_bound_log2: Some(bound),
         samples: finding.samples,

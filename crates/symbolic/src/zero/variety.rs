@@ -1,6 +1,6 @@
 //! Points of the constraints: over a random point of the independent data, the ring of all solutions for the dependent symbols.
 
-use super::coupled::{Coupled, Together, Values};
+use super::coupling::{Coupled, Together, Values};
 use super::evaluate::{Failure, Point, Run, Stop};
 use super::modular::Parts;
 use super::polynomials::Polynomials;

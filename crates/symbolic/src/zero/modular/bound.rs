@@ -1,6 +1,6 @@
 //! The bound on the probability of error of one trial.
 
-use super::super::coupled::Coupled;
+use super::super::coupling::Coupled;
 use super::super::program::{Operation, Program};
 use super::super::size::{Sizes, Weight, SLACK};
 use super::Plan;

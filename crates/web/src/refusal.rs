@@ -8,7 +8,7 @@ use wasm_bindgen::JsValue;
 /// Why a question has no answer, in words for the page.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum Refused {
+pub enum Refusal {
     /// The text states no model.
     #[error("{0}")]
     Model(chetaev::model::Diagnostics),
@@ -47,8 +47,8 @@ pub enum Refused {
     Stopped,
 }
 
-impl From<Refused> for JsValue {
-    fn from(refused: Refused) -> JsValue {
-        JsValue::from_str(&refused.to_string())
+impl From<Refusal> for JsValue {
+    fn from(refusal: Refusal) -> JsValue {
+        JsValue::from_str(&refusal.to_string())
     }
 }

@@ -383,7 +383,7 @@ mod tests {
         assert!(!basis.remainder(root).unwrap().is_empty());
     }
 
-    /// Cyclic-4 has the leading powers known from the literature: its ideal is not zero-dimensional.
+    /// x + y cannot be 0 and 1.
     #[test]
     fn no_solutions_at_all() {
         let field = field();

@@ -130,9 +130,10 @@ impl Coupled {
             .filter(|_| end.is_ok())
         {
             let equation = run.get(constraint).clone();
-            match program.determines[k] {
-                true => ring.vanishes(equation),
-                false => beside.push(equation),
+            if program.determines[k] {
+                ring.vanishes(equation)
+            } else {
+                beside.push(equation)
             }
         }
         if ring.is_unsupported() {

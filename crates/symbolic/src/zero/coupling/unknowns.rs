@@ -110,9 +110,10 @@ impl Ring for Unknowns<'_> {
     }
 
     fn scalar(&self, value: Residue) -> Terms {
-        match value.is_zero() {
-            true => Vec::new(),
-            false => vec![(Power::ONE, value)],
+        if value.is_zero() {
+            Vec::new()
+        } else {
+            vec![(Power::ONE, value)]
         }
     }
 

@@ -158,9 +158,10 @@ fn row(system: &System, c: &Characteristics, own: &ReducedEquations, s: usize) -
         let printed = Document::equations(g, &[(left, right)], &Printing::default());
         printed.operations().total()
     };
-    match count(stated) < count(short) {
-        true => stated,
-        false => short,
+    if count(stated) < count(short) {
+        stated
+    } else {
+        short
     }
 }
 

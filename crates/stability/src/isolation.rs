@@ -1,0 +1,129 @@
+//! Zeros of an enclosed function of one variable, isolated: none is left out, and each interval holds exactly one.
+//!
+//! An interval over which the function is enclosed away from zero holds no zero; one over which the derivative is, and at whose ends the signs
+//! differ, exactly one; others are halved (R. E. Moore, Interval Analysis, 1966).
+
+use chetaev_symbolic::number::ball::Precision;
+use dashu_ratio::RBig;
+use std::cmp::Ordering;
+
+/// Bits of the ends as they are printed.
+const BITS: usize = 256;
+
+/// An interval with exactly one zero, or the zero itself where both ends are equal.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Root {
+    /// The lower end.
+    pub low: RBig,
+    /// The upper end.
+    pub high: RBig,
+}
+
+impl Root {
+    /// Decimal bounds with 20 digits, rounded outwards.
+    pub fn decimal_bounds(&self) -> (String, String) {
+        let end = |at: &RBig| Precision::new(BITS).rational(at).to_decimal_interval(20);
+        let ((low, _), (_, high)) = (end(&self.low), end(&self.high));
+        (low, high)
+    }
+
+    /// The zero itself where it is known, else the interval.
+    pub fn text(&self) -> String {
+        if self.low == self.high {
+            return format!("{{{}}}", self.low);
+        }
+        let (low, high) = self.decimal_bounds();
+        format!("[{low}, {high}]")
+    }
+}
+
+/// What is known of a function over an interval.
+pub(crate) enum Look {
+    /// It has no zero there.
+    Empty,
+    /// Its derivative has none.
+    Monotonic,
+    /// Nothing.
+    Open,
+}
+
+/// A function that can be enclosed.
+pub(crate) trait Enclosed {
+    /// Its sign at a number; `None` where it is not decided.
+    fn sign(&self, at: &RBig) -> Option<Ordering>;
+
+    /// What is known of it between two numbers.
+    fn between(&self, low: &RBig, high: &RBig) -> Look;
+}
+
+/// The zeros between two numbers, not counted those at the ends; each interval is halved so often. `None` where more intervals would have to be
+/// looked at, or a sign is not decided, as at a multiple zero.
+pub(crate) fn isolated(
+    function: &impl Enclosed,
+    low: &RBig,
+    high: &RBig,
+    intervals: usize,
+    halvings: usize,
+) -> Option<Vec<Root>> {
+    let mut found = Vec::new();
+    let mut open = vec![(low.clone(), high.clone())];
+    let mut looked = 0;
+    while let Some((a, b)) = open.pop() {
+        looked += 1;
+        if looked > intervals {
+            return None;
+        }
+        match function.between(&a, &b) {
+            Look::Empty => {}
+            Look::Monotonic => {
+                let (left, right) = (function.sign(&a)?, function.sign(&b)?);
+                if left != Ordering::Equal && right != Ordering::Equal && left != right {
+                    found.push(refined(function, a, b, left, halvings)?);
+                }
+            }
+            Look::Open => {
+                let middle = beside_zeros(function, &a, &b)?;
+                open.push((a, middle.clone()));
+                open.push((middle, b));
+            }
+        }
+    }
+    Some(found)
+}
+
+/// A place near the middle where the function does not vanish: zeros lie inside of intervals.
+fn beside_zeros(function: &impl Enclosed, a: &RBig, b: &RBig) -> Option<RBig> {
+    let at = |part: u8| a + (b - a) * RBig::from(part) / RBig::from(64_u8);
+    let mut places = [32, 31, 35, 27].into_iter().map(at);
+    places.find(|place| function.sign(place).is_some_and(|s| s != Ordering::Equal))
+}
+
+/// The zero between two places with different signs, `left` being that of the lower one; as close as signs are decided.
+fn refined(
+    function: &impl Enclosed,
+    mut a: RBig,
+    mut b: RBig,
+    left: Ordering,
+    halvings: usize,
+) -> Option<Root> {
+    for _ in 0..halvings {
+        let middle = (&a + &b) / RBig::from(2_u8);
+        // Where the zero is the middle itself its sign may be undecided.
+        let place = match function.sign(&middle) {
+            Some(_) => Some(middle),
+            None => beside_zeros(function, &a, &b),
+        };
+        let Some(place) = place else { break };
+        match function.sign(&place)? {
+            Ordering::Equal => {
+                return Some(Root {
+                    low: place.clone(),
+                    high: place,
+                })
+            }
+            own if own == left => a = place,
+            _ => b = place,
+        }
+    }
+    Some(Root { low: a, high: b })
+}
