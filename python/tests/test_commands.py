@@ -19,6 +19,7 @@ from chetaev import System
 #: Commands that are no methods, and why.
 NOT_METHODS = {
     "new": "a model to start from is a file for an editor",
+    "import": "a model text that is read and gone on with in an editor",
     "completions": "a script for a shell",
     "help": "help(System)",
 }

@@ -28,6 +28,7 @@ pub use chetaev_compile as compile;
 pub use chetaev_ensemble as ensemble;
 pub use chetaev_functionals as functionals;
 pub use chetaev_geometry as geometry;
+pub use chetaev_import as import;
 pub use chetaev_integrals as integrals;
 pub use chetaev_integrate as integrate;
 pub use chetaev_mechanics as mechanics;

@@ -50,6 +50,8 @@ pub(crate) enum Command {
     Verify(Verify),
     /// Write a commented model to start from
     New(New),
+    /// Make a model of bodies and joints of a robot description: URDF or MJCF
+    Import(Import),
     /// List, describe or copy the models that come with Chetaev
     Gallery(Gallery),
     /// Print a completion script for a shell
@@ -520,6 +522,21 @@ pub(crate) struct New {
     /// What the model is stated by
     #[arg(long, value_enum, default_value = "lagrangian")]
     pub(crate) from: Beginning,
+}
+
+#[derive(Args, Debug)]
+#[command(
+    after_help = "What is not taken over is named line by line on standard error.
+Examples:
+  chetaev import robot.urdf
+  chetaev import robot.xml --out my-robot/model.toml"
+)]
+pub(crate) struct Import {
+    /// The description: URDF (<robot>) or MJCF (<mujoco>)
+    pub(crate) description: PathBuf,
+    /// Model file to write; standard output where left out
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
 }
 
 /// What a new model is stated by.

@@ -42,6 +42,7 @@ fn main() -> ExitCode {
         Command::Explain(a) => commands::explain::run(&a),
         Command::Verify(a) => commands::verify::run(&a),
         Command::New(a) => commands::new::run(&a),
+        Command::Import(a) => commands::import::run(&a),
         Command::Gallery(a) => commands::gallery::run(&a),
         Command::Completions(a) => commands::completions::run(&a),
     };

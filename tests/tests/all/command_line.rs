@@ -20,6 +20,7 @@ const COMMANDS: &[&str] = &[
     "explain",
     "verify",
     "new",
+    "import",
     "gallery",
     "completions",
 ];
@@ -566,6 +567,45 @@ fn an_interrupted_run_keeps_what_it_has() {
         .path()
         .extension()
         .is_some_and(|e| e == "partial")));
+}
+
+#[test]
+fn a_robot_description_becomes_a_model() {
+    let folder = scratch("import");
+    let urdf = "<robot name=\"arm\">\n<link name=\"world\"/>\n<link name=\"arm\"><visual/><inertial><origin xyz=\"0 0 -0.5\"/><mass value=\"2\"/>\
+                <inertia ixx=\"0.1\" iyy=\"0.1\" izz=\"0.01\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n\
+                <joint name=\"q\" type=\"continuous\"><parent link=\"world\"/><child link=\"arm\"/><axis xyz=\"0 1 0\"/></joint>\n</robot>\n";
+    std::fs::write(folder.join("arm.urdf"), urdf).expect("a scratch file");
+    let finished = run_in(&folder, &["import", "arm.urdf", "--out", "arm/model.toml"]);
+    assert_eq!(finished.status, Some(0), "{}", finished.both());
+    assert!(
+        finished.err.contains("arm.urdf:3: <visual>"),
+        "{}",
+        finished.err
+    );
+    let checked = run_in(&folder, &["check", "arm/model.toml"]);
+    assert_eq!(
+        (checked.status, checked.err.as_str()),
+        (Some(0), ""),
+        "{}",
+        checked.both()
+    );
+    let again = run_in(&folder, &["import", "arm.urdf", "--out", "arm/model.toml"]);
+    assert_eq!(
+        again.status,
+        Some(2),
+        "an existing model is not overwritten"
+    );
+    std::fs::write(folder.join("page.xml"), "<html/>").expect("a scratch file");
+    for path in ["page.xml", "missing.urdf", "."] {
+        let refused = run_in(&folder, &["import", path]);
+        assert_eq!(refused.status, Some(2), "{}", refused.both());
+        assert!(
+            !refused.panicked() && refused.err.starts_with("error: "),
+            "{}",
+            refused.both()
+        );
+    }
 }
 
 #[test]

@@ -6,6 +6,7 @@ pub(crate) mod derive;
 pub(crate) mod explain;
 mod functional;
 pub(crate) mod gallery;
+pub(crate) mod import;
 pub(crate) mod new;
 pub(crate) mod plot;
 pub(crate) mod principles;
