@@ -64,6 +64,7 @@ impl Scope for WholeModel<'_> {
             .defines
             .iter()
             .chain(&model.quasi_velocities)
+            .chain(&model.sensors)
             .find(|define| define.name == name);
         match define {
             Some(_) if order > MOST_DERIVATIVES => refused(format!(
@@ -84,6 +85,7 @@ impl Scope for WholeModel<'_> {
             .defines
             .iter()
             .chain(&model.quasi_velocities)
+            .chain(&model.sensors)
             .map(|own| &own.name);
         let controls = model.controls.iter().map(|own| &own.name);
         let masses = model.masses.iter().map(|own| &own.name);

@@ -17,6 +17,9 @@ pub struct Mechanism {
     pub bodies: Vec<Body>,
     /// What contacts and closing joints do to bodies, one for each constraint that comes from them.
     pub reactions: Vec<Reaction>,
+    /// Forces and torques that the user states at points of bodies, and friction of contacts; each acts as it stands and belongs to no
+    /// constraint. Their generalized forces, and the energies of springs among them, are those of the model.
+    pub loads: Vec<Reaction>,
     /// The part of the potential energy that is no weight: springs, and the V of the user.
     pub potential: Expr,
     /// What the user states of the Lagrangian beside bodies, for which there is no force on a body: `T` or `L`.
@@ -95,7 +98,7 @@ impl Mechanism {
             ];
             all.extend(vectors.into_iter().flatten());
         }
-        for own in &mut self.reactions {
+        for own in self.reactions.iter_mut().chain(&mut self.loads) {
             let vectors = [
                 &mut own.force,
                 &mut own.point,

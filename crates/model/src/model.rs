@@ -84,6 +84,8 @@ pub struct Model {
     pub events: Vec<EventStated>,
     /// Candidate first integrals.
     pub integrals: Vec<Definition>,
+    /// Quantities that are measured along a motion: functions of t, q, q', q'' and the multipliers. Nothing is claimed of them.
+    pub sensors: Vec<Definition>,
     /// Forms of first integrals with unknown constants and functions.
     pub integral_forms: Vec<IntegralForm>,
     /// Operators for the variations of velocities.

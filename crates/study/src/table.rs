@@ -7,9 +7,10 @@ use chetaev_ensemble::columns::{array_names, numbered};
 use chetaev_mechanics::card::Relation;
 use chetaev_mechanics::formulation;
 use chetaev_mechanics::redundancy::Reactions;
-use chetaev_motion::double_double::decimal;
+use chetaev_motion::double_double::{self, decimal};
 use chetaev_motion::observe::Observer;
 use chetaev_motion::{DoubleDouble, PreciseRows, Run};
+use chetaev_symbolic::Expr;
 use std::fmt::Write as _;
 use std::io::{Cursor, Write};
 use zip::write::SimpleFileOptions;
@@ -22,7 +23,7 @@ const DIGITS: usize = 32;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     /// Names: `t`, coordinates, masses with a law of their own, velocities, accelerations, `lambda_NAME`, variables of the formulation alone (momenta,
-    /// quasi-velocities, `kappa_NAME`), `energy`, integrals.
+    /// quasi-velocities, `kappa_NAME`), sensors, `energy`, integrals.
     pub names: Vec<String>,
     /// Columns.
     pub columns: Vec<Vec<f64>>,
@@ -87,7 +88,49 @@ impl Table {
         for (name, i) in run.own.iter().zip(run.layout.own()) {
             table.push(name.clone(), column(i));
         }
+        table.sense(study, run, is_other);
         table
+    }
+
+    /// What the sensors of the model measure. Those of multipliers that are not determined one by one, or that belong to another motion,
+    /// are left out.
+    fn sense(&mut self, study: &Study, run: &Run, is_other: bool) {
+        let (system, terms) = (&study.system, &study.prepared.terms);
+        let Some(motion) = study
+            .motion
+            .as_ref()
+            .filter(|_| !study.model.sensors.is_empty())
+        else {
+            return;
+        };
+        let g = &system.graph;
+        let multiplier = |row: usize| {
+            let constraint = &system.constraints[terms.constraint_index[row]];
+            g.symbol(&format!("lambda_{}", constraint.name), 0)
+        };
+        let rows = match is_other {
+            true => (0..terms.constraint_index.len()).collect(),
+            false => Reactions::of(system, terms, &study.prepared.selection).undetermined,
+        };
+        let unknown: Vec<Expr> = rows.into_iter().map(multiplier).collect();
+        for sensor in &study.model.sensors {
+            let held = g.symbols_in(&[sensor.value]);
+            let mut held = held.into_iter().map(|symbol| g.symbol_expr(symbol));
+            if held.any(|symbol| unknown.contains(&symbol)) {
+                continue;
+            }
+            let value = [sensor.value];
+            let parts = (system, terms, &motion.binding);
+            let Ok(precise) = double_double::along(parts, run, &value) else {
+                continue;
+            };
+            let precise = precise.and_then(|mut all| all.pop());
+            let observer = Observer::with_own(system, terms, &motion.binding, &run.own, &value);
+            let series = observer.ok().and_then(|mut own| own.along(run).pop());
+            if let Some(values) = series {
+                self.push(sensor.name.clone(), (values, precise));
+            }
+        }
     }
 
     /// The table of the events met, as CSV: the name of the event and how its function passes zero, then the columns of a

@@ -212,7 +212,7 @@ impl Balances {
         }
     }
 
-    /// What acts on every body: its weight, its own joint, those of what hangs on it, contacts and closing joints.
+    /// What acts on every body: its weight, its own joint, those of what hangs on it, stated forces, contacts and closing joints.
     fn loads(&self, basis: &Basis<'_>, mechanism: &Mechanism) -> Vec<Load> {
         let g = &basis.system.graph;
         let zero = [g.zero(); 3];
@@ -227,13 +227,18 @@ impl Balances {
                 loads[parent].add(g, opposite(joint.force), arm, opposite(joint.torque));
             }
         }
-        let names = basis.constraint_names();
-        for (name, lambda) in names.into_iter().zip(basis.lambda_symbols()) {
-            let Some(own) = mechanism.reaction(name) else {
-                continue;
-            };
+        let stated = mechanism
+            .loads
+            .iter()
+            .map(|own| (own, own.force, own.torque));
+        let names = basis.constraint_names().into_iter();
+        let constrained = names.zip(basis.lambda_symbols());
+        let constrained = constrained.filter_map(|(name, lambda)| {
+            let own = mechanism.reaction(name)?;
             let times = |v: Vector| v.map(|e| g.mul(&[lambda, e]));
-            let (force, torque) = (times(own.force), times(own.torque));
+            Some((own, times(own.force), times(own.torque)))
+        });
+        for (own, force, torque) in stated.chain(constrained) {
             let arm = minus(g, own.point, mechanism.bodies[own.body].center);
             loads[own.body].add(g, force, arm, torque);
             if let Some(other) = own.other {
@@ -279,6 +284,15 @@ impl Balances {
             let [carried, turning] = velocity_at(system, mechanism, body.parent, joint.point);
             add(&minus(g, v, carried), &joint.force);
             add(&minus(g, omega, turning), &joint.torque);
+        }
+        // The forces of the coordinates contain those that are stated at points of bodies.
+        for own in &mechanism.loads {
+            let opposite = |v: Vector| v.map(|e| g.neg(e));
+            let [v, omega] = velocity_at(system, mechanism, Some(own.body), own.point);
+            let [carried, turning] = velocity_at(system, mechanism, own.other, own.other_point);
+            add(&v, &own.force);
+            add(&carried, &opposite(own.force));
+            add(&minus(g, omega, turning), &own.torque);
         }
         for (particle, (_, guide)) in system.particles.iter().zip(&self.guides) {
             add(&particles::velocity(system, particle), guide);

@@ -715,6 +715,60 @@ fn springs_motors_and_particles_stand_in_the_balances() {
     }
 }
 
+/// Forces at points, in turned axes, between two bodies, and friction of a contact and of a joint.
+const LOADED: &str = r#"
+parameters = { N = 4 }
+[bodies]
+sled = { mass = 2, inertia = [0.2, 0.3, 0.4], center = [0.1, 0, 0.05] }
+arm = { shape = "rod", mass = 1, length = 0.8, center = [0.4, 0, 0] }
+[joints]
+plane = { type = "planar", child = "sled", coordinates = ["x", "y", "phi"] }
+q = { parent = "sled", child = "arm", axis = "y", friction = { coefficient = 0.1, load = 2, speed = 0.1 } }
+[contacts]
+foot = { type = "sliding", body = "sled", at = [0.3, 0.1, 0], friction = { viscous = 0.4, coefficient = 0.2, load = "N", speed = 0.1 } }
+[forces]
+push = { body = "arm", at = [0.8, 0, 0], in = "arm", force = [1, 2, "3 q"], torque = [0.5, 0, 1] }
+pull = { body = "arm", at = [0.5, 0, 0.1], to = "ground", to_at = [0, 0, 2], spring = { stiffness = 7, rest = 1.5 }, damper = 0.3 }
+tie = { body = "sled", at = [0.2, 0.3, 0], to = "arm", to_at = [0.6, 0, 0], spring = 5, force = 0.2 }
+"#;
+
+#[test]
+fn forces_at_points_stand_in_the_balances() {
+    for (id, verdict) in forms_of_bodies(LOADED) {
+        assert!(matches!(verdict, Verdict::Proved(_)), "{id}: {verdict:#?}");
+    }
+}
+
+/// What hangs by a joint pulls at it: the balances of all bodies tell the same as a sensor, which looks at that part alone.
+#[test]
+fn a_sensor_measures_the_force_of_the_balances() {
+    const STATE: &[(&str, &str)] = &[
+        ("x", "0.3"),
+        ("y", "-0.2"),
+        ("phi", "0.4"),
+        ("q", "0.7"),
+        ("x'", "0.5"),
+        ("y'", "0.1"),
+        ("phi'", "-0.9"),
+        ("q'", "1.3"),
+    ];
+    let text = format!("{LOADED}\n[sensors]\npin = {{ type = \"reaction\", of = \"q\" }}\n");
+    let all = ["x", "y", "z"];
+    let named = |start: &str| all.map(|axis| format!("{start}_{axis}"));
+    let measured = [named("pin_force"), named("pin_torque")].concat();
+    let balanced = [named("R_q"), named("C_q")].concat();
+    let of = |names: &[String]| {
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        accelerations(&text, "newton-euler", STATE, &names)
+    };
+    for ((name, found), expected) in measured.iter().zip(of(&measured)).zip(of(&balanced)) {
+        assert!(
+            (found - expected).abs() < 1e-10 && expected != 0.0,
+            "{name}: {found}, not {expected}"
+        );
+    }
+}
+
 #[test]
 fn energies_beside_bodies_have_no_force_on_a_body() {
     let text = format!("{}\n[lagrangian]\nL = \"plate_lean'^2\"\n", TUMBLING);

@@ -23,6 +23,8 @@ impl<'r> Lowering<'r> {
             "motion",
             "spring",
             "damper",
+            "friction",
+            "limits",
             "torque",
             "force",
         ] {
@@ -45,7 +47,11 @@ impl<'r> Lowering<'r> {
         };
         let (name, place) = (object.name().to_owned(), object.place);
         let tilt = self.turns(object, "tilt", false);
-        let ends = [(parent, "at"), (child, "child_at")].map(|(frame, key)| {
+        let keys = match joint.is_reversed {
+            true => ["child_at", "at"],
+            false => ["at", "child_at"],
+        };
+        let ends = [(parent, keys[0]), (child, keys[1])].map(|(frame, key)| {
             let at = self
                 .vector(object, key, "m", false)
                 .unwrap_or(self.algebra.zero());

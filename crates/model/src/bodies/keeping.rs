@@ -26,7 +26,7 @@ impl Kept {
                 .chain(vectors.into_iter().flatten())
                 .chain([&b.mass])
         });
-        let reactions = self.reactions.iter().flat_map(|own| {
+        let reactions = self.reactions.iter().chain(&self.loads).flat_map(|own| {
             let points = own.point.iter().chain(&own.other_point);
             points.chain(&own.force).chain(&own.torque)
         });
@@ -62,10 +62,12 @@ impl Lowering<'_> {
         }
         let graph = &self.algebra.graph;
         let text = |e: Expr| graph.text(e);
-        let mut reactions: Vec<KeptReaction<String>> =
-            self.reactions.iter().map(|own| own.texts(&text)).collect();
+        let [mut reactions, mut loads] = [&self.reactions, &self.loads].map(|all| {
+            let texts = all.iter().map(|own| own.texts(&text));
+            texts.collect::<Vec<KeptReaction<String>>>()
+        });
         // What a frame carries that nothing touches is carried by the body before it.
-        for own in &mut reactions {
+        for own in reactions.iter_mut().chain(&mut loads) {
             let number = self.carrier(&own.other, tree, &order);
             own.other = number.map_or("ground".to_owned(), |number| order[number].clone());
         }
@@ -81,6 +83,7 @@ impl Lowering<'_> {
             define: Table::default(),
             bodies: kept.into_iter().map(|body| body.texts(&text)).collect(),
             reactions,
+            loads,
             springs: self.springs.clone(),
             stated: table.and_then(|table| table.get("V")).cloned(),
             beside,
@@ -106,7 +109,12 @@ impl Lowering<'_> {
     }
 
     /// What something hangs on, and by which joint or contact.
-    fn hangs_on(&self, name: &str, tree: &Tree<'_>, built: &[Built]) -> (String, String) {
+    pub(crate) fn hangs_on(
+        &self,
+        name: &str,
+        tree: &Tree<'_>,
+        built: &[Built],
+    ) -> (String, String) {
         if let Some(object) = tree.frames.get(name) {
             let parent = object.get("parent").and_then(Raw::expression);
             let parent = parent.map_or("ground".to_owned(), |text| text.content.clone());
@@ -187,7 +195,13 @@ impl Lowering<'_> {
     }
 
     /// The point of the joint by which something hangs, along the axes of the ground.
-    fn hinge(&mut self, name: &str, frame: FrameId, tree: &Tree<'_>, built: &[Built]) -> Vector {
+    pub(crate) fn hinge(
+        &mut self,
+        name: &str,
+        frame: FrameId,
+        tree: &Tree<'_>,
+        built: &[Built],
+    ) -> Vector {
         if let Some(own) = built.iter().find(|own| own.body == name) {
             return self.position(GROUND, own.heading);
         }

@@ -99,6 +99,8 @@ pub(crate) struct Lowering<'r> {
     pub(crate) springs: Vec<String>,
     /// Reactions of the constraints of contacts and closing joints.
     pub(crate) reactions: Vec<KeptReaction<Expr>>,
+    /// Forces and torques that are stated at points of bodies.
+    pub(crate) loads: Vec<KeptReaction<Expr>>,
     /// Numbers that were read, by their names and places.
     pub(crate) read: HashMap<(String, Place), Expr>,
     named: HashMap<Expr, Expr>,
@@ -117,6 +119,7 @@ const DECLARING: &[&str] = &[
     "define",
     "masses",
     "quasi_velocities",
+    "sensors",
 ];
 
 impl<'r> Lowering<'r> {
@@ -147,6 +150,7 @@ impl<'r> Lowering<'r> {
             closing: Vec::new(),
             springs: Vec::new(),
             reactions: Vec::new(),
+            loads: Vec::new(),
             read: HashMap::new(),
             named: HashMap::new(),
             assumed: BTreeSet::new(),

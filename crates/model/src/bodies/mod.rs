@@ -5,12 +5,14 @@
 //! record) reads these sections as if a person had written them.
 //!
 //! `tree` reads what hangs on what, `placing` puts it in its place, `kinematics` goes from frame to frame, `solids` has the
-//! energies, `touching` and `closing` the constraints, `look` the drawing; `shapes`, `joints` and `contacts` are registries.
+//! energies, `touching`, `closing` and `couplings` the constraints, `forces` what acts, `sensing` what is measured, `look` the drawing; `shapes`, `joints` and `contacts` are registries.
 
 mod algebra;
 mod closing;
 mod contacts;
+mod couplings;
 mod families;
+mod forces;
 mod joints;
 mod keeping;
 mod kinematics;
@@ -21,6 +23,7 @@ mod placing;
 mod pruning;
 mod reading;
 mod sections;
+mod sensing;
 mod shapes;
 mod solids;
 mod touching;
@@ -37,6 +40,7 @@ use crate::source::Place;
 use lowering::{Lowering, Up};
 use objects::Kept;
 use reading::{quantity, Slot};
+use sensing::Whole;
 
 /// The sections that are lowered.
 const SECTIONS: &[&str] = &["frames", "bodies", "joints", "contacts"];
@@ -93,7 +97,10 @@ pub(crate) fn lower(
         return Conditions::default();
     }
     families::expand(root, SECTIONS, overrides, problems);
-    families::expand(root, &["particles"], overrides, problems);
+    families::expand(root, &["particles", "sensors"], overrides, problems);
+    if states(root, "forces", forces::acts_on_body) {
+        families::expand(root, &["forces"], overrides, problems);
+    }
     let own = std::mem::take(root);
     let place = SECTIONS
         .iter()
@@ -116,6 +123,8 @@ pub(crate) fn lower(
     for section in SECTIONS.iter().chain(&["gravity"]) {
         root.remove(section);
     }
+    leave_out(root, "forces", forces::acts_on_body);
+    leave_out(root, "sensors", sensing::is_ready);
     written.merge(root, place);
     Conditions {
         numbers,
@@ -148,7 +157,7 @@ impl Lowering<'_> {
         let is_heavy = self.written.potential.len() > before;
         let mut weight = gravity.acceleration;
         if let Some(usual) = gravity.usual {
-            if is_heavy {
+            if is_heavy || pruning::is_named(self.root, &usual.0.name) {
                 self.number(&usual.0, &usual.1);
             } else {
                 // It changes no motion, and is no parameter of it; reactions feel it.
@@ -158,6 +167,15 @@ impl Lowering<'_> {
         self.name_motions();
         self.touch_all(&tree, &built);
         self.close_all(&tree);
+        for object in &tree.couplings {
+            self.couple(object);
+        }
+        self.load_all();
+        self.sense_all(Whole {
+            tree: &tree,
+            built: &built,
+            gravity: weight,
+        });
         self.draw_all(&tree, &built);
         self.keep_all(&tree, &built, weight)
     }
@@ -243,6 +261,19 @@ struct Gravity {
     usual: Option<(Slot, Raw)>,
 }
 
+/// Whether a section has an entry of some kind.
+fn states(root: &Table, section: &str, is_own: fn(&Raw) -> bool) -> bool {
+    let table = root.get(section).and_then(Raw::table);
+    table.is_some_and(|table| table.entries.iter().any(|(_, raw)| is_own(raw)))
+}
+
+/// Leaves out the entries of a section that were lowered.
+fn leave_out(root: &mut Table, section: &str, is_own: fn(&Raw) -> bool) {
+    if let Some(Kind::Table(table)) = root.get_mut(section).map(|raw| &mut raw.kind) {
+        table.entries.retain(|(_, raw)| !is_own(raw));
+    }
+}
+
 /// Whether a unit is stated anywhere.
 fn states_units(root: &Table) -> bool {
     let mut open: Vec<(bool, &Raw)> = Vec::new();
@@ -263,6 +294,13 @@ fn states_units(root: &Table) -> bool {
             "parameters" | "controls" | "define" | "masses" => open.push((false, raw)),
             "gravity" => open.push((true, raw)),
             section if SECTIONS.contains(&section) => open.push((true, raw)),
+            "forces" => {
+                let own = raw.table().into_iter().flat_map(|own| &own.entries);
+                open.extend(
+                    own.filter(|(_, raw)| forces::acts_on_body(raw))
+                        .map(|(_, raw)| (true, raw)),
+                );
+            }
             _ => {}
         }
     }

@@ -44,6 +44,8 @@ pub(crate) struct Kept {
     pub(crate) define: Table,
     pub(crate) bodies: Vec<KeptBody<String>>,
     pub(crate) reactions: Vec<KeptReaction<String>>,
+    /// Forces and torques at points of bodies; they belong to no constraint.
+    pub(crate) loads: Vec<KeptReaction<String>>,
     /// Terms of the potential energy of springs.
     pub(crate) springs: Vec<String>,
     /// The V of the user.

@@ -3,6 +3,7 @@
 use chetaev_symbolic::Expr;
 
 use super::algebra::{Turn, Vector};
+use super::forces::Spring;
 use super::joints::{Freedom, Motion};
 use super::lowering::{FrameId, Lowering, Step, GROUND};
 use super::reading::Object;
@@ -302,37 +303,28 @@ impl<'r> Lowering<'r> {
             Freedom::Turn => ("N m/rad", "N m s/rad", "torque"),
             Freedom::Slide => ("N/m", "N s/m", "force"),
         };
-        let graph = |lowering: &Self, factors: &[Expr]| lowering.algebra.graph.mul(factors);
+        let friction = match motion.freedom {
+            Freedom::Turn => ["N m", "rad/s", damping],
+            Freedom::Slide => ["N", "m/s", damping],
+        };
+        let unit = match motion.freedom {
+            Freedom::Turn => "rad",
+            Freedom::Slide => "m",
+        };
         let half = self.algebra.ratio(1, 2);
-        if let Some(raw) = object.get("spring") {
-            let (stated, rest) = match raw.table() {
-                Some(table) if table.get("stiffness").is_some() => {
-                    (table.get("stiffness"), table.get("rest"))
-                }
-                _ => (Some(raw), None),
-            };
-            let unit = if motion.freedom == Freedom::Turn {
-                "rad"
-            } else {
-                "m"
-            };
-            let k = stated.and_then(|raw| self.number(&object.slot("spring", stiffness), raw));
-            let rest = rest.and_then(|raw| self.number(&object.slot("rest", unit), raw));
-            if let Some(k) = k {
-                let away = self
-                    .algebra
-                    .graph
-                    .sub(q, rest.unwrap_or(self.algebra.graph.zero()));
-                let energy = graph(self, &[half, k, self.algebra.graph.powi(away, 2)]);
-                let energy = self.algebra.graph.text(energy);
-                self.springs.push(energy.clone());
-                self.written.potential.push(energy);
-            }
+        if let Some(Spring { stiffness, rest }) = self.spring(object, [stiffness, unit]) {
+            let graph = &self.algebra.graph;
+            let away = graph.sub(q, rest.unwrap_or(graph.zero()));
+            let energy = graph.mul(&[half, stiffness, graph.powi(away, 2)]);
+            self.store(energy);
         }
+        self.limit(object, q, unit);
+        let rate = self.algebra.rate(q);
+        self.rub_joint(object, rate, friction);
         if let Some(raw) = object.get("damper") {
             if let Some(c) = self.number(&object.slot("damper", damping), raw) {
-                let rate = self.algebra.rate(q);
-                let power = graph(self, &[half, c, self.algebra.graph.powi(rate, 2)]);
+                let graph = &self.algebra.graph;
+                let power = graph.mul(&[half, c, graph.powi(rate, 2)]);
                 self.written
                     .dissipation
                     .push(self.algebra.graph.text(power));
@@ -360,8 +352,7 @@ impl<'r> Lowering<'r> {
                 self.error("not-allowed-here", raw.place, message);
                 continue;
             }
-            let unit = if load == "torque" { "N m" } else { "N" };
-            if let Some(value) = self.function(&object.slot(key, unit), raw) {
+            if let Some(value) = self.function(&object.slot(key, friction[0]), raw) {
                 let value = super::sections::text(self.algebra.graph.text(value), raw.place);
                 self.written
                     .forces

@@ -11,10 +11,18 @@ use crate::raw::{Kind, Raw, Table};
 pub(crate) fn prune(written: &mut Written, own: &Table, kept: &mut Kept) {
     let mut used: BTreeSet<String> = BTreeSet::new();
     words_of_table(own, &mut used);
-    for table in [&written.parameters, &written.constraints, &written.forces] {
+    let tables = [
+        &written.parameters,
+        &written.constraints,
+        &written.forces,
+        &written.events,
+        &written.sensors,
+    ];
+    for table in tables {
         words_of_table(table, &mut used);
     }
-    for raw in written.assumptions.iter().chain(&written.elements) {
+    let lists = [&written.assumptions, &written.elements, &written.power];
+    for raw in lists.into_iter().flatten() {
         words_of(raw, &mut used);
     }
     for terms in [&written.kinetic, &written.potential, &written.dissipation] {
@@ -38,6 +46,29 @@ pub(crate) fn prune(written: &mut Written, own: &Table, kept: &mut Kept) {
     kept.define
         .entries
         .retain(|(key, _)| named.contains(&key.content));
+}
+
+/// The sections whose formulas may name what bodies bring with them.
+const FORMULAS: &[&str] = &[
+    "frames",
+    "joints",
+    "contacts",
+    "forces",
+    "sensors",
+    "define",
+    "lagrangian",
+    "constraints",
+    "integrals",
+    "events",
+    "initial",
+];
+
+/// Whether a name occurs in the formulas of a model.
+pub(crate) fn is_named(own: &Table, name: &str) -> bool {
+    let mut used = BTreeSet::new();
+    let sections = FORMULAS.iter().filter_map(|section| own.get(section));
+    sections.for_each(|raw| words_of(raw, &mut used));
+    used.contains(name)
 }
 
 /// Adds what the definitions of the names contain.

@@ -137,6 +137,28 @@ impl<'r> Lowering<'r> {
         all
     }
 
+    /// The objects among the entries of a section: those of some kind.
+    pub(crate) fn objects_where(
+        &mut self,
+        section: &str,
+        what: &'static str,
+        is_own: fn(&Raw) -> bool,
+    ) -> Vec<Object<'r>> {
+        let root = self.root;
+        let all = root.get(section).and_then(Raw::table);
+        let own = all.into_iter().flat_map(|all| &all.entries);
+        own.filter(|(_, raw)| is_own(raw))
+            .filter_map(|(key, raw)| {
+                Some(Object {
+                    what,
+                    key,
+                    place: key.place,
+                    table: raw.table()?,
+                })
+            })
+            .collect()
+    }
+
     pub(crate) fn wrong_kind(&mut self, raw: &Raw, what: &str, wanted: &str) {
         let message = format!("{what} must be {wanted}, not {}", raw.kind.word());
         self.error("wrong-kind", raw.place, message);

@@ -40,6 +40,10 @@ pub(crate) struct Written {
     pub(crate) assumptions: Vec<Raw>,
     pub(crate) constraints: Table,
     pub(crate) forces: Table,
+    /// Forces along displacements, by their power.
+    pub(crate) power: Vec<Raw>,
+    pub(crate) events: Table,
+    pub(crate) sensors: Table,
     /// Names or terms of the kinetic energy, the potential energy and Rayleigh's function.
     pub(crate) kinetic: Vec<String>,
     pub(crate) potential: Vec<String>,
@@ -57,7 +61,10 @@ impl Written {
             define,
             assumptions,
             constraints,
-            forces,
+            mut forces,
+            power,
+            events,
+            sensors,
             kinetic,
             potential,
             dissipation,
@@ -68,7 +75,13 @@ impl Written {
         extend(root, "define", define, place);
         extend_list(root, "assumptions", assumptions, place);
         extend_constraints(root, constraints, place);
+        if !power.is_empty() {
+            let all = array(power, place);
+            forces.entries.push((word("power", place), all));
+        }
         extend(root, "forces", forces, place);
+        extend(root, "events", events, place);
+        extend(root, "sensors", sensors, place);
         add_dissipation(root, dissipation, place);
         add_energies(root, kinetic, potential, place);
         draw(root, elements, place);

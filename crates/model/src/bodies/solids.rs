@@ -327,27 +327,36 @@ impl<'r> Lowering<'r> {
 
     // ---- energies
 
-    /// T = ½ m v² + ½ ω·I ω, V = m g h, for a placed body.
+    /// T and V = m g h of a placed body.
     pub(crate) fn energies(&mut self, number: usize, gravity: Option<Expr>) {
         let body = &self.bodies[number];
-        let (name, place, mass, center, inertia) = (
-            body.name.clone(),
-            body.place,
-            body.mass,
-            body.center,
-            body.inertia,
-        );
+        let (name, place, mass, center) = (body.name.clone(), body.place, body.mass, body.center);
         let Some(&frame) = self.placed.get(&name) else {
             return;
+        };
+        if let (Some(mass), Some(g)) = (mass, gravity) {
+            self.weigh(&name, place, frame, [mass, g], center);
+        }
+        let energy = self.kinetic(number);
+        if !self.algebra.graph.is_zero(energy) {
+            self.written.kinetic.push(self.algebra.graph.text(energy));
+        }
+    }
+
+    /// T = ½ m v² + ½ ω·I ω, by its name.
+    pub(crate) fn kinetic(&mut self, number: usize) -> Expr {
+        let body = &self.bodies[number];
+        let (name, place) = (body.name.clone(), body.place);
+        let (mass, center, inertia) = (body.mass, body.center, body.inertia);
+        let zero = self.algebra.graph.zero();
+        let Some(&frame) = self.placed.get(&name) else {
+            return zero;
         };
         let mut terms = Vec::new();
         if let Some(mass) = mass {
             let velocity = self.center_velocity(frame, center, &name, place);
             let square = self.algebra.dot(velocity, velocity);
             terms.push(self.algebra.graph.mul(&[mass, square]));
-            if let Some(g) = gravity {
-                self.weigh(&name, place, frame, [mass, g], center);
-            }
         }
         if let Some(inertia) = inertia {
             let omega = self.turning(frame, &inertia, &name, place);
@@ -356,12 +365,8 @@ impl<'r> Lowering<'r> {
         }
         let graph = &self.algebra.graph;
         let double = graph.add(&terms);
-        if graph.is_zero(double) {
-            return;
-        }
         let energy = graph.mul(&[self.algebra.ratio(1, 2), double]);
-        let energy = self.name(&format!("{name}_T"), energy, place);
-        self.written.kinetic.push(self.algebra.graph.text(energy));
+        self.name(&format!("{name}_T"), energy, place)
     }
 
     /// The velocity of the centre of mass, in axes that do not turn about it where that is shorter.

@@ -35,18 +35,18 @@ impl Figure {
 }
 
 /// What a body does at the point where it touches a plane, against the plane.
-struct Found {
+pub(crate) struct Found {
     /// The velocity of its touching point along the rim or the blade, that across it in the plane, and the angular velocity about
     /// the normal.
-    velocities: [Expr; 3],
+    pub(crate) velocities: [Expr; 3],
     /// The height of its lowest point.
     height: Expr,
     /// In which axes the following are given.
-    axes: FrameId,
+    pub(crate) axes: FrameId,
     /// The touching point.
-    point: Vector,
+    pub(crate) point: Vector,
     /// Unit vectors along, across and normal.
-    directions: [Vector; 3],
+    pub(crate) directions: [Vector; 3],
 }
 
 impl<'r> Lowering<'r> {
@@ -101,6 +101,7 @@ impl<'r> Lowering<'r> {
             self.react(contact, &own, &found, statement.along);
             self.constrain(&own, vanishes, about, place);
         }
+        self.rub_contact(contact, &found);
         self.react_normally(contact, &format!("{name}_touch"), &found);
         self.stay(&name, found.height, &object.words(), place);
     }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use chetaev_symbolic::syntax::names;
 
 use super::contacts::{Contact, CONTACTS};
+use super::couplings::is_coupling;
 use super::joints::{Axes, Direction, Joint, Motion, JOINTS};
 use super::lowering::Lowering;
 use super::reading::Object;
@@ -20,6 +21,8 @@ pub(crate) struct JointStated<'t> {
     pub(crate) motions: Vec<Motion>,
     pub(crate) parent: String,
     pub(crate) child: String,
+    /// Whether the body is stated as the parent, and what is at rest or a frame as the child: such a joint closes a chain.
+    pub(crate) is_reversed: bool,
 }
 
 /// A contact as it is stated.
@@ -40,6 +43,8 @@ pub(crate) struct Tree<'t> {
     pub(crate) placing: BTreeMap<String, usize>,
     /// Joints between bodies that others have placed.
     pub(crate) closing: Vec<usize>,
+    /// Gears and differentials.
+    pub(crate) couplings: Vec<Object<'t>>,
 }
 
 const JOINT_KEYS: &[&str] = &[
@@ -56,6 +61,8 @@ const JOINT_KEYS: &[&str] = &[
     "motion",
     "spring",
     "damper",
+    "friction",
+    "limits",
     "torque",
     "force",
     "description",
@@ -70,6 +77,7 @@ const CONTACT_KEYS: &[&str] = &[
     "direction",
     "angle",
     "coordinates",
+    "friction",
     "description",
 ];
 const FRAME_KEYS: &[&str] = &["parent", "at", "turn", "description"];
@@ -85,10 +93,14 @@ impl<'r> Lowering<'r> {
             }
         }
         for object in self.objects("joints", "joint") {
+            if is_coupling(&object) {
+                tree.couplings.push(object);
+                continue;
+            }
             self.known_keys(&object, JOINT_KEYS);
-            if let Some(joint) = self.read_joint(object) {
+            if let Some(joint) = self.read_joint(object, &tree) {
                 let number = tree.joints.len();
-                if tree.placing.contains_key(&joint.child) {
+                if joint.is_reversed || tree.placing.contains_key(&joint.child) {
                     tree.closing.push(number);
                 } else {
                     tree.placing.insert(joint.child.clone(), number);
@@ -126,7 +138,7 @@ impl<'r> Lowering<'r> {
         true
     }
 
-    fn read_joint(&mut self, object: Object<'r>) -> Option<JointStated<'r>> {
+    fn read_joint(&mut self, object: Object<'r>, tree: &Tree<'r>) -> Option<JointStated<'r>> {
         let usual = JOINTS.iter().find(|joint| joint.word == "revolute");
         let kind = match object.get("type") {
             Some(_) => self.choice(&object, "type", JOINTS, |joint| joint.word)?,
@@ -142,6 +154,13 @@ impl<'r> Lowering<'r> {
             None => object.name().to_owned(),
         };
         let place = object.get("child").map_or(object.place, |raw| raw.place);
+        let is_body = |name: &str| self.bodies.iter().any(|body| body.name == name);
+        let is_frame = child == "ground" || tree.frames.contains_key(&child);
+        let is_reversed = is_frame && is_body(&parent);
+        let (parent, child) = match is_reversed {
+            true => (child, parent),
+            false => (parent, child),
+        };
         if !self.bodies.iter().any(|body| body.name == child) {
             self.no_such_body(&child, place, &object);
             return None;
@@ -152,6 +171,7 @@ impl<'r> Lowering<'r> {
             motions: (kind.motions)(&directions),
             parent,
             child,
+            is_reversed,
         })
     }
 

@@ -35,6 +35,8 @@ pub(crate) enum DefineKind {
     FrameVelocity,
     /// A definition that only bodies, joints and contacts name.
     Object,
+    /// A quantity in `[sensors]`.
+    Sensor,
     /// A value in `[masses]`.
     Mass,
     /// A rate in `[masses]`; called like the derivative of its mass.
@@ -45,6 +47,7 @@ impl DefineKind {
     fn word(self) -> &'static str {
         match self {
             DefineKind::Definition | DefineKind::Object => "a definition",
+            DefineKind::Sensor => "a sensor",
             DefineKind::Mass => "a mass",
             DefineKind::MassRate => "the rate of a mass",
             _ => "a quasi-velocity",
@@ -99,6 +102,7 @@ impl Resolver {
         for (section, kind) in [
             ("define", DefineKind::Definition),
             ("quasi_velocities", DefineKind::QuasiVelocity),
+            ("sensors", DefineKind::Sensor),
         ] {
             let Some(table) = self.section(root, section) else {
                 continue;
@@ -207,6 +211,7 @@ impl Resolver {
         let context = match kind {
             DefineKind::Definition | DefineKind::Object => Context::jet("a definition"),
             DefineKind::QuasiVelocity => Context::state("a quasi-velocity").without_masses(),
+            DefineKind::Sensor => Context::motion("a sensor"),
             DefineKind::Mass => Context::state("a mass"),
             DefineKind::MassRate => Context::state("the rate of a mass"),
             DefineKind::FrameVelocity => return self.resolve_frame(rank),

@@ -5,11 +5,12 @@ use chetaev_symbolic::zero::assumptions::Assumptions;
 use chetaev_symbolic::zero::{decide_zero, Options, ZeroTest};
 use chetaev_symbolic::{Expr, Symbol, Verdict};
 
+use super::define::{Define, DefineKind};
 use super::formula::Expected;
 use super::scope::{Context, MULTIPLIER};
 use super::Resolver;
 use crate::diagnostic::Diagnostic;
-use crate::model::{Constraint, EventStated, Zero};
+use crate::model::{Constraint, Definition, EventStated, Zero};
 use crate::raw::{Kind, Table};
 use crate::text::Text;
 
@@ -107,6 +108,21 @@ impl Resolver {
             }
         }
         events
+    }
+
+    /// The quantities that are measured along the motion.
+    pub(crate) fn sensors(&mut self, constraints: &[Constraint]) -> Vec<Definition> {
+        let own = self.defines.iter();
+        let own: Vec<Define> = own
+            .filter(|own| own.kind == DefineKind::Sensor)
+            .cloned()
+            .collect();
+        let known = own.iter().filter_map(|own| {
+            let sensor = own.definition()?;
+            let is_known = self.multipliers_exist(sensor.value, &own.text, constraints);
+            is_known.then_some(sensor)
+        });
+        known.collect()
     }
 
     /// Whether every multiplier that occurs is that of a constraint.

@@ -33,6 +33,10 @@ impl Resolver {
         for own in &kept.reactions {
             reactions.push(self.reaction(own, &bodies)?);
         }
+        let mut loads = Vec::new();
+        for own in &kept.loads {
+            loads.push(self.reaction(own, &bodies)?);
+        }
         let place = kept.bodies.first()?.place;
         let mut terms = Vec::new();
         for spring in &kept.springs {
@@ -44,6 +48,7 @@ impl Resolver {
         Some(Mechanism {
             bodies,
             reactions,
+            loads,
             potential: self.graph.add(&terms),
             beside: kept.beside,
         })

@@ -125,6 +125,7 @@ const SECTIONS: &[&str] = &[
     "simulation",
     "events",
     "integrals",
+    "sensors",
     "variation",
     "complete_integral",
     "equations",
@@ -200,6 +201,7 @@ impl Resolver {
         let simulation = self.simulation(root);
         let events = self.events(root, &constraints);
         let stated = self.integrals(root);
+        let sensors = self.sensors(&constraints);
         let (search, search_degree) = self.search(root);
         let variations = self.variations(root);
         let complete_integral = self.complete_integral(root);
@@ -252,6 +254,7 @@ impl Resolver {
             events,
             integrals: stated.integrals,
             integral_forms: stated.forms,
+            sensors,
             variations,
             complete_integral,
             integral_conditions: stated.conditions,
@@ -327,7 +330,12 @@ impl Resolver {
             .iter()
             .filter(|define| define.is_quasi_velocity() == quasi)
             .filter(|define| {
-                ![define::DefineKind::MassRate, define::DefineKind::Object].contains(&define.kind)
+                ![
+                    define::DefineKind::MassRate,
+                    define::DefineKind::Object,
+                    define::DefineKind::Sensor,
+                ]
+                .contains(&define.kind)
             })
             .collect();
         chosen.sort_by_key(|define| if quasi { 0 } else { define.rank });

@@ -238,6 +238,8 @@ pub(crate) struct Contents {
     time: Option<String>,
     /// A mass with a law of its own.
     mass: Option<String>,
+    /// A multiplier, and whether it is differentiated.
+    multiplier: Option<(String, bool)>,
 }
 
 /// A context with the names of a model; remembers which definitions were wanted before they were known.
@@ -429,6 +431,7 @@ impl ModelScope<'_> {
             parameter: None,
             time: None,
             mass: None,
+            multiplier: None,
         };
         for symbol in graph.symbols_in(&[value]) {
             let place = match resolver
@@ -449,6 +452,11 @@ impl ModelScope<'_> {
                 }
                 Some(NamedKind::Parameter) => &mut contents.parameter,
                 Some(NamedKind::Mass(_)) => &mut contents.mass,
+                None if graph.symbol_name(symbol).starts_with(MULTIPLIER) => {
+                    let is_rate = graph.symbol_order(symbol) > 0;
+                    contents.multiplier = Some((graph.symbol_text(symbol), is_rate));
+                    continue;
+                }
                 _ => &mut contents.time,
             };
             place.get_or_insert_with(|| graph.symbol_text(symbol));
@@ -476,7 +484,10 @@ impl ModelScope<'_> {
         let parameter = contents.parameter.as_ref().filter(|_| !parameters);
         let timely = contents.time.as_ref().filter(|_| !time);
         let mass = contents.mass.as_ref().filter(|_| !masses);
+        let multiplier = contents.multiplier.as_ref();
+        let multiplier = multiplier.filter(|(_, is_rate)| *is_rate || !self.context.multipliers);
         high.map(|(_, symbol)| symbol)
+            .or(multiplier.map(|(symbol, _)| symbol))
             .or(parameter)
             .or(timely)
             .or(mass)

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use chetaev_symbolic::syntax::lower::Bindings;
 use chetaev_symbolic::syntax::{parse_equation, parse_relation, Parsed};
-use chetaev_symbolic::Expr;
+use chetaev_symbolic::{Expr, Symbol};
 
 use super::declare::{all_bindings, Instance};
 use super::formula::{Expected, Formula};
@@ -175,10 +175,86 @@ impl Resolver {
                 );
                 continue;
             }
+            if key.content == "power" && !self.names.contains_key("power") {
+                self.works(raw, key.place, &mut forces);
+                continue;
+            }
             self.force(key, raw, "a generalized force", &mut forces);
         }
         forces.sort_by_key(|force| force.coordinate);
         (forces, rayleigh)
+    }
+
+    /// `power = [{ force = "F", along = "w" }]`: forces F along displacements that have the rates w. Each adds F ∂w/∂q'.
+    fn works(&mut self, raw: &Raw, place: Place, forces: &mut Vec<Force>) {
+        let Kind::Array(items) = &raw.kind else {
+            let wanted = "an array of tables with `force` and `along`";
+            self.wrong_kind(raw, "`power`", wanted);
+            return;
+        };
+        for item in items {
+            let Some((force, slopes)) = self.work(item) else {
+                continue;
+            };
+            for (coordinate, slope) in slopes.into_iter().enumerate() {
+                if self.graph.is_zero(slope) {
+                    continue;
+                }
+                let value = self.graph.mul(&[force, slope]);
+                let own = forces.iter_mut().find(|own| own.coordinate == coordinate);
+                match own {
+                    Some(own) => {
+                        own.value = self.graph.add(&[own.value, value]);
+                        own.text = self.graph.text(own.value);
+                    }
+                    None => forces.push(Force {
+                        coordinate,
+                        value,
+                        text: self.graph.text(value),
+                        place,
+                    }),
+                }
+            }
+        }
+    }
+
+    /// The force, and the slopes of the rate in the velocities.
+    fn work(&mut self, item: &Raw) -> Option<(Expr, Vec<Expr>)> {
+        let Some(table) = item.table() else {
+            self.wrong_kind(
+                item,
+                "an entry of `power`",
+                "a table with `force` and `along`",
+            );
+            return None;
+        };
+        self.known_keys(table, &["force", "along"], "of an entry of `power`");
+        let mut read = |key: &str, what: &'static str| {
+            let Some(raw) = table.get(key) else {
+                let message = format!("an entry of `power` needs `{key}`");
+                self.push(Diagnostic::error("missing-value", item.place, message));
+                return None;
+            };
+            let text = self.expression_text(raw, what)?;
+            let value =
+                self.expression(&text, &Vec::new(), Context::state(what), Expected::Anything)?;
+            Some((value, text.content))
+        };
+        let (force, of_force) = read("force", "a force")?;
+        let (along, of_along) = read("along", "the rate of a displacement")?;
+        // The product has the dimension of a power.
+        let product = Text::of_toml(&format!("({of_force}) ({of_along})"), "", item.place);
+        self.expression(
+            &product,
+            &Vec::new(),
+            Context::state("a power"),
+            Expected::Power,
+        )?;
+        let velocities: Vec<Symbol> = (self.coordinates.iter())
+            .map(|own| self.graph.intern_symbol(&own.name, 1))
+            .collect();
+        let slopes = self.graph.gradient(along, &velocities);
+        Some((force, slopes))
     }
 
     /// The reactive forces Ψ_s by coordinate; none where the section is left out.

@@ -7,6 +7,7 @@ mod complete_integral;
 mod documentation;
 mod equations;
 mod frames;
+mod loads;
 mod masses;
 mod particles;
 mod reading;

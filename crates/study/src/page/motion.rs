@@ -147,6 +147,7 @@ fn curves(study: &Study, motion: &Motion) -> Vec<Series> {
             i if i <= 2 * n => SeriesGroup::Velocities,
             i if i <= 3 * n => continue,
             _ if name.starts_with("lambda_") => SeriesGroup::Multipliers,
+            _ if study.model.sensors.iter().any(|own| own.name == *name) => SeriesGroup::Other,
             _ if name == "energy" => SeriesGroup::Energy,
             _ => SeriesGroup::Integrals,
         };
